@@ -1,0 +1,2 @@
+//! The program `gyration`.
+fn main() {}
