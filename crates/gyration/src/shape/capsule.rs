@@ -1,0 +1,98 @@
+//! The capsule: the points within r of the segment |Z| ≤ h/2; h is the height of the cylinder's part.
+//!
+//! With m_c = ρπr²h for the cylinder and m_s = 4ρπr³/3 for the two half balls, whose centroids stand 3r/8 beyond its ends,
+//!
+//!   V = πr²h + 4πr³/3,   J_xx = J_yy = m_c r²/4 + m_s r²/5,
+//!   J_zz = m_c h²/12 + m_s (r²/5 + 3hr/8 + h²/4)
+
+use std::f64::consts::{PI, TAU};
+
+use super::error::{ShapeError, positive};
+use super::feature::Feature;
+use super::outline::{CIRCLE_POINTS, Outline, SILHOUETTE_POINTS, circle, directions};
+use crate::mass::MassProperties;
+use crate::tensor::{Mat3, Vec3};
+
+/// A capsule with its centre at the origin and its axis along z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Capsule {
+    /// r, of the cylinder and of the half balls [m].
+    pub radius: f64,
+    /// h, the height of the cylinder's part; the capsule is h + 2r long [m].
+    pub height: f64,
+}
+
+impl Capsule {
+    /// Checks that radius and height are finite and > 0.
+    ///
+    /// # Errors
+    /// [`ShapeError::NotPositive`] for the first one that is not.
+    pub fn validate(&self) -> Result<(), ShapeError> {
+        positive("capsule", "radius", self.radius)?;
+        positive("capsule", "height", self.height)
+    }
+
+    /// Mass properties for a uniform density [kg/m³].
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        let (r, h) = (self.radius, self.height);
+        let (cylinder, ball) = (PI * r * r * h, 4.0 / 3.0 * PI * r * r * r);
+        let across = cylinder * r * r / 4.0 + ball * r * r / 5.0;
+        let along =
+            cylinder * h * h / 12.0 + ball * (r * r / 5.0 + 3.0 / 8.0 * h * r + h * h / 4.0);
+        MassProperties {
+            mass: density * (cylinder + ball),
+            center: Vec3::zeros(),
+            euler_tensor: Mat3::from_diagonal(&(Vec3::new(across, across, along) * density)),
+            volume: cylinder + ball,
+        }
+    }
+
+    /// The support function h(n) = max X·n = r |n| + (h/2) |n_z| [m].
+    pub fn extent(&self, direction: &Vec3) -> f64 {
+        self.radius * direction.norm() + 0.5 * self.height * direction.z.abs()
+    }
+
+    /// The sharpest feature: a smooth point of an end.
+    pub fn sharpest_feature(&self) -> Option<Feature> {
+        Some(Feature::SmoothPoint)
+    }
+
+    /// The circles where the half balls begin, and two meridians.
+    pub fn outline(&self) -> Outline {
+        let mut outline = Outline::default();
+        let (x, y, z) = (
+            Vec3::x() * self.radius,
+            Vec3::y() * self.radius,
+            Vec3::z() * self.radius,
+        );
+        let top = Vec3::z() * (0.5 * self.height);
+        outline.add_ellipse(top, x, y);
+        outline.add_ellipse(-top, x, y);
+        for side in [x, y] {
+            let half = |end: Vec3, up: Vec3, across: Vec3| {
+                (0..=CIRCLE_POINTS / 2).map(move |k| {
+                    let (sine, cosine) = (TAU * k as f64 / CIRCLE_POINTS as f64).sin_cos();
+                    end + across * cosine + up * sine
+                })
+            };
+            let around = half(top, z, side)
+                .chain(half(-top, -z, -side))
+                .chain([top + side]);
+            outline.add_line(around);
+        }
+        outline
+    }
+
+    /// Points of the half balls.
+    pub fn silhouette_points(&self) -> Vec<Vec3> {
+        let equators = [0.5, -0.5]
+            .into_iter()
+            .flat_map(|end| circle(50, self.radius, end * self.height));
+        let shift =
+            |point: Vec3| point * self.radius + Vec3::z() * (0.5 * self.height.copysign(point.z));
+        directions(SILHOUETTE_POINTS - 100)
+            .map(shift)
+            .chain(equators)
+            .collect()
+    }
+}

@@ -1,0 +1,73 @@
+//! The box, |X_i| ≤ a_i/2.
+//!
+//!   V = a₁a₂a₃,   J = m diag(a_i²)/12
+
+use super::error::{ShapeError, positive};
+use super::feature::Feature;
+use super::outline::Outline;
+use crate::mass::MassProperties;
+use crate::tensor::{Mat3, Vec3};
+
+/// A box with its centre at the origin and its edges along the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cuboid {
+    /// The lengths of the edges [m].
+    pub size: Vec3,
+}
+
+impl Cuboid {
+    /// Checks that the edges are finite and > 0.
+    ///
+    /// # Errors
+    /// [`ShapeError::NotPositive`] for the first edge that is not.
+    pub fn validate(&self) -> Result<(), ShapeError> {
+        self.size
+            .iter()
+            .try_for_each(|&edge| positive("box", "size", edge))
+    }
+
+    /// Mass properties for a uniform density [kg/m³].
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        let volume = self.size.product();
+        let mass = density * volume;
+        let euler_tensor =
+            Mat3::from_diagonal(&(self.size.component_mul(&self.size) * (mass / 12.0)));
+        MassProperties {
+            mass,
+            center: Vec3::zeros(),
+            euler_tensor,
+            volume,
+        }
+    }
+
+    /// The support function h(n) = max X·n = Σ |n_i| a_i/2 [m].
+    pub fn extent(&self, direction: &Vec3) -> f64 {
+        0.5 * direction.abs().dot(&self.size)
+    }
+
+    /// The sharpest feature: a vertex.
+    pub fn sharpest_feature(&self) -> Option<Feature> {
+        Some(Feature::Vertex)
+    }
+
+    /// The twelve edges.
+    pub fn outline(&self) -> Outline {
+        let mut polylines = Vec::with_capacity(12);
+        for corner in 0..8_usize {
+            let upper_ends = [1, 2, 4].into_iter().filter(|axis| corner & axis == 0);
+            polylines.extend(upper_ends.map(|axis| vec![corner, corner | axis]));
+        }
+        Outline {
+            points: self.silhouette_points(),
+            polylines,
+        }
+    }
+
+    /// The eight corners; bit k of the index says whether axis k is on its positive side.
+    pub fn silhouette_points(&self) -> Vec<Vec3> {
+        let side = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { 0.5 } else { -0.5 };
+        (0..8)
+            .map(|corner| Vec3::from_fn(|axis, _| side(corner, axis) * self.size[axis]))
+            .collect()
+    }
+}

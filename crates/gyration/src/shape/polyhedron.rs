@@ -1,0 +1,262 @@
+//! A volume bounded by triangles: convex hulls and meshes.
+//!
+//! The triangles are counter-clockwise seen from outside. Each forms with an inner point o a tetrahedron of signed volume
+//! v = a·(b×c)/6 (vertices relative to o), and with s = a+b+c
+//!
+//!   ∫ dV = Σ v,   ∫ X dV = Σ v s/4,   ∫ X⊗X dV = Σ v (a⊗a + b⊗b + c⊗c + s⊗s)/20
+//!
+//! exactly. o is the mean of the vertices, so that a mesh far from its origin loses nothing.
+
+use super::edges::{Edge, EdgeFaults};
+use super::feature::Feature;
+use super::outline::{Outline, extreme_points};
+use super::wireframe;
+use crate::mass::MassProperties;
+use crate::tensor::{Mat3, Vec3};
+
+/// A closed surface of triangles.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Polyhedron {
+    /// The vertices [m].
+    pub vertices: Vec<Vec3>,
+    /// Indices of vertices, counter-clockwise seen from outside.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// Triangles that do not bound a volume.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PolyhedronError {
+    /// Not even a tetrahedron.
+    #[error("{triangles} triangles on {vertices} vertices: a volume needs at least 4 of each")]
+    TooFew {
+        /// Number of vertices.
+        vertices: usize,
+        /// Number of triangles.
+        triangles: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("vertex {vertex} (counted from 0) has the coordinate {value}: it must be finite")]
+    NotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+        /// The coordinate.
+        value: f64,
+    },
+    /// A triangle refers to no vertex.
+    #[error(
+        "triangle {triangle} refers to vertex {index}, but there are {vertices} (both counted from 0)"
+    )]
+    NoSuchVertex {
+        /// Index of the triangle.
+        triangle: usize,
+        /// Index of the vertex.
+        index: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A triangle names a vertex twice.
+    #[error("triangle {triangle} (counted from 0) has a vertex twice: remove it")]
+    RepeatedVertex {
+        /// Index of the triangle.
+        triangle: usize,
+    },
+    /// The surface has a hole.
+    #[error("the surface is not closed: {}; fill the holes", places(*.count, "edge with one triangle", "edges with one triangle", .first))]
+    Open {
+        /// Number of edges at the hole.
+        count: usize,
+        /// The first few.
+        first: Vec<Edge>,
+    },
+    /// More than two triangles meet in an edge.
+    #[error("the surface branches: {}; remove inner walls, separate solids that share an edge",
+        places(*.count, "edge with more than two triangles", "edges with more than two triangles", .first))]
+    NonManifold {
+        /// Number of such edges.
+        count: usize,
+        /// The first few.
+        first: Vec<Edge>,
+    },
+    /// Neighbouring triangles disagree about which side is out.
+    #[error("neighbouring triangles face opposite ways: {}; recompute the orientation so that all face out",
+        places(*.count, "edge", "edges", .first))]
+    Misoriented {
+        /// Number of edges between such neighbours.
+        count: usize,
+        /// The first few.
+        first: Vec<Edge>,
+    },
+    /// All triangles lie in one plane, or have no area.
+    #[error("the surface encloses no volume: {volume:e} m³ at a size of {size:e} m")]
+    NoVolume {
+        /// The signed volume [m³].
+        volume: f64,
+        /// Largest side of the bounding box [m].
+        size: f64,
+    },
+    /// The triangles face inward.
+    #[error("the surface faces inward (signed volume {volume:e} m³): flip all triangles")]
+    InsideOut {
+        /// The signed volume [m³].
+        volume: f64,
+    },
+}
+
+/// "3 edges with one triangle: (0, 0, 0) to (1, 0, 0), …".
+fn places(count: usize, one: &str, many: &str, first: &[Edge]) -> String {
+    let listed: Vec<String> = first.iter().map(Edge::to_string).collect();
+    let more = if count > first.len() { ", …" } else { "" };
+    format!(
+        "{count} {}, at {}{more}",
+        if count == 1 { one } else { many },
+        listed.join(", ")
+    )
+}
+
+/// Volume below which a surface encloses nothing, relative to the cube of its size.
+///
+/// Rounding leaves 1e-16 of it; a plate a million times thinner than long still has 1e-6.
+const FLATNESS_TOLERANCE: f64 = 1e-13;
+
+impl Polyhedron {
+    /// Checks that the triangles bound a volume and face outward.
+    ///
+    /// # Errors
+    /// [`PolyhedronError`]: the first of its situations, in their order.
+    pub fn validate(&self) -> Result<(), PolyhedronError> {
+        self.check_indices()?;
+        EdgeFaults::of(self).into_result()?;
+        let (volume, size) = (self.moments().volume, self.size());
+        if volume.abs() <= FLATNESS_TOLERANCE * size.powi(3) {
+            return Err(PolyhedronError::NoVolume { volume, size });
+        }
+        if volume < 0.0 {
+            return Err(PolyhedronError::InsideOut { volume });
+        }
+        Ok(())
+    }
+
+    fn check_indices(&self) -> Result<(), PolyhedronError> {
+        let (vertices, triangles) = (self.vertices.len(), self.triangles.len());
+        for (vertex, point) in self.vertices.iter().enumerate() {
+            if let Some(&value) = point.iter().find(|value| !value.is_finite()) {
+                return Err(PolyhedronError::NotFinite { vertex, value });
+            }
+        }
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            if let Some(&index) = corners.iter().find(|&&index| index >= vertices) {
+                return Err(PolyhedronError::NoSuchVertex {
+                    triangle,
+                    index,
+                    vertices,
+                });
+            }
+            let [a, b, c] = *corners;
+            if a == b || b == c || c == a {
+                return Err(PolyhedronError::RepeatedVertex { triangle });
+            }
+        }
+        if vertices < 4 || triangles < 4 {
+            return Err(PolyhedronError::TooFew {
+                vertices,
+                triangles,
+            });
+        }
+        Ok(())
+    }
+
+    /// The corners of a triangle [m].
+    pub fn corners(&self, triangle: &[usize; 3]) -> [Vec3; 3] {
+        triangle.map(|index| self.vertices[index])
+    }
+
+    /// The same surface with every triangle turned over.
+    pub fn flipped(&self) -> Self {
+        let triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        Self {
+            vertices: self.vertices.clone(),
+            triangles,
+        }
+    }
+
+    /// Exact mass properties for a uniform density [kg/m³].
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        let moments = self.moments();
+        let center = moments.first / moments.volume;
+        let euler_tensor = moments.second - moments.volume * center * center.transpose();
+        MassProperties {
+            mass: density * moments.volume,
+            center: moments.origin + center,
+            euler_tensor: euler_tensor * density,
+            volume: moments.volume,
+        }
+    }
+
+    fn moments(&self) -> VolumeMoments {
+        let origin = mean(&self.vertices);
+        let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Mat3::zeros());
+        for triangle in &self.triangles {
+            let [a, b, c] = self.corners(triangle).map(|corner| corner - origin);
+            let signed = a.dot(&b.cross(&c)) / 6.0;
+            let sum = a + b + c;
+            volume += signed;
+            first += sum * (signed / 4.0);
+            for point in [a, b, c, sum] {
+                second += signed / 20.0 * point * point.transpose();
+            }
+        }
+        VolumeMoments {
+            origin,
+            volume,
+            first,
+            second,
+        }
+    }
+
+    /// The largest side of the bounding box [m].
+    fn size(&self) -> f64 {
+        let extent = |axis: Vec3| self.extent(&axis) + self.extent(&-axis);
+        extent(Vec3::x())
+            .max(extent(Vec3::y()))
+            .max(extent(Vec3::z()))
+    }
+
+    /// The support function h(n) = max X·n over the vertices [m].
+    pub fn extent(&self, direction: &Vec3) -> f64 {
+        self.vertices
+            .iter()
+            .map(|vertex| vertex.dot(direction))
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The sharpest feature: a vertex.
+    pub fn sharpest_feature(&self) -> Option<Feature> {
+        Some(Feature::Vertex)
+    }
+
+    /// The sharp edges, on at most 2000 points.
+    pub fn outline(&self) -> Outline {
+        wireframe::sharp_edges(self)
+    }
+
+    /// The vertices, thinned to those that are extreme in some direction if there are many.
+    pub fn silhouette_points(&self) -> Vec<Vec3> {
+        extreme_points(&self.vertices)
+    }
+}
+
+/// ∫ dV, ∫ X dV and ∫ X⊗X dV about `origin`.
+struct VolumeMoments {
+    origin: Vec3,
+    volume: f64,
+    first: Vec3,
+    second: Mat3,
+}
+
+fn mean(points: &[Vec3]) -> Vec3 {
+    // Relative to the first point: a sum of large equal coordinates would round.
+    let Some(first) = points.first() else {
+        return Vec3::zeros();
+    };
+    first + points.iter().map(|point| point - first).sum::<Vec3>() / points.len() as f64
+}

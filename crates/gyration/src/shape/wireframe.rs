@@ -1,0 +1,73 @@
+//! Which edges of a mesh a picture shows: those where the surface bends by more than [`SHARP_ANGLE`].
+//!
+//! With N₁, N₂ the unit normals at an edge the angle is arccos N₁·N₂. The sharpest edges come first; when the points run
+//! out the flattest are left away. A surface that bends nowhere as much (a fine mesh of a smooth body) shows its
+//! sharpest edges all the same, so that it is not invisible.
+
+use super::edges::edges;
+use super::outline::Outline;
+use super::polyhedron::Polyhedron;
+use crate::tensor::Vec3;
+
+/// The smallest angle between faces that is drawn [rad]: 15°.
+const SHARP_ANGLE: f64 = 15.0 * std::f64::consts::PI / 180.0;
+/// Angle below which two faces are one plane [rad]; single-precision meshes stay below it.
+const PLANE_ANGLE: f64 = 1e-3;
+/// Upper limit of the points of an outline.
+const OUTLINE_POINTS: usize = 2000;
+
+/// The wireframe of a surface: one line per sharp edge.
+pub(super) fn sharp_edges(surface: &Polyhedron) -> Outline {
+    let normals: Vec<Vec3> = surface
+        .triangles
+        .iter()
+        .map(|triangle| unit_normal(surface, triangle))
+        .collect();
+    let mut bent: Vec<(f64, [usize; 2])> = edges(&surface.triangles)
+        .into_iter()
+        .filter_map(|(edge, sides)| {
+            let (first, second) = (sides.forward.first()?, sides.backward.first()?);
+            let (a, b) = (normals[*first], normals[*second]);
+            Some((a.cross(&b).norm().atan2(a.dot(&b)), edge))
+        })
+        .filter(|(angle, _)| *angle > PLANE_ANGLE)
+        .collect();
+    // A stable sort: edges that bend alike stay in the order of their indices.
+    bent.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    if bent.first().is_some_and(|(angle, _)| *angle > SHARP_ANGLE) {
+        bent.retain(|(angle, _)| *angle > SHARP_ANGLE);
+    }
+    collect(surface, bent.into_iter().map(|(_, edge)| edge))
+}
+
+/// Lines along edges, as many as the points allow.
+fn collect(surface: &Polyhedron, edges: impl Iterator<Item = [usize; 2]>) -> Outline {
+    let mut outline = Outline::default();
+    let mut drawn = vec![None; surface.vertices.len()];
+    for edge in edges {
+        let new = edge
+            .iter()
+            .filter(|&&vertex| drawn[vertex].is_none())
+            .count();
+        if outline.points.len() + new > OUTLINE_POINTS {
+            break;
+        }
+        let line = edge.map(|vertex| {
+            *drawn[vertex].get_or_insert_with(|| {
+                outline.points.push(surface.vertices[vertex]);
+                outline.points.len() - 1
+            })
+        });
+        outline.polylines.push(line.to_vec());
+    }
+    outline
+}
+
+/// The unit normal of a triangle; zero if it has no area, which then counts as flat.
+fn unit_normal(surface: &Polyhedron, triangle: &[usize; 3]) -> Vec3 {
+    let [a, b, c] = surface.corners(triangle);
+    (b - a)
+        .cross(&(c - a))
+        .try_normalize(0.0)
+        .unwrap_or_else(Vec3::zeros)
+}
