@@ -9,7 +9,15 @@
 //! over the reference surface, with κ = d^−ν (or ln d, for the potential at ν = 1). A₃ occurs only in derivatives.
 //! This module knows no law, no velocity and no time.
 
+pub mod curved;
+pub mod patch;
+
+mod carry;
+mod rule;
+
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
+use curved::Sphere;
+use patch::{Patch, Primitive};
 
 /// The gap of a plane as a function of the material point: d(X) = g₀ + m·X.
 ///
@@ -66,4 +74,98 @@ pub struct Moments {
 pub struct GapClosed {
     /// The smallest gap found [m], ≤ 0 (or NaN).
     pub gap: f64,
+}
+
+/// The surface of a body: flat facets and smooth patches, with X relative to any origin.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Surface {
+    /// Smooth pieces.
+    pub patches: Vec<Patch>,
+}
+
+impl Surface {
+    /// A sphere of radius R [m] about the origin.
+    pub fn sphere(radius: f64) -> Self {
+        Self::from_patches(vec![Patch::new(Primitive::Sphere(Sphere { radius }))])
+    }
+
+    /// A surface of smooth patches only.
+    pub fn from_patches(patches: Vec<Patch>) -> Self {
+        Self { patches }
+    }
+
+    /// The surface after X ↦ X + by.
+    pub fn translated(&self, by: &Vec3) -> Self {
+        self.transformed(&Mat3::identity(), by)
+    }
+
+    /// The surface after X ↦ rotation · X + offset.
+    pub fn transformed(&self, rotation: &Mat3, offset: &Vec3) -> Self {
+        Self {
+            patches: self
+                .patches
+                .iter()
+                .map(|patch| patch.transformed(rotation, offset))
+                .collect(),
+        }
+    }
+
+    /// Both surfaces as one; every part of each makes contact.
+    pub fn merged(&self, other: &Self) -> Self {
+        Self {
+            patches: [self.patches.as_slice(), &other.patches].concat(),
+        }
+    }
+
+    /// Area [m²].
+    pub fn area(&self) -> f64 {
+        self.patches.iter().map(Patch::area).sum()
+    }
+
+    /// The moments of `requests`, set in the entries of `out`, about the origin of X.
+    ///
+    /// Orders above a request's are zero. `out` must be as long as `requests`.
+    ///
+    /// # Errors
+    /// `GapClosed` if the smallest gap is not a positive finite number; `out` is then unspecified.
+    pub fn moments(
+        &self,
+        field: &GapField,
+        requests: &[MomentRequest],
+        out: &mut [Moments],
+    ) -> Result<(), GapClosed> {
+        assert_eq!(requests.len(), out.len(), "one place for each request");
+        let (gap, _) = self.smallest_gap(field);
+        if gap.is_nan() || gap <= 0.0 {
+            return Err(GapClosed { gap });
+        }
+        out.fill(Moments::default());
+        for patch in &self.patches {
+            patch.add_moments(field, requests, out);
+        }
+        Ok(())
+    }
+
+    /// The smallest gap [m] and the material point where it is; infinite for an empty surface, NaN for a bad field.
+    pub fn smallest_gap(&self, field: &GapField) -> (f64, Vec3) {
+        let mut smallest = (f64::INFINITY, Vec3::zeros());
+        for patch in &self.patches {
+            let point = patch.support(&-field.direction);
+            let gap = field.gap(&point);
+            if gap.is_nan() || gap < smallest.0 {
+                smallest = (gap, point);
+            }
+        }
+        smallest
+    }
+
+    /// The largest speed |v + A X| [m/s] on the surface.
+    ///
+    /// v velocity at the origin of X (3) [m/s], A = Ṗ (3×3) [1/s].
+    pub fn fastest_point(&self, v: &Vec3, a: &Mat3) -> f64 {
+        self.patches
+            .iter()
+            .map(|patch| patch.fastest_point(v, a))
+            .fold(0.0, f64::max)
+    }
 }

@@ -1,0 +1,116 @@
+//! A smooth primitive somewhere in a body: X = offset + Q Y.
+//!
+//! Moments are computed in the primitive's frame, where the gap is g₀' + m'·Y with g₀' = g₀ + m·offset, m' = Qᵀm,
+//! and carried back by [`Moments::carried`], the only place where tensors change frame. Support points give the
+//! smallest gap, and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the
+//! support point along its gradient Aᵀ(v + A X) never lowers it.
+
+use super::curved::{GROUP, Sphere};
+use super::{GapField, MomentRequest, Moments};
+use crate::tensor::{Mat3, Vec3};
+
+/// The smooth surfaces that contact knows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Primitive {
+    /// A whole sphere.
+    Sphere(Sphere),
+}
+
+/// A primitive with its place in the body: X = offset + rotation · Y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patch {
+    /// The surface in its own frame.
+    pub primitive: Primitive,
+    /// The place of its origin [m].
+    pub offset: Vec3,
+    /// Q, from its frame to the body's.
+    pub rotation: Mat3,
+}
+
+impl Patch {
+    /// The primitive in its own frame.
+    pub fn new(primitive: Primitive) -> Self {
+        Self {
+            primitive,
+            offset: Vec3::zeros(),
+            rotation: Mat3::identity(),
+        }
+    }
+
+    /// The same patch after X ↦ rotation · X + offset.
+    pub fn transformed(&self, rotation: &Mat3, offset: &Vec3) -> Self {
+        Self {
+            offset: rotation * self.offset + offset,
+            rotation: rotation * self.rotation,
+            ..*self
+        }
+    }
+
+    /// Area [m²].
+    pub fn area(&self) -> f64 {
+        match &self.primitive {
+            Primitive::Sphere(sphere) => sphere.area(),
+        }
+    }
+
+    /// The point X of the patch that is farthest along `direction`.
+    pub fn support(&self, direction: &Vec3) -> Vec3 {
+        let own = self.rotation.tr_mul(direction);
+        let point = match &self.primitive {
+            Primitive::Sphere(sphere) => sphere.support(&own),
+        };
+        self.offset + self.rotation * point
+    }
+
+    /// Adds the moments about the origin of X; every gap on the patch must be positive.
+    pub(crate) fn add_moments(
+        &self,
+        field: &GapField,
+        requests: &[MomentRequest],
+        out: &mut [Moments],
+    ) {
+        let own = GapField {
+            height: field.gap(&self.offset),
+            direction: self.rotation.tr_mul(&field.direction),
+        };
+        for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
+            let mut sums = [Moments::default(); GROUP];
+            match &self.primitive {
+                Primitive::Sphere(sphere) => sphere.add_moments(&own, requests, &mut sums),
+            }
+            for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
+                moments.add(
+                    &sum.carried(&self.rotation, &self.offset, request.order),
+                    request.order,
+                );
+            }
+        }
+    }
+
+    /// The largest |v + A X| over the patch, by ascents from seven starts.
+    pub(crate) fn fastest_point(&self, v: &Vec3, a: &Mat3) -> f64 {
+        let starts = [Vec3::x(), Vec3::y(), Vec3::z()]
+            .into_iter()
+            .flat_map(|axis| [axis, -axis]);
+        let ascents = std::iter::once(a.tr_mul(v))
+            .chain(starts)
+            .map(|start| self.ascend(v, a, &start));
+        ascents.fold(0.0, f64::max)
+    }
+
+    /// One ascent of |v + A X| from the support point along `start`.
+    fn ascend(&self, v: &Vec3, a: &Mat3, start: &Vec3) -> f64 {
+        /// Steps after which an ascent stops; a flat maximum is by then known well, its place is not needed.
+        const MOST_STEPS: usize = 60;
+        let mut velocity = v + a * self.support(start);
+        for _ in 0..MOST_STEPS {
+            let next = v + a * self.support(&a.tr_mul(&velocity));
+            let gain = next.norm_squared() - velocity.norm_squared();
+            if gain <= 1e-14 * next.norm_squared() {
+                break;
+            }
+            velocity = next;
+        }
+        velocity.norm()
+    }
+}
