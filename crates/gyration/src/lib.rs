@@ -4,7 +4,23 @@
 //!
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
 //! random numbers, no threads. Each module imports only what stands to its left:
-//! `tensor → surface, shape, mass → kinematics → contact, load → body → model, state → rates, balance`.
+//! `tensor → surface → shape, mass → kinematics → contact, load → support, body → model, state → rates, jacobian,
+//! balance`. Read [`rates`] first.
 
+pub mod balance;
+pub mod body;
+pub mod contact;
+mod inadmissible;
+pub mod jacobian;
+pub mod kinematics;
+pub mod load;
+pub mod mass;
+pub mod model;
+pub mod rates;
+pub mod shape;
+pub mod state;
+pub mod support;
 pub mod surface;
 pub mod tensor;
+
+pub use inadmissible::{Inadmissible, Quantity};

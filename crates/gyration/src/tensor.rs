@@ -39,8 +39,16 @@ impl SymmetricThird {
         let (x, y, z) = (a.x, a.y, a.z);
         let (wx, wy, wz) = (w * x, w * y, w * z);
         let products = [
-            wx * x * x, wx * x * y, wx * x * z, wx * y * y, wx * y * z,
-            wx * z * z, wy * y * y, wy * y * z, wy * z * z, wz * z * z,
+            wx * x * x,
+            wx * x * y,
+            wx * x * z,
+            wx * y * y,
+            wx * y * z,
+            wx * z * z,
+            wy * y * y,
+            wy * y * z,
+            wy * z * z,
+            wz * z * z,
         ];
         for (sum, product) in self.0.iter_mut().zip(products) {
             *sum += product;

@@ -1,0 +1,218 @@
+//! What is conserved, exchanged and audited: energies, works, momenta.
+//!
+//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
+//!   K = P J Ṗᵀ (affine momentum; its antisymmetric part is angular momentum)
+//!
+//! U(d) = α d₀ (d/d₀)^(1−ν)/(ν−1); at ν = 1, −α d₀ ln(d/d₀). Works are done on the bodies since t = 0; the residual
+//! of the ledger is (Σ energies) − (Σ energies at 0) − Σ works. Source: `physics.md` §2, §3, §6.
+
+use crate::body::Body;
+use crate::contact::{Action, Contact, Term};
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::load::Loads;
+use crate::model::Model;
+use crate::rates::{Workspace, contact_loads, meet};
+use crate::state::{BodyMotion, State};
+use crate::surface::{GapClosed, GapField, Kernel, MomentRequest, Moments, Surface};
+use crate::tensor::{Mat3, Vec3};
+
+/// A store of energy [J].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Energy {
+    /// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ).
+    Kinetic,
+    /// −m g·p₀.
+    Gravity,
+    /// ∫U(d) dA, where repulsion and adhesion have a potential.
+    Contact,
+    /// Springs.
+    Load,
+}
+
+impl Energy {
+    /// The word of the column `energy.…`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kinetic => "kinetic",
+            Self::Gravity => "gravity",
+            Self::Contact => "contact",
+            Self::Load => "load",
+        }
+    }
+}
+
+/// A work done on the bodies since t = 0 [J].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Work {
+    /// By damping, with the relative velocity; ≤ 0.
+    Damping,
+    /// By friction, with the relative velocity; ≤ 0.
+    Friction,
+    /// By dashpots; ≤ 0.
+    Load,
+    /// By the motion of the supports: ∫∫ q·(velocity of the support), all laws.
+    Support,
+}
+
+impl Work {
+    /// The word of the column `work.…`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Damping => "damping",
+            Self::Friction => "friction",
+            Self::Load => "load",
+            Self::Support => "support",
+        }
+    }
+}
+
+/// What is recorded of one body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyObservation {
+    /// Placement, velocity, spin.
+    pub motion: BodyMotion,
+    /// Smallest distance to a support [m]; infinite without supports or surface.
+    pub gap: f64,
+    /// Contact force [N].
+    pub contact_force: Vec3,
+    /// m ṗ₀ [kg m/s].
+    pub linear_momentum: Vec3,
+    /// p₀ × m ṗ₀ + the body's own, about the origin [kg m²/s].
+    pub angular_momentum: Vec3,
+    /// K = P J Ṗᵀ [kg m²/s].
+    pub affine_momentum: Mat3,
+}
+
+/// What is recorded of one body in a state.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn observe(
+    model: &Model,
+    workspace: &mut Workspace,
+    state: &State,
+    index: usize,
+) -> Result<BodyObservation, Inadmissible> {
+    let body = &model.bodies[index];
+    let motion = state.motion(model, index);
+    let mut loads = Loads::default();
+    contact_loads(model, workspace, state.time, index, &motion, false, |_, contact| {
+        loads += contact.total();
+    })?;
+    let (placement, velocity) = (&motion.placement, &motion.velocity);
+    let affine_momentum = placement.gradient * body.mass.euler_tensor * velocity.gradient_rate.transpose();
+    let linear_momentum = body.mass.mass * velocity.velocity;
+    Ok(BodyObservation {
+        motion,
+        gap: smallest_gap(model, state.time, index, &motion),
+        contact_force: loads.force,
+        linear_momentum,
+        // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.
+        angular_momentum: placement.position.cross(&linear_momentum) - crate::tensor::axial(&affine_momentum),
+        affine_momentum,
+    })
+}
+
+/// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
+pub fn smallest_gap(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> f64 {
+    let Some(surface) = &model.bodies[index].surface else {
+        return f64::INFINITY;
+    };
+    (0..model.supports.len())
+        .map(|support| surface.smallest_gap(&meet(model, support, time, motion).0).0)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The speed of a body's fastest material point [m/s].
+pub fn fastest_speed(body: &Body, motion: &BodyMotion) -> f64 {
+    let velocity = &motion.velocity;
+    match &body.surface {
+        Some(surface) => surface.fastest_point(&velocity.velocity, &velocity.gradient_rate),
+        None => {
+            let centre = body.mass.center;
+            let speed = |at: Vec3| velocity.at(&(at - centre)).norm();
+            body.shape.silhouette_points().into_iter().map(speed).fold(0.0, f64::max)
+        }
+    }
+}
+
+/// The energies [J] of all bodies together, in the order of `Model::energies`.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn energies(model: &Model, state: &State, values: &mut [f64]) -> Result<(), Inadmissible> {
+    for (energy, value) in model.energies().iter().zip(values) {
+        *value = 0.0;
+        for (index, body) in model.bodies.iter().enumerate() {
+            let motion = state.motion(model, index);
+            *value += match energy {
+                Energy::Kinetic => kinetic_energy(body, &motion),
+                Energy::Gravity => -body.mass.mass * model.gravity.dot(&motion.placement.position),
+                Energy::Contact => contact_energy(model, state.time, index, &motion)?,
+                Energy::Load => body.springs.iter().map(|spring| spring.energy(&motion.placement)).sum(),
+            };
+        }
+    }
+    Ok(())
+}
+
+/// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ) [J].
+pub fn kinetic_energy(body: &Body, motion: &BodyMotion) -> f64 {
+    let Velocities { linear, gradient_rate } = Velocities::of(motion);
+    let spread = (gradient_rate * body.mass.euler_tensor).dot(&gradient_rate);
+    0.5 * (body.mass.mass * linear.norm_squared() + spread)
+}
+
+struct Velocities {
+    linear: Vec3,
+    gradient_rate: Mat3,
+}
+
+impl Velocities {
+    fn of(motion: &BodyMotion) -> Self {
+        Self { linear: motion.velocity.velocity, gradient_rate: motion.velocity.gradient_rate }
+    }
+}
+
+/// The potential of the central laws over a body's surface [J].
+fn contact_energy(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<f64, Inadmissible> {
+    let body = &model.bodies[index];
+    let Some(surface) = &body.surface else {
+        return Ok(0.0);
+    };
+    let mut total = 0.0;
+    for contact in &body.contacts {
+        let (field, _) = meet(model, contact.support, time, motion);
+        total += contact_potential(contact, surface, &field).map_err(|closed| Inadmissible {
+            body: index,
+            quantity: Quantity::Gap { support: contact.support },
+            value: closed.gap,
+        })?;
+    }
+    Ok(total)
+}
+
+/// ∫U(d) dA [J] of the central laws of one contact.
+pub fn contact_potential(contact: &Contact, surface: &Surface, field: &GapField) -> Result<f64, GapClosed> {
+    let terms = contact.laws().iter().flat_map(|law| law.terms()).flatten();
+    let mut total = 0.0;
+    for term in terms.filter(|term| term.action == Action::Central) {
+        total += term_potential(&term, surface, field)?;
+    }
+    Ok(total)
+}
+
+/// c d^(1−ν)/(ν−1) integrated; at ν = 1, −c (ln d − ln d₀).
+fn term_potential(term: &Term, surface: &Surface, field: &GapField) -> Result<f64, GapClosed> {
+    let integral = |kernel: Kernel| {
+        let mut moments = [Moments::default()];
+        surface.moments(field, &[MomentRequest { kernel, order: 0 }], &mut moments)?;
+        Ok(moments[0].zeroth)
+    };
+    if term.exponent == 1.0 {
+        let logarithm = integral(Kernel::Log)? - surface.area() * term.reference_gap.ln();
+        return Ok(-term.coefficient * logarithm);
+    }
+    let power = integral(Kernel::Power(term.exponent - 1.0))?;
+    Ok(term.coefficient * power / (term.exponent - 1.0))
+}

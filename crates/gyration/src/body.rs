@@ -1,0 +1,110 @@
+//! A body: its mass, its surface, the laws and springs that act on it, and its kind.
+//!
+//! Everything is relative to the centre of mass. The kinds are
+//!
+//! | kind  | configuration | velocity | state                                     |
+//! |-------|---------------|----------|-------------------------------------------|
+//! | rigid | p₀, P = R     | ṗ₀, Ω    | p₀ (3), quaternion (4), ṗ₀ (3), Ω (3)     |
+//! | rigid, pinned | P = R | Ω        | quaternion (4), Ω (3)                     |
+//!
+//! with Ω in body axes. Affine and contractile bodies are further variants of [`BodyKind`]: the compiler lists what
+//! each must answer.
+
+use crate::contact::Contact;
+use crate::load::Spring;
+use crate::mass::MassProperties;
+use crate::shape::Shape;
+use crate::surface::Surface;
+use crate::tensor::{Mat3, Vec3};
+
+/// A body of the model.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name in the scene.
+    pub name: String,
+    /// How it may deform.
+    pub kind: BodyKind,
+    /// Mass, centre and Euler tensor.
+    pub mass: MassProperties,
+    /// The shape in its own frame, for whoever draws it.
+    pub shape: Shape,
+    /// The surface relative to the centre of mass; none for mass points.
+    pub surface: Option<Surface>,
+    /// Laws with supports.
+    pub contacts: Vec<Contact>,
+    /// Springs to fixed anchors.
+    pub springs: Vec<Spring>,
+    /// The material point that stays fixed in space, if any.
+    pub pin: Option<Pin>,
+    /// Characteristic length [m]: the largest side of the bounding box.
+    pub size: f64,
+}
+
+/// A material point fixed in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pin {
+    /// X_p (from the centre of mass) [m].
+    pub point: Vec3,
+    /// Where it stays [m].
+    pub anchor: Vec3,
+}
+
+/// How a body may deform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BodyKind {
+    /// P is a rotation.
+    Rigid(RigidInertia),
+}
+
+/// The constant inertia tensor of a rigid body in its own axes, about the centre of mass or the pin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidInertia {
+    /// I = tr(J) 1 − J [kg m²].
+    pub tensor: Mat3,
+    /// I⁻¹.
+    pub inverse: Mat3,
+}
+
+/// The inertia tensor cannot be inverted: the mass lies on a line through the centre (or the pin).
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "the inertia tensor is singular (smallest principal moment {smallest:e} kg m², largest {largest:e}): \
+     all mass lies on one line, and the spin about it has no meaning; give the body some width"
+)]
+pub struct SingularInertia {
+    /// Smallest principal moment [kg m²].
+    pub smallest: f64,
+    /// Largest principal moment [kg m²].
+    pub largest: f64,
+}
+
+/// Principal moments whose ratio is below this cannot be told from zero after the rounding of their integrals.
+const SINGULAR_RATIO: f64 = 1e-13;
+
+impl RigidInertia {
+    /// The inertia about the centre of mass, or about the pin: J_p = J + m r⊗r, r = X_p.
+    ///
+    /// # Errors
+    /// [`SingularInertia`] where a rotation would cost nothing.
+    pub fn new(mass: &MassProperties, pin: Option<&Pin>) -> Result<Self, SingularInertia> {
+        let arm = pin.map_or(Vec3::zeros(), |pin| pin.point);
+        let euler = mass.euler_tensor + mass.mass * arm * arm.transpose();
+        let tensor = Mat3::from_diagonal_element(euler.trace()) - euler;
+        let principal = tensor.symmetric_eigenvalues();
+        let (smallest, largest) = (principal.min(), principal.max());
+        match tensor.try_inverse() {
+            Some(inverse) if smallest > SINGULAR_RATIO * largest => Ok(Self { tensor, inverse }),
+            _ => Err(SingularInertia { smallest, largest }),
+        }
+    }
+}
+
+impl Body {
+    /// How many numbers its state has.
+    pub fn dimension(&self) -> usize {
+        match (&self.kind, &self.pin) {
+            (BodyKind::Rigid(_), None) => 13,
+            (BodyKind::Rigid(_), Some(_)) => 7,
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Contact laws: tractions of a support that are powers of the gap d, per unit deformed area.
+//!
+//! | law       | traction                              | parameters         |
+//! |-----------|---------------------------------------|--------------------|
+//! | repulsion | α (d/d₀)^−ν n                         | α [Pa]             |
+//! | damping   | −β (d/d₀)^−ν (n⊗n) w                  | β [Pa s/m]         |
+//! | friction  | −β (d/d₀)^−ν (I − n⊗n) w              | β [Pa s/m]         |
+//! | adhesion  | −β ((d/d₀)^−ν_a − (d/d₀)^−ν_r) n      | β [Pa], ν_r > ν_a  |
+//!
+//! n is the support's unit normal, w the velocity relative to the support. A law sees a gap and a velocity, never a
+//! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `contact::loads`
+//! needs to integrate it over a surface. Source: Tatone, *Soft and rigid impact*.
+
+mod adhesion;
+mod damping;
+mod friction;
+mod plan;
+mod repulsion;
+mod resultant;
+
+pub use adhesion::Adhesion;
+pub use damping::Damping;
+pub use friction::Friction;
+pub use plan::{Contact, ContactScratch};
+pub use repulsion::Repulsion;
+pub use resultant::{ContactLoads, GapDirection, RelativeMotion};
+
+/// In which measure of area the tractions are given; on a rigid body all three are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AreaMeasure {
+    /// Force per deformed area, as in the slides.
+    #[default]
+    DeformedArea,
+    /// Force per reference area.
+    ReferenceArea,
+    /// Derived from the potential ∫U(d) k dA.
+    DeformedAreaPotential,
+}
+
+/// One of the four laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContactLaw {
+    /// Pushes away from the support.
+    Repulsion(Repulsion),
+    /// Resists approach and departure.
+    Damping(Damping),
+    /// Resists sliding.
+    Friction(Friction),
+    /// Attracts beyond d₀, repels below.
+    Adhesion(Adhesion),
+}
+
+/// The column of the ledger, and the resultant, to which a term belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LawKind {
+    /// Repulsion.
+    Repulsion,
+    /// Damping.
+    Damping,
+    /// Friction.
+    Friction,
+    /// Adhesion.
+    Adhesion,
+}
+
+impl LawKind {
+    /// How many kinds there are.
+    pub const COUNT: usize = 4;
+    /// All kinds, in the order of the ledger.
+    pub const ALL: [Self; Self::COUNT] = [Self::Repulsion, Self::Damping, Self::Friction, Self::Adhesion];
+
+    /// The word used in scenes, columns and messages.
+    pub fn name(self) -> &'static str {
+        ["repulsion", "damping", "friction", "adhesion"][self as usize]
+    }
+}
+
+/// What a term's power of the gap multiplies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Action {
+    /// n.
+    Central,
+    /// −(n·w) n.
+    Normal,
+    /// −(w − (n·w) n).
+    Tangential,
+}
+
+/// One power of the gap: traction = c d^−ν × (what the action says), c = coefficient × d₀^ν.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term {
+    /// The law it belongs to.
+    pub kind: LawKind,
+    /// What the power multiplies.
+    pub action: Action,
+    /// c [Pa m^ν] for a central term, [Pa s m^(ν−1)] for a viscous one.
+    pub coefficient: f64,
+    /// ν.
+    pub exponent: f64,
+    /// d₀ [m], needed by the potential at ν = 1 only.
+    pub reference_gap: f64,
+}
+
+impl ContactLaw {
+    /// The law as a sum of powers of the gap.
+    pub fn terms(&self) -> [Option<Term>; 2] {
+        match self {
+            Self::Repulsion(law) => [Some(law.term()), None],
+            Self::Damping(law) => [Some(law.term()), None],
+            Self::Friction(law) => [Some(law.term()), None],
+            Self::Adhesion(law) => law.terms().map(Some),
+        }
+    }
+
+    /// Its kind.
+    pub fn kind(&self) -> LawKind {
+        match self {
+            Self::Repulsion(_) => LawKind::Repulsion,
+            Self::Damping(_) => LawKind::Damping,
+            Self::Friction(_) => LawKind::Friction,
+            Self::Adhesion(_) => LawKind::Adhesion,
+        }
+    }
+
+    /// The exponent that decides whether the law forbids touching: ν, or ν_r for adhesion.
+    pub fn leading_exponent(&self) -> f64 {
+        match self {
+            Self::Repulsion(law) => law.exponent,
+            Self::Damping(law) => law.exponent,
+            Self::Friction(law) => law.exponent,
+            Self::Adhesion(law) => law.repulsive_exponent,
+        }
+    }
+
+    /// The factor of the law at a gap d > 0: its traction along n for a central law [Pa], the resistance per speed for a
+    /// viscous one [Pa s/m].
+    pub fn factor(&self, gap: f64) -> f64 {
+        self.terms().iter().flatten().map(|term| term.coefficient * gap.powf(-term.exponent)).sum()
+    }
+}

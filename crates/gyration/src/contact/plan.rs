@@ -1,0 +1,125 @@
+//! A contact: the laws between one body and one support, with the list of surface moments that they need.
+//!
+//! Laws share powers of the gap (damping and friction often have the same exponent, and the derivative of d^−6 is the
+//! power that d^−7 asks for), so the requests are merged once, when the contact is made.
+
+use super::{Action, AreaMeasure, ContactLaw, Term};
+use crate::surface::{Kernel, MomentRequest, Moments};
+
+/// The laws between one body and one support.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// Index of the support in the model.
+    pub support: usize,
+    /// In which measure of area the tractions are given.
+    pub measure: AreaMeasure,
+    laws: Vec<ContactLaw>,
+    terms: Vec<PlannedTerm>,
+    value_requests: Vec<MomentRequest>,
+    derivative_requests: Vec<MomentRequest>,
+}
+
+/// A term and where its moments stand among those requested.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PlannedTerm {
+    pub term: Term,
+    /// Index among the value requests.
+    pub value: usize,
+    /// Index of exponent ν among the derivative requests.
+    pub value_with_derivative: usize,
+    /// Index of exponent ν + 1 among the derivative requests.
+    pub derivative: usize,
+}
+
+/// Room for the moments of one evaluation; made once, reused.
+#[derive(Debug, Clone, Default)]
+pub struct ContactScratch {
+    pub(super) moments: Vec<Moments>,
+}
+
+impl ContactScratch {
+    /// The first `count` moments, growing if this is the first use.
+    pub(super) fn take(&mut self, count: usize) -> &mut [Moments] {
+        if self.moments.len() < count {
+            self.moments.resize(count, Moments::default());
+        }
+        &mut self.moments[..count]
+    }
+}
+
+impl Contact {
+    /// Joins the laws and plans which surface moments they need.
+    pub fn new(support: usize, measure: AreaMeasure, laws: Vec<ContactLaw>) -> Self {
+        let mut value_requests = Vec::new();
+        let mut derivative_requests = Vec::new();
+        let terms = laws
+            .iter()
+            .flat_map(ContactLaw::terms)
+            .flatten()
+            .map(|term| {
+                // A central traction needs ∫κX; a viscous one, linear in X itself, ∫κX⊗X.
+                let order = if term.action == Action::Central { 1 } else { 2 };
+                PlannedTerm {
+                    term,
+                    value: request(&mut value_requests, term.exponent, order),
+                    value_with_derivative: request(&mut derivative_requests, term.exponent, order),
+                    derivative: request(&mut derivative_requests, term.exponent + 1.0, order + 1),
+                }
+            })
+            .collect();
+        Self { support, measure, laws, terms, value_requests, derivative_requests }
+    }
+
+    /// The laws.
+    pub fn laws(&self) -> &[ContactLaw] {
+        &self.laws
+    }
+
+    pub(super) fn terms(&self) -> &[PlannedTerm] {
+        &self.terms
+    }
+
+    pub(super) fn value_requests(&self) -> &[MomentRequest] {
+        &self.value_requests
+    }
+
+    pub(super) fn derivative_requests(&self) -> &[MomentRequest] {
+        &self.derivative_requests
+    }
+}
+
+/// The index of the request for this exponent, made or raised to the order.
+fn request(requests: &mut Vec<MomentRequest>, exponent: f64, order: usize) -> usize {
+    let kernel = Kernel::Power(exponent);
+    if let Some(index) = requests.iter().position(|request| request.kernel == kernel) {
+        requests[index].order = requests[index].order.max(order);
+        return index;
+    }
+    requests.push(MomentRequest { kernel, order });
+    requests.len() - 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Damping, Friction, Repulsion};
+
+    #[test]
+    fn laws_share_the_powers_that_they_have_in_common() {
+        let laws = vec![
+            ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 }),
+            ContactLaw::Damping(Damping { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
+            ContactLaw::Friction(Friction { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
+        ];
+        let contact = Contact::new(0, AreaMeasure::default(), laws);
+        let orders = |requests: &[MomentRequest]| {
+            requests.iter().map(|request| (request.kernel, request.order)).collect::<Vec<_>>()
+        };
+        assert_eq!(orders(contact.value_requests()), [(Kernel::Power(6.0), 1), (Kernel::Power(5.0), 2)]);
+        // d^−6 serves the repulsion itself and the derivative of the damping.
+        assert_eq!(
+            orders(contact.derivative_requests()),
+            [(Kernel::Power(6.0), 3), (Kernel::Power(7.0), 2), (Kernel::Power(5.0), 2)]
+        );
+    }
+}

@@ -1,0 +1,30 @@
+//! Leaving the domain of the model is a value, never a clamp, an infinity or a panic.
+
+/// What left its domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// The smallest gap to the support of this index, which must be > 0 [m].
+    Gap {
+        /// Index of the support.
+        support: usize,
+    },
+    /// The length of the spring of this index, which must be > 0 [m].
+    SpringLength {
+        /// Index of the spring in its body.
+        spring: usize,
+    },
+    /// A number of the state that is not finite.
+    State,
+}
+
+/// A state outside the model: which body, which quantity, its value.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("body {body}: {quantity:?} is {value:e}")]
+pub struct Inadmissible {
+    /// Index of the body.
+    pub body: usize,
+    /// What left its domain.
+    pub quantity: Quantity,
+    /// Its value.
+    pub value: f64,
+}

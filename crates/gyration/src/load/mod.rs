@@ -1,0 +1,53 @@
+//! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), and those of springs at material points.
+//!
+//! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at
+//! a material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
+
+mod spring;
+
+pub use spring::{Spring, SpringLoads};
+
+use crate::tensor::{Mat3, Vec3, axial};
+
+/// A force and an affine moment.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Loads {
+    /// f [N].
+    pub force: Vec3,
+    /// M = ∫ q ⊗ (X − X₀) [N m].
+    pub moment: Mat3,
+}
+
+impl Loads {
+    /// The loads of a force at a material point X (from the centre of mass).
+    pub fn at_point(force: Vec3, point: &Vec3) -> Self {
+        Self { force, moment: force * point.transpose() }
+    }
+
+    /// The power f·v + M·Ṗ [W].
+    pub fn power(&self, velocity: &Vec3, gradient_rate: &Mat3) -> f64 {
+        self.force.dot(velocity) + self.moment.dot(gradient_rate)
+    }
+
+    /// The torque about the centre of mass in the axes of a rigid body, τ_i = ε_ijk (RᵀM)_kj [N m].
+    pub fn body_torque(&self, rotation: &Mat3) -> Vec3 {
+        axial(&rotation.tr_mul(&self.moment))
+    }
+}
+
+impl std::ops::AddAssign for Loads {
+    fn add_assign(&mut self, other: Self) {
+        self.force += other.force;
+        self.moment += other.moment;
+    }
+}
+
+impl std::iter::Sum for Loads {
+    fn sum<I: Iterator<Item = Self>>(iter: I) -> Self {
+        let mut total = Self::default();
+        for loads in iter {
+            total += loads;
+        }
+        total
+    }
+}

@@ -1,0 +1,100 @@
+//! The model: gravity, supports and bodies, frozen for a run.
+//!
+//! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
+
+use crate::balance::{Energy, Work};
+use crate::body::Body;
+use crate::contact::LawKind;
+use crate::support::{Support, SupportMotion};
+use crate::tensor::Vec3;
+use std::ops::Range;
+
+/// What moves, what it meets, and what pulls at it.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// g, the acceleration of gravity [m/s²].
+    pub gravity: Vec3,
+    /// The planes.
+    pub supports: Vec<Support>,
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    blocks: Vec<Range<usize>>,
+    works: Vec<Work>,
+    energies: Vec<Energy>,
+}
+
+impl Model {
+    /// Freezes a model: lays out the state and decides which entries the ledger has.
+    pub fn new(gravity: Vec3, supports: Vec<Support>, bodies: Vec<Body>) -> Self {
+        let blocks = layout(&bodies);
+        let works = works(&supports, &bodies);
+        let energies = energies(&bodies);
+        Self { gravity, supports, bodies, blocks, works, energies }
+    }
+
+    /// Where each body's numbers stand in the state.
+    pub fn blocks(&self) -> &[Range<usize>] {
+        &self.blocks
+    }
+
+    /// How many numbers the state has.
+    pub fn dimension(&self) -> usize {
+        self.blocks.last().map_or(0, |block| block.end)
+    }
+
+    /// The works that the ledger integrates, in the order of its columns.
+    pub fn works(&self) -> &[Work] {
+        &self.works
+    }
+
+    /// The energies that the ledger has, in the order of its columns.
+    pub fn energies(&self) -> &[Energy] {
+        &self.energies
+    }
+}
+
+fn layout(bodies: &[Body]) -> Vec<Range<usize>> {
+    let mut start = 0;
+    bodies
+        .iter()
+        .map(|body| {
+            let block = start..start + body.dimension();
+            start = block.end;
+            block
+        })
+        .collect()
+}
+
+fn has_law(bodies: &[Body], kinds: &[LawKind]) -> bool {
+    let mut laws = bodies.iter().flat_map(|body| &body.contacts).flat_map(|contact| contact.laws());
+    laws.any(|law| kinds.contains(&law.kind()))
+}
+
+fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
+    let moving = |index: usize| supports[index].motion != SupportMotion::Fixed;
+    let dashpots = bodies.iter().flat_map(|body| &body.springs).any(|spring| spring.damping > 0.0);
+    let carried = bodies.iter().flat_map(|body| &body.contacts).any(|contact| moving(contact.support));
+    // A rigid body's repulsion and adhesion have a potential: they stand among the energies.
+    [
+        (Work::Damping, has_law(bodies, &[LawKind::Damping])),
+        (Work::Friction, has_law(bodies, &[LawKind::Friction])),
+        (Work::Load, dashpots),
+        (Work::Support, carried),
+    ]
+    .into_iter()
+    .filter_map(|(work, applies)| applies.then_some(work))
+    .collect()
+}
+
+fn energies(bodies: &[Body]) -> Vec<Energy> {
+    let springs = bodies.iter().any(|body| !body.springs.is_empty());
+    [
+        (Energy::Kinetic, true),
+        (Energy::Gravity, true),
+        (Energy::Contact, has_law(bodies, &[LawKind::Repulsion, LawKind::Adhesion])),
+        (Energy::Load, springs),
+    ]
+    .into_iter()
+    .filter_map(|(energy, applies)| applies.then_some(energy))
+    .collect()
+}
