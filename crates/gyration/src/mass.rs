@@ -108,25 +108,15 @@ impl MassProperties {
         Self {
             mass,
             center: self.center + arm * (other.mass / mass),
-            euler_tensor: self.euler_tensor
-                + other.euler_tensor
-                + reduced_mass * arm * arm.transpose(),
+            euler_tensor: self.euler_tensor + other.euler_tensor + reduced_mass * arm * arm.transpose(),
             volume: self.volume + other.volume,
         }
     }
 
     /// All bodies as one; without any, a body of no mass, which [`MassProperties::validate`] refuses.
     pub fn sum(bodies: impl IntoIterator<Item = Self>) -> Self {
-        let nothing = Self {
-            mass: 0.0,
-            center: Vec3::zeros(),
-            euler_tensor: Mat3::zeros(),
-            volume: 0.0,
-        };
-        bodies
-            .into_iter()
-            .reduce(|sum, body| sum.combined(&body))
-            .unwrap_or(nothing)
+        let nothing = Self { mass: 0.0, center: Vec3::zeros(), euler_tensor: Mat3::zeros(), volume: 0.0 };
+        bodies.into_iter().reduce(|sum, body| sum.combined(&body)).unwrap_or(nothing)
     }
 
     /// The same body turned by `rotation` R and then shifted by `offset` a: X → R X + a.
@@ -140,20 +130,12 @@ impl MassProperties {
 
     /// The same distribution with every density multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            mass: self.mass * factor,
-            euler_tensor: self.euler_tensor * factor,
-            ..*self
-        }
+        Self { mass: self.mass * factor, euler_tensor: self.euler_tensor * factor, ..*self }
     }
 
     /// The same distribution with the total mass `mass` [kg].
     pub fn with_mass(&self, mass: f64) -> Self {
-        Self {
-            mass,
-            euler_tensor: self.euler_tensor * (mass / self.mass),
-            ..*self
-        }
+        Self { mass, euler_tensor: self.euler_tensor * (mass / self.mass), ..*self }
     }
 
     /// Principal values and axes of the Euler tensor.
@@ -174,10 +156,7 @@ impl MassProperties {
     /// A rigid body can turn about every axis iff this is at least 2; a deformable one needs 3.
     pub fn rank(&self) -> usize {
         let values = self.principal().values;
-        values
-            .iter()
-            .filter(|&&value| value > DEFINITENESS_TOLERANCE * values[2].max(0.0))
-            .count()
+        values.iter().filter(|&&value| value > DEFINITENESS_TOLERANCE * values[2].max(0.0)).count()
     }
 
     /// Checks that some body has these properties.
@@ -199,12 +178,7 @@ impl MassProperties {
         for (row, column) in [(0, 1), (0, 2), (1, 2)] {
             let (value, mirrored) = (tensor[(row, column)], tensor[(column, row)]);
             if (value - mirrored).abs() > tolerance {
-                return Err(MassError::NotSymmetric {
-                    row,
-                    column,
-                    value,
-                    mirrored,
-                });
+                return Err(MassError::NotSymmetric { row, column, value, mirrored });
             }
         }
         let values = self.principal().values;

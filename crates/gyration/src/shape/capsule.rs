@@ -37,8 +37,7 @@ impl Capsule {
         let (r, h) = (self.radius, self.height);
         let (cylinder, ball) = (PI * r * r * h, 4.0 / 3.0 * PI * r * r * r);
         let across = cylinder * r * r / 4.0 + ball * r * r / 5.0;
-        let along =
-            cylinder * h * h / 12.0 + ball * (r * r / 5.0 + 3.0 / 8.0 * h * r + h * h / 4.0);
+        let along = cylinder * h * h / 12.0 + ball * (r * r / 5.0 + 3.0 / 8.0 * h * r + h * h / 4.0);
         MassProperties {
             mass: density * (cylinder + ball),
             center: Vec3::zeros(),
@@ -60,11 +59,7 @@ impl Capsule {
     /// The circles where the half balls begin, and two meridians.
     pub fn outline(&self) -> Outline {
         let mut outline = Outline::default();
-        let (x, y, z) = (
-            Vec3::x() * self.radius,
-            Vec3::y() * self.radius,
-            Vec3::z() * self.radius,
-        );
+        let (x, y, z) = (Vec3::x() * self.radius, Vec3::y() * self.radius, Vec3::z() * self.radius);
         let top = Vec3::z() * (0.5 * self.height);
         outline.add_ellipse(top, x, y);
         outline.add_ellipse(-top, x, y);
@@ -75,9 +70,7 @@ impl Capsule {
                     end + across * cosine + up * sine
                 })
             };
-            let around = half(top, z, side)
-                .chain(half(-top, -z, -side))
-                .chain([top + side]);
+            let around = half(top, z, side).chain(half(-top, -z, -side)).chain([top + side]);
             outline.add_line(around);
         }
         outline
@@ -85,14 +78,8 @@ impl Capsule {
 
     /// Points of the half balls.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
-        let equators = [0.5, -0.5]
-            .into_iter()
-            .flat_map(|end| circle(50, self.radius, end * self.height));
-        let shift =
-            |point: Vec3| point * self.radius + Vec3::z() * (0.5 * self.height.copysign(point.z));
-        directions(SILHOUETTE_POINTS - 100)
-            .map(shift)
-            .chain(equators)
-            .collect()
+        let equators = [0.5, -0.5].into_iter().flat_map(|end| circle(50, self.radius, end * self.height));
+        let shift = |point: Vec3| point * self.radius + Vec3::z() * (0.5 * self.height.copysign(point.z));
+        directions(SILHOUETTE_POINTS - 100).map(shift).chain(equators).collect()
     }
 }

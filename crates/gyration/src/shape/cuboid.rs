@@ -21,23 +21,15 @@ impl Cuboid {
     /// # Errors
     /// [`ShapeError::NotPositive`] for the first edge that is not.
     pub fn validate(&self) -> Result<(), ShapeError> {
-        self.size
-            .iter()
-            .try_for_each(|&edge| positive("box", "size", edge))
+        self.size.iter().try_for_each(|&edge| positive("box", "size", edge))
     }
 
     /// Mass properties for a uniform density [kg/m³].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let volume = self.size.product();
         let mass = density * volume;
-        let euler_tensor =
-            Mat3::from_diagonal(&(self.size.component_mul(&self.size) * (mass / 12.0)));
-        MassProperties {
-            mass,
-            center: Vec3::zeros(),
-            euler_tensor,
-            volume,
-        }
+        let euler_tensor = Mat3::from_diagonal(&(self.size.component_mul(&self.size) * (mass / 12.0)));
+        MassProperties { mass, center: Vec3::zeros(), euler_tensor, volume }
     }
 
     /// The support function h(n) = max X·n = Σ |n_i| a_i/2 [m].
@@ -57,17 +49,12 @@ impl Cuboid {
             let upper_ends = [1, 2, 4].into_iter().filter(|axis| corner & axis == 0);
             polylines.extend(upper_ends.map(|axis| vec![corner, corner | axis]));
         }
-        Outline {
-            points: self.silhouette_points(),
-            polylines,
-        }
+        Outline { points: self.silhouette_points(), polylines }
     }
 
     /// The eight corners; bit k of the index says whether axis k is on its positive side.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         let side = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { 0.5 } else { -0.5 };
-        (0..8)
-            .map(|corner| Vec3::from_fn(|axis, _| side(corner, axis) * self.size[axis]))
-            .collect()
+        (0..8).map(|corner| Vec3::from_fn(|axis, _| side(corner, axis) * self.size[axis])).collect()
     }
 }

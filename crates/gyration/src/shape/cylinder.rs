@@ -34,17 +34,8 @@ impl Cylinder {
         let (radius_squared, height) = (self.radius * self.radius, self.height);
         let volume = PI * radius_squared * height;
         let mass = density * volume;
-        let spread = Vec3::new(
-            radius_squared / 4.0,
-            radius_squared / 4.0,
-            height * height / 12.0,
-        );
-        MassProperties {
-            mass,
-            center: Vec3::zeros(),
-            euler_tensor: Mat3::from_diagonal(&(spread * mass)),
-            volume,
-        }
+        let spread = Vec3::new(radius_squared / 4.0, radius_squared / 4.0, height * height / 12.0);
+        MassProperties { mass, center: Vec3::zeros(), euler_tensor: Mat3::from_diagonal(&(spread * mass)), volume }
     }
 
     /// The support function h(n) = max X·n = r |n_xy| + (h/2) |n_z| [m].
@@ -73,8 +64,6 @@ impl Cylinder {
     /// Points of the two rims.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         let rim = |z: f64| circle(SILHOUETTE_POINTS / 2, self.radius, z);
-        rim(0.5 * self.height)
-            .chain(rim(-0.5 * self.height))
-            .collect()
+        rim(0.5 * self.height).chain(rim(-0.5 * self.height)).collect()
     }
 }

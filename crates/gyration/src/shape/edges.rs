@@ -23,11 +23,7 @@ pub struct Edge {
 impl fmt::Display for Edge {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (a, b) = (&self.from, &self.to);
-        write!(
-            formatter,
-            "({}, {}, {})–({}, {}, {})",
-            a.x, a.y, a.z, b.x, b.y, b.z
-        )
+        write!(formatter, "({}, {}, {})–({}, {}, {})", a.x, a.y, a.z, b.x, b.y, b.z)
     }
 }
 
@@ -46,11 +42,7 @@ pub(super) fn edges(triangles: &[[usize; 3]]) -> BTreeMap<[usize; 2], Sides> {
     for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let sides = edges.entry([from.min(to), from.max(to)]).or_default();
-            if from < to {
-                sides.forward.push(triangle)
-            } else {
-                sides.backward.push(triangle)
-            }
+            if from < to { sides.forward.push(triangle) } else { sides.backward.push(triangle) }
         }
     }
     edges
@@ -84,10 +76,7 @@ impl EdgeFaults {
     pub fn of(surface: &Polyhedron) -> Self {
         let mut faults = Self::default();
         for ([from, to], sides) in edges(&surface.triangles) {
-            let edge = Edge {
-                from: surface.vertices[from],
-                to: surface.vertices[to],
-            };
+            let edge = Edge { from: surface.vertices[from], to: surface.vertices[to] };
             match (sides.forward.len(), sides.backward.len()) {
                 (1, 1) => {}
                 (1, 0) | (0, 1) => faults.open.add(edge),
@@ -100,28 +89,15 @@ impl EdgeFaults {
 
     /// The worst kind of fault as an error.
     pub fn into_result(self) -> Result<(), PolyhedronError> {
-        let Self {
-            open,
-            branching,
-            misoriented,
-        } = self;
+        let Self { open, branching, misoriented } = self;
         if open.count > 0 {
-            return Err(PolyhedronError::Open {
-                count: open.count,
-                first: open.first,
-            });
+            return Err(PolyhedronError::Open { count: open.count, first: open.first });
         }
         if branching.count > 0 {
-            return Err(PolyhedronError::NonManifold {
-                count: branching.count,
-                first: branching.first,
-            });
+            return Err(PolyhedronError::NonManifold { count: branching.count, first: branching.first });
         }
         if misoriented.count > 0 {
-            return Err(PolyhedronError::Misoriented {
-                count: misoriented.count,
-                first: misoriented.first,
-            });
+            return Err(PolyhedronError::Misoriented { count: misoriented.count, first: misoriented.first });
         }
         Ok(())
     }

@@ -23,23 +23,15 @@ impl Ellipsoid {
     /// # Errors
     /// [`ShapeError::NotPositive`] for the first one that is not.
     pub fn validate(&self) -> Result<(), ShapeError> {
-        self.semi_axes
-            .iter()
-            .try_for_each(|&axis| positive("ellipsoid", "semi_axes", axis))
+        self.semi_axes.iter().try_for_each(|&axis| positive("ellipsoid", "semi_axes", axis))
     }
 
     /// Mass properties for a uniform density [kg/m³].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let volume = 4.0 / 3.0 * PI * self.semi_axes.product();
         let mass = density * volume;
-        let euler_tensor =
-            Mat3::from_diagonal(&(self.semi_axes.component_mul(&self.semi_axes) * (mass / 5.0)));
-        MassProperties {
-            mass,
-            center: Vec3::zeros(),
-            euler_tensor,
-            volume,
-        }
+        let euler_tensor = Mat3::from_diagonal(&(self.semi_axes.component_mul(&self.semi_axes) * (mass / 5.0)));
+        MassProperties { mass, center: Vec3::zeros(), euler_tensor, volume }
     }
 
     /// The support function h(n) = max X·n = √(Σ a_i² n_i²) [m].
@@ -64,8 +56,6 @@ impl Ellipsoid {
 
     /// The image of evenly spread points of a sphere.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
-        directions(SILHOUETTE_POINTS)
-            .map(|point| point.component_mul(&self.semi_axes))
-            .collect()
+        directions(SILHOUETTE_POINTS).map(|point| point.component_mul(&self.semi_axes)).collect()
     }
 }

@@ -26,9 +26,7 @@ pub enum ShapeError {
         value: f64,
     },
     /// The tube of a torus closes its hole.
-    #[error(
-        "major_radius of the torus is {major} and minor_radius {minor}: major_radius must be the larger"
-    )]
+    #[error("major_radius of the torus is {major} and minor_radius {minor}: major_radius must be the larger")]
     TorusWithoutHole {
         /// Distance from the axis to the middle of the tube [m].
         major: f64,
@@ -47,9 +45,7 @@ pub enum ShapeError {
         parameter: &'static str,
     },
     /// The matrix that turns a part is no rotation.
-    #[error(
-        "rotation is not a rotation matrix: |RᵀR − 1| is {defect:e} and det R is {determinant}"
-    )]
+    #[error("rotation is not a rotation matrix: |RᵀR − 1| is {defect:e} and det R is {determinant}")]
     NotARotation {
         /// Largest entry of RᵀR − 1.
         defect: f64,
@@ -71,34 +67,14 @@ pub enum ShapeError {
 }
 
 /// Checks that a parameter is finite and > 0.
-pub(super) fn positive(
-    shape: &'static str,
-    parameter: &'static str,
-    value: f64,
-) -> Result<(), ShapeError> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(ShapeError::NotPositive {
-            shape,
-            parameter,
-            value,
-        })
-    }
+pub(super) fn positive(shape: &'static str, parameter: &'static str, value: f64) -> Result<(), ShapeError> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ShapeError::NotPositive { shape, parameter, value }) }
 }
 
 /// Checks that all components of a parameter are finite.
-pub(super) fn finite(
-    shape: &'static str,
-    parameter: &'static str,
-    components: &[f64],
-) -> Result<(), ShapeError> {
+pub(super) fn finite(shape: &'static str, parameter: &'static str, components: &[f64]) -> Result<(), ShapeError> {
     match components.iter().find(|component| !component.is_finite()) {
-        Some(&value) => Err(ShapeError::NotFinite {
-            shape,
-            parameter,
-            value,
-        }),
+        Some(&value) => Err(ShapeError::NotFinite { shape, parameter, value }),
         None => Ok(()),
     }
 }

@@ -123,10 +123,7 @@ impl Shape {
     /// The box along the axes of the shape's frame that just holds it.
     pub fn bounds(&self) -> Bounds {
         let extent = |axis: usize, sign: f64| self.extent(&Vec3::ith(axis, sign));
-        Bounds {
-            min: Vec3::from_fn(|axis, _| -extent(axis, -1.0)),
-            max: Vec3::from_fn(|axis, _| extent(axis, 1.0)),
-        }
+        Bounds { min: Vec3::from_fn(|axis, _| -extent(axis, -1.0)), max: Vec3::from_fn(|axis, _| extent(axis, 1.0)) }
     }
 
     /// The largest side of the bounding box [m], the length that tolerances refer to.

@@ -33,15 +33,13 @@ impl Outline {
     pub(super) fn add_ellipse(&mut self, center: Vec3, u: Vec3, v: Vec3) {
         let first = self.points.len();
         self.points.extend(ellipse(CIRCLE_POINTS, center, u, v));
-        self.polylines
-            .push((first..self.points.len()).chain([first]).collect());
+        self.polylines.push((first..self.points.len()).chain([first]).collect());
     }
 
     /// Adds another outline turned by `rotation` and then shifted by `offset`.
     pub fn add_transformed(&mut self, other: &Self, rotation: &Mat3, offset: &Vec3) {
         let first = self.points.len();
-        self.points
-            .extend(other.points.iter().map(|point| rotation * point + offset));
+        self.points.extend(other.points.iter().map(|point| rotation * point + offset));
         let shifted = |line: &Vec<usize>| line.iter().map(|index| index + first).collect();
         self.polylines.extend(other.polylines.iter().map(shifted));
     }

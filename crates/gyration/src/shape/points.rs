@@ -31,27 +31,17 @@ impl Points {
     /// [`ShapeError::Empty`], or [`ShapeError::Member`] with the first point that is wrong.
     pub fn validate(&self) -> Result<(), ShapeError> {
         if self.points.is_empty() {
-            return Err(ShapeError::Empty {
-                shape: "set of points",
-                parameter: "points",
-            });
+            return Err(ShapeError::Empty { shape: "set of points", parameter: "points" });
         }
-        self.points
-            .iter()
-            .enumerate()
-            .try_for_each(|(index, point)| {
-                let checked = positive("point", "mass", point.mass).and(finite(
-                    "point",
-                    "at",
-                    point.at.as_slice(),
-                ));
-                checked.map_err(|source| ShapeError::Member {
-                    shape: "set of points",
-                    member: "point",
-                    index,
-                    source: Box::new(source),
-                })
+        self.points.iter().enumerate().try_for_each(|(index, point)| {
+            let checked = positive("point", "mass", point.mass).and(finite("point", "at", point.at.as_slice()));
+            checked.map_err(|source| ShapeError::Member {
+                shape: "set of points",
+                member: "point",
+                index,
+                source: Box::new(source),
             })
+        })
     }
 
     /// Mass properties, with every point's mass multiplied by `factor`.
@@ -67,10 +57,7 @@ impl Points {
 
     /// The support function h(n) = max X_k·n [m].
     pub fn extent(&self, direction: &Vec3) -> f64 {
-        self.points
-            .iter()
-            .map(|point| point.at.dot(direction))
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.points.iter().map(|point| point.at.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// None: points do not touch.
@@ -80,10 +67,7 @@ impl Points {
 
     /// The points, without lines.
     pub fn outline(&self) -> Outline {
-        Outline {
-            points: self.points.iter().map(|point| point.at).collect(),
-            polylines: Vec::new(),
-        }
+        Outline { points: self.points.iter().map(|point| point.at).collect(), polylines: Vec::new() }
     }
 
     /// The points, thinned to the outermost if there are many.

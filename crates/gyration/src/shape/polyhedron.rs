@@ -43,9 +43,7 @@ pub enum PolyhedronError {
         value: f64,
     },
     /// A triangle refers to no vertex.
-    #[error(
-        "triangle {triangle} refers to vertex {index}, but there are {vertices} (both counted from 0)"
-    )]
+    #[error("triangle {triangle} refers to vertex {index}, but there are {vertices} (both counted from 0)")]
     NoSuchVertex {
         /// Index of the triangle.
         triangle: usize,
@@ -106,17 +104,13 @@ pub enum PolyhedronError {
 fn places(count: usize, one: &str, many: &str, first: &[Edge]) -> String {
     let listed: Vec<String> = first.iter().map(Edge::to_string).collect();
     let more = if count > first.len() { ", …" } else { "" };
-    format!(
-        "{count} {}, at {}{more}",
-        if count == 1 { one } else { many },
-        listed.join(", ")
-    )
+    format!("{count} {}, at {}{more}", if count == 1 { one } else { many }, listed.join(", "))
 }
 
-/// Volume below which a surface encloses nothing, relative to the cube of its size.
+/// Mean thickness V/A, relative to size, below which a surface encloses nothing.
 ///
-/// Rounding leaves 1e-16 of it; a plate a million times thinner than long still has 1e-6.
-const FLATNESS_TOLERANCE: f64 = 1e-13;
+/// Coordinates round to 1e-16 of the size, which moves the volume by 1e-16 size·A.
+const FLATNESS_TOLERANCE: f64 = 1e-12;
 
 impl Polyhedron {
     /// Checks that the triangles bound a volume and face outward.
@@ -126,8 +120,8 @@ impl Polyhedron {
     pub fn validate(&self) -> Result<(), PolyhedronError> {
         self.check_indices()?;
         EdgeFaults::of(self).into_result()?;
-        let (volume, size) = (self.moments().volume, self.size());
-        if volume.abs() <= FLATNESS_TOLERANCE * size.powi(3) {
+        let (volume, area, size) = (self.moments().volume, self.area(), self.size());
+        if volume.abs() <= FLATNESS_TOLERANCE * area * size {
             return Err(PolyhedronError::NoVolume { volume, size });
         }
         if volume < 0.0 {
@@ -145,11 +139,7 @@ impl Polyhedron {
         }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(&index) = corners.iter().find(|&&index| index >= vertices) {
-                return Err(PolyhedronError::NoSuchVertex {
-                    triangle,
-                    index,
-                    vertices,
-                });
+                return Err(PolyhedronError::NoSuchVertex { triangle, index, vertices });
             }
             let [a, b, c] = *corners;
             if a == b || b == c || c == a {
@@ -157,10 +147,7 @@ impl Polyhedron {
             }
         }
         if vertices < 4 || triangles < 4 {
-            return Err(PolyhedronError::TooFew {
-                vertices,
-                triangles,
-            });
+            return Err(PolyhedronError::TooFew { vertices, triangles });
         }
         Ok(())
     }
@@ -173,10 +160,7 @@ impl Polyhedron {
     /// The same surface with every triangle turned over.
     pub fn flipped(&self) -> Self {
         let triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
-        Self {
-            vertices: self.vertices.clone(),
-            triangles,
-        }
+        Self { vertices: self.vertices.clone(), triangles }
     }
 
     /// Exact mass properties for a uniform density [kg/m³].
@@ -205,28 +189,27 @@ impl Polyhedron {
                 second += signed / 20.0 * point * point.transpose();
             }
         }
-        VolumeMoments {
-            origin,
-            volume,
-            first,
-            second,
-        }
+        VolumeMoments { origin, volume, first, second }
+    }
+
+    /// The area of the surface [m²].
+    pub fn area(&self) -> f64 {
+        let twice = |triangle: &[usize; 3]| {
+            let [a, b, c] = self.corners(triangle);
+            (b - a).cross(&(c - a)).norm()
+        };
+        0.5 * self.triangles.iter().map(twice).sum::<f64>()
     }
 
     /// The largest side of the bounding box [m].
     fn size(&self) -> f64 {
         let extent = |axis: Vec3| self.extent(&axis) + self.extent(&-axis);
-        extent(Vec3::x())
-            .max(extent(Vec3::y()))
-            .max(extent(Vec3::z()))
+        extent(Vec3::x()).max(extent(Vec3::y())).max(extent(Vec3::z()))
     }
 
     /// The support function h(n) = max X·n over the vertices [m].
     pub fn extent(&self, direction: &Vec3) -> f64 {
-        self.vertices
-            .iter()
-            .map(|vertex| vertex.dot(direction))
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.vertices.iter().map(|vertex| vertex.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The sharpest feature: a vertex.

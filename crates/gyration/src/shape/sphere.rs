@@ -51,8 +51,6 @@ impl Sphere {
     }
 
     fn as_ellipsoid(&self) -> Ellipsoid {
-        Ellipsoid {
-            semi_axes: Vec3::repeat(self.radius),
-        }
+        Ellipsoid { semi_axes: Vec3::repeat(self.radius) }
     }
 }

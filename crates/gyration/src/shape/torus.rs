@@ -28,10 +28,7 @@ impl Torus {
         positive("torus", "major_radius", self.major_radius)?;
         positive("torus", "minor_radius", self.minor_radius)?;
         if self.minor_radius >= self.major_radius {
-            return Err(ShapeError::TorusWithoutHole {
-                major: self.major_radius,
-                minor: self.minor_radius,
-            });
+            return Err(ShapeError::TorusWithoutHole { major: self.major_radius, minor: self.minor_radius });
         }
         Ok(())
     }
@@ -43,12 +40,7 @@ impl Torus {
         let mass = density * volume;
         let across = major_squared / 2.0 + 3.0 / 8.0 * minor_squared;
         let spread = Vec3::new(across, across, minor_squared / 4.0);
-        MassProperties {
-            mass,
-            center: Vec3::zeros(),
-            euler_tensor: Mat3::from_diagonal(&(spread * mass)),
-            volume,
-        }
+        MassProperties { mass, center: Vec3::zeros(), euler_tensor: Mat3::from_diagonal(&(spread * mass)), volume }
     }
 
     /// The support function h(n) = max X·n = R |n_xy| + r |n| [m].
@@ -65,12 +57,7 @@ impl Torus {
     pub fn outline(&self) -> Outline {
         let mut outline = Outline::default();
         let (major, minor) = (self.major_radius, self.minor_radius);
-        for (radius, z) in [
-            (major + minor, 0.0),
-            (major - minor, 0.0),
-            (major, minor),
-            (major, -minor),
-        ] {
+        for (radius, z) in [(major + minor, 0.0), (major - minor, 0.0), (major, minor), (major, -minor)] {
             outline.add_ellipse(Vec3::z() * z, Vec3::x() * radius, Vec3::y() * radius);
         }
         for outward in circle(8, 1.0, 0.0) {
@@ -85,11 +72,7 @@ impl Torus {
         const AROUND_AXIS: usize = 44;
         let ring = |k: usize| {
             let (sine, cosine) = (TAU * (k as f64 / AROUND_TUBE as f64 - 0.5) * 0.5).sin_cos();
-            circle(
-                AROUND_AXIS,
-                self.major_radius + self.minor_radius * cosine,
-                self.minor_radius * sine,
-            )
+            circle(AROUND_AXIS, self.major_radius + self.minor_radius * cosine, self.minor_radius * sine)
         };
         (0..=AROUND_TUBE).flat_map(ring).collect()
     }

@@ -40,10 +40,7 @@ impl Union {
     /// [`ShapeError::Empty`], or [`ShapeError::Member`] with the first part that is wrong.
     pub fn validate(&self) -> Result<(), ShapeError> {
         if self.parts.is_empty() {
-            return Err(ShapeError::Empty {
-                shape: "union",
-                parameter: "parts",
-            });
+            return Err(ShapeError::Empty { shape: "union", parameter: "parts" });
         }
         self.parts.iter().enumerate().try_for_each(|(index, part)| {
             part.validate().map_err(|source| ShapeError::Member {
@@ -62,18 +59,12 @@ impl Union {
 
     /// The support function h(n) = max over the parts of a_k·n + h_k(R_kᵀn) [m].
     pub fn extent(&self, direction: &Vec3) -> f64 {
-        self.parts
-            .iter()
-            .map(|part| part.extent(direction))
-            .fold(f64::NEG_INFINITY, f64::max)
+        self.parts.iter().map(|part| part.extent(direction)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The sharpest feature of all parts.
     pub fn sharpest_feature(&self) -> Option<Feature> {
-        self.parts
-            .iter()
-            .filter_map(|part| part.shape.sharpest_feature())
-            .max()
+        self.parts.iter().filter_map(|part| part.shape.sharpest_feature()).max()
     }
 
     /// The outlines of all parts.
@@ -87,11 +78,7 @@ impl Union {
 
     /// Points of all parts; their hull is that of the whole, so draw the parts one by one where gaps between them matter.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
-        let points: Vec<Vec3> = self
-            .parts
-            .iter()
-            .flat_map(Part::silhouette_points)
-            .collect();
+        let points: Vec<Vec3> = self.parts.iter().flat_map(Part::silhouette_points).collect();
         extreme_points(&points)
     }
 }
@@ -99,9 +86,7 @@ impl Union {
 impl Part {
     /// Mass properties in the union's frame.
     pub fn mass_properties(&self) -> MassProperties {
-        self.shape
-            .mass_properties(self.density)
-            .transformed(&self.rotation, &self.offset)
+        self.shape.mass_properties(self.density).transformed(&self.rotation, &self.offset)
     }
 
     /// The support function in the union's frame [m].
@@ -111,11 +96,7 @@ impl Part {
 
     /// Points whose projected hull is the part's outline, in the union's frame.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
-        self.shape
-            .silhouette_points()
-            .iter()
-            .map(|point| self.rotation * point + self.offset)
-            .collect()
+        self.shape.silhouette_points().iter().map(|point| self.rotation * point + self.offset).collect()
     }
 
     fn validate(&self) -> Result<(), ShapeError> {
@@ -125,10 +106,7 @@ impl Part {
         let defect = (self.rotation.tr_mul(&self.rotation) - Mat3::identity()).amax();
         let determinant = self.rotation.determinant();
         if defect > ROTATION_TOLERANCE || determinant < 0.0 {
-            return Err(ShapeError::NotARotation {
-                defect,
-                determinant,
-            });
+            return Err(ShapeError::NotARotation { defect, determinant });
         }
         positive("part", "density", self.density)
     }

@@ -18,11 +18,7 @@ const OUTLINE_POINTS: usize = 2000;
 
 /// The wireframe of a surface: one line per sharp edge.
 pub(super) fn sharp_edges(surface: &Polyhedron) -> Outline {
-    let normals: Vec<Vec3> = surface
-        .triangles
-        .iter()
-        .map(|triangle| unit_normal(surface, triangle))
-        .collect();
+    let normals: Vec<Vec3> = surface.triangles.iter().map(|triangle| unit_normal(surface, triangle)).collect();
     let mut bent: Vec<(f64, [usize; 2])> = edges(&surface.triangles)
         .into_iter()
         .filter_map(|(edge, sides)| {
@@ -45,10 +41,7 @@ fn collect(surface: &Polyhedron, edges: impl Iterator<Item = [usize; 2]>) -> Out
     let mut outline = Outline::default();
     let mut drawn = vec![None; surface.vertices.len()];
     for edge in edges {
-        let new = edge
-            .iter()
-            .filter(|&&vertex| drawn[vertex].is_none())
-            .count();
+        let new = edge.iter().filter(|&&vertex| drawn[vertex].is_none()).count();
         if outline.points.len() + new > OUTLINE_POINTS {
             break;
         }
@@ -66,8 +59,5 @@ fn collect(surface: &Polyhedron, edges: impl Iterator<Item = [usize; 2]>) -> Out
 /// The unit normal of a triangle; zero if it has no area, which then counts as flat.
 fn unit_normal(surface: &Polyhedron, triangle: &[usize; 3]) -> Vec3 {
     let [a, b, c] = surface.corners(triangle);
-    (b - a)
-        .cross(&(c - a))
-        .try_normalize(0.0)
-        .unwrap_or_else(Vec3::zeros)
+    (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
