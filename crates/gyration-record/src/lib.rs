@@ -1,1 +1,41 @@
-//! Placeholder while the house is being built.
+//! Recordings on disk: named arrays with units that grow with time, written so that a crash loses little and a
+//! resumed run leaves the same bytes as an uninterrupted one. No mechanics here.
+//!
+//! A recording is a directory: a Zarr v3 group, uncompressed, that `xarray.open_zarr` opens as it is.
+//!
+//! ```text
+//! NAME.gyr/zarr.json             attributes and the metadata of every array: the commit point of the data
+//!          ARRAY/zarr.json       the same metadata again, for readers that do not consolidate
+//!          ARRAY/c.K.0…          rows K·C to (K+1)·C − 1, little-endian f64, padded with NaN; C = chunk_rows
+//!          state/checkpoint      what a resumed run starts from, with the number of rows it belongs to; written last
+//!          state/lock            held by the one process that writes
+//! ```
+//!
+//! [`Writer`] appends, [`Recording`] reads with bounded memory, [`export`] turns a recording into CSV or NPZ.
+//! The crate zarrs would do the Zarr part and more, but takes longer to compile (70 s) than all the rest of this crate.
+
+#![forbid(unsafe_code)]
+
+mod checkpoint;
+mod disk;
+mod error;
+pub mod export;
+mod layout;
+mod metadata;
+mod recording;
+mod stream;
+mod writer;
+mod zarr;
+
+#[cfg(test)]
+mod crash_tests;
+
+pub use disk::remove;
+pub use error::RecordError;
+pub use layout::{ArraySpec, Dimension, FixedArray, Layout, chunk_rows_for};
+pub use metadata::ArrayInfo;
+pub use recording::{Array, Recording};
+pub use writer::{Event, Resumed, Writer};
+
+/// Attributes of a recording: what JSON can hold.
+pub type Attributes = serde_json::Map<String, serde_json::Value>;

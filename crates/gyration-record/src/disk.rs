@@ -1,0 +1,226 @@
+//! The few file operations that writing a recording takes, each with the path in its error.
+//!
+//! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old or
+//! the new one at any moment. Tests cut the power before any of these operations.
+
+use crate::error::RecordError;
+use crate::metadata::Group;
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The metadata of the group, and of each array.
+pub(crate) const METADATA: &str = "zarr.json";
+/// The directory of checkpoint and lock.
+pub(crate) const STATE: &str = "state";
+/// The file of the checkpoint.
+pub(crate) const CHECKPOINT: &str = "state/checkpoint";
+/// The file that the writing process locks.
+const LOCK: &str = "state/lock";
+/// Ending of a file that is not yet in its place.
+const PART: &str = ".part";
+
+/// Access to the disk.
+#[derive(Debug, Default)]
+pub(crate) struct Disk {
+    #[cfg(test)]
+    pub(crate) fuse: Option<crate::crash_tests::Fuse>,
+}
+
+impl Disk {
+    /// Creates a directory; its parent exists.
+    pub(crate) fn create_dir(&self, path: &Path) -> Result<(), RecordError> {
+        self.step(path)?;
+        fs::create_dir(path).map_err(RecordError::io("create the directory", path))
+    }
+
+    /// Renames a file or directory.
+    pub(crate) fn rename(&self, from: &Path, to: &Path) -> Result<(), RecordError> {
+        self.step(to)?;
+        fs::rename(from, to).map_err(RecordError::io("put in place", to))
+    }
+
+    /// Removes a file.
+    pub(crate) fn remove_file(&self, path: &Path) -> Result<(), RecordError> {
+        self.step(path)?;
+        fs::remove_file(path).map_err(RecordError::io("remove", path))
+    }
+
+    /// Brings the names in a directory to the disk (where the system can: not on Windows).
+    pub(crate) fn sync_dir(&self, path: &Path) -> Result<(), RecordError> {
+        self.step(path)?;
+        if !cfg!(unix) || self.is_test() {
+            return Ok(());
+        }
+        File::open(path).and_then(|dir| dir.sync_all()).map_err(RecordError::io("bring to the disk", path))
+    }
+
+    /// Replaces files and brings them to the disk, with their names: all contents first, then all names.
+    pub(crate) fn replace(&self, files: &[(PathBuf, &[u8])]) -> Result<(), RecordError> {
+        self.put_in_place(files, true)?;
+        let mut parents = files.iter().filter_map(|(path, _)| path.parent()).collect::<Vec<_>>();
+        parents.sort_unstable();
+        parents.dedup();
+        parents.iter().try_for_each(|dir| self.sync_dir(dir))
+    }
+
+    /// Replaces files without waiting for the disk: safe when the process dies, not when the power fails.
+    pub(crate) fn replace_lazily(&self, files: &[(PathBuf, &[u8])]) -> Result<(), RecordError> {
+        self.put_in_place(files, false)
+    }
+
+    fn put_in_place(&self, files: &[(PathBuf, &[u8])], sync: bool) -> Result<(), RecordError> {
+        let mut open = Vec::with_capacity(files.len());
+        for (path, bytes) in files {
+            let part = part_of(path);
+            let file = self.write(&part, bytes)?;
+            open.push((file, part, path));
+        }
+        for (file, part, path) in open.iter().filter(|_| sync) {
+            self.step(path)?;
+            if !self.is_test() {
+                file.sync_all().map_err(RecordError::io("bring to the disk", part))?;
+            }
+        }
+        open.iter().try_for_each(|(_, part, path)| self.rename(part, path))
+    }
+
+    fn write(&self, path: &Path, bytes: &[u8]) -> Result<File, RecordError> {
+        use io::Write;
+        let file = self.step(path).and_then(|()| File::create(path).map_err(RecordError::io("create", path)));
+        let mut file = file?;
+        let half = bytes.len() / 2;
+        let mut put = |bytes| file.write_all(bytes).map_err(RecordError::io("write", path));
+        put(&bytes[..half])?;
+        self.step(path)?;
+        put(&bytes[half..])?;
+        Ok(file)
+    }
+
+    /// In tests, the moment at which the power may fail.
+    #[cfg(test)]
+    fn step(&self, path: &Path) -> Result<(), RecordError> {
+        match &self.fuse {
+            Some(fuse) if fuse.blows() => Err(RecordError::io("reach", path)(io::Error::other("the power failed"))),
+            _ => Ok(()),
+        }
+    }
+
+    #[cfg(not(test))]
+    fn step(&self, _path: &Path) -> Result<(), RecordError> {
+        Ok(())
+    }
+
+    /// Unit tests do not wait for the disk: thousands of simulated crashes would take minutes.
+    fn is_test(&self) -> bool {
+        cfg!(test)
+    }
+}
+
+/// The file or directory beside `path` that becomes it.
+pub(crate) fn part_of(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_os_string();
+    name.push(PART);
+    PathBuf::from(name)
+}
+
+/// Whether a file was left on its way to its place.
+pub(crate) fn is_part(name: &OsString) -> bool {
+    name.to_string_lossy().ends_with(PART)
+}
+
+/// Names in a directory, sorted.
+pub(crate) fn list(path: &Path) -> Result<Vec<OsString>, RecordError> {
+    let names = fs::read_dir(path).and_then(|dir| dir.map(|entry| Ok(entry?.file_name())).collect());
+    let mut names: Vec<OsString> = names.map_err(RecordError::io("list", path))?;
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// Reads a whole file.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, RecordError> {
+    fs::read(path).map_err(RecordError::io("read", path))
+}
+
+/// The metadata of the recording at `path`.
+///
+/// # Errors
+/// `Missing`, `NotARecording`, `Version`, `Io`.
+pub(crate) fn read_group(path: &Path) -> Result<Group, RecordError> {
+    let not = |reason: &str| RecordError::NotARecording { path: path.to_path_buf(), reason: reason.into() };
+    let kind = fs::metadata(path).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound => RecordError::Missing { path: path.to_path_buf() },
+        _ => RecordError::io("read", path)(source),
+    })?;
+    let file = path.join(METADATA);
+    match fs::read(&file) {
+        Ok(bytes) => Group::from_json(path, &bytes),
+        Err(_) if !kind.is_dir() => Err(not("it is a file, not a directory")),
+        Err(e) if e.kind() == io::ErrorKind::NotFound => Err(not("it holds no zarr.json")),
+        Err(e) => Err(RecordError::io("read", &file)(e)),
+    }
+}
+
+/// Locks the recording in the directory `work` for this process until the file returned is dropped.
+///
+/// # Errors
+/// `Locked` if another process holds it, with `path` as its name.
+pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
+    let name = work.join(LOCK);
+    // The lock must not touch what is in the file: it belongs to another process as long as that one holds it.
+    let opened = OpenOptions::new().read(true).append(true).create(true).open(&name);
+    let file = opened.map_err(RecordError::io("open", &name))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(RecordError::Locked { path: path.to_path_buf() }),
+        Err(TryLockError::Error(e)) => Err(RecordError::io("lock", &name)(e)),
+    }
+}
+
+/// Removes a recording, whole; anything else stays and is an error.
+///
+/// It first moves aside to `NAME.gyr.part`, so that a crash leaves no half recording behind.
+///
+/// # Errors
+/// `Missing`, `NotARecording`, `Version`, `Locked` if a process is writing it, `Io`.
+pub fn remove(path: &Path) -> Result<(), RecordError> {
+    if path.is_symlink() {
+        let reason = "it is a link; remove what it points to".into();
+        return Err(RecordError::NotARecording { path: path.to_path_buf(), reason });
+    }
+    read_group(path)?;
+    let _lock = lock(path, path)?;
+    let aside = part_of(path);
+    discard(&aside, path)?;
+    fs::rename(path, &aside).map_err(RecordError::io("move aside", path))?;
+    remove_aside(&aside)
+}
+
+/// Removes what a crash left of a recording that was being created or removed.
+///
+/// # Errors
+/// `Locked` if a process is creating it, `NotARecording` if this is something else, `Io`.
+pub(crate) fn discard(aside: &Path, path: &Path) -> Result<(), RecordError> {
+    if !aside.is_dir() {
+        return Ok(());
+    }
+    let names = list(aside)?;
+    if !names.is_empty() && !names.iter().any(|name| name == STATE) {
+        let reason = "a directory of this name is in the way".into();
+        return Err(RecordError::NotARecording { path: aside.to_path_buf(), reason });
+    }
+    let _lock = if aside.join(STATE).is_dir() { Some(lock(aside, path)?) } else { None };
+    remove_aside(aside)
+}
+
+/// The state goes last: as long as anything is there, it tells that this was a recording.
+fn remove_aside(aside: &Path) -> Result<(), RecordError> {
+    for name in list(aside)?.iter().filter(|name| *name != STATE) {
+        let path = aside.join(name);
+        let removed =
+            if path.is_dir() && !path.is_symlink() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        removed.map_err(RecordError::io("remove", &path))?;
+    }
+    fs::remove_dir_all(aside).map_err(RecordError::io("remove", aside))
+}

@@ -1,0 +1,243 @@
+//! The Zarr v3 metadata of a recording: which arrays there are, how long they are, and the attributes.
+//!
+//! The group's `zarr.json` holds the attributes and, as consolidated metadata, those of every array; it is replaced as
+//! one file, so that a reader sees all arrays at one length. What this crate needs beside Zarr stands in the
+//! group's attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row) and
+//! `record_columns` (`NAME = ARRAY[INDEX]`, in the order of the CSV). Keys are written in a fixed order.
+
+use crate::Attributes;
+use crate::error::RecordError;
+use crate::layout::{ArraySpec, Layout};
+use crate::zarr::{Marker, ZarrGroup, group_json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// The version of the format that this crate writes and reads.
+pub(crate) const FORMAT: u64 = 1;
+/// Rows in a chunk of the events.
+const EVENT_CHUNK_ROWS: usize = 256;
+
+/// How the numbers of an array are stored, by Zarr's names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum DataType {
+    Float64,
+    Int32,
+    String,
+}
+
+impl DataType {
+    /// Bytes of one element; texts have no fixed size.
+    pub(crate) fn size(self) -> usize {
+        match self {
+            DataType::Float64 => 8,
+            DataType::Int32 => 4,
+            DataType::String => 0,
+        }
+    }
+
+    /// The value of an element that was never written.
+    pub(crate) fn fill(self) -> Value {
+        match self {
+            DataType::Float64 => "NaN".into(),
+            DataType::Int32 => (-1).into(),
+            DataType::String => "".into(),
+        }
+    }
+
+    /// The bytes of that value.
+    pub(crate) fn fill_bytes(self) -> Vec<u8> {
+        match self {
+            DataType::Float64 => f64::NAN.to_le_bytes().to_vec(),
+            DataType::Int32 => (-1_i32).to_le_bytes().to_vec(),
+            DataType::String => Vec::new(),
+        }
+    }
+}
+
+/// An array of a recording as it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArrayInfo {
+    /// Name.
+    pub name: String,
+    /// Names of the dimensions; the first of a growing array is `time` or `event`.
+    pub dims: Vec<String>,
+    /// Sizes of the dimensions.
+    pub shape: Vec<usize>,
+    /// Unit; empty for labels and codes.
+    pub units: String,
+    /// One line that says what it is.
+    pub description: String,
+    /// Names of the values 0, 1, … of an array of codes.
+    pub meanings: Vec<String>,
+    pub(crate) chunk: Vec<usize>,
+    pub(crate) data_type: DataType,
+}
+
+impl ArrayInfo {
+    /// Numbers in a row: the product of the sizes but the first.
+    pub fn row_len(&self) -> usize {
+        self.shape.iter().skip(1).product()
+    }
+
+    /// The file of the chunk that stands at `index` along the first dimension.
+    pub(crate) fn chunk_key(&self, index: usize) -> String {
+        let rest = self.shape.iter().skip(1).map(|_| ".0");
+        let first = if self.shape.is_empty() { String::new() } else { format!(".{index}") };
+        format!("c{first}{}", rest.collect::<String>())
+    }
+
+    /// Whether the array grows along this dimension.
+    pub(crate) fn grows_with(&self, dim: &str) -> bool {
+        self.dims.first().is_some_and(|first| first == dim)
+    }
+
+    fn of(spec: &ArraySpec, grows: Option<(&str, usize)>) -> Self {
+        let sizes = || spec.dims.iter().map(|dim| dim.size);
+        Self {
+            name: spec.name.clone(),
+            dims: grows
+                .iter()
+                .map(|(dim, _)| dim.to_string())
+                .chain(spec.dims.iter().map(|d| d.name.clone()))
+                .collect(),
+            shape: grows.iter().map(|_| 0).chain(sizes()).collect(),
+            chunk: grows.iter().map(|(_, rows)| *rows).chain(sizes()).collect(),
+            units: spec.units.clone(),
+            description: spec.description.clone(),
+            meanings: Vec::new(),
+            data_type: DataType::Float64,
+        }
+    }
+
+    fn growing(name: &str, dim: &str, rows: usize, units: &str, description: &str) -> Self {
+        let [name, units, description] = [name, units, description].map(String::from);
+        Self::of(&ArraySpec { name, units, description, ..ArraySpec::default() }, Some((dim, rows)))
+    }
+
+    fn labels(dim: &str, count: usize) -> Self {
+        let (names, sizes) = (vec![dim.to_string()], vec![count]);
+        Self {
+            dims: names,
+            shape: sizes.clone(),
+            chunk: sizes,
+            data_type: DataType::String,
+            ..Self::of(&ArraySpec { name: dim.to_string(), ..ArraySpec::default() }, None)
+        }
+    }
+}
+
+/// The whole metadata of a recording.
+#[derive(Debug, Clone)]
+pub(crate) struct Group {
+    pub(crate) attributes: Attributes,
+    /// The growing arrays in the order of a row, `time` first; the events; the fixed arrays and labels.
+    pub(crate) arrays: Vec<ArrayInfo>,
+}
+
+impl Group {
+    /// The metadata of a new recording.
+    pub(crate) fn new(layout: &Layout, mut attributes: Attributes) -> Result<Self, RecordError> {
+        check_attributes(&attributes)?;
+        let text = |(name, array, index): &(String, String, usize)| Value::from(format!("{name} = {array}[{index}]"));
+        let columns = layout.columns()?.iter().map(text).collect::<Vec<_>>();
+        let mut arrays = vec![ArrayInfo::growing("time", "time", layout.chunk_rows, "s", "time")];
+        arrays.extend(layout.arrays.iter().map(|spec| ArrayInfo::of(spec, Some(("time", layout.chunk_rows)))));
+        if !layout.event_kinds.is_empty() {
+            let event =
+                |name, units, description| ArrayInfo::growing(name, "event", EVENT_CHUNK_ROWS, units, description);
+            let code = |array| ArrayInfo { data_type: DataType::Int32, ..array };
+            arrays.push(event("event_time", "s", "time of the event"));
+            arrays.push(ArrayInfo {
+                meanings: layout.event_kinds.clone(),
+                ..code(event("event_kind", "", "kind of the event"))
+            });
+            arrays.push(code(event("event_body", "", "index of the body, -1 for none")));
+        }
+        let order = arrays.iter().map(|array| Value::from(array.name.clone())).collect::<Vec<_>>();
+        arrays.extend(layout.fixed.iter().map(|fixed| ArrayInfo::of(&fixed.spec, None)));
+        arrays.extend(layout.labels.iter().map(|(dim, labels)| ArrayInfo::labels(dim, labels.len())));
+        attributes.insert("record_format".into(), FORMAT.into());
+        attributes.insert("record_arrays".into(), order.into());
+        attributes.insert("record_columns".into(), columns.into());
+        Ok(Self { attributes, arrays })
+    }
+
+    /// Rows along `time` or `event`; none if nothing grows along it.
+    pub(crate) fn rows(&self, dim: &str) -> Option<usize> {
+        self.arrays.iter().find(|array| array.grows_with(dim)).map(|array| array.shape[0])
+    }
+
+    /// Sets the rows along `time` or `event`.
+    pub(crate) fn set_rows(&mut self, dim: &str, rows: usize) {
+        for array in self.arrays.iter_mut().filter(|array| array.grows_with(dim)) {
+            array.shape[0] = rows;
+        }
+    }
+
+    /// The group's `zarr.json`.
+    pub(crate) fn to_json(&self) -> Vec<u8> {
+        group_json(&self.attributes, &self.arrays)
+    }
+
+    /// Reads the group's `zarr.json`.
+    pub(crate) fn from_json(path: &Path, bytes: &[u8]) -> Result<Self, RecordError> {
+        let no = |reason: String| RecordError::NotARecording { path: path.to_path_buf(), reason };
+        // Attributes first: another format may differ in all the rest.
+        let marker: Marker = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
+        match marker.attributes.get("record_format").and_then(Value::as_u64) {
+            None => return Err(no("zarr.json has no attribute `record_format`".into())),
+            Some(FORMAT) => {}
+            Some(found) => return Err(RecordError::Version { path: path.to_path_buf(), found, supported: FORMAT }),
+        }
+        let group: ZarrGroup = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
+        let mut found = group.consolidated_metadata.map(|c| c.metadata).unwrap_or_default();
+        let order = marker.attributes.get("record_arrays").and_then(Value::as_array);
+        let ordered = order.into_iter().flatten().filter_map(Value::as_str).map(String::from);
+        let names = ordered.collect::<Vec<_>>();
+        let mut arrays = Vec::new();
+        for name in names {
+            let array = found.remove(&name).ok_or_else(|| no(format!("zarr.json lacks the array `{name}`")))?;
+            arrays.push(array.info(name).map_err(no)?);
+        }
+        for (name, array) in found {
+            arrays.push(array.info(name).map_err(no)?);
+        }
+        if arrays.first().is_none_or(|array| !array.grows_with("time")) {
+            return Err(no("zarr.json does not begin with the array `time`".into()));
+        }
+        Ok(Self { attributes: marker.attributes, arrays })
+    }
+
+    /// The CSV columns: name, array, place in a row.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = (&str, &str, usize)> {
+        let texts = self.attributes.get("record_columns").and_then(Value::as_array).into_iter().flatten();
+        texts.filter_map(Value::as_str).filter_map(|text| {
+            let (name, place) = text.split_once(" = ")?;
+            let (array, index) = place.strip_suffix(']')?.split_once('[')?;
+            Some((name, array, index.parse().ok()?))
+        })
+    }
+
+    /// Sets attributes; a null removes one.
+    pub(crate) fn patch(&mut self, patch: Attributes) -> Result<(), RecordError> {
+        check_attributes(&patch)?;
+        for (name, value) in patch {
+            if value.is_null() {
+                self.attributes.remove(&name);
+            } else {
+                self.attributes.insert(name, value);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Refuses the names that this crate uses itself.
+fn check_attributes(attributes: &Attributes) -> Result<(), RecordError> {
+    match attributes.keys().find(|name| name.starts_with("record_")) {
+        Some(name) => Err(RecordError::layout(format!("the attribute `{name}` has a reserved name"))),
+        None => Ok(()),
+    }
+}

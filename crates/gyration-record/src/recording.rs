@@ -1,0 +1,219 @@
+//! Reading a recording, finished or not: its attributes, its arrays whole or by rows, its columns and events.
+//!
+//! What is read is what stood there when it was opened: rows that a writer adds later are not seen. A range of rows is
+//! read without the rest, so that long runs pass through bounded memory.
+
+use crate::Attributes;
+use crate::disk;
+use crate::error::RecordError;
+use crate::metadata::{ArrayInfo, DataType, Group};
+use crate::writer::Event;
+use crate::zarr;
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// An open recording.
+#[derive(Debug, Clone)]
+pub struct Recording {
+    path: PathBuf,
+    group: Group,
+}
+
+/// Numbers with their shape, last dimension fastest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Array {
+    /// Sizes of the dimensions.
+    pub shape: Vec<usize>,
+    /// The numbers.
+    pub data: Vec<f64>,
+}
+
+impl Recording {
+    /// Opens a recording.
+    ///
+    /// # Errors
+    /// `Missing`, `NotARecording`, `Version`, `Io`.
+    pub fn open(path: &Path) -> Result<Self, RecordError> {
+        Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)? })
+    }
+
+    /// The recording's path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The attributes, with this crate's own (`record_…`).
+    pub fn attributes(&self) -> &Attributes {
+        &self.group.attributes
+    }
+
+    /// All arrays: the growing ones in the order of a row, `time` first, then events, fixed arrays and labels.
+    pub fn arrays(&self) -> &[ArrayInfo] {
+        &self.group.arrays
+    }
+
+    /// The array of this name.
+    ///
+    /// # Errors
+    /// `NoSuchArray`.
+    pub fn array(&self, name: &str) -> Result<&ArrayInfo, RecordError> {
+        let found = self.arrays().iter().find(|array| array.name == name);
+        found.ok_or_else(|| RecordError::NoSuchArray { name: name.into() })
+    }
+
+    /// Number of samples.
+    pub fn rows(&self) -> usize {
+        self.group.rows("time").unwrap_or(0)
+    }
+
+    /// Rows of a chunk: ranges that begin at its multiples are read fastest.
+    pub fn chunk_rows(&self) -> usize {
+        self.arrays().first().and_then(|time| time.chunk.first()).map_or(1, |rows| *rows)
+    }
+
+    /// The ranges of rows that cover the recording chunk by chunk.
+    pub fn chunks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (rows, step) = (self.rows(), self.chunk_rows());
+        (0..rows).step_by(step).map(move |from| from..rows.min(from + step))
+    }
+
+    /// Times of the samples [s].
+    ///
+    /// # Errors
+    /// Those of [`read`](Recording::read).
+    pub fn times(&self) -> Result<Vec<f64>, RecordError> {
+        Ok(self.read("time")?.data)
+    }
+
+    /// Reads a whole array.
+    ///
+    /// # Errors
+    /// `NoSuchArray` (labels are read by [`labels`](Recording::labels)); `Truncated`, `Io`.
+    pub fn read(&self, name: &str) -> Result<Array, RecordError> {
+        let rows = self.array(name)?.shape.first().map_or(1, |rows| *rows);
+        self.read_rows(name, 0..rows)
+    }
+
+    /// Reads rows of an array: places along its first dimension.
+    ///
+    /// # Errors
+    /// `NoSuchArray`, `NoSuchRows`, `Truncated`, `Io`.
+    pub fn read_rows(&self, name: &str, rows: Range<usize>) -> Result<Array, RecordError> {
+        let array = self.array(name)?;
+        let bytes = self.read_bytes(array, rows.clone())?;
+        let data = match array.data_type {
+            DataType::Float64 => bytes.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b)).collect(),
+            DataType::Int32 => bytes.as_chunks().0.iter().map(|b| f64::from(i32::from_le_bytes(*b))).collect(),
+            DataType::String => return Err(RecordError::NoSuchArray { name: name.into() }),
+        };
+        let first = array.shape.first().map(|_| rows.len());
+        let shape = first.into_iter().chain(array.shape.iter().skip(1).copied()).collect();
+        Ok(Array { shape, data })
+    }
+
+    /// Names of the columns in the order of the CSV, which puts `t` before them.
+    pub fn columns(&self) -> impl Iterator<Item = &str> {
+        self.group.columns().map(|(name, _, _)| name)
+    }
+
+    /// Reads a column: one component of an array, such as `die.x`, or `t`.
+    ///
+    /// # Errors
+    /// `NoSuchColumn`; those of [`read_rows`](Recording::read_rows).
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, RecordError> {
+        let found = self.group.columns().find(|(column, _, _)| *column == name);
+        let (_, array, index) = match found {
+            Some(place) => place,
+            None if name == "t" => ("t", "time", 0),
+            None => return Err(RecordError::NoSuchColumn { name: name.into() }),
+        };
+        let stride = self.array(array)?.row_len();
+        let mut column = Vec::with_capacity(self.rows());
+        for rows in self.chunks() {
+            let part = self.read_rows(array, rows)?;
+            column.extend(part.data.iter().skip(index).step_by(stride));
+        }
+        Ok(column)
+    }
+
+    /// Labels of a dimension, if it has any.
+    ///
+    /// # Errors
+    /// `Corrupt`, `Io`.
+    pub fn labels(&self, dim: &str) -> Result<Option<Vec<String>>, RecordError> {
+        let labelled = |array: &&ArrayInfo| array.name == dim && array.data_type == DataType::String;
+        let Some(array) = self.arrays().iter().find(labelled) else {
+            return Ok(None);
+        };
+        let file = self.path.join(dim).join(array.chunk_key(0));
+        let labels = zarr::decode_labels(&disk::read(&file)?).filter(|labels| labels.len() == array.shape[0]);
+        labels.map(Some).ok_or_else(|| RecordError::corrupt(&file, "the labels cannot be read"))
+    }
+
+    /// Names of the kinds of events, by code.
+    pub fn event_kinds(&self) -> &[String] {
+        self.array("event_kind").map_or(&[], |array| &array.meanings)
+    }
+
+    /// All events.
+    ///
+    /// # Errors
+    /// `Truncated`, `Io`.
+    pub fn events(&self) -> Result<Vec<Event>, RecordError> {
+        if self.group.rows("event").is_none() {
+            return Ok(Vec::new());
+        }
+        let [times, kinds, bodies] = ["event_time", "event_kind", "event_body"].map(|name| self.read(name));
+        let (kinds, bodies) = (kinds?.data, bodies?.data);
+        // The codes were indices: whole numbers from -1 (none) up.
+        let event = |(time, (kind, body)): (f64, (f64, f64))| Event {
+            time,
+            kind: kind as usize,
+            body: (body >= 0.0).then_some(body as usize),
+        };
+        Ok(times?.data.into_iter().zip(kinds.into_iter().zip(bodies)).map(event).collect())
+    }
+
+    /// Name, array and place in its row of each column.
+    pub(crate) fn group_columns(&self) -> impl Iterator<Item = (&str, &str, usize)> {
+        self.group.columns()
+    }
+
+    /// The bytes of rows of an array, in the array's own type.
+    pub(crate) fn read_bytes(&self, array: &ArrayInfo, rows: Range<usize>) -> Result<Vec<u8>, RecordError> {
+        let (count, chunk_rows) = match (array.shape.first(), array.chunk.first()) {
+            (Some(count), Some(chunk_rows)) => (*count, *chunk_rows),
+            _ => (1, 1),
+        };
+        if rows.start > rows.end || rows.end > count {
+            return Err(RecordError::NoSuchRows { from: rows.start, to: rows.end, rows: count });
+        }
+        let row_bytes = array.row_len() * array.data_type.size();
+        let mut bytes = Vec::new();
+        let mut from = rows.start;
+        while from < rows.end {
+            let index = from / chunk_rows;
+            let to = rows.end.min((index + 1) * chunk_rows);
+            let file = self.path.join(&array.name).join(array.chunk_key(index));
+            let first = from - index * chunk_rows;
+            read_part(&file, chunk_rows * row_bytes, first * row_bytes, (to - from) * row_bytes, &mut bytes)?;
+            from = to;
+        }
+        Ok(bytes)
+    }
+}
+
+/// Appends `length` bytes from `offset` on of a file that must be `size` long.
+fn read_part(path: &Path, size: usize, offset: usize, length: usize, into: &mut Vec<u8>) -> Result<(), RecordError> {
+    let mut file = File::open(path).map_err(RecordError::io("open", path))?;
+    let found = file.metadata().map_err(RecordError::io("read", path))?.len();
+    if found != size as u64 {
+        return Err(RecordError::Truncated { path: path.to_path_buf(), expected: size as u64, found });
+    }
+    let start = into.len();
+    into.resize(start + length, 0);
+    file.seek(SeekFrom::Start(offset as u64)).map_err(RecordError::io("read", path))?;
+    file.read_exact(&mut into[start..]).map_err(RecordError::io("read", path))
+}

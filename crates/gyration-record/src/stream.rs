@@ -1,0 +1,124 @@
+//! Arrays that grow together, row by row, and the chunk they are at.
+//!
+//! Row r stands in chunk ⌊r/C⌋ whatever was flushed when, and a chunk file always has room for C rows, the missing ones
+//! filled. So the files depend on the rows alone. Only the chunk under way is in memory.
+
+use crate::disk::{self, Disk};
+use crate::error::RecordError;
+use crate::metadata::ArrayInfo;
+use std::path::{Path, PathBuf};
+
+/// Arrays that grow together along one dimension.
+#[derive(Debug)]
+pub(crate) struct Stream {
+    /// `time` or `event`.
+    pub(crate) dim: &'static str,
+    pub(crate) rows: usize,
+    chunk_rows: usize,
+    parts: Vec<Part>,
+    /// Whether the chunk under way differs from its files.
+    dirty: bool,
+}
+
+/// One of the arrays: the chunk under way, with fill where no row is yet.
+#[derive(Debug)]
+struct Part {
+    info: ArrayInfo,
+    row_bytes: usize,
+    chunk: Vec<u8>,
+}
+
+impl Part {
+    fn clear_from(&mut self, row: usize) {
+        let fill = self.info.data_type.fill_bytes();
+        for slot in self.chunk[row * self.row_bytes..].chunks_exact_mut(fill.len()) {
+            slot.copy_from_slice(&fill);
+        }
+    }
+
+    fn path(&self, directory: &Path, index: usize) -> PathBuf {
+        directory.join(&self.info.name).join(self.info.chunk_key(index))
+    }
+}
+
+impl Stream {
+    /// The growing arrays of this dimension, empty; none if there are none.
+    pub(crate) fn new(dim: &'static str, arrays: &[ArrayInfo]) -> Option<Self> {
+        let growing = arrays.iter().filter(|array| array.grows_with(dim));
+        let parts = growing.map(|info| {
+            let row_bytes = info.row_len() * info.data_type.size();
+            let mut part = Part { info: info.clone(), row_bytes, chunk: vec![0; info.chunk[0] * row_bytes] };
+            part.clear_from(0);
+            part
+        });
+        let parts = parts.collect::<Vec<_>>();
+        let chunk_rows = parts.first()?.info.chunk[0];
+        Some(Self { dim, rows: 0, chunk_rows, parts, dirty: false })
+    }
+
+    /// Appends a row: the bytes of all arrays, one after the other. A chunk that is full goes to the disk.
+    pub(crate) fn push(&mut self, mut row: &[u8], disk: &Disk, directory: &Path) -> Result<(), RecordError> {
+        let at = self.rows % self.chunk_rows;
+        for part in &mut self.parts {
+            let (own, rest) = row.split_at(part.row_bytes);
+            part.chunk[at * part.row_bytes..][..part.row_bytes].copy_from_slice(own);
+            row = rest;
+        }
+        self.rows += 1;
+        self.dirty = true;
+        if self.rows.is_multiple_of(self.chunk_rows) {
+            self.store_chunk(self.rows / self.chunk_rows - 1, disk, directory)?;
+            self.parts.iter_mut().for_each(|part| part.clear_from(0));
+        }
+        Ok(())
+    }
+
+    /// Brings the chunk under way to the disk.
+    pub(crate) fn store(&mut self, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
+        if self.dirty {
+            self.store_chunk(self.rows / self.chunk_rows, disk, directory)?;
+        }
+        Ok(())
+    }
+
+    fn store_chunk(&mut self, index: usize, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
+        let files = self.parts.iter().map(|part| (part.path(directory, index), part.chunk.as_slice()));
+        disk.replace(&files.collect::<Vec<_>>())?;
+        self.dirty = false;
+        Ok(())
+    }
+
+    /// Goes back to the first `rows` rows: reads the chunk under way, removes the files beyond it.
+    pub(crate) fn cut(&mut self, rows: usize, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
+        self.rows = rows;
+        let (index, kept) = (rows / self.chunk_rows, rows % self.chunk_rows);
+        for part in &mut self.parts {
+            if kept > 0 {
+                let path = part.path(directory, index);
+                let bytes = disk::read(&path)?;
+                if bytes.len() != part.chunk.len() {
+                    let (expected, found) = (part.chunk.len() as u64, bytes.len() as u64);
+                    return Err(RecordError::Truncated { path, expected, found });
+                }
+                part.chunk = bytes;
+                part.clear_from(kept);
+                self.dirty = true;
+            }
+            let stored = index + usize::from(kept > 0);
+            remove_beyond(stored, &directory.join(&part.info.name), disk)?;
+        }
+        Ok(())
+    }
+}
+
+/// Removes the chunks of an array from the one numbered `stored` on, and files that never reached their place.
+fn remove_beyond(stored: usize, array: &Path, disk: &Disk) -> Result<(), RecordError> {
+    for name in disk::list(array)? {
+        let text = name.to_string_lossy();
+        let number = text.strip_prefix("c.").and_then(|rest| rest.split('.').next()?.parse::<usize>().ok());
+        if number.is_some_and(|number| number >= stored) || disk::is_part(&name) {
+            disk.remove_file(&array.join(&name))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,306 @@
+//! Writing a recording: create, append, flush, finish; resume.
+//!
+//! A flush writes, each step on the disk before the next: 1. the chunks under way, 2. the metadata with the new
+//! lengths, 3. the checkpoint with the number of rows it belongs to. So whatever the moment of a crash, the metadata never
+//! count a row that is not there, and the checkpoint never one that the metadata do not count. To resume is to cut
+//! back to the checkpoint's rows and to go on. A new recording grows as `NAME.gyr.part` and gets its name at the first
+//! flush: a recording that exists has its scene, its first row and a checkpoint. No clock is read here.
+
+use crate::Attributes;
+use crate::checkpoint::Checkpoint;
+use crate::disk::{self, CHECKPOINT, Disk, METADATA, STATE};
+use crate::error::RecordError;
+use crate::layout::Layout;
+use crate::metadata::{ArrayInfo, Group};
+use crate::stream::Stream;
+use crate::zarr;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+/// Something that happened between two samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// When [s].
+    pub time: f64,
+    /// What: an index into [`Layout::event_kinds`].
+    pub kind: usize,
+    /// The index of the body concerned, if one is.
+    pub body: Option<usize>,
+}
+
+/// The one writer of a recording.
+#[derive(Debug)]
+pub struct Writer {
+    /// The recording's name.
+    path: PathBuf,
+    /// Where it is: its name, or beside it before the first flush.
+    directory: PathBuf,
+    disk: Disk,
+    group: Group,
+    samples: Stream,
+    events: Option<Stream>,
+    row_len: usize,
+    /// Bytes of the row being appended.
+    row: Vec<u8>,
+    /// Whether the metadata on disk are behind `group`.
+    stale: bool,
+    /// An operation failed: what is in memory no longer says what is on disk.
+    failed: bool,
+    /// Held as long as the writer lives, and no longer than the process.
+    _lock: File,
+}
+
+/// What [`Writer::resume`] finds.
+#[derive(Debug)]
+pub struct Resumed {
+    /// The writer, to go on after the rows that belong to the checkpoint.
+    pub writer: Writer,
+    /// The caller's bytes of the last checkpoint.
+    pub checkpoint: Vec<u8>,
+    /// Attributes of the recording.
+    pub attributes: Attributes,
+}
+
+impl Writer {
+    /// Creates a recording. It appears under its name at the first [`flush`](Writer::flush).
+    ///
+    /// # Errors
+    /// `AlreadyExists`; `Locked` if another process is creating it; `Layout`; `Io`.
+    pub fn create(path: &Path, layout: &Layout, attributes: Attributes) -> Result<Self, RecordError> {
+        Self::create_on(Disk::default(), path, layout, attributes)
+    }
+
+    pub(crate) fn create_on(
+        disk: Disk,
+        path: &Path,
+        layout: &Layout,
+        attributes: Attributes,
+    ) -> Result<Self, RecordError> {
+        layout.check()?;
+        let group = Group::new(layout, attributes)?;
+        if path.symlink_metadata().is_ok() {
+            return Err(RecordError::AlreadyExists { path: path.to_path_buf() });
+        }
+        let directory = disk::part_of(path);
+        disk::discard(&directory, path)?;
+        disk.create_dir(&directory)?;
+        disk.create_dir(&directory.join(STATE))?;
+        let lock = disk::lock(&directory, path)?;
+        for array in &group.arrays {
+            disk.create_dir(&directory.join(&array.name))?;
+        }
+        let fixed = fixed_chunks(layout, &group);
+        let files = fixed.iter().map(|(name, bytes)| (directory.join(name), bytes.as_slice()));
+        disk.replace(&files.collect::<Vec<_>>())?;
+        Self::over(disk, path, directory, group, lock)
+    }
+
+    /// Opens a recording to go on from its last checkpoint; rows beyond it are cut off.
+    ///
+    /// # Errors
+    /// `Missing`, `NotARecording`, `Version`, `Locked`, `Corrupt`, `Truncated`, `Io`.
+    pub fn resume(path: &Path) -> Result<Resumed, RecordError> {
+        Self::resume_on(Disk::default(), path)
+    }
+
+    pub(crate) fn resume_on(disk: Disk, path: &Path) -> Result<Resumed, RecordError> {
+        disk::read_group(path)?;
+        let lock = disk::lock(path, path)?;
+        // Again, now that nobody else writes.
+        let group = disk::read_group(path)?;
+        let attributes = group.attributes.clone();
+        let file = path.join(CHECKPOINT);
+        let checkpoint = Checkpoint::decode(&disk::read(&file)?, &file)?;
+        let counted = (group.rows("time").unwrap_or(0), group.rows("event").unwrap_or(0));
+        if checkpoint.rows > counted.0 || checkpoint.events > counted.1 {
+            return Err(RecordError::corrupt(&file, "the checkpoint belongs to more rows than there are"));
+        }
+        let mut writer = Self::over(disk, path, path.to_path_buf(), group, lock)?;
+        writer.cut(&checkpoint)?;
+        Ok(Resumed { writer, checkpoint: checkpoint.state, attributes })
+    }
+
+    fn over(disk: Disk, path: &Path, directory: PathBuf, group: Group, lock: File) -> Result<Self, RecordError> {
+        let samples = Stream::new("time", &group.arrays)
+            .ok_or_else(|| RecordError::corrupt(&path.join(METADATA), "nothing grows with time"))?;
+        let growing = group.arrays.iter().filter(|array| array.grows_with("time"));
+        Ok(Self {
+            path: path.to_path_buf(),
+            directory,
+            disk,
+            samples,
+            events: Stream::new("event", &group.arrays),
+            row_len: growing.map(ArrayInfo::row_len).sum::<usize>() - 1,
+            row: Vec::new(),
+            group,
+            stale: true,
+            failed: false,
+            _lock: lock,
+        })
+    }
+
+    /// Cuts back to the checkpoint; the metadata first, so that they never count what is gone.
+    fn cut(&mut self, to: &Checkpoint) -> Result<(), RecordError> {
+        self.group.set_rows("time", to.rows);
+        self.group.set_rows("event", to.events);
+        self.store_metadata()?;
+        self.samples.cut(to.rows, &self.disk, &self.directory)?;
+        if let Some(events) = &mut self.events {
+            events.cut(to.events, &self.disk, &self.directory)?;
+        }
+        for place in [self.directory.clone(), self.directory.join(STATE)] {
+            for name in disk::list(&place)?.iter().filter(|name| disk::is_part(name)) {
+                self.disk.remove_file(&place.join(name))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The recording's path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Rows appended so far.
+    pub fn rows(&self) -> usize {
+        self.samples.rows
+    }
+
+    /// Attributes as the next flush writes them, with this crate's own (`record_…`).
+    pub fn attributes(&self) -> &Attributes {
+        &self.group.attributes
+    }
+
+    /// Appends the sample of a time [s]: the numbers of all arrays in the order of the layout.
+    ///
+    /// # Errors
+    /// `RowLength`; `Io` and then `Stopped`.
+    pub fn append(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        if row.len() != self.row_len {
+            return Err(RecordError::RowLength { expected: self.row_len, found: row.len() });
+        }
+        self.row.clear();
+        self.row.extend(time.to_le_bytes());
+        self.row.extend(row.iter().flat_map(|number| number.to_le_bytes()));
+        self.guard(|writer| writer.samples.push(&writer.row, &writer.disk, &writer.directory))
+    }
+
+    /// Appends an event.
+    ///
+    /// # Errors
+    /// `Layout` if the layout does not know this kind; `Io` and then `Stopped`.
+    pub fn append_event(&mut self, event: Event) -> Result<(), RecordError> {
+        let kinds = self.group.arrays.iter().find(|array| array.name == "event_kind");
+        let count = kinds.map_or(0, |array| array.meanings.len());
+        if event.kind >= count {
+            let kind = event.kind;
+            return Err(RecordError::layout(format!("event of kind {kind}, the layout names {count} kinds")));
+        }
+        let code = |index: usize| i32::try_from(index).unwrap_or(i32::MAX).to_le_bytes();
+        self.row.clear();
+        self.row.extend(event.time.to_le_bytes());
+        self.row.extend(code(event.kind));
+        self.row.extend(event.body.map_or((-1_i32).to_le_bytes(), code));
+        self.guard(|writer| match &mut writer.events {
+            Some(events) => events.push(&writer.row, &writer.disk, &writer.directory),
+            None => Ok(()),
+        })
+    }
+
+    /// Sets attributes, from the next flush on; a null removes one.
+    ///
+    /// # Errors
+    /// `Layout` if a name is reserved.
+    pub fn patch_attributes(&mut self, patch: Attributes) -> Result<(), RecordError> {
+        self.stale = true;
+        self.group.patch(patch)
+    }
+
+    /// Brings all rows, and the state that a resumed run would start from, to the disk.
+    ///
+    /// # Errors
+    /// `Io` and then `Stopped`.
+    pub fn flush(&mut self, checkpoint: &[u8]) -> Result<(), RecordError> {
+        self.guard(|writer| {
+            writer.store_rows()?;
+            writer.store_checkpoint(checkpoint)?;
+            writer.publish()
+        })
+    }
+
+    /// Flushes and then sets the last attributes (outcome, statistics): one that has them is complete.
+    ///
+    /// # Errors
+    /// `Layout` if a name is reserved; `Io`.
+    pub fn finish(mut self, patch: Attributes, checkpoint: &[u8]) -> Result<(), RecordError> {
+        self.flush(checkpoint)?;
+        self.patch_attributes(patch)?;
+        self.store_metadata()
+    }
+
+    fn store_rows(&mut self) -> Result<(), RecordError> {
+        for stream in [Some(&mut self.samples), self.events.as_mut()].into_iter().flatten() {
+            stream.store(&self.disk, &self.directory)?;
+            if self.group.rows(stream.dim) != Some(stream.rows) {
+                self.group.set_rows(stream.dim, stream.rows);
+                self.stale = true;
+            }
+        }
+        if self.stale { self.store_metadata() } else { Ok(()) }
+    }
+
+    /// The group's metadata are what counts; those of the arrays, derived from it, need not wait for the disk.
+    fn store_metadata(&mut self) -> Result<(), RecordError> {
+        let arrays = &self.group.arrays;
+        let texts =
+            arrays.iter().map(|array| (self.directory.join(&array.name).join(METADATA), zarr::array_json(array)));
+        let texts = texts.collect::<Vec<_>>();
+        let files = texts.iter().map(|(path, text)| (path.clone(), text.as_slice())).collect::<Vec<_>>();
+        self.disk.replace_lazily(&files)?;
+        self.disk.replace(&[(self.directory.join(METADATA), &self.group.to_json())])?;
+        self.stale = false;
+        Ok(())
+    }
+
+    fn store_checkpoint(&self, state: &[u8]) -> Result<(), RecordError> {
+        let events = self.events.as_ref().map_or(0, |events| events.rows);
+        let bytes = Checkpoint::encode(self.samples.rows, events, state);
+        self.disk.replace(&[(self.directory.join(CHECKPOINT), &bytes)])
+    }
+
+    /// Gives a new recording its name.
+    fn publish(&mut self) -> Result<(), RecordError> {
+        if self.directory == self.path {
+            return Ok(());
+        }
+        self.disk.sync_dir(&self.directory)?;
+        if self.path.symlink_metadata().is_ok() {
+            return Err(RecordError::AlreadyExists { path: self.path.clone() });
+        }
+        self.disk.rename(&self.directory, &self.path)?;
+        self.directory.clone_from(&self.path);
+        let parent = self.path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        self.disk.sync_dir(parent.unwrap_or(Path::new(".")))
+    }
+
+    /// Runs an operation unless an earlier one failed.
+    fn guard(&mut self, operation: impl FnOnce(&mut Self) -> Result<(), RecordError>) -> Result<(), RecordError> {
+        if self.failed {
+            return Err(RecordError::Stopped { path: self.path.clone() });
+        }
+        operation(self).inspect_err(|_| self.failed = true)
+    }
+}
+
+/// The files that never change: fixed arrays, labels, the metadata of the state.
+fn fixed_chunks(layout: &Layout, group: &Group) -> Vec<(PathBuf, Vec<u8>)> {
+    let key = |name: &str| {
+        let array = group.arrays.iter().find(|array| array.name == name);
+        Path::new(name).join(array.map(|array| array.chunk_key(0)).unwrap_or_default())
+    };
+    let bytes = |values: &[f64]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let numbers = layout.fixed.iter().map(|fixed| (key(&fixed.spec.name), bytes(&fixed.values)));
+    let labels = layout.labels.iter().map(|(dim, labels)| (key(dim), zarr::encode_labels(labels)));
+    let state = [(Path::new(STATE).join(METADATA), zarr::state_json())];
+    numbers.chain(labels).chain(state).collect()
+}

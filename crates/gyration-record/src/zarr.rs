@@ -1,0 +1,203 @@
+//! The `zarr.json` files of Zarr v3 as types of their own, and the one codec that needs code.
+//!
+//! Only what recordings use is here: regular chunks, little-endian numbers, texts in `vlen-utf8`, inline consolidated
+//! metadata. Source: Zarr core specification version 3.0; `consolidated_metadata` as zarr-python 3 writes it.
+
+use crate::Attributes;
+use crate::metadata::{ArrayInfo, DataType};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// The `zarr.json` of one array.
+pub(crate) fn array_json(array: &ArrayInfo) -> Vec<u8> {
+    json(&ZarrArray::of(array))
+}
+
+/// The `zarr.json` of a whole recording: attributes in alphabetical order, whatever order they were set in.
+pub(crate) fn group_json(attributes: &Attributes, arrays: &[ArrayInfo]) -> Vec<u8> {
+    let metadata = arrays.iter().map(|array| (array.name.clone(), ZarrArray::of(array))).collect();
+    json(&ZarrGroup {
+        attributes: attributes.clone().into_iter().collect(),
+        consolidated_metadata: Some(Consolidated { kind: "inline".into(), must_understand: false, metadata }),
+        ..ZarrGroup::empty()
+    })
+}
+
+/// The `zarr.json` of the group that holds the state: it keeps readers from wondering about its files.
+pub(crate) fn state_json() -> Vec<u8> {
+    json(&ZarrGroup::empty())
+}
+
+/// Labels in Zarr's `vlen-utf8`: count, then length and bytes of each, lengths in little-endian u32.
+pub(crate) fn encode_labels(labels: &[String]) -> Vec<u8> {
+    let length = |len: usize| u32::try_from(len).unwrap_or(u32::MAX).to_le_bytes();
+    let mut bytes = length(labels.len()).to_vec();
+    for label in labels {
+        bytes.extend(length(label.len()));
+        bytes.extend(label.as_bytes());
+    }
+    bytes
+}
+
+/// Reads `vlen-utf8`; none if the bytes are not that.
+pub(crate) fn decode_labels(bytes: &[u8]) -> Option<Vec<String>> {
+    let (count, mut rest) = bytes.split_first_chunk::<4>()?;
+    let mut labels = Vec::new();
+    for _ in 0..u32::from_le_bytes(*count) {
+        let (length, tail) = rest.split_first_chunk::<4>()?;
+        let (label, tail) = tail.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+        labels.push(String::from_utf8(label.to_vec()).ok()?);
+        rest = tail;
+    }
+    rest.is_empty().then_some(labels)
+}
+
+fn json(value: &impl Serialize) -> Vec<u8> {
+    // Only maps with keys that are not strings can fail, and there are none.
+    let mut bytes = serde_json::to_vec_pretty(value).unwrap_or_default();
+    bytes.push(b'\n');
+    bytes
+}
+
+#[derive(Deserialize)]
+pub(crate) struct Marker {
+    #[serde(default)]
+    pub(crate) attributes: Attributes,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(crate) struct ZarrGroup {
+    zarr_format: u8,
+    node_type: String,
+    attributes: BTreeMap<String, Value>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) consolidated_metadata: Option<Consolidated>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Consolidated {
+    kind: String,
+    must_understand: bool,
+    pub(crate) metadata: BTreeMap<String, ZarrArray>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(crate) struct ZarrArray {
+    zarr_format: u8,
+    node_type: String,
+    shape: Vec<usize>,
+    data_type: DataType,
+    chunk_grid: Named<ChunkGrid>,
+    chunk_key_encoding: Named<KeyEncoding>,
+    fill_value: Value,
+    codecs: Vec<Named<Codec>>,
+    #[serde(default)]
+    attributes: ArrayAttributes,
+    dimension_names: Vec<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Named<C> {
+    name: String,
+    configuration: C,
+}
+
+#[derive(Serialize, Deserialize)]
+struct ChunkGrid {
+    chunk_shape: Vec<usize>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct KeyEncoding {
+    separator: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Codec {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    endian: Option<String>,
+}
+
+/// By the CF conventions, which xarray's users know.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct ArrayAttributes {
+    #[serde(skip_serializing_if = "String::is_empty")]
+    units: String,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    long_name: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    flag_values: Vec<i32>,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    flag_meanings: String,
+}
+
+impl ZarrGroup {
+    fn empty() -> Self {
+        let attributes = BTreeMap::new();
+        Self { zarr_format: 3, node_type: "group".into(), attributes, consolidated_metadata: None }
+    }
+}
+
+impl ZarrArray {
+    pub(crate) fn of(array: &ArrayInfo) -> Self {
+        let codec = match array.data_type {
+            DataType::String => Named { name: "vlen-utf8".into(), configuration: Codec { endian: None } },
+            _ => Named { name: "bytes".into(), configuration: Codec { endian: Some("little".into()) } },
+        };
+        Self {
+            zarr_format: 3,
+            node_type: "array".into(),
+            shape: array.shape.clone(),
+            data_type: array.data_type,
+            chunk_grid: Named { name: "regular".into(), configuration: ChunkGrid { chunk_shape: array.chunk.clone() } },
+            // A point as separator: a chunk is a file, not a path of directories.
+            chunk_key_encoding: Named { name: "default".into(), configuration: KeyEncoding { separator: ".".into() } },
+            fill_value: array.data_type.fill(),
+            codecs: vec![codec],
+            attributes: ArrayAttributes {
+                units: array.units.clone(),
+                long_name: array.description.clone(),
+                flag_values: (0..).take(array.meanings.len()).collect(),
+                flag_meanings: array.meanings.join(" "),
+            },
+            dimension_names: array.dims.clone(),
+        }
+    }
+
+    /// The array described; an error says what is strange.
+    pub(crate) fn info(self, name: String) -> Result<ArrayInfo, String> {
+        let (shape, chunk) = (self.shape, self.chunk_grid.configuration.chunk_shape);
+        let bytes = chunk.iter().try_fold(8_usize, |bytes, size| bytes.checked_mul(*size));
+        let fits = bytes.is_some() && shape.len() == chunk.len() && shape.len() == self.dimension_names.len();
+        if !fits || chunk.contains(&0) || chunk.get(1..) != shape.get(1..) {
+            return Err(format!("the shape {shape:?} and the chunks {chunk:?} of `{name}` do not fit"));
+        }
+        Ok(ArrayInfo {
+            name,
+            dims: self.dimension_names,
+            shape,
+            chunk,
+            units: self.attributes.units,
+            description: self.attributes.long_name,
+            meanings: self.attributes.flag_meanings.split_whitespace().map(String::from).collect(),
+            data_type: self.data_type,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_survive_and_damaged_ones_are_told() {
+        let labels = ["die", "", "käse"].map(String::from).to_vec();
+        let bytes = encode_labels(&labels);
+        assert_eq!(decode_labels(&bytes), Some(labels));
+        for end in 0..bytes.len() {
+            assert_eq!(decode_labels(&bytes[..end]), None, "cut at {end}");
+        }
+    }
+}
