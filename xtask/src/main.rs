@@ -1,2 +1,54 @@
-//! Chores of the repository.
-fn main() {}
+//! Chores of the repository, run as `cargo xtask CHORE`.
+//!
+//! `test` is the one test command: format, lints, documentation, every test of the workspace, the Python tests, the
+//! table of known answers and, where cargo-deny is installed, licences and advisories. `validate` runs the problems
+//! with a known answer and writes `docs/known-answers.md` from what they print.
+//!
+//! This program knows no mechanics; it starts other programs and reads their output.
+
+mod answers;
+mod python;
+mod steps;
+mod tally;
+mod test;
+mod validate;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask CHORE
+
+  test           run every check; the last line is `N passed, N failed`
+  test --fast    the same without documentation, Python and cargo-deny
+  validate       run the problems with a known answer and rewrite docs/known-answers.md";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["test"] => test::run(test::Extent::Full),
+        ["test", "--fast"] => test::run(test::Extent::Fast),
+        ["validate"] => validate::run(),
+        ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        _ => {
+            eprintln!("{USAGE}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    manifest.parent().unwrap_or(manifest).to_path_buf()
+}
+
+/// The folder of build products: `CARGO_TARGET_DIR`, else `target`.
+fn target_directory() -> PathBuf {
+    let named = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    root().join(named.unwrap_or_else(|| "target".into()))
+}

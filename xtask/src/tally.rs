@@ -1,0 +1,74 @@
+//! What test programs say about themselves, read from the lines that they print.
+//!
+//!   test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.05s
+//!   validation: row=13 case="…" …
+
+use crate::answers::Answer;
+
+/// Sums over test programs, and the known answers that they printed.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// Tests that passed.
+    pub passed: usize,
+    /// Tests that failed, and steps that failed without a test saying so.
+    pub failed: usize,
+    /// Tests that were not run.
+    pub ignored: usize,
+    /// Known answers, in the order of printing.
+    pub answers: Vec<Answer>,
+    /// Lines that began as a known answer and could not be read.
+    pub unreadable: Vec<String>,
+}
+
+impl Tally {
+    /// Takes in one line of output.
+    pub fn read(&mut self, line: &str) {
+        if let Some(result) = line.strip_prefix("test result: ") {
+            self.passed += count(result, "passed");
+            self.failed += count(result, "failed");
+            self.ignored += count(result, "ignored");
+        } else if let Some(text) = line.strip_prefix("validation: ") {
+            match Answer::parse(text) {
+                Some(answer) => self.answers.push(answer),
+                None => self.unreadable.push(line.to_owned()),
+            }
+        }
+    }
+
+    /// Adds another tally to this one.
+    pub fn add(&mut self, other: Self) {
+        self.passed += other.passed;
+        self.failed += other.failed;
+        self.ignored += other.ignored;
+        self.answers.extend(other.answers);
+        self.unreadable.extend(other.unreadable);
+    }
+}
+
+/// The number before `word` in "ok. 12 passed; 0 failed; …".
+fn count(result: &str, word: &str) -> usize {
+    let field = result.split([';', '.']).map(str::trim).find(|field| field.ends_with(word));
+    field.and_then(|field| field.split(' ').next()).and_then(|n| n.parse().ok()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_of_all_programs_are_summed() {
+        let mut tally = Tally::default();
+        tally.read("test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 7 filtered out; finished in 0.05s");
+        tally.read("test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out");
+        tally.read("test some_test ... ok");
+        assert_eq!((tally.passed, tally.failed, tally.ignored), (15, 2, 1));
+    }
+
+    #[test]
+    fn a_damaged_known_answer_is_kept_for_complaint() {
+        let mut tally = Tally::default();
+        tally.read("validation: row=3 case=\"x\" quantity=\"y\"");
+        assert!(tally.answers.is_empty());
+        assert_eq!(tally.unreadable.len(), 1);
+    }
+}

@@ -1,0 +1,80 @@
+//! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
+
+use crate::steps::Steps;
+use crate::{answers, python, root, validate};
+use std::process::{Command, ExitCode, Stdio};
+
+/// How much to check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Everything.
+    Full,
+    /// Without documentation, Python and cargo-deny.
+    Fast,
+}
+
+/// Runs every check and prints the sums.
+pub fn run(extent: Extent) -> ExitCode {
+    let mut steps = Steps::default();
+    steps.run("format", cargo().args(["fmt", "--all", "--check"]));
+    steps.run("lints", cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]));
+    if extent == Extent::Full {
+        let mut doc = cargo();
+        doc.args(["doc", "--workspace", "--no-deps", "--document-private-items"]);
+        steps.run("documentation", doc.env("RUSTDOCFLAGS", "-D warnings"));
+    }
+    // The output of tests that pass is shown: it has the measured errors of the known answers.
+    steps.run_tests("tests", cargo().args(["test", "--workspace", "--no-fail-fast", "--", "--show-output"]));
+    check_known_answers(&mut steps);
+    match extent {
+        Extent::Full => {
+            python_tests(&mut steps);
+            dependencies(&mut steps);
+        }
+        Extent::Fast => steps.skip("documentation, Python tests and cargo-deny (--fast)"),
+    }
+    if steps.conclude() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The cargo that started this program, in the root of the repository.
+pub fn cargo() -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root());
+    command
+}
+
+/// The page of known answers must list those that the tests printed; digits may differ.
+fn check_known_answers(steps: &mut Steps) {
+    for line in std::mem::take(&mut steps.tally.unreadable) {
+        steps.complain(format!("cannot read the known answer: {line}"));
+    }
+    let page = std::fs::read_to_string(validate::page_path()).unwrap_or_default();
+    let differences = answers::differences(&page, &steps.tally.answers);
+    if !differences.is_empty() {
+        steps.complain(format!(
+            "docs/known-answers.md is out of step (run `cargo xtask validate`): {}",
+            differences.join("; ")
+        ));
+    }
+}
+
+/// Tests in files called `python.rs` are ignored unless there is an interpreter with the pinned packages.
+fn python_tests(steps: &mut Steps) {
+    if let Some(interpreter) = python::environment(steps) {
+        // The whole workspace again, so that nothing is compiled twice with other features.
+        let mut command = cargo();
+        command.args(["test", "--workspace", "--test", "python", "--", "--ignored"]);
+        steps.run_tests("Python tests", command.env("GYRATION_PYTHON", interpreter));
+    }
+}
+
+/// Licences, advisories and sources of dependencies.
+fn dependencies(steps: &mut Steps) {
+    let mut probe = cargo();
+    let found = probe.args(["deny", "--version"]).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    if found.is_ok_and(|status| status.success()) {
+        steps.run("dependencies", cargo().args(["deny", "check"]));
+    } else {
+        steps.skip("licences and advisories of dependencies: cargo-deny is not installed");
+    }
+}
