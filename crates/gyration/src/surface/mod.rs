@@ -10,9 +10,12 @@
 //! This module knows no law, no velocity and no time.
 
 pub mod curved;
+pub mod facets;
 pub mod patch;
+pub mod power;
 
 mod carry;
+mod facets_triangle;
 mod rule;
 
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
@@ -101,20 +104,12 @@ impl Surface {
 
     /// The surface after X ↦ rotation · X + offset.
     pub fn transformed(&self, rotation: &Mat3, offset: &Vec3) -> Self {
-        Self {
-            patches: self
-                .patches
-                .iter()
-                .map(|patch| patch.transformed(rotation, offset))
-                .collect(),
-        }
+        Self { patches: self.patches.iter().map(|patch| patch.transformed(rotation, offset)).collect() }
     }
 
     /// Both surfaces as one; every part of each makes contact.
     pub fn merged(&self, other: &Self) -> Self {
-        Self {
-            patches: [self.patches.as_slice(), &other.patches].concat(),
-        }
+        Self { patches: [self.patches.as_slice(), &other.patches].concat() }
     }
 
     /// Area [m²].
@@ -128,12 +123,7 @@ impl Surface {
     ///
     /// # Errors
     /// `GapClosed` if the smallest gap is not a positive finite number; `out` is then unspecified.
-    pub fn moments(
-        &self,
-        field: &GapField,
-        requests: &[MomentRequest],
-        out: &mut [Moments],
-    ) -> Result<(), GapClosed> {
+    pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         assert_eq!(requests.len(), out.len(), "one place for each request");
         let (gap, _) = self.smallest_gap(field);
         if gap.is_nan() || gap <= 0.0 {
@@ -163,9 +153,6 @@ impl Surface {
     ///
     /// v velocity at the origin of X (3) [m/s], A = Ṗ (3×3) [1/s].
     pub fn fastest_point(&self, v: &Vec3, a: &Mat3) -> f64 {
-        self.patches
-            .iter()
-            .map(|patch| patch.fastest_point(v, a))
-            .fold(0.0, f64::max)
+        self.patches.iter().map(|patch| patch.fastest_point(v, a)).fold(0.0, f64::max)
     }
 }
