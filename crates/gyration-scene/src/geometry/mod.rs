@@ -1,0 +1,18 @@
+//! Shapes from points and from files: convex hulls and meshes.
+//!
+//! Whatever comes back has passed [`Polyhedron::validate`](gyration::shape::Polyhedron::validate): closed, oriented outward,
+//! with a volume. Paths and scales are the caller's; nothing here knows a scene. The readers of STL, OBJ and PLY are our
+//! own: they keep f64, say at which line or byte a file is wrong, and allocate nothing on the word of a header.
+
+mod fault;
+mod hull;
+mod mesh;
+mod obj;
+mod ply;
+mod ply_header;
+mod polygon;
+mod stl;
+
+pub use fault::{FileFault, Place, Trouble};
+pub use hull::{HullError, HullFault, hull};
+pub use mesh::{MAX_MESH_BYTES, MeshError, read_mesh};

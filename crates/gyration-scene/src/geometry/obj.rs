@@ -1,0 +1,46 @@
+//! Wavefront OBJ: the lines `v x y z` and `f i j k …`; all others are ignored.
+//!
+//! An index counts from 1, or from the end if negative; what follows a slash (texture, normal) is ignored. Groups and
+//! objects of a file form one surface.
+
+use gyration::shape::Polyhedron;
+use gyration::tensor::Vec3;
+
+use super::fault::{FileFault, Place, Trouble, coordinate};
+use super::polygon::add_polygon;
+
+/// Reads an OBJ file.
+pub(super) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
+    let mut mesh = Polyhedron::default();
+    let mut corners = Vec::new();
+    for (index, line) in String::from_utf8_lossy(bytes).lines().enumerate() {
+        let place = Place::Line(index + 1);
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let mut value = || coordinate(words.next(), place);
+                mesh.vertices.push(Vec3::new(value()?, value()?, value()?));
+            }
+            Some("f") => {
+                corners.clear();
+                for word in words.take_while(|word| !word.starts_with('#')) {
+                    corners.push(vertex_index(word, mesh.vertices.len(), place)?);
+                }
+                add_polygon(&corners, &mesh.vertices, &mut mesh.triangles, place)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(mesh)
+}
+
+/// The vertex, from 0, that a corner such as `3`, `-1` or `3/1/2` stands for.
+fn vertex_index(word: &str, count: usize, place: Place) -> Result<usize, FileFault> {
+    let number = word.split('/').next().unwrap_or(word);
+    let index: i64 = number.parse().map_err(|_| Trouble::unexpected("a vertex number", word).at(place))?;
+    let from_zero = if index > 0 { index - 1 } else { index.saturating_add(count as i64) };
+    match usize::try_from(from_zero) {
+        Ok(vertex) if index != 0 && vertex < count => Ok(vertex),
+        _ => Err(Trouble::NoSuchVertex { index: index as f64, count }.at(place)),
+    }
+}

@@ -1,0 +1,194 @@
+//! PLY, text and binary of both byte orders.
+//!
+//! Of the elements only `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) matter; the others are skipped. A
+//! number of elements is believed only if the file is long enough for it.
+
+use gyration::shape::Polyhedron;
+use gyration::tensor::Vec3;
+
+use super::fault::{FileFault, Place, Trouble, finite};
+use super::ply_header::{Element, Encoding, Header, Scalar, read_header};
+use super::polygon::add_polygon;
+
+/// Reads a PLY file.
+pub(super) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
+    let header = read_header(bytes)?;
+    let mut values = Values::after(&header, bytes);
+    let mut mesh = Polyhedron::default();
+    for element in &header.elements {
+        check_count(element, header.encoding, values.rest())?;
+        match element.name.as_str() {
+            "vertex" => read_vertices(element, &mut values, &mut mesh)?,
+            "face" => read_faces(element, &mut values, &mut mesh)?,
+            _ => (0..element.count).try_for_each(|_| values.skip(element))?,
+        }
+    }
+    Ok(mesh)
+}
+
+/// Refuses an element that cannot be in the file, before anything is allocated or read for it.
+fn check_count(element: &Element, encoding: Encoding, rest: usize) -> Result<(), FileFault> {
+    let place = Place::Line(element.line);
+    if element.properties.is_empty() {
+        return Err(Trouble::unexpected("properties of the element", &element.name).at(place));
+    }
+    // The last value of a text needs no separator.
+    let bytes = rest + usize::from(encoding == Encoding::Text);
+    if element.count > (bytes / element.min_bytes(encoding)) as u64 {
+        let what = format!("elements `{}`", element.name);
+        return Err(Trouble::Announced { announced: element.count, what, bytes: rest }.at(place));
+    }
+    Ok(())
+}
+
+fn read_vertices(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedron) -> Result<(), FileFault> {
+    let scalar = |name: &str| element.properties.iter().position(|p| p.name == name && p.count.is_none());
+    let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(scalar) else {
+        return Err(Trouble::unexpected("the properties x, y and z", &element.name).at(Place::Line(element.line)));
+    };
+    let mut record = vec![0.0; element.properties.len()];
+    for _ in 0..element.count {
+        let place = values.place();
+        for (property, value) in element.properties.iter().zip(&mut record) {
+            match property.count {
+                Some(count) => values.skip_list(count, property.value)?,
+                None => *value = values.next(property.value)?,
+            }
+        }
+        mesh.vertices.push(Vec3::new(finite(record[x], place)?, finite(record[y], place)?, finite(record[z], place)?));
+    }
+    Ok(())
+}
+
+fn read_faces(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedron) -> Result<(), FileFault> {
+    let is_corners = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
+    if !element.properties.iter().any(|property| property.count.is_some() && is_corners(&property.name)) {
+        return Err(Trouble::unexpected("a list vertex_indices", &element.name).at(Place::Line(element.line)));
+    }
+    let mut corners = Vec::new();
+    for _ in 0..element.count {
+        for property in &element.properties {
+            match property.count {
+                Some(count) if is_corners(&property.name) => {
+                    let place = values.place();
+                    read_corners(values, [count, property.value], mesh.vertices.len(), &mut corners)?;
+                    add_polygon(&corners, &mesh.vertices, &mut mesh.triangles, place)?;
+                }
+                Some(count) => values.skip_list(count, property.value)?,
+                None => values.next(property.value).map(drop)?,
+            }
+        }
+    }
+    Ok(())
+}
+
+fn read_corners(
+    values: &mut Values<'_>,
+    [count, kind]: [Scalar; 2],
+    vertices: usize,
+    corners: &mut Vec<usize>,
+) -> Result<(), FileFault> {
+    corners.clear();
+    for _ in 0..values.length(count)? {
+        let place = values.place();
+        let index = values.next(kind)?;
+        if !(index >= 0.0 && index < vertices as f64 && index.fract() == 0.0) {
+            return Err(Trouble::NoSuchVertex { index, count: vertices }.at(place));
+        }
+        corners.push(index as usize);
+    }
+    Ok(())
+}
+
+/// The values behind the header, one after the other.
+struct Values<'a> {
+    encoding: Encoding,
+    bytes: &'a [u8],
+    offset: usize,
+    line: usize,
+}
+
+impl<'a> Values<'a> {
+    fn after(header: &Header, bytes: &'a [u8]) -> Self {
+        Self { encoding: header.encoding, bytes, offset: header.bytes, line: header.lines + 1 }
+    }
+
+    fn rest(&self) -> usize {
+        self.bytes.len() - self.offset
+    }
+
+    fn place(&self) -> Place {
+        match self.encoding {
+            Encoding::Text => Place::Line(self.line),
+            _ => Place::Byte(self.offset),
+        }
+    }
+
+    fn next(&mut self, kind: Scalar) -> Result<f64, FileFault> {
+        if self.encoding == Encoding::Text {
+            let word = self.word()?;
+            return word.parse().map_err(|_| Trouble::unexpected("a number", word).at(self.place()));
+        }
+        let size = kind.size();
+        let Some(raw) = self.bytes.get(self.offset..self.offset + size) else {
+            return Err(Trouble::Truncated { expected: "a value" }.at(self.place()));
+        };
+        self.offset += size;
+        let mut wide = [0; 8];
+        wide[..size].copy_from_slice(raw);
+        if self.encoding == Encoding::BigEndian {
+            wide[..size].reverse();
+        }
+        Ok(decoded(u64::from_le_bytes(wide), kind))
+    }
+
+    fn word(&mut self) -> Result<&'a str, FileFault> {
+        let is_space = |byte: &u8| byte.is_ascii_whitespace();
+        let rest = &self.bytes[self.offset..];
+        let start = rest.iter().position(|byte| !is_space(byte)).unwrap_or(rest.len());
+        self.line += rest[..start].iter().filter(|&&byte| byte == b'\n').count();
+        let length = rest[start..].iter().position(is_space).unwrap_or(rest.len() - start);
+        self.offset += start + length;
+        let word = &rest[start..start + length];
+        if word.is_empty() {
+            return Err(Trouble::Truncated { expected: "a value" }.at(self.place()));
+        }
+        std::str::from_utf8(word)
+            .map_err(|_| Trouble::unexpected("a number", "bytes that are no text").at(self.place()))
+    }
+
+    /// The number of values in a list.
+    fn length(&mut self, kind: Scalar) -> Result<u64, FileFault> {
+        let place = self.place();
+        let length = self.next(kind)?;
+        if length >= 0.0 && length.fract() == 0.0 {
+            return Ok(length as u64);
+        }
+        Err(Trouble::unexpected("the length of a list", &length.to_string()).at(place))
+    }
+
+    fn skip_list(&mut self, count: Scalar, value: Scalar) -> Result<(), FileFault> {
+        (0..self.length(count)?).try_for_each(|_| self.next(value).map(drop))
+    }
+
+    fn skip(&mut self, element: &Element) -> Result<(), FileFault> {
+        element.properties.iter().try_for_each(|property| match property.count {
+            Some(count) => self.skip_list(count, property.value),
+            None => self.next(property.value).map(drop),
+        })
+    }
+}
+
+/// The number that the low bytes of `bits` stand for.
+fn decoded(bits: u64, kind: Scalar) -> f64 {
+    match kind {
+        Scalar::I8 => f64::from(bits as u8 as i8),
+        Scalar::U8 => f64::from(bits as u8),
+        Scalar::I16 => f64::from(bits as u16 as i16),
+        Scalar::U16 => f64::from(bits as u16),
+        Scalar::I32 => f64::from(bits as u32 as i32),
+        Scalar::U32 => f64::from(bits as u32),
+        Scalar::F32 => f64::from(f32::from_bits(bits as u32)),
+        Scalar::F64 => f64::from_bits(bits),
+    }
+}

@@ -1,0 +1,52 @@
+//! Splitting a polygon of a mesh into triangles.
+//!
+//! A fan from one corner. With the polygon's area vector N = ½ Σ X_k × X_{k+1} (Newell), a fan covers the polygon once iff no
+//! triangle of it is turned over, n·N ≥ 0. The corner is chosen whose worst triangle is best; every convex polygon and every
+//! quadrilateral has one.
+
+use gyration::tensor::Vec3;
+
+use super::fault::{FileFault, Place, Trouble};
+
+/// Turned-over area that is rounding, relative to that of the polygon; 1e-7 is single precision.
+const TURNED_OVER: f64 = 1e-6;
+
+/// Adds the triangles of the polygon with the given corners, all valid indices of `vertices`.
+pub(super) fn add_polygon(
+    corners: &[usize],
+    vertices: &[Vec3],
+    triangles: &mut Vec<[usize; 3]>,
+    place: Place,
+) -> Result<(), FileFault> {
+    match *corners {
+        [] | [_] | [_, _] => Err(Trouble::FewCorners { corners: corners.len() }.at(place)),
+        [a, b, c] => {
+            triangles.push([a, b, c]);
+            Ok(())
+        }
+        _ => {
+            let fan = best_fan(corners, vertices).ok_or(Trouble::Polygon { corners: corners.len() }.at(place))?;
+            triangles.extend(fan);
+            Ok(())
+        }
+    }
+}
+
+fn best_fan(corners: &[usize], vertices: &[Vec3]) -> Option<Vec<[usize; 3]>> {
+    let area_vector = |[a, b, c]: [usize; 3]| {
+        let [a, b, c] = [a, b, c].map(|index| vertices[index]);
+        (b - a).cross(&(c - a))
+    };
+    let total: Vec3 = fan(corners, 0).map(area_vector).sum();
+    let worst = |start: usize| fan(corners, start).map(|t| area_vector(t).dot(&total)).fold(f64::INFINITY, f64::min);
+    let start = (0..corners.len()).max_by(|&i, &j| worst(i).total_cmp(&worst(j)))?;
+    let covers_once = worst(start) >= -TURNED_OVER * total.norm_squared();
+    covers_once.then(|| fan(corners, start).collect())
+}
+
+/// The triangles between one corner and the edges that do not touch it.
+fn fan(corners: &[usize], start: usize) -> impl Iterator<Item = [usize; 3]> {
+    let count = corners.len();
+    let corner = move |k: usize| corners[(start + k) % count];
+    (1..count - 1).map(move |k| [corner(0), corner(k), corner(k + 1)])
+}
