@@ -61,9 +61,9 @@ pub enum RecordError {
     Truncated {
         /// The file.
         path: PathBuf,
-        /// Length that the metadata ask for [bytes].
+        /// Length that the metadata ask for, in bytes.
         expected: u64,
-        /// Length found [bytes].
+        /// Length found, in bytes.
         found: u64,
     },
     /// A file of the recording contradicts itself or another one.

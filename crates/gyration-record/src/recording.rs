@@ -79,7 +79,7 @@ impl Recording {
         (0..rows).step_by(step).map(move |from| from..rows.min(from + step))
     }
 
-    /// Times of the samples [s].
+    /// Times of the samples, in s.
     ///
     /// # Errors
     /// Those of [`read`](Recording::read).
@@ -102,11 +102,14 @@ impl Recording {
     /// `NoSuchArray`, `NoSuchRows`, `Truncated`, `Io`.
     pub fn read_rows(&self, name: &str, rows: Range<usize>) -> Result<Array, RecordError> {
         let array = self.array(name)?;
+        if array.data_type == DataType::String {
+            return Err(RecordError::NoSuchArray { name: name.into() });
+        }
         let bytes = self.read_bytes(array, rows.clone())?;
-        let data = match array.data_type {
-            DataType::Float64 => bytes.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b)).collect(),
-            DataType::Int32 => bytes.as_chunks().0.iter().map(|b| f64::from(i32::from_le_bytes(*b))).collect(),
-            DataType::String => return Err(RecordError::NoSuchArray { name: name.into() }),
+        let data = if array.data_type == DataType::Int32 {
+            bytes.as_chunks().0.iter().map(|b| f64::from(i32::from_le_bytes(*b))).collect()
+        } else {
+            bytes.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b)).collect()
         };
         let first = array.shape.first().map(|_| rows.len());
         let shape = first.into_iter().chain(array.shape.iter().skip(1).copied()).collect();

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 /// Something that happened between two samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
-    /// When [s].
+    /// When, in s.
     pub time: f64,
     /// What: an index into [`Layout::event_kinds`].
     pub kind: usize,
@@ -171,7 +171,7 @@ impl Writer {
         &self.group.attributes
     }
 
-    /// Appends the sample of a time [s]: the numbers of all arrays in the order of the layout.
+    /// Appends the sample of a time (in s): the numbers of all arrays in the order of the layout.
     ///
     /// # Errors
     /// `RowLength`; `Io` and then `Stopped`.

@@ -1,0 +1,231 @@
+//! What is written is read, exported and protected as the contract says.
+
+mod common;
+
+use common::{attributes, checkpoint, event, finished, layout, row, time, tree, write_to};
+use gyration_record::{Attributes, Event, RecordError, Recording, Writer, export, remove};
+use serde_json::{Value, json};
+use std::fs;
+use tempfile::tempdir;
+
+#[test]
+fn what_was_appended_is_read_whole_by_rows_and_by_column() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    finished(&path, 10, 4);
+    let recording = Recording::open(&path).unwrap();
+    assert_eq!(recording.rows(), 10);
+    assert_eq!(recording.times().unwrap(), (0..10).map(time).collect::<Vec<_>>());
+    let position = recording.read("position").unwrap();
+    assert_eq!(position.shape, [10, 2, 3]);
+    // From the middle of one chunk over a whole one into the third.
+    let part = recording.read_rows("gradient", 3..9).unwrap();
+    assert_eq!(part.shape, [6, 2, 3, 3]);
+    for k in 3..9 {
+        assert_eq!(part.data[(k - 3) * 18..][..18], row(k)[6..24]);
+    }
+    let ball_y = (0..10).map(|k| row(k)[4]).collect::<Vec<_>>();
+    assert_eq!(recording.column("ball.y").unwrap(), ball_y);
+    assert_eq!(recording.column("t").unwrap(), recording.times().unwrap());
+    assert_eq!(recording.column("energy.kinetic").unwrap(), recording.read("energy_kinetic").unwrap().data);
+    assert_eq!(recording.read("mass").unwrap().data, [0.5, 0.25]);
+    assert_eq!(recording.labels("body").unwrap().unwrap(), ["die", "ball"]);
+    assert_eq!(recording.labels("row").unwrap(), None);
+    assert_eq!(recording.event_kinds(), ["touch", "part", "rest"]);
+    assert_eq!(recording.events().unwrap(), (0..5).map(event).collect::<Vec<_>>());
+    assert_eq!(recording.attributes()["outcome"], "completed");
+    assert_eq!(recording.attributes()["scene"], "title = \"käse\"\n");
+    assert_eq!(recording.array("position").unwrap().units, "m");
+    assert_eq!(recording.array("position").unwrap().description, "position of the bodies");
+    assert_eq!(recording.chunks().collect::<Vec<_>>(), [0..4, 4..8, 8..10]);
+}
+
+#[test]
+fn names_and_rows_that_are_not_there_are_told() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    finished(&path, 3, 4);
+    let recording = Recording::open(&path).unwrap();
+    assert!(matches!(recording.read("speed"), Err(RecordError::NoSuchArray { name }) if name == "speed"));
+    assert!(matches!(recording.read("body"), Err(RecordError::NoSuchArray { .. })));
+    assert!(matches!(recording.column("die.w"), Err(RecordError::NoSuchColumn { name }) if name == "die.w"));
+    assert!(matches!(recording.read_rows("time", 1..4), Err(RecordError::NoSuchRows { to: 4, rows: 3, .. })));
+}
+
+#[test]
+fn the_recording_appears_at_the_first_flush_with_its_first_row() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    let mut writer = Writer::create(&path, &layout(4), Attributes::new()).unwrap();
+    writer.append(0.0, &row(0)).unwrap();
+    assert!(matches!(Recording::open(&path), Err(RecordError::Missing { .. })));
+    assert!(matches!(Writer::create(&path, &layout(4), Attributes::new()), Err(RecordError::Locked { .. })));
+    writer.flush(b"state").unwrap();
+    assert_eq!(Recording::open(&path).unwrap().read_rows("position", 0..1).unwrap().data, row(0)[..6]);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn where_flushes_fall_does_not_change_the_bytes() {
+    let folder = tempdir().unwrap();
+    let trees = [1, 2, 5, 1000].map(|flush_every| {
+        let path = folder.path().join(format!("{flush_every}.gyr"));
+        let mut writer = Writer::create(&path, &layout(4), Attributes::new()).unwrap();
+        write_to(&mut writer, 18, flush_every).unwrap();
+        writer.finish(Attributes::new(), &checkpoint(18)).unwrap();
+        tree(&path)
+    });
+    assert!(trees.iter().all(|other| *other == trees[0]));
+}
+
+#[test]
+fn a_second_writer_is_refused_and_a_dead_one_is_not() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    let mut writer = Writer::create(&path, &layout(4), Attributes::new()).unwrap();
+    write_to(&mut writer, 1, 1).unwrap();
+    assert!(matches!(Writer::resume(&path), Err(RecordError::Locked { path: p }) if p == path));
+    assert!(matches!(remove(&path), Err(RecordError::Locked { .. })));
+    assert!(matches!(Writer::create(&path, &layout(4), Attributes::new()), Err(RecordError::AlreadyExists { .. })));
+    drop(writer);
+    assert_eq!(Writer::resume(&path).unwrap().checkpoint, checkpoint(1));
+}
+
+#[test]
+fn a_finished_recording_can_be_continued_with_other_attributes() {
+    let folder = tempdir().unwrap();
+    let (path, whole) = (folder.path().join("run.gyr"), folder.path().join("whole.gyr"));
+    finished(&whole, 20, 4);
+    finished(&path, 9, 4);
+    let mut resumed = Writer::resume(&path).unwrap();
+    assert_eq!(resumed.attributes["outcome"], "completed");
+    resumed.writer.patch_attributes(attributes(json!({"outcome": null}))).unwrap();
+    resumed.writer.flush(&checkpoint(9)).unwrap();
+    assert_eq!(Recording::open(&path).unwrap().attributes().get("outcome"), None);
+    write_to(&mut resumed.writer, 20, 3).unwrap();
+    resumed.writer.finish(attributes(json!({"outcome": "completed"})), &checkpoint(20)).unwrap();
+    assert!(tree(&path) == tree(&whole));
+}
+
+#[test]
+fn rows_of_the_wrong_length_unknown_events_and_reserved_attributes_change_nothing() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    let reserved = || attributes(json!({"record_format": 2}));
+    assert!(matches!(Writer::create(&path, &layout(4), reserved()), Err(RecordError::Layout { .. })));
+    let mut writer = Writer::create(&path, &layout(4), Attributes::new()).unwrap();
+    assert!(matches!(writer.append(0.0, &[1.0]), Err(RecordError::RowLength { expected: 25, found: 1 })));
+    let unknown = Event { time: 0.0, kind: 3, body: None };
+    assert!(matches!(writer.append_event(unknown), Err(RecordError::Layout { .. })));
+    assert!(matches!(writer.patch_attributes(reserved()), Err(RecordError::Layout { .. })));
+    write_to(&mut writer, 2, 1).unwrap();
+    assert_eq!(Recording::open(&path).unwrap().rows(), 2);
+}
+
+#[test]
+fn damage_is_told_with_the_file() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    finished(&path, 6, 4);
+    let chunk = path.join("position/c.1.0.0");
+    fs::write(&chunk, [0; 7]).unwrap();
+    let told = |error: &RecordError| matches!(error, RecordError::Truncated { path, expected: 192, found: 7 } if *path == chunk);
+    assert!(told(&Recording::open(&path).unwrap().read("position").unwrap_err()));
+    assert!(told(&Writer::resume(&path).unwrap_err()));
+    fs::write(path.join("state/checkpoint"), b"GYRCKPT1").unwrap();
+    assert!(matches!(Writer::resume(&path), Err(RecordError::Corrupt { path: p, .. }) if p.ends_with("checkpoint")));
+    let text = fs::read_to_string(path.join("zarr.json")).unwrap();
+    fs::write(path.join("zarr.json"), text.replace("\"record_format\": 1", "\"record_format\": 2")).unwrap();
+    assert!(matches!(Recording::open(&path), Err(RecordError::Version { found: 2, supported: 1, .. })));
+    fs::write(path.join("zarr.json"), &text[..text.len() / 2]).unwrap();
+    assert!(matches!(Recording::open(&path), Err(RecordError::NotARecording { .. })));
+}
+
+#[test]
+fn only_recordings_are_removed() {
+    let folder = tempdir().unwrap();
+    let (path, other) = (folder.path().join("run.gyr"), folder.path().join("other"));
+    fs::create_dir(&other).unwrap();
+    fs::write(other.join("thesis.tex"), "years of work").unwrap();
+    assert!(matches!(remove(&path), Err(RecordError::Missing { .. })));
+    assert!(matches!(remove(&other), Err(RecordError::NotARecording { .. })));
+    assert!(matches!(remove(&other.join("thesis.tex")), Err(RecordError::NotARecording { .. })));
+    fs::write(other.join("zarr.json"), "{\"zarr_format\": 3, \"node_type\": \"group\", \"attributes\": {}}").unwrap();
+    assert!(matches!(remove(&other), Err(RecordError::NotARecording { .. })));
+    finished(&path, 2, 4);
+    remove(&path).unwrap();
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    assert!(other.join("thesis.tex").exists());
+    // A directory in the way of a new recording that is not ours stays too.
+    fs::rename(&other, folder.path().join("run.gyr.part")).unwrap();
+    assert!(Writer::create(&path, &layout(4), Attributes::new()).is_err());
+    assert!(folder.path().join("run.gyr.part/thesis.tex").exists());
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_named() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let error = Writer::create(&file.join("run.gyr"), &layout(4), Attributes::new()).unwrap_err();
+    assert!(error.to_string().contains("run.gyr"), "{error}");
+}
+
+#[test]
+fn csv_numbers_read_back_exactly_in_the_order_of_the_layout() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    let mut writer = Writer::create(&path, &layout(4), Attributes::new()).unwrap();
+    let hard = [0.1 + 0.2, 1.0 / 3.0, 5e-324, f64::MAX, -1e-7, 1e22, -0.0, f64::NAN, f64::INFINITY];
+    for (k, number) in hard.into_iter().enumerate() {
+        let mut numbers = row(k);
+        numbers[0] = number;
+        writer.append(time(k), &numbers).unwrap();
+    }
+    writer.finish(Attributes::new(), b"").unwrap();
+    let mut bytes = Vec::new();
+    export::csv(&Recording::open(&path).unwrap(), &mut bytes).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next().unwrap(), "t,ball.x,ball.y,ball.z,die.x,die.y,die.z,energy.kinetic");
+    for (k, number) in hard.into_iter().enumerate() {
+        let line = lines.next().unwrap().split(',').map(|text| text.parse::<f64>().unwrap()).collect::<Vec<_>>();
+        let r = row(k);
+        let expected = [time(k), r[3], r[4], r[5], number, r[1], r[2], r[24]];
+        assert_eq!(line.len(), 8);
+        assert!(
+            line.iter()
+                .zip(expected)
+                .all(|(found, e)| found.to_bits() == e.to_bits() || (e.is_nan() && found.is_nan()))
+        );
+    }
+    assert_eq!(lines.next(), None);
+}
+
+#[test]
+fn equal_recordings_give_equal_npz_files() {
+    let folder = tempdir().unwrap();
+    let files = ["a", "b"].map(|name| {
+        let path = folder.path().join(name);
+        finished(&path, 10, 4);
+        let file = path.with_extension("npz");
+        export::npz(&Recording::open(&path).unwrap(), &file).unwrap();
+        fs::read(file).unwrap()
+    });
+    assert!(files[0] == files[1]);
+    assert!(files[0].starts_with(b"PK"));
+}
+
+#[test]
+fn metadata_of_arrays_and_of_the_group_agree() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    finished(&path, 10, 4);
+    let json = |path| serde_json::from_slice::<Value>(&fs::read(path).unwrap()).unwrap();
+    let group = json(path.join("zarr.json"));
+    let arrays = group["consolidated_metadata"]["metadata"].as_object().unwrap();
+    assert_eq!(arrays.len(), 10);
+    for (name, array) in arrays {
+        assert_eq!(json(path.join(name).join("zarr.json")), *array, "{name}");
+    }
+}
