@@ -1,0 +1,114 @@
+//! The next step size, from the errors of the last two steps.
+//!
+//!   explicit, proportional and integral:  h' = h · 0.9 ‖e‖^−α ‖e_old‖^β,   β = 0.04, α = 1/8 − β/5
+//!   implicit, predictive (Gustafsson):    h' = h · min( φ ‖e‖^−¼, φ (h/h_old) (‖e_old‖/‖e‖²)^¼ )
+//!
+//! with φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations. Both are bounded, and a step that follows a
+//! rejection does not grow. Leaving the domain says nothing on accuracy and leaves the memory of errors alone.
+//! Source: Hairer, Nørsett, Wanner I, §II.4, II.10; Hairer, Wanner II, §IV.2, IV.8; codes dop853.f and radau5.f.
+
+use crate::newton::MAX_ITERATIONS;
+use crate::norm::norm;
+use crate::report::{Cause, Stepper};
+use crate::system::{Context, Point, System};
+
+/// Aim below the tolerance by this factor, so that few steps are rejected.
+const SAFETY: f64 = 0.9;
+/// The exponent of the older error, for a smoother sequence of steps.
+const PI_EXPONENT: f64 = 0.04;
+/// Shrinking after leaving the domain: the boundary is somewhere within the attempt, the error says nothing of where.
+const DOMAIN_FACTOR: f64 = 0.25;
+/// Shrinking after Newton's method failed.
+const NEWTON_FACTOR: f64 = 0.5;
+
+/// What the next step size depends on, besides the last step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Control {
+    /// The error of the last explicit step; 0 if there is none.
+    pub explicit_error: f64,
+    /// The error of the last implicit step.
+    pub implicit_error: f64,
+    /// The size of the last implicit step; 0 if there is none.
+    pub implicit_step: f64,
+}
+
+impl Control {
+    /// The factor on the step after an attempt that was rejected.
+    pub fn retreat<I>(stepper: Stepper, cause: &Cause<I>) -> f64 {
+        match (cause, stepper) {
+            (Cause::Inadmissible(_) | Cause::NotFinite { .. }, _) => DOMAIN_FACTOR,
+            (Cause::Newton, _) => NEWTON_FACTOR,
+            (Cause::Error { norm, .. }, Stepper::Explicit) => {
+                let exponent = 1.0 / 8.0 - 0.2 * PI_EXPONENT;
+                at_least(SAFETY * norm.powf(-exponent), 1.0 / 3.0)
+            }
+            (Cause::Error { norm, .. }, Stepper::Implicit) => at_least(SAFETY * norm.powf(-0.25), 1.0 / 8.0),
+        }
+    }
+
+    /// The factor on the step after an accepted explicit one.
+    pub fn after_explicit(&mut self, error: f64, rejected: bool) -> f64 {
+        let exponent = 1.0 / 8.0 - 0.2 * PI_EXPONENT;
+        let old = if self.explicit_error > 0.0 { self.explicit_error } else { 1e-4 };
+        // The bound below keeps a step without any error from exploding the next one.
+        let factor = SAFETY * error.max(1e-10).powf(-exponent) * old.powf(PI_EXPONENT);
+        self.explicit_error = error.max(1e-4);
+        factor.clamp(1.0 / 3.0, if rejected { 1.0 } else { 6.0 })
+    }
+
+    /// The factor on the step after an accepted implicit one of size h with so many Newton iterations.
+    pub fn after_implicit(&mut self, error: f64, h: f64, iterations: u32, rejected: bool) -> f64 {
+        let most = f64::from(MAX_ITERATIONS);
+        let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + f64::from(iterations));
+        let error = error.max(1e-10);
+        let mut factor = (safety * error.powf(-0.25)).clamp(1.0 / 5.0, 8.0);
+        if self.implicit_step > 0.0 {
+            let trend = (self.implicit_error / (error * error)).powf(0.25) * h / self.implicit_step;
+            factor = factor.min((SAFETY * trend).clamp(1.0 / 5.0, 8.0));
+        }
+        (self.implicit_error, self.implicit_step) = (error.max(1e-2), h);
+        if rejected { factor.min(1.0) } else { factor }
+    }
+}
+
+/// The larger of a value and a bound; the bound if the value is not a number.
+fn at_least(value: f64, bound: f64) -> f64 {
+    if value > bound { value } else { bound }
+}
+
+/// The size of the first attempt: small enough for an explicit Euler step to see little change in the rate.
+///
+///   h₀ = ‖u‖/(100 ‖u̇‖),   h₁ = (0.01 / max(‖u̇‖, ‖f(u + h₀ u̇) − u̇‖/h₀))^(1/8),   h = min(100 h₀, h₁, h_max)
+///
+/// Source: Hairer, Nørsett, Wanner I, §II.4. Where the Euler step leaves the domain, a shorter one is tried.
+pub(crate) fn initial_step<S: System>(
+    context: &mut Context<'_, S>,
+    from: &Point,
+    stage: &mut [f64],
+    rate: &mut [f64],
+    max_step: f64,
+) -> f64 {
+    let layout = context.layout;
+    let size = |vector: &[f64]| norm(layout, vector, &from.scale, &from.scale).value;
+    let (state, speed) = (size(&from.u), size(&from.rate));
+    let mut h = if state < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * state / speed };
+    h = h.min(max_step);
+    // 1e-6 ⋅ 8^−20 is below the resolution of any time worth the name.
+    for _ in 0..20 {
+        for ((value, start), slope) in stage.iter_mut().zip(&from.u).zip(&from.rate) {
+            *value = start + h * slope;
+        }
+        if context.evaluate(from.t + h, stage, rate).is_ok() {
+            for (value, slope) in rate.iter_mut().zip(&from.rate) {
+                *value -= slope;
+            }
+            let curvature = size(rate) / h;
+            let largest = speed.max(curvature);
+            let wanted = if largest <= 1e-15 { (h * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / 8.0) };
+            let chosen = wanted.min(100.0 * h).min(max_step);
+            return if chosen > 0.0 { chosen } else { h };
+        }
+        h /= 8.0;
+    }
+    h
+}

@@ -1,0 +1,153 @@
+//! The implicit stepper: Radau IIA of order 5, for stiff stretches.
+//!
+//!   y₁ = y₀ + z₃,   w₁ = w₀ + h Σ_j a_3j g(t₀ + c_j h, y₀ + z_j),   z from `newton`
+//!
+//! L-stable: a transient of any rate is gone after a step. Error of the state:
+//!
+//!   e = (γ/h I − J)⁻¹ (f(y₀) + Σ e_i z_i/h),
+//!
+//! bounded however stiff the problem; where it rejects a first step, or one after a rejection, f(y₀ + e) takes the
+//! place of f(y₀). Quadratures, which feed nothing back, have the same formula without J. J is evaluated anew in every
+//! step: it is cheap here and a restart stays exact. Source: Hairer, Wanner II, §IV.8.
+
+use crate::explicit::Trial;
+use crate::newton::{Plan, Stages, multiply, set_triple, triple};
+use crate::norm::norm;
+use crate::radau::{ERROR, MATRIX, REAL};
+use crate::report::Cause;
+use crate::system::{Context, Layout, Point, System};
+
+/// Scratch of the implicit stepper and the polynomial of its last step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Implicit {
+    pub stages: Stages,
+    error: Vec<f64>,
+    /// A state beside the start of the step, and its rate.
+    beside: Vec<f64>,
+    beside_rate: Vec<f64>,
+}
+
+impl Implicit {
+    /// Holds the polynomial of a step before, and no scratch yet.
+    pub fn holding(collocation: Vec<f64>) -> Self {
+        Self { stages: Stages::holding(collocation), ..Self::default() }
+    }
+
+    /// Sizes the scratch for a layout; the polynomial stays.
+    pub fn resize(&mut self, layout: &Layout) {
+        self.stages.resize(layout);
+        for vector in [&mut self.error, &mut self.beside, &mut self.beside_rate] {
+            vector.resize(layout.width, 0.0);
+        }
+    }
+
+    /// Attempts a step from one point, where the stages were linearized, to `to`, whose time is set.
+    ///
+    /// # Errors
+    /// `Cause::Newton`, `Cause::Error` if the error exceeds what is allowed at either end, or what stopped an evaluation.
+    pub fn attempt<S: System>(
+        &mut self,
+        context: &mut Context<'_, S>,
+        from: &Point,
+        plan: &Plan,
+        to: &mut Point,
+    ) -> Result<Trial, Cause<S::Inadmissible>> {
+        let layout = context.layout;
+        self.stages.factorize(context, plan.h)?;
+        let convergence = self.stages.solve(context, from, plan)?;
+        self.estimate_state_error(context, from, plan);
+        norm(layout, &self.error, &from.scale, &from.scale).allow()?;
+        self.arrive(layout, from, to);
+        if layout.width > layout.dimension {
+            // Afresh, where Newton's method left the stages; the rate at the third is that at the new state.
+            (0..2).try_for_each(|i| self.stages.evaluate_stage(context, from, plan, i))?;
+        }
+        let projection = context.land(to)?;
+        self.integrate_quadratures(layout, from, plan.h, to);
+        self.estimate_quadrature_error(context, from, plan);
+        context.scales(to);
+        let error = norm(layout, &self.error, &from.scale, &to.scale).allow()?;
+        Ok(Trial { error, projection, stiffness: 0.0, convergence: Some(convergence) })
+    }
+
+    /// Keeps the collocation polynomial of an accepted step, so corrected that it ends in the projected state.
+    pub fn accept(&mut self, from: &Point, to: &Point) {
+        let stages = &mut self.stages;
+        std::mem::swap(&mut stages.increments, &mut stages.collocation);
+        let last = &mut stages.collocation[2 * from.u.len()..];
+        for ((z, end), start) in last.iter_mut().zip(&to.u).zip(&from.u) {
+            *z = end - start;
+        }
+    }
+
+    /// y₁ = y₀ + z₃; w is left for later.
+    fn arrive(&self, layout: &Layout, from: &Point, to: &mut Point) {
+        to.u.copy_from_slice(&from.u);
+        let last = &self.stages.increments[2 * layout.width..];
+        for (value, z) in to.u.iter_mut().zip(last).take(layout.dimension) {
+            *value += z;
+        }
+    }
+
+    /// The error of y into `error`, that of w left at 0.
+    fn estimate_state_error<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point, plan: &Plan) {
+        let layout = context.layout;
+        let Self { stages, error, .. } = self;
+        error.fill(0.0);
+        state_error(layout, stages, &from.rate, plan.h, error);
+        let size = norm(layout, error, &from.scale, &from.scale).value;
+        if plan.filtered && size > 1.0 && self.evaluate_beside(context, from) {
+            state_error(layout, &self.stages, &self.beside_rate, plan.h, &mut self.error);
+        }
+    }
+
+    /// Increments and new values of the quadratures.
+    fn integrate_quadratures(&mut self, layout: &Layout, from: &Point, h: f64, to: &mut Point) {
+        let width = layout.width;
+        for j in layout.dimension..width {
+            let [g1, g2, _] = triple(&self.stages.rates, width, j);
+            let z = multiply(&MATRIX, [g1, g2, to.rate[j]]).map(|sum| h * sum);
+            set_triple(&mut self.stages.increments, width, j, z);
+            to.u[j] = from.u[j] + z[2];
+        }
+    }
+
+    /// The error of w into `error`, that of y being there.
+    fn estimate_quadrature_error<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point, plan: &Plan) {
+        let layout = context.layout;
+        quadrature_error(layout, &self.stages, &from.rate, plan.h, &mut self.error);
+        let size = norm(layout, &self.error, &from.scale, &from.scale).value;
+        if plan.filtered && size > 1.0 && self.evaluate_beside(context, from) {
+            quadrature_error(layout, &self.stages, &self.beside_rate, plan.h, &mut self.error);
+        }
+    }
+
+    /// The rate at the start displaced by the error of y; false if there is none.
+    fn evaluate_beside<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point) -> bool {
+        for ((value, start), error) in self.beside.iter_mut().zip(&from.u).zip(&self.error) {
+            *value = start + error;
+        }
+        context.evaluate(from.t, &self.beside, &mut self.beside_rate).is_ok()
+    }
+}
+
+/// e = (γ/h I − J)⁻¹ (f + Σ e_i z_i/h) of y.
+fn state_error(layout: &Layout, stages: &Stages, rate: &[f64], h: f64, error: &mut [f64]) {
+    for (j, (value, f)) in error.iter_mut().zip(rate).enumerate().take(layout.dimension) {
+        *value = f + defect(stages, layout.width, j) / h;
+    }
+    stages.filter(layout, error);
+}
+
+/// e = (h/γ) (g + Σ e_i z_i/h) of w.
+fn quadrature_error(layout: &Layout, stages: &Stages, rate: &[f64], h: f64, error: &mut [f64]) {
+    for (j, (value, g)) in error.iter_mut().zip(rate).enumerate().skip(layout.dimension) {
+        *value = (h * g + defect(stages, layout.width, j)) / REAL;
+    }
+}
+
+/// Σ e_i z_i of a component.
+fn defect(stages: &Stages, width: usize, j: usize) -> f64 {
+    let z = triple(&stages.increments, width, j);
+    ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2]
+}

@@ -1,0 +1,183 @@
+//! Everything that the next step depends on, as plain numbers: a checkpoint.
+//!
+//! A run continued from a `Memory` makes the same steps, to the last bit, as one that was never interrupted: state,
+//! rate (that of the projected state), step, error history, the collocation polynomial from which Newton's method
+//! starts, the votes for another stepper, and the counters. Options and system are the caller's to repeat.
+//! The interpolant of the last step is not part of it: sample before you stop.
+
+use crate::auto::Switch;
+use crate::control::Control;
+use crate::report::{Statistics, Stepper};
+
+/// The version of the layout of the numbers.
+const VERSION: u64 = 1;
+/// The integers before and besides the vectors.
+const INTEGERS: usize = 18;
+/// The reals besides the vectors.
+const REALS: usize = 9;
+
+/// A checkpoint as two vectors of plain numbers, to be stored without loss.
+///
+/// `integers` begins with the version, the number of components of y and that of w; `reals` begins with the time,
+/// then y, then w.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Memory {
+    /// Times, states, steps, errors.
+    pub reals: Vec<f64>,
+    /// Version, sizes, flags, counters.
+    pub integers: Vec<u64>,
+}
+
+impl Memory {
+    /// The time of the checkpoint; NaN if the memory is empty.
+    pub fn time(&self) -> f64 {
+        self.reals.first().copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// A memory that no integrator has written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum MemoryError {
+    /// Written by a version with another layout.
+    #[error("the checkpoint has layout {found}, this program reads {VERSION}")]
+    Version {
+        /// The version found.
+        found: u64,
+    },
+    /// Numbers are missing or left over.
+    #[error("the checkpoint holds {integers} integers and {reals} reals, not what its sizes ask for")]
+    Length {
+        /// The number of integers found.
+        integers: usize,
+        /// The number of reals found.
+        reals: usize,
+    },
+}
+
+/// The state between two steps, in a form that can be computed with.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Progress {
+    /// Number of components of y.
+    pub dimension: usize,
+    /// Whether rate and step are known.
+    pub started: bool,
+    /// The next step to try.
+    pub step: f64,
+    /// The stepper to try it with.
+    pub stepper: Stepper,
+    /// The error history.
+    pub control: Control,
+    /// The speed at which Newton's method last converged, θ/(1 − θ).
+    pub contraction: f64,
+    /// The step of the collocation polynomial; 0 if the last step left none.
+    pub collocation_step: f64,
+    /// The votes for another stepper.
+    pub switch: Switch,
+    /// The counters.
+    pub statistics: Statistics,
+}
+
+/// The vectors of a checkpoint: u = (y, w), its rate, and the collocation polynomial (three times as long).
+pub(crate) struct Vectors {
+    pub t: f64,
+    pub u: Vec<f64>,
+    pub rate: Vec<f64>,
+    pub collocation: Vec<f64>,
+}
+
+/// Writes a checkpoint.
+pub(crate) fn encode(progress: &Progress, t: f64, u: &[f64], rate: &[f64], collocation: &[f64]) -> Memory {
+    let Progress { control, switch, statistics: s, .. } = progress;
+    let integers = vec![
+        VERSION,
+        progress.dimension as u64,
+        (u.len() - progress.dimension) as u64,
+        u64::from(progress.started),
+        u64::from(progress.stepper == Stepper::Implicit),
+        switch.votes,
+        switch.stay,
+        switch.bar,
+        switch.patience,
+        s.explicit_steps,
+        s.implicit_steps,
+        s.rejected_error,
+        s.rejected_domain,
+        s.newton_failures,
+        s.rate_evaluations,
+        s.jacobians,
+        s.factorizations,
+        s.switches,
+    ];
+    let mut reals = Vec::with_capacity(REALS + 5 * u.len());
+    reals.push(t);
+    reals.extend_from_slice(u);
+    reals.extend_from_slice(rate);
+    reals.extend_from_slice(collocation);
+    reals.extend_from_slice(&[
+        progress.step,
+        control.explicit_error,
+        control.implicit_error,
+        control.implicit_step,
+        progress.contraction,
+        progress.collocation_step,
+        s.smallest_step,
+        s.largest_step,
+    ]);
+    Memory { reals, integers }
+}
+
+/// Reads a checkpoint.
+///
+/// # Errors
+/// `MemoryError` if the numbers are not those of a checkpoint.
+pub(crate) fn decode(memory: &Memory) -> Result<(Progress, Vectors), MemoryError> {
+    let (ints, reals) = (&memory.integers, &memory.reals);
+    let found = ints.first().copied().unwrap_or(0);
+    if found != VERSION {
+        return Err(MemoryError::Version { found });
+    }
+    let wrong = MemoryError::Length { integers: ints.len(), reals: reals.len() };
+    if ints.len() != INTEGERS || reals.len() < REALS {
+        return Err(wrong);
+    }
+    let width = (reals.len() - REALS) / 5;
+    let (dimension, quadratures) = (ints[1], ints[2]);
+    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + 5 * width {
+        return Err(wrong);
+    }
+    let (vectors, rest) = reals[1..].split_at(5 * width);
+    let vectors = Vectors {
+        t: reals[0],
+        u: vectors[..width].to_vec(),
+        rate: vectors[width..2 * width].to_vec(),
+        collocation: vectors[2 * width..].to_vec(),
+    };
+    let progress = Progress {
+        dimension: dimension as usize,
+        started: ints[3] != 0,
+        step: rest[0],
+        stepper: if ints[4] != 0 { Stepper::Implicit } else { Stepper::Explicit },
+        control: Control { explicit_error: rest[1], implicit_error: rest[2], implicit_step: rest[3] },
+        contraction: rest[4],
+        collocation_step: rest[5],
+        switch: Switch { votes: ints[5], stay: ints[6], bar: ints[7], patience: ints[8] },
+        statistics: statistics(ints, rest),
+    };
+    Ok((progress, vectors))
+}
+
+fn statistics(ints: &[u64], rest: &[f64]) -> Statistics {
+    Statistics {
+        explicit_steps: ints[9],
+        implicit_steps: ints[10],
+        rejected_error: ints[11],
+        rejected_domain: ints[12],
+        newton_failures: ints[13],
+        rate_evaluations: ints[14],
+        jacobians: ints[15],
+        factorizations: ints[16],
+        switches: ints[17],
+        smallest_step: rest[6],
+        largest_step: rest[7],
+    }
+}

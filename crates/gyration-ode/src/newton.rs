@@ -1,0 +1,312 @@
+//! The stage equations of Radau IIA and Newton's method for them.
+//!
+//!   z_i = h Σ_j a_ij f(t₀ + c_j h, y₀ + z_j)
+//!
+//! With the exact Jacobian J at the start of the step and W = (T⁻¹ ⊗ I) z, the three stages separate into a real and a
+//! complex linear system per block,
+//!
+//!   (γ/h I − J) ΔW₁ = r₁,   ((α + iβ)/h I − J)(ΔW₂ + iΔW₃) = r₂ + i r₃,   r = (T⁻¹ ⊗ I) F(z) − (Λ ⊗ I) W/h.
+//!
+//! The speed of convergence θ is measured; an iteration that would not arrive in time is broken off. Vectors of three
+//! stages lie one stage after the other. Source: Hairer, Wanner II, §IV.8.
+
+use nalgebra::DMatrix;
+
+use crate::auto::spectral_radius;
+use crate::linear::{ComplexLu, RealLu};
+use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
+use crate::report::Cause;
+use crate::system::{Context, Layout, Point, System};
+
+/// Newton iterations after which a shorter step is cheaper. Source: radau5.f.
+pub(crate) const MAX_ITERATIONS: u32 = 7;
+/// Longest step, in steps before, for which the collocation polynomial is worth extrapolating.
+const EXTRAPOLATION_REACH: f64 = 4.0;
+/// The least error that one iteration is supposed to leave, as a part of its correction, before a second confirms it.
+const LEAST_CONTRACTION: f64 = 1e-2;
+/// Corrections of so many roundings of the state, no longer contracting, are noise.
+const NOISE: f64 = 1e3 * f64::EPSILON;
+
+/// What an implicit attempt is given besides its two points.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plan {
+    pub h: f64,
+    /// The time of the last node, t₀ + h as it is represented.
+    pub end: f64,
+    /// The size of the step that left the collocation polynomial; 0 if there is none.
+    pub collocation_step: f64,
+    /// θ/(1 − θ) of the last Newton iteration of the step before.
+    pub contraction: f64,
+    /// Whether the error estimate deserves its second, filtered variant: the first step, or one after a rejection.
+    pub filtered: bool,
+}
+
+/// How Newton's method has fared.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Convergence {
+    pub iterations: u32,
+    /// θ/(1 − θ): the error left, as a part of the last correction.
+    pub contraction: f64,
+}
+
+/// The unknowns of the three stages and the factors of their equations.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stages {
+    /// z₁, z₂, z₃ of u = (y, w); Newton's method is for y, the rest is filled in by the quadratures.
+    pub increments: Vec<f64>,
+    /// The rates at the three stages.
+    pub rates: Vec<f64>,
+    /// z₁, z₂, z₃ of the last accepted step.
+    pub collocation: Vec<f64>,
+    /// W, of y alone.
+    transformed: Vec<f64>,
+    /// ΔW, then Δz.
+    correction: Vec<f64>,
+    stage: Vec<f64>,
+    jacobian: Vec<DMatrix<f64>>,
+    real: Vec<RealLu>,
+    complex: Vec<ComplexLu>,
+}
+
+impl Stages {
+    /// Holds the polynomial of a step before, and no scratch yet.
+    pub fn holding(collocation: Vec<f64>) -> Self {
+        Self { collocation, ..Self::default() }
+    }
+
+    /// Sizes the scratch for a layout; the polynomial stays.
+    pub fn resize(&mut self, layout: &Layout) {
+        let (n, width) = (layout.dimension, layout.width);
+        for triple in [&mut self.increments, &mut self.rates, &mut self.collocation] {
+            triple.resize(3 * width, 0.0);
+        }
+        for triple in [&mut self.transformed, &mut self.correction] {
+            triple.resize(3 * n, 0.0);
+        }
+        self.stage.resize(width, 0.0);
+        self.set_blocks(layout);
+    }
+
+    /// Sizes what depends on the blocks.
+    pub fn set_blocks(&mut self, layout: &Layout) {
+        let sizes = || layout.blocks().iter().map(|block| block.len());
+        self.jacobian = sizes().map(|size| DMatrix::zeros(size, size)).collect();
+        self.real = sizes().map(RealLu::new).collect();
+        self.complex = sizes().map(ComplexLu::new).collect();
+    }
+
+    /// Evaluates the Jacobian for a step from this point.
+    ///
+    /// # Errors
+    /// `Cause::Inadmissible` from the system.
+    pub fn linearize<S: System>(
+        &mut self,
+        context: &mut Context<'_, S>,
+        from: &Point,
+    ) -> Result<(), Cause<S::Inadmissible>> {
+        for block in &mut self.jacobian {
+            block.fill(0.0);
+        }
+        context.statistics.jacobians += 1;
+        let y = &from.u[..context.layout.dimension];
+        context.system.jacobian(from.t, y, &mut self.jacobian).map_err(Cause::Inadmissible)
+    }
+
+    /// The spectral radius of the Jacobian of this step; spends the scratch of the corrections.
+    pub fn spectral_radius(&mut self, layout: &Layout, scale: &[f64]) -> f64 {
+        spectral_radius(&self.jacobian, layout, scale, &mut self.correction)
+    }
+
+    /// Factorizes γ/h I − J and (α + iβ)/h I − J.
+    ///
+    /// # Errors
+    /// `Cause::Newton` if one of them is singular or not finite.
+    pub fn factorize<S: System>(&mut self, context: &mut Context<'_, S>, h: f64) -> Result<(), Cause<S::Inadmissible>> {
+        context.statistics.factorizations += 1;
+        let (alpha, beta) = COMPLEX;
+        for ((jacobian, real), complex) in self.jacobian.iter().zip(&mut self.real).zip(&mut self.complex) {
+            real.factorize_shifted(REAL / h, jacobian).map_err(|_| Cause::Newton)?;
+            complex.factorize_shifted((alpha / h, beta / h), jacobian).map_err(|_| Cause::Newton)?;
+        }
+        Ok(())
+    }
+
+    /// Applies (γ/h I − J)⁻¹ in place, block by block.
+    pub fn filter(&self, layout: &Layout, vector: &mut [f64]) {
+        for (block, real) in layout.blocks().iter().zip(&self.real) {
+            real.solve(&mut vector[block.clone()]);
+        }
+    }
+
+    /// Solves for the increments of y.
+    ///
+    /// # Errors
+    /// `Cause::Newton` if it does not converge or not in time, or what stopped an evaluation.
+    pub fn solve<S: System>(
+        &mut self,
+        context: &mut Context<'_, S>,
+        from: &Point,
+        plan: &Plan,
+    ) -> Result<Convergence, Cause<S::Inadmissible>> {
+        let layout = context.layout;
+        let (tolerance, noise) = tolerance(layout, from);
+        let mut contraction = plan.contraction;
+        let mut left = contraction.max(f64::EPSILON).powf(0.8).max(LEAST_CONTRACTION);
+        let mut previous = f64::INFINITY;
+        self.predict_and_evaluate(context, from, plan)?;
+        for iterations in 1..=MAX_ITERATIONS {
+            if iterations > 1 {
+                self.evaluate(context, from, plan)?;
+            }
+            let size = self.correct(layout, plan.h, &from.scale);
+            if iterations > 1 {
+                let theta = size / previous;
+                if theta >= 0.5 && size <= noise {
+                    return Ok(Convergence { iterations, contraction });
+                }
+                contraction = theta / (1.0 - theta);
+                left = contraction;
+                // What the iterations still allowed would leave.
+                let predicted = left * size * theta.powi((MAX_ITERATIONS - iterations) as i32);
+                if !(theta < 0.99 && predicted <= tolerance) {
+                    return Err(Cause::Newton);
+                }
+            }
+            if left * size <= tolerance {
+                return Ok(Convergence { iterations, contraction });
+            }
+            previous = size;
+        }
+        Err(Cause::Newton)
+    }
+
+    /// Starts from the extrapolated polynomial of the step before or, where that leaves the domain, from z = 0.
+    fn predict_and_evaluate<S: System>(
+        &mut self,
+        context: &mut Context<'_, S>,
+        from: &Point,
+        plan: &Plan,
+    ) -> Result<(), Cause<S::Inadmissible>> {
+        let ratio = plan.h / plan.collocation_step;
+        if ratio <= EXTRAPOLATION_REACH {
+            self.predict(context.layout, ratio);
+            if self.evaluate(context, from, plan).is_ok() {
+                return Ok(());
+            }
+        }
+        self.increments.fill(0.0);
+        self.transformed.fill(0.0);
+        self.evaluate(context, from, plan)
+    }
+
+    /// z_i = q(1 + c_i h/h_old) − q(1), with q the polynomial of the step before.
+    fn predict(&mut self, layout: &Layout, ratio: f64) {
+        let (n, width) = (layout.dimension, layout.width);
+        let weights = NODES.map(|node| {
+            let [a, b, c] = basis(1.0 + node * ratio);
+            [a, b, c - 1.0]
+        });
+        for j in 0..n {
+            let z = multiply(&weights, triple(&self.collocation, width, j));
+            set_triple(&mut self.increments, width, j, z);
+            set_triple(&mut self.transformed, n, j, multiply(&INVERSE, z));
+        }
+    }
+
+    fn evaluate<S: System>(
+        &mut self,
+        context: &mut Context<'_, S>,
+        from: &Point,
+        plan: &Plan,
+    ) -> Result<(), Cause<S::Inadmissible>> {
+        (0..3).try_for_each(|i| self.evaluate_stage(context, from, plan, i))
+    }
+
+    /// The rates at a stage, from its increments.
+    ///
+    /// # Errors
+    /// As an evaluation.
+    pub fn evaluate_stage<S: System>(
+        &mut self,
+        context: &mut Context<'_, S>,
+        from: &Point,
+        plan: &Plan,
+        i: usize,
+    ) -> Result<(), Cause<S::Inadmissible>> {
+        let width = self.stage.len();
+        let range = i * width..(i + 1) * width;
+        let time = if i == 2 { plan.end } else { from.t + NODES[i] * plan.h };
+        for ((stage, start), z) in self.stage.iter_mut().zip(&from.u).zip(&self.increments[range.clone()]) {
+            *stage = start + z;
+        }
+        context.evaluate(time, &self.stage, &mut self.rates[range])
+    }
+
+    /// One correction of z and W; returns the size of Δz relative to the scales.
+    fn correct(&mut self, layout: &Layout, h: f64, scale: &[f64]) -> f64 {
+        let (n, width) = (layout.dimension, layout.width);
+        let (gamma, alpha, beta) = (REAL / h, COMPLEX.0 / h, COMPLEX.1 / h);
+        for j in 0..n {
+            let [f1, f2, f3] = multiply(&INVERSE, triple(&self.rates, width, j));
+            let [w1, w2, w3] = triple(&self.transformed, n, j);
+            let residual = [f1 - gamma * w1, f2 - (alpha * w2 - beta * w3), f3 - (beta * w2 + alpha * w3)];
+            set_triple(&mut self.correction, n, j, residual);
+        }
+        let (first, others) = self.correction.split_at_mut(n);
+        let (second, third) = others.split_at_mut(n);
+        for ((block, real), complex) in layout.blocks().iter().zip(&self.real).zip(&self.complex) {
+            real.solve(&mut first[block.clone()]);
+            complex.solve(&mut second[block.clone()], &mut third[block.clone()]);
+        }
+        for j in 0..n {
+            let dw = triple(&self.correction, n, j);
+            let dz = multiply(&TRANSFORM, dw);
+            set_triple(&mut self.correction, n, j, dz);
+            for i in 0..3 {
+                self.transformed[i * n + j] += dw[i];
+                self.increments[i * width + j] += dz[i];
+            }
+        }
+        block_norm(layout, scale, |j| triple(&self.correction, n, j))
+    }
+}
+
+/// How accurately to solve the stages, and the size of rounding noise, both relative to the error allowed.
+///
+/// κ = ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that its
+/// solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
+/// Never below ten roundings of the state. Source: radau5.f, which knows the relative tolerance itself.
+fn tolerance(layout: &Layout, from: &Point) -> (f64, f64) {
+    let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
+    let wanted = size.max(1.0).powf(-0.5).clamp(1e-4, 1e-2);
+    (wanted.max(10.0 * f64::EPSILON * size), NOISE * size)
+}
+
+/// The largest root mean square over the blocks of y, of three vectors together; a NaN is the largest of all.
+fn block_norm(layout: &Layout, scale: &[f64], vectors: impl Fn(usize) -> [f64; 3]) -> f64 {
+    let mut largest = 0.0;
+    for block in layout.blocks().iter().filter(|block| !block.is_empty()) {
+        let squares: f64 = block.clone().map(|j| vectors(j).map(|v| (v / scale[j]).powi(2)).iter().sum::<f64>()).sum();
+        let size = (squares / (3 * block.len()) as f64).sqrt();
+        if size.is_nan() {
+            return size;
+        }
+        largest = size.max(largest);
+    }
+    largest
+}
+
+/// Component j of the three stages.
+pub(crate) fn triple(stages: &[f64], stride: usize, j: usize) -> [f64; 3] {
+    [stages[j], stages[stride + j], stages[2 * stride + j]]
+}
+
+/// Sets component j of the three stages.
+pub(crate) fn set_triple(stages: &mut [f64], stride: usize, j: usize, values: [f64; 3]) {
+    (stages[j], stages[stride + j], stages[2 * stride + j]) = values.into();
+}
+
+/// Matrix times vector.
+pub(crate) fn multiply(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}

@@ -1,0 +1,79 @@
+//! The size of an error: one number from many components.
+//!
+//!   ‖e‖ = max over the groups G of √( (1/|G|) Σ_{i∈G} (e_i/s_i)² )
+//!
+//! The groups are the blocks of the system and, as one more, its quadratures. The maximum keeps a body at rest from
+//! hiding the error of one that bounces, so that the accuracy of a body does not depend on the company it is in.
+//! s_i is the smaller of the errors allowed at the two ends of the step: a state that approaches a boundary, where
+//! little is allowed, is judged by what is allowed where it arrives and not by what was allowed where it came from.
+
+use crate::report::Cause;
+use crate::system::Layout;
+
+/// The size of an error and the component that is worst.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Norm {
+    pub value: f64,
+    pub component: usize,
+}
+
+impl Norm {
+    /// Refuses an error larger than allowed, or not a number.
+    ///
+    /// # Errors
+    /// `Cause::Error`.
+    pub fn allow<I>(self) -> Result<Self, Cause<I>> {
+        let Self { value: norm, component } = self;
+        if norm <= 1.0 { Ok(self) } else { Err(Cause::Error { component, norm }) }
+    }
+}
+
+/// The norm of a vector over the groups, by the smaller of two scales.
+pub(crate) fn norm(layout: &Layout, error: &[f64], start: &[f64], end: &[f64]) -> Norm {
+    worst(layout, |i| error[i] / start[i].min(end[i]), |square, _, count| (square / count).sqrt(), |_| 0.0)
+}
+
+/// The norm of the explicit pair: e₅²/√(e₅² + 0.01 e₃²) in each group, which behaves like an error of order 7.
+pub(crate) fn embedded_norm(layout: &Layout, fifth: &[f64], third: &[f64], start: &[f64], end: &[f64]) -> Norm {
+    let scale = |i: usize| start[i].min(end[i]);
+    worst(
+        layout,
+        |i| fifth[i] / scale(i),
+        |square5, square3, count| {
+            let both = square5 + 0.01 * square3;
+            if both == 0.0 { 0.0 } else { square5 / (both * count).sqrt() }
+        },
+        |i| third[i] / scale(i),
+    )
+}
+
+/// The largest group value, `size` of the sums of squares of `first` and `second`; a NaN is the largest of all.
+fn worst(
+    layout: &Layout,
+    first: impl Fn(usize) -> f64,
+    size: impl Fn(f64, f64, f64) -> f64,
+    second: impl Fn(usize) -> f64,
+) -> Norm {
+    let mut result = Norm { value: 0.0, component: 0 };
+    for group in layout.groups.iter().filter(|group| !group.is_empty()) {
+        let (mut squares, mut others) = (0.0, 0.0);
+        let (mut component, mut largest) = (group.start, 0.0);
+        for i in group.clone() {
+            let relative = first(i).abs();
+            squares += relative * relative;
+            others += second(i).powi(2);
+            // Written so that a NaN is taken, and kept.
+            if relative > largest || relative.is_nan() {
+                (component, largest) = (i, relative);
+            }
+        }
+        let value = size(squares, others, group.len() as f64);
+        if value > result.value || value.is_nan() {
+            result = Norm { value, component };
+        }
+        if value.is_nan() {
+            break;
+        }
+    }
+    result
+}

@@ -1,0 +1,160 @@
+//! What the user asks of an integrator and what the integrator says of its work.
+
+/// Which stepper to use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Explicit or implicit, whichever advances further for its cost; decided anew as the solution changes.
+    #[default]
+    Auto,
+    /// The explicit pair of order 8 only.
+    Explicit,
+    /// The implicit method of order 5 only.
+    Implicit,
+}
+
+/// The two steppers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stepper {
+    /// Dormand–Prince 8(5,3).
+    Explicit,
+    /// Radau IIA of order 5.
+    Implicit,
+}
+
+/// What the user may choose; the error allowed is the system's to say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Which stepper.
+    pub method: Method,
+    /// The longest step, in units of t; may be +∞.
+    pub max_step: f64,
+    /// The size of the first attempt; chosen from the first two rates if absent.
+    pub initial_step: Option<f64>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { method: Method::Auto, max_step: f64::INFINITY, initial_step: None }
+    }
+}
+
+/// What kept a step from being longer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// Accuracy; `component` of (y, w) has the largest error relative to its scale.
+    Error {
+        /// Index in (y, w).
+        component: usize,
+    },
+    /// The stability of the explicit method: the problem is stiff here.
+    Stability,
+    /// A longer attempt left the domain.
+    Domain,
+    /// A longer attempt did not solve its nonlinear equations.
+    Newton,
+    /// `Options::max_step`.
+    MaxStep,
+    /// The end that was asked for.
+    End,
+}
+
+/// One accepted step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport {
+    /// Where the step began.
+    pub start: f64,
+    /// Where it ended: the new time, equal to the end asked for if `limit` is `Limit::End`.
+    pub end: f64,
+    /// Which stepper made it.
+    pub stepper: Stepper,
+    /// What kept it from being longer.
+    pub limit: Limit,
+    /// The estimated error relative to the error allowed, at most 1.
+    pub error: f64,
+    /// The size of the correction by `System::project`.
+    pub projection: f64,
+    /// How many longer attempts were rejected.
+    pub rejections: u32,
+}
+
+/// Counters since the first step; a continued run goes on counting.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Statistics {
+    /// Accepted steps of the explicit stepper.
+    pub explicit_steps: u64,
+    /// Accepted steps of the implicit stepper.
+    pub implicit_steps: u64,
+    /// Attempts rejected for their error.
+    pub rejected_error: u64,
+    /// Attempts rejected because they left the domain, or numbers ceased to be finite.
+    pub rejected_domain: u64,
+    /// Attempts whose nonlinear equations were not solved.
+    pub newton_failures: u64,
+    /// Evaluations of the rates, those for dense output aside.
+    pub rate_evaluations: u64,
+    /// Evaluations of the Jacobian.
+    pub jacobians: u64,
+    /// Factorizations of the pair of iteration matrices.
+    pub factorizations: u64,
+    /// Changes of stepper.
+    pub switches: u64,
+    /// The smallest accepted step not cut short by the end asked for; 0 before there is one.
+    pub smallest_step: f64,
+    /// The largest accepted step.
+    pub largest_step: f64,
+}
+
+impl Statistics {
+    /// All accepted steps.
+    pub fn accepted(&self) -> u64 {
+        self.explicit_steps + self.implicit_steps
+    }
+}
+
+/// Why an attempt was rejected.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Cause<I> {
+    /// The state left the domain of the equations.
+    #[error("the state is outside the domain: {0:?}")]
+    Inadmissible(I),
+    /// A component of the state or of its rate is infinite or not a number.
+    #[error("component {index} of the state or of its rate is not finite")]
+    NotFinite {
+        /// Index in (y, w).
+        index: usize,
+    },
+    /// The estimated error exceeds the error allowed.
+    #[error("the error is {norm:.3e} times the error allowed, most of it in component {component}")]
+    Error {
+        /// Index in (y, w) of the component that is worst.
+        component: usize,
+        /// The error relative to the error allowed.
+        norm: f64,
+    },
+    /// The nonlinear equations of the implicit method did not converge.
+    #[error("the nonlinear equations of the step did not converge")]
+    Newton,
+}
+
+/// The integration cannot go on; the integrator stays at its last accepted state.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Failure<I> {
+    /// The rates at the first state, or the Jacobian at an accepted one, cannot be had: no step size helps.
+    #[error("at t = {time:e}: {cause}")]
+    NoRates {
+        /// The time of the state.
+        time: f64,
+        /// What is wrong with it.
+        cause: Cause<I>,
+    },
+    /// The step has become too small to advance the time.
+    #[error("at t = {time:e} the step fell to {step:e}: {cause}")]
+    StepTooSmall {
+        /// The time of the last accepted state.
+        time: f64,
+        /// The step that would have to be tried next.
+        step: f64,
+        /// Why the last attempt was rejected.
+        cause: Cause<I>,
+    },
+}

@@ -1,0 +1,128 @@
+//! The order of every method and of its interpolant, measured with steps of fixed size.
+
+mod common;
+
+use common::{Problem, distance, fixed, kepler, perihelion, short, slopes};
+use gyration_ode::{Integrator, Method, Options};
+
+/// Kepler's equation by Newton's method: the state at time t.
+fn on_ellipse(e: f64, t: f64) -> [f64; 4] {
+    let mut anomaly = t;
+    for _ in 0..50 {
+        anomaly -= (anomaly - e * anomaly.sin() - t) / (1.0 - e * anomaly.cos());
+    }
+    let (sin, cos) = anomaly.sin_cos();
+    let rate = 1.0 / (1.0 - e * cos);
+    let minor = (1.0 - e * e).sqrt();
+    [cos - e, minor * sin, -sin * rate, minor * cos * rate]
+}
+
+/// Errors at the end and of the interpolant, for steps of 1/n, with the tolerance that lets them pass.
+fn errors(method: Method, n: usize, atol: f64) -> (f64, f64) {
+    let (e, end) = (0.3, 4.0);
+    let mut problem = kepler().tolerances(0.0, atol);
+    let mut integrator = Integrator::new(0.0, &perihelion(e), &[], fixed(method, 1.0 / n as f64));
+    let (mut between, mut y) = (0.0_f64, [0.0; 4]);
+    while integrator.time() < end {
+        let report = integrator.step(&mut problem, end).unwrap();
+        assert_eq!(report.rejections, 0, "the step must be as fixed");
+        integrator.prepare_dense(&mut problem);
+        for k in 1..8 {
+            let t = report.start + (report.end - report.start) * f64::from(k) / 8.0;
+            integrator.interpolate(t, &mut y, &mut []);
+            between = between.max(distance(&y, &on_ellipse(e, t)));
+        }
+    }
+    assert_eq!(integrator.statistics().accepted(), (end as usize * n) as u64);
+    (distance(integrator.state(), &on_ellipse(e, end)), between)
+}
+
+#[test]
+fn explicit_pair_has_order_eight_and_dense_output_seven() {
+    // Any tolerance that is never reached: explicit steps do not depend on it.
+    let both: Vec<_> = [3, 6, 12, 24].iter().map(|n| errors(Method::Explicit, *n, 1e9)).collect();
+    let ends: Vec<f64> = both.iter().map(|b| b.0).collect();
+    let between: Vec<f64> = both.iter().map(|b| b.1).collect();
+    println!("DOP853: errors {}, slopes {:.2?}", short(&ends), slopes(&ends));
+    println!("DOP853 dense: errors {}, slopes {:.2?}", short(&between), slopes(&between));
+    // A slope between two sizes differs from the order by O(h): half an order is allowed on the last.
+    assert!((7.5..9.5).contains(slopes(&ends).last().unwrap()));
+    // The interpolant is of local order 8, which only a step's own error shows; it is never worse than global order 7.
+    assert!((6.8..9.0).contains(slopes(&between).last().unwrap()));
+}
+
+#[test]
+fn radau_has_order_five_and_dense_output_three() {
+    let sizes = [16, 32, 64, 128];
+    // Just above the estimated errors, which are O(h⁴): the tolerance of Newton's method follows it.
+    let both: Vec<_> = sizes.iter().map(|n| errors(Method::Implicit, *n, 20.0 * (1.0 / *n as f64).powi(4))).collect();
+    let ends: Vec<f64> = both.iter().map(|b| b.0).collect();
+    let between: Vec<f64> = both.iter().map(|b| b.1).collect();
+    println!("Radau: errors {}, slopes {:.2?}", short(&ends), slopes(&ends));
+    println!("Radau dense: errors {}, slopes {:.2?}", short(&between), slopes(&between));
+    assert!((4.6..5.6).contains(slopes(&ends).last().unwrap()));
+    // Local order 4 of a cubic through collocation points.
+    assert!((3.6..4.6).contains(slopes(&between).last().unwrap()));
+}
+
+/// y' = cos t · y and w' = y sin t: rates that depend on time, at the right nodes; quadratures of the same order.
+#[test]
+fn quadratures_have_the_order_of_the_method() {
+    for (method, sizes, order) in [(Method::Explicit, [2, 4, 8], 8.0), (Method::Implicit, [4, 8, 16], 5.0)] {
+        let exact = |t: f64| t.sin().exp();
+        let results: Vec<(f64, f64)> = sizes
+            .iter()
+            .map(|n| {
+                let mut problem = Problem::general(
+                    1,
+                    1,
+                    |t, y, dy, dw| {
+                        (dy[0], dw[0]) = (t.cos() * y[0], t.cos() * y[0] * y[0]);
+                        Ok(())
+                    },
+                    |t, _, blocks| blocks[0][(0, 0)] = t.cos(),
+                )
+                .tolerances(0.0, 1e9);
+                let end = common::run(&mut problem, &[1.0], &[0.0], (0.0, 3.0), fixed(method, 1.0 / f64::from(*n)));
+                // ∫ cos t e^(2 sin t) dt = (e^(2 sin t) − 1)/2.
+                let wanted = 0.5 * (exact(3.0).powi(2) - 1.0);
+                ((end.state()[0] - exact(3.0)).abs(), (end.quadratures()[0] - wanted).abs())
+            })
+            .collect();
+        let states: Vec<f64> = results.iter().map(|r| r.0).collect();
+        let quadratures: Vec<f64> = results.iter().map(|r| r.1).collect();
+        println!(
+            "{method:?}: y {} {:.2?}, w {} {:.2?}",
+            short(&states),
+            slopes(&states),
+            short(&quadratures),
+            slopes(&quadratures)
+        );
+        for slope in [slopes(&states)[1], slopes(&quadratures)[1]] {
+            assert!(slope > order - 0.6, "{slope}");
+        }
+    }
+}
+
+/// Error against work: halving the step at tolerances that control it, the slope of error over steps is the order.
+#[test]
+fn tolerance_controls_the_error() {
+    for (method, expected) in [(Method::Explicit, 8.0), (Method::Implicit, 5.0)] {
+        let runs: Vec<(f64, f64)> = [1e-5, 1e-7, 1e-9, 1e-11]
+            .iter()
+            .map(|tolerance| {
+                let mut problem = kepler().tolerances(*tolerance, *tolerance);
+                let options = Options { method, ..Options::default() };
+                let end = common::run(&mut problem, &perihelion(0.6), &[], (0.0, 10.0), options);
+                let error = distance(end.state(), &on_ellipse(0.6, 10.0));
+                // The error of ten time units on an ellipse grows from local errors by a factor of some hundreds.
+                assert!(error < 1e3 * tolerance, "{method:?} at {tolerance:e}: {error:e}");
+                (end.statistics().accepted() as f64, error)
+            })
+            .collect();
+        let (first, last) = (runs[0], runs[3]);
+        let slope = (first.1 / last.1).ln() / (last.0 / first.0).ln();
+        println!("{method:?}: steps and errors {runs:.3?}, slope {slope:.2}");
+        assert!((expected - 1.5..expected + 1.5).contains(&slope), "{slope}");
+    }
+}
