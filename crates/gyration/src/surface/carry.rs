@@ -27,10 +27,7 @@ impl Moments {
 
     /// The moments of the same weights at the points offset + linear · Y; orders above `order` are left at zero.
     pub(crate) fn carried(&self, linear: &Mat3, offset: &Vec3, order: usize) -> Self {
-        let mut out = Self {
-            zeroth: self.zeroth,
-            ..Self::default()
-        };
+        let mut out = Self { zeroth: self.zeroth, ..Self::default() };
         if order == 0 {
             return out;
         }
@@ -72,25 +69,9 @@ fn map_third(third: &SymmetricThird, linear: &Mat3) -> SymmetricThird {
 }
 
 /// Adds ∑ over the places of b in a₀ b⊗b⊗b + a₁⊗b⊗b + a₂⊗b.
-fn add_offset_terms(
-    zeroth: f64,
-    first: &Vec3,
-    second: &Mat3,
-    offset: &Vec3,
-    out: &mut SymmetricThird,
-) {
-    let indices = [
-        (0, 0, 0),
-        (0, 0, 1),
-        (0, 0, 2),
-        (0, 1, 1),
-        (0, 1, 2),
-        (0, 2, 2),
-        (1, 1, 1),
-        (1, 1, 2),
-        (1, 2, 2),
-        (2, 2, 2),
-    ];
+fn add_offset_terms(zeroth: f64, first: &Vec3, second: &Mat3, offset: &Vec3, out: &mut SymmetricThird) {
+    let indices =
+        [(0, 0, 0), (0, 0, 1), (0, 0, 2), (0, 1, 1), (0, 1, 2), (0, 2, 2), (1, 1, 1), (1, 1, 2), (1, 2, 2), (2, 2, 2)];
     let (a, b) = (first, offset);
     for (sum, (i, j, k)) in out.0.iter_mut().zip(indices) {
         *sum += second[(i, j)] * b[k] + second[(i, k)] * b[j] + second[(j, k)] * b[i];
@@ -108,14 +89,7 @@ mod tests {
         let mut sum = Moments::default();
         for i in 0..7 {
             let t = f64::from(i);
-            let (w, y) = (
-                1.0 + 0.3 * t,
-                map(&Vec3::new(
-                    (1.3 * t).sin(),
-                    (0.7 * t + 1.0).cos(),
-                    0.4 * t - 1.0,
-                )),
-            );
+            let (w, y) = (1.0 + 0.3 * t, map(&Vec3::new((1.3 * t).sin(), (0.7 * t + 1.0).cos(), 0.4 * t - 1.0)));
             sum.zeroth += w;
             sum.first += w * y;
             sum.second += w * y * y.transpose();
@@ -126,8 +100,7 @@ mod tests {
 
     #[test]
     fn carried_moments_are_those_of_the_carried_points() {
-        let linear = Mat3::new(0.3, -1.0, 0.2, 0.9, 0.4, 0.1, -0.2, 0.6, 1.4)
-            + cross_matrix(&Vec3::new(0.1, 0.2, 0.3));
+        let linear = Mat3::new(0.3, -1.0, 0.2, 0.9, 0.4, 0.1, -0.2, 0.6, 1.4) + cross_matrix(&Vec3::new(0.1, 0.2, 0.3));
         let offset = Vec3::new(0.4, -2.0, 0.7);
         let direct = cloud(|y| offset + linear * y);
         let carried = cloud(|y| *y).carried(&linear, &offset, 3);

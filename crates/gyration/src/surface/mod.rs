@@ -19,7 +19,8 @@ mod facets_triangle;
 mod rule;
 
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
-use curved::Sphere;
+use curved::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Sphere, Torus};
+use facets::{Facets, FacetsError};
 use patch::{Patch, Primitive};
 
 /// The gap of a plane as a function of the material point: d(X) = g₀ + m·X.
@@ -80,21 +81,76 @@ pub struct GapClosed {
 }
 
 /// The surface of a body: flat facets and smooth patches, with X relative to any origin.
+///
+/// Constructors put the origin at the centre of symmetry and the axis along z; cylinder, cone and capsule are centred at
+/// mid-height, the base of a cone at −h/2 and its apex at +h/2.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
+    /// Triangles.
+    pub facets: Facets,
     /// Smooth pieces.
     pub patches: Vec<Patch>,
 }
 
 impl Surface {
-    /// A sphere of radius R [m] about the origin.
+    /// A sphere of radius R [m].
     pub fn sphere(radius: f64) -> Self {
         Self::from_patches(vec![Patch::new(Primitive::Sphere(Sphere { radius }))])
     }
 
+    /// An ellipsoid with semi-axes [m] along x, y, z.
+    pub fn ellipsoid(semi_axes: &Vec3) -> Self {
+        Self::from_patches(vec![Patch::new(Primitive::Ellipsoid(Ellipsoid { semi_axes: *semi_axes }))])
+    }
+
+    /// A closed cylinder of radius R and height h [m].
+    pub fn cylinder(radius: f64, height: f64) -> Self {
+        let wall = Patch::new(Primitive::CylinderWall(CylinderWall { radius, height }));
+        let end = Patch::new(Primitive::Disk(Disk { radius }));
+        Self::from_patches(vec![wall, end.lifted(0.5 * height), end.lifted(-0.5 * height)])
+    }
+
+    /// A closed cone of base radius R and height h [m], apex up.
+    pub fn cone(radius: f64, height: f64) -> Self {
+        let wall = Patch::new(Primitive::ConeWall(ConeWall { radius, height }));
+        let base = Patch::new(Primitive::Disk(Disk { radius }));
+        Self::from_patches(vec![wall, base.lifted(-0.5 * height)])
+    }
+
+    /// A cylinder of radius R and height h [m] between two hemispheres.
+    pub fn capsule(radius: f64, height: f64) -> Self {
+        let wall = Patch::new(Primitive::CylinderWall(CylinderWall { radius, height }));
+        let top = Patch::new(Primitive::Hemisphere(Hemisphere { radius })).lifted(0.5 * height);
+        let half_turn = Mat3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0));
+        Self::from_patches(vec![wall, top, top.transformed(&half_turn, &Vec3::zeros())])
+    }
+
+    /// A torus: a tube of radius r around a circle of radius R ≥ r [m].
+    pub fn torus(major_radius: f64, minor_radius: f64) -> Self {
+        Self::from_patches(vec![Patch::new(Primitive::Torus(Torus { major_radius, minor_radius }))])
+    }
+
+    /// A box with the given edge lengths [m].
+    pub fn cuboid(size: &Vec3) -> Self {
+        Self::from_facets(Facets::cuboid(size))
+    }
+
+    /// Triangles given by vertices [m] and corner indices, counter-clockwise seen from outside.
+    ///
+    /// # Errors
+    /// Those of [`Facets::new`].
+    pub fn from_triangles(vertices: &[Vec3], triangles: &[[usize; 3]]) -> Result<Self, FacetsError> {
+        Facets::new(vertices, triangles).map(Self::from_facets)
+    }
+
+    /// A surface of facets only.
+    pub fn from_facets(facets: Facets) -> Self {
+        Self { facets, patches: Vec::new() }
+    }
+
     /// A surface of smooth patches only.
     pub fn from_patches(patches: Vec<Patch>) -> Self {
-        Self { patches }
+        Self { facets: Facets::default(), patches }
     }
 
     /// The surface after X ↦ X + by.
@@ -104,17 +160,23 @@ impl Surface {
 
     /// The surface after X ↦ rotation · X + offset.
     pub fn transformed(&self, rotation: &Mat3, offset: &Vec3) -> Self {
-        Self { patches: self.patches.iter().map(|patch| patch.transformed(rotation, offset)).collect() }
+        Self {
+            facets: self.facets.transformed(rotation, offset),
+            patches: self.patches.iter().map(|patch| patch.transformed(rotation, offset)).collect(),
+        }
     }
 
     /// Both surfaces as one; every part of each makes contact.
     pub fn merged(&self, other: &Self) -> Self {
-        Self { patches: [self.patches.as_slice(), &other.patches].concat() }
+        Self {
+            facets: self.facets.merged(&other.facets),
+            patches: [self.patches.as_slice(), &other.patches].concat(),
+        }
     }
 
     /// Area [m²].
     pub fn area(&self) -> f64 {
-        self.patches.iter().map(Patch::area).sum()
+        self.facets.area() + self.patches.iter().map(Patch::area).sum::<f64>()
     }
 
     /// The moments of `requests`, set in the entries of `out`, about the origin of X.
@@ -125,24 +187,30 @@ impl Surface {
     /// `GapClosed` if the smallest gap is not a positive finite number; `out` is then unspecified.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         assert_eq!(requests.len(), out.len(), "one place for each request");
-        let (gap, _) = self.smallest_gap(field);
-        if gap.is_nan() || gap <= 0.0 {
-            return Err(GapClosed { gap });
-        }
         out.fill(Moments::default());
+        self.facets.moments(field, requests, out)?;
         for patch in &self.patches {
+            let gap = field.gap(&patch.support(&-field.direction));
+            if !gap.is_finite() || gap <= 0.0 {
+                return Err(GapClosed { gap });
+            }
             patch.add_moments(field, requests, out);
         }
         Ok(())
     }
 
-    /// The smallest gap [m] and the material point where it is; infinite for an empty surface, NaN for a bad field.
+    /// The smallest gap [m] and the material point where it is; infinite for an empty surface.
+    ///
+    /// The first gap that is not finite is returned at once.
     pub fn smallest_gap(&self, field: &GapField) -> (f64, Vec3) {
-        let mut smallest = (f64::INFINITY, Vec3::zeros());
+        let mut smallest = self.facets.smallest_gap(field);
         for patch in &self.patches {
             let point = patch.support(&-field.direction);
             let gap = field.gap(&point);
-            if gap.is_nan() || gap < smallest.0 {
+            if !gap.is_finite() {
+                return (gap, point);
+            }
+            if gap < smallest.0 {
                 smallest = (gap, point);
             }
         }
@@ -153,6 +221,7 @@ impl Surface {
     ///
     /// v velocity at the origin of X (3) [m/s], A = Ṗ (3×3) [1/s].
     pub fn fastest_point(&self, v: &Vec3, a: &Mat3) -> f64 {
-        self.patches.iter().map(|patch| patch.fastest_point(v, a)).fold(0.0, f64::max)
+        let patches = self.patches.iter().map(|patch| patch.fastest_point(v, a));
+        patches.fold(self.facets.fastest_point(v, a), f64::max)
     }
 }

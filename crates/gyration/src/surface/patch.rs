@@ -5,7 +5,7 @@
 //! smallest gap, and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the
 //! support point along its gradient Aᵀ(v + A X) never lowers it.
 
-use super::curved::{GROUP, Sphere};
+use super::curved::{ConeWall, CylinderWall, Disk, Ellipsoid, GROUP, Hemisphere, Sphere, Torus};
 use super::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
@@ -14,6 +14,18 @@ use crate::tensor::{Mat3, Vec3};
 pub enum Primitive {
     /// A whole sphere.
     Sphere(Sphere),
+    /// The upper half of a sphere.
+    Hemisphere(Hemisphere),
+    /// A whole ellipsoid.
+    Ellipsoid(Ellipsoid),
+    /// The wall of a cylinder.
+    CylinderWall(CylinderWall),
+    /// A flat disk, one side of it.
+    Disk(Disk),
+    /// The wall of a cone.
+    ConeWall(ConeWall),
+    /// A torus.
+    Torus(Torus),
 }
 
 /// A primitive with its place in the body: X = offset + rotation · Y.
@@ -30,26 +42,29 @@ pub struct Patch {
 impl Patch {
     /// The primitive in its own frame.
     pub fn new(primitive: Primitive) -> Self {
-        Self {
-            primitive,
-            offset: Vec3::zeros(),
-            rotation: Mat3::identity(),
-        }
+        Self { primitive, offset: Vec3::zeros(), rotation: Mat3::identity() }
     }
 
     /// The same patch after X ↦ rotation · X + offset.
     pub fn transformed(&self, rotation: &Mat3, offset: &Vec3) -> Self {
-        Self {
-            offset: rotation * self.offset + offset,
-            rotation: rotation * self.rotation,
-            ..*self
-        }
+        Self { offset: rotation * self.offset + offset, rotation: rotation * self.rotation, ..*self }
+    }
+
+    /// The same patch moved along z.
+    pub fn lifted(&self, by: f64) -> Self {
+        self.transformed(&Mat3::identity(), &Vec3::new(0.0, 0.0, by))
     }
 
     /// Area [m²].
     pub fn area(&self) -> f64 {
         match &self.primitive {
-            Primitive::Sphere(sphere) => sphere.area(),
+            Primitive::Sphere(p) => p.area(),
+            Primitive::Hemisphere(p) => p.area(),
+            Primitive::Ellipsoid(p) => p.area(),
+            Primitive::CylinderWall(p) => p.area(),
+            Primitive::Disk(p) => p.area(),
+            Primitive::ConeWall(p) => p.area(),
+            Primitive::Torus(p) => p.area(),
         }
     }
 
@@ -57,44 +72,43 @@ impl Patch {
     pub fn support(&self, direction: &Vec3) -> Vec3 {
         let own = self.rotation.tr_mul(direction);
         let point = match &self.primitive {
-            Primitive::Sphere(sphere) => sphere.support(&own),
+            Primitive::Sphere(p) => p.support(&own),
+            Primitive::Hemisphere(p) => p.support(&own),
+            Primitive::Ellipsoid(p) => p.support(&own),
+            Primitive::CylinderWall(p) => p.support(&own),
+            Primitive::Disk(p) => p.support(&own),
+            Primitive::ConeWall(p) => p.support(&own),
+            Primitive::Torus(p) => p.support(&own),
         };
         self.offset + self.rotation * point
     }
 
     /// Adds the moments about the origin of X; every gap on the patch must be positive.
-    pub(crate) fn add_moments(
-        &self,
-        field: &GapField,
-        requests: &[MomentRequest],
-        out: &mut [Moments],
-    ) {
-        let own = GapField {
-            height: field.gap(&self.offset),
-            direction: self.rotation.tr_mul(&field.direction),
-        };
+    pub(crate) fn add_moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
+        let own = GapField { height: field.gap(&self.offset), direction: self.rotation.tr_mul(&field.direction) };
         for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
             let mut sums = [Moments::default(); GROUP];
-            match &self.primitive {
-                Primitive::Sphere(sphere) => sphere.add_moments(&own, requests, &mut sums),
-            }
+            let sums = &mut sums[..requests.len()];
+            let chart = match &self.primitive {
+                Primitive::Sphere(p) => p.moments(&own, requests, sums),
+                Primitive::Hemisphere(p) => p.moments(&own, requests, sums),
+                Primitive::Ellipsoid(p) => p.moments(&own, requests, sums),
+                Primitive::CylinderWall(p) => p.moments(&own, requests, sums),
+                Primitive::Disk(p) => p.moments(&own, requests, sums),
+                Primitive::ConeWall(p) => p.moments(&own, requests, sums),
+                Primitive::Torus(p) => p.moments(&own, requests, sums),
+            };
+            let (linear, offset) = (self.rotation * chart.linear, self.offset + self.rotation * chart.offset);
             for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
-                moments.add(
-                    &sum.carried(&self.rotation, &self.offset, request.order),
-                    request.order,
-                );
+                moments.add(&sum.carried(&linear, &offset, request.order), request.order);
             }
         }
     }
 
     /// The largest |v + A X| over the patch, by ascents from seven starts.
     pub(crate) fn fastest_point(&self, v: &Vec3, a: &Mat3) -> f64 {
-        let starts = [Vec3::x(), Vec3::y(), Vec3::z()]
-            .into_iter()
-            .flat_map(|axis| [axis, -axis]);
-        let ascents = std::iter::once(a.tr_mul(v))
-            .chain(starts)
-            .map(|start| self.ascend(v, a, &start));
+        let starts = [Vec3::x(), Vec3::y(), Vec3::z()].into_iter().flat_map(|axis| [axis, -axis]);
+        let ascents = std::iter::once(a.tr_mul(v)).chain(starts).map(|start| self.ascend(v, a, &start));
         ascents.fold(0.0, f64::max)
     }
 

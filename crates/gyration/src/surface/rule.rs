@@ -1,7 +1,9 @@
 //! Quadrature rules for curved surfaces.
 //!
 //! Gauss–Legendre rules on [−1, 1], exact for polynomials of degree 2n − 1, are computed once by Newton's iteration on
-//! the three-term recurrence and kept for the life of the program: no call after the first allocates.
+//! the three-term recurrence and kept for the life of the program: no call after the first allocates. On an interval next
+//! to a singularity they are graded by x = ± δ sinh y, δ the distance of the singularity: in y it stays at iπ/2 however
+//! close it is, so that the number of points grows only like ln(length/δ).
 
 use std::sync::OnceLock;
 
@@ -37,10 +39,7 @@ fn legendre_node(n: usize, i: usize) -> Node {
             break;
         }
     }
-    Node {
-        at: x,
-        weight: 2.0 / ((1.0 - x * x) * slope * slope),
-    }
+    Node { at: x, weight: 2.0 / ((1.0 - x * x) * slope * slope) }
 }
 
 /// P_n(x) and P_n'(x) by the recurrence k P_k = (2k − 1) x P_(k−1) − (k − 1) P_(k−2).
@@ -48,12 +47,36 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut value) = (1.0, x);
     for k in 2..=n {
         let k = k as f64;
-        (previous, value) = (
-            value,
-            ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k,
-        );
+        (previous, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
     }
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
+}
+
+/// A graded Gauss rule on the interval from `from`, the end next to the singularities, to `to` (on either side of it).
+///
+/// `width` is the distance of the singularities; `sharpness` the order of the poles there.
+pub(crate) fn graded(from: f64, to: f64, width: f64, sharpness: f64) -> impl Iterator<Item = Node> {
+    let length = to - from;
+    let span = (length.abs() / width).asinh();
+    let half = 0.5 * span;
+    let sign = width.copysign(length);
+    gauss_legendre(graded_points(span, sharpness)).iter().map(move |node| {
+        let growth = (half * (1.0 + node.at)).exp();
+        let (sinh, cosh) = (0.5 * (growth - 1.0 / growth), 0.5 * (growth + 1.0 / growth));
+        Node { at: from + sign * sinh, weight: width * cosh * half * node.weight }
+    })
+}
+
+/// Points for an error of some 1e-11 where the nearest singularity is at iπ/2 beside the end of an interval of length `span`.
+///
+/// Gauss converges like r^−2n, r the sum of the semi-axes of the ellipse of foci ±1 through the singularity, here
+/// −1 + iπ/span: with z = x + iy, r = s + √(s² − 1), s = (|z − 1| + |z + 1|)/2. Poles of higher order need more points.
+fn graded_points(span: f64, sharpness: f64) -> usize {
+    const DIGITS: f64 = 25.0;
+    let y = std::f64::consts::PI / span;
+    let s = 0.5 * (y + y.hypot(2.0));
+    let r = s + (s * s - 1.0).sqrt();
+    ((DIGITS + 1.2 * sharpness.max(0.0)) / (2.0 * r.ln())).ceil() as usize + 4
 }
 
 #[cfg(test)]
@@ -66,15 +89,9 @@ mod tests {
         for n in [1, 2, 5, 16, 33, 64, 128] {
             let rule = gauss_legendre(n);
             for degree in [0, 2 * n - 2] {
-                let sum: f64 = rule
-                    .iter()
-                    .map(|node| node.weight * node.at.powi(degree as i32))
-                    .sum();
+                let sum: f64 = rule.iter().map(|node| node.weight * node.at.powi(degree as i32)).sum();
                 let exact = 2.0 / (degree as f64 + 1.0);
-                assert!(
-                    (sum - exact).abs() < 2e-14,
-                    "n {n}, degree {degree}: {sum} against {exact}"
-                );
+                assert!((sum - exact).abs() < 2e-14, "n {n}, degree {degree}: {sum} against {exact}");
             }
         }
     }

@@ -3,9 +3,26 @@
 //! Every primitive answers three questions. Its **moments** A_k = ∫ κ(g₀ + m·Y) Y^⊗k dA about its own origin; its
 //! **support point** in a direction a, arg max a·Y, from which the smallest gap and the fastest point follow; its
 //! **area**. Frames: origin at the centre of symmetry, axis along z. This module knows no body and no law.
+//!
+//! Moments are summed in whatever frame makes them sparse; the `Chart` that a primitive returns leads back.
 
+mod cone;
+mod cylinder;
+mod disk;
+mod ellipsoid;
+mod features;
+mod half_plane;
+mod hemisphere;
 mod integrand;
+mod ring;
 mod sphere;
+mod torus;
 
+pub use cone::ConeWall;
+pub use cylinder::CylinderWall;
+pub use disk::Disk;
+pub use ellipsoid::Ellipsoid;
+pub use hemisphere::Hemisphere;
 pub(crate) use integrand::GROUP;
 pub use sphere::Sphere;
+pub use torus::Torus;

@@ -6,13 +6,15 @@
 //!   U_k = ∫_−1^1 κ(g₀ + R|m| u) u^k du,   k = 0 … 3
 //!
 //! is left:  A₀ = 2πR² U₀,  A₁ = 2πR³ U₁ c,  A₂ = 2πR⁴ [U₂ c⊗c + ½(U₀ − U₂)(I − c⊗c)], and A₃ likewise with U₁, U₃.
+//! The U_k are moments along a segment, u = 2x − 1, in closed form.
 
 use std::f64::consts::PI;
 
-use super::super::rule::gauss_legendre;
-use super::super::{GapField, Kernel, MomentRequest, Moments};
-use super::integrand::Integrand;
-use crate::tensor::{Mat3, SymmetricThird, Vec3};
+use super::super::power::LineKernel;
+use super::super::{GapField, MomentRequest, Moments};
+use super::half_plane::Chart;
+use super::integrand::Lines;
+use crate::tensor::{Mat3, Vec3};
 
 /// A sphere about the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,139 +34,76 @@ impl Sphere {
         self.radius * unit_or_z(direction)
     }
 
-    /// Adds the moments about the centre; every gap on the sphere must be positive.
-    pub(crate) fn add_moments(
-        &self,
-        field: &GapField,
-        requests: &[MomentRequest],
-        out: &mut [Moments],
-    ) {
-        let axis = unit_or_z(&field.direction);
+    /// Sums the moments in a frame with z along c; every gap must be positive.
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
         let reach = self.radius * field.direction.norm();
-        for (request, moments) in requests.iter().zip(out) {
-            let heights = height_moments(request, field.height - reach, field.height + reach);
-            add_axial(self.radius, &axis, request.order, &heights, moments);
+        for ((kernel, request), moments) in Lines::new(requests).iter().zip(requests).zip(out) {
+            let u = height_moments(kernel, field.height, reach, -1.0, 1.0, request.order);
+            add_zone(self.radius, request.order, &u, moments);
         }
+        Chart::frame(frame_along(&field.direction))
     }
 }
 
 /// The unit vector along `v`; e_z where v vanishes, since then every direction serves.
-fn unit_or_z(v: &Vec3) -> Vec3 {
+pub(super) fn unit_or_z(v: &Vec3) -> Vec3 {
     v.try_normalize(0.0).unwrap_or_else(Vec3::z)
 }
 
-/// U_k = ∫ κ u^k du over [−1, 1], k = 0 … 3, where the gap runs from `low` to `high`.
-///
-/// Gauss points are uniform in the logarithm of the gap, over the range in which d^(1−ν) falls by 1e-17.
-fn height_moments(request: &MomentRequest, low: f64, high: f64) -> [f64; 4] {
-    /// Decades of d^(1−ν) kept, as a natural logarithm: e^−39 ≈ 1e-17.
-    const KEPT: f64 = 39.0;
-    let rise = high - low;
-    let full = (rise / low).ln_1p();
-    let decay = match request.kernel {
-        Kernel::Power(nu) => nu - 1.0,
-        Kernel::Log => 0.0,
-    };
-    let range = if decay * full > KEPT {
-        KEPT / decay
-    } else {
-        full
-    };
-    let integrand = Integrand::new(std::slice::from_ref(request));
-    let mut sums = [0.0; 4];
-    // 40 points integrate e^(−39 x) on [0, 1] to round-off; they also cover the growth for ν < 1.
-    for node in gauss_legendre(40) {
-        let x = 0.5 * range * (1.0 + node.at);
-        let gap = low * x.exp();
-        // du/dx = 2 d/rise; where the gap hardly varies, rise/d is replaced by its limit full.
-        let from_low = if rise > 0.0 {
-            2.0 * low * x.exp_m1() / rise
-        } else {
-            1.0 + node.at
-        };
-        let slope = if rise > 0.0 {
-            2.0 * gap / rise * 0.5 * range
-        } else {
-            1.0
-        };
-        let mut term = node.weight * slope * integrand.at(gap)[0];
-        for sum in &mut sums {
-            *sum += term;
-            term *= from_low - 1.0;
-        }
-    }
-    sums
+/// A right-handed frame whose third column is along `v`.
+pub(super) fn frame_along(v: &Vec3) -> Mat3 {
+    let z = unit_or_z(v);
+    // The coordinate axis least along z gives a well-conditioned cross product.
+    let helper = if z.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
+    let x = helper.cross(&z).normalize();
+    Mat3::from_columns(&[x, z.cross(&x), z])
 }
 
-/// Adds the moments of an axially symmetric density on a sphere, from its moments U_k along the axis.
-fn add_axial(radius: f64, axis: &Vec3, order: usize, u: &[f64; 4], out: &mut Moments) {
+/// ∫ κ(height + reach · u) u^k du over `from` ≤ u ≤ `to`, k = 0 … order.
+pub(super) fn height_moments(
+    kernel: &LineKernel,
+    height: f64,
+    reach: f64,
+    from: f64,
+    to: f64,
+    order: usize,
+) -> [f64; 4] {
+    let (near, far) = (kernel.sample(height + reach * from), kernel.sample(height + reach * to));
+    let line = kernel.moments(&near, &far, order);
+    shifted(&line, from, to - from)
+}
+
+/// span ∫ (from + span x)^k κ dx from the moments ∫ x^k κ dx, k = 0 … 3.
+#[inline]
+pub(super) fn shifted(line: &[f64], from: f64, span: f64) -> [f64; 4] {
+    let (a, b) = (from, span);
+    [
+        b * line[0],
+        b * (a * line[0] + b * line[1]),
+        b * (a * a * line[0] + b * (2.0 * a * line[1] + b * line[2])),
+        b * (a * a * a * line[0] + b * (3.0 * a * a * line[1] + b * (3.0 * a * line[2] + b * line[3]))),
+    ]
+}
+
+/// Adds a zone between two parallels of a sphere, from its moments U_k along the axis z.
+pub(super) fn add_zone(radius: f64, order: usize, u: &[f64; 4], out: &mut Moments) {
     let scale = 2.0 * PI * radius * radius;
     out.zeroth += scale * u[0];
     if order >= 1 {
-        out.first += scale * radius * u[1] * axis;
+        out.first.z += scale * radius * u[1];
     }
     if order >= 2 {
-        let across = 0.5 * (u[0] - u[2]);
-        let tensor =
-            Mat3::from_diagonal_element(across) + (u[2] - across) * axis * axis.transpose();
-        out.second += scale * radius * radius * tensor;
+        let squared = scale * radius * radius;
+        let across = 0.5 * squared * (u[0] - u[2]);
+        out.second.m11 += across;
+        out.second.m22 += across;
+        out.second.m33 += squared * u[2];
     }
     if order >= 3 {
         let cubed = scale * radius * radius * radius;
-        let across = 0.5 * (u[1] - u[3]);
-        let mut tensor = SymmetricThird::default();
-        tensor.add_point(cubed * (u[3] - 3.0 * across), axis);
-        add_isotropic(cubed * across, axis, &mut tensor);
-        for (sum, entry) in out.third.0.iter_mut().zip(tensor.0) {
-            *sum += entry;
-        }
-    }
-}
-
-/// Adds w (a_i δ_jk + a_j δ_ik + a_k δ_ij).
-fn add_isotropic(w: f64, a: &Vec3, out: &mut SymmetricThird) {
-    let (x, y, z) = (w * a.x, w * a.y, w * a.z);
-    for (sum, entry) in out
-        .0
-        .iter_mut()
-        .zip([3.0 * x, y, z, x, 0.0, x, 3.0 * y, z, y, 3.0 * z])
-    {
-        *sum += entry;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn force_on_a_sphere_is_the_closed_form() {
-        // verification.md, row 11: 2πRα[d^(1−ν) − (d+2R)^(1−ν)]/(ν−1); the rule is good to round-off.
-        for (radius, gap, nu) in [
-            (0.1, 0.03, 6.0),
-            (0.02, 1e-6, 4.5),
-            (1.0, 30.0, 2.0),
-            (0.5, 1e-3, 12.0),
-        ] {
-            let field = GapField {
-                height: gap + radius,
-                direction: Vec3::new(0.6, 0.0, 0.8),
-            };
-            let mut out = [Moments::default()];
-            let request = MomentRequest {
-                kernel: Kernel::Power(nu),
-                order: 0,
-            };
-            Sphere { radius }.add_moments(&field, &[request], &mut out);
-            let power = |d: f64| d.powf(1.0 - nu);
-            let exact = 2.0 * PI * radius * (power(gap) - power(gap + 2.0 * radius)) / (nu - 1.0);
-            // The gap itself is known to 1e-16 (R + gap)/gap.
-            let tolerance = 1e-13 + 2e-16 * nu * (radius + gap) / gap;
-            assert!(
-                (out[0].zeroth / exact - 1.0).abs() < tolerance,
-                "{} against {exact}",
-                out[0].zeroth
-            );
-        }
+        let across = 0.5 * cubed * (u[1] - u[3]);
+        out.third.0[2] += across;
+        out.third.0[7] += across;
+        out.third.0[9] += cubed * u[3];
     }
 }
