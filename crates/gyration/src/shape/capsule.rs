@@ -11,6 +11,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{CIRCLE_POINTS, Outline, SILHOUETTE_POINTS, circle, directions};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// A capsule with its centre at the origin and its axis along z.
@@ -51,9 +52,14 @@ impl Capsule {
         self.radius * direction.norm() + 0.5 * self.height * direction.z.abs()
     }
 
+    /// The wall and the half spheres.
+    pub fn surface(&self) -> Surface {
+        Surface::capsule(self.radius, self.height)
+    }
+
     /// The sharpest feature: a smooth point of an end.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::SmoothPoint)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::SmoothPoint
     }
 
     /// The circles where the half balls begin, and two meridians.

@@ -10,6 +10,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, SILHOUETTE_POINTS, circle};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// A circular cone with its axis along z and its apex up.
@@ -52,9 +53,14 @@ impl Cone {
         apex.max(self.radius * direction.xy().norm() - apex)
     }
 
+    /// The wall and the base.
+    pub fn surface(&self) -> Surface {
+        Surface::cone(self.radius, self.height)
+    }
+
     /// The sharpest feature: the apex.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::Apex)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::Apex
     }
 
     /// The rim of the base and eight rulings.

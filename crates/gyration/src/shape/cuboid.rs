@@ -6,6 +6,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::Outline;
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// A box with its centre at the origin and its edges along the axes.
@@ -37,9 +38,14 @@ impl Cuboid {
         0.5 * direction.abs().dot(&self.size)
     }
 
+    /// The six faces.
+    pub fn surface(&self) -> Surface {
+        Surface::cuboid(&self.size)
+    }
+
     /// The sharpest feature: a vertex.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::Vertex)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::Vertex
     }
 
     /// The twelve edges.

@@ -8,6 +8,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, SILHOUETTE_POINTS, circle};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// A circular cylinder with its centre at the origin and its axis along z.
@@ -43,9 +44,14 @@ impl Cylinder {
         self.radius * direction.xy().norm() + 0.5 * self.height * direction.z.abs()
     }
 
+    /// The wall and the two ends.
+    pub fn surface(&self) -> Surface {
+        Surface::cylinder(self.radius, self.height)
+    }
+
     /// The sharpest feature: the rim of an end.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::Rim)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::Rim
     }
 
     /// The two rims and eight rulings.

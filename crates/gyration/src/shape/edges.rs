@@ -1,8 +1,8 @@
 //! The edges of a surface of triangles: which triangles meet there, and which way they face.
 //!
 //! A closed, oriented surface has every edge exactly twice, once in each sense. Everything else is a fault with a place.
+//! Found by sorting, so that meshes of millions of triangles need little more memory than they have themselves.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use super::polyhedron::{Polyhedron, PolyhedronError};
@@ -27,25 +27,26 @@ impl fmt::Display for Edge {
     }
 }
 
-/// The triangles at an edge, by the sense in which they run along it.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Sides {
-    /// Triangles that run from the lower to the higher index.
-    pub forward: Vec<usize>,
-    /// Triangles that run from the higher to the lower index.
-    pub backward: Vec<usize>,
+/// One side of a triangle: an edge as one triangle runs along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Side {
+    /// The vertices at the ends, the lower index first.
+    pub ends: [usize; 2],
+    /// Whether the triangle runs from the higher to the lower index.
+    pub runs_back: bool,
+    /// Index of the triangle.
+    pub triangle: usize,
 }
 
-/// The edges of a surface by their vertices, lower index first, in the order of the indices.
-pub(super) fn edges(triangles: &[[usize; 3]]) -> BTreeMap<[usize; 2], Sides> {
-    let mut edges: BTreeMap<[usize; 2], Sides> = BTreeMap::new();
-    for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            let sides = edges.entry([from.min(to), from.max(to)]).or_default();
-            if from < to { sides.forward.push(triangle) } else { sides.backward.push(triangle) }
-        }
-    }
-    edges
+/// The sides of all triangles, those of the same edge together.
+pub(super) fn sides(triangles: &[[usize; 3]]) -> Vec<Side> {
+    let of_triangle = |(triangle, &[a, b, c]): (usize, &[usize; 3])| {
+        let side = |from: usize, to: usize| Side { ends: [from.min(to), from.max(to)], runs_back: from > to, triangle };
+        [side(a, b), side(b, c), side(c, a)]
+    };
+    let mut sides: Vec<Side> = triangles.iter().enumerate().flat_map(of_triangle).collect();
+    sides.sort_unstable();
+    sides
 }
 
 /// The edges at which a surface is not closed and oriented.
@@ -75,12 +76,13 @@ impl EdgeFaults {
     /// Finds the faults of a surface whose indices are valid.
     pub fn of(surface: &Polyhedron) -> Self {
         let mut faults = Self::default();
-        for ([from, to], sides) in edges(&surface.triangles) {
+        for meeting in sides(&surface.triangles).chunk_by(|a, b| a.ends == b.ends) {
+            let [from, to] = meeting[0].ends;
             let edge = Edge { from: surface.vertices[from], to: surface.vertices[to] };
-            match (sides.forward.len(), sides.backward.len()) {
-                (1, 1) => {}
-                (1, 0) | (0, 1) => faults.open.add(edge),
-                (2, 0) | (0, 2) => faults.misoriented.add(edge),
+            match meeting {
+                [a, b] if a.runs_back != b.runs_back => {}
+                [_, _] => faults.misoriented.add(edge),
+                [_] => faults.open.add(edge),
                 _ => faults.branching.add(edge),
             }
         }

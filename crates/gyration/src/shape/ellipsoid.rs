@@ -8,6 +8,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, SILHOUETTE_POINTS, directions};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// An ellipsoid with its centre at the origin and its axes along those of the frame.
@@ -39,9 +40,14 @@ impl Ellipsoid {
         self.semi_axes.component_mul(direction).norm()
     }
 
+    /// The surface.
+    pub fn surface(&self) -> Surface {
+        Surface::ellipsoid(&self.semi_axes)
+    }
+
     /// The sharpest feature: a smooth point.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::SmoothPoint)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::SmoothPoint
     }
 
     /// The three principal sections.

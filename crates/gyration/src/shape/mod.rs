@@ -38,6 +38,7 @@ pub use torus::Torus;
 pub use union::{Part, Union};
 
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::Vec3;
 
 /// A reference shape.
@@ -132,9 +133,16 @@ impl Shape {
         (bounds.max - bounds.min).max()
     }
 
+    /// The surface that makes contact, in the shape's frame; none for a set of points.
+    #[expect(clippy::useless_conversion, reason = "of a union or of points it is an Option already")]
+    pub fn surface(&self) -> Option<Surface> {
+        each!(self, shape => shape.surface().into())
+    }
+
     /// The sharpest feature by which the shape may touch a plane; none if it has no surface.
+    #[expect(clippy::useless_conversion, reason = "of a union or of points it is an Option already")]
     pub fn sharpest_feature(&self) -> Option<Feature> {
-        each!(self, shape => shape.sharpest_feature())
+        each!(self, shape => shape.sharpest_feature().into())
     }
 
     /// A wireframe to draw, in the shape's frame.

@@ -6,6 +6,7 @@ use super::error::{ShapeError, finite, positive};
 use super::feature::Feature;
 use super::outline::{Outline, extreme_points};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// Material points fixed to each other; no contact.
@@ -58,6 +59,11 @@ impl Points {
     /// The support function h(n) = max X_k·n [m].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.points.iter().map(|point| point.at.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// None: points do not touch.
+    pub fn surface(&self) -> Option<Surface> {
+        None
     }
 
     /// None: points do not touch.

@@ -12,6 +12,7 @@ use super::feature::Feature;
 use super::outline::{Outline, extreme_points};
 use super::wireframe;
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// A closed surface of triangles.
@@ -212,9 +213,18 @@ impl Polyhedron {
         self.vertices.iter().map(|vertex| vertex.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// The triangles.
+    ///
+    /// # Panics
+    /// If a triangle refers to no vertex or a coordinate is not finite; [`Polyhedron::validate`] refuses both.
+    pub fn surface(&self) -> Surface {
+        Surface::from_triangles(&self.vertices, &self.triangles)
+            .unwrap_or_else(|fault| panic!("the polyhedron has not passed validate: {fault}"))
+    }
+
     /// The sharpest feature: a vertex.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::Vertex)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::Vertex
     }
 
     /// The sharp edges, on at most 2000 points.

@@ -7,6 +7,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::Outline;
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::Vec3;
 
 /// A sphere with its centre at the origin.
@@ -35,9 +36,14 @@ impl Sphere {
         self.radius * direction.norm()
     }
 
+    /// The surface.
+    pub fn surface(&self) -> Surface {
+        Surface::sphere(self.radius)
+    }
+
     /// The sharpest feature: a smooth point.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::SmoothPoint)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::SmoothPoint
     }
 
     /// Three great circles.

@@ -8,6 +8,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, circle};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// A torus with its centre at the origin and its axis along z.
@@ -48,9 +49,14 @@ impl Torus {
         self.major_radius * direction.xy().norm() + self.minor_radius * direction.norm()
     }
 
+    /// The surface.
+    pub fn surface(&self) -> Surface {
+        Surface::torus(self.major_radius, self.minor_radius)
+    }
+
     /// The sharpest feature: a smooth point.
-    pub fn sharpest_feature(&self) -> Option<Feature> {
-        Some(Feature::SmoothPoint)
+    pub fn sharpest_feature(&self) -> Feature {
+        Feature::SmoothPoint
     }
 
     /// The outermost, innermost, highest and lowest circles, and eight sections of the tube.

@@ -8,6 +8,7 @@ use super::error::{ShapeError, finite, positive};
 use super::feature::Feature;
 use super::outline::{Outline, extreme_points};
 use crate::mass::MassProperties;
+use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 
 /// Largest |RᵀR − 1| of a rotation matrix given in decimals.
@@ -60,6 +61,12 @@ impl Union {
     /// The support function h(n) = max over the parts of a_k·n + h_k(R_kᵀn) [m].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.parts.iter().map(|part| part.extent(direction)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The surfaces of all parts, also where one covers another; none if all are points.
+    pub fn surface(&self) -> Option<Surface> {
+        let of_part = |part: &Part| Some(part.shape.surface()?.transformed(&part.rotation, &part.offset));
+        self.parts.iter().filter_map(of_part).reduce(|sum, surface| sum.merged(&surface))
     }
 
     /// The sharpest feature of all parts.

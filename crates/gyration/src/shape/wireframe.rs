@@ -4,7 +4,7 @@
 //! out the flattest are left away. A surface that bends nowhere as much (a fine mesh of a smooth body) shows its
 //! sharpest edges all the same, so that it is not invisible.
 
-use super::edges::edges;
+use super::edges::sides;
 use super::outline::Outline;
 use super::polyhedron::Polyhedron;
 use crate::tensor::Vec3;
@@ -19,12 +19,11 @@ const OUTLINE_POINTS: usize = 2000;
 /// The wireframe of a surface: one line per sharp edge.
 pub(super) fn sharp_edges(surface: &Polyhedron) -> Outline {
     let normals: Vec<Vec3> = surface.triangles.iter().map(|triangle| unit_normal(surface, triangle)).collect();
-    let mut bent: Vec<(f64, [usize; 2])> = edges(&surface.triangles)
-        .into_iter()
-        .filter_map(|(edge, sides)| {
-            let (first, second) = (sides.forward.first()?, sides.backward.first()?);
-            let (a, b) = (normals[*first], normals[*second]);
-            Some((a.cross(&b).norm().atan2(a.dot(&b)), edge))
+    let mut bent: Vec<(f64, [usize; 2])> = sides(&surface.triangles)
+        .chunk_by(|a, b| a.ends == b.ends)
+        .map(|meeting| {
+            let (a, b) = (normals[meeting[0].triangle], normals[meeting[meeting.len() - 1].triangle]);
+            (a.cross(&b).norm().atan2(a.dot(&b)), meeting[0].ends)
         })
         .filter(|(angle, _)| *angle > PLANE_ANGLE)
         .collect();
