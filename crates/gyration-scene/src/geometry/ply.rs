@@ -48,14 +48,16 @@ fn read_vertices(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedr
     };
     let mut record = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
-        let place = values.place();
-        for (property, value) in element.properties.iter().zip(&mut record) {
+        for (index, property) in element.properties.iter().enumerate() {
             match property.count {
                 Some(count) => values.skip_list(count, property.value)?,
-                None => *value = values.next(property.value)?,
+                None => record[index] = values.next(property.value)?,
+            }
+            if [x, y, z].contains(&index) {
+                finite(record[index], values.last)?;
             }
         }
-        mesh.vertices.push(Vec3::new(finite(record[x], place)?, finite(record[y], place)?, finite(record[z], place)?));
+        mesh.vertices.push(Vec3::new(record[x], record[y], record[z]));
     }
     Ok(())
 }
@@ -70,9 +72,8 @@ fn read_faces(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedron)
         for property in &element.properties {
             match property.count {
                 Some(count) if is_corners(&property.name) => {
-                    let place = values.place();
                     read_corners(values, [count, property.value], mesh.vertices.len(), &mut corners)?;
-                    add_polygon(&corners, &mesh.vertices, &mut mesh.triangles, place)?;
+                    add_polygon(&corners, &mesh.vertices, &mut mesh.triangles, values.last)?;
                 }
                 Some(count) => values.skip_list(count, property.value)?,
                 None => values.next(property.value).map(drop)?,
@@ -90,10 +91,9 @@ fn read_corners(
 ) -> Result<(), FileFault> {
     corners.clear();
     for _ in 0..values.length(count)? {
-        let place = values.place();
         let index = values.next(kind)?;
         if !(index >= 0.0 && index < vertices as f64 && index.fract() == 0.0) {
-            return Err(Trouble::NoSuchVertex { index, count: vertices }.at(place));
+            return Err(Trouble::NoSuchVertex { index, count: vertices }.at(values.last));
         }
         corners.push(index as usize);
     }
@@ -106,65 +106,65 @@ struct Values<'a> {
     bytes: &'a [u8],
     offset: usize,
     line: usize,
+    /// Where the value read last stands.
+    last: Place,
 }
 
 impl<'a> Values<'a> {
     fn after(header: &Header, bytes: &'a [u8]) -> Self {
-        Self { encoding: header.encoding, bytes, offset: header.bytes, line: header.lines + 1 }
+        let (offset, line) = (header.bytes, header.lines + 1);
+        Self { encoding: header.encoding, bytes, offset, line, last: Place::Line(line) }
     }
 
     fn rest(&self) -> usize {
         self.bytes.len() - self.offset
     }
 
-    fn place(&self) -> Place {
+    fn next(&mut self, kind: Scalar) -> Result<f64, FileFault> {
         match self.encoding {
-            Encoding::Text => Place::Line(self.line),
-            _ => Place::Byte(self.offset),
+            Encoding::Text => self.next_of_text(),
+            Encoding::LittleEndian => self.next_of_bytes(kind, false),
+            Encoding::BigEndian => self.next_of_bytes(kind, true),
         }
     }
 
-    fn next(&mut self, kind: Scalar) -> Result<f64, FileFault> {
-        if self.encoding == Encoding::Text {
-            let word = self.word()?;
-            return word.parse().map_err(|_| Trouble::unexpected("a number", word).at(self.place()));
-        }
+    fn next_of_bytes(&mut self, kind: Scalar, is_big_endian: bool) -> Result<f64, FileFault> {
+        self.last = Place::Byte(self.offset);
         let size = kind.size();
         let Some(raw) = self.bytes.get(self.offset..self.offset + size) else {
-            return Err(Trouble::Truncated { expected: "a value" }.at(self.place()));
+            return Err(Trouble::Truncated { expected: "a value" }.at(self.last));
         };
         self.offset += size;
         let mut wide = [0; 8];
         wide[..size].copy_from_slice(raw);
-        if self.encoding == Encoding::BigEndian {
+        if is_big_endian {
             wide[..size].reverse();
         }
         Ok(decoded(u64::from_le_bytes(wide), kind))
     }
 
-    fn word(&mut self) -> Result<&'a str, FileFault> {
+    fn next_of_text(&mut self) -> Result<f64, FileFault> {
         let is_space = |byte: &u8| byte.is_ascii_whitespace();
         let rest = &self.bytes[self.offset..];
         let start = rest.iter().position(|byte| !is_space(byte)).unwrap_or(rest.len());
-        self.line += rest[..start].iter().filter(|&&byte| byte == b'\n').count();
         let length = rest[start..].iter().position(is_space).unwrap_or(rest.len() - start);
+        self.line += rest[..start].iter().filter(|&&byte| byte == b'\n').count();
         self.offset += start + length;
-        let word = &rest[start..start + length];
+        self.last = Place::Line(self.line);
+        let word = String::from_utf8_lossy(&rest[start..start + length]);
         if word.is_empty() {
-            return Err(Trouble::Truncated { expected: "a value" }.at(self.place()));
+            return Err(Trouble::Truncated { expected: "a value" }.at(self.last));
         }
-        std::str::from_utf8(word)
-            .map_err(|_| Trouble::unexpected("a number", "bytes that are no text").at(self.place()))
+        word.parse().map_err(|_| Trouble::unexpected("a number", &word).at(self.last))
     }
 
     /// The number of values in a list.
     fn length(&mut self, kind: Scalar) -> Result<u64, FileFault> {
-        let place = self.place();
         let length = self.next(kind)?;
         if length >= 0.0 && length.fract() == 0.0 {
             return Ok(length as u64);
         }
-        Err(Trouble::unexpected("the length of a list", &length.to_string()).at(place))
+        Err(Trouble::unexpected("the length of a list", &length.to_string()).at(self.last))
     }
 
     fn skip_list(&mut self, count: Scalar, value: Scalar) -> Result<(), FileFault> {
