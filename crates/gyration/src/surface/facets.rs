@@ -8,16 +8,10 @@
 
 use std::ops::Range;
 
+use super::facets_plan::{BATCH, CLUSTER, Plan};
 use super::facets_triangle::{Corner, Triangle, add_tensors};
-use super::power::{GapSample, LineKernel};
-use super::{GapClosed, GapField, Kernel, MomentRequest, Moments};
+use super::{GapClosed, GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
-
-/// Vertices of a cluster: enough to share most of them, few enough for a table on the stack.
-const CLUSTER: usize = 32;
-
-/// Requests that share one pass over the triangles.
-const BATCH: usize = 4;
 
 /// Triangles with their areas, ready for contact integrals.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -213,34 +207,32 @@ impl Facets {
             return Err(GapClosed { gap });
         }
         for (requests, out) in requests.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
+            let plan = Plan::new(requests);
             for cluster in &self.clusters {
-                self.add_cluster(cluster, field, requests, out);
+                self.add_cluster(cluster, field, &plan, out);
             }
         }
         Ok(())
     }
 
-    /// The moments of at most `BATCH` requests over one cluster.
-    fn add_cluster(&self, cluster: &Cluster, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
+    /// Adds the planned moments over one cluster.
+    fn add_cluster(&self, cluster: &Cluster, field: &GapField, plan: &Plan, out: &mut [Moments]) {
         let points = &self.vertices[cluster.vertices.clone()];
-        let mut kernels = [LineKernel::new(Kernel::Power(0.0)); BATCH];
-        let mut samples = [[GapSample::default(); CLUSTER]; BATCH];
-        for ((kernel, samples), request) in kernels.iter_mut().zip(&mut samples).zip(requests) {
-            *kernel = LineKernel::new(request.kernel);
-            for (sample, point) in samples.iter_mut().zip(points) {
-                *sample = kernel.sample(field.gap(point));
-            }
+        let (mut gaps, mut inverses) = ([1.0; CLUSTER], [1.0; CLUSTER]);
+        for ((gap, inverse), point) in gaps.iter_mut().zip(&mut inverses).zip(points) {
+            *gap = field.gap(point);
+            *inverse = 1.0 / *gap;
         }
+        let table = plan.table(&gaps[..points.len()]);
         for facet in &self.triangles[cluster.triangles.clone()] {
-            let corner = |i: usize| {
-                let place = usize::from(facet.corners[i]);
-                Corner { place, gap: samples[0][place].gap, point: points[place] }
-            };
-            let triangle = Triangle::new([corner(0), corner(1), corner(2)], facet.twice_area);
-            for (r, (request, sums)) in requests.iter().zip(out.iter_mut()).enumerate() {
-                let weights = triangle.weights(&kernels[r], &samples[r], request.order);
-                add_tensors(sums, &weights, &triangle, request.order);
-            }
+            let corners = facet.corners.map(|corner| {
+                let place = usize::from(corner) % CLUSTER;
+                Corner { place, gap: gaps[place], inverse: inverses[place] }
+            });
+            let triangle = Triangle::new(corners, points, facet.twice_area);
+            plan.visit(&triangle, &table, |place, order, weights| {
+                add_tensors(&mut out[place], weights, &triangle, order);
+            });
         }
     }
 }

@@ -15,7 +15,10 @@ pub mod patch;
 pub mod power;
 
 mod carry;
+mod facets_plan;
+mod facets_split;
 mod facets_triangle;
+mod facets_whole;
 mod rule;
 
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
