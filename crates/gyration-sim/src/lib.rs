@@ -1,1 +1,23 @@
-//! Placeholder while the house is being built.
+//! Joins mechanics, steppers and recordings: the run loop, samples, ledger, checkpoints, outcome.
+//!
+//! ```text
+//! Model, State → Simulation::run → Sink → recording
+//!     step = stepper(rates, jacobian)            adapter.rs shows a model to a stepper
+//!     samples and events from the dense output   rows.rs, events.rs
+//!     audit, next sample, rest                   tally.rs: with the stepper's memory, the checkpoint
+//! ```
+
+pub mod adapter;
+pub mod events;
+mod outcome;
+mod record;
+pub mod rows;
+mod run;
+mod summary;
+mod tally;
+
+pub use adapter::Tolerance;
+pub use outcome::{Outcome, Reason, Stop};
+pub use record::{Job, MemorySink, Provenance, Recorded, Unwatched};
+pub use run::{Monitor, Progress, RestCriterion, RunError, RunPlan, Simulation, Sink, limit_in_words};
+pub use summary::{BodySummary, LedgerSummary, RunSummary};

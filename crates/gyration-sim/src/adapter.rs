@@ -1,0 +1,145 @@
+//! Shows a model to a stepper: the only place where mechanics and integration meet.
+//!
+//! The errors allowed per step are scale-free. rtol is relative to what the forces depend on: lengths to the gap (or
+//! the size, if that is smaller), velocities to the speed of the fastest material point, works to the energy in play.
+//! atol is a fraction of the body's size, of 1 for a rotation, and of the body's own speed scale.
+
+use gyration::balance::{fastest_speed, smallest_gap};
+use gyration::body::BodyKind;
+use gyration::model::Model;
+use gyration::rates::{Workspace, rates};
+use gyration::state::{BodyMotion, State};
+use gyration::{Inadmissible, jacobian};
+use gyration_ode::System;
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// rtol and atol of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Relative error allowed per step.
+    pub rtol: f64,
+    /// Error allowed per step as a fraction of the body's scales.
+    pub atol: f64,
+}
+
+/// A model with its scratch and scales, as a stepper sees it.
+#[derive(Debug)]
+pub struct ModelSystem<'a> {
+    model: &'a Model,
+    workspace: Workspace,
+    tolerance: Tolerance,
+    speeds: Vec<f64>,
+    energy: f64,
+}
+
+impl<'a> ModelSystem<'a> {
+    /// Prepares a model for a run that starts from `start`.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if the start is outside the model.
+    pub fn new(model: &'a Model, start: &State, tolerance: Tolerance) -> Result<Self, Inadmissible> {
+        let mut workspace = Workspace::default();
+        let mut slopes = vec![0.0; model.dimension()];
+        let mut powers = vec![0.0; model.works().len()];
+        rates(model, &mut workspace, start.time, &start.bodies, &mut slopes, &mut powers)?;
+        let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(model, start, &slopes, body)).collect();
+        let energy = model.bodies.iter().zip(&speeds).map(|(b, v)| 0.5 * b.mass.mass * v * v).sum();
+        Ok(Self { model, workspace, tolerance, speeds, energy })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// The scratch of the mechanics, for observations between steps.
+    pub fn workspace(&mut self) -> &mut Workspace {
+        &mut self.workspace
+    }
+
+    /// The speed scale of a body [m/s]: its initial speed, or √(g·size), or √(acceleration·size), whichever is larger.
+    pub fn speed_scale(&self, body: usize) -> f64 {
+        self.speeds[body]
+    }
+}
+
+/// A body's own speed [m/s]; one size a second for a body that nothing moves.
+fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
+    let body = &model.bodies[index];
+    let motion = start.motion(model, index);
+    let slope = BodyMotion::unpack(body, &slopes[model.blocks()[index].clone()]);
+    // In the block of the rates, the places of velocity and spin hold the accelerations.
+    let linear = if body.pin.is_some() { 0.0 } else { slope.velocity.velocity.norm() };
+    let acceleration = linear + slope.spin.norm() * body.size;
+    let scale = fastest_speed(body, &motion)
+        .max((model.gravity.norm() * body.size).sqrt())
+        .max((acceleration * body.size).sqrt());
+    if scale > 0.0 { scale } else { body.size }
+}
+
+impl System for ModelSystem<'_> {
+    type Inadmissible = Inadmissible;
+
+    fn dimension(&self) -> usize {
+        self.model.dimension()
+    }
+
+    fn quadratures(&self) -> usize {
+        self.model.works().len()
+    }
+
+    fn blocks(&self) -> &[Range<usize>] {
+        self.model.blocks()
+    }
+
+    fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
+        rates(self.model, &mut self.workspace, t, y, dy, dw)
+    }
+
+    fn jacobian(&mut self, t: f64, y: &[f64], blocks: &mut [DMatrix<f64>]) -> Result<(), Inadmissible> {
+        jacobian::jacobian(self.model, &mut self.workspace, t, y, blocks)
+    }
+
+    fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
+        let Tolerance { rtol, atol } = self.tolerance;
+        let mut energy = self.energy;
+        for (index, (body, block)) in self.model.bodies.iter().zip(self.model.blocks()).enumerate() {
+            let motion = BodyMotion::unpack(body, &y[block.clone()]);
+            let gap = smallest_gap(self.model, t, index, &motion).max(0.0);
+            let speed = fastest_speed(body, &motion);
+            energy += 0.5 * body.mass.mass * speed * speed;
+            let length = atol * body.size + rtol * gap.min(body.size);
+            // Far from the origin the rounding of p₀ itself is all that can be had.
+            let rounding = 4.0 * f64::EPSILON * motion.placement.position.norm();
+            let velocity = atol * self.speeds[index] + rtol * speed;
+            let scales = &mut y_scale[block.clone()];
+            match (&body.kind, &body.pin) {
+                (BodyKind::Rigid(_), None) => {
+                    scales[..3].fill(length + rounding);
+                    scales[3..7].fill(length / body.size);
+                    scales[7..10].fill(velocity);
+                    scales[10..].fill(velocity / body.size);
+                }
+                (BodyKind::Rigid(_), Some(_)) => {
+                    scales[..4].fill(length / body.size);
+                    scales[4..].fill(velocity / body.size);
+                }
+            }
+        }
+        w_scale.fill((atol + rtol) * energy);
+    }
+
+    fn project(&mut self, y: &mut [f64]) -> f64 {
+        let mut correction: f64 = 0.0;
+        for (body, block) in self.model.bodies.iter().zip(self.model.blocks()) {
+            let BodyKind::Rigid(_) = body.kind;
+            let at = block.start + if body.pin.is_some() { 0 } else { 3 };
+            let quaternion = &mut y[at..at + 4];
+            let norm = quaternion.iter().map(|c| c * c).sum::<f64>().sqrt();
+            correction = correction.max((norm - 1.0).abs());
+            quaternion.iter_mut().for_each(|c| *c /= norm);
+        }
+        correction
+    }
+}

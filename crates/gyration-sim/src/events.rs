@@ -1,0 +1,98 @@
+//! Events of a run: apex, closest approach, lift-off.
+//!
+//! | event            | function that changes sign                                | sense |
+//! |------------------|-----------------------------------------------------------|-------|
+//! | apex             | ṗ₀·(−g/|g|), upward speed of the centre of mass           | + → − |
+//! | closest approach | rate of the smallest gap, n·(ṗ(X_c) − support's velocity) | − → + |
+//! | lift-off         | |contact force| − 1 % of the weight (or of m v²/size)      | + → − |
+//!
+//! An event is found by its sign at the ends of a step and located on the dense output. Speeds below 1e-6 of the
+//! body's speed scale are taken for rest: a body that has settled gives no events.
+
+use gyration::balance::observe;
+use gyration::model::Model;
+use gyration::rates::Workspace;
+use gyration::state::{BodyMotion, State};
+use gyration::surface::GapField;
+use serde::{Deserialize, Serialize};
+
+/// The kinds of event, by code.
+pub const EVENT_KINDS: [&str; 3] = ["apex", "closest_approach", "lift_off"];
+
+/// Speeds below this fraction of the speed scale are rest.
+const REST: f64 = 1e-6;
+
+/// The contact force below which a body has left its supports, as a fraction of its weight.
+const LIFT_OFF: f64 = 0.01;
+
+/// Something that happened to a body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Event {
+    /// When [s].
+    pub time: f64,
+    /// Index into [`EVENT_KINDS`].
+    pub kind: usize,
+    /// Index of the body.
+    pub body: usize,
+}
+
+/// The three functions of one body at one instant, each scaled so that |f| < 1 is rest or nothing.
+pub type Signals = [f64; 3];
+
+/// The signals of a body in a state; NaN where one does not apply.
+pub fn signals(model: &Model, workspace: &mut Workspace, state: &State, body: usize, speed: f64) -> Signals {
+    let motion = state.motion(model, body);
+    [
+        apex(model, body, &motion, speed),
+        approach(model, state.time, body, &motion, speed),
+        lift_off(model, workspace, state, body, speed),
+    ]
+}
+
+/// Whether the signal of this kind passed its event between two instants.
+pub fn happened(kind: usize, before: f64, after: f64) -> bool {
+    let significant = before.abs() > 1.0 && after.abs() > 1.0;
+    significant && before * after < 0.0 && rises(kind) == (after > 0.0)
+}
+
+/// Whether the signal of this kind rises through zero at its event.
+pub fn rises(kind: usize) -> bool {
+    EVENT_KINDS[kind] == "closest_approach"
+}
+
+fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 {
+    let gravity = model.gravity.norm();
+    if gravity == 0.0 || model.bodies[body].pin.is_some() {
+        return f64::NAN;
+    }
+    -motion.velocity.velocity.dot(&model.gravity) / (gravity * speed * REST)
+}
+
+fn approach(model: &Model, time: f64, body: usize, motion: &BodyMotion, speed: f64) -> f64 {
+    let Some(surface) = &model.bodies[body].surface else { return f64::NAN };
+    let mut nearest = (f64::INFINITY, f64::NAN);
+    for support in &model.supports {
+        let field = GapField {
+            height: support.gap(&motion.placement.position, time),
+            direction: motion.placement.gradient.tr_mul(&support.normal),
+        };
+        let (gap, point) = surface.smallest_gap(&field);
+        if gap < nearest.0 {
+            let velocity = motion.velocity.at(&point) - support.motion.velocity(time);
+            nearest = (gap, velocity.dot(&support.normal));
+        }
+    }
+    nearest.1 / (speed * REST)
+}
+
+fn lift_off(model: &Model, workspace: &mut Workspace, state: &State, body: usize, speed: f64) -> f64 {
+    let this = &model.bodies[body];
+    if this.contacts.is_empty() {
+        return f64::NAN;
+    }
+    let gravity = model.gravity.norm();
+    let weight = this.mass.mass * if gravity > 0.0 { gravity } else { speed * speed / this.size };
+    let force = observe(model, workspace, state, body).map_or(f64::NAN, |seen| seen.contact_force.norm());
+    // Any crossing counts: the force has no rest level to be filtered against.
+    (force / (LIFT_OFF * weight) - 1.0) / f64::EPSILON
+}

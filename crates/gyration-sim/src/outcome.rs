@@ -1,0 +1,156 @@
+//! How a run ended, in words and in data.
+
+use gyration::model::Model;
+use gyration::{Inadmissible, Quantity};
+use gyration_ode::{Cause, Failure};
+use serde::{Deserialize, Serialize};
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// It reached the end of the scene.
+    Completed,
+    /// Every body was slower than `stop_at_rest.speed` for `stop_at_rest.hold`.
+    AtRest {
+        /// When [s].
+        time: f64,
+    },
+    /// It could not, or should not, go on.
+    Stopped(Stop),
+}
+
+/// Why a run stopped early.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stop {
+    /// When [s].
+    pub time: f64,
+    /// The kind of reason.
+    pub reason: Reason,
+    /// The body concerned, by name.
+    pub body: Option<String>,
+    /// What happened, in a sentence.
+    pub what: String,
+    /// What to change.
+    pub advice: String,
+}
+
+/// The kinds of reason for an early stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// A surface reached a support.
+    GapClosed,
+    /// A spring lost its direction.
+    SpringCollapsed,
+    /// The tolerance cannot be met with any step.
+    StepTooSmall,
+    /// A number stopped being finite.
+    NotFinite,
+    /// `max_wall_time` was reached; the recording can be resumed.
+    WallTime,
+    /// The user asked to stop; the recording can be resumed.
+    Interrupted,
+}
+
+impl Outcome {
+    /// Whether the run is over, so that there is nothing to resume.
+    pub fn is_final(&self) -> bool {
+        match self {
+            Self::Completed | Self::AtRest { .. } => true,
+            Self::Stopped(stop) => !matches!(stop.reason, Reason::WallTime | Reason::Interrupted),
+        }
+    }
+
+    /// The outcome in a sentence or two.
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::Completed => "completed".into(),
+            Self::AtRest { time } => format!("at rest since the last hold, stopped at t = {time} s"),
+            Self::Stopped(stop) => {
+                format!("stopped at t = {} s: {}. {}", stop.time, stop.what, stop.advice)
+            }
+        }
+    }
+}
+
+impl Stop {
+    /// A stop for reasons outside the physics.
+    pub fn by_request(time: f64, reason: Reason) -> Self {
+        let (what, advice) = match reason {
+            Reason::WallTime => (
+                "the run took longer than solver.max_wall_time",
+                "Go on with --resume and a larger solver.max_wall_time, or loosen solver.rtol.",
+            ),
+            _ => ("the run was interrupted", "Go on with --resume."),
+        };
+        Self { time, reason, body: None, what: what.into(), advice: advice.into() }
+    }
+
+    /// A stop because the stepper could not go on.
+    pub fn by_failure(model: &Model, failure: &Failure<Inadmissible>) -> Self {
+        let (time, step, cause) = match failure {
+            Failure::StepTooSmall { time, step, cause } => (time, *step, cause),
+            Failure::NoRates { time, cause } => (time, 0.0, cause),
+        };
+        match cause {
+            Cause::Inadmissible(left) => Self::by_inadmissible(model, *time, left),
+            Cause::NotFinite { index } => Self {
+                time: *time,
+                reason: Reason::NotFinite,
+                body: owner(model, *index),
+                what: format!("a rate is not finite (number {index} of the state)"),
+                advice: "Look for coefficients or speeds that are out of all proportion.".into(),
+            },
+            Cause::Error { component, .. } => Self {
+                time: *time,
+                reason: Reason::StepTooSmall,
+                body: owner(model, *component),
+                what: format!(
+                    "no step meets the tolerance (the last tried was {step:e} s, limited by number \
+                     {component} of the state)"
+                ),
+                advice: "Loosen solver.rtol or solver.atol, or soften the contact law.".into(),
+            },
+            Cause::Newton => Self {
+                time: *time,
+                reason: Reason::StepTooSmall,
+                body: None,
+                what: format!("the implicit equations cannot be solved with a step of {step:e} s"),
+                advice: "Loosen solver.rtol, or use solver.method = \"auto\".".into(),
+            },
+        }
+    }
+
+    fn by_inadmissible(model: &Model, time: f64, left: &Inadmissible) -> Self {
+        let body = model.bodies[left.body].name.clone();
+        let (reason, what, advice) = match left.quantity {
+            Quantity::Gap { support } => (
+                Reason::GapClosed,
+                format!(
+                    "body {body:?} reaches support {:?} (smallest gap {:e} m)",
+                    model.supports[support].name, left.value
+                ),
+                "No law forbids this touch at this speed: raise an exponent (see `gyration check` \
+                 for the critical one), a coefficient, or reduce the speed."
+                    .to_string(),
+            ),
+            Quantity::SpringLength { spring } => (
+                Reason::SpringCollapsed,
+                format!("spring {spring} of body {body:?} has no length left"),
+                "Give it rest_length = 0 without damping, or another anchor.".to_string(),
+            ),
+            Quantity::State => (
+                Reason::NotFinite,
+                format!("a number of body {body:?} is not finite"),
+                "Look for coefficients or speeds that are out of all proportion.".to_string(),
+            ),
+        };
+        Self { time, reason, body: Some(body), what, advice }
+    }
+}
+
+fn owner(model: &Model, index: usize) -> Option<String> {
+    let body = model.blocks().iter().position(|block| block.contains(&index))?;
+    Some(model.bodies[body].name.clone())
+}

@@ -1,0 +1,278 @@
+//! From a scene to a recording on disk: fresh or resumed.
+//!
+//! The directory, the scene and the row t = 0 are on disk before the first step; rows are flushed with a checkpoint at
+//! least once a second of wall time. Nothing in the directory tells when or where it was made: the same scene leaves
+//! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an
+//! uninterrupted one.
+
+use crate::events::{EVENT_KINDS, Event};
+use crate::outcome::{Outcome, Reason};
+use crate::rows;
+use crate::run::{Monitor, Progress, RunError, RunPlan, Simulation, Sink};
+use crate::summary::RunSummary;
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_record::{Attributes, Layout, RecordError, Recording, Writer, chunk_rows_for};
+use gyration_scene::{Built, Scene};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Wall time between flushes; the contract asks for one a second at least.
+const FLUSH_EVERY: Duration = Duration::from_millis(500);
+
+/// A model ready to run, with what its recording says of it.
+#[derive(Debug, Clone)]
+pub struct Job<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its first state.
+    pub start: &'a State,
+    /// How to run it.
+    pub plan: RunPlan,
+    /// How long it may take; the recording can be resumed after that.
+    pub max_wall_time: Option<Duration>,
+    /// Attributes of the recording: scene, resolved form, version, commit.
+    pub attributes: Attributes,
+}
+
+/// The end of a recorded run.
+#[derive(Debug)]
+pub enum Recorded {
+    /// It ran, now.
+    Ran(Box<RunSummary>),
+    /// It had ended before: there was nothing to resume.
+    AlreadyFinished(Attributes),
+}
+
+/// Which program runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Provenance {
+    /// Version of the program.
+    pub version: String,
+    /// Commit it was built from, if known.
+    pub commit: Option<String>,
+}
+
+impl<'a> Job<'a> {
+    /// A scene ready to run.
+    pub fn of(scene: &'a Scene, provenance: &Provenance) -> Self {
+        let Built { model, state, plan } = scene.built();
+        let attributes = json!({
+            "title": scene.file().title,
+            "scene_name": scene.name(),
+            "scene": scene.text(),
+            "overrides": scene.overrides(),
+            "resolved": scene.resolved(),
+            "version": provenance.version,
+            "commit": provenance.commit,
+            "tolerances": { "rtol": plan.rtol, "atol": plan.atol },
+        });
+        Self {
+            model,
+            start: state,
+            plan: plan.into(),
+            max_wall_time: plan.max_wall_time.and_then(|limit| Duration::try_from_secs_f64(limit).ok()),
+            attributes: attributes.as_object().cloned().unwrap_or_default(),
+        }
+    }
+
+    /// Whether a recording is of this scene, whatever its `solver.max_wall_time`.
+    pub fn is_recorded_in(&self, recording: &Attributes) -> bool {
+        comparable(&self.attributes) == comparable(recording)
+    }
+
+    /// Runs the scene into a new recording.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn record(&self, path: &Path, watch: &mut dyn Monitor) -> Result<Recorded, RunError> {
+        let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
+        let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
+        let mut sink = RecordingSink { writer, flushed: Instant::now() };
+        simulation.begin(&mut sink)?;
+        sink.writer.flush(&simulation.checkpoint())?;
+        self.finish(simulation, sink, watch)
+    }
+
+    /// Goes on with a recording of the same scene.
+    ///
+    /// # Errors
+    /// [`RunError`]; `OtherScene` if the recording is of another scene.
+    pub fn resume(&self, path: &Path, watch: &mut dyn Monitor) -> Result<Recorded, RunError> {
+        let recorded = Recording::open(path)?.attributes().clone();
+        if !self.is_recorded_in(&recorded) {
+            return Err(RunError::OtherScene { path: path.to_path_buf() });
+        }
+        if recorded.contains_key("outcome") {
+            return Ok(Recorded::AlreadyFinished(recorded));
+        }
+        let resumed = Writer::resume(path)?;
+        let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
+        let sink = RecordingSink { writer: resumed.writer, flushed: Instant::now() };
+        self.finish(simulation, sink, watch)
+    }
+
+    fn finish(
+        &self,
+        mut simulation: Simulation,
+        mut sink: RecordingSink,
+        watch: &mut dyn Monitor,
+    ) -> Result<Recorded, RunError> {
+        let began = Instant::now();
+        let mut limited = WallTime { inner: watch, began, most: self.max_wall_time };
+        let outcome = simulation.run(&mut sink, &mut limited)?;
+        let summary = RunSummary::of(self.model, &mut simulation, outcome, began.elapsed());
+        let checkpoint = simulation.checkpoint();
+        if summary.outcome.is_final() {
+            sink.writer.finish(summary.attributes(), &checkpoint)?;
+        } else {
+            sink.writer.flush(&checkpoint)?;
+        }
+        Ok(Recorded::Ran(Box::new(summary)))
+    }
+
+    fn layout(&self) -> Layout {
+        let (arrays, csv_order) = rows::arrays(self.model);
+        let row_len = arrays.iter().map(gyration_record::ArraySpec::row_len).sum();
+        let expected = (self.plan.end / self.plan.sample).ceil() as usize + 1;
+        Layout {
+            arrays,
+            csv_order,
+            labels: vec![("body".into(), self.model.bodies.iter().map(|body| body.name.clone()).collect())],
+            event_kinds: EVENT_KINDS.map(String::from).into(),
+            chunk_rows: chunk_rows_for(row_len, expected),
+            ..Layout::default()
+        }
+    }
+
+    fn all_attributes(&self) -> Attributes {
+        let mut attributes = self.attributes.clone();
+        attributes.insert("bodies".into(), self.model.bodies.iter().map(describe_body).collect());
+        attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());
+        attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
+        attributes
+    }
+}
+
+/// The resolved scene without what may differ between a run and its resumption.
+fn comparable(attributes: &Attributes) -> Option<Value> {
+    let mut resolved = attributes.get("resolved")?.clone();
+    if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
+        solver.remove("max_wall_time");
+    }
+    Some(resolved)
+}
+
+/// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass.
+fn describe_body(body: &gyration::body::Body) -> Value {
+    let center = body.mass.center;
+    let outline = body.shape.outline();
+    let relative =
+        |points: &[gyration::tensor::Vec3]| points.iter().map(|p| json!((p - center).as_slice())).collect::<Value>();
+    json!({
+        "name": body.name,
+        "kind": "rigid",
+        "mass": body.mass.mass,
+        "size": body.size,
+        "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
+        "silhouette": relative(&body.shape.silhouette_points()),
+    })
+}
+
+fn describe_support(support: &gyration::support::Support) -> Value {
+    use gyration::support::SupportMotion;
+    let motion = match support.motion {
+        SupportMotion::Fixed => Value::Null,
+        SupportMotion::Velocity(velocity) => json!({ "velocity": velocity.as_slice() }),
+        SupportMotion::Oscillation { direction, amplitude, frequency, phase } => json!({ "oscillate": {
+            "direction": direction.as_slice(), "amplitude": amplitude, "frequency": frequency, "phase": phase,
+        }}),
+    };
+    json!({
+        "name": support.name,
+        "origin": support.origin.as_slice(),
+        "normal": support.normal.as_slice(),
+        "motion": motion,
+    })
+}
+
+/// Writes to disk, and flushes now and then.
+struct RecordingSink {
+    writer: Writer,
+    flushed: Instant,
+}
+
+impl Sink for RecordingSink {
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        self.writer.append(time, row)
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        let Event { time, kind, body } = *event;
+        self.writer.append_event(gyration_record::Event { time, kind, body: Some(body) })
+    }
+
+    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        if self.flushed.elapsed() >= FLUSH_EVERY {
+            self.writer.flush(&checkpoint())?;
+            self.flushed = Instant::now();
+        }
+        Ok(())
+    }
+}
+
+/// Stops a run that takes too long.
+struct WallTime<'a> {
+    inner: &'a mut dyn Monitor,
+    began: Instant,
+    most: Option<Duration>,
+}
+
+impl Monitor for WallTime<'_> {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        let over = self.most.is_some_and(|most| self.began.elapsed() > most);
+        self.inner.after_step(progress).or(over.then_some(Reason::WallTime))
+    }
+}
+
+/// Watches nothing.
+pub struct Unwatched;
+
+impl Monitor for Unwatched {
+    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
+        None
+    }
+}
+
+/// Keeps rows and events in memory, for tests and for callers who want no files.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MemorySink {
+    /// Time and row of each sample.
+    pub rows: Vec<(f64, Vec<f64>)>,
+    /// Events.
+    pub events: Vec<Event>,
+}
+
+impl Sink for MemorySink {
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        self.rows.push((time, row.to_vec()));
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        self.events.push(*event);
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+impl Outcome {
+    /// The outcome as it stands in the attributes.
+    pub fn attribute(&self) -> Value {
+        serde_json::to_value(self).unwrap_or(Value::Null)
+    }
+}

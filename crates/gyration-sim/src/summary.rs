@@ -1,0 +1,142 @@
+//! What a run leaves to say: outcome, work of the solver, ledger, momenta, events.
+
+use crate::events::EVENT_KINDS;
+use crate::outcome::Outcome;
+use crate::rows::Ledger;
+use crate::run::Simulation;
+use gyration::balance::observe;
+use gyration::model::Model;
+use gyration::rates::Workspace;
+use gyration_record::Attributes;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::time::Duration;
+
+/// The summary of a run.
+#[derive(Debug, Clone, Serialize)]
+pub struct RunSummary {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The outcome in words.
+    pub in_words: String,
+    /// Where it ended [s].
+    pub time: f64,
+    /// Wall time of this part of the run [s]; not recorded.
+    pub wall_time: f64,
+    /// Counters of the solver.
+    pub statistics: Value,
+    /// The ledger at the end.
+    pub ledger: LedgerSummary,
+    /// The bodies at the end.
+    pub bodies: Vec<BodySummary>,
+    /// How many events of each kind.
+    pub events: Value,
+}
+
+/// The ledger of a run.
+#[derive(Debug, Clone, Serialize)]
+pub struct LedgerSummary {
+    /// Σ energies at t = 0 [J].
+    pub initial_energy: f64,
+    /// Energies at the end [J], by name.
+    pub energies: Vec<(&'static str, f64)>,
+    /// Works [J], by name.
+    pub works: Vec<(&'static str, f64)>,
+    /// Residual at the end [J].
+    pub residual: f64,
+    /// Largest |residual| over the samples [J].
+    pub largest_residual: f64,
+    /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
+    pub energy_in_play: f64,
+}
+
+/// One body at the end of a run.
+#[derive(Debug, Clone, Serialize)]
+pub struct BodySummary {
+    /// Its name.
+    pub name: String,
+    /// Position of the centre of mass [m].
+    pub position: [f64; 3],
+    /// Smallest distance to a support [m]; none without supports.
+    pub gap: Option<f64>,
+    /// Linear momentum [kg m/s].
+    pub linear_momentum: [f64; 3],
+    /// Angular momentum about the origin [kg m²/s].
+    pub angular_momentum: [f64; 3],
+    /// Affine momentum K = P J Ṗᵀ, rows [kg m²/s].
+    pub affine_momentum: [[f64; 3]; 3],
+}
+
+impl RunSummary {
+    /// The summary of a run that has ended.
+    pub fn of(model: &Model, simulation: &mut Simulation, outcome: Outcome, wall: Duration) -> Self {
+        let state = simulation.state();
+        let tally = simulation.tally();
+        let none = || Ledger { energies: Vec::new(), works: Vec::new(), residual: f64::NAN };
+        let ledger = Ledger::of(model, &state, Some(tally.initial_energy)).unwrap_or_else(|_| none());
+        let events =
+            EVENT_KINDS.iter().zip(tally.events).map(|(kind, count)| ((*kind).to_string(), json!(count))).collect();
+        let mut workspace = Workspace::default();
+        let bodies = (0..model.bodies.len())
+            .filter_map(|index| {
+                let seen = observe(model, &mut workspace, &state, index).ok()?;
+                let k = seen.affine_momentum;
+                Some(BodySummary {
+                    name: model.bodies[index].name.clone(),
+                    position: seen.motion.placement.position.into(),
+                    gap: seen.gap.is_finite().then_some(seen.gap),
+                    linear_momentum: seen.linear_momentum.into(),
+                    angular_momentum: seen.angular_momentum.into(),
+                    affine_momentum: [0, 1, 2].map(|row| [0, 1, 2].map(|col| k[(row, col)])),
+                })
+            })
+            .collect();
+        Self {
+            in_words: outcome.in_words(),
+            outcome,
+            time: state.time,
+            wall_time: wall.as_secs_f64(),
+            statistics: statistics(simulation),
+            ledger: LedgerSummary {
+                initial_energy: tally.initial_energy,
+                energies: model.energies().iter().map(|energy| energy.name()).zip(ledger.energies).collect(),
+                works: model.works().iter().map(|work| work.name()).zip(ledger.works).collect(),
+                residual: ledger.residual,
+                largest_residual: tally.largest_residual,
+                energy_in_play: tally.energy_in_play,
+            },
+            bodies,
+            events: Value::Object(events),
+        }
+    }
+
+    /// What of it is recorded: everything but wall time.
+    pub fn attributes(&self) -> Attributes {
+        let mut attributes = Attributes::new();
+        attributes.insert("outcome".into(), self.outcome.attribute());
+        attributes.insert("outcome_in_words".into(), json!(self.in_words));
+        attributes.insert("statistics".into(), self.statistics.clone());
+        attributes.insert("largest_residual".into(), json!(self.ledger.largest_residual));
+        attributes.insert("energy_in_play".into(), json!(self.ledger.energy_in_play));
+        attributes.insert("events".into(), self.events.clone());
+        attributes
+    }
+}
+
+fn statistics(simulation: &Simulation) -> Value {
+    let s = simulation.statistics();
+    json!({
+        "explicit_steps": s.explicit_steps,
+        "implicit_steps": s.implicit_steps,
+        "rejected_for_error": s.rejected_error,
+        "rejected_for_domain": s.rejected_domain,
+        "newton_failures": s.newton_failures,
+        "rate_evaluations": s.rate_evaluations,
+        "jacobians": s.jacobians,
+        "factorizations": s.factorizations,
+        "switches": s.switches,
+        "smallest_step": s.smallest_step,
+        "largest_step": s.largest_step,
+        "largest_projection": simulation.tally().largest_projection,
+    })
+}

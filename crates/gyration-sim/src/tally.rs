@@ -1,0 +1,116 @@
+//! What a run carries from step to step beside the state: the next sample, the audit, the wait for rest.
+//!
+//! A checkpoint is the tally and the stepper's memory as plain little-endian numbers, each list with its length before
+//! it, so that a resumed run goes on to the same bytes.
+
+use gyration_ode::Memory;
+
+/// Beside the state, all that the rest of a run depends on.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tally {
+    /// k of the next sample, at t = k·sample.
+    pub next_sample: u64,
+    /// Σ energies at t = 0 [J].
+    pub initial_energy: f64,
+    /// Since when all bodies have been slow [s]; NaN if they are not.
+    pub slow_since: f64,
+    /// Largest |residual| of the ledger over the samples [J].
+    pub largest_residual: f64,
+    /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
+    pub energy_in_play: f64,
+    /// Smallest gap over the samples [m].
+    pub smallest_gap: f64,
+    /// Largest correction by projection after a step.
+    pub largest_projection: f64,
+    /// How many events of each kind.
+    pub events: [u64; 3],
+}
+
+impl Tally {
+    /// At the start of a run.
+    pub fn new() -> Self {
+        Self { slow_since: f64::NAN, smallest_gap: f64::INFINITY, ..Self::default() }
+    }
+
+    /// Tally and memory as bytes.
+    pub fn checkpoint(&self, memory: &Memory) -> Vec<u8> {
+        let integers = [self.next_sample, self.events[0], self.events[1], self.events[2]];
+        let reals = [
+            self.initial_energy,
+            self.slow_since,
+            self.largest_residual,
+            self.energy_in_play,
+            self.smallest_gap,
+            self.largest_projection,
+        ];
+        let mut bytes = Vec::new();
+        let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| {
+            bytes.extend((numbers.len() as u64).to_le_bytes());
+            numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
+        };
+        list(&mut integers.into_iter());
+        list(&mut reals.iter().map(|real| real.to_bits()));
+        list(&mut memory.integers.iter().copied());
+        list(&mut memory.reals.iter().map(|real| real.to_bits()));
+        bytes
+    }
+
+    /// Reads what [`Tally::checkpoint`] wrote; `None` if it is not that.
+    pub fn restore(bytes: &[u8]) -> Option<(Self, Memory)> {
+        let mut rest = bytes;
+        let mut list = || {
+            let count = usize::try_from(take(&mut rest)?).ok()?;
+            if count > rest.len() / 8 {
+                return None;
+            }
+            (0..count).map(|_| take(&mut rest)).collect::<Option<Vec<u64>>>()
+        };
+        let integers: [u64; 4] = list()?.try_into().ok()?;
+        let reals: [u64; 6] = list()?.try_into().ok()?;
+        let memory = Memory { integers: list()?, reals: list()?.into_iter().map(f64::from_bits).collect() };
+        let [initial_energy, slow_since, largest_residual, energy_in_play, smallest_gap, largest_projection] =
+            reals.map(f64::from_bits);
+        let tally = Self {
+            next_sample: integers[0],
+            initial_energy,
+            slow_since,
+            largest_residual,
+            energy_in_play,
+            smallest_gap,
+            largest_projection,
+            events: [integers[1], integers[2], integers[3]],
+        };
+        rest.is_empty().then_some((tally, memory))
+    }
+}
+
+fn take(bytes: &mut &[u8]) -> Option<u64> {
+    let (number, rest) = bytes.split_first_chunk::<8>()?;
+    *bytes = rest;
+    Some(u64::from_le_bytes(*number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_checkpoint_restores_every_bit() {
+        let tally = Tally { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..Tally::new() };
+        let memory = Memory { integers: vec![1, 2, 3], reals: vec![0.1, f64::INFINITY, -0.0] };
+        let bytes = tally.checkpoint(&memory);
+        let (read, read_memory) = Tally::restore(&bytes).unwrap();
+        assert_eq!(read.checkpoint(&read_memory), bytes);
+        assert_eq!(read_memory, memory);
+        assert!(read.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
+    }
+
+    #[test]
+    fn damaged_checkpoints_are_refused() {
+        let bytes = Tally::new().checkpoint(&Memory { integers: vec![4], reals: vec![1.0] });
+        assert!((0..bytes.len()).all(|length| Tally::restore(&bytes[..length]).is_none()));
+        let mut huge = bytes;
+        huge[..8].copy_from_slice(&u64::MAX.to_le_bytes());
+        assert!(Tally::restore(&huge).is_none());
+    }
+}
