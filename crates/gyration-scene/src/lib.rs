@@ -1,1 +1,32 @@
-//! Placeholder while the house is being built.
+//! The scene file: parse, check, fill in defaults, build a model and its first state.
+//!
+//! ```text
+//! text → tree (TOML or JSON, with places) → overrides → structure (JSON Schema) → values → model, state, plan
+//! ```
+//!
+//! [`Scene::open`] does all of it. Everything that is wrong with a scene comes at once, with file, line, column, dotted
+//! key and fix ([`SceneErrors`]); a file that cannot be read at all is a [`ReadError`]. The types of the file are in
+//! [`file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
+
+mod build;
+mod check;
+mod document;
+mod error;
+pub mod file;
+mod gallery;
+pub mod geometry;
+mod key;
+pub mod quantity;
+mod read;
+mod scene;
+mod schema;
+mod suggest;
+mod tree;
+pub mod units;
+
+pub use build::{Built, Plan, StopAtRest};
+pub use error::{LoadError, ReadError, SceneError, SceneErrors};
+pub use file::Method;
+pub use gallery::gallery;
+pub use scene::Scene;
+pub use schema::schema;

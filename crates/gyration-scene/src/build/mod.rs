@@ -1,0 +1,100 @@
+//! From the file's types to the mechanics: the model, its first state, and the plan of the run.
+//!
+//! Everything is in SI units from here on. What is wrong with a body is noted at its keys, and the others go on.
+
+mod body;
+mod contact;
+mod mass;
+mod orientation;
+mod overlap;
+mod shape;
+mod support;
+mod surface;
+
+use crate::check::{Draft, Judge};
+use crate::file::{Method, Solver, Time};
+use crate::quantity::si;
+use body::Solid;
+use gyration::model::Model;
+use gyration::state::{RigidStart, State};
+use std::path::Path;
+
+/// A scene ready to run.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// Gravity, supports and bodies.
+    pub model: Model,
+    /// The state at t = 0.
+    pub state: State,
+    /// How long to run, what to record, how to integrate.
+    pub plan: Plan,
+}
+
+/// How long to run, what to record, how to integrate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// The time at which the run ends [s].
+    pub end: f64,
+    /// Spacing of the recorded samples [s].
+    pub sample: f64,
+    /// When to end early.
+    pub stop_at_rest: Option<StopAtRest>,
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance, a fraction of scale.
+    pub atol: f64,
+    /// How the equations are integrated.
+    pub method: Method,
+    /// The longest step [s].
+    pub max_step: Option<f64>,
+    /// The longest computing time [s].
+    pub max_wall_time: Option<f64>,
+}
+
+/// When the bodies count as resting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StopAtRest {
+    /// Speed below which the fastest material point has to stay [m/s].
+    pub speed: f64,
+    /// For how long [s].
+    pub hold: f64,
+}
+
+impl Plan {
+    fn new(time: &Time, solver: &Solver) -> Self {
+        let rest = time.stop_at_rest.as_ref();
+        Self {
+            end: time.end.value(),
+            sample: time.sample.value(),
+            stop_at_rest: rest.map(|rest| StopAtRest { speed: rest.speed.value(), hold: rest.hold.value() }),
+            rtol: solver.rtol,
+            atol: solver.atol.value(),
+            method: solver.method,
+            max_step: solver.max_step.map(|step| step.value()),
+            max_wall_time: solver.max_wall_time.map(|time| time.value()),
+        }
+    }
+}
+
+/// Builds what a draft describes; none if anything about it, or before it, was found wrong.
+///
+/// Fills in what the file leaves to be derived: the velocity of a pinned body. Files of meshes are relative to `base`.
+pub(crate) fn build(draft: &mut Draft, base: &Path, judge: &mut Judge<'_>) -> Option<Built> {
+    let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, base, judge)).collect();
+    let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
+    contact::attach(draft, &mut solids, judge);
+    for (body, solid) in draft.bodies.iter_mut().zip(&solids) {
+        if let Some(solid) = solid {
+            overlap::check(body, solid, &supports, judge);
+            body.value.velocity = solid.start.velocity.map(crate::quantity::Velocity).into();
+        }
+    }
+    if !judge.findings.0.is_empty() {
+        return None;
+    }
+    let plan = Plan::new(draft.time.as_ref()?, &draft.solver);
+    let (bodies, starts): (Vec<_>, Vec<RigidStart>) = solids.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
+    let model = Model::new(si(&draft.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
+    let state = State::start(&model, &starts);
+    Some(Built { model, state, plan })
+}

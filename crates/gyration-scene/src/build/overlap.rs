@@ -1,0 +1,30 @@
+//! The first gaps: a body must not touch a support that it is in contact with.
+
+use super::body::Solid;
+use crate::check::{Judge, Placed};
+use crate::file::Body;
+use gyration::support::Support;
+use gyration::surface::GapField;
+use std::collections::BTreeSet;
+
+/// Notes each support that a body reaches at t = 0, with the lift that it needs.
+pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Support>], judge: &mut Judge<'_>) {
+    let Some(surface) = &solid.body.surface else { return };
+    let met: BTreeSet<usize> = solid.body.contacts.iter().map(|contact| contact.support).collect();
+    for support in met.into_iter().filter_map(|index| supports.get(index)?.as_ref()) {
+        let field = GapField {
+            height: support.gap(&solid.start.position, 0.0),
+            direction: solid.start.orientation.rotation().tr_mul(&support.normal),
+        };
+        let (gap, _) = surface.smallest_gap(&field);
+        if gap > 0.0 {
+            continue;
+        }
+        let (body, name) = (&solid.body.name, &support.name);
+        let [x, y, z] = support.normal.into();
+        let message =
+            format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
+        let help = format!("move it by more than {:.6e} m along the normal [{x}, {y}, {z}]", -gap);
+        judge.note(&placed.key.key("position"), message, help);
+    }
+}

@@ -1,0 +1,107 @@
+//! Shapes, with the files of meshes read and hulls made; what is wrong is noted at its key.
+
+use super::orientation::orientation;
+use crate::check::Judge;
+use crate::file;
+use crate::geometry::{self, MeshError};
+use crate::key::Key;
+use crate::quantity::si;
+use gyration::shape::{
+    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Part, Points, Polyhedron, Shape, Sphere, Torus, Union,
+};
+use gyration::tensor::Vec3;
+use std::path::Path;
+
+/// Where shapes come from and where complaints go.
+pub(super) struct Maker<'a, 'b> {
+    /// The folder that paths are relative to.
+    pub(super) base: &'a Path,
+    pub(super) judge: &'a mut Judge<'b>,
+}
+
+impl Maker<'_, '_> {
+    /// The shape at a key. Parts of unions without a density get that of the body, if there is one.
+    pub(super) fn shape(&mut self, shape: &file::Shape, key: &Key, density: Option<f64>) -> Option<Shape> {
+        let made = match shape {
+            file::Shape::Box(it) => Shape::Box(Cuboid { size: it.size.map(|edge| edge.value()).into() }),
+            file::Shape::Sphere(it) => Shape::Sphere(Sphere { radius: it.radius.value() }),
+            file::Shape::Ellipsoid(it) => {
+                Shape::Ellipsoid(Ellipsoid { semi_axes: it.semi_axes.map(|axis| axis.value()).into() })
+            }
+            file::Shape::Cylinder(it) => {
+                Shape::Cylinder(Cylinder { radius: it.radius.value(), height: it.height.value() })
+            }
+            file::Shape::Cone(it) => Shape::Cone(Cone { radius: it.radius.value(), height: it.height.value() }),
+            file::Shape::Capsule(it) => {
+                Shape::Capsule(Capsule { radius: it.radius.value(), height: it.height.value() })
+            }
+            file::Shape::Torus(it) => {
+                Shape::Torus(Torus { major_radius: it.major_radius.value(), minor_radius: it.minor_radius.value() })
+            }
+            file::Shape::Polyhedron(it) => Shape::Polyhedron(self.hull(it, &key.key("polyhedron"))?),
+            file::Shape::Mesh(it) => Shape::Polyhedron(self.mesh(it, &key.key("mesh"))?),
+            file::Shape::Union(it) => Shape::Union(self.union(it, &key.key("union"), density)?),
+            file::Shape::Points(it) => Shape::Points(self.points(it, &key.key("points"))?),
+        };
+        match made.validate() {
+            Ok(()) => Some(made),
+            Err(error) => {
+                self.judge.note(key, error.to_string(), "change the parameters of the shape");
+                None
+            }
+        }
+    }
+
+    fn hull(&mut self, polyhedron: &file::Polyhedron, key: &Key) -> Option<Polyhedron> {
+        let points: Vec<Vec3> = polyhedron.vertices.iter().map(si).collect();
+        let made = geometry::hull(&points);
+        made.map_err(|error| self.judge.note(&key.key("vertices"), error.to_string(), "give points that span a volume"))
+            .ok()
+    }
+
+    fn mesh(&mut self, mesh: &file::Mesh, key: &Key) -> Option<Polyhedron> {
+        let path = self.base.join(&mesh.file);
+        let read = geometry::read_mesh(&path, mesh.scale.value());
+        read.map_err(|error| {
+            let help = match error {
+                MeshError::Unreadable { .. } => "the path is relative to the folder of the scene",
+                _ => "mend the file, or choose another",
+            };
+            self.judge.note(&key.key("file"), error.to_string(), help);
+        })
+        .ok()
+    }
+
+    fn points(&mut self, points: &[file::PointMass], key: &Key) -> Option<Points> {
+        if points.is_empty() {
+            self.judge.note(key, "there are no points", "write points = [{ mass = …, at = [x, y, z] }, …]");
+            return None;
+        }
+        let made = points.iter().map(|point| MassPoint { mass: point.mass.value(), at: si(&point.at) });
+        Some(Points { points: made.collect() })
+    }
+
+    fn union(&mut self, union: &file::Union, key: &Key, density: Option<f64>) -> Option<Union> {
+        let parts = key.key("parts");
+        let place = |(index, part)| self.part(part, &parts.index(index), density);
+        // Every part is looked at, before the first that failed ends it.
+        let made: Vec<Option<Part>> = union.parts.iter().enumerate().map(place).collect();
+        Some(Union { parts: made.into_iter().collect::<Option<_>>()? })
+    }
+
+    fn part(&mut self, part: &file::Part, key: &Key, inherited: Option<f64>) -> Option<Part> {
+        let density = part.density.map(|density| density.value()).or(inherited);
+        let turned = orientation(&part.orientation, &key.key("orientation"), self.judge);
+        let shape = self.shape(&part.shape, &key.key("shape"), density);
+        let weight = match part.shape {
+            // They bring their masses; what the union holds for them is a factor.
+            file::Shape::Union(_) | file::Shape::Points(_) => Some(1.0),
+            _ => density,
+        };
+        if weight.is_none() {
+            let help = "give the part a `density`, or the body, or neither any part and the body its `mass`";
+            self.judge.note(&key.key("density"), "the part has no density", help);
+        }
+        Some(Part { shape: shape?, offset: si(&part.offset), rotation: turned?.rotation(), density: weight? })
+    }
+}

@@ -1,0 +1,95 @@
+//! The parts of a scene that are well formed, each with its place; the others have been noted.
+
+use crate::document::{Document, Findings};
+use crate::file::{Body, Contact, SceneFile, Solver, Support, Time, World};
+use crate::key::Key;
+use crate::tree::Node;
+use serde::de::DeserializeOwned;
+use std::collections::BTreeSet;
+
+/// A part of the file and where it stands.
+#[derive(Debug, Clone)]
+pub(crate) struct Placed<T> {
+    pub(crate) key: Key,
+    pub(crate) value: T,
+}
+
+/// The well-formed parts of a scene.
+#[derive(Debug, Clone)]
+pub(crate) struct Draft {
+    pub(crate) title: String,
+    pub(crate) world: World,
+    pub(crate) time: Option<Time>,
+    pub(crate) solver: Solver,
+    pub(crate) supports: Vec<Placed<Support>>,
+    pub(crate) contacts: Vec<Placed<Contact>>,
+    pub(crate) bodies: Vec<Placed<Body>>,
+}
+
+impl Draft {
+    /// Takes from the document what nothing has been found against.
+    pub(crate) fn new(document: &Document, findings: &mut Findings) -> Self {
+        let dirty = findings.0.iter().map(|finding| finding.key.clone()).collect();
+        let mut taker = Taker { root: &document.root, dirty, findings };
+        Self {
+            title: taker.section("title").unwrap_or_default(),
+            world: taker.section("world").unwrap_or_default(),
+            time: taker.section("time"),
+            solver: taker.section("solver").unwrap_or_default(),
+            supports: taker.items("support"),
+            contacts: taker.items("contact"),
+            bodies: taker.items("body"),
+        }
+    }
+
+    /// The whole file, if all of it is well formed.
+    pub(crate) fn complete(self) -> Option<SceneFile> {
+        Some(SceneFile {
+            title: self.title,
+            world: self.world,
+            time: self.time?,
+            solver: self.solver,
+            support: self.supports.into_iter().map(|placed| placed.value).collect(),
+            contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
+            body: self.bodies.into_iter().map(|placed| placed.value).collect(),
+            fluid: None,
+        })
+    }
+}
+
+struct Taker<'a> {
+    root: &'a Node,
+    dirty: BTreeSet<Key>,
+    findings: &'a mut Findings,
+}
+
+impl Taker<'_> {
+    fn section<T: DeserializeOwned>(&mut self, name: &str) -> Option<T> {
+        let node = self.root.get(name)?;
+        self.take(node, &Key::root().key(name))
+    }
+
+    fn items<T: DeserializeOwned>(&mut self, name: &str) -> Vec<Placed<T>> {
+        let key = Key::root().key(name);
+        let items = self.root.get(name).map(Node::items).unwrap_or_default();
+        let take = |(index, node)| {
+            let key = key.index(index);
+            self.take(node, &key).map(|value| Placed { key, value })
+        };
+        items.iter().enumerate().filter_map(take).collect()
+    }
+
+    fn take<T: DeserializeOwned>(&mut self, node: &Node, key: &Key) -> Option<T> {
+        // What lies inside of a key follows it in the order of keys.
+        if self.dirty.range(key..).next().is_some_and(|found| key.holds(found)) {
+            return None;
+        }
+        match serde_json::from_value(node.to_json()) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.findings.at(node.span, key, error.to_string(), "see the scene reference");
+                None
+            }
+        }
+    }
+}

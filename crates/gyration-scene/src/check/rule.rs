@@ -1,0 +1,169 @@
+//! The JSON Schema of the file's types as rules that are quick to walk.
+//!
+//! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
+//! `minItems`, `maxItems`, `oneOf` (words, or tables with one key of several), `minimum`, `maximum`, `exclusiveMinimum`,
+//! and the format's own `unit` and `later`. A test makes sure that nothing else occurs.
+
+use crate::file::LATER;
+use crate::quantity::UNIT;
+use crate::schema::SCHEMA;
+use crate::units::{Unit, parse_unit};
+use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The rules of a scene, made once.
+pub(super) static RULES: LazyLock<Rules> = LazyLock::new(|| Rules::new(&SCHEMA));
+
+/// All rules, the shared ones by name.
+pub(super) struct Rules {
+    pub(super) root: Field,
+    shared: BTreeMap<String, Rule>,
+}
+
+/// What may stand at a place.
+#[derive(Debug, Clone)]
+pub(super) struct Field {
+    pub(super) rule: Rule,
+    pub(super) limits: Limits,
+    /// Names what is not in this version.
+    pub(super) later: Option<String>,
+    pub(super) description: String,
+}
+
+/// The kind of a value and what it holds.
+#[derive(Debug, Clone)]
+pub(super) enum Rule {
+    /// A shared rule.
+    Shared(String),
+    /// A table with these keys.
+    Table { fields: BTreeMap<String, Field>, required: Vec<String> },
+    /// An array of so many items.
+    Array { item: Box<Field>, least: usize, most: usize },
+    /// A pure number.
+    Number,
+    /// A number in SI units or a string with a unit.
+    Quantity { symbol: String, unit: Unit, example: String },
+    /// Any string.
+    Text,
+    /// One of these strings.
+    Words(Vec<String>),
+    /// A table with one of these keys.
+    Tagged(BTreeMap<String, Field>),
+    /// A schema that is not understood: nothing is checked.
+    Unknown,
+}
+
+/// Between what a number must lie.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Limits {
+    /// At least this.
+    pub(super) least: Option<f64>,
+    /// At most this.
+    pub(super) most: Option<f64>,
+    /// More than this.
+    pub(super) above: Option<f64>,
+}
+
+impl Rules {
+    fn new(schema: &Json) -> Self {
+        let definitions = schema.get("$defs").and_then(Json::as_object);
+        let shared = definitions.into_iter().flatten().map(|(name, target)| (name.clone(), rule(target)));
+        Self { root: field(schema), shared: shared.collect() }
+    }
+
+    /// The rule itself, behind its name if it is a shared one.
+    pub(super) fn resolve<'a>(&'a self, rule: &'a Rule) -> &'a Rule {
+        match rule {
+            Rule::Shared(name) => self.shared.get(name).unwrap_or(&Rule::Unknown),
+            other => other,
+        }
+    }
+}
+
+fn field(schema: &Json) -> Field {
+    let number = |keyword: &str| schema.get(keyword).and_then(Json::as_f64);
+    Field {
+        rule: rule(schema),
+        limits: Limits { least: number("minimum"), most: number("maximum"), above: number("exclusiveMinimum") },
+        later: text(schema, LATER).map(str::to_owned),
+        description: text(schema, "description").unwrap_or_default().to_owned(),
+    }
+}
+
+fn rule(schema: &Json) -> Rule {
+    if let Some(reference) = text(schema, "$ref") {
+        return Rule::Shared(reference.rsplit('/').next().unwrap_or_default().to_owned());
+    }
+    if let Some(choices) = schema.get("oneOf").and_then(Json::as_array) {
+        return choice(choices);
+    }
+    if let Some(symbol) = text(schema, UNIT) {
+        return quantity(symbol, schema);
+    }
+    match text(schema, "type") {
+        Some("object") => table(schema),
+        Some("array") => array(schema),
+        Some("number") => Rule::Number,
+        Some("string") => Rule::Text,
+        _ => Rule::Unknown,
+    }
+}
+
+/// Words, if every choice is a constant; else tables of one key each.
+fn choice(choices: &[Json]) -> Rule {
+    let words: Option<Vec<String>> = choices.iter().map(|choice| text(choice, "const").map(str::to_owned)).collect();
+    words.map_or_else(|| Rule::Tagged(choices.iter().flat_map(fields).collect()), Rule::Words)
+}
+
+fn quantity(symbol: &str, schema: &Json) -> Rule {
+    let example = schema.pointer("/examples/0").and_then(Json::as_str).unwrap_or_default().to_owned();
+    parse_unit(symbol).map_or(Rule::Unknown, |unit| Rule::Quantity { symbol: symbol.to_owned(), unit, example })
+}
+
+fn table(schema: &Json) -> Rule {
+    let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
+    let required = required.filter_map(Json::as_str).map(str::to_owned).collect();
+    Rule::Table { fields: fields(schema), required }
+}
+
+fn array(schema: &Json) -> Rule {
+    let count = |keyword: &str| schema.get(keyword).and_then(Json::as_u64).map(|count| count as usize);
+    let (least, most) = (count("minItems").unwrap_or(0), count("maxItems").unwrap_or(usize::MAX));
+    Rule::Array { item: Box::new(field(schema.get("items").unwrap_or(&Json::Null))), least, most }
+}
+
+fn fields(schema: &Json) -> BTreeMap<String, Field> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    properties.into_iter().flatten().map(|(name, property)| (name.clone(), field(property))).collect()
+}
+
+fn text<'a>(schema: &'a Json, keyword: &str) -> Option<&'a str> {
+    schema.get(keyword).and_then(Json::as_str)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_understood(field: &Field, place: &str) {
+        match &field.rule {
+            Rule::Unknown => assert!(field.later.is_some(), "{place} is not understood"),
+            Rule::Shared(name) => assert!(RULES.shared.contains_key(name), "{place}: {name} is not defined"),
+            Rule::Table { fields, .. } | Rule::Tagged(fields) => {
+                fields.iter().for_each(|(name, field)| assert_understood(field, &format!("{place}.{name}")));
+            }
+            Rule::Array { item, .. } => assert_understood(item, place),
+            Rule::Number | Rule::Quantity { .. } | Rule::Text | Rule::Words(_) => {}
+        }
+    }
+
+    #[test]
+    fn every_part_of_the_schema_is_understood() {
+        assert_understood(&RULES.root, "scene");
+        for (name, rule) in &RULES.shared {
+            let shared = Field { rule: rule.clone(), ..field(&Json::Null) };
+            assert_understood(&shared, name);
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The structure of a scene: kinds of values, keys, lengths of arrays, units and limits of numbers.
+//!
+//! Goes on behind every error. The depth of the recursion is that of the tree, which the parsers limit.
+
+use super::rule::{Field, Limits, RULES, Rule, Rules};
+use crate::document::Findings;
+use crate::key::Key;
+use crate::suggest;
+use crate::tree::{Node, Table, Value};
+use crate::units::{Dimension, Unit, UnitError, parse_quantity};
+use std::collections::BTreeMap;
+
+/// Notes where the tree departs from the rules of the format.
+pub(crate) fn structure(root: &Node, findings: &mut Findings) {
+    Walker { rules: &RULES, findings }.visit(root, &Key::root(), &RULES.root);
+}
+
+struct Walker<'a> {
+    rules: &'a Rules,
+    findings: &'a mut Findings,
+}
+
+impl Walker<'_> {
+    fn visit(&mut self, node: &Node, key: &Key, field: &Field) {
+        match (&node.value, self.rules.resolve(&field.rule)) {
+            (Value::Table(table), Rule::Table { fields, required }) => self.table(table, node, key, fields, required),
+            (Value::Table(table), Rule::Tagged(tags)) => self.tagged(table, node, key, tags),
+            (Value::Array(items), Rule::Array { item, least, most }) => {
+                let count = items.len();
+                if !(*least..=*most).contains(&count) {
+                    let expected = if most == least { format!("{least}") } else { format!("at least {least}") };
+                    let message = format!("expected {expected} items, found {count}");
+                    self.findings.at(node.span, key, message, format!("write {}", self.expected(&field.rule)));
+                }
+                items.iter().enumerate().for_each(|(index, node)| self.visit(node, &key.index(index), item));
+            }
+            (Value::Number(number), Rule::Number) => self.limits(*number, node, key, field.limits, ""),
+            (Value::Number(number), Rule::Quantity { symbol, .. }) => {
+                self.limits(*number, node, key, field.limits, symbol);
+            }
+            (Value::Text(text), Rule::Quantity { symbol, unit, example }) => {
+                match in_unit(text, unit, symbol, example) {
+                    Ok(number) => self.limits(number, node, key, field.limits, symbol),
+                    Err((message, help)) => self.findings.at(node.span, key, message, help),
+                }
+            }
+            (Value::Text(text), Rule::Words(words)) if !words.contains(text) => {
+                let help = suggest::fix(text, words.iter().map(String::as_str), "one of");
+                self.findings.at(node.span, key, format!("\"{text}\" is not known here"), help);
+            }
+            (Value::Text(_), Rule::Text | Rule::Words(_)) | (_, Rule::Unknown) => {}
+            (_, rule) => {
+                let expected = self.expected(rule);
+                let help = mismatch_help(&node.value, rule, &expected);
+                let message = format!("expected {expected}, found {}", node.value.kind());
+                self.findings.at(node.span, key, message, help);
+            }
+        }
+    }
+
+    fn table(&mut self, table: &Table, node: &Node, key: &Key, fields: &BTreeMap<String, Field>, required: &[String]) {
+        self.keys(table, key, fields, "known keys");
+        for name in required.iter().filter(|name| !table.contains_key(*name)) {
+            let help = match fields.get(name) {
+                Some(field) => {
+                    let purpose = field.description.trim_end_matches('.').replace('\n', " ");
+                    format!("add `{name}` ({purpose}): {}", self.expected(&field.rule))
+                }
+                None => format!("add `{name}`"),
+            };
+            self.findings.at(node.span, &key.key(name), format!("the key \"{name}\" is missing"), help);
+        }
+    }
+
+    fn tagged(&mut self, table: &Table, node: &Node, key: &Key, tags: &BTreeMap<String, Field>) {
+        self.keys(table, key, tags, "one of");
+        if table.len() != 1 {
+            let expected = self.expected(&Rule::Tagged(tags.clone()));
+            let message = format!("expected exactly one key, found {}", table.len());
+            self.findings.at(node.span, key, message, format!("write {expected}"));
+        }
+    }
+
+    /// Every key of a table: unknown, not in this version, or on to its value.
+    fn keys(&mut self, table: &Table, key: &Key, fields: &BTreeMap<String, Field>, what: &str) {
+        for (name, entry) in table {
+            let place = key.key(name);
+            match fields.get(name) {
+                None => {
+                    let help = suggest::fix(name, fields.keys().map(String::as_str), what);
+                    self.findings.at(entry.key_span, &place, format!("unknown key \"{name}\""), help);
+                }
+                Some(Field { later: Some(what), .. }) => {
+                    let message = format!("{what} are not in this version yet");
+                    self.findings.at(entry.key_span, &place, message, format!("leave `{name}` out"));
+                }
+                Some(field) => self.visit(&entry.node, &place, field),
+            }
+        }
+    }
+
+    fn limits(&mut self, number: f64, node: &Node, key: &Key, limits: Limits, unit: &str) {
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let Limits { least, most, above } = limits;
+        let broken = match (least, most, above) {
+            _ if number.is_nan() => Some("a number".to_owned()),
+            _ if number.is_infinite() => Some("finite".to_owned()),
+            (_, _, Some(above)) if number <= above => Some(format!("greater than {}{unit}", short(above))),
+            (Some(least), _, _) if number < least => Some(format!("at least {}{unit}", short(least))),
+            (_, Some(most), _) if number > most => Some(format!("at most {}{unit}", short(most))),
+            _ => None,
+        };
+        if let Some(condition) = broken {
+            let message = format!("must be {condition}, found {}{unit}", short(number));
+            let range = match (least, most) {
+                (Some(least), Some(most)) => format!("write a number from {least:?} to {most:?}{unit}"),
+                _ => format!("write a number that is {condition}"),
+            };
+            self.findings.at(node.span, key, message, range);
+        }
+    }
+
+    /// What a rule asks for, in words.
+    fn expected(&self, rule: &Rule) -> String {
+        match self.rules.resolve(rule) {
+            Rule::Number => "a number".to_owned(),
+            Rule::Quantity { symbol, example, .. } => format!("a number in {symbol} or a string such as \"{example}\""),
+            Rule::Text => "a string".to_owned(),
+            Rule::Words(words) => format!("one of \"{}\"", words.join("\", \"")),
+            Rule::Tagged(tags) => {
+                let tags: Vec<String> = tags.keys().map(|tag| format!("{{ {tag} = … }}")).collect();
+                format!("one of {}", tags.join(", "))
+            }
+            Rule::Array { item, least, most } => {
+                let count = if least == most { format!("{least} items") } else { "items".to_owned() };
+                format!("an array of {count}, each {}", self.expected(&item.rule))
+            }
+            Rule::Table { fields, required } if !required.is_empty() || fields.is_empty() => {
+                let keys: Vec<String> = required.iter().map(|name| format!("{name} = …")).collect();
+                format!("a table {{ {} }}", keys.join(", ")).replace("{  }", "{}")
+            }
+            Rule::Table { fields, .. } => {
+                let keys: Vec<&str> = fields.keys().map(String::as_str).collect();
+                format!("a table with keys of {}", keys.join(", "))
+            }
+            Rule::Shared(_) | Rule::Unknown => "a value".to_owned(),
+        }
+    }
+}
+
+/// A number as people write it: `0` and `0.01`, but `1e-14`.
+fn short(number: f64) -> String {
+    if number == number.trunc() && number.abs() < 1e6 { format!("{number}") } else { format!("{number:?}") }
+}
+
+fn mismatch_help(value: &Value, rule: &Rule, expected: &str) -> String {
+    match (value, rule) {
+        (Value::Null, _) => "leave the key out".to_owned(),
+        (Value::Text(text), Rule::Number) if text.trim().parse::<f64>().is_ok() => "write it without quotes".to_owned(),
+        (Value::Text(_), Rule::Number) => "write a pure number: it has no unit".to_owned(),
+        (Value::Text(text), Rule::Tagged(tags)) if tags.contains_key(text) => format!("write {{ {text} = {{ … }} }}"),
+        _ => format!("write {expected}"),
+    }
+}
+
+/// The value of a string with a unit in SI units, if the unit has the right dimension; else message and fix.
+fn in_unit(text: &str, wanted: &Unit, symbol: &str, example: &str) -> Result<f64, (String, String)> {
+    let pattern = format!("write a number in {symbol}, or a string such as \"{example}\"");
+    let (number, unit) = parse_quantity(text).map_err(|error| {
+        let help = match &error {
+            UnitError::UnknownUnit { nearest: Some(nearest), .. } => format!("did you mean \"{nearest}\"?"),
+            _ => pattern.clone(),
+        };
+        (error.to_string(), help)
+    })?;
+    if unit.dimension == wanted.dimension {
+        return Ok(number * unit.size);
+    }
+    if unit.dimension == Dimension::default() {
+        return Err((
+            format!("\"{text}\" has no unit"),
+            format!("write {number:?} without quotes, in {symbol}, or add a unit"),
+        ));
+    }
+    let message = format!("\"{text}\" is in {}, expected {symbol} ({})", unit.dimension, wanted.dimension);
+    Err((message, pattern))
+}

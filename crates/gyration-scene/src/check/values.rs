@@ -1,0 +1,100 @@
+//! What the structure cannot say about supports, contacts and times: names, references, directions, counts.
+//!
+//! Bodies are checked where they are built.
+
+use super::{Draft, Judge, Placed};
+use crate::file::{Contact, Motion, Support, Time};
+use crate::key::{Key, is_name};
+use crate::suggest;
+use crate::tree::Node;
+use gyration::tensor::Vec3;
+use std::collections::BTreeSet;
+
+/// The most samples of a recording.
+const MOST_SAMPLES: f64 = 1e8;
+
+/// Notes what is wrong with the values of a draft, its bodies apart.
+pub(crate) fn values(draft: &Draft, judge: &mut Judge<'_>) {
+    let supports = names("support", judge);
+    let bodies = names("body", judge);
+    if let Some(time) = &draft.time {
+        samples(time, judge);
+    }
+    draft.supports.iter().for_each(|support| directions(support, judge));
+    for contact in &draft.contacts {
+        reference("support", &contact.value.support, &supports, &contact.key, judge);
+        if let Some(body) = &contact.value.body {
+            reference("body", body, &bodies, &contact.key, judge);
+        }
+        exponents(contact, judge);
+    }
+}
+
+/// The names of an array of tables, well formed or not; notes those that are no names or occur twice.
+fn names(section: &str, judge: &mut Judge<'_>) -> BTreeSet<String> {
+    let key = Key::root().key(section);
+    let document = judge.document;
+    let items = document.root.get(section).map(Node::items).unwrap_or_default();
+    let mut names = BTreeSet::new();
+    for (index, item) in items.iter().enumerate() {
+        let Some(node) = item.get("name") else { continue };
+        let Some(name) = node.text() else { continue };
+        let place = key.index(index).key("name");
+        if !is_name(name) {
+            let help = "use letters A to Z and a to z, digits, `_` and `-`";
+            judge.findings.at(node.span, &place, format!("\"{name}\" is not a name"), help);
+        } else if !names.insert(name.to_owned()) {
+            let message = format!("the {section} \"{name}\" occurs twice");
+            judge.findings.at(node.span, &place, message, "give each a name of its own");
+        }
+    }
+    names
+}
+
+fn reference(section: &str, name: &str, known: &BTreeSet<String>, contact: &Key, judge: &mut Judge<'_>) {
+    if !known.contains(name) {
+        let help = suggest::fix(name, known.iter().map(String::as_str), section);
+        judge.note(&contact.key(section), format!("there is no {section} \"{name}\""), help);
+    }
+}
+
+fn samples(time: &Time, judge: &mut Judge<'_>) {
+    let count = time.end.value() / time.sample.value();
+    if count > MOST_SAMPLES {
+        let message = format!("{count:.3e} samples are more than {MOST_SAMPLES:e}");
+        let help = format!("write a spacing of at least {:e} s", time.end.value() / MOST_SAMPLES);
+        judge.note(&Key::root().key("time").key("sample"), message, help);
+    }
+}
+
+fn directions(support: &Placed<Support>, judge: &mut Judge<'_>) {
+    let key = &support.key;
+    if direction(&support.value.plane.normal).is_none() {
+        judge.note(&key.key("plane").key("normal"), "the normal is zero", "write a direction, [0, 0, 1]");
+    }
+    if let Some(Motion::Oscillate(oscillation)) = &support.value.motion
+        && direction(&oscillation.direction).is_none()
+    {
+        let key = key.key("motion").key("oscillate").key("direction");
+        judge.note(&key, "the direction is zero", "write a direction, [0, 0, 1]");
+    }
+}
+
+fn exponents(contact: &Placed<Contact>, judge: &mut Judge<'_>) {
+    if let Some(adhesion) = &contact.value.adhesion {
+        let (attractive, repulsive) = (adhesion.nu_attractive.0, adhesion.nu_repulsive.0);
+        if repulsive <= attractive {
+            let message = format!("{repulsive:?} is not greater than nu_attractive, which is {attractive:?}");
+            let key = contact.key.key("adhesion").key("nu_repulsive");
+            judge.note(&key, message, "adhesion repels below d0 only if nu_repulsive > nu_attractive");
+        }
+    }
+}
+
+/// The unit vector along a vector of any finite length but zero.
+pub(crate) fn direction(vector: &[f64; 3]) -> Option<Vec3> {
+    let vector = Vec3::from(*vector);
+    // The largest component first: squares of very long or short vectors leave the range of numbers.
+    let largest = vector.amax();
+    (largest > 0.0).then(|| (vector / largest).normalize())
+}

@@ -1,0 +1,108 @@
+//! A document: the texts a scene comes from, their tree, and the errors found so far.
+//!
+//! Bytes become lines and columns here and nowhere else.
+
+use crate::error::{Excerpt, SceneError, SceneErrors};
+use crate::key::Key;
+use crate::tree::{Node, Span, Value};
+
+/// A text with a name: the file, or an override.
+#[derive(Debug, Clone)]
+pub(crate) struct Text {
+    pub(crate) name: String,
+    pub(crate) content: String,
+}
+
+/// The texts of a scene and the tree that stands in them.
+#[derive(Debug, Clone)]
+pub(crate) struct Document {
+    pub(crate) texts: Vec<Text>,
+    pub(crate) root: Node,
+}
+
+/// An error by its place in the tree; it gets its line and column at the end.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Finding {
+    pub(crate) key: Key,
+    pub(crate) span: Span,
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+/// Collects what is wrong.
+#[derive(Debug, Default)]
+pub(crate) struct Findings(pub(crate) Vec<Finding>);
+
+impl Findings {
+    /// Notes an error at a span.
+    pub(crate) fn at(&mut self, span: Span, key: &Key, message: impl Into<String>, help: impl Into<String>) {
+        self.0.push(Finding { key: key.clone(), span, message: message.into(), help: help.into() });
+    }
+}
+
+impl Document {
+    /// A document of one text with an empty tree.
+    pub(crate) fn new(name: &str, content: &str) -> Self {
+        let text = Text { name: name.to_owned(), content: content.to_owned() };
+        Self { texts: vec![text], root: Node { value: Value::Table(Default::default()), span: Span::default() } }
+    }
+
+    /// The findings in the order of the texts, with lines and columns.
+    pub(crate) fn settle(&self, findings: Findings) -> SceneErrors {
+        // A file with more errors than this is not a scene; the first ones tell.
+        const MOST: usize = 200;
+        let mut findings = findings.0;
+        findings.sort_by(|a, b| (a.span.text, a.span.start, &a.key).cmp(&(b.span.text, b.span.start, &b.key)));
+        findings.dedup();
+        let omitted = findings.len().saturating_sub(MOST);
+        findings.truncate(MOST);
+        SceneErrors::new(findings.into_iter().map(|finding| self.locate(finding)).collect(), omitted)
+    }
+
+    fn locate(&self, finding: Finding) -> SceneError {
+        let key = finding.key.dotted(&self.root);
+        let (file, place) = match self.texts.get(finding.span.text) {
+            Some(text) => (text.name.clone(), Place::new(&text.content, finding.span)),
+            None => (String::new(), Place::new("", Span::default())),
+        };
+        let Place { line, column, excerpt } = place;
+        SceneError { file, line, column, key, message: finding.message, help: finding.help, excerpt }
+    }
+}
+
+/// A span of a text as people count.
+struct Place {
+    line: usize,
+    column: usize,
+    excerpt: Excerpt,
+}
+
+impl Place {
+    fn new(text: &str, span: Span) -> Self {
+        let start = text.floor_char_boundary(span.start);
+        let before = &text[..start];
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+        let column = text[line_start..start].chars().count();
+        let end = text.floor_char_boundary(span.end.clamp(start, line_end.max(start)));
+        let marked = text[start..end].chars().count().max(1);
+        let line = &text[line_start..line_end];
+        Self {
+            line: before.matches('\n').count() + 1,
+            column: column + 1,
+            excerpt: window(line.trim_end_matches('\r'), column, marked),
+        }
+    }
+}
+
+/// The part of a line around its mark that fits a terminal; control characters become blanks.
+fn window(line: &str, column: usize, marked: usize) -> Excerpt {
+    const WIDTH: usize = 100;
+    const LEAD: usize = 40;
+    let length = line.chars().count();
+    let skip = if length <= WIDTH { 0 } else { column.saturating_sub(LEAD) };
+    let shown: String = line.chars().skip(skip).take(WIDTH).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let before = column - skip;
+    let room = shown.chars().count().saturating_sub(before).max(1);
+    Excerpt { text: shown, before, marked: marked.min(room) }
+}

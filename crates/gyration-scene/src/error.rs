@@ -1,0 +1,149 @@
+//! What is wrong with a scene, and where: every error of a file at once, each with its place and its fix.
+//!
+//! [`ReadError`] is for a file that cannot be read at all (exit code 3 of the program), [`SceneErrors`] for its content
+//! and for whatever a scene refers to (exit code 2).
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// One thing wrong with a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SceneError {
+    /// The file as it was named, or `--set` for an override.
+    pub file: String,
+    /// Line, from one.
+    pub line: usize,
+    /// Column in characters, from one.
+    pub column: usize,
+    /// The dotted key, `body.die.mass`; empty where none applies.
+    pub key: String,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it; may be empty.
+    pub help: String,
+    /// The line of the file, cut to a readable width, with its marks.
+    pub(crate) excerpt: Excerpt,
+}
+
+/// The text around an error and which part of it is marked.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Excerpt {
+    /// The line, or a window of it.
+    pub(crate) text: String,
+    /// Characters before the mark.
+    pub(crate) before: usize,
+    /// Characters marked, one at least.
+    pub(crate) marked: usize,
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
+        if !self.key.is_empty() {
+            write!(f, "{}: ", self.key)?;
+        }
+        f.write_str(&self.message)?;
+        let Excerpt { text, before, marked } = &self.excerpt;
+        if !text.is_empty() {
+            let number = self.line.to_string();
+            let margin = " ".repeat(number.len());
+            write!(f, "\n  {number} | {text}\n  {margin} | {}{}", " ".repeat(*before), "^".repeat(*marked))?;
+        }
+        if !self.help.is_empty() {
+            write!(f, "\n  fix: {}", self.help)?;
+        }
+        Ok(())
+    }
+}
+
+/// Everything that is wrong with a scene, in the order of the file; never empty.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SceneErrors {
+    errors: Vec<SceneError>,
+    omitted: usize,
+}
+
+impl SceneErrors {
+    pub(crate) fn new(errors: Vec<SceneError>, omitted: usize) -> Self {
+        Self { errors, omitted }
+    }
+
+    /// The errors, in the order of the file, those of overrides last; of very many, the first ones.
+    pub fn as_slice(&self) -> &[SceneError] {
+        &self.errors
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.errors.len() + self.omitted
+    }
+}
+
+impl<'a> IntoIterator for &'a SceneErrors {
+    type Item = &'a SceneError;
+    type IntoIter = std::slice::Iter<'a, SceneError>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.errors.iter()
+    }
+}
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // More than a person reads at once; the first ones explain the rest.
+        const SHOWN: usize = 50;
+        for (index, error) in self.errors.iter().take(SHOWN).enumerate() {
+            let separator = if index == 0 { "" } else { "\n" };
+            write!(f, "{separator}{error}")?;
+        }
+        match self.count() {
+            0 | 1 => Ok(()),
+            count if count > SHOWN => write!(f, "\n{count} errors, of which the first {SHOWN} are shown"),
+            count => write!(f, "\n{count} errors"),
+        }
+    }
+}
+
+impl std::error::Error for SceneErrors {}
+
+/// A scene file that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// Neither a file nor a scene of the gallery.
+    #[error("{path}: no such file, nor a scene of the gallery; {help}", path = path.display())]
+    NotFound {
+        /// The path or name asked for.
+        path: PathBuf,
+        /// The nearest name of the gallery, or all of them.
+        help: String,
+    },
+    /// The system refused.
+    #[error("{path}: cannot be read: {source}", path = path.display())]
+    Io {
+        /// The path.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// Too large to be a scene.
+    #[error("{path}: {size} bytes are too large for a scene (at most {limit}); put meshes into files of their own", path = path.display())]
+    TooLarge {
+        /// The path.
+        path: PathBuf,
+        /// Its size in bytes.
+        size: u64,
+        /// The largest size in bytes.
+        limit: u64,
+    },
+}
+
+/// Why there is no scene: the file, or what stands in it.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The file cannot be read (exit code 3).
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// What stands in it is wrong (exit code 2).
+    #[error(transparent)]
+    Content(#[from] SceneErrors),
+}

@@ -1,0 +1,104 @@
+//! `[[body]]`: what moves.
+
+use super::{Later, Orientation, Shape};
+use crate::quantity::{
+    AngularVelocity, Density, EulerMoment, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness, Velocity,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A body and its initial state.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Its name, `[A-Za-z0-9_-]+`; names its columns in a recording.
+    pub name: String,
+    /// Its reference shape; may be absent with `mass_properties`, the body then has no surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Shape>,
+    /// Density [kg/m³]; or `mass`, or `mass_properties`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<Positive<Density>>,
+    /// Mass [kg], spread evenly over the shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<Positive<Mass>>,
+    /// Mass, centre of mass and Euler tensor, whatever the shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_properties: Option<MassProperties>,
+    /// It moves as a rigid body, as it does if no kind is given.
+    #[serde(default)]
+    pub rigid: Rigid,
+    /// It deforms homogeneously.
+    #[serde(default, skip_serializing)]
+    #[schemars(extend("later" = "affine bodies"))]
+    pub affine: Option<Later>,
+    /// It deforms homogeneously and contracts by itself.
+    #[serde(default, skip_serializing)]
+    #[schemars(extend("later" = "contractile bodies"))]
+    pub contractile: Option<Later>,
+    /// It is immersed in the fluid.
+    #[serde(default, skip_serializing)]
+    #[schemars(extend("later" = "inclusions in a fluid"))]
+    pub inclusion: Option<Later>,
+    /// Initial position of the centre of mass [m].
+    #[serde(default)]
+    pub position: [Length; 3],
+    /// Initial orientation.
+    #[serde(default)]
+    pub orientation: Orientation,
+    /// Initial velocity of the centre of mass [m/s].
+    #[serde(default)]
+    pub velocity: [Velocity; 3],
+    /// Initial angular velocity in spatial axes [rad/s].
+    #[serde(default)]
+    pub angular_velocity: [AngularVelocity; 3],
+    /// Initial placement gradient P of a deformable body.
+    #[serde(default, skip_serializing)]
+    pub gradient: Option<[[f64; 3]; 3]>,
+    /// Initial rate of the placement gradient of a deformable body [1/s].
+    #[serde(default, skip_serializing)]
+    pub gradient_rate: Option<[[f64; 3]; 3]>,
+    /// A point of the body, relative to the centre of mass in the body's axes, that stays where it starts [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pin: Option<[Length; 3]>,
+    /// Springs between points of the body and points of space.
+    #[serde(default)]
+    pub spring: Vec<Spring>,
+}
+
+/// A rigid body has no parameters of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rigid {}
+
+/// Mass properties given outright.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MassProperties {
+    /// Mass [kg].
+    pub mass: Positive<Mass>,
+    /// Centre of mass in the shape's frame [m].
+    #[serde(default)]
+    pub center: [Length; 3],
+    /// Euler tensor ∫ρ X⊗X dV about the centre of mass [kg m²]; the inertia matrix is tr(J) I − J.
+    pub euler_tensor: [[EulerMoment; 3]; 3],
+}
+
+/// A spring and dashpot between a point of the body and a point of space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Spring {
+    /// Point of the body, relative to the centre of mass in the body's axes [m].
+    #[serde(default)]
+    pub point: [Length; 3],
+    /// Point of space [m].
+    pub anchor: [Length; 3],
+    /// Stiffness [N/m].
+    pub stiffness: NonNegative<Stiffness>,
+    /// Length without force [m].
+    #[serde(default)]
+    pub rest_length: NonNegative<Length>,
+    /// Damping along the spring [N s/m].
+    #[serde(default)]
+    pub damping: NonNegative<SpringDamping>,
+}

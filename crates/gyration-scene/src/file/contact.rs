@@ -1,0 +1,90 @@
+//! `[[contact]]`: the laws by which bodies and supports touch, per unit area, powers of the gap d.
+
+use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The laws between a support and a body, or all bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Name of the support.
+    pub support: String,
+    /// Name of the body; every body with a surface if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// The area that tractions are per; it makes no difference to a rigid body.
+    #[serde(default)]
+    pub measure: Measure,
+    /// Repulsion α (d/d₀)^−ν along the normal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repulsion: Option<Repulsion>,
+    /// Damping −β (d/d₀)^−ν of the normal velocity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Resistance>,
+    /// Friction −β (d/d₀)^−ν of the tangential velocity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Resistance>,
+    /// Adhesion −β ((d/d₀)^−νa − (d/d₀)^−νr) along the normal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adhesion: Option<Adhesion>,
+}
+
+/// The area that tractions are per.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Per deformed area.
+    #[default]
+    DeformedArea,
+    /// Per reference area; derives from a potential.
+    ReferenceArea,
+    /// Per deformed area, with the tangential tractions that make it derive from a potential.
+    DeformedAreaPotential,
+}
+
+/// Repulsion α (d/d₀)^−ν.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Repulsion {
+    /// Strength α [Pa].
+    pub alpha: NonNegative<Pressure>,
+    /// Exponent ν > 0.
+    pub nu: Positive<f64>,
+    /// Reference gap d₀ [m].
+    #[serde(default = "one_metre")]
+    pub d0: Positive<Length>,
+}
+
+/// Damping or friction β (d/d₀)^−ν.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Resistance {
+    /// Strength β [Pa s/m].
+    pub beta: NonNegative<SurfaceDamping>,
+    /// Exponent ν > 0.
+    pub nu: Positive<f64>,
+    /// Reference gap d₀ [m].
+    #[serde(default = "one_metre")]
+    pub d0: Positive<Length>,
+}
+
+/// Adhesion −β ((d/d₀)^−νa − (d/d₀)^−νr): attracts beyond d₀, repels within.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Adhesion {
+    /// Strength β [Pa].
+    pub beta: NonNegative<Pressure>,
+    /// Exponent of the attraction, νa > 0.
+    pub nu_attractive: Positive<f64>,
+    /// Exponent of the repulsion, νr > νa.
+    pub nu_repulsive: Positive<f64>,
+    /// Reference gap d₀ [m], at which the law vanishes.
+    #[serde(default = "one_metre")]
+    pub d0: Positive<Length>,
+}
+
+/// With d₀ = 1 m the strength is the traction at a gap of a metre.
+fn one_metre() -> Positive<Length> {
+    Positive(Length(1.0))
+}

@@ -1,0 +1,65 @@
+//! The types of the file: what can be written in a scene, section by section, with the defaults.
+//!
+//! The JSON Schema comes from them, and so does the check of a scene's structure. They are not the mechanics' types;
+//! `build` makes those. Enumerations are externally tagged: `shape = { sphere = { radius = 0.1 } }`. Written back to
+//! JSON, with every default in its place, they are the resolved form of a scene, which is again a scene.
+
+mod body;
+mod contact;
+mod later;
+mod orientation;
+mod shape;
+mod solver;
+mod support;
+mod time;
+mod world;
+
+pub use body::{Body, MassProperties, Rigid, Spring};
+pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
+pub use later::Later;
+pub use orientation::{AxisAngle, Orientation};
+pub use shape::{
+    Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Part, PointMass, Polyhedron, Shape, Sphere, Torus, Union,
+};
+pub use solver::{Method, Solver};
+pub use support::{Motion, Oscillation, Plane, Support};
+pub use time::{StopAtRest, Time};
+pub use world::World;
+
+pub(crate) use later::LATER;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A scene of Gyration: bodies that move by homogeneous deformations, and what they touch.
+///
+/// Plain numbers are in SI units; a string with a unit, "2 cm", "30 kPa", "15 deg", is accepted wherever a dimension is
+/// known, and checked against it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    /// What the scene shows, in a line.
+    #[serde(default)]
+    pub title: String,
+    /// Gravity.
+    #[serde(default)]
+    pub world: World,
+    /// How long, and how often a sample is recorded.
+    pub time: Time,
+    /// Tolerances and method of the solver.
+    #[serde(default)]
+    pub solver: Solver,
+    /// The supports that bodies can touch.
+    #[serde(default)]
+    pub support: Vec<Support>,
+    /// The laws by which bodies and supports touch.
+    #[serde(default)]
+    pub contact: Vec<Contact>,
+    /// The bodies.
+    #[schemars(length(min = 1))]
+    pub body: Vec<Body>,
+    /// A viscous fluid around the bodies.
+    #[serde(default, skip_serializing)]
+    #[schemars(extend("later" = "fluids"))]
+    pub fluid: Option<Later>,
+}

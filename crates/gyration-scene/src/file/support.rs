@@ -1,0 +1,59 @@
+//! `[[support]]`: planes that bodies can touch, fixed or moving.
+
+use crate::quantity::{Angle, Frequency, Length, NonNegative, Velocity};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A plane that bodies can touch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Its name, `[A-Za-z0-9_-]+`.
+    pub name: String,
+    /// The plane; bodies are on the side to which the normal points.
+    pub plane: Plane,
+    /// How it moves; fixed if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
+}
+
+/// A plane: gap of a point p is (p − origin)·normal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Plane {
+    /// A point of the plane [m].
+    pub origin: [Length; 3],
+    /// Direction to the side of the bodies; need not be of unit length.
+    pub normal: [f64; 3],
+}
+
+impl Default for Plane {
+    fn default() -> Self {
+        Self { origin: Default::default(), normal: [0.0, 0.0, 1.0] }
+    }
+}
+
+/// The prescribed motion of a support.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// A sinusoidal displacement.
+    Oscillate(Oscillation),
+    /// A constant velocity [m/s].
+    Velocity([Velocity; 3]),
+}
+
+/// The displacement direction · amplitude · sin(2π·frequency·t + phase).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Oscillation {
+    /// Direction; need not be of unit length.
+    pub direction: [f64; 3],
+    /// Amplitude [m].
+    pub amplitude: Length,
+    /// Frequency [Hz].
+    pub frequency: NonNegative<Frequency>,
+    /// Phase [rad].
+    #[serde(default)]
+    pub phase: Angle,
+}

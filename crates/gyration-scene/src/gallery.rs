@@ -1,0 +1,18 @@
+//! The built-in gallery: scenes that run by their name, compiled into the program.
+
+/// Name and text of each scene, in the order in which they are listed.
+static SCENES: &[(&str, &str)] = &[
+    ("dice", include_str!("../../../scenes/dice.toml")),
+    ("bounce", include_str!("../../../scenes/bounce.toml")),
+    ("slide", include_str!("../../../scenes/slide.toml")),
+];
+
+/// Name and text of each scene of the gallery.
+pub fn gallery() -> &'static [(&'static str, &'static str)] {
+    SCENES
+}
+
+/// The text of a scene of the gallery.
+pub(crate) fn find(name: &str) -> Option<&'static str> {
+    SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}

@@ -1,0 +1,121 @@
+//! Overrides, `--set body.die.velocity='[1, 0, 0]'`: changes to the tree before it is checked.
+//!
+//! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero. VALUE is a TOML value; what is
+//! none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way are made where there are none,
+//! items of arrays are not. Whatever an override brings is from then on placed in its own text.
+
+use super::toml;
+use crate::document::{Document, Findings, Text};
+use crate::key::{Key, name_of};
+use crate::suggest;
+use crate::tree::{Entry, Node, Span, Table, Value};
+
+/// What an override is called in a message.
+const NAME: &str = "--set";
+/// The longest dotted key.
+const DEEPEST: usize = 32;
+
+/// Applies overrides in their order; what cannot be applied is noted.
+pub(crate) fn apply(document: &mut Document, overrides: &[String], findings: &mut Findings) {
+    for setting in overrides {
+        let text = document.texts.len();
+        document.texts.push(Text { name: NAME.to_owned(), content: setting.clone() });
+        if let Err(fault) = apply_one(&mut document.root, setting, text) {
+            match fault {
+                Fault::Key(span, message, help) => findings.at(span, &Key::root(), message, help),
+                Fault::Value(mut errors) => findings.0.append(&mut errors.0),
+            }
+        }
+    }
+}
+
+enum Fault {
+    Key(Span, String, String),
+    Value(Findings),
+}
+
+/// A word of a dotted key and its place.
+struct Word<'a> {
+    name: &'a str,
+    span: Span,
+}
+
+fn apply_one(root: &mut Node, setting: &str, text: usize) -> Result<(), Fault> {
+    let Some(equals) = setting.find('=') else {
+        let span = Span { text, start: 0, end: setting.len() };
+        return Err(Fault::Key(
+            span,
+            "an override without a value".into(),
+            "write KEY=VALUE, body.die.mass=0.01".into(),
+        ));
+    };
+    let words = words(&setting[..equals], text)?;
+    let value = value(&setting[equals + 1..], text, equals + 1).map_err(Fault::Value)?;
+    let mut at = root;
+    for word in &words {
+        at = step(at, word)?;
+    }
+    *at = value;
+    Ok(())
+}
+
+fn words(key: &str, text: usize) -> Result<Vec<Word<'_>>, Fault> {
+    let mut words = Vec::new();
+    let mut start = 0;
+    for raw in key.split('.') {
+        let name = raw.trim();
+        let span = Span { text, start, end: start + raw.len() };
+        start = span.end + 1;
+        if name.is_empty() || words.len() == DEEPEST {
+            let help = "write a dotted key, body.die.velocity or contact.0.friction.beta";
+            return Err(Fault::Key(span, "not a dotted key".into(), help.into()));
+        }
+        words.push(Word { name, span });
+    }
+    Ok(words)
+}
+
+/// A TOML value, or else a bare string.
+fn value(raw: &str, text: usize, offset: usize) -> Result<Node, Findings> {
+    let trimmed = raw.trim();
+    let offset = offset + (raw.len() - raw.trim_start().len());
+    match toml::parse_value(trimmed, text, offset) {
+        Ok(node) => Ok(node),
+        Err(errors) if trimmed.starts_with(['[', '{', '"', '\'']) || trimmed.is_empty() => Err(errors),
+        Err(_) => {
+            let span = Span { text, start: offset, end: offset + trimmed.len() };
+            Ok(Node { value: Value::Text(trimmed.to_owned()), span })
+        }
+    }
+}
+
+fn step<'a>(at: &'a mut Node, word: &Word<'_>) -> Result<&'a mut Node, Fault> {
+    let fault = |message: String, help: String| Err(Fault::Key(word.span, message, help));
+    match &mut at.value {
+        Value::Table(table) => {
+            let empty = || Node { value: Value::Table(Table::new()), span: word.span };
+            let entry = table.entry(word.name.to_owned());
+            Ok(&mut entry.or_insert_with(|| Entry { key_span: word.span, node: empty() }).node)
+        }
+        Value::Array(items) => {
+            let by_name = items.iter().position(|item| name_of(item) == Some(word.name));
+            let by_index = || word.name.parse().ok().filter(|index| *index < items.len());
+            match by_name.or_else(by_index) {
+                Some(index) => Ok(&mut items[index]),
+                None => {
+                    let names: Vec<&str> = items.iter().filter_map(name_of).collect();
+                    let help = match (items.len(), names.is_empty()) {
+                        (0, _) => "the array is empty".to_owned(),
+                        (count, true) => format!("indices run from 0 to {}", count - 1),
+                        _ => suggest::fix(word.name, names.iter().copied(), "names"),
+                    };
+                    fault(format!("no item \"{}\" in the array", word.name), help)
+                }
+            }
+        }
+        other => {
+            let message = format!("\"{}\" leads into {}", word.name, other.kind());
+            fault(message, "set the value above it as a whole".into())
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! TOML into the tree, with every syntax error of the text.
+
+use crate::document::Findings;
+use crate::key::Key;
+use crate::tree::{Entry, Node, Span, Table, Value};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error};
+
+/// Reads a TOML document.
+pub(super) fn parse(text: &str, findings: &mut Findings) -> Node {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    note(&errors, 0, 0, text.len(), findings);
+    Node { value: Value::Table(convert_table(table.into_inner(), 0, 0)), span: Span { text: 0, start: 0, end: 0 } }
+}
+
+/// Reads one TOML value that stands in a text at an offset.
+///
+/// # Errors
+/// All errors of its syntax.
+pub(super) fn parse_value(value: &str, text: usize, offset: usize) -> Result<Node, Findings> {
+    let (parsed, errors) = DeValue::parse_recoverable(value);
+    if errors.is_empty() {
+        return Ok(convert(parsed, text, offset));
+    }
+    let mut findings = Findings::default();
+    note(&errors, text, offset, offset + value.len(), &mut findings);
+    Err(findings)
+}
+
+/// One finding a place: what follows from the first error there says nothing new.
+fn note(errors: &[Error], text: usize, offset: usize, length: usize, findings: &mut Findings) {
+    let mut last = None;
+    for error in errors {
+        let span = error.span().map_or(Span { text, start: 0, end: length }, |range| shift(range, text, offset));
+        if last != Some(span.start) {
+            findings.at(span, &Key::root(), format!("not valid TOML: {}", error.message()), help(error.message()));
+        }
+        last = Some(span.start);
+    }
+}
+
+fn help(message: &str) -> &'static str {
+    if message.contains("must be quoted") {
+        "put strings and numbers with units into quotes, \"2 cm\""
+    } else if message.contains("duplicate") {
+        "keep one of the two"
+    } else if message.contains("recurs") {
+        "a scene never nests that deep"
+    } else {
+        "see https://toml.io for the syntax"
+    }
+}
+
+fn shift(range: Range<usize>, text: usize, offset: usize) -> Span {
+    Span { text, start: range.start + offset, end: range.end + offset }
+}
+
+fn convert(value: Spanned<DeValue<'_>>, text: usize, offset: usize) -> Node {
+    let span = shift(value.span(), text, offset);
+    let value = match value.into_inner() {
+        DeValue::String(string) => Value::Text(string.into_owned()),
+        DeValue::Integer(integer) => Value::Number(integer_value(integer.as_str(), integer.radix())),
+        DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(boolean) => Value::Boolean(boolean),
+        DeValue::Datetime(_) => Value::Date,
+        DeValue::Array(items) => Value::Array(items.into_iter().map(|item| convert(item, text, offset)).collect()),
+        DeValue::Table(table) => Value::Table(convert_table(table, text, offset)),
+    };
+    Node { value, span }
+}
+
+fn convert_table(table: DeTable<'_>, text: usize, offset: usize) -> Table {
+    let entries = table.into_iter().map(|(key, value)| {
+        let key_span = shift(key.span(), text, offset);
+        (key.into_inner().into_owned(), Entry { key_span, node: convert(value, text, offset) })
+    });
+    entries.collect()
+}
+
+/// An integer of any length and radix as a real number; infinite if it does not fit.
+fn integer_value(digits: &str, radix: u32) -> f64 {
+    if radix == 10 {
+        return digits.parse().unwrap_or(f64::INFINITY);
+    }
+    let digit_values = digits.chars().map(|c| c.to_digit(radix));
+    digit_values.flatten().fold(0.0, |sum, digit| sum * f64::from(radix) + f64::from(digit))
+}

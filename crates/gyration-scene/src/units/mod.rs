@@ -1,0 +1,97 @@
+//! Dimensioned numbers as people write them: `2 cm`, `30 kPa`, `15 deg`, `5 m/s`, `2 g/cm3`, `0.1 N s/m`.
+//!
+//!   value [SI] = number · Π (prefixᵢ · unitᵢ)^kᵢ,    dimension = Σ kᵢ dim(unitᵢ)
+//!
+//! A dimension is the vector of exponents of metre, kilogram, second and radian. The radian counts as a dimension of
+//! its own, so that `5 Hz` is not taken for an angular velocity nor `3 rpm` for a frequency. The grammar is
+//! `number unit`, where a unit is a sequence of symbols, each with an optional SI prefix and an integer power (`m^3`,
+//! `m3`, `m³`, `s^-1`), joined by blanks, `*` or `·` (product) and `/` (everything up to the next operator divides);
+//! parentheses group. Offsets (temperatures) and fractional powers are not units here.
+
+mod parse;
+mod symbols;
+
+pub use parse::{UnitError, parse_quantity, parse_unit};
+
+use std::fmt;
+
+/// The exponents of the base units in a product of units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dimension {
+    /// Power of the metre.
+    pub length: i32,
+    /// Power of the kilogram.
+    pub mass: i32,
+    /// Power of the second.
+    pub time: i32,
+    /// Power of the radian.
+    pub angle: i32,
+}
+
+impl Dimension {
+    /// The dimension with these exponents of metre, kilogram, second and radian.
+    pub const fn new(length: i32, mass: i32, time: i32, angle: i32) -> Self {
+        Self { length, mass, time, angle }
+    }
+
+    /// The dimension of a product of two units.
+    pub(crate) fn times(self, other: Self) -> Self {
+        Self {
+            length: self.length + other.length,
+            mass: self.mass + other.mass,
+            time: self.time + other.time,
+            angle: self.angle + other.angle,
+        }
+    }
+
+    /// The dimension of an integer power of a unit.
+    pub(crate) fn power(self, exponent: i32) -> Self {
+        Self {
+            length: self.length * exponent,
+            mass: self.mass * exponent,
+            time: self.time * exponent,
+            angle: self.angle * exponent,
+        }
+    }
+}
+
+/// Writes the base units, `kg m^-1 s^-2`; `1` for a pure number.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut separator = "";
+        for (symbol, power) in [("kg", self.mass), ("m", self.length), ("s", self.time), ("rad", self.angle)] {
+            match power {
+                0 => continue,
+                1 => write!(f, "{separator}{symbol}")?,
+                _ => write!(f, "{separator}{symbol}^{power}")?,
+            }
+            separator = " ";
+        }
+        if separator.is_empty() { f.write_str("1") } else { Ok(()) }
+    }
+}
+
+/// A unit: its size in SI units and its dimension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// How many SI units make one of these.
+    pub size: f64,
+    /// The exponents of the base units.
+    pub dimension: Dimension,
+}
+
+impl Unit {
+    /// The pure number one.
+    pub(crate) const ONE: Self = Self { size: 1.0, dimension: Dimension::new(0, 0, 0, 0) };
+
+    pub(crate) fn times(self, other: Self) -> Self {
+        Self { size: self.size * other.size, dimension: self.dimension.times(other.dimension) }
+    }
+
+    pub(crate) fn power(self, exponent: i32) -> Self {
+        Self { size: self.size.powi(exponent), dimension: self.dimension.power(exponent) }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,366 @@
+//! Every kind of error, at its exact place. In a row `§` stands right before the place that the error must point to.
+
+use gyration_scene::{Scene, SceneErrors};
+use std::path::Path;
+
+const TIME: &str = "[time]\nend = 1\nsample = 0.1\n";
+const TABLE: &str = "[[support]]\nname = \"table\"\nplane = {}\n";
+const BALL: &str = "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0, 1]\nmass = 1\n";
+
+fn errors(name: &str, text: &str, overrides: &[String]) -> SceneErrors {
+    match Scene::parse(name, text, Path::new("/nowhere"), overrides) {
+        Ok(_) => panic!("no error in\n{text}"),
+        Err(errors) => errors,
+    }
+}
+
+/// One error, at the mark, with this key, this part of the message and this part of the fix.
+#[track_caller]
+fn assert_error(marked: &str, key: &str, message: &str, help: &str) {
+    let at = marked.find('§').expect("a mark");
+    let line = marked[..at].matches('\n').count() + 1;
+    let column = marked[..at].chars().rev().take_while(|c| *c != '\n').count() + 1;
+    let found = errors("scene.toml", &marked.replace('§', ""), &[]);
+    assert_eq!(found.count(), 1, "{found}");
+    let error = &found.as_slice()[0];
+    assert_eq!((error.file.as_str(), error.line, error.column), ("scene.toml", line, column), "{error}");
+    assert_eq!(error.key, key, "{error}");
+    assert!(error.message.contains(message), "{error}\n  does not say: {message}");
+    assert!(error.help.contains(help), "{error}\n  does not advise: {help}");
+}
+
+/// A row about a body: the lines after `mass = 1` of a body without a shape.
+type Row = (&'static str, &'static str, &'static str, &'static str);
+
+#[test]
+fn structure_errors_stand_at_their_place() {
+    let rows: &[Row] = &[
+        ("§colour = 1", "body.ball.colour", "unknown key \"colour\"", "known keys"),
+        ("§velcoity = [0, 0, 1]", "body.ball.velcoity", "unknown key", "did you mean `velocity`?"),
+        ("velocity = §[0, 0]", "body.ball.velocity", "expected 3 items, found 2", "m/s"),
+        ("velocity = §1", "body.ball.velocity", "found a number", "array of 3 items"),
+        ("velocity = [0, §true, 0]", "body.ball.velocity.1", "found a boolean", "\"5 cm/s\""),
+        ("velocity = [0, §1979-05-27, 0]", "body.ball.velocity.1", "found a date", "m/s"),
+        ("velocity = [0, §\"2 cm\", 0]", "body.ball.velocity.1", "\"2 cm\" is in m, expected m/s", "\"5 cm/s\""),
+        ("velocity = [0, §\"2\", 0]", "body.ball.velocity.1", "has no unit", "without quotes"),
+        ("velocity = [0, §\"2 cm/sec\", 0]", "body.ball.velocity.1", "unknown unit \"sec\"", "did you mean \"s\"?"),
+        ("velocity = [0, §\"fast\", 0]", "body.ball.velocity.1", "does not begin with a number", "\"5 cm/s\""),
+        ("velocity = [0, §inf, 0]", "body.ball.velocity.1", "must be finite", "finite"),
+        ("velocity = [0, §-inf, 0]", "body.ball.velocity.1", "must be finite", "finite"),
+        ("velocity = [0, §nan, 0]", "body.ball.velocity.1", "must be a number", "number"),
+        ("velocity = [0, §1e999, 0]", "body.ball.velocity.1", "must be finite", "finite"),
+        ("angular_velocity = [0, §\"5 Hz\", 0]", "body.ball.angular_velocity.1", "expected rad/s", "\"3 rpm\""),
+        ("orientation = §{ }", "body.ball.orientation", "exactly one key, found 0", "{ axis_angle = … }"),
+        (
+            "orientation = §{ quaternion = [1, 0, 0, 0], euler_xyz = [0, 0, 0] }",
+            "body.ball.orientation",
+            "exactly one key, found 2",
+            "quaternion",
+        ),
+        (
+            "orientation = { §quaternio = [1, 0, 0, 0] }",
+            "body.ball.orientation.quaternio",
+            "unknown key",
+            "`quaternion`",
+        ),
+        ("orientation = §\"quaternion\"", "body.ball.orientation", "found a string", "{ quaternion = { … } }"),
+        (
+            "orientation = { axis_angle = §{ axis = [1, 0, 0] } }",
+            "body.ball.orientation.axis_angle.angle",
+            "missing",
+            "Angle [rad]",
+        ),
+        ("rigid = { §stiffness = 3 }", "body.ball.rigid.stiffness", "unknown key", ""),
+        (
+            "§affine = { viscosity = 20.0 }",
+            "body.ball.affine",
+            "affine bodies are not in this version yet",
+            "leave `affine` out",
+        ),
+        ("§contractile = {}", "body.ball.contractile", "contractile bodies are not in this version yet", "leave"),
+        ("§inclusion = { inertia = true }", "body.ball.inclusion", "not in this version yet", "leave"),
+        (
+            "spring = [{ anchor = [0, 0, 1], stiffness = §-1 }]",
+            "body.ball.spring.0.stiffness",
+            "must be at least 0 N/m",
+            "",
+        ),
+        ("spring = [§{ anchor = [0, 0, 1] }]", "body.ball.spring.0.stiffness", "missing", "N/m"),
+    ];
+    for (line, key, message, help) in rows {
+        assert_error(&format!("{TIME}{BALL}{line}\n"), key, message, help);
+    }
+}
+
+#[test]
+fn section_errors_stand_at_their_place() {
+    let rows: &[Row] = &[
+        ("§wrold = {}\n", "wrold", "unknown key \"wrold\"", "did you mean `world`?"),
+        ("§fluid = { viscosity = 1 }\n", "fluid", "are not in this version yet", "leave `fluid` out"),
+        ("title = §3\n", "title", "expected a string, found a number", "a string"),
+        ("world = §3\n", "world", "expected a table", "gravity"),
+        ("world.gravity = [0, 0, §\"9.81 m/s\"]\n", "world.gravity.2", "expected m/s^2", "9.81 m/s^2"),
+        ("solver.rtol = §1e-20\n", "solver.rtol", "at least 1e-14", "from 1e-14 to 0.01"),
+        ("solver.rtol = §1\n", "solver.rtol", "at most 0.01", "from 1e-14 to 0.01"),
+        ("solver.rtol = §\"1e-8\"\n", "solver.rtol", "found a string", "without quotes"),
+        ("solver.atol = §-1e-9\n", "solver.atol", "at least 0", ""),
+        ("solver.method = §\"explicitt\"\n", "solver.method", "\"explicitt\" is not known", "did you mean `explicit`?"),
+        ("solver.max_step = §0\n", "solver.max_step", "greater than 0 s", ""),
+        ("solver.max_wall_time = §\"10 kg\"\n", "solver.max_wall_time", "is in kg, expected s", ""),
+        ("support = §3\n", "support", "expected an array", ""),
+        ("support = [§3]\n", "support.0", "expected a table", "name = …"),
+    ];
+    for (head, key, message, help) in rows {
+        assert_error(&format!("{head}{TIME}{BALL}"), key, message, help);
+    }
+    assert_error(&format!("§{BALL}"), "time", "the key \"time\" is missing", "end");
+    assert_error(&format!("§{TIME}"), "body", "the key \"body\" is missing", "bodies");
+    assert_error(&format!("body = §[]\n{TIME}"), "body", "at least 1 items, found 0", "");
+    assert_error(&format!("§[time]\nend = 1\n{BALL}"), "time.sample", "missing", "Spacing");
+    assert_error(&format!("[time]\nend = §0\nsample = 0.1\n{BALL}"), "time.end", "greater than 0 s, found 0 s", "");
+    assert_error(
+        &format!("[time]\nend = 1\nsample = §1e-9\n{BALL}"),
+        "time.sample",
+        "are more than 1e8",
+        "at least 1e-8 s",
+    );
+    assert_error(
+        &format!("{TIME}stop_at_rest = {{ speed = §-1, hold = 1 }}\n{BALL}"),
+        "time.stop_at_rest.speed",
+        "greater",
+        "",
+    );
+}
+
+#[test]
+fn errors_of_supports_and_contacts_stand_at_their_place() {
+    let rows: &[Row] = &[
+        ("[[support]]\nname = \"a\"\nplane = { normal = §[0, 0, 0] }\n", "support.a.plane.normal", "zero", "[0, 0, 1]"),
+        ("[[support]]\nname = §\"a b\"\nplane = {}\n", "support.1.name", "not a name", "letters"),
+        ("[[support]]\nname = §\"table\"\nplane = {}\n", "support.table.name", "occurs twice", "name of its own"),
+        ("§[[support]]\nname = \"a\"\n", "support.a.plane", "missing", "plane"),
+        (
+            "[[support]]\nname = \"a\"\nplane = {}\nmotion = { oscillate = { direction = §[0, 0, 0], amplitude = 1, frequency = 1 } }\n",
+            "support.a.motion.oscillate.direction",
+            "zero",
+            "",
+        ),
+        ("[[contact]]\nsupport = §\"tabel\"\n", "contact.0.support", "no support \"tabel\"", "did you mean `table`?"),
+        ("[[contact]]\nsupport = \"table\"\nbody = §\"bell\"\n", "contact.0.body", "no body \"bell\"", "`ball`"),
+        ("[[contact]]\nsupport = \"table\"\nmeasure = §\"area\"\n", "contact.0.measure", "not known", "reference_area"),
+        (
+            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 1, nu = §0 }\n",
+            "contact.0.repulsion.nu",
+            "greater than 0",
+            "",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = §\"1 Pa s/m\", nu = 6 }\n",
+            "contact.0.repulsion.alpha",
+            "expected Pa",
+            "30 kPa",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\nfriction = { beta = 1, nu = §\"6 m\" }\n",
+            "contact.0.friction.nu",
+            "expected a number, found a string",
+            "pure number",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\ndamping = { beta = 1, nu = 6, d0 = §0 }\n",
+            "contact.0.damping.d0",
+            "greater than 0 m",
+            "",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\nadhesion = { beta = 1, nu_attractive = 4, nu_repulsive = §4 }\n",
+            "contact.0.adhesion.nu_repulsive",
+            "not greater than nu_attractive",
+            "nu_repulsive > nu_attractive",
+        ),
+    ];
+    for (text, key, message, help) in rows {
+        assert_error(&format!("{TIME}{BALL}{TABLE}{text}"), key, message, help);
+    }
+}
+
+#[test]
+fn errors_of_bodies_stand_at_their_place() {
+    let sphere = "shape = { sphere = { radius = 1 } }";
+    let rows: &[(String, &str, &str, &str)] = &[
+        (format!("§[[body]]\nname = \"b\"\n{sphere}"), "body.b", "no mass", "exactly one"),
+        (format!("[[body]]\nname = \"b\"\n{sphere}\ndensity = 1\nmass = §2"), "body.b.mass", "more than one", "exactly one"),
+        ("§[[body]]\nname = \"b\"\nmass = 1".into(), "body.b.shape", "missing", "mass_properties"),
+        (format!("[[body]]\nname = \"b\"\n{sphere}\nmass = §0"), "body.b.mass", "greater than 0 kg", ""),
+        (format!("[[body]]\nname = §\"ball\"\n{sphere}\nmass = 1"), "body.ball.name", "occurs twice", ""),
+        (format!("§[[body]]\n{sphere}\nmass = 1"), "body.1.name", "missing", "name"),
+        ("[[body]]\nname = \"b\"\nmass = 1\nshape = { box = { size = [1, §-2, 1] } }".into(), "body.b.shape.box.size.1", "greater than 0 m, found -2 m", ""),
+        (
+            "[[body]]\nname = \"b\"\nmass = 1\nshape = §{ torus = { major_radius = 1, minor_radius = 2 } }".into(),
+            "body.b.shape",
+            "major_radius must be the larger",
+            "",
+        ),
+        (
+            "[[body]]\nname = \"b\"\nmass = 1\nshape = { polyhedron = { vertices = §[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] } }".into(),
+            "body.b.shape.polyhedron.vertices",
+            "in a plane",
+            "volume",
+        ),
+        (
+            "[[body]]\nname = \"b\"\nmass = 1\nshape = { mesh = { file = §\"none.stl\" } }".into(),
+            "body.b.shape.mesh.file",
+            "none.stl",
+            "relative to the folder of the scene",
+        ),
+        (
+            "[[body]]\nname = \"b\"\nshape = §{ points = [{ mass = 1, at = [0, 0, 0] }, { mass = 1, at = [1, 0, 0] }] }".into(),
+            "body.b.shape",
+            "on one line",
+            "off the line",
+        ),
+        (
+            "[[body]]\nname = \"b\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }] }\nmass = §1".into(),
+            "body.b.mass",
+            "their own mass",
+            "leave",
+        ),
+        ("[[body]]\nname = \"b\"\nshape = { points = §[] }".into(), "body.b.shape.points", "no points", "at = "),
+        (
+            format!("[[body]]\nname = \"b\"\nshape = {{ union = {{ parts = [{{ density = 1, {sphere} }}, §{{ {sphere} }}] }} }}"),
+            "body.b.shape.union.parts.1.density",
+            "no density",
+            "give the part",
+        ),
+        (
+            format!(
+                "[[body]]\nname = \"b\"\n{sphere}\nmass_properties = {{ mass = 1, euler_tensor = §[[1, 0, 0], [0, 1, 0], [0, 0, -1]] }}"
+            ),
+            "body.b.mass_properties.euler_tensor",
+            "negative principal value -1",
+            "",
+        ),
+        (
+            format!(
+                "[[body]]\nname = \"b\"\n{sphere}\nmass_properties = {{ mass = 1, euler_tensor = §[[1, 1, 0], [0, 1, 0], [0, 0, 1]] }}"
+            ),
+            "body.b.mass_properties.euler_tensor",
+            "not symmetric",
+            "",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\norientation = {{ quaternion = §[0, 0, 0, 0] }}"),
+            "body.b.orientation.quaternion",
+            "zero",
+            "[w, x, y, z]",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\norientation = {{ axis_angle = {{ axis = §[0, 0, 0], angle = 1 }} }}"),
+            "body.b.orientation.axis_angle.axis",
+            "zero",
+            "",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\ngradient = §[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+            "body.b.gradient",
+            "rigid body",
+            "`orientation`",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\ngradient_rate = §[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+            "body.b.gradient_rate",
+            "rigid body",
+            "`angular_velocity`",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\npin = [0, 0, 1]\nangular_velocity = [1, 0, 0]\nvelocity = §[0, 0, 0]"),
+            "body.b.velocity",
+            "[0e0, 1e0, 0e0]",
+            "leave `velocity` out",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nspring = [{{ anchor = §[0, 0, 0], stiffness = 1, rest_length = 1 }}]"),
+            "body.b.spring.0.anchor",
+            "no length",
+            "move the anchor",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = §[0, 0, 0.75]\n[[contact]]\nsupport = \"table\"\nbody = \"b\""),
+            "body.b.position",
+            "reaches the support \"table\" at the start: its smallest gap is -2.5",
+            "more than 2.5",
+        ),
+        (
+            "[[body]]\nname = \"b\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }, { mass = 1, at = [1, 0, 0] }, { mass = 1, at = [0, 1, 0] }] }\n\
+             [[contact]]\nsupport = \"table\"\nbody = §\"b\""
+                .into(),
+            "contact.0.body",
+            "no surface",
+            "",
+        ),
+        (
+            format!("§[[body]]\nname = \"b\"\n{sphere}\ndensity = 1e308"),
+            "body.b",
+            "it must be finite",
+            "",
+        ),
+    ];
+    for (text, key, message, help) in rows {
+        assert_error(&format!("{TIME}{BALL}{TABLE}{text}\n"), key, message, help);
+    }
+}
+
+#[test]
+fn all_errors_of_a_file_come_at_once_in_its_order() {
+    let text = format!(
+        "[time]\nend = -1\nsample = 0.1\n{TABLE}[[contact]]\nsupport = \"tabel\"\n{BALL}colour = 1\nvelocity = [0, 0]\n\
+         [[body]]\nname = \"die\"\nshape = {{ box = {{ size = [1, 1, 1] }} }}\norientation = {{ quaternion = [0, 0, 0, 0] }}\n"
+    );
+    let found = errors("scene.toml", &text, &["solver.rtol=1".to_owned(), "solver.atol=-1".to_owned()]);
+    let keys: Vec<&str> = found.into_iter().map(|error| error.key.as_str()).collect();
+    let expected = [
+        "time.end",
+        "contact.0.support",
+        "body.ball.colour",
+        "body.ball.velocity",
+        "body.die",
+        "body.die.orientation.quaternion",
+        "solver.rtol",
+        "solver.atol",
+    ];
+    assert_eq!(keys, expected, "{found}");
+}
+
+#[test]
+fn all_syntax_errors_come_at_once() {
+    let found = errors("scene.toml", "title = \nsolver = {\n[time\nend = 1\nend = 2\n", &[]);
+    assert!(found.count() >= 2, "{found}");
+    assert!(found.into_iter().all(|error| error.message.starts_with("not valid TOML")), "{found}");
+    assert_eq!((found.as_slice()[0].line, found.as_slice()[0].column), (1, 9), "{found}");
+}
+
+#[test]
+fn an_error_shows_its_line_and_its_fix() {
+    let found = errors("scene.toml", &format!("{TIME}{BALL}velocity = [0, \"2 cm\", 0]\n"), &[]);
+    let expected = "scene.toml:9:16: body.ball.velocity.1: \"2 cm\" is in m, expected m/s (m s^-1)\n  \
+                    9 | velocity = [0, \"2 cm\", 0]\n    |                ^^^^^^\n  \
+                    fix: write a number in m/s, or a string such as \"5 cm/s\"";
+    assert_eq!(found.to_string(), expected);
+}
+
+#[test]
+fn json_errors_stand_at_their_place() {
+    let text = "{\n  \"time\": {\"end\": 1, \"sample\": 0.1},\n  \"body\": [{\"shape\": {\"points\": []}, \"colour\": null}]\n}";
+    let found = errors("scene.json", text, &[]);
+    let places: Vec<(usize, usize, &str)> =
+        found.into_iter().map(|error| (error.line, error.column, error.key.as_str())).collect();
+    assert_eq!(places, [(3, 12, "body.0.name"), (3, 38, "body.0.colour")], "{found}");
+    for (text, line, column) in
+        [("{\"a\": 1,}", 1, 9), ("{\"a\": 01}", 1, 7), ("{\"a\": 1 \"b\": 2}", 1, 9), ("{\n\"a\": 1, \"a\": 2}", 2, 9)]
+    {
+        let found = errors("scene.json", text, &[]);
+        let error = &found.as_slice()[0];
+        assert_eq!((found.count(), error.line, error.column), (1, line, column), "{found}");
+        assert!(error.message.starts_with("not valid JSON"), "{found}");
+    }
+}
