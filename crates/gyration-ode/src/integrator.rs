@@ -5,7 +5,7 @@
 //! Size and stepper of the next step, the error history and everything else that is carried along is in `Progress`, so
 //! that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it.
 
-use crate::auto::STABLE;
+use crate::auto::EXPLICIT_REACH;
 use crate::control::{Control, initial_step};
 use crate::dense::LastStep;
 use crate::explicit::{Explicit, Trial};
@@ -313,7 +313,7 @@ impl Integrator {
             _ if attempt.to_end => Limit::End,
             Some(limit) => limit,
             None if attempt.h >= self.options.max_step * (1.0 - 1e-9) => Limit::MaxStep,
-            None if trial.stiffness > STABLE => Limit::Stability,
+            None if trial.stiffness > 1.0 => Limit::Stability,
             None => Limit::Error { component: trial.error.component },
         };
         let stepper = self.progress.stepper;
@@ -387,7 +387,7 @@ impl Integrator {
                 let (step, max_step) = (self.progress.step, self.options.max_step);
                 if self.progress.switch.leave_implicit(radius, step, max_step, evaluations) {
                     self.change_stepper();
-                    self.progress.step = step.min(0.5 * STABLE / radius);
+                    self.progress.step = step.min(EXPLICIT_REACH / radius);
                 }
             }
         }

@@ -273,12 +273,12 @@ impl Stages {
 
 /// How accurately to solve the stages, and the size of rounding noise, both relative to the error allowed.
 ///
-/// κ = ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that its
+/// κ = ‖y/s‖^(−½) within 10⁻⁴…10⁻³: the error of the method is of order 6 where its estimate is of order 4, so that its
 /// solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
 /// Never below ten roundings of the state. Source: radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &Layout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
-    let wanted = size.max(1.0).powf(-0.5).clamp(1e-4, 1e-2);
+    let wanted = size.max(1.0).powf(-0.5).clamp(1e-4, 1e-3);
     (wanted.max(10.0 * f64::EPSILON * size), NOISE * size)
 }
 

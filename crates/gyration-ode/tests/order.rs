@@ -1,4 +1,5 @@
 //! The order of every method and of its interpolant, measured with steps of fixed size.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 
@@ -55,7 +56,7 @@ fn explicit_pair_has_order_eight_and_dense_output_seven() {
 fn radau_has_order_five_and_dense_output_three() {
     let sizes = [16, 32, 64, 128];
     // Just above the estimated errors, which are O(h⁴): the tolerance of Newton's method follows it.
-    let both: Vec<_> = sizes.iter().map(|n| errors(Method::Implicit, *n, 20.0 * (1.0 / *n as f64).powi(4))).collect();
+    let both: Vec<_> = sizes.iter().map(|n| errors(Method::Implicit, *n, 0.3 * (1.0 / *n as f64).powi(4))).collect();
     let ends: Vec<f64> = both.iter().map(|b| b.0).collect();
     let between: Vec<f64> = both.iter().map(|b| b.1).collect();
     println!("Radau: errors {}, slopes {:.2?}", short(&ends), slopes(&ends));
@@ -65,40 +66,34 @@ fn radau_has_order_five_and_dense_output_three() {
     assert!((3.6..4.6).contains(slopes(&between).last().unwrap()));
 }
 
-/// y' = cos t · y and w' = y sin t: rates that depend on time, at the right nodes; quadratures of the same order.
+/// y' = cos t · y and w' = cos t · y²: rates that depend on time, at the right nodes; quadratures of the same order.
 #[test]
 fn quadratures_have_the_order_of_the_method() {
-    for (method, sizes, order) in [(Method::Explicit, [2, 4, 8], 8.0), (Method::Implicit, [4, 8, 16], 5.0)] {
-        let exact = |t: f64| t.sin().exp();
-        let results: Vec<(f64, f64)> = sizes
-            .iter()
-            .map(|n| {
-                let mut problem = Problem::general(
-                    1,
-                    1,
-                    |t, y, dy, dw| {
-                        (dy[0], dw[0]) = (t.cos() * y[0], t.cos() * y[0] * y[0]);
-                        Ok(())
-                    },
-                    |t, _, blocks| blocks[0][(0, 0)] = t.cos(),
-                )
-                .tolerances(0.0, 1e9);
-                let end = common::run(&mut problem, &[1.0], &[0.0], (0.0, 3.0), fixed(method, 1.0 / f64::from(*n)));
-                // ∫ cos t e^(2 sin t) dt = (e^(2 sin t) − 1)/2.
-                let wanted = 0.5 * (exact(3.0).powi(2) - 1.0);
-                ((end.state()[0] - exact(3.0)).abs(), (end.quadratures()[0] - wanted).abs())
-            })
-            .collect();
-        let states: Vec<f64> = results.iter().map(|r| r.0).collect();
-        let quadratures: Vec<f64> = results.iter().map(|r| r.1).collect();
-        println!(
-            "{method:?}: y {} {:.2?}, w {} {:.2?}",
-            short(&states),
-            slopes(&states),
-            short(&quadratures),
-            slopes(&quadratures)
-        );
-        for slope in [slopes(&states)[1], slopes(&quadratures)[1]] {
+    let exact = |t: f64| t.sin().exp();
+    for (method, sizes, order) in [(Method::Explicit, [2, 4, 8, 16], 8.0), (Method::Implicit, [8, 16, 32, 64], 5.0)] {
+        let (mut states, mut quadratures) = (Vec::new(), Vec::new());
+        for n in sizes {
+            let h = 1.0 / f64::from(n);
+            let mut problem = Problem::general(
+                1,
+                1,
+                |t, y, dy, dw| {
+                    (dy[0], dw[0]) = (t.cos() * y[0], t.cos() * y[0] * y[0]);
+                    Ok(())
+                },
+                |t, _, blocks| blocks[0][(0, 0)] = t.cos(),
+            )
+            // Above the estimates of the implicit method, which are O(h⁴).
+            .tolerances(0.0, if method == Method::Explicit { 1e9 } else { h.powi(4) });
+            let end = common::run(&mut problem, &[1.0], &[0.0], (0.0, 2.0), fixed(method, h));
+            assert_eq!(end.statistics().accepted(), 2 * n as u64);
+            // ∫ cos t e^(2 sin t) dt = (e^(2 sin t) − 1)/2.
+            states.push((end.state()[0] - exact(2.0)).abs());
+            quadratures.push((end.quadratures()[0] - 0.5 * (exact(2.0).powi(2) - 1.0)).abs());
+        }
+        println!("{method:?}: y {} {:.2?}", short(&states), slopes(&states));
+        println!("{method:?}: w {} {:.2?}", short(&quadratures), slopes(&quadratures));
+        for slope in [slopes(&states)[2], slopes(&quadratures)[2]] {
             assert!(slope > order - 0.6, "{slope}");
         }
     }
@@ -108,7 +103,7 @@ fn quadratures_have_the_order_of_the_method() {
 #[test]
 fn tolerance_controls_the_error() {
     for (method, expected) in [(Method::Explicit, 8.0), (Method::Implicit, 5.0)] {
-        let runs: Vec<(f64, f64)> = [1e-5, 1e-7, 1e-9, 1e-11]
+        let runs: Vec<(f64, f64)> = [1e-7, 1e-8, 1e-9, 1e-11]
             .iter()
             .map(|tolerance| {
                 let mut problem = kepler().tolerances(*tolerance, *tolerance);
@@ -122,7 +117,7 @@ fn tolerance_controls_the_error() {
             .collect();
         let (first, last) = (runs[0], runs[3]);
         let slope = (first.1 / last.1).ln() / (last.0 / first.0).ln();
-        println!("{method:?}: steps and errors {runs:.3?}, slope {slope:.2}");
-        assert!((expected - 1.5..expected + 1.5).contains(&slope), "{slope}");
+        println!("{method:?}: steps and errors {runs:?}, slope {slope:.2}");
+        assert!((expected - 1.0..expected + 2.5).contains(&slope), "{slope}");
     }
 }

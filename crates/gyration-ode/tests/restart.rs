@@ -1,0 +1,132 @@
+//! A run continued from its checkpoint, and a run that is sampled, make the steps of a plain run to the last bit.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{Problem, barrier, kepler, perihelion, with};
+use gyration_ode::{Integrator, Memory, MemoryError, Method, Options, Stepper};
+
+const METHODS: [Method; 3] = [Method::Auto, Method::Explicit, Method::Implicit];
+
+/// A damped drop that comes to rest, stiff at the end: both steppers are used, and quadratures.
+fn drop_to_rest() -> (Problem, [f64; 2], f64) {
+    (barrier(300.0).tolerances(1e-7, 1e-9), [3.0, 0.0], 200.0)
+}
+
+/// Steps to the end, with an action after each.
+fn follow(
+    problem: &mut Problem,
+    mut integrator: Integrator,
+    end: f64,
+    mut after: impl FnMut(&mut Problem, Integrator) -> Integrator,
+) -> (Integrator, Vec<Stepper>) {
+    let mut steppers = Vec::new();
+    while integrator.time() < end {
+        steppers.push(integrator.step(problem, end).unwrap().stepper);
+        integrator = after(problem, integrator);
+    }
+    (integrator, steppers)
+}
+
+fn bits(memory: &Memory) -> (Vec<u64>, Vec<u64>) {
+    (memory.reals.iter().map(|value| value.to_bits()).collect(), memory.integers.clone())
+}
+
+#[test]
+fn resuming_at_every_step_changes_no_bit() {
+    for method in METHODS {
+        let (mut problem, start, end) = drop_to_rest();
+        // The explicit method alone would need a million steps to the end.
+        let end = if method == Method::Explicit { 4.0 } else { end };
+        let options = Options { max_step: 5.0, ..with(method) };
+        let fresh = || Integrator::new(0.0, &start, &[0.0, 0.0], options);
+        let (plain, steppers) = follow(&mut problem, fresh(), end, |_, integrator| integrator);
+        let (resumed, _) = follow(&mut problem, fresh(), end, |_, integrator| {
+            Integrator::resume(&integrator.memory(), options).unwrap()
+        });
+        println!("{method:?}: {:?}", plain.statistics());
+        assert_eq!(bits(&plain.memory()), bits(&resumed.memory()), "{method:?}");
+        assert_eq!(plain.statistics(), resumed.statistics());
+        if method == Method::Auto {
+            assert!(steppers.contains(&Stepper::Explicit) && steppers.contains(&Stepper::Implicit));
+        }
+    }
+}
+
+#[test]
+fn resuming_before_the_first_step_changes_no_bit() {
+    let options = with(Method::Auto);
+    let integrator = Integrator::new(0.0, &perihelion(0.2), &[], options);
+    let resumed = Integrator::resume(&integrator.memory(), options).unwrap();
+    let [first, second] = [integrator, resumed].map(|integrator| {
+        let (integrator, _) = follow(&mut kepler(), integrator, 1.0, |_, integrator| integrator);
+        bits(&integrator.memory())
+    });
+    assert_eq!(first, second);
+}
+
+#[test]
+fn sampling_changes_no_bit() {
+    for method in METHODS {
+        let (mut problem, start, end) = drop_to_rest();
+        let end = if method == Method::Explicit { 4.0 } else { end };
+        let fresh = || Integrator::new(0.0, &start, &[0.0, 0.0], with(method));
+        let (plain, _) = follow(&mut problem, fresh(), end, |_, integrator| integrator);
+        let (sampled, _) = follow(&mut problem, fresh(), end, |problem, mut integrator| {
+            let (a, b) = integrator.last_step().unwrap();
+            let before = bits(&integrator.memory());
+            integrator.prepare_dense(problem);
+            let (mut y, mut w) = ([0.0; 2], [0.0; 2]);
+            integrator.interpolate(0.5 * (a + b), &mut y, &mut w);
+            assert_eq!(bits(&integrator.memory()), before);
+            integrator
+        });
+        assert_eq!(bits(&plain.memory()), bits(&sampled.memory()), "{method:?}");
+    }
+}
+
+/// At both ends the interpolant is the state itself, projected as it is; between them it stays near.
+#[test]
+fn interpolation_meets_the_accepted_states() {
+    for method in METHODS {
+        let mut problem = kepler().tolerances(1e-6, 1e-6);
+        problem.project = |y| {
+            y[0] *= 1.0 + 1e-9;
+            1e-9
+        };
+        let mut integrator = Integrator::new(0.0, &perihelion(0.5), &[], with(method));
+        for _ in 0..20 {
+            let before = integrator.state().to_vec();
+            let report = integrator.step(&mut problem, 100.0).unwrap();
+            for prepared in [false, true] {
+                if prepared {
+                    integrator.prepare_dense(&mut problem);
+                }
+                let mut y = [0.0; 4];
+                integrator.interpolate(report.start, &mut y, &mut []);
+                assert_eq!(y.as_slice(), before);
+                integrator.interpolate(report.end, &mut y, &mut []);
+                assert_eq!(y.as_slice(), integrator.state());
+                // Continuous there: a relative 1e-12 of the step before its end, within what the rates allow.
+                integrator.interpolate(report.end - 1e-12 * (report.end - report.start), &mut y, &mut []);
+                assert!(common::distance(&y, integrator.state()) < 1e-11);
+            }
+        }
+    }
+}
+
+#[test]
+fn numbers_that_are_no_checkpoint_are_refused() {
+    let options = Options::default();
+    let good = Integrator::new(0.0, &[1.0, 2.0], &[3.0], options).memory();
+    assert!(Integrator::resume(&good, options).is_ok());
+    let mut wrong = good.clone();
+    wrong.integers[0] = 99;
+    assert_eq!(Integrator::resume(&wrong, options).unwrap_err(), MemoryError::Version { found: 99 });
+    let mut short = good.clone();
+    short.reals.pop();
+    assert!(matches!(Integrator::resume(&short, options), Err(MemoryError::Length { .. })));
+    let mut sizes = good;
+    sizes.integers[1] = u64::MAX;
+    assert!(matches!(Integrator::resume(&sizes, options), Err(MemoryError::Length { .. })));
+}
