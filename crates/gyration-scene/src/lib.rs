@@ -6,7 +6,7 @@
 //!
 //! [`Scene::open`] does all of it. Everything that is wrong with a scene comes at once, with file, line, column, dotted
 //! key and fix ([`SceneErrors`]); a file that cannot be read at all is a [`ReadError`]. The types of the file are in
-//! [`file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
+//! [`mod@file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
 
 mod build;
 mod check;

@@ -17,7 +17,7 @@ fn errors(name: &str, text: &str, overrides: &[String]) -> SceneErrors {
 /// One error, at the mark, with this key, this part of the message and this part of the fix.
 #[track_caller]
 fn assert_error(marked: &str, key: &str, message: &str, help: &str) {
-    let at = marked.find('§').expect("a mark");
+    let Some(at) = marked.find('§') else { panic!("no mark in {marked}") };
     let line = marked[..at].matches('\n').count() + 1;
     let column = marked[..at].chars().rev().take_while(|c| *c != '\n').count() + 1;
     let found = errors("scene.toml", &marked.replace('§', ""), &[]);
@@ -68,7 +68,7 @@ fn structure_errors_stand_at_their_place() {
             "orientation = { axis_angle = §{ axis = [1, 0, 0] } }",
             "body.ball.orientation.axis_angle.angle",
             "missing",
-            "Angle [rad]",
+            "Angle (rad)",
         ),
         ("rigid = { §stiffness = 3 }", "body.ball.rigid.stiffness", "unknown key", ""),
         (

@@ -14,9 +14,9 @@ use gyration::tensor::{Mat3, Vec3};
 /// Where the mass of a body comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Source {
-    /// A density [kg/m³] for all parts without one.
+    /// A density \[kg/m³\] for all parts without one.
     Density(f64),
-    /// The total mass [kg], spread by the densities of the parts, or evenly.
+    /// The total mass \[kg\], spread by the densities of the parts, or evenly.
     Mass(f64),
     /// Given outright.
     Properties(MassProperties),
@@ -141,7 +141,7 @@ pub(super) fn lone_point(mass: &MassProperties) -> Shape {
     Shape::Points(Points { points: vec![MassPoint { mass: mass.mass, at: mass.center }] })
 }
 
-/// A length [m] for tolerances: the shape's size, or twice the radius of gyration where it has none.
+/// A length \[m\] for tolerances: the shape's size, or twice the radius of gyration where it has none.
 pub(super) fn size(shape: &Shape, mass: &MassProperties, pin: &Vec3) -> f64 {
     let extent = shape.size();
     if extent > 0.0 {

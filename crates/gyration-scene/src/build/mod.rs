@@ -33,9 +33,9 @@ pub struct Built {
 /// How long to run, what to record, how to integrate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
-    /// The time at which the run ends [s].
+    /// The time at which the run ends \[s\].
     pub end: f64,
-    /// Spacing of the recorded samples [s].
+    /// Spacing of the recorded samples \[s\].
     pub sample: f64,
     /// When to end early.
     pub stop_at_rest: Option<StopAtRest>,
@@ -45,18 +45,18 @@ pub struct Plan {
     pub atol: f64,
     /// How the equations are integrated.
     pub method: Method,
-    /// The longest step [s].
+    /// The longest step \[s\].
     pub max_step: Option<f64>,
-    /// The longest computing time [s].
+    /// The longest computing time \[s\].
     pub max_wall_time: Option<f64>,
 }
 
 /// When the bodies count as resting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopAtRest {
-    /// Speed below which the fastest material point has to stay [m/s].
+    /// Speed below which the fastest material point has to stay \[m/s\].
     pub speed: f64,
-    /// For how long [s].
+    /// For how long \[s\].
     pub hold: f64,
 }
 

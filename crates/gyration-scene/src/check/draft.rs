@@ -17,7 +17,7 @@ pub(crate) struct Placed<T> {
 /// The well-formed parts of a scene.
 #[derive(Debug, Clone)]
 pub(crate) struct Draft {
-    pub(crate) title: String,
+    pub(crate) title: Option<String>,
     pub(crate) world: World,
     pub(crate) time: Option<Time>,
     pub(crate) solver: Solver,
@@ -32,7 +32,7 @@ impl Draft {
         let dirty = findings.0.iter().map(|finding| finding.key.clone()).collect();
         let mut taker = Taker { root: &document.root, dirty, findings };
         Self {
-            title: taker.section("title").unwrap_or_default(),
+            title: taker.section("title"),
             world: taker.section("world").unwrap_or_default(),
             time: taker.section("time"),
             solver: taker.section("solver").unwrap_or_default(),

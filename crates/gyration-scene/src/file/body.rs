@@ -16,10 +16,10 @@ pub struct Body {
     /// Its reference shape; may be absent with `mass_properties`, the body then has no surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
-    /// Density [kg/m³]; or `mass`, or `mass_properties`.
+    /// Density (kg/m³); or `mass`, or `mass_properties`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<Positive<Density>>,
-    /// Mass [kg], spread evenly over the shape.
+    /// Mass (kg), spread evenly over the shape.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<Positive<Mass>>,
     /// Mass, centre of mass and Euler tensor, whatever the shape.
@@ -40,25 +40,25 @@ pub struct Body {
     #[serde(default, skip_serializing)]
     #[schemars(extend("later" = "inclusions in a fluid"))]
     pub inclusion: Option<Later>,
-    /// Initial position of the centre of mass [m].
+    /// Initial position of the centre of mass (m).
     #[serde(default)]
     pub position: [Length; 3],
     /// Initial orientation.
     #[serde(default)]
     pub orientation: Orientation,
-    /// Initial velocity of the centre of mass [m/s].
+    /// Initial velocity of the centre of mass (m/s).
     #[serde(default)]
     pub velocity: [Velocity; 3],
-    /// Initial angular velocity in spatial axes [rad/s].
+    /// Initial angular velocity in spatial axes (rad/s).
     #[serde(default)]
     pub angular_velocity: [AngularVelocity; 3],
     /// Initial placement gradient P of a deformable body.
     #[serde(default, skip_serializing)]
     pub gradient: Option<[[f64; 3]; 3]>,
-    /// Initial rate of the placement gradient of a deformable body [1/s].
+    /// Initial rate of the placement gradient of a deformable body (1/s).
     #[serde(default, skip_serializing)]
     pub gradient_rate: Option<[[f64; 3]; 3]>,
-    /// A point of the body, relative to the centre of mass in the body's axes, that stays where it starts [m].
+    /// A point of the body, relative to the centre of mass in the body's axes, that stays where it starts (m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pin: Option<[Length; 3]>,
     /// Springs between points of the body and points of space.
@@ -75,12 +75,12 @@ pub struct Rigid {}
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MassProperties {
-    /// Mass [kg].
+    /// Mass (kg).
     pub mass: Positive<Mass>,
-    /// Centre of mass in the shape's frame [m].
+    /// Centre of mass in the shape's frame (m).
     #[serde(default)]
     pub center: [Length; 3],
-    /// Euler tensor ∫ρ X⊗X dV about the centre of mass [kg m²]; the inertia matrix is tr(J) I − J.
+    /// Euler tensor ∫ρ X⊗X dV about the centre of mass (kg m²); the inertia matrix is tr(J) I − J.
     pub euler_tensor: [[EulerMoment; 3]; 3],
 }
 
@@ -88,17 +88,17 @@ pub struct MassProperties {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spring {
-    /// Point of the body, relative to the centre of mass in the body's axes [m].
+    /// Point of the body, relative to the centre of mass in the body's axes (m).
     #[serde(default)]
     pub point: [Length; 3],
-    /// Point of space [m].
+    /// Point of space (m).
     pub anchor: [Length; 3],
-    /// Stiffness [N/m].
+    /// Stiffness (N/m).
     pub stiffness: NonNegative<Stiffness>,
-    /// Length without force [m].
+    /// Length without force (m).
     #[serde(default)]
     pub rest_length: NonNegative<Length>,
-    /// Damping along the spring [N s/m].
+    /// Damping along the spring (N s/m).
     #[serde(default)]
     pub damping: NonNegative<SpringDamping>,
 }

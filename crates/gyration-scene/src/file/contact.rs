@@ -47,11 +47,11 @@ pub enum Measure {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Repulsion {
-    /// Strength α [Pa].
+    /// Strength α (Pa).
     pub alpha: NonNegative<Pressure>,
     /// Exponent ν > 0.
     pub nu: Positive<f64>,
-    /// Reference gap d₀ [m].
+    /// Reference gap d₀ (m).
     #[serde(default = "one_metre")]
     pub d0: Positive<Length>,
 }
@@ -60,11 +60,11 @@ pub struct Repulsion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Resistance {
-    /// Strength β [Pa s/m].
+    /// Strength β (Pa s/m).
     pub beta: NonNegative<SurfaceDamping>,
     /// Exponent ν > 0.
     pub nu: Positive<f64>,
-    /// Reference gap d₀ [m].
+    /// Reference gap d₀ (m).
     #[serde(default = "one_metre")]
     pub d0: Positive<Length>,
 }
@@ -73,13 +73,13 @@ pub struct Resistance {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Adhesion {
-    /// Strength β [Pa].
+    /// Strength β (Pa).
     pub beta: NonNegative<Pressure>,
     /// Exponent of the attraction, νa > 0.
     pub nu_attractive: Positive<f64>,
     /// Exponent of the repulsion, νr > νa.
     pub nu_repulsive: Positive<f64>,
-    /// Reference gap d₀ [m], at which the law vanishes.
+    /// Reference gap d₀ (m), at which the law vanishes.
     #[serde(default = "one_metre")]
     pub d0: Positive<Length>,
 }

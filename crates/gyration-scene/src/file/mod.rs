@@ -39,8 +39,8 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// What the scene shows, in a line.
-    #[serde(default)]
-    pub title: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
     /// Gravity.
     #[serde(default)]
     pub world: World,

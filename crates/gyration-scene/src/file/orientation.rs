@@ -22,7 +22,7 @@ pub enum Orientation {
 pub struct AxisAngle {
     /// Axis; need not be of unit length.
     pub axis: [f64; 3],
-    /// Angle [rad].
+    /// Angle (rad).
     pub angle: Angle,
 }
 

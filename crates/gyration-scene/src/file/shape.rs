@@ -37,7 +37,7 @@ pub enum Shape {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Box {
-    /// Lengths of its edges [m].
+    /// Lengths of its edges (m).
     pub size: [Positive<Length>; 3],
 }
 
@@ -45,7 +45,7 @@ pub struct Box {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
-    /// Radius [m].
+    /// Radius (m).
     pub radius: Positive<Length>,
 }
 
@@ -53,7 +53,7 @@ pub struct Sphere {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ellipsoid {
-    /// Semi-axes along x, y, z [m].
+    /// Semi-axes along x, y, z (m).
     pub semi_axes: [Positive<Length>; 3],
 }
 
@@ -61,9 +61,9 @@ pub struct Ellipsoid {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// Radius [m].
+    /// Radius (m).
     pub radius: Positive<Length>,
-    /// Height [m].
+    /// Height (m).
     pub height: Positive<Length>,
 }
 
@@ -71,9 +71,9 @@ pub struct Cylinder {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cone {
-    /// Radius of the base [m].
+    /// Radius of the base (m).
     pub radius: Positive<Length>,
-    /// Height [m].
+    /// Height (m).
     pub height: Positive<Length>,
 }
 
@@ -81,9 +81,9 @@ pub struct Cone {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Capsule {
-    /// Radius [m].
+    /// Radius (m).
     pub radius: Positive<Length>,
-    /// Height of the cylinder's part [m].
+    /// Height of the cylinder's part (m).
     pub height: Positive<Length>,
 }
 
@@ -91,9 +91,9 @@ pub struct Capsule {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
-    /// Distance from the axis to the centre of the tube [m].
+    /// Distance from the axis to the centre of the tube (m).
     pub major_radius: Positive<Length>,
-    /// Radius of the tube [m], less than the major radius.
+    /// Radius of the tube (m), less than the major radius.
     pub minor_radius: Positive<Length>,
 }
 
@@ -101,7 +101,7 @@ pub struct Torus {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Polyhedron {
-    /// The points [m]; those inside of the hull make no difference.
+    /// The points (m); those inside of the hull make no difference.
     #[schemars(length(min = 4))]
     pub vertices: Vec<[Length; 3]>,
 }
@@ -136,13 +136,13 @@ pub struct Union {
 pub struct Part {
     /// Its shape.
     pub shape: Shape,
-    /// Where its own origin lies in the union's frame [m].
+    /// Where its own origin lies in the union's frame (m).
     #[serde(default)]
     pub offset: [Length; 3],
     /// How it is turned in the union's frame.
     #[serde(default)]
     pub orientation: Orientation,
-    /// Its density [kg/m³]; the body's if absent. Under a given mass densities are relative weights.
+    /// Its density (kg/m³); the body's if absent. Under a given mass densities are relative weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<Positive<Density>>,
 }
@@ -151,8 +151,8 @@ pub struct Part {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointMass {
-    /// Mass [kg].
+    /// Mass (kg).
     pub mass: Positive<Mass>,
-    /// Position [m].
+    /// Position (m).
     pub at: [Length; 3],
 }

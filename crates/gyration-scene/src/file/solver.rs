@@ -16,10 +16,10 @@ pub struct Solver {
     pub atol: NonNegative<f64>,
     /// How the equations are integrated.
     pub method: Method,
-    /// The longest step [s]; none by default.
+    /// The longest step (s); none by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<Positive<Duration>>,
-    /// The longest computing time [s]; none by default.
+    /// The longest computing time (s); none by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wall_time: Option<Positive<Duration>>,
 }

@@ -21,7 +21,7 @@ pub struct Support {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plane {
-    /// A point of the plane [m].
+    /// A point of the plane (m).
     pub origin: [Length; 3],
     /// Direction to the side of the bodies; need not be of unit length.
     pub normal: [f64; 3],
@@ -39,7 +39,7 @@ impl Default for Plane {
 pub enum Motion {
     /// A sinusoidal displacement.
     Oscillate(Oscillation),
-    /// A constant velocity [m/s].
+    /// A constant velocity (m/s).
     Velocity([Velocity; 3]),
 }
 
@@ -49,11 +49,11 @@ pub enum Motion {
 pub struct Oscillation {
     /// Direction; need not be of unit length.
     pub direction: [f64; 3],
-    /// Amplitude [m].
+    /// Amplitude (m).
     pub amplitude: Length,
-    /// Frequency [Hz].
+    /// Frequency (Hz).
     pub frequency: NonNegative<Frequency>,
-    /// Phase [rad].
+    /// Phase (rad).
     #[serde(default)]
     pub phase: Angle,
 }

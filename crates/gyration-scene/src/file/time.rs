@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// The time at which the run ends [s]; it starts at zero.
+    /// The time at which the run ends (s); it starts at zero.
     pub end: Positive<Duration>,
-    /// Spacing of the recorded samples [s]; the solver picks its own steps.
+    /// Spacing of the recorded samples (s); the solver picks its own steps.
     pub sample: Positive<Duration>,
     /// Ends the run early, once all bodies rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -21,8 +21,8 @@ pub struct Time {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StopAtRest {
-    /// Speed below which the fastest material point has to stay [m/s].
+    /// Speed below which the fastest material point has to stay (m/s).
     pub speed: Positive<Velocity>,
-    /// For how long [s].
+    /// For how long (s).
     pub hold: Positive<Duration>,
 }

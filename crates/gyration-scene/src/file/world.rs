@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct World {
-    /// Acceleration of gravity g [m/s²].
+    /// Acceleration of gravity g (m/s²).
     pub gravity: [Acceleration; 3],
 }
 

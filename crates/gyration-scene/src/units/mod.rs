@@ -1,6 +1,6 @@
 //! Dimensioned numbers as people write them: `2 cm`, `30 kPa`, `15 deg`, `5 m/s`, `2 g/cm3`, `0.1 N s/m`.
 //!
-//!   value [SI] = number · Π (prefixᵢ · unitᵢ)^kᵢ,    dimension = Σ kᵢ dim(unitᵢ)
+//!   value in SI = number · Π (prefixᵢ · unitᵢ)^kᵢ,    dimension = Σ kᵢ dim(unitᵢ)
 //!
 //! A dimension is the vector of exponents of metre, kilogram, second and radian. The radian counts as a dimension of
 //! its own, so that `5 Hz` is not taken for an angular velocity nor `3 rpm` for a frequency. The grammar is
