@@ -82,10 +82,9 @@ fn close_in(mut left: (f64, f64), mut right: (f64, f64), value: &mut impl FnMut(
         let nudge = 0.2 * (b - a).powi(2) / length;
         let truncated = if nudge <= (middle - secant).abs() { secant + toward * nudge } else { middle };
         let radius = (reach - 0.5 * (b - a)).max(0.0);
-        let t = if (truncated - middle).abs() <= radius { truncated } else { middle - toward * radius };
-        if !(t > a && t < b) {
-            break;
-        }
+        let wanted = if (truncated - middle).abs() <= radius { truncated } else { middle - toward * radius };
+        // A step that has arrived looks once across the root, so that the other end follows.
+        let t = wanted.clamp(a + epsilon, b - epsilon);
         let point = (t, value(t));
         if sign * point.1 >= 0.0 {
             right = point

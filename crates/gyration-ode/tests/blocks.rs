@@ -77,3 +77,20 @@ fn bodies_at_rest_do_not_dilute_the_error() {
         assert_eq!(count(1), count(50), "{method:?}");
     }
 }
+
+/// Bodies that come to touch: the blocks change between two steps, the solution does not notice.
+#[test]
+fn blocks_may_change_between_steps() {
+    for method in [Method::Auto, Method::Implicit] {
+        let start = [1.0, 0.0, 0.5, 0.1, -1.0, 0.3];
+        let [mut split, mut whole] =
+            [true, false].map(|split| oscillators(split, [1.0, 2.0, 3.0], 40.0).tolerances(1e-9, 1e-9));
+        let reference = run(&mut whole, &start, &[], (0.0, 5.0), with(method)).state().to_vec();
+        let mut integrator = gyration_ode::Integrator::new(0.0, &start, &[], with(method));
+        while integrator.time() < 5.0 {
+            let problem = if integrator.statistics().accepted() % 7 < 4 { &mut split } else { &mut whole };
+            integrator.step(problem, 5.0).unwrap();
+        }
+        assert!(distance(integrator.state(), &reference) < 1e-6, "{method:?}");
+    }
+}

@@ -96,15 +96,16 @@ fn the_choice_follows_a_stiffness_that_comes_and_goes() {
 /// The choice costs little more than the better of the two on either side, counted in evaluations.
 #[test]
 fn auto_is_never_much_worse_than_the_better_method() {
-    let problems: [(&str, fn() -> Problem, [f64; 2], f64); 4] = [
-        ("bouncing", || barrier(0.0), [20.0, 0.0], 30.0),
-        ("settling", || barrier(20.0), [3.0, 0.0], 30.0),
-        ("creeping", || barrier(1000.0), [3.0, 0.0], 30.0),
-        ("resting", || barrier(1e4), [1.0, 0.0], 100.0),
+    let problems = [
+        ("bouncing", 0.0, [20.0, 0.0], 30.0),
+        ("settling", 20.0, [3.0, 0.0], 30.0),
+        ("creeping", 1000.0, [3.0, 0.0], 30.0),
+        ("resting", 1e4, [1.2, 0.0], 100.0),
     ];
-    for (name, problem, start, end) in problems {
+    for (name, damping, start, end) in problems {
         let cost = [Method::Auto, Method::Explicit, Method::Implicit].map(|method| {
-            let reached = run(&mut problem().tolerances(1e-6, 1e-8), &start, &[0.0, 0.0], (0.0, end), with(method));
+            let reached =
+                run(&mut barrier(damping).tolerances(1e-6, 1e-8), &start, &[0.0, 0.0], (0.0, end), with(method));
             let s = reached.statistics();
             // Jacobians and factorizations in evaluations, as the choice itself counts them.
             s.rate_evaluations + 4 * s.jacobians + 4 * s.factorizations
