@@ -73,15 +73,15 @@ pub(super) fn height_moments(
     shifted(&line, from, to - from)
 }
 
-/// span ∫ (from + span x)^k κ dx from the moments ∫ x^k κ dx, k = 0 … 3.
+/// |span| ∫ (from + span x)^k κ dx over [0, 1] from the moments ∫ x^k κ dx, k = 0 … 3.
 #[inline]
 pub(super) fn shifted(line: &[f64], from: f64, span: f64) -> [f64; 4] {
-    let (a, b) = (from, span);
+    let (a, b, length) = (from, span, span.abs());
     [
-        b * line[0],
-        b * (a * line[0] + b * line[1]),
-        b * (a * a * line[0] + b * (2.0 * a * line[1] + b * line[2])),
-        b * (a * a * a * line[0] + b * (3.0 * a * a * line[1] + b * (3.0 * a * line[2] + b * line[3]))),
+        length * line[0],
+        length * (a * line[0] + b * line[1]),
+        length * (a * a * line[0] + b * (2.0 * a * line[1] + b * line[2])),
+        length * (a * a * a * line[0] + b * (3.0 * a * a * line[1] + b * (3.0 * a * line[2] + b * line[3]))),
     ]
 }
 
