@@ -52,31 +52,63 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// A graded Gauss rule on the interval from `from`, the end next to the singularities, to `to` (on either side of it).
-///
-/// `width` is the distance of the singularities; `sharpness` the order of the poles there.
-pub(crate) fn graded(from: f64, to: f64, width: f64, sharpness: f64) -> impl Iterator<Item = Node> {
-    let length = to - from;
-    let span = (length.abs() / width).asinh();
-    let half = 0.5 * span;
-    let sign = width.copysign(length);
-    gauss_legendre(graded_points(span, sharpness)).iter().map(move |node| {
-        let growth = (half * (1.0 + node.at)).exp();
-        let (sinh, cosh) = (0.5 * (growth - 1.0 / growth), 0.5 * (growth + 1.0 / growth));
-        Node { at: from + sign * sinh, weight: width * cosh * half * node.weight }
-    })
+/// An interval that a graded Gauss rule covers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct GradedInterval {
+    /// The end next to which points are dense.
+    pub(crate) from: f64,
+    /// The other end, on either side.
+    pub(crate) to: f64,
+    /// δ, the distance over which they are dense.
+    pub(crate) width: f64,
 }
 
-/// Points for an error of some 1e-11 where the nearest singularity is at iπ/2 beside the end of an interval of length `span`.
-///
-/// Gauss converges like r^−2n, r the sum of the semi-axes of the ellipse of foci ±1 through the singularity, here
-/// −1 + iπ/span: with z = x + iy, r = s + √(s² − 1), s = (|z − 1| + |z + 1|)/2. Poles of higher order need more points.
-fn graded_points(span: f64, sharpness: f64) -> usize {
-    const DIGITS: f64 = 25.0;
-    let y = std::f64::consts::PI / span;
-    let s = 0.5 * (y + y.hypot(2.0));
-    let r = s + (s * s - 1.0).sqrt();
-    ((DIGITS + 1.2 * sharpness.max(0.0)) / (2.0 * r.ln())).ceil() as usize + 4
+/// A complex singularity of the integrand, x = at ± i distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Singularity {
+    pub(crate) at: f64,
+    pub(crate) distance: f64,
+    /// The natural logarithm of the accuracy that it must be resolved to; poles of higher order need more.
+    pub(crate) digits: f64,
+}
+
+impl GradedInterval {
+    /// The length of the interval in y.
+    fn span(&self) -> f64 {
+        ((self.to - self.from).abs() / self.width).asinh()
+    }
+
+    /// The nodes of the rule with `points` points.
+    pub(crate) fn nodes(self, points: usize) -> impl Iterator<Item = Node> {
+        let half = 0.5 * self.span();
+        let sign = self.width.copysign(self.to - self.from);
+        gauss_legendre(points).iter().map(move |node| {
+            let growth = (half * (1.0 + node.at)).exp();
+            let (sinh, cosh) = (0.5 * (growth - 1.0 / growth), 0.5 * (growth + 1.0 / growth));
+            Node { at: self.from + sign * sinh, weight: self.width * cosh * half * node.weight }
+        })
+    }
+
+    /// The number of points that resolves the singularities.
+    ///
+    /// Gauss converges like r^−2n, r the sum of the semi-axes of the ellipse with foci ±1 through the singularity, which
+    /// is at y = asinh((x − from)/δ), z = 2y/span − 1:  r = s + √(s² − 1), s = (|z − 1| + |z + 1|)/2.
+    pub(crate) fn points(&self, singularities: &[Singularity]) -> usize {
+        /// For the smooth factors beside the singularities: powers of X up to the third.
+        const SPARE: f64 = 3.0;
+        let span = self.span();
+        let sign = 1f64.copysign(self.to - self.from);
+        let needed = singularities.iter().map(|singularity| {
+            let x = sign * (singularity.at - self.from) / self.width;
+            let y = singularity.distance / self.width;
+            let t = 0.5 * (x.hypot(y + 1.0) + x.hypot(y - 1.0));
+            let real = 2.0 * t.max(1.0).acosh().copysign(x) / span - 1.0;
+            let imaginary = 2.0 * (y / t).min(1.0).asin() / span;
+            let s = 0.5 * ((real - 1.0).hypot(imaginary) + (real + 1.0).hypot(imaginary));
+            singularity.digits / (2.0 * (s + (s * s - 1.0).max(0.0).sqrt()).ln())
+        });
+        (needed.fold(0.0, f64::max) + SPARE).min(MAX_GAUSS as f64).ceil() as usize
+    }
 }
 
 #[cfg(test)]

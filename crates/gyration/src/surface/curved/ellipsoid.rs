@@ -12,7 +12,6 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use super::super::rule::graded;
 use super::super::{GapField, MomentRequest, Moments};
 use super::features::Features;
 use super::half_plane::Chart;
@@ -28,7 +27,7 @@ pub struct Ellipsoid {
 }
 
 /// The largest relative error of the trapezoidal rule, as a natural logarithm.
-const AZIMUTH_DIGITS: f64 = 25.0;
+const AZIMUTH_DIGITS: f64 = 22.0;
 
 impl Ellipsoid {
     /// The area ∫ |B s| dΩ [m²].
@@ -57,11 +56,11 @@ impl Ellipsoid {
         let cofactor = Vec3::new(a.y * a.z, a.z * a.x, a.x * a.y);
         let element = AreaElement::new(&cofactor, &frame);
         let integrand = Integrand::new(requests);
-        let features = Features::new(near, near + 2.0 * reach, &cofactor, &frame.column(2).into());
+        let features = Features::new(near, near + 2.0 * reach, &cofactor, &frame.column(2).into(), &integrand);
         let drop = 0.5 * (integrand.cut(near, 1.0) - near) / reach;
         let last = if drop < 1.0 { 2.0 * drop.sqrt().asin() } else { PI };
-        for (from, to, width) in features.intervals(last) {
-            for node in graded(from, to, width, integrand.sharpest) {
+        for (interval, points) in features.intervals(last) {
+            for node in interval.nodes(points) {
                 let half = (0.5 * node.at).sin();
                 let gap = near + 2.0 * reach * half * half;
                 // Parallels that count less need fewer digits.
@@ -118,32 +117,35 @@ impl AreaElement {
     fn parallel(&self, theta: f64, weight: f64, digits: f64, order: usize) -> Parallel {
         let (sin, cos) = theta.sin_cos();
         let points = digits.max(3.0) / self.decay(cos, sin).min(10.0) + order as f64 + 1.0;
-        let circle = unit_circle(points);
+        let circle = half_circle(points);
         let q = &self.form;
         let constant = cos * cos * q.m33 + 0.5 * sin * sin * (q.m11 + q.m22);
         let (x, y) = (2.0 * cos * sin * q.m13, 2.0 * cos * sin * q.m23);
-        let (c2, s2) = (0.5 * sin * sin * (q.m11 - q.m22), sin * sin * q.m12);
+        let (c2, s2) = (sin * sin * (q.m11 - q.m22), 2.0 * sin * sin * q.m12);
         let mut sums = [0.0; 10];
         for &(c, s) in circle {
             let (cc, cs) = (c * c, c * s);
             let ss = 1.0 - cc;
-            let w = (constant + x * c + y * s + c2 * (cc - ss) + 2.0 * s2 * cs).max(0.0).sqrt();
-            let (wc, ws, wcc, wss) = (w * c, w * s, w * cc, w * ss);
-            let terms = [w, wc, ws, wcc, w * cs, wss, wcc * c, wcc * s, wss * c, wss * s];
+            // φ and φ + π differ in the odd harmonics only.
+            let (even, odd) = (constant + c2 * (cc - 0.5) + s2 * cs, x * c + y * s);
+            let (here, opposite) = ((even + odd).max(0.0).sqrt(), (even - odd).max(0.0).sqrt());
+            let (w, v) = (here + opposite, here - opposite);
+            let (vc, vs) = (v * c, v * s);
+            let terms = [w, vc, vs, w * cc, w * cs, w * ss, vc * cc, vs * cc, vc * ss, vs * ss];
             for (sum, term) in sums.iter_mut().zip(terms) {
                 *sum += term;
             }
         }
-        Parallel::new(&sums, weight * sin * 2.0 * PI / circle.len() as f64, cos, sin)
+        Parallel::new(&sums, weight * sin * PI / circle.len() as f64, cos, sin)
     }
 }
 
-/// Points (cos φ, sin φ) equally spaced around the circle, at least `points` of them up to the largest table.
-fn unit_circle(points: f64) -> &'static [(f64, f64)] {
-    /// Points in the smallest table; the k-th has k times as many below `FINE`, then they double.
+/// Half of the points (cos φ, sin φ) that divide the circle evenly, at least `points` of them in all, up to the largest table.
+fn half_circle(points: f64) -> &'static [(f64, f64)] {
+    /// The k-th table divides the circle into k times as many parts, up to `FINE`; then they double.
     const UNIT: usize = 8;
     const FINE: usize = 16;
-    const TABLES: usize = FINE + 5;
+    const TABLES: usize = FINE + 6;
     static CIRCLES: [OnceLock<Vec<(f64, f64)>>; TABLES] = [const { OnceLock::new() }; TABLES];
     let units = (points / UNIT as f64).ceil().clamp(1.0, 1e6);
     let index = if units <= FINE as f64 {
@@ -154,7 +156,7 @@ fn unit_circle(points: f64) -> &'static [(f64, f64)] {
     CIRCLES[index].get_or_init(|| {
         let units = if index < FINE { index + 1 } else { FINE << (index + 1 - FINE) };
         let count = units * UNIT;
-        (0..count).map(|j| (2.0 * PI * (j as f64 + 0.5) / count as f64).sin_cos()).map(|(s, c)| (c, s)).collect()
+        (0..count / 2).map(|j| (2.0 * PI * (j as f64 + 0.5) / count as f64).sin_cos()).map(|(s, c)| (c, s)).collect()
     })
 }
 

@@ -7,77 +7,91 @@
 
 use std::f64::consts::PI;
 
+use super::super::rule::{GradedInterval, Singularity};
+use super::integrand::Integrand;
 use crate::tensor::Vec3;
 
-/// Places θ in [0, π] with the distance of the singularity from each, in increasing order of θ.
+/// The features of one call.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Features {
-    places: [(f64, f64); 6],
+    singularities: [Singularity; MOST],
     count: usize,
+    /// Where the gap, as a share of the smallest, is read: κ has fallen by (d/near)^−mildness.
+    rise: f64,
+    mildness: f64,
 }
+
+/// The gap, the two ends of the longest axis, two tangents of the great circle.
+const MOST: usize = 5;
+
+/// Digits of the result, as a natural logarithm.
+const DIGITS: f64 = 24.0;
+
+/// Dips narrower than this get intervals of their own; wider ones only more points.
+const NARROW: f64 = 0.25;
 
 impl Features {
     /// The features for gaps from `near` to `far`, cofactor B and lowest direction f.
-    pub(super) fn new(near: f64, far: f64, cofactor: &Vec3, lowest: &Vec3) -> Self {
-        /// Dips wider than this share of the sphere need no care of their own.
-        const SMOOTH: f64 = 0.8;
-        let (i, j) = (cofactor.imin(), cofactor.imax());
-        let largest = cofactor[j];
+    pub(super) fn new(near: f64, far: f64, cofactor: &Vec3, lowest: &Vec3, integrand: &Integrand) -> Self {
         let grazing = 2.0 * (near / far).sqrt().min(1.0 - 1e-9).atanh();
-        let mut features = Self { places: [(0.0, f64::INFINITY); 6], count: 0 };
-        features.push(0.0, grazing);
-        features.push(PI, 2.0);
-        let tip = cofactor[i] / largest;
-        if tip < SMOOTH {
-            let angle = lowest[i].abs().min(1.0).acos();
-            features.push(angle, tip);
-            features.push(PI - angle, tip);
-            let mut touching = *lowest;
-            touching[j] = 0.0;
-            let length = touching.norm();
-            let dip =
-                if length > 1e-8 { cofactor.component_mul(&touching).norm() / length } else { cofactor[i] } / largest;
-            let angle = lowest[j].abs().min(1.0).asin();
-            if dip < SMOOTH && length > 1e-8 {
-                features.push(angle, dip);
-                features.push(PI - angle, dip);
+        let pole = Singularity { at: 0.0, distance: grazing, digits: DIGITS + 1.6 * integrand.sharpest.max(0.0) };
+        let mildness = (integrand.mildest - 1.0).max(0.0);
+        let mut features = Self { singularities: [pole; MOST], count: 1, rise: far / near - 1.0, mildness };
+        let (i, j) = (cofactor.imin(), cofactor.imax());
+        features.push_pair(lowest[i].abs().min(1.0).acos(), cofactor[i] / cofactor[j]);
+        let mut touching = *lowest;
+        touching[j] = 0.0;
+        let length = touching.norm();
+        if length > 1e-8 {
+            let dip = cofactor.component_mul(&touching).norm() / length;
+            features.push_pair(lowest[j].abs().min(1.0).asin(), dip / cofactor[j]);
+        }
+        features
+    }
+
+    /// A dip at θ and, since −X lies as X, at π − θ. Of a sphere nothing dips.
+    fn push_pair(&mut self, at: f64, share: f64) {
+        if share < 1.0 - 1e-9 {
+            let distance = share.atanh();
+            for at in [at, PI - at] {
+                self.singularities[self.count] = Singularity { at, distance, digits: DIGITS };
+                self.count += 1;
             }
         }
-        features.sorted()
     }
 
-    fn push(&mut self, place: f64, width: f64) {
-        self.places[self.count] = (place, width);
-        self.count += 1;
+    /// The distance of the nearest singularity from θ.
+    fn clearance(&self, theta: f64) -> f64 {
+        let distance = |s: &Singularity| s.distance.hypot(theta - s.at).min(s.distance.hypot(theta + s.at));
+        self.singularities[..self.count].iter().map(distance).fold(2.0, f64::min)
     }
 
-    /// In order, each width reduced to the distance of the nearest singularity of any feature.
-    fn sorted(mut self) -> Self {
-        let given = self.places;
-        for place in &mut self.places[..self.count] {
-            let distance = |other: &(f64, f64)| other.1.hypot(place.0 - other.0);
-            place.1 = given[..self.count].iter().map(distance).fold(place.1, f64::min);
+    /// The intervals that cover 0 ≤ θ ≤ `last`, each with its number of points.
+    pub(super) fn intervals(&self, last: f64) -> impl Iterator<Item = (GradedInterval, usize)> + '_ {
+        let mut breaks = [last; MOST + 2];
+        breaks[0] = 0.0;
+        let mut count = 1;
+        for singularity in &self.singularities[1..self.count] {
+            if singularity.distance < NARROW && singularity.at < last {
+                breaks[count] = singularity.at;
+                count += 1;
+            }
         }
-        self.places[..self.count].sort_by(|a, b| a.0.total_cmp(&b.0));
-        self
+        breaks[..count].sort_by(f64::total_cmp);
+        (0..count).flat_map(move |k| {
+            let (left, right) = (breaks[k], breaks[k + 1]);
+            let middle = 0.5 * (left + right);
+            [(left, middle), (right, middle)].into_iter().filter(move |_| left < right).map(|(from, to)| {
+                let interval = GradedInterval { from, to, width: self.clearance(from) };
+                (interval, interval.points(&self.resolved(from.min(to))[..self.count]))
+            })
+        })
     }
 
-    /// The intervals (from, to, width) that cover 0 ≤ θ ≤ `last`, `from` being the end to grade to.
-    pub(super) fn intervals(&self, last: f64) -> impl Iterator<Item = (f64, f64, f64)> {
-        let places = self.places;
-        (1..self.count).flat_map(move |k| {
-            let ((left, left_width), (right, right_width)) = (places[k - 1], places[k]);
-            let middle = 0.5 * (left + right);
-            let low = (left < middle.min(last)).then(|| (left, middle.min(last), left_width));
-            let high = (middle < right.min(last)).then(|| {
-                // A cut interval is still graded to the feature beyond the cut.
-                if right <= last {
-                    (right, middle, right_width)
-                } else {
-                    (last, middle, right_width.hypot(right - last))
-                }
-            });
-            low.into_iter().chain(high)
-        })
+    /// The singularities with the digits that matter where κ has fallen to its value at θ.
+    fn resolved(&self, theta: f64) -> [Singularity; MOST] {
+        let half = (0.5 * theta).sin();
+        let spared = self.mildness * (self.rise * half * half).ln_1p();
+        self.singularities.map(|s| Singularity { digits: (s.digits - spared).max(4.0), ..s })
     }
 }

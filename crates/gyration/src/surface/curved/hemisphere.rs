@@ -10,7 +10,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::super::rule::graded;
+use super::super::rule::{GradedInterval, Singularity};
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap, mirror};
@@ -89,9 +89,14 @@ impl Hemisphere {
         let lowest = if p.cosine > 0.0 { near } else { p.height - p.reach };
         let drop = 0.5 * (integrand.cut(lowest, 1.5) - near) / reach;
         let last = if drop < 1.0 { 2.0 * drop.max(0.0).sqrt().asin() } else { PI };
-        let lower = graded(0.0, last.min(FRAC_PI_2), grazing.min(opening), integrand.sharpest);
-        let upper = (last > FRAC_PI_2).then(|| graded(PI, FRAC_PI_2, opening, 0.0));
-        for node in lower.chain(upper.into_iter().flatten()) {
+        let poles =
+            |distance: f64, at: f64, sharpness: f64| Singularity { at, distance, digits: 24.0 + 1.2 * sharpness };
+        let below =
+            [poles(grazing, 0.0, integrand.sharpest.max(0.0)), poles(opening, 0.0, 0.0), poles(opening, PI, 0.0)];
+        let lower = GradedInterval { from: 0.0, to: last.min(FRAC_PI_2), width: grazing.min(opening) };
+        let upper = GradedInterval { from: PI, to: FRAC_PI_2, width: opening };
+        let upper = (last > FRAC_PI_2).then(|| upper.nodes(upper.points(&below)));
+        for node in lower.nodes(lower.points(&below)).chain(upper.into_iter().flatten()) {
             let half = (0.5 * node.at).sin();
             let values = integrand.at(near + 2.0 * reach * half * half);
             let arc = Arc::new(p, node.at, node.weight * self.radius * self.radius);

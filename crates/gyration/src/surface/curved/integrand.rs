@@ -11,7 +11,7 @@ use super::super::{Kernel, MomentRequest};
 pub(crate) const GROUP: usize = 8;
 
 /// Share of a moment that may be left out, well below the accuracy of the rules.
-const NEGLIGIBLE: f64 = 1e-13;
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// The kernels of at most [`GROUP`] requests.
 #[derive(Debug, Clone, Copy)]
@@ -58,6 +58,11 @@ impl Integrand {
             integrand.order = integrand.order.max(request.order);
         }
         integrand
+    }
+
+    /// The number of kernels.
+    pub(crate) fn count(&self) -> usize {
+        self.count
     }
 
     /// The kernels at a gap d > 0 [m]; entries beyond the requests are zero.

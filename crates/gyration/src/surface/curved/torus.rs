@@ -59,7 +59,7 @@ impl Torus {
             // The side of the tube that faces the plane, in the half-plane (ρ, z).
             let facing = if steepness > 0.0 { (lateral / steepness, -gap.along / steepness) } else { (1.0, 0.0) };
             let tube = Tube { near, reach: self.minor_radius * steepness, facing };
-            let sums = self.around_tube(&tube, &integrand, &demand, requests);
+            let sums = self.around_tube(&tube, &integrand, &demand);
             for ((sum, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
                 sum.turn(node.weight, node.cos, node.sin_squared, request.order, moments);
             }
@@ -79,35 +79,58 @@ impl Torus {
     }
 
     /// ∫ κ ρ^i z^j dA/dφ around the tube in one half-plane.
-    fn around_tube(
-        &self,
-        tube: &Tube,
-        integrand: &Integrand,
-        demand: &Demand,
-        requests: &[MomentRequest],
-    ) -> [HalfPlane; GROUP] {
-        let mut sums = [HalfPlane::default(); GROUP];
-        let r = self.minor_radius;
-        let (e_rho, e_z) = tube.facing;
+    fn around_tube(&self, tube: &Tube, integrand: &Integrand, demand: &Demand) -> [HalfPlane; GROUP] {
+        let mut cosines = [[0.0; 5]; GROUP];
         let cut = integrand.cut(tube.near, 0.5);
         for node in Ring::new(tube.near, tube.near + 2.0 * tube.reach, demand).nodes() {
             let d = tube.near + tube.reach * node.versine;
             if d > cut {
                 break;
             }
-            let values = integrand.at(d);
-            let sin = node.sin_squared.sqrt();
-            // Both sides of the tube have this gap; the weight counts them together.
-            for sin in [sin, -sin] {
-                let rho = self.major_radius + r * (node.cos * e_rho - sin * e_z);
-                let z = r * (node.cos * e_z + sin * e_rho);
-                let area = 0.5 * node.weight * r * rho;
-                for ((value, request), sum) in values.iter().zip(requests).zip(&mut sums) {
-                    sum.add_point(area * value, rho, z, request.order);
+            for (value, sums) in integrand.at(d).into_iter().zip(&mut cosines).take(integrand.count()) {
+                let mut term = node.weight * value;
+                for sum in sums {
+                    *sum += term;
+                    term *= node.cos;
                 }
             }
         }
-        sums
+        cosines.map(|sums| self.half_plane(&sums, tube.facing))
+    }
+
+    /// The sums S_ij = ∫ κ ρ^i z^j r ρ dθ from ∫ κ cosᵏθ dθ, k = 0 … 4.
+    ///
+    /// With e = cos θ f + sin θ f⊥, f = (a, b), odd powers of sin θ cancel in E_pq = ∫ κ e_ρ^p e_z^q dθ.
+    fn half_plane(&self, cosines: &[f64; 5], (a, b): (f64, f64)) -> HalfPlane {
+        let [c0, c1, c2, c3, c4] = *cosines;
+        // ∫ κ cosᵖ sin^q.
+        let (t02, t12, t22, t04) = (c0 - c2, c1 - c3, c2 - c4, c0 - 2.0 * c2 + c4);
+        let (aa, ab, bb) = (a * a, a * b, b * b);
+        let (e10, e01) = (a * c1, b * c1);
+        let (e20, e11, e02) = (aa * c2 + bb * t02, ab * (c2 - t02), bb * c2 + aa * t02);
+        let e30 = a * (aa * c3 + 3.0 * bb * t12);
+        let e21 = b * (aa * c3 + (bb - 2.0 * aa) * t12);
+        let e12 = a * (bb * c3 + (aa - 2.0 * bb) * t12);
+        let e03 = b * (bb * c3 + 3.0 * aa * t12);
+        let e40 = aa * aa * c4 + 6.0 * aa * bb * t22 + bb * bb * t04;
+        let e31 = ab * (aa * c4 + 3.0 * (bb - aa) * t22 - bb * t04);
+        let e22 = aa * bb * (c4 + t04 - 4.0 * t22) + (aa * aa + bb * bb) * t22;
+        let e13 = ab * (bb * c4 + 3.0 * (aa - bb) * t22 - aa * t04);
+        let (big, r) = (self.major_radius, self.minor_radius);
+        let (big2, rr) = (big * big, r * r);
+        HalfPlane([
+            r * (big * c0 + r * e10),
+            r * (big2 * c0 + 2.0 * big * r * e10 + rr * e20),
+            rr * (big * e01 + r * e11),
+            r * (big2 * big * c0 + 3.0 * big2 * r * e10 + 3.0 * big * rr * e20 + rr * r * e30),
+            rr * (big2 * e01 + 2.0 * big * r * e11 + rr * e21),
+            rr * r * (big * e02 + r * e12),
+            r * (big2 * big2 * c0 + 4.0 * big2 * big * r * e10 + 6.0 * big2 * rr * e20 + 4.0 * big * rr * r * e30)
+                + r * rr * rr * e40,
+            rr * (big2 * big * e01 + 3.0 * big2 * r * e11 + 3.0 * big * rr * e21 + rr * r * e31),
+            rr * r * (big2 * e02 + 2.0 * big * r * e12 + rr * e22),
+            rr * rr * (big * e03 + r * e13),
+        ])
     }
 }
 
