@@ -1,0 +1,151 @@
+//! Whatever a file holds, reading it ends with a scene or with errors that have a place; it never panics.
+
+use gyration_scene::{Scene, SceneErrors, gallery};
+use proptest::prelude::*;
+use std::path::Path;
+
+fn read(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneErrors> {
+    let result = Scene::parse(name, text, Path::new("/nowhere"), overrides);
+    if let Err(errors) = &result {
+        assert!(errors.count() > 0 && !errors.to_string().is_empty());
+        assert!(errors.into_iter().all(|error| error.line > 0 && error.column > 0 && !error.message.is_empty()));
+    }
+    result
+}
+
+fn gallery_text() -> impl Strategy<Value = String> {
+    (0..gallery().len()).prop_map(|index| gallery()[index].1.to_owned())
+}
+
+/// Pieces that scenes are made of, and pieces that are wrong everywhere.
+fn piece() -> impl Strategy<Value = String> {
+    let pieces = [
+        "[",
+        "]",
+        "{",
+        "}",
+        "[[body]]",
+        "[[contact]]\n",
+        "\"",
+        "'",
+        "=",
+        ".",
+        ",",
+        "\n",
+        "#",
+        "-",
+        "1e400",
+        "nan",
+        "inf",
+        "0x",
+        "1979-05-27",
+        "\"2 cm\"",
+        "\"1 (((m\"",
+        "shape",
+        "union = { parts = [",
+        "points = []",
+        "null",
+        "true",
+        "é",
+        "\u{0}",
+        "\u{feff}",
+        "\\u",
+        "99999999999999999999999",
+        "1e308",
+        "-0.0",
+        "1e-320",
+    ];
+    prop::sample::select(pieces.to_vec()).prop_map(str::to_owned)
+}
+
+proptest! {
+    // Each case takes below a millisecond.
+    #![proptest_config(ProptestConfig::with_cases(600))]
+
+    #[test]
+    fn random_texts_never_panic(text in "\\PC{0,200}", json in any::<bool>()) {
+        let _ = read(if json { "scene.json" } else { "scene.toml" }, &text, &[]);
+    }
+
+    #[test]
+    fn mutilated_scenes_never_panic(
+        text in gallery_text(),
+        cuts in prop::collection::vec((any::<prop::sample::Index>(), 0_usize..12, piece()), 1..6),
+    ) {
+        let mut text = text;
+        for (at, length, piece) in cuts {
+            let start = text.floor_char_boundary(at.index(text.len() + 1));
+            let end = text.floor_char_boundary((start + length).min(text.len()));
+            text.replace_range(start..end.max(start), &piece);
+        }
+        let _ = read("scene.toml", &text, &[]);
+    }
+
+    #[test]
+    fn mutilated_json_never_panics(
+        text in gallery_text(),
+        cuts in prop::collection::vec((any::<prop::sample::Index>(), 0_usize..12, piece()), 1..6),
+    ) {
+        let Ok(scene) = read("scene.toml", &text, &[]) else { panic!("the gallery is sound") };
+        let mut text = scene.resolved().to_string();
+        for (at, length, piece) in cuts {
+            let start = text.floor_char_boundary(at.index(text.len() + 1));
+            let end = text.floor_char_boundary((start + length).min(text.len()));
+            text.replace_range(start..end.max(start), &piece);
+        }
+        let _ = read("scene.json", &text, &[]);
+    }
+
+    #[test]
+    fn random_overrides_never_panic(text in gallery_text(), key in "[a-z0-9. ]{0,20}", value in "\\PC{0,20}") {
+        let _ = read("scene.toml", &text, &[format!("{key}={value}"), format!("body.0.{key}={value}"), value]);
+    }
+
+    #[test]
+    fn numbers_of_any_size_never_panic(numbers in prop::array::uniform6(any::<f64>())) {
+        let [a, b, c, d, e, f] = numbers.map(|number| format!("{number:?}").replace("NaN", "nan"));
+        let text = format!(
+            "[time]\nend = {a}\nsample = {b}\n[[support]]\nname = \"t\"\nplane = {{ normal = [{a}, {b}, {c}], origin = [{d}, 0, 0] }}\n\
+             [[contact]]\nsupport = \"t\"\nrepulsion = {{ alpha = {a}, nu = {d}, d0 = {e} }}\n\
+             [[body]]\nname = \"b\"\nshape = {{ box = {{ size = [{c}, {d}, {e}] }} }}\ndensity = {f}\nposition = [{a}, {b}, {f}]\n\
+             orientation = {{ quaternion = [{a}, {c}, {d}, {f}] }}\nangular_velocity = [{a}, {e}, {f}]\npin = [{a}, {c}, {e}]\n\
+             spring = [{{ anchor = [{a}, {b}, {c}], stiffness = {d} }}]\n"
+        );
+        if let Ok(scene) = read("scene.toml", &text, &[]) {
+            let state = &scene.built().state;
+            prop_assert!(state.bodies.iter().all(|number| number.is_finite()), "{state:?}");
+        }
+    }
+}
+
+#[test]
+fn nesting_bombs_are_refused() {
+    let depth = 100_000;
+    let bombs = [
+        ("a.toml", format!("a = {}", "[".repeat(depth))),
+        ("a.toml", format!("a = {}1{}", "[".repeat(depth), "]".repeat(depth))),
+        ("a.toml", format!("a = {}", "{a=".repeat(depth))),
+        ("a.toml", format!("{}a = 1", "a.".repeat(depth))),
+        ("a.toml", format!("[{}a]", "a.".repeat(depth))),
+        ("a.json", "[".repeat(depth)),
+        ("a.json", "{\"a\":".repeat(depth)),
+        ("a.json", format!("{}1{}", "{\"a\":".repeat(depth), "}".repeat(depth))),
+    ];
+    for (name, text) in &bombs {
+        assert!(read(name, text, &[]).is_err());
+    }
+    let (_, dice) = gallery()[0];
+    for setting in [format!("{}a=1", "a.".repeat(depth)), format!("title={}", "[".repeat(depth))] {
+        assert!(read("a.toml", dice, &[setting]).is_err());
+    }
+}
+
+#[test]
+fn files_with_very_many_errors_end_soon() {
+    let wrong: String = (0..100_000).map(|index| format!("k{index} = 1\n")).collect();
+    let Err(errors) = read("a.toml", &wrong, &[]) else { panic!("no errors") };
+    assert_eq!(errors.count(), 100_002);
+    assert!(errors.as_slice().len() < 1000);
+    let line = format!("{{\"body\": [{}1]}}", "1,".repeat(200_000));
+    assert!(read("a.json", &line, &[]).is_err());
+}
