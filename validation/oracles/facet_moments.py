@@ -180,15 +180,15 @@ def cases(count):
 
 
 def write_kernel(path):
-    ratios = [1.0, 1 + 2.0**-50, 1 + 1e-9, 1.0003, 1.01, 1.1, 1.25, 1.4, 1.6, 1.87, 2.1, 2.9, 3.6, 6.0, 30.0, 1e3, 1e6, 1e9]
-    exponents = EXPONENTS + [4 - 1e-7, 6 - 1e-10, 5.5, 5.51, 11.0]
+    ratios = [1.0, 1 + 2.0**-50, 1 + 1e-9, 1.0003, 1.01, 1.1, 1.25, 1.4, 1.6, 1.7, 1.74, 1.8, 1.87, 2.1, 2.9, 3.6, 6.0, 30.0, 1e3, 1e6, 1e9]
+    exponents = EXPONENTS + [4 - 1e-7, 6 - 1e-10, 2.26, 3.26, 3.74, 4.26, 5.26, 11.0]
     with path.open("w", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(["exponent", "near", "far"] + [f"m{k}" for k in range(6)])
         for i, kernel in enumerate(exponents):
             for j, ratio in enumerate(ratios):
-                if (i + j) % 2 == 0:
-                    near = [1e-9, 1e-3, 0.037, 1.0][(i + j // 2) % 4]
+                if (i + j) % 3 == 0:
+                    near = [1e-9, 1e-3, 0.037, 1.0][(i + j // 3) % 4]
                     if kernel == "log" and near < 1 < near * ratio:
                         near = 1.0
                     far = near * ratio

@@ -1,7 +1,7 @@
 //! Flat facets: triangles, over which the contact integrals are exact whatever the gap.
 //!
-//! The triangles are kept in clusters of a few dozen vertices. A call evaluates the gap and its powers once for each
-//! vertex of a cluster, on the stack, and then every triangle from its three corners: a box costs eight powers a law,
+//! The triangles are kept in clusters of a dozen vertices. A call evaluates the gap and its powers once for each
+//! vertex of a cluster, on the stack, and then every triangle from its three corners: a box costs eight powers a law at most,
 //! a mesh of any size needs no scratch memory.
 //!
 //! Facets are for polyhedra and meshes: a cylinder made of facets does not roll. X is relative to the centre of mass.
@@ -223,14 +223,15 @@ impl Facets {
             *gap = field.gap(point);
             *inverse = 1.0 / *gap;
         }
-        let table = plan.table(&gaps[..points.len()]);
+        let mut table = plan.table(&gaps[..points.len()]);
         for facet in &self.triangles[cluster.triangles.clone()] {
             let corners = facet.corners.map(|corner| {
+                // Always less than CLUSTER; said so that no bound is checked below.
                 let place = usize::from(corner) % CLUSTER;
                 Corner { place, gap: gaps[place], inverse: inverses[place] }
             });
             let triangle = Triangle::new(corners, points, facet.twice_area);
-            plan.visit(&triangle, &table, |place, order, weights| {
+            plan.visit(&triangle, &mut table, |place, order, weights| {
                 add_tensors(&mut out[place], weights, &triangle, order);
             });
         }

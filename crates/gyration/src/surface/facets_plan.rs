@@ -25,6 +25,7 @@ const SAME_EXPONENT: f64 = 1e-14;
 
 /// The way to the weights of one request.
 #[derive(Debug, Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "a plan lives on the stack: a call must not allocate")]
 enum Method {
     /// From the weights of the request at this place.
     Lowered(usize),
@@ -42,10 +43,11 @@ pub(super) struct Plan {
     count: usize,
 }
 
-/// The functions of the gap at the vertices of one cluster.
+/// The functions of the gap at the vertices of one cluster, and the weights over its triangle in hand.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Table {
     samples: [[GapSample; CLUSTER]; BATCH],
+    weights: [Weights; BATCH],
 }
 
 impl Plan {
@@ -86,19 +88,19 @@ impl Plan {
                 }
             }
         }
-        Table { samples }
+        Table { samples, weights: [[0.0; 10]; BATCH] }
     }
 
     /// Calls `each` with the place, the order and the weights of every request over a triangle.
     #[inline]
-    pub fn visit(&self, triangle: &Triangle, table: &Table, mut each: impl FnMut(usize, usize, &Weights)) {
-        let mut weights = [[0.0; 10]; BATCH];
+    pub fn visit(&self, triangle: &Triangle, table: &mut Table, mut each: impl FnMut(usize, usize, &Weights)) {
+        let Table { samples, weights } = table;
         for &place in &self.sequence[..self.count] {
             let order = self.orders[place];
             weights[place] = match &self.methods[place] {
                 Method::Lowered(from) => lowered(&weights[*from], triangle, order),
                 Method::Whole(whole) => whole.weights(triangle),
-                Method::Split(kernel) => split_weights(triangle, kernel, &table.samples[place], order),
+                Method::Split(kernel) => split_weights(triangle, kernel, &samples[place], order),
             };
             each(place, order, &weights[place]);
         }
