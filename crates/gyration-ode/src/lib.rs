@@ -8,7 +8,7 @@
 //! | to read | file |
 //! |---|---|
 //! | what a system must say | `system` |
-//! | one accepted step | `integrator` |
+//! | one accepted step | `integrator`, `step` |
 //! | Dormand–Prince 8(5,3) | `explicit`, `dop853` |
 //! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear` |
 //! | step sizes, norms | `control`, `norm` |
@@ -30,6 +30,7 @@ mod newton;
 mod norm;
 mod radau;
 mod report;
+mod step;
 mod system;
 #[cfg(test)]
 mod trees;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Problem, barrier, kepler, oscillator, perihelion, run, with};
-use gyration_ode::{Integrator, Method, Options, Stepper};
+use gyration_ode::{Integrator, Limit, Method, Options, Stepper};
 
 #[test]
 fn smooth_motion_stays_explicit() {
@@ -115,4 +115,29 @@ fn auto_is_never_much_worse_than_the_better_method() {
         // Beside a factor of two, the price of finding out: a score of steps of the wrong kind.
         assert!(cost[0] < 2 * better + 500, "{name}");
     }
+}
+
+/// Held to the explicit method, a stiff problem says what limits it.
+#[test]
+fn a_stiff_problem_names_stability_as_its_limit() {
+    let mut problem = Problem::new(1, |t, y, dy| dy[0] = -1e4 * (y[0] - t.cos()), |_, _, j| j[(0, 0)] = -1e4);
+    let mut integrator = Integrator::new(0.0, &[1.0], &[], with(Method::Explicit));
+    let mut limited = 0;
+    for _ in 0..100 {
+        let report = integrator.step(&mut problem, 10.0).unwrap();
+        limited += u32::from(report.limit == Limit::Stability);
+    }
+    println!("{limited} of 100 steps limited by stability");
+    assert!(limited > 50);
+}
+
+/// Where explicit steps would vanish in the rounding of time, the implicit stepper is tried before giving up.
+#[test]
+fn a_stepper_that_cannot_go_on_gives_way_to_the_other() {
+    let mut problem = Problem::new(1, |t, y, dy| dy[0] = -1e17 * (y[0] - (t - 1.0).cos()), |_, _, j| j[(0, 0)] = -1e17);
+    let options = Options { initial_step: Some(1e-3), ..with(Method::Auto) };
+    let reached = run(&mut problem, &[0.5], &[], (1.0, 2.0), options);
+    println!("{:?}", reached.statistics());
+    assert!((reached.state()[0] - 1.0_f64.cos()).abs() < 1e-6);
+    assert_eq!(reached.statistics().switches, 1);
 }
