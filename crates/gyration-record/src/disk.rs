@@ -1,14 +1,16 @@
 //! The few file operations that writing a recording takes, each with the path in its error.
 //!
 //! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old or
-//! the new one at any moment. Tests cut the power before any of these operations.
+//! the new one at any moment. Only rows that no metadata count yet are written in place. Tests cut the power before any of these operations.
 
 use crate::error::RecordError;
 use crate::metadata::Group;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
+use std::io::{self, Seek, SeekFrom, Write};
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::thread::ScopedJoinHandle;
 
 /// The metadata of the group, and of each array.
 pub(crate) const METADATA: &str = "zarr.json";
@@ -20,6 +22,8 @@ pub(crate) const CHECKPOINT: &str = "state/checkpoint";
 const LOCK: &str = "state/lock";
 /// Ending of a file that is not yet in its place.
 const PART: &str = ".part";
+/// Files on their way to the disk at once: waiting is all they do.
+const SYNC_THREADS: usize = 8;
 
 /// Access to the disk.
 #[derive(Debug, Default)]
@@ -47,13 +51,14 @@ impl Disk {
         fs::remove_file(path).map_err(RecordError::io("remove", path))
     }
 
-    /// Brings the names in a directory to the disk (where the system can: not on Windows).
-    pub(crate) fn sync_dir(&self, path: &Path) -> Result<(), RecordError> {
-        self.step(path)?;
-        if !cfg!(unix) || self.is_test() {
+    /// Brings the names in directories to the disk (where the system can: not on Windows).
+    pub(crate) fn sync_dirs(&self, paths: &[&Path]) -> Result<(), RecordError> {
+        if !cfg!(unix) {
             return Ok(());
         }
-        File::open(path).and_then(|dir| dir.sync_all()).map_err(RecordError::io("bring to the disk", path))
+        let open = |path: &&'_ Path| File::open(path).map_err(RecordError::io("open", path));
+        let dirs = paths.iter().map(open).collect::<Result<Vec<_>, _>>()?;
+        self.sync_files(&dirs.into_iter().zip(paths.iter().copied()).collect::<Vec<_>>())
     }
 
     /// Replaces files and brings them to the disk, with their names: all contents first, then all names.
@@ -62,7 +67,7 @@ impl Disk {
         let mut parents = files.iter().filter_map(|(path, _)| path.parent()).collect::<Vec<_>>();
         parents.sort_unstable();
         parents.dedup();
-        parents.iter().try_for_each(|dir| self.sync_dir(dir))
+        self.sync_dirs(&parents)
     }
 
     /// Replaces files without waiting for the disk: safe when the process dies, not when the power fails.
@@ -70,32 +75,59 @@ impl Disk {
         self.put_in_place(files, false)
     }
 
-    fn put_in_place(&self, files: &[(PathBuf, &[u8])], sync: bool) -> Result<(), RecordError> {
+    /// Overwrites a part of each file, from an offset on, and brings it to the disk.
+    ///
+    /// A crash may leave any part of it done: nobody may count on these bytes yet. Sizes and names do not change, which
+    /// spares the disk most of the work of a replacement.
+    pub(crate) fn overwrite(&self, files: &[(PathBuf, usize, &[u8])]) -> Result<(), RecordError> {
         let mut open = Vec::with_capacity(files.len());
-        for (path, bytes) in files {
-            let part = part_of(path);
-            let file = self.write(&part, bytes)?;
-            open.push((file, part, path));
-        }
-        for (file, part, path) in open.iter().filter(|_| sync) {
+        for (path, offset, bytes) in files {
             self.step(path)?;
-            if !self.is_test() {
-                file.sync_all().map_err(RecordError::io("bring to the disk", part))?;
-            }
+            let mut file = OpenOptions::new().write(true).open(path).map_err(RecordError::io("open", path))?;
+            file.seek(SeekFrom::Start(*offset as u64)).map_err(RecordError::io("write", path))?;
+            self.put(&mut file, path, bytes)?;
+            open.push((file, path.as_path()));
         }
-        open.iter().try_for_each(|(_, part, path)| self.rename(part, path))
+        self.sync_files(&open)
     }
 
-    fn write(&self, path: &Path, bytes: &[u8]) -> Result<File, RecordError> {
-        use io::Write;
-        let file = self.step(path).and_then(|()| File::create(path).map_err(RecordError::io("create", path)));
-        let mut file = file?;
-        let half = bytes.len() / 2;
-        let mut put = |bytes| file.write_all(bytes).map_err(RecordError::io("write", path));
-        put(&bytes[..half])?;
+    fn put_in_place(&self, files: &[(PathBuf, &[u8])], sync: bool) -> Result<(), RecordError> {
+        let parts = files.iter().map(|(path, _)| part_of(path)).collect::<Vec<_>>();
+        let mut open = Vec::with_capacity(files.len());
+        for (part, (_, bytes)) in parts.iter().zip(files) {
+            self.step(part)?;
+            let mut file = File::create(part).map_err(RecordError::io("create", part))?;
+            self.put(&mut file, part, bytes)?;
+            if sync {
+                open.push((file, part.as_path()));
+            }
+        }
+        self.sync_files(&open)?;
+        parts.iter().zip(files).try_for_each(|(part, (path, _))| self.rename(part, path))
+    }
+
+    /// Writes in two halves: the power may fail between them.
+    fn put(&self, file: &mut File, path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
+        let (first, second) = bytes.split_at(bytes.len() / 2);
+        file.write_all(first).map_err(RecordError::io("write", path))?;
         self.step(path)?;
-        put(&bytes[half..])?;
-        Ok(file)
+        file.write_all(second).map_err(RecordError::io("write", path))
+    }
+
+    /// Waits until the disk has the files; several at once, since it then needs hardly longer than for one.
+    fn sync_files(&self, files: &[(File, &Path)]) -> Result<(), RecordError> {
+        files.iter().try_for_each(|(_, path)| self.step(path))?;
+        if self.is_test() {
+            return Ok(());
+        }
+        let sync = |(file, path): &(File, &Path)| file.sync_data().map_err(RecordError::io("bring to the disk", path));
+        let share = files.len().div_ceil(SYNC_THREADS).max(1);
+        std::thread::scope(|scope| {
+            let shares = files.chunks(share).map(|files| scope.spawn(move || files.iter().try_for_each(sync)));
+            let shares = shares.collect::<Vec<_>>();
+            let join = |share: ScopedJoinHandle<_>| share.join().unwrap_or_else(|panic| resume_unwind(panic));
+            shares.into_iter().try_for_each(join)
+        })
     }
 
     /// In tests, the moment at which the power may fail.

@@ -16,8 +16,8 @@ pub(crate) struct Stream {
     pub(crate) rows: usize,
     chunk_rows: usize,
     parts: Vec<Part>,
-    /// Whether the chunk under way differs from its files.
-    dirty: bool,
+    /// Rows of the chunk under way that its files hold, with fill after them; none: there are no such files.
+    stored: Option<usize>,
 }
 
 /// One of the arrays: the chunk under way, with fill where no row is yet.
@@ -53,7 +53,7 @@ impl Stream {
         });
         let parts = parts.collect::<Vec<_>>();
         let chunk_rows = parts.first()?.info.chunk[0];
-        Some(Self { dim, rows: 0, chunk_rows, parts, dirty: false })
+        Some(Self { dim, rows: 0, chunk_rows, parts, stored: None })
     }
 
     /// Appends a row: the bytes of all arrays, one after the other. A chunk that is full goes to the disk.
@@ -65,32 +65,47 @@ impl Stream {
             row = rest;
         }
         self.rows += 1;
-        self.dirty = true;
         if self.rows.is_multiple_of(self.chunk_rows) {
-            self.store_chunk(self.rows / self.chunk_rows - 1, disk, directory)?;
+            self.store_chunk(self.rows / self.chunk_rows - 1, self.chunk_rows, disk, directory)?;
             self.parts.iter_mut().for_each(|part| part.clear_from(0));
+            self.stored = None;
         }
         Ok(())
     }
 
     /// Brings the chunk under way to the disk.
     pub(crate) fn store(&mut self, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
-        if self.dirty {
-            self.store_chunk(self.rows / self.chunk_rows, disk, directory)?;
+        match self.rows % self.chunk_rows {
+            0 => Ok(()),
+            rows => self.store_chunk(self.rows / self.chunk_rows, rows, disk, directory),
         }
-        Ok(())
     }
 
-    fn store_chunk(&mut self, index: usize, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
-        let files = self.parts.iter().map(|part| (part.path(directory, index), part.chunk.as_slice()));
-        disk.replace(&files.collect::<Vec<_>>())?;
-        self.dirty = false;
+    /// The first time the whole file, then only the rows that are new: no metadata count them yet, so that a crash in
+    /// between is not seen.
+    fn store_chunk(&mut self, index: usize, rows: usize, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
+        let parts = self.parts.iter().map(|part| (part, part.path(directory, index)));
+        match self.stored {
+            Some(stored) if stored == rows => {}
+            Some(stored) => {
+                let new = |part: &Part| stored * part.row_bytes..rows * part.row_bytes;
+                let files = parts.map(|(part, path)| (path, new(part).start, &part.chunk[new(part)]));
+                disk.overwrite(&files.collect::<Vec<_>>())?;
+            }
+            None => {
+                let files = parts.map(|(part, path)| (path, part.chunk.as_slice()));
+                disk.replace(&files.collect::<Vec<_>>())?;
+            }
+        }
+        self.stored = Some(rows);
         Ok(())
     }
 
     /// Goes back to the first `rows` rows: reads the chunk under way, removes the files beyond it.
     pub(crate) fn cut(&mut self, rows: usize, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
         self.rows = rows;
+        // The files may hold rows beyond: they are replaced at the next chance.
+        self.stored = None;
         let (index, kept) = (rows / self.chunk_rows, rows % self.chunk_rows);
         for part in &mut self.parts {
             if kept > 0 {
@@ -102,7 +117,6 @@ impl Stream {
                 }
                 part.chunk = bytes;
                 part.clear_from(kept);
-                self.dirty = true;
             }
             let stored = index + usize::from(kept > 0);
             remove_beyond(stored, &directory.join(&part.info.name), disk)?;

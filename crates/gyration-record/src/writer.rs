@@ -273,14 +273,14 @@ impl Writer {
         if self.directory == self.path {
             return Ok(());
         }
-        self.disk.sync_dir(&self.directory)?;
+        self.disk.sync_dirs(&[&self.directory])?;
         if self.path.symlink_metadata().is_ok() {
             return Err(RecordError::AlreadyExists { path: self.path.clone() });
         }
         self.disk.rename(&self.directory, &self.path)?;
         self.directory.clone_from(&self.path);
         let parent = self.path.parent().filter(|parent| !parent.as_os_str().is_empty());
-        self.disk.sync_dir(parent.unwrap_or(Path::new(".")))
+        self.disk.sync_dirs(&[parent.unwrap_or(Path::new("."))])
     }
 
     /// Runs an operation unless an earlier one failed.
