@@ -1,0 +1,166 @@
+//! What may be written after `gyration`.
+
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Commands that are planned but not in this version.
+pub const LATER: [&str; 6] = ["report", "view", "modes", "resistance", "study", "calibrate"];
+
+const STYLES: Styles =
+    Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
+
+const AFTER: &str = "SCENE is a path or the name of a scene of the gallery (see `gyration scenes`).
+
+Exit codes: 0 done, also when it ended at rest; 1 the run ended early; 2 bad arguments or a bad scene;
+3 the scene file or the recording cannot be read or written; 130 interrupted.";
+
+/// The program's arguments.
+#[derive(Debug, Parser)]
+#[command(name = "gyration", version, styles = STYLES, after_help = AFTER, max_term_width = 100)]
+#[command(about = "Simulates bodies that move by homogeneous deformations and meet force fields of supports.")]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene into a recording
+    Run(Run),
+    /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching
+    Check(Check),
+    /// List the built-in gallery, or print one of its scenes
+    Scenes(Scenes),
+    /// Turn a recording into a table or a file for other programs
+    Export(Export),
+    /// Draw a recording, or the contact laws of a scene
+    Plot(Plot),
+    /// Print the JSON Schema of a scene
+    Schema,
+    /// Print the completions of a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// A scene, and what is changed in it.
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// Path of a scene, or its name in the gallery
+    #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub scene: String,
+    /// Change a value of the scene, by name or by index from zero: body.die.velocity='[1,0,0]', contact.0.friction.beta=2
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+/// `gyration run`
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Directory of the recording [default: STEM.gyr in the current folder, then STEM-2.gyr, …]
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub output: Option<PathBuf>,
+    /// Go on with an interrupted recording (STEM.gyr without -o)
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+    /// Replace an existing recording (STEM.gyr without -o)
+    #[arg(long)]
+    pub force: bool,
+    /// Neither progress nor summary; errors are still reported
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Print the summary as JSON to stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gyration check`
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Print JSON, with the resolved scene
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gyration scenes`
+#[derive(Debug, Args)]
+pub struct Scenes {
+    /// Print the text of this scene
+    pub name: Option<String>,
+}
+
+/// `gyration export`
+#[derive(Debug, Args)]
+pub struct Export {
+    /// Directory of the recording
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub recording: PathBuf,
+    /// What to write
+    #[arg(long)]
+    pub format: ExportFormat,
+    /// File to write; - writes csv to stdout [default: STEM.csv or STEM.npz in the current folder]
+    #[arg(short, long, value_name = "PATH", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+}
+
+/// Formats of an export.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// One row a sample, 17 digits
+    Csv,
+    /// All arrays, for numpy.load
+    Npz,
+    /// Not in this version yet
+    #[value(hide = true)]
+    Vtk,
+    /// Not in this version yet
+    #[value(hide = true)]
+    Gltf,
+}
+
+/// `gyration plot`
+#[derive(Debug, Args)]
+pub struct Plot {
+    /// Directory of a recording, or a scene
+    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath)]
+    pub source: String,
+    /// What to draw, below each other [default: overview of a recording, laws of a scene]
+    #[arg(value_name = "WHAT")]
+    pub what: Vec<What>,
+    /// File to write: .svg, .png or .pdf; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+    /// Change a value of the scene before its laws are drawn
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+/// What may be drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum What {
+    /// All that the recording has
+    Overview,
+    /// Outlines at successive times, from the side
+    Strip,
+    /// Heights of the centres of mass
+    Height,
+    /// Smallest distances to a support
+    Gap,
+    /// Forces of contact
+    Forces,
+    /// Energies, works and the residual of their balance
+    Energy,
+    /// Tractions and resistances against distance, forces on bodies, gaps of rest
+    Laws,
+}

@@ -1,0 +1,76 @@
+//! What can be said of a scene before it runs: mass, gaps, where bodies rest, how fast contact is, who may touch.
+//!
+//! Everything here is computed, nothing printed.
+
+mod laws;
+mod mass;
+mod rest;
+
+use gyration::model::Model;
+use gyration::state::State;
+use serde::Serialize;
+
+pub use laws::LawCheck;
+pub use mass::MassCheck;
+pub use rest::{Approach, Rest};
+
+/// What can be said of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneCheck {
+    /// The bodies, in order.
+    pub bodies: Vec<BodyCheck>,
+}
+
+/// What can be said of one body.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodyCheck {
+    /// Its name.
+    pub name: String,
+    /// The largest side of its bounding box [m].
+    pub size: f64,
+    /// Mass properties.
+    pub mass: MassCheck,
+    /// What it has to do with each support; empty for mass points.
+    pub supports: Vec<PairCheck>,
+}
+
+/// What can be said of a body and a support.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairCheck {
+    /// Name of the support.
+    pub support: String,
+    /// Smallest distance at the start [m].
+    pub initial_gap: f64,
+    /// The part of the weight that presses on the support, −m g·n [N].
+    pub weight: f64,
+    /// The laws between the two; empty if they do not act on each other.
+    pub laws: Vec<LawCheck>,
+    /// Gaps at which the central laws carry the weight, in the orientation of the start, ascending.
+    pub rests: Vec<Rest>,
+}
+
+/// Looks at a scene in its first state.
+pub fn check(model: &Model, start: &State) -> SceneCheck {
+    SceneCheck { bodies: (0..model.bodies.len()).map(|index| check_body(model, start, index)).collect() }
+}
+
+fn check_body(model: &Model, start: &State, index: usize) -> BodyCheck {
+    let body = &model.bodies[index];
+    let pair = |support: usize| {
+        let approach = Approach::new(model, start, index, support)?;
+        let contacts = || body.contacts.iter().filter(|contact| contact.support == support);
+        Some(PairCheck {
+            support: model.supports[support].name.clone(),
+            initial_gap: approach.initial_gap,
+            weight: approach.weight,
+            laws: contacts().flat_map(|contact| contact.laws()).map(|law| LawCheck::of(law, &body.shape)).collect(),
+            rests: approach.rests(),
+        })
+    };
+    BodyCheck {
+        name: body.name.clone(),
+        size: body.size,
+        mass: MassCheck::of(&body.mass),
+        supports: (0..model.supports.len()).filter_map(pair).collect(),
+    }
+}

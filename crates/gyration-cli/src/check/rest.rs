@@ -1,0 +1,216 @@
+//! Where a body rests over a support, and how fast it gets there.
+//!
+//! The body is moved along the support's normal without turning. At a gap d the central laws push with F(d) [N]; it
+//! rests where F(d) = W, W = −m g·n, and stably so where k = −F'(d) > 0. There, with the resistances c (along n) and
+//! c_t (across) of damping and friction,
+//!
+//!   period 2π/ω, ω² = k/m;   damping ratio ζ = c/(2 m ω);   decay time 1/(ζω) for ζ < 1, of the slower of two
+//!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
+//!
+//! With adhesion there may be several such gaps, or none.
+
+use gyration::contact::{Contact, ContactLoads, ContactScratch, GapDirection, RelativeMotion};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::surface::{GapField, Surface};
+use gyration::tensor::{Mat3, Vec3};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Gaps between these fractions of the size are searched for a balance.
+const SEARCHED: (f64, f64) = (1e-9, 1e3);
+/// Trial gaps in a decade; two balances nearer than that would be missed.
+const TRIALS_PER_DECADE: f64 = 25.0;
+/// Halvings of a bracket: a step of the search is halved to below rounding.
+const HALVINGS: usize = 60;
+
+/// A gap at which the weight is carried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Rest {
+    /// d [m].
+    pub gap: f64,
+    /// Whether the body comes back to it.
+    pub stable: bool,
+    /// k = −F'(d) [N/m].
+    pub stiffness: f64,
+    /// Period of the oscillation about it without damping [s]; none where it is not stable.
+    pub period: Option<f64>,
+    /// ζ, the part of the critical damping; none without damping or where it is not stable.
+    pub damping_ratio: Option<f64>,
+    /// Time in which the oscillation, or what is left of it, falls to 1/e [s].
+    pub damping_time: Option<f64>,
+    /// Time in which sliding falls to 1/e [s]; none without friction.
+    pub friction_time: Option<f64>,
+}
+
+/// A body that approaches a support along its normal, in the orientation of the start.
+#[derive(Debug, Clone)]
+pub struct Approach<'a> {
+    surface: &'a Surface,
+    contacts: Vec<&'a Contact>,
+    /// n.
+    normal: Vec3,
+    /// Rᵀn.
+    direction: Vec3,
+    /// Height of the centre of mass less the gap [m].
+    depth: f64,
+    mass: f64,
+    size: f64,
+    /// W = −m g·n [N].
+    pub weight: f64,
+    /// Smallest distance at the start [m].
+    pub initial_gap: f64,
+    pinned: bool,
+}
+
+/// Force and resistances at a gap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Response {
+    /// F [N].
+    force: f64,
+    /// −F' [N/m].
+    stiffness: f64,
+    /// c [N s/m].
+    normal_resistance: f64,
+    /// c_t [N s/m]: the mean of the two directions across the normal.
+    tangential_resistance: f64,
+}
+
+impl<'a> Approach<'a> {
+    /// Of a body to a support; none for mass points.
+    pub fn new(model: &'a Model, start: &State, body: usize, support: usize) -> Option<Self> {
+        let motion = start.motion(model, body);
+        let (body, plane) = (&model.bodies[body], &model.supports[support]);
+        let surface = body.surface.as_ref()?;
+        let direction = motion.placement.gradient.tr_mul(&plane.normal);
+        let height = plane.gap(&motion.placement.position, start.time);
+        let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
+        Some(Self {
+            surface,
+            contacts: body.contacts.iter().filter(|contact| contact.support == support).collect(),
+            normal: plane.normal,
+            direction,
+            depth: height - initial_gap,
+            mass: body.mass.mass,
+            size: body.size,
+            weight: -body.mass.mass * model.gravity.dot(&plane.normal),
+            initial_gap,
+            pinned: body.pin.is_some(),
+        })
+    }
+
+    /// Whether any law acts.
+    pub fn acts(&self) -> bool {
+        !self.contacts.is_empty()
+    }
+
+    /// The largest side of the body [m].
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// F(d) of the central laws [N]; none where it cannot be computed.
+    pub fn force(&self, gap: f64) -> Option<f64> {
+        let loads = |contact: &&Contact| {
+            let field = self.field(gap);
+            let mut scratch = ContactScratch::default();
+            ContactLoads::integrate(contact, self.surface, &field, self.at_rest(), false, &mut scratch).ok()
+        };
+        let forces = self.contacts.iter().map(|contact| Some(loads(contact)?.total().force.dot(&self.normal)));
+        forces.sum::<Option<f64>>().filter(|force| force.is_finite())
+    }
+
+    /// All gaps at which the weight is carried, ascending; none for a pinned body, which does not rest on anything.
+    pub fn rests(&self) -> Vec<Rest> {
+        if !self.acts() || self.pinned {
+            return Vec::new();
+        }
+        let (low, high) = (SEARCHED.0 * self.size, SEARCHED.1 * self.size);
+        let count = (TRIALS_PER_DECADE * (high / low).log10()).ceil() as usize;
+        let gap = |k: usize| low * (high / low).powf(k as f64 / count as f64);
+        let balance = |gap: f64| Some(self.force(gap)? - self.weight);
+        let mut rests = Vec::new();
+        let mut previous = None;
+        for k in 0..=count {
+            let here = balance(gap(k)).map(|value| (gap(k), value));
+            if let (Some(before), Some(here)) = (previous, here)
+                && crosses(before, here)
+                && let Some(root) = bisect(before, here, balance)
+            {
+                rests.extend(self.rest_at(root));
+            }
+            previous = here;
+        }
+        rests
+    }
+
+    fn field(&self, gap: f64) -> GapField {
+        GapField { height: self.depth + gap, direction: self.direction }
+    }
+
+    fn at_rest(&self) -> RelativeMotion {
+        RelativeMotion { normal: self.normal, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() }
+    }
+
+    fn response(&self, gap: f64) -> Option<Response> {
+        let field = self.field(gap);
+        let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
+        let tangents = [across, self.normal.cross(&across)];
+        let mut sum = Response { force: 0.0, stiffness: 0.0, normal_resistance: 0.0, tangential_resistance: 0.0 };
+        for contact in &self.contacts {
+            let mut scratch = ContactScratch::default();
+            let loads =
+                ContactLoads::integrate(contact, self.surface, &field, self.at_rest(), true, &mut scratch).ok()?;
+            let lift = GapDirection { height: 1.0, direction: Vec3::zeros() };
+            let resistance = |v: &Vec3| -loads.along_velocity(v, &Mat3::zeros()).force.dot(v);
+            sum.force += loads.total().force.dot(&self.normal);
+            sum.stiffness -= loads.along_gap(&lift).force.dot(&self.normal);
+            sum.normal_resistance += resistance(&self.normal);
+            sum.tangential_resistance += 0.5 * (resistance(&tangents[0]) + resistance(&tangents[1]));
+        }
+        Some(sum)
+    }
+
+    fn rest_at(&self, gap: f64) -> Option<Rest> {
+        let response = self.response(gap)?;
+        let stable = response.stiffness > 0.0;
+        let frequency = stable.then(|| (response.stiffness / self.mass).sqrt());
+        let damped = frequency.filter(|_| response.normal_resistance > 0.0);
+        let ratio = damped.map(|frequency| response.normal_resistance / (2.0 * self.mass * frequency));
+        let slid = response.tangential_resistance > 0.0;
+        Some(Rest {
+            gap,
+            stable,
+            stiffness: response.stiffness,
+            period: frequency.map(|frequency| TAU / frequency),
+            damping_ratio: ratio,
+            damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
+            friction_time: slid.then(|| self.mass / response.tangential_resistance),
+        })
+    }
+}
+
+/// Whether the balance changes its sign; a zero counts with what follows, so that it is found once.
+fn crosses(before: (f64, f64), here: (f64, f64)) -> bool {
+    (before.1 > 0.0) != (here.1 > 0.0)
+}
+
+/// The root between two gaps, by halving in ln d.
+fn bisect(before: (f64, f64), here: (f64, f64), balance: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let (mut low, mut high) = (before.0, here.0);
+    let positive_below = before.1 > 0.0;
+    for _ in 0..HALVINGS {
+        let middle = (low * high).sqrt();
+        if (balance(middle)? > 0.0) == positive_below { low = middle } else { high = middle }
+    }
+    Some((low * high).sqrt())
+}
+
+/// The time constant [s] of an oscillator of angular frequency ω [rad/s] and damping ratio ζ, that of its slowest part.
+fn decay_time(frequency: f64, ratio: f64) -> f64 {
+    if ratio < 1.0 {
+        return 1.0 / (ratio * frequency);
+    }
+    // ζ − √(ζ²−1) without cancellation.
+    (ratio + (ratio * ratio - 1.0).sqrt()) / frequency
+}

@@ -1,0 +1,124 @@
+//! `gyration check`: what a scene says before it runs.
+
+use super::open;
+use crate::arguments::Check;
+use crate::check::{self, BodyCheck, LawCheck, PairCheck, Rest, SceneCheck};
+use crate::error::{CliError, code};
+use crate::output;
+use gyration_scene::Scene;
+use serde_json::json;
+use std::fmt::Write as _;
+
+/// Prints what can be said of the scene.
+pub fn execute(arguments: &Check) -> Result<u8, CliError> {
+    let scene = open(&arguments.scene)?;
+    let found = check::check(&scene.built().model, &scene.built().state);
+    let text = if arguments.json {
+        let value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": found.bodies });
+        format!("{value:#}\n")
+    } else {
+        in_words(&scene, &found)
+    };
+    output::print(&text)?;
+    Ok(code::DONE)
+}
+
+// Writing to a string does not fail: the results of writeln! are dropped in this file.
+
+fn in_words(scene: &Scene, found: &SceneCheck) -> String {
+    let built = scene.built();
+    let plan = &built.plan;
+    let title = scene.file().title.clone().unwrap_or_else(|| scene.name().to_owned());
+    let mut text = format!("{title}\n\n");
+    let _ = writeln!(text, "gravity    {} m/s²", vector(&built.model.gravity.into()));
+    let _ = writeln!(text, "time       to {} s, a sample every {} s", plan.end, plan.sample);
+    if let Some(rest) = &plan.stop_at_rest {
+        let _ = writeln!(text, "           ends early if slower than {} m/s for {} s", rest.speed, rest.hold);
+    }
+    let _ = writeln!(text, "solver     rtol {:e}, atol {:e}", plan.rtol, plan.atol);
+    for support in &built.model.supports {
+        let (origin, normal) = (vector(&support.origin.into()), vector(&support.normal.into()));
+        let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
+    }
+    for body in &found.bodies {
+        text.push('\n');
+        write_body(&mut text, body);
+    }
+    text
+}
+
+fn write_body(text: &mut String, body: &BodyCheck) {
+    let mass = &body.mass;
+    let volume = if mass.volume > 0.0 { format!(", volume {} m³", short(mass.volume)) } else { String::new() };
+    let _ = writeln!(text, "body {}", body.name);
+    let _ = writeln!(text, "  mass            {} kg{volume}, size {} m", short(mass.mass), short(body.size));
+    let _ = writeln!(text, "  centre of mass  {} m in the shape's frame", vector(&mass.center));
+    let _ = writeln!(text, "  inertia         {} kg m² about the principal axes", vector(&mass.inertia_principal));
+    let _ = writeln!(text, "  Euler tensor    {} kg m² along them", vector(&mass.euler_principal));
+    for pair in &body.supports {
+        write_pair(text, pair);
+    }
+}
+
+fn write_pair(text: &mut String, pair: &PairCheck) {
+    let _ = writeln!(text, "  on {}: gap {} m at the start", pair.support, short(pair.initial_gap));
+    if pair.laws.is_empty() {
+        let _ = writeln!(text, "    no law acts between the two");
+        return;
+    }
+    for law in &pair.laws {
+        let _ = writeln!(text, "    {}", verdict(law));
+    }
+    if pair.rests.is_empty() {
+        let weight = pair.weight;
+        let _ = writeln!(
+            text,
+            "    no gap at which the laws balance the weight's part along the normal, {} N",
+            short(weight)
+        );
+    }
+    for rest in &pair.rests {
+        write_rest(text, rest);
+    }
+}
+
+/// The touch-or-not verdict on a law.
+fn verdict(law: &LawCheck) -> String {
+    let LawCheck { law: name, exponent, .. } = law;
+    let (Some(feature), Some(critical)) = (law.feature, law.critical_exponent) else {
+        return format!("{name:<10} ν = {exponent}");
+    };
+    match law.forbids_touching {
+        Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
+        Some(false) => format!(
+            "{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching; a fast body gets through"
+        ),
+        None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
+    }
+}
+
+fn write_rest(text: &mut String, rest: &Rest) {
+    if !rest.stable {
+        let _ = writeln!(text, "    balance at a gap of {} m, unstable", short(rest.gap));
+        return;
+    }
+    let _ = writeln!(text, "    rests at a gap of {} m in this orientation", short(rest.gap));
+    let period = rest.period.map_or_else(String::new, |period| format!(", period {} s", short(period)));
+    let _ = writeln!(text, "      stiffness {} N/m{period}", short(rest.stiffness));
+    if let (Some(ratio), Some(time)) = (rest.damping_ratio, rest.damping_time) {
+        let kind = if ratio < 1.0 { "oscillates" } else { "creeps" };
+        let _ = writeln!(text, "      damping ratio {}: {kind}, decays in {} s", short(ratio), short(time));
+    }
+    if let Some(time) = rest.friction_time {
+        let _ = writeln!(text, "      sliding decays in {} s", short(time));
+    }
+}
+
+fn vector(v: &[f64; 3]) -> String {
+    format!("({}, {}, {})", short(v[0]), short(v[1]), short(v[2]))
+}
+
+/// Five digits; what is but rounding beside one reads as it is.
+fn short(value: f64) -> String {
+    crate::summary::plain(value)
+}

@@ -1,0 +1,43 @@
+//! The commands, a file each.
+
+mod check;
+mod completions;
+mod export;
+mod plot;
+mod run;
+mod scenes;
+mod schema;
+
+use crate::arguments::{Command, SceneArguments};
+use crate::error::CliError;
+use gyration_scene::Scene;
+use std::path::Path;
+
+/// Does what was asked; returns the exit code.
+///
+/// # Errors
+/// [`CliError`] with what kept it from being done.
+pub fn execute(command: Command) -> Result<u8, CliError> {
+    match command {
+        Command::Run(arguments) => run::execute(&arguments),
+        Command::Check(arguments) => check::execute(&arguments),
+        Command::Scenes(arguments) => scenes::execute(&arguments),
+        Command::Export(arguments) => export::execute(&arguments),
+        Command::Plot(arguments) => plot::execute(&arguments),
+        Command::Schema => schema::execute(),
+        Command::Completions { shell } => completions::execute(shell),
+    }
+}
+
+/// Opens the scene of the arguments.
+fn open(arguments: &SceneArguments) -> Result<Scene, CliError> {
+    Ok(Scene::open(&arguments.scene, &arguments.overrides)?)
+}
+
+/// The name of a file or directory without folder and ending.
+fn stem(path: &Path) -> String {
+    // `.` and `..` have no name of their own.
+    let named = path.canonicalize().ok().filter(|_| path.file_name().is_none());
+    let name = named.as_deref().unwrap_or(path).file_stem();
+    name.map_or_else(|| "recording".to_owned(), |name| name.to_string_lossy().into_owned())
+}

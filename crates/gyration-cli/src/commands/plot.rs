@@ -1,0 +1,120 @@
+//! `gyration plot`: pictures of a recording, or of the contact laws of a scene.
+
+use super::stem;
+use crate::arguments::{Plot, What};
+use crate::error::{CliError, code};
+use crate::output;
+use crate::plot::chart::Figure;
+use crate::plot::draw::Format;
+use crate::plot::recorded::Recorded;
+use crate::plot::show::{self, Quantity};
+use gyration_record::Recording;
+use gyration_scene::Scene;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// Draws the picture.
+pub fn execute(arguments: &Plot) -> Result<u8, CliError> {
+    let output = arguments.output.as_deref();
+    let format = format(output)?;
+    let is_recording = Path::new(&arguments.source).is_dir();
+    let (what, figure, stem) = if is_recording { of_recording(arguments)? } else { of_scene(arguments)? };
+    let bytes = figure.draw().render(format);
+    if output == Some(Path::new("-")) {
+        output::print(&String::from_utf8_lossy(&bytes))?;
+        return Ok(code::DONE);
+    }
+    let names: Vec<&str> = what.iter().map(|what| name(*what)).collect();
+    let default = || PathBuf::from(format!("{stem}-{}.svg", names.join("-")));
+    let path = output.map_or_else(default, Path::to_path_buf);
+    output::write_file(&path, &bytes)?;
+    output::say(&format!("wrote {}", path.display()));
+    Ok(code::DONE)
+}
+
+/// The format that the ending of the file asks for.
+fn format(output: Option<&Path>) -> Result<Format, CliError> {
+    let Some(path) = output.filter(|path| *path != Path::new("-")) else { return Ok(Format::Svg) };
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("svg") => Ok(Format::Svg),
+        Some("png") => Ok(Format::Png),
+        Some("pdf") => Ok(Format::Pdf),
+        _ => Err(CliError::arguments(
+            format!("the ending of {} names no format of pictures", path.display()),
+            "let the file end in .svg, .png or .pdf",
+        )),
+    }
+}
+
+type Drawn = (Vec<What>, Figure, String);
+
+fn of_scene(arguments: &Plot) -> Result<Drawn, CliError> {
+    let what = if arguments.what.is_empty() { vec![What::Laws] } else { arguments.what.clone() };
+    let scene = Scene::open(&arguments.source, &arguments.overrides)?;
+    if let Some(other) = what.iter().find(|what| **what != What::Laws) {
+        return Err(CliError::arguments(
+            format!("`{}` is drawn from a recording, and {} is a scene", name(*other), arguments.source),
+            format!("`gyration run {0}` first, then `gyration plot {1}.gyr`", arguments.source, scene.name()),
+        ));
+    }
+    let panels = show::law_panels(&scene.built().model, &scene.built().state)?;
+    let title = scene.file().title.clone().unwrap_or_else(|| scene.name().to_owned());
+    let figure = Figure { title, subtitle: "contact laws".to_owned(), panels };
+    Ok((what, figure, scene.name().to_owned()))
+}
+
+fn of_recording(arguments: &Plot) -> Result<Drawn, CliError> {
+    if !arguments.overrides.is_empty() {
+        return Err(CliError::arguments("--set changes a scene, not a recording", "leave out --set"));
+    }
+    let what = if arguments.what.is_empty() { vec![What::Overview] } else { arguments.what.clone() };
+    let path = Path::new(&arguments.source);
+    let recording = Recording::open(path)?;
+    let recorded = Recorded::new(&recording)?;
+    let mut panels = Vec::new();
+    for what in &what {
+        panels.extend(match quantity(*what) {
+            Some(quantity) => show::panels(&recorded, quantity)?,
+            None if *what == What::Overview => show::overview(&recorded)?,
+            None => {
+                let scene = recorded_scene(&recording)?;
+                show::law_panels(&scene.built().model, &scene.built().state)?
+            }
+        });
+    }
+    Ok((what, show::figure(&recorded, panels), stem(path)))
+}
+
+/// The scene as it was recorded; files that it refers to must still be where they were.
+fn recorded_scene(recording: &Recording) -> Result<Scene, CliError> {
+    let attributes = recording.attributes();
+    let text = attributes.get("scene").and_then(Value::as_str).unwrap_or_default();
+    let overrides = attributes.get("overrides").and_then(Value::as_array).cloned().unwrap_or_default();
+    let overrides: Vec<String> = overrides.iter().filter_map(Value::as_str).map(str::to_owned).collect();
+    let name = recording.path().display().to_string();
+    Scene::parse(&name, text, Path::new(""), &overrides).map_err(|errors| CliError::Scene(errors.into()))
+}
+
+fn quantity(what: What) -> Option<Quantity> {
+    match what {
+        What::Strip => Some(Quantity::Strip),
+        What::Height => Some(Quantity::Height),
+        What::Gap => Some(Quantity::Gap),
+        What::Forces => Some(Quantity::Forces),
+        What::Energy => Some(Quantity::Energy),
+        What::Overview | What::Laws => None,
+    }
+}
+
+fn name(what: What) -> &'static str {
+    match what {
+        What::Overview => "overview",
+        What::Strip => "strip",
+        What::Height => "height",
+        What::Gap => "gap",
+        What::Forces => "forces",
+        What::Energy => "energy",
+        What::Laws => "laws",
+    }
+}

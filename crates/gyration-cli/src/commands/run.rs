@@ -1,0 +1,224 @@
+//! `gyration run`: a scene into a recording.
+
+use super::open;
+use crate::arguments::Run;
+use crate::error::{CliError, code};
+use crate::output;
+use crate::plot::PlotError;
+use crate::plot::draw::Format;
+use crate::plot::recorded::Recorded;
+use crate::plot::show;
+use crate::progress::Watch;
+use crate::summary;
+use gyration_ode::{Method as OdeMethod, Options};
+use gyration_record::{Attributes, Recording, remove};
+use gyration_scene::{Method, Plan, Scene};
+use gyration_sim::{Job, Outcome, Reason, Recorded as Ended, RestCriterion, RunPlan, RunSummary, Tolerance};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The picture that every run leaves.
+const PICTURE: &str = "overview.svg";
+/// Names tried for a recording without `-o`.
+const MOST_NAMES: usize = 10_000;
+
+/// Runs the scene; the exit code tells whether it reached its end.
+pub fn execute(arguments: &Run) -> Result<u8, CliError> {
+    let scene = open(&arguments.scene)?;
+    let path = directory(arguments, &scene)?;
+    let job = job(&scene);
+    let resumed = arguments.resume;
+    if resumed {
+        refuse_another_scene(&path, &job.attributes)?;
+    }
+    let mut watch = Watch::new(!arguments.quiet)?;
+    let ended = if resumed { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
+    watch.finish();
+    let ended = ended?;
+    let picture = path.join(PICTURE);
+    if !(matches!(ended, Ended::AlreadyFinished(_)) && picture.exists()) {
+        leave_picture(&path, &picture);
+    }
+    match ended {
+        Ended::Ran(summary) => {
+            tell(arguments, &scene, &path, &summary)?;
+            Ok(exit_code(&summary.outcome))
+        }
+        Ended::AlreadyFinished(attributes) => {
+            tell_finished(arguments, &path, &attributes)?;
+            Ok(code::DONE)
+        }
+    }
+}
+
+fn exit_code(outcome: &Outcome) -> u8 {
+    match outcome {
+        Outcome::Completed | Outcome::AtRest { .. } => code::DONE,
+        Outcome::Stopped(stop) if stop.reason == Reason::Interrupted => code::INTERRUPTED,
+        Outcome::Stopped(_) => code::ENDED_EARLY,
+    }
+}
+
+/// Where the recording goes; what is replaced is removed.
+fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
+    let numbered = |k: usize| match k {
+        1 => PathBuf::from(format!("{}.gyr", scene.name())),
+        k => PathBuf::from(format!("{}-{k}.gyr", scene.name())),
+    };
+    let path = arguments.output.clone().unwrap_or_else(|| numbered(1));
+    // A link that leads nowhere is something as well.
+    let exists = path.symlink_metadata().is_ok();
+    if arguments.resume {
+        return Ok(path);
+    }
+    if arguments.force && exists {
+        remove(&path)?;
+        return Ok(path);
+    }
+    match (exists, &arguments.output) {
+        (false, _) => Ok(path),
+        (true, None) => {
+            let free = (2..MOST_NAMES).map(numbered).find(|path| path.symlink_metadata().is_err());
+            free.ok_or_else(|| CliError::arguments("too many recordings of this scene here", "name one with -o DIR"))
+        }
+        (true, Some(_)) => Err(CliError::arguments(
+            format!("{} exists already", path.display()),
+            "go on with it by --resume, replace it by --force, or choose another name",
+        )),
+    }
+}
+
+/// What the simulation needs of the scene.
+fn job(scene: &Scene) -> Job<'_> {
+    let built = scene.built();
+    Job {
+        model: &built.model,
+        start: &built.state,
+        plan: run_plan(&built.plan),
+        max_wall_time: built.plan.max_wall_time.map(wall_time),
+        attributes: attributes(scene),
+    }
+}
+
+/// A time longer than the clock can count is no limit.
+fn wall_time(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
+}
+
+fn run_plan(plan: &Plan) -> RunPlan {
+    let method = match plan.method {
+        Method::Auto => OdeMethod::Auto,
+        Method::Explicit => OdeMethod::Explicit,
+        Method::Implicit => OdeMethod::Implicit,
+    };
+    let rest = plan.stop_at_rest.as_ref();
+    RunPlan {
+        end: plan.end,
+        sample: plan.sample,
+        stop_at_rest: rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
+        tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
+        options: Options { method, max_step: plan.max_step.unwrap_or(f64::INFINITY), ..Options::default() },
+    }
+}
+
+/// The scene and the program, as the recording tells of them.
+fn attributes(scene: &Scene) -> Attributes {
+    let plan = &scene.built().plan;
+    let entries = [
+        ("title", json!(scene.file().title)),
+        ("scene", json!(scene.text())),
+        ("scene_name", json!(scene.name())),
+        ("overrides", json!(scene.overrides())),
+        ("resolved", scene.resolved()),
+        ("version", json!(env!("CARGO_PKG_VERSION"))),
+        ("commit", json!(env!("GYRATION_COMMIT"))),
+        ("tolerances", json!({ "rtol": plan.rtol, "atol": plan.atol })),
+    ];
+    entries.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+/// A recording goes on with the scene that it began with; only the limit of wall time may differ.
+fn refuse_another_scene(path: &Path, attributes: &Attributes) -> Result<(), CliError> {
+    let recording = Recording::open(path)?;
+    let without_limit = |value: Option<&Value>| {
+        let mut value = value.cloned().unwrap_or(Value::Null);
+        if let Some(solver) = value.get_mut("solver").and_then(Value::as_object_mut) {
+            solver.remove("max_wall_time");
+        }
+        value
+    };
+    let before = without_limit(recording.attributes().get("resolved"));
+    if before == without_limit(attributes.get("resolved")) {
+        return Ok(());
+    }
+    Err(CliError::arguments(
+        format!("{} is a recording of another scene, or of other values of it", path.display()),
+        "resume with the same file and the same --set, or record anew with another -o",
+    ))
+}
+
+/// Draws the overview into the recording; a picture that fails does not make the run fail.
+fn leave_picture(path: &Path, picture: &Path) {
+    let draw = || -> Result<(), CliError> {
+        let recording = Recording::open(path)?;
+        let recorded = Recorded::new(&recording)?;
+        let panels = show::overview(&recorded)?;
+        let figure = show::figure(&recorded, panels);
+        output::write_file(picture, &figure.draw().render(Format::Svg))
+    };
+    match draw() {
+        Ok(()) | Err(CliError::Plot(PlotError::Empty { .. })) => {}
+        Err(error) => output::say(&format!("gyration: warning: no {PICTURE}: {error}")),
+    }
+}
+
+fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Result<(), CliError> {
+    if arguments.json {
+        let mut value = json!({ "recording": shown(path), "picture": shown(&path.join(PICTURE)) });
+        if let (Some(all), Ok(Value::Object(told))) = (value.as_object_mut(), serde_json::to_value(summary)) {
+            all.extend(told);
+        }
+        output::print(&format!("{value:#}\n"))?;
+    }
+    let interrupted = matches!(&summary.outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted);
+    if !arguments.quiet && !arguments.json {
+        output::say(&summary::in_words(scene, summary));
+        output::say(&format!("recording  {}\npicture    {}", shown(path), shown(&path.join(PICTURE))));
+    }
+    if !summary.outcome.is_final() && (interrupted || !arguments.quiet) {
+        output::say(&format!(
+            "gyration: go on with `gyration run {} -o {} --resume`",
+            arguments.scene.scene,
+            shown(path)
+        ));
+    }
+    Ok(())
+}
+
+fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Result<(), CliError> {
+    let outcome = attributes.get("outcome_in_words").and_then(Value::as_str).unwrap_or("finished");
+    if arguments.json {
+        let told = ["outcome", "statistics", "largest_residual", "energy_in_play", "events"];
+        let told = told.iter().filter_map(|name| Some(((*name).to_owned(), attributes.get(*name)?.clone())));
+        let mut value: Attributes = told.collect();
+        value.insert("recording".into(), json!(shown(path)));
+        value.insert("in_words".into(), json!(outcome));
+        value.insert("already_finished".into(), json!(true));
+        output::print(&format!("{:#}\n", Value::Object(value)))?;
+    } else if !arguments.quiet {
+        output::say(&format!("{} had ended before: {outcome}. Nothing was done.", shown(path)));
+    }
+    Ok(())
+}
+
+/// The path from here, as the user would write it.
+fn shown(path: &Path) -> String {
+    let here = std::env::current_dir().and_then(fs::canonicalize);
+    let full = fs::canonicalize(path);
+    match (here, full) {
+        (Ok(here), Ok(full)) => full.strip_prefix(here).unwrap_or(path).display().to_string(),
+        _ => path.display().to_string(),
+    }
+}

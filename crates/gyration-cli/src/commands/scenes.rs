@@ -1,0 +1,58 @@
+//! `gyration scenes`: the gallery.
+
+use crate::arguments::Scenes;
+use crate::error::{CliError, code};
+use crate::output;
+use gyration_scene::{Scene, gallery};
+use std::fmt::Write as _;
+
+/// Width of the lines of a description [letters].
+const WIDTH: usize = 88;
+
+/// Lists the gallery, or prints one scene as it stands.
+pub fn execute(arguments: &Scenes) -> Result<u8, CliError> {
+    match &arguments.name {
+        None => output::print(&list())?,
+        Some(name) => output::print(text(name)?)?,
+    }
+    Ok(code::DONE)
+}
+
+fn text(name: &str) -> Result<&'static str, CliError> {
+    let found = gallery().iter().find(|(known, _)| *known == name);
+    let names = || gallery().iter().map(|(known, _)| *known).collect::<Vec<_>>().join(", ");
+    found.map(|(_, text)| *text).ok_or_else(|| {
+        CliError::arguments(format!("the gallery has no scene `{name}`"), format!("choose one of {}", names()))
+    })
+}
+
+/// Name and title of each scene, and the sentences at the head of its file.
+fn list() -> String {
+    let mut list = String::new();
+    for (name, text) in gallery() {
+        let title = Scene::open(name, &[]).ok().and_then(|scene| scene.file().title.clone()).unwrap_or_default();
+        // Writing to a string does not fail.
+        let _ = writeln!(list, "{name:<12} {title}");
+        for line in wrapped(&head(text)) {
+            let _ = writeln!(list, "{:<12} {line}", "");
+        }
+    }
+    list + "\n`gyration run NAME` runs one, `gyration scenes NAME` prints its file.\n"
+}
+
+/// The comment at the beginning of a file.
+fn head(text: &str) -> String {
+    let comment = text.lines().map_while(|line| line.strip_prefix('#'));
+    comment.map(str::trim).collect::<Vec<_>>().join(" ")
+}
+
+fn wrapped(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.len() + 1 + word.len() <= WIDTH => *line += &format!(" {word}"),
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

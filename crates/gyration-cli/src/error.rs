@@ -1,0 +1,97 @@
+//! What keeps the program from doing what it was asked, with the exit code that tells it to scripts.
+//!
+//! 1: the run ended early; 2: bad arguments or scene; 3: the scene file or the recording cannot be read or written.
+
+use crate::plot::PlotError;
+use gyration_record::RecordError;
+use gyration_scene::LoadError;
+use gyration_sim::RunError;
+use std::io;
+use std::path::PathBuf;
+
+/// A failure of the program.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// There is no scene.
+    #[error(transparent)]
+    Scene(#[from] LoadError),
+    /// The recording cannot be read or written.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The run could not begin or go on.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// There is no picture.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// The arguments ask for something that is not to be had.
+    #[error("{problem}\n  fix: {fix}")]
+    Arguments {
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        fix: String,
+    },
+    /// A file cannot be written.
+    #[error("cannot write {path}: {source}", path = path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Stdout cannot be written; a closed pipe is no error.
+    #[error("cannot write to stdout: {0}")]
+    Stdout(#[from] io::Error),
+    /// The handler of Ctrl-C cannot be set.
+    #[error("cannot listen for Ctrl-C: {0}")]
+    Signal(#[from] ctrlc::Error),
+}
+
+/// Exit codes of the program.
+pub mod code {
+    /// Done.
+    pub const DONE: u8 = 0;
+    /// The run ended early, for a physical or numerical reason or at `max_wall_time`.
+    pub const ENDED_EARLY: u8 = 1;
+    /// Bad arguments or scene.
+    pub const BAD_INPUT: u8 = 2;
+    /// The scene file or the recording cannot be read or written.
+    pub const BAD_FILE: u8 = 3;
+    /// Interrupted, as shells count it: 128 + SIGINT.
+    pub const INTERRUPTED: u8 = 130;
+}
+
+impl CliError {
+    /// Arguments that cannot be met, and what to do instead.
+    pub fn arguments(problem: impl Into<String>, fix: impl Into<String>) -> Self {
+        Self::Arguments { problem: problem.into(), fix: fix.into() }
+    }
+
+    /// The exit code that tells it to scripts.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } | Self::Run(RunError::Start(_)) => {
+                code::BAD_INPUT
+            }
+            Self::Plot(PlotError::Nothing { .. }) => code::BAD_INPUT,
+            Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,
+            Self::Scene(LoadError::Read(_))
+            | Self::Record(_)
+            | Self::Run(_)
+            | Self::Plot(_)
+            | Self::Write { .. }
+            | Self::Stdout(_)
+            | Self::Signal(_) => code::BAD_FILE,
+        }
+    }
+
+    /// Whether the reader of stdout has gone, as `head` does: then there is nobody to tell anything.
+    pub fn is_closed_pipe(&self) -> bool {
+        match self {
+            Self::Stdout(source) => source.kind() == io::ErrorKind::BrokenPipe,
+            Self::Record(RecordError::Io { source, .. }) => source.kind() == io::ErrorKind::BrokenPipe,
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Figures: a title and panels below each other, their frames in line.
+//!
+//! Charts that follow each other over the same axis share its words.
+
+use super::frame::{self, BELOW, NAME_SIZE, words_at};
+use super::legend::SIZE;
+use super::{Chart, Legend};
+use crate::plot::draw::{Anchor, Drawing, Label, Rect, Text, color};
+use crate::plot::strip::Strip;
+
+/// Width of a page [pt]: fits between the margins of A4 and letter paper.
+const WIDTH: f64 = 540.0;
+/// Around everything [pt].
+const MARGIN: f64 = 12.0;
+/// Between the frame and the legend [pt].
+const BESIDE: f64 = 12.0;
+/// Above a frame: its title [pt].
+const ABOVE: f64 = 22.0;
+/// Between charts that share an axis [pt].
+const BETWEEN: f64 = 8.0;
+/// Height of the letters of the title [pt].
+const TITLE_SIZE: f64 = 12.0;
+
+/// One part of a figure.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Panel {
+    /// Series over axes.
+    Chart(Chart),
+    /// Outlines at successive times.
+    Strip(Strip),
+}
+
+/// Panels under a title.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// What it is about, in plain words.
+    pub title: String,
+    /// A second line, in plain words.
+    pub subtitle: String,
+    /// From above to below.
+    pub panels: Vec<Panel>,
+}
+
+struct Columns {
+    left: f64,
+    right: f64,
+}
+
+impl Figure {
+    /// Lays the figure out and draws it.
+    pub fn draw(&self) -> Drawing {
+        let columns = self.columns();
+        let mut drawing = Drawing::new(WIDTH, 0.0, self.title.clone());
+        let mut y = self.draw_title(&mut drawing);
+        for (index, panel) in self.panels.iter().enumerate() {
+            y = match panel {
+                Panel::Chart(chart) => {
+                    let shares_next =
+                        matches!(self.panels.get(index + 1), Some(Panel::Chart(next)) if next.x == chart.x);
+                    draw_chart(chart, &mut drawing, &columns, y, !shares_next)
+                }
+                Panel::Strip(strip) => {
+                    let area = Rect { x: MARGIN, y: y + MARGIN, width: WIDTH - 2.0 * MARGIN, height: 0.0 };
+                    strip.draw(&mut drawing, area) + MARGIN
+                }
+            };
+        }
+        drawing.height = (y + 0.5 * MARGIN).ceil();
+        drawing
+    }
+
+    /// One left edge and one width for all frames; the legends' column is as wide as the widest.
+    fn columns(&self) -> Columns {
+        let charts = || {
+            self.panels.iter().filter_map(|panel| match panel {
+                Panel::Chart(chart) => Some(chart),
+                Panel::Strip(_) => None,
+            })
+        };
+        let left = charts().map(frame::left_margin).fold(0.0, f64::max);
+        let legend = charts().map(|chart| chart.legend().width()).fold(0.0, f64::max);
+        let right = if legend > 0.0 { legend + BESIDE } else { 0.0 };
+        Columns { left: MARGIN + left, right: WIDTH - MARGIN - right }
+    }
+
+    /// Draws the title; returns where it ends.
+    fn draw_title(&self, drawing: &mut Drawing) -> f64 {
+        let line = |words: &str, y: f64, size: f64| Text {
+            label: Label::plain(words),
+            ..words_at("", [MARGIN, y], Anchor::Start, size, color::INK)
+        };
+        let mut y = MARGIN;
+        if !self.title.is_empty() {
+            y += TITLE_SIZE;
+            drawing.text(Text { bold: true, ..line(&self.title, y, TITLE_SIZE) });
+        }
+        if !self.subtitle.is_empty() {
+            y += 1.6 * SIZE;
+            drawing.text(Text { color: color::GREY, ..line(&self.subtitle, y, SIZE) });
+        }
+        y
+    }
+}
+
+/// Draws a chart below `y`; returns where it ends.
+fn draw_chart(chart: &Chart, drawing: &mut Drawing, columns: &Columns, y: f64, with_words: bool) -> f64 {
+    let above = if chart.title.is_empty() { BETWEEN } else { ABOVE };
+    let legend: Legend = chart.legend();
+    let height = chart.height.max(legend.height());
+    let area = Rect { x: columns.left, y: y + above, width: columns.right - columns.left, height };
+    frame::draw(chart, drawing, area, with_words);
+    legend.draw(drawing, [area.right() + BESIDE, area.y]);
+    area.bottom() + if with_words { BELOW + 0.5 * NAME_SIZE } else { BETWEEN }
+}

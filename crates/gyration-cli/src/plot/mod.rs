@@ -1,0 +1,49 @@
+//! Pictures of recordings and scenes.
+//!
+//! ```text
+//! recording, scene → show (which quantities) → chart, strip (how they are laid out) → draw (marks on a page) → SVG, PNG, PDF
+//! ```
+//!
+//! The same recording gives the same bytes: there are neither dates nor names of machines in a picture.
+
+pub mod chart;
+pub mod draw;
+pub mod recorded;
+pub mod show;
+pub mod strip;
+mod thin;
+
+use gyration_record::RecordError;
+use std::path::PathBuf;
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum PlotError {
+    /// The recording cannot be read.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The recording does not describe what is in it.
+    #[error("{path}: the attribute `{name}` of the recording cannot be used ({reason}): record the scene anew", path = path.display())]
+    Attribute {
+        /// The recording.
+        path: PathBuf,
+        /// The attribute.
+        name: &'static str,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// There is no sample.
+    #[error("{path}: the recording has no samples yet", path = path.display())]
+    Empty {
+        /// The recording.
+        path: PathBuf,
+    },
+    /// What was asked for is not there.
+    #[error("there is nothing to draw for `{what}`: {reason}")]
+    Nothing {
+        /// What was asked for.
+        what: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
+}

@@ -1,0 +1,112 @@
+//! The plane of a side view: the one that shows most of the motion.
+//!
+//! The view is level. Its upward direction w is against gravity; its level direction u is, in this order, the one in
+//! which the centres travel most, that of the fall line of an inclined support, that in which turning is seen best
+//! (across the mean axis of rotation), or x.
+
+use crate::plot::draw::Point;
+use gyration::tensor::{Mat3, Vec3, axial};
+
+/// A side view: drawn are (u·p, w·p); v = u × w points to the viewer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// To the right.
+    pub right: Vec3,
+    /// Upwards.
+    pub up: Vec3,
+    /// To the viewer.
+    pub toward: Vec3,
+}
+
+/// What the choice of a view depends on.
+#[derive(Debug, Clone, Default)]
+pub struct Motion {
+    /// Places of the centres, body by body [m].
+    pub paths: Vec<Vec<Vec3>>,
+    /// The turn from each sample to the next, as an axis times the sine of the angle.
+    pub turns: Vec<Vec3>,
+    /// Normals of the supports.
+    pub normals: Vec<Vec3>,
+    /// The largest size of a body [m].
+    pub size: f64,
+}
+
+impl View {
+    /// The view that shows most of the motion.
+    pub fn of(motion: &Motion, up: Vec3) -> Self {
+        let level = |v: &Vec3| v - up * up.dot(v);
+        let mut spread = Mat3::zeros();
+        for path in &motion.paths {
+            let mean = path.iter().sum::<Vec3>() / path.len().max(1) as f64;
+            spread += path.iter().map(|p| square(&level(&(p - mean)))).sum::<Mat3>() / path.len().max(1) as f64;
+        }
+        let turning: Mat3 = motion.turns.iter().map(|turn| square(&level(turn))).sum();
+        let inclined: Mat3 = motion.normals.iter().map(|normal| square(&level(normal))).sum();
+        // Travel counts from a twentieth of the size on, an inclination or a turn from a hundredth of a radian on.
+        let traveled = (0.05 * motion.size).powi(2);
+        let right = largest_axis(&spread, traveled)
+            .or_else(|| largest_axis(&inclined, 1e-4))
+            .or_else(|| largest_axis(&turning, 1e-4).map(|axis| up.cross(&axis)))
+            .unwrap_or_else(|| {
+                let x = level(&Vec3::x());
+                if x.norm() > 0.5 { x } else { level(&Vec3::y()) }
+            })
+            .normalize();
+        let right = if right[right.iamax()] < 0.0 { -right } else { right };
+        Self { right, up, toward: right.cross(&up) }
+    }
+
+    /// Where a place is drawn [m].
+    pub fn project(&self, place: &Vec3) -> Point {
+        [self.right.dot(place), self.up.dot(place)]
+    }
+
+    /// How near to the viewer a place is [m].
+    pub fn depth(&self, place: &Vec3) -> f64 {
+        self.toward.dot(place)
+    }
+}
+
+/// The axis times the sine of the angle of the turn from one placement gradient to another.
+pub fn turn(from: &Mat3, to: &Mat3) -> Vec3 {
+    0.5 * axial(&(to * from.transpose()))
+}
+
+fn square(v: &Vec3) -> Mat3 {
+    v * v.transpose()
+}
+
+/// The principal axis of the largest value, if that is above `least`.
+fn largest_axis(matrix: &Mat3, least: f64) -> Option<Vec3> {
+    let eigen = matrix.symmetric_eigen();
+    let index = eigen.eigenvalues.imax();
+    (eigen.eigenvalues[index] > least).then(|| eigen.eigenvectors.column(index).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn travel_comes_first_then_inclination_then_turning() {
+        let still = Motion { size: 0.1, ..Motion::default() };
+        let up = Vec3::z();
+        assert!((View::of(&still, up).right - Vec3::x()).norm() < 1e-12);
+        let turning = Motion { turns: vec![0.1 * Vec3::x()], ..still.clone() };
+        assert!((View::of(&turning, up).right - Vec3::y()).norm() < 1e-12);
+        let inclined = Motion { normals: vec![Vec3::new(0.0, -0.5, 0.8)], turns: vec![0.1 * Vec3::y()], ..still };
+        assert!((View::of(&inclined, up).right - Vec3::y()).norm() < 1e-12);
+        let path = vec![Vec3::zeros(), Vec3::new(1.0, 1.0, 5.0)];
+        let traveling = Motion { paths: vec![path], ..inclined };
+        let view = View::of(&traveling, up);
+        assert!((view.right - Vec3::new(1.0, 1.0, 0.0).normalize()).norm() < 1e-12);
+        assert!((view.right.cross(&view.up) - view.toward).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_turn_is_axis_times_sine() {
+        let (sine, cosine) = 0.3f64.sin_cos();
+        let rotation = Mat3::new(cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0);
+        assert!((turn(&Mat3::identity(), &rotation) - sine * Vec3::z()).norm() < 1e-15);
+    }
+}

@@ -1,0 +1,113 @@
+//! The summary of a run for people: outcome, steps, ledger, momenta, events.
+
+use crate::progress::duration_in_words;
+use gyration_scene::Scene;
+use gyration_sim::{BodySummary, LedgerSummary, RunSummary};
+use serde_json::Value;
+use std::fmt::Write as _;
+
+/// Bodies whose momenta are listed.
+const MOST_BODIES: usize = 8;
+
+/// The summary as lines of text.
+pub fn in_words(scene: &Scene, summary: &RunSummary) -> String {
+    let title = scene.file().title.clone().unwrap_or_else(|| scene.name().to_owned());
+    let mut text = format!("{title}\noutcome    {}\n", summary.in_words);
+    // Writing to a string does not fail.
+    let _ = writeln!(text, "{}", steps(summary));
+    text += &ledger(&summary.ledger);
+    text += &bodies(&summary.bodies);
+    text += &events(&summary.events);
+    text.trim_end().to_owned()
+}
+
+fn steps(summary: &RunSummary) -> String {
+    let count = |name: &str| summary.statistics.get(name).and_then(Value::as_u64).unwrap_or(0);
+    let (explicit, implicit) = (count("explicit_steps"), count("implicit_steps"));
+    let rejected = count("rejected_for_error") + count("rejected_for_domain") + count("newton_failures");
+    let wall = match summary.wall_time {
+        short if short < 10.0 => format!("{short:.2} s"),
+        long => duration_in_words(long),
+    };
+    format!(
+        "time       {} s simulated in {wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} rejected",
+        plain(summary.time),
+        explicit + implicit,
+    )
+}
+
+/// The ledger as a table, and how well it closes.
+fn ledger(ledger: &LedgerSummary) -> String {
+    let mut text = String::from("energy [J]\n");
+    let _ = writeln!(text, "  {:<20} {:>16}", "sum at t = 0", number(ledger.initial_energy));
+    for (name, value) in &ledger.energies {
+        let _ = writeln!(text, "  {name:<20} {:>16}", number(*value));
+    }
+    for (name, value) in &ledger.works {
+        let _ = writeln!(text, "  {:<20} {:>16}", format!("work of {name}"), number(*value));
+    }
+    let relative = ledger.largest_residual / ledger.energy_in_play;
+    let relative = if relative.is_finite() { format!(", {relative:.1e} of the energy in play") } else { String::new() };
+    let _ = writeln!(text, "  {:<20} {:>16}", "residual", number(ledger.residual));
+    let _ = writeln!(text, "  the balance closes to {:.1e} J{relative}", ledger.largest_residual);
+    text
+}
+
+fn bodies(bodies: &[BodySummary]) -> String {
+    let mut text = String::from("at the end\n");
+    for body in bodies.iter().take(MOST_BODIES) {
+        let gap = body.gap.map(|gap| format!(", gap {} m", plain(gap))).unwrap_or_default();
+        let _ = writeln!(text, "  {:<20} at {} m{gap}", body.name, vector(&body.position));
+        let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "", vector(&body.linear_momentum));
+        let _ = writeln!(text, "  {:<20} angular momentum {} kg m²/s", "", vector(&body.angular_momentum));
+    }
+    if let Some(more) = bodies.len().checked_sub(MOST_BODIES).filter(|more| *more > 0) {
+        let _ = writeln!(text, "  and {more} more");
+    }
+    text
+}
+
+fn events(events: &Value) -> String {
+    let counts = events.as_object().into_iter().flatten();
+    let counts: Vec<String> = counts
+        .filter_map(|(kind, count)| Some((kind, count.as_u64().filter(|count| *count > 0)?)))
+        .map(|(kind, count)| format!("{count} {}", kind.replace('_', " ")))
+        .collect();
+    if counts.is_empty() { String::new() } else { format!("events     {}\n", counts.join(", ")) }
+}
+
+fn vector(v: &[f64; 3]) -> String {
+    format!("({}, {}, {})", plain(v[0]), plain(v[1]), plain(v[2]))
+}
+
+/// Seven digits, in a column.
+fn number(value: f64) -> String {
+    format!("{value:.6e}")
+}
+
+/// Five digits, without an exponent where that is short.
+pub fn plain(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let power = value.abs().log10().floor();
+    if !(-4.0..6.0).contains(&power) {
+        return format!("{value:.4e}");
+    }
+    let decimals = (4.0 - power).max(0.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_numbers_have_five_digits() {
+        assert_eq!(
+            [0.0, 1.5, -0.000123456, 123456.7, 1e-9, 4.0].map(plain),
+            ["0", "1.5", "-0.00012346", "123457", "1.0000e-9", "4"]
+        );
+    }
+}

@@ -1,0 +1,164 @@
+//! Commands that need no recording: gallery, schema, completions, help, check.
+
+mod common;
+
+use common::{BALL, Sandbox};
+use serde_json::Value;
+
+#[test]
+fn gallery_is_listed_with_titles_and_printed_verbatim() {
+    let sandbox = Sandbox::new();
+    let list = sandbox.done(&["scenes"]).stdout;
+    for name in ["dice", "bounce", "slide"] {
+        let text = sandbox.done(&["scenes", name]).stdout;
+        let path = format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        assert_eq!(text, std::fs::read_to_string(path).unwrap());
+        let title = text.lines().find_map(|line| line.strip_prefix("title = ")).unwrap().trim_matches('"');
+        assert!(list.lines().any(|line| line.starts_with(name) && line.ends_with(title)), "{list}");
+    }
+    let said = sandbox.refused(2, &["scenes", "nothing"]);
+    assert!(said.stderr.contains("dice"), "{}", said.stderr);
+}
+
+#[test]
+fn schema_is_json() {
+    let schema: Value = serde_json::from_str(&Sandbox::new().done(&["schema"]).stdout).unwrap();
+    assert!(schema["properties"]["body"].is_object());
+}
+
+#[test]
+fn completions_name_the_commands() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = Sandbox::new().done(&["completions", shell]).stdout;
+        assert!(script.contains("resume") && script.contains("export"), "{shell}");
+    }
+}
+
+#[test]
+fn help_and_version_go_to_stdout() {
+    let help = Sandbox::new().done(&["--help"]);
+    assert!(help.stderr.is_empty() && help.stdout.contains("completions") && !help.stdout.contains("calibrate"));
+    assert!(Sandbox::new().done(&["--version"]).stdout.starts_with("gyration 0."));
+}
+
+#[test]
+fn bad_arguments_are_refused() {
+    let sandbox = Sandbox::with_ball();
+    for arguments in [
+        &["fly"][..],
+        &[],
+        &["run"],
+        &["run", "ball.toml", "--resume", "--force"],
+        &["export", "x.gyr", "--format", "xlsx"],
+        &["plot", "ball.toml", "colour"],
+        &["run", "ball.toml", "--set", "body.ball.density"],
+        &["run", "ball.toml", "--set", "body.bull.density=3"],
+    ] {
+        sandbox.refused(2, arguments);
+    }
+    for later in ["report", "view", "modes", "resistance", "study", "calibrate"] {
+        let said = sandbox.refused(2, &[later, "ball.toml"]);
+        assert!(said.stderr.contains("not in this version yet"), "{}", said.stderr);
+    }
+    assert_eq!(sandbox.names(), ["ball.toml"]);
+}
+
+#[test]
+fn scene_that_is_not_there_is_told_from_a_bad_one() {
+    let sandbox = Sandbox::new();
+    let said = sandbox.refused(3, &["run", "bal.toml"]);
+    assert!(said.stderr.starts_with("gyration: error: bal.toml"), "{}", said.stderr);
+    sandbox.write("bad.toml", &BALL.replace("density", "densty"));
+    let said = sandbox.refused(2, &["check", "bad.toml"]);
+    assert!(
+        said.stderr.contains("bad.toml:25:1: body.ball.densty") && said.stderr.contains("density"),
+        "{}",
+        said.stderr
+    );
+}
+
+#[test]
+fn errors_have_no_colors_in_a_pipe() {
+    let sandbox = Sandbox::new();
+    for command in [&["run", "nothing"][..], &["fly"]] {
+        assert!(!sandbox.run(command).stderr.contains('\x1b'));
+    }
+}
+
+#[test]
+fn check_finds_the_gap_at_which_the_weight_is_carried() {
+    let sandbox = Sandbox::with_ball();
+    let found: Value = serde_json::from_str(&sandbox.done(&["check", "ball.toml", "--json"]).stdout).unwrap();
+    let body = &found["bodies"][0];
+    let pair = &body["supports"][0];
+    assert_eq!((body["name"].as_str(), pair["support"].as_str()), (Some("ball"), Some("table")));
+    let (radius, alpha, d0) = (0.05f64, 40e3, 2e-3f64);
+    let mass = 1000.0 * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    // Hat-box theorem: F = 2πRα d₀⁶ (d⁻⁵ − (d + 2R)⁻⁵)/5, which falls with d.
+    let force = |d: f64| {
+        2.0 * std::f64::consts::PI * radius * alpha * d0.powi(6) * (d.powi(-5) - (d + 2.0 * radius).powi(-5)) / 5.0
+    };
+    let (mut low, mut high) = (1e-6f64, 1.0f64);
+    for _ in 0..200 {
+        let middle = (low * high).sqrt();
+        if force(middle) > mass * 9.81 { low = middle } else { high = middle }
+    }
+    let number = |value: &Value| value.as_f64().unwrap();
+    let close = |value: &Value, expected: f64, tolerance: f64| {
+        let relative = (number(value) / expected - 1.0).abs();
+        assert!(relative < tolerance, "{value} should be {expected}: {relative:e}");
+    };
+    // Closed forms and halving are good to rounding.
+    close(&body["mass"]["mass"], mass, 1e-13);
+    close(&body["mass"]["inertia_principal"][0], 0.4 * mass * radius * radius, 1e-13);
+    close(&pair["initial_gap"], 0.15, 1e-12);
+    let rest = &pair["rests"][0];
+    close(&rest["gap"], low, 1e-11);
+    // F' by differences, good to 1e-9: step² of truncation and rounding over the step.
+    let step = 1e-5 * low;
+    let stiffness = -(force(low + step) - force(low - step)) / (2.0 * step);
+    close(&rest["stiffness"], stiffness, 1e-7);
+    close(&rest["period"], std::f64::consts::TAU * (mass / stiffness).sqrt(), 1e-7);
+    // Damping has the exponent of the repulsion: c = (β/α) F, and sliding decays in m/c_t, c_t = (β_f/α) F.
+    let damping = 4e3 / alpha * mass * 9.81;
+    close(&rest["damping_ratio"], damping / (2.0 * (mass * stiffness).sqrt()), 1e-7);
+    close(&rest["friction_time"], alpha / 2e3 / 9.81, 1e-9);
+    assert_eq!(pair["rests"].as_array().unwrap().len(), 1);
+    let verdicts: Vec<_> =
+        pair["laws"].as_array().unwrap().iter().map(|law| law["forbids_touching"].as_bool()).collect();
+    assert_eq!(verdicts, [Some(true), Some(true), None]);
+}
+
+#[test]
+fn check_says_so_in_words() {
+    let sandbox = Sandbox::with_ball();
+    let words = sandbox.done(&["check", "ball.toml", "--set", "contact.0.repulsion.nu=1.5"]).stdout;
+    assert!(words.contains("ν = 1.5 < 2 (smooth point): does not forbid touching"), "{words}");
+    assert!(words.contains("rests at a gap of"), "{words}");
+    let words = sandbox.done(&["check", "ball.toml", "--set", "world.gravity=[0,0,1]"]).stdout;
+    assert!(words.contains("no gap at which"), "{words}");
+}
+
+#[test]
+fn adhesion_may_hold_a_body_from_below() {
+    let sandbox = Sandbox::with_ball();
+    let adhesion = "contact.0.adhesion={ beta = 2e4, nu_attractive = 4, nu_repulsive = 8, d0 = 0.002 }";
+    let arguments = ["check", "ball.toml", "--json", "--set", adhesion, "--set", "contact.0.repulsion.alpha=0"];
+    let upright = sandbox.run(&arguments);
+    assert_ne!(upright.code, Some(0), "alpha = 0 should be refused or the law be left out");
+    let hanging = [
+        "check",
+        "ball.toml",
+        "--json",
+        "--set",
+        adhesion,
+        "--set",
+        "contact.0.repulsion.alpha=1e-3",
+        "--set",
+        "world.gravity=[0,0,9.81]",
+    ];
+    let found: Value = serde_json::from_str(&sandbox.done(&hanging).stdout).unwrap();
+    let rests = found["bodies"][0]["supports"][0]["rests"].as_array().unwrap();
+    // Near the support the ball comes back, farther off it falls.
+    assert_eq!(rests.iter().map(|rest| rest["stable"].as_bool().unwrap()).collect::<Vec<_>>(), [true, false]);
+}
