@@ -146,6 +146,18 @@ fn json_with_the_same_keys_is_the_same_scene() {
 }
 
 #[test]
+fn toml_numbers_are_read_in_every_notation() {
+    let text = "[time]\nend = 1_000\nsample = 0x10\n";
+    let scene = scene(&format!(
+        "{text}[[body]]\nname = \"b\"\nshape = {{ sphere = {{ radius = 1_0.2_5 }} }}\nmass = 0b101\n\
+         velocity = [-1_0e-1_0, +2.5E+1, 0o17]\n"
+    ));
+    assert_eq!((scene.built().plan.end, scene.built().plan.sample), (1000.0, 16.0));
+    assert_eq!(scene.built().model.bodies[0].size, 20.5);
+    assert_eq!(scene.built().state.motion(&scene.built().model, 0).velocity.velocity, Vec3::new(-10e-10, 25.0, 15.0));
+}
+
+#[test]
 fn overrides_change_items_by_name_and_by_index() {
     let set = |settings: &[&str]| {
         let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();

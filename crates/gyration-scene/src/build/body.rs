@@ -11,8 +11,9 @@ use crate::quantity::si;
 use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia};
 use gyration::kinematics::Quaternion;
 use gyration::load::Spring;
+use gyration::mass::MassProperties;
 use gyration::state::RigidStart;
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 use std::path::Path;
 
 /// A body of the model and how it starts.
@@ -46,14 +47,11 @@ impl Solid {
             let point = si(&point);
             Pin { point, anchor: start.position + turned.rotation() * point }
         });
-        let inertia = RigidInertia::new(&mass, pin.as_ref()).map_err(|error| {
-            let name = if value.mass_properties.is_some() { "mass_properties" } else { "shape" };
-            judge.note(&key.key(name), error.to_string(), "add mass off the line, or a `pin` off the line");
-        });
+        let inertia = inertia(placed, &mass, pin.as_ref(), judge);
         let surface = surface(&shape).map_err(|error| judge.note(&key.key("shape"), error, "change the shape")).ok()?;
         let body = Moving {
             name: value.name.clone(),
-            kind: BodyKind::Rigid(inertia.ok()?),
+            kind: BodyKind::Rigid(inertia?),
             mass,
             surface: surface.map(|surface| surface.translated(&-mass.center)),
             size: size(&shape, &mass, &pin.map_or(Vec3::zeros(), |pin| pin.point)),
@@ -63,6 +61,30 @@ impl Solid {
             pin,
         };
         Some(Self { body, start })
+    }
+}
+
+/// The inertia about the centre of mass or the pin; notes one that cannot be inverted.
+fn inertia(
+    placed: &Placed<Body>,
+    mass: &MassProperties,
+    pin: Option<&Pin>,
+    judge: &mut Judge<'_>,
+) -> Option<RigidInertia> {
+    let name = if placed.value.mass_properties.is_some() { "mass_properties" } else { "shape" };
+    let key = placed.key.key(name);
+    match RigidInertia::new(mass, pin) {
+        // Far from one kilogram and metre determinants leave the range of numbers, and the inverse is none.
+        Ok(inertia) if (inertia.tensor * inertia.inverse - Mat3::identity()).amax() < 0.5 => Some(inertia),
+        Ok(inertia) => {
+            let message = format!("the inertia, {:e} kg m², leaves the range of numbers", inertia.tensor.amax());
+            judge.note(&key, message, "change the size or the mass");
+            None
+        }
+        Err(error) => {
+            judge.note(&key, error.to_string(), "add mass off the line, or a `pin` off the line");
+            None
+        }
     }
 }
 

@@ -1,24 +1,29 @@
 //! Contacts: each `[[contact]]` goes to the body that it names, or to all bodies with a surface.
 
 use super::body::Solid;
-use crate::check::{Draft, Judge};
+use crate::check::{Draft, Judge, Placed};
 use crate::file::{Contact, Measure};
+use crate::key::Key;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, Repulsion};
 
-/// Gives the bodies their contacts; notes a contact that names a body without a surface.
+/// Gives the bodies their contacts; notes a contact that names a body without a surface, and a law out of range.
 pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Judge<'_>) {
-    for contact in &draft.contacts {
-        let support = draft.supports.iter().position(|support| support.value.name == contact.value.support);
+    for Placed { key, value } in &draft.contacts {
+        let laws = laws(value);
+        laws.iter().for_each(|law| range(law, key, judge));
+        let support = draft.supports.iter().position(|support| support.value.name == value.support);
         for solid in solids.iter_mut().flatten() {
-            let named = contact.value.body.as_ref();
+            let named = value.body.as_ref();
             if named.is_some_and(|name| *name != solid.body.name) {
                 continue;
             }
             match (&solid.body.surface, support) {
-                (Some(_), Some(support)) => solid.body.contacts.push(acting(&contact.value, support)),
+                (Some(_), Some(support)) => {
+                    solid.body.contacts.push(Acting::new(support, measure(value.measure), laws.clone()));
+                }
                 (None, _) if named.is_some() => {
                     let message = format!("\"{}\" has no surface", solid.body.name);
-                    judge.note(&contact.key.key("body"), message, "name a body whose shape has a surface");
+                    judge.note(&key.key("body"), message, "name a body whose shape has a surface");
                 }
                 _ => {}
             }
@@ -26,12 +31,32 @@ pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Ju
     }
 }
 
-fn acting(contact: &Contact, support: usize) -> Acting {
-    let measure = match contact.measure {
+/// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.
+fn range(law: &ContactLaw, key: &Key, judge: &mut Judge<'_>) {
+    let name = law.kind().name();
+    let strength = law.terms().iter().flatten().map(|term| term.coefficient.abs()).fold(f64::NAN, f64::max);
+    let silent = match law {
+        ContactLaw::Repulsion(law) => law.alpha == 0.0,
+        ContactLaw::Damping(law) => law.beta == 0.0,
+        ContactLaw::Friction(law) => law.beta == 0.0,
+        ContactLaw::Adhesion(law) => law.beta == 0.0,
+    };
+    let held = law.terms().iter().flatten().all(|term| term.coefficient.is_normal());
+    if !silent && !held {
+        let message = format!("its strength times d0^nu is {strength:e}, which leaves the range of numbers");
+        judge.note(&key.key(name), message, "choose a d0 nearer to the gaps in the scene, or a smaller exponent");
+    }
+}
+
+fn measure(measure: Measure) -> AreaMeasure {
+    match measure {
         Measure::DeformedArea => AreaMeasure::DeformedArea,
         Measure::ReferenceArea => AreaMeasure::ReferenceArea,
         Measure::DeformedAreaPotential => AreaMeasure::DeformedAreaPotential,
-    };
+    }
+}
+
+fn laws(contact: &Contact) -> Vec<ContactLaw> {
     let repulsion = contact.repulsion.map(|law| {
         let (alpha, exponent, reference_gap) = (law.alpha.value(), law.nu.0, law.d0.value());
         ContactLaw::Repulsion(Repulsion { alpha, exponent, reference_gap })
@@ -52,6 +77,5 @@ fn acting(contact: &Contact, support: usize) -> Acting {
             reference_gap: law.d0.value(),
         })
     });
-    let laws = [repulsion, damping, friction, adhesion];
-    Acting::new(support, measure, laws.into_iter().flatten().collect())
+    [repulsion, damping, friction, adhesion].into_iter().flatten().collect()
 }

@@ -17,7 +17,7 @@ pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Sup
             direction: solid.start.orientation.rotation().tr_mul(&support.normal),
         };
         let (gap, _) = surface.smallest_gap(&field);
-        if gap > 0.0 {
+        if gap > 0.0 && gap.is_finite() {
             continue;
         }
         let (body, name) = (&solid.body.name, &support.name);

@@ -7,7 +7,8 @@ use crate::geometry::{self, MeshError};
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::shape::{
-    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Part, Points, Polyhedron, Shape, Sphere, Torus, Union,
+    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Part, Points, Polyhedron, Shape, ShapeError, Sphere, Torus,
+    Union,
 };
 use gyration::tensor::Vec3;
 use std::path::Path;
@@ -46,7 +47,13 @@ impl Maker<'_, '_> {
         match made.validate() {
             Ok(()) => Some(made),
             Err(error) => {
-                self.judge.note(key, error.to_string(), "change the parameters of the shape");
+                let (place, help) = match error {
+                    ShapeError::TorusWithoutHole { .. } => {
+                        (key.key("torus").key("minor_radius"), "the tube must leave a hole")
+                    }
+                    _ => (key.clone(), "change the parameters of the shape"),
+                };
+                self.judge.note(&place, error.to_string(), help);
                 None
             }
         }

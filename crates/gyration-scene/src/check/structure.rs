@@ -128,8 +128,8 @@ impl Walker<'_> {
             Rule::Text => "a string".to_owned(),
             Rule::Words(words) => format!("one of \"{}\"", words.join("\", \"")),
             Rule::Tagged(tags) => {
-                let tags: Vec<String> = tags.keys().map(|tag| format!("{{ {tag} = … }}")).collect();
-                format!("one of {}", tags.join(", "))
+                let tags: Vec<&str> = tags.keys().map(String::as_str).collect();
+                format!("a table with one key of {}", tags.join(", "))
             }
             Rule::Array { item, least, most } => {
                 let count = if least == most { format!("{least} items") } else { "items".to_owned() };

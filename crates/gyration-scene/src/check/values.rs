@@ -21,13 +21,9 @@ pub(crate) fn values(draft: &Draft, judge: &mut Judge<'_>) {
         samples(time, judge);
     }
     draft.supports.iter().for_each(|support| directions(support, judge));
-    for contact in &draft.contacts {
-        reference("support", &contact.value.support, &supports, &contact.key, judge);
-        if let Some(body) = &contact.value.body {
-            reference("body", body, &bodies, &contact.key, judge);
-        }
-        exponents(contact, judge);
-    }
+    references("support", &supports, judge);
+    references("body", &bodies, judge);
+    draft.contacts.iter().for_each(|contact| exponents(contact, judge));
 }
 
 /// The names of an array of tables, well formed or not; notes those that are no names or occur twice.
@@ -51,10 +47,18 @@ fn names(section: &str, judge: &mut Judge<'_>) -> BTreeSet<String> {
     names
 }
 
-fn reference(section: &str, name: &str, known: &BTreeSet<String>, contact: &Key, judge: &mut Judge<'_>) {
-    if !known.contains(name) {
-        let help = suggest::fix(name, known.iter().map(String::as_str), section);
-        judge.note(&contact.key(section), format!("there is no {section} \"{name}\""), help);
+/// Notes the contacts, well formed or not, that name a support or a body that is not there.
+fn references(section: &str, known: &BTreeSet<String>, judge: &mut Judge<'_>) {
+    let contacts = Key::root().key("contact");
+    let document = judge.document;
+    let items = document.root.get("contact").map(Node::items).unwrap_or_default();
+    for (index, item) in items.iter().enumerate() {
+        let Some(node) = item.get(section) else { continue };
+        if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
+            let help = suggest::fix(name, known.iter().map(String::as_str), section);
+            let message = format!("there is no {section} \"{name}\"");
+            judge.findings.at(node.span, &contacts.index(index).key(section), message, help);
+        }
     }
 }
 
