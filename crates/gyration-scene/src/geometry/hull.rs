@@ -1,30 +1,22 @@
-//! The convex hull of points, by the quickhull of `parry3d-f64`; the only module that knows this library.
+//! The convex hull of points, by insertion with exact predicates.
 //!
-//! The library takes a cloud for flat if the smallest eigenvalue of its covariance C is below 1e-7 of its squared size, which
-//! real plates and needles reach. Hulls are affinely covariant, so a thin cloud is first made round,
+//! A point p is added to a hull by taking away the triangles (a, b, c) that it sees,
 //!
-//!   Y = Λ^(−½) Eᵀ (X − mean),   C = E Λ Eᵀ,
+//!   (b−a) × (c−a) · (p−a) > 0,
 //!
-//! and only the triangles are taken from the library; the vertices are the points that were given. Its result is checked
-//! (closed, outward, no point outside) before anybody relies on it.
+//! and joining it to the edges around them. The sign is exact (adaptive arithmetic of Shewchuk, crate `robust`): the triangles
+//! of a face agree, what is seen is bounded by one loop, and no new triangle is without area. So there is nothing to go
+//! wrong with grids, plates or needles, where quickhull with a tolerance loses corners. It takes a sign for every point and
+//! triangle: right for up to some thousand points, which a scene file may hold.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 
-use gyration::shape::{Polyhedron, PolyhedronError};
+use gyration::shape::Polyhedron;
 use gyration::tensor::{Mat3, Vec3};
-use nalgebra::Rotation3;
-use parry3d_f64::math::Vector;
-use parry3d_f64::transformation::try_convex_hull;
+use robust::{Coord3D, orient3d};
 
 /// Thickness, relative to size, below which points lie in a plane: their own rounding is 1e-16 of their coordinates.
 const FLAT: f64 = 1e-9;
-/// Ratio of spreads below which a cloud is made round first; λ = 1e-4 is far from the library's 1e-7.
-const THIN: f64 = 1e-2;
-/// How often the algorithm is tried, each time in another frame. With one, 52 of 30000 random clouds went wrong (all with
-/// dozens of points in a face up to rounding); with four, none of 100000.
-const ATTEMPTS: usize = 4;
-/// How far a point may lie outside of the result, relative to its size; rounding in the library is 1e-14.
-const OUTSIDE: f64 = 1e-9;
 
 /// Points that have no convex hull with a volume.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -60,44 +52,14 @@ pub enum HullError {
         /// Extent along the axis that is too short [m].
         thickness: f64,
     },
-    /// The algorithm failed.
-    #[error(
-        "the convex hull of {count} vertices could not be found ({fault}): leave out vertices that nearly coincide"
-    )]
-    Failed {
-        /// Number of different points.
-        count: usize,
-        /// What went wrong.
-        fault: HullFault,
-    },
 }
 
-/// What is wrong with the result of the algorithm.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum HullFault {
-    /// There is none; the library's message.
-    #[error("{0}")]
-    Algorithm(String),
-    /// It is not a closed surface.
-    #[error(transparent)]
-    Surface(#[from] PolyhedronError),
-    /// A point lies outside of it.
-    #[error("a vertex lies {height:e} of the size outside")]
-    Outside {
-        /// Height over a triangle, relative to the size.
-        height: f64,
-    },
-    /// It has a vertex that was not given.
-    #[error("it has a vertex that was not given")]
-    Foreign,
-}
-
-/// The convex hull of `points`: triangles counter-clockwise from outside, on those of the points that are needed.
+/// The convex hull of `points`: triangles counter-clockwise from outside, on its corners only.
 ///
-/// Several triangles may share a face. Points within faces and repeated points are allowed.
+/// Several triangles may share a face. Points within, also within faces and edges, and repeated points are left out.
 ///
 /// # Errors
-/// [`HullError`]: no volume, a coordinate that is not finite, or (not seen in the tests) a failure of the algorithm.
+/// [`HullError`]: fewer than four points, no volume, a coordinate that is not finite.
 pub fn hull(points: &[Vec3]) -> Result<Polyhedron, HullError> {
     check_finite(points)?;
     let distinct = distinct(points);
@@ -105,30 +67,14 @@ pub fn hull(points: &[Vec3]) -> Result<Polyhedron, HullError> {
     if count < 4 {
         return Err(HullError::TooFew { given: points.len(), distinct: count });
     }
-    let round = made_round(&distinct)?;
-    let mut result = triangulated(&round, &distinct, 0);
-    for attempt in 1..ATTEMPTS {
-        if result.is_ok() {
-            break;
-        }
-        result = triangulated(&round, &distinct, attempt);
-    }
-    result.map_err(|fault| HullError::Failed { count, fault })
-}
-
-/// The hull of `points`, computed on their affine image `round` and, from the second attempt on, in a turned frame.
-fn triangulated(round: &[Vec3], points: &[Vec3], attempt: usize) -> Result<Polyhedron, HullFault> {
-    // A radian at a time about an axis without a special direction: exact coincidences do not come back.
-    let turn = Rotation3::new(Vec3::new(0.48, 0.6, 0.64) * attempt as f64);
-    let cloud: Vec<Vector> = round.iter().map(|point| turn * point).map(|p| Vector::new(p.x, p.y, p.z)).collect();
-    let (vertices, triangles) = try_convex_hull(&cloud).map_err(|error| HullFault::Algorithm(error.to_string()))?;
-    let of_input = original_indices(&cloud, &vertices).ok_or(HullFault::Foreign)?;
-    let triangles: Vec<_> = triangles.iter().map(|triangle| triangle.map(|index| index as usize)).collect();
-    let corners = |cloud: &[Vec3]| of_input.iter().map(|&index| cloud[index]).collect();
-    check_encloses(&Polyhedron { vertices: corners(round), triangles: triangles.clone() }, round)?;
-    let result = Polyhedron { vertices: corners(points), triangles };
-    result.validate()?;
-    Ok(result)
+    check_thickness(&distinct)?;
+    let cloud = Cloud::new(&distinct);
+    let all: Vec<usize> = (0..count).collect();
+    let corners = cloud.corners(&cloud.triangles(&all));
+    let mut place = vec![0; count];
+    corners.iter().enumerate().for_each(|(new, &old)| place[old] = new);
+    let triangles = cloud.triangles(&corners).iter().map(|triangle| triangle.map(|old| place[old])).collect();
+    Ok(Polyhedron { vertices: corners.iter().map(|&index| distinct[index]).collect(), triangles })
 }
 
 fn check_finite(points: &[Vec3]) -> Result<(), HullError> {
@@ -151,28 +97,21 @@ fn bits(coordinates: &[f64]) -> [u64; 3] {
     std::array::from_fn(|axis| (coordinates[axis] + 0.0).to_bits())
 }
 
-/// The points about their mean in units of their size; a thin cloud is also turned to its principal axes and stretched
-/// to equal spreads.
-fn made_round(points: &[Vec3]) -> Result<Vec<Vec3>, HullError> {
+/// Refuses points on a line or in a plane.
+fn check_thickness(points: &[Vec3]) -> Result<(), HullError> {
     let first = points[0];
     let size = points.iter().map(|point| (point - first).amax()).fold(0.0, f64::max);
     let mut scaled: Vec<Vec3> = points.iter().map(|point| (point - first) / size).collect();
     let mean = scaled.iter().sum::<Vec3>() / points.len() as f64;
     scaled.iter_mut().for_each(|point| *point -= mean);
-    let axes = principal_axes(&scaled);
-    let extents = axes.map(|axis| extent(&scaled, &axis));
+    let extents = principal_axes(&scaled).map(|axis| extent(&scaled, &axis));
     for (thickness, place) in [(extents[1], "on a line"), (extents[0], "in a plane")] {
         if thickness <= FLAT * extents[2] {
             let (size, thickness) = (extents[2] * size, thickness * size);
             return Err(HullError::Flat { count: points.len(), place, size, thickness });
         }
     }
-    let spreads = axes.map(|axis| spread(&scaled, &axis));
-    if spreads[0] > THIN * spreads[2] {
-        return Ok(scaled);
-    }
-    let stretch = |point: Vec3| Vec3::from_fn(|k, _| axes[k].dot(&point) / spreads[k]);
-    Ok(scaled.into_iter().map(stretch).collect())
+    Ok(())
 }
 
 /// Principal axes of a cloud about its mean, right-handed, by ascending spread.
@@ -192,31 +131,174 @@ fn extent(points: &[Vec3], axis: &Vec3) -> f64 {
     heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
 }
 
-/// Root mean square distance from the mean along an axis.
-fn spread(points: &[Vec3], axis: &Vec3) -> f64 {
-    (points.iter().map(|point| point.dot(axis).powi(2)).sum::<f64>() / points.len() as f64).sqrt()
+/// Points about which signs of volumes are asked.
+struct Cloud(Vec<Coord3D<f64>>);
+
+impl Cloud {
+    /// The points in units of a power of two near their size, which is exact and keeps products of coordinates in range.
+    fn new(points: &[Vec3]) -> Self {
+        let size = points.iter().map(|point| point.amax()).fold(0.0, f64::max);
+        let unit = size.log2().ceil().exp2();
+        Self(points.iter().map(|point| Coord3D { x: point.x / unit, y: point.y / unit, z: point.z / unit }).collect())
+    }
+
+    /// The exact sign of (b−a) × (c−a) · (p−a): positive if p sees the triangle.
+    fn height(&self, [a, b, c]: [usize; 3], p: usize) -> f64 {
+        // The crate's sign is positive below.
+        -orient3d(self.0[a], self.0[b], self.0[c], self.0[p])
+    }
+
+    /// The triangles of the hull of some of the points, which do not lie in a plane.
+    fn triangles(&self, chosen: &[usize]) -> Vec<[usize; 3]> {
+        let mut triangles = self.first_tetrahedron(chosen);
+        for &point in chosen {
+            let sees = |triangle: &[usize; 3]| self.height(*triangle, point) > 0.0;
+            let (seen, kept): (Vec<[usize; 3]>, Vec<_>) = triangles.into_iter().partition(sees);
+            let sides: Vec<[usize; 2]> = seen.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+            let inner: HashSet<[usize; 2]> = sides.iter().map(|&[a, b]| [b, a]).collect();
+            triangles = kept;
+            triangles.extend(sides.iter().filter(|side| !inner.contains(*side)).map(|&[a, b]| [a, b, point]));
+        }
+        triangles
+    }
+
+    /// A tetrahedron of points far from each other.
+    fn first_tetrahedron(&self, chosen: &[usize]) -> Vec<[usize; 3]> {
+        let at = |index: usize| Vec3::new(self.0[index].x, self.0[index].y, self.0[index].z);
+        let farthest = |distance: &dyn Fn(usize) -> f64| {
+            let farther = |best: usize, next: &usize| if distance(*next) > distance(best) { *next } else { best };
+            chosen.iter().fold(chosen[0], farther)
+        };
+        let a = farthest(&|p| at(p).x);
+        let b = farthest(&|p| (at(p) - at(a)).norm());
+        let c = farthest(&|p| (at(p) - at(a)).cross(&(at(b) - at(a))).norm());
+        let d = farthest(&|p| self.height([a, b, c], p).abs());
+        let [b, c] = if self.height([a, b, c], d) < 0.0 { [b, c] } else { [c, b] };
+        vec![[a, b, c], [a, d, b], [b, d, c], [c, d, a]]
+    }
+
+    /// The vertices at which at least three faces meet; others lie within a face or an edge.
+    fn corners(&self, triangles: &[[usize; 3]]) -> Vec<usize> {
+        let mut faces_at = vec![Vec::<[usize; 3]>::new(); self.0.len()];
+        for &triangle in triangles {
+            for vertex in triangle {
+                let is_coplanar = |other: &[usize; 3]| other.iter().all(|&corner| self.height(triangle, corner) == 0.0);
+                if !faces_at[vertex].iter().any(is_coplanar) {
+                    faces_at[vertex].push(triangle);
+                }
+            }
+        }
+        (0..self.0.len()).filter(|&vertex| faces_at[vertex].len() >= 3).collect()
+    }
 }
 
-/// Which points of the cloud the hull's vertices are.
-fn original_indices(cloud: &[Vector], vertices: &[Vector]) -> Option<Vec<usize>> {
-    let by_place: HashMap<[u64; 3], usize> =
-        cloud.iter().enumerate().map(|(index, point)| (bits(&point.to_array()), index)).collect();
-    vertices.iter().map(|vertex| by_place.get(&bits(&vertex.to_array())).copied()).collect()
-}
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
 
-/// Checks that a surface is closed and that no point lies above any of its triangles.
-///
-/// The height over a triangle is weighted with its area: the normal of a sliver is rounding.
-fn check_encloses(surface: &Polyhedron, points: &[Vec3]) -> Result<(), HullFault> {
-    surface.validate()?;
-    let size = points.iter().map(|point| point.norm()).fold(0.0, f64::max);
-    for triangle in &surface.triangles {
-        let [a, b, c] = surface.corners(triangle);
-        let normal = (b - a).cross(&(c - a));
-        let highest = points.iter().map(|point| normal.dot(&(point - a))).fold(0.0, f64::max);
-        if highest > OUTSIDE * size.powi(3) {
-            return Err(HullFault::Outside { height: highest / (normal.norm() * size) });
+    use super::*;
+
+    /// Points (i, j, k) with 0 ≤ i, j, k < n.
+    fn grid(n: usize) -> Vec<Vec3> {
+        (0..n * n * n).map(|k| Vec3::new((k % n) as f64, (k / n % n) as f64, (k / n / n) as f64)).collect()
+    }
+
+    /// A stream of numbers in [0, 1) (xorshift), so that a failure repeats.
+    fn random() -> impl FnMut() -> f64 {
+        let mut state = 88172645463325252_u64;
+        move || {
+            for shift in [13, -7, 17] {
+                state ^= if shift > 0 { state << shift } else { state >> -shift };
+            }
+            (state >> 11) as f64 / (1_u64 << 53) as f64
         }
     }
-    Ok(())
+
+    #[test]
+    fn corners_of_a_box_are_its_hull_whatever_else_is_given() {
+        let mut points = grid(3);
+        points.extend(grid(3));
+        points.push(Vec3::new(-0.0, 2.0, 0.0));
+        let hull = hull(&points).unwrap();
+        assert_eq!((hull.vertices.len(), hull.triangles.len()), (8, 12));
+        assert!((hull.mass_properties(1.0).volume - 8.0).abs() < 1e-14);
+        assert!(hull.vertices.iter().all(|vertex| points.contains(vertex)), "vertices are points that were given");
+    }
+
+    #[test]
+    fn octahedron_is_its_own_hull() {
+        let points: Vec<Vec3> = (0..3).flat_map(|k| [Vec3::ith(k, 1.0), Vec3::ith(k, -1.0)]).collect();
+        let hull = hull(&points).unwrap();
+        assert_eq!((hull.vertices.len(), hull.triangles.len()), (6, 8));
+        assert!((hull.mass_properties(1.0).volume - 4.0 / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn thin_plates_and_needles_have_a_hull() {
+        let turn = Rotation3::from_euler_angles(0.3, 0.7, 1.1);
+        for exponent in 0..=8 {
+            let thickness = 10_f64.powi(-exponent);
+            for size in [Vec3::new(1.0, 1.0, thickness), Vec3::new(1.0, thickness, thickness)] {
+                let points: Vec<Vec3> = grid(4).iter().map(|point| turn * point.component_mul(&size)).collect();
+                let hull = hull(&points).unwrap();
+                assert_eq!(hull.validate(), Ok(()), "{size}");
+                let volume = hull.mass_properties(1.0).volume;
+                // The volume is a sum of some hundred terms of up to (5 m)³, each rounded to 1e-16 of that.
+                let error = (volume - 27.0 * size.product()).abs();
+                assert!(error < 1e-14, "{size}: {volume:e}, off by {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn points_without_a_volume_are_refused() {
+        let line: Vec<Vec3> = (0..10).map(|k| Vec3::new(1.0, 2.0, 3.0) * f64::from(k)).collect();
+        let plane: Vec<Vec3> = grid(3).iter().map(|p| Vec3::new(p.x, p.y, p.x + 2.0 * p.y)).collect();
+        let thin: Vec<Vec3> = grid(2).iter().map(|p| Vec3::new(p.x, p.y, 1e-12 * p.z)).collect();
+        assert_eq!(hull(&[]), Err(HullError::TooFew { given: 0, distinct: 0 }));
+        assert_eq!(hull(&[Vec3::x(); 10]), Err(HullError::TooFew { given: 10, distinct: 1 }));
+        assert_eq!(hull(&grid(2)[..3]), Err(HullError::TooFew { given: 3, distinct: 3 }));
+        assert!(matches!(hull(&line), Err(HullError::Flat { place: "on a line", .. })));
+        assert!(matches!(hull(&plane), Err(HullError::Flat { place: "in a plane", .. })));
+        assert!(matches!(hull(&thin), Err(HullError::Flat { place: "in a plane", count: 8, .. })));
+    }
+
+    #[test]
+    fn coordinates_that_are_not_finite_are_named() {
+        for value in [f64::NAN, f64::INFINITY, -1e200] {
+            let mut points = grid(2);
+            points[5].y = value;
+            assert!(matches!(hull(&points), Err(HullError::NotFinite { vertex: 5, .. })), "{value}");
+        }
+    }
+
+    #[test]
+    fn random_clouds_full_of_coincidences_have_a_hull() {
+        let mut random = random();
+        let mut computed = 0;
+        for trial in 0..4000 {
+            let turn = Rotation3::from_euler_angles(random(), 6.0 * random(), 6.0 * random());
+            let (thickness, noise) = (10_f64.powf(-6.0 * random()), 10_f64.powf(-16.0 * random()));
+            let mut point = |_| {
+                let lattice = Vec3::from_fn(|_, _| (3.0 * random()).floor());
+                match trial % 4 {
+                    0 => turn * lattice,
+                    1 => turn * lattice.component_mul(&Vec3::new(1.0, 1.0, thickness)),
+                    2 => turn * (lattice + Vec3::from_fn(|_, _| noise * (random() - 0.5))),
+                    _ => Vec3::from_fn(|_, _| random() - 0.5).normalize(),
+                }
+            };
+            let points: Vec<Vec3> = (0..8 + trial % 40).map(&mut point).collect();
+            if let Ok(hull) = hull(&points) {
+                hull.validate().unwrap_or_else(|fault| panic!("{trial}: {fault}"));
+                let cloud = Cloud::new(&[hull.vertices.as_slice(), &points].concat());
+                for triangle in &hull.triangles {
+                    let is_above = |index| cloud.height(*triangle, index) > 0.0;
+                    assert!(!(0..cloud.0.len()).any(is_above), "{trial}: a point lies outside");
+                }
+                computed += 1;
+            }
+        }
+        assert!(computed > 3900, "{computed}");
+    }
 }

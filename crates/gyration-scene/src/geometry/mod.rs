@@ -1,7 +1,7 @@
 //! Shapes from points and from files: convex hulls and meshes.
 //!
-//! Whatever comes back has passed [`Polyhedron::validate`](gyration::shape::Polyhedron::validate): closed, oriented outward,
-//! with a volume. Paths and scales are the caller's; nothing here knows a scene. The readers of STL, OBJ and PLY are our
+//! What comes back is closed, oriented outward and has a volume: hulls by construction, meshes because they have passed
+//! [`Polyhedron::validate`](gyration::shape::Polyhedron::validate). Paths and scales are the caller's; nothing here knows a scene. The readers of STL, OBJ and PLY are our
 //! own: they keep f64, say at which line or byte a file is wrong, and allocate nothing on the word of a header.
 
 mod fault;
@@ -14,5 +14,5 @@ mod polygon;
 mod stl;
 
 pub use fault::{FileFault, Place, Trouble};
-pub use hull::{HullError, HullFault, hull};
+pub use hull::{HullError, hull};
 pub use mesh::{MAX_MESH_BYTES, MeshError, read_mesh};
