@@ -2,7 +2,7 @@
 //!
 //!   m = ∫ρ dV,   X₀ = (1/m) ∫ρ X dV,   J = ∫ρ (X−X₀)⊗(X−X₀) dV,
 //!
-//! J symmetric, positive semi-definite [kg m²]. The inertia tensor of rigid mechanics is tr(J) I − J. About another
+//! J symmetric, positive semi-definite \[kg m²\]. The inertia tensor of rigid mechanics is tr(J) I − J. About another
 //! point J_p = J + m (X₀−X_p)⊗(X₀−X_p); under X → R X + a, J → R J Rᵀ. Source: `physics.md` §1.
 //!
 //! Nothing here knows a shape: the integrals are the shapes' business.
@@ -17,20 +17,20 @@ const DEFINITENESS_TOLERANCE: f64 = 1e-12;
 /// Mass properties of a body in the frame of its shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MassProperties {
-    /// m [kg].
+    /// m \[kg\].
     pub mass: f64,
-    /// X₀, the centre of mass in the shape's frame [m].
+    /// X₀, the centre of mass in the shape's frame \[m\].
     pub center: Vec3,
-    /// J = ∫ρ (X−X₀)⊗(X−X₀) dV about the centre of mass [kg m²].
+    /// J = ∫ρ (X−X₀)⊗(X−X₀) dV about the centre of mass \[kg m²\].
     pub euler_tensor: Mat3,
-    /// V, the volume of the shape [m³]; 0 for a set of points.
+    /// V, the volume of the shape \[m³\]; 0 for a set of points.
     pub volume: f64,
 }
 
 /// Principal values of an Euler tensor, ascending, and their axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalMoments {
-    /// J₁ ≤ J₂ ≤ J₃ [kg m²].
+    /// J₁ ≤ J₂ ≤ J₃ \[kg m²\].
     pub values: Vec3,
     /// The unit axes as columns, right-handed.
     pub axes: Mat3,
@@ -42,13 +42,13 @@ pub enum MassError {
     /// m is zero, negative or not a number.
     #[error("mass is {value} kg: it must be finite and > 0")]
     MassNotPositive {
-        /// The mass [kg].
+        /// The mass \[kg\].
         value: f64,
     },
     /// The volume is negative or not a number.
     #[error("volume is {value} m³: it must be finite and ≥ 0")]
     VolumeNegative {
-        /// The volume [m³].
+        /// The volume \[m³\].
         value: f64,
     },
     /// A component is infinite or not a number.
@@ -79,19 +79,19 @@ pub enum MassError {
          Then J = ½ tr(I) 1 − I"
     )]
     NotPositive {
-        /// The smallest principal value [kg m²].
+        /// The smallest principal value \[kg m²\].
         value: f64,
     },
 }
 
 impl MassProperties {
-    /// The Euler tensor about a point of the shape's frame, J_p = J + m (X₀−X_p)⊗(X₀−X_p) [kg m²].
+    /// The Euler tensor about a point of the shape's frame, J_p = J + m (X₀−X_p)⊗(X₀−X_p) \[kg m²\].
     pub fn about(&self, point: &Vec3) -> Mat3 {
         let arm = self.center - point;
         self.euler_tensor + self.mass * arm * arm.transpose()
     }
 
-    /// The inertia tensor about the centre of mass, tr(J) I − J [kg m²].
+    /// The inertia tensor about the centre of mass, tr(J) I − J \[kg m²\].
     pub fn inertia(&self) -> Mat3 {
         Mat3::identity() * self.euler_tensor.trace() - self.euler_tensor
     }
@@ -133,7 +133,7 @@ impl MassProperties {
         Self { mass: self.mass * factor, euler_tensor: self.euler_tensor * factor, ..*self }
     }
 
-    /// The same distribution with the total mass `mass` [kg].
+    /// The same distribution with the total mass `mass` \[kg\].
     pub fn with_mass(&self, mass: f64) -> Self {
         Self { mass, euler_tensor: self.euler_tensor * (mass / self.mass), ..*self }
     }

@@ -47,9 +47,9 @@ pub enum HullError {
         count: usize,
         /// "in a plane" or "on a line".
         place: &'static str,
-        /// Extent along the longest principal axis [m].
+        /// Extent along the longest principal axis \[m\].
         size: f64,
-        /// Extent along the axis that is too short [m].
+        /// Extent along the axis that is too short \[m\].
         thickness: f64,
     },
 }

@@ -13,7 +13,7 @@ use gyration::shape::{Polyhedron, PolyhedronError};
 use super::fault::FileFault;
 use super::{obj, ply, stl};
 
-/// Largest mesh file that is read [bytes]: ten million triangles of binary STL.
+/// Largest mesh file that is read \[bytes\]: ten million triangles of binary STL.
 pub const MAX_MESH_BYTES: u64 = 512 << 20;
 
 /// A mesh file that gives no body.

@@ -17,9 +17,9 @@ use crate::tensor::{Mat3, Vec3};
 /// A capsule with its centre at the origin and its axis along z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capsule {
-    /// r, of the cylinder and of the half balls [m].
+    /// r, of the cylinder and of the half balls \[m\].
     pub radius: f64,
-    /// h, the height of the cylinder's part; the capsule is h + 2r long [m].
+    /// h, the height of the cylinder's part; the capsule is h + 2r long \[m\].
     pub height: f64,
 }
 
@@ -33,7 +33,7 @@ impl Capsule {
         positive("capsule", "height", self.height)
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let (r, h) = (self.radius, self.height);
         let (cylinder, ball) = (PI * r * r * h, 4.0 / 3.0 * PI * r * r * r);
@@ -47,7 +47,7 @@ impl Capsule {
         }
     }
 
-    /// The support function h(n) = max X·n = r |n| + (h/2) |n_z| [m].
+    /// The support function h(n) = max X·n = r |n| + (h/2) |n_z| \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.radius * direction.norm() + 0.5 * self.height * direction.z.abs()
     }

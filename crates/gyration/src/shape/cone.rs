@@ -16,9 +16,9 @@ use crate::tensor::{Mat3, Vec3};
 /// A circular cone with its axis along z and its apex up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
-    /// r, the radius of the base [m].
+    /// r, the radius of the base \[m\].
     pub radius: f64,
-    /// h [m].
+    /// h \[m\].
     pub height: f64,
 }
 
@@ -32,7 +32,7 @@ impl Cone {
         positive("cone", "height", self.height)
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let (radius_squared, height) = (self.radius * self.radius, self.height);
         let volume = PI * radius_squared * height / 3.0;
@@ -47,7 +47,7 @@ impl Cone {
         }
     }
 
-    /// The support function h(n) = max X·n = max(r |n_xy| − (h/2) n_z, (h/2) n_z) [m].
+    /// The support function h(n) = max X·n = max(r |n_xy| − (h/2) n_z, (h/2) n_z) \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         let apex = 0.5 * self.height * direction.z;
         apex.max(self.radius * direction.xy().norm() - apex)

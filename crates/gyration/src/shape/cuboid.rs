@@ -12,7 +12,7 @@ use crate::tensor::{Mat3, Vec3};
 /// A box with its centre at the origin and its edges along the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cuboid {
-    /// The lengths of the edges [m].
+    /// The lengths of the edges \[m\].
     pub size: Vec3,
 }
 
@@ -25,7 +25,7 @@ impl Cuboid {
         self.size.iter().try_for_each(|&edge| positive("box", "size", edge))
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let volume = self.size.product();
         let mass = density * volume;
@@ -33,7 +33,7 @@ impl Cuboid {
         MassProperties { mass, center: Vec3::zeros(), euler_tensor, volume }
     }
 
-    /// The support function h(n) = max X·n = Σ |n_i| a_i/2 [m].
+    /// The support function h(n) = max X·n = Σ |n_i| a_i/2 \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         0.5 * direction.abs().dot(&self.size)
     }

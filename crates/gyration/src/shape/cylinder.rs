@@ -14,9 +14,9 @@ use crate::tensor::{Mat3, Vec3};
 /// A circular cylinder with its centre at the origin and its axis along z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
-    /// r [m].
+    /// r \[m\].
     pub radius: f64,
-    /// h [m].
+    /// h \[m\].
     pub height: f64,
 }
 
@@ -30,7 +30,7 @@ impl Cylinder {
         positive("cylinder", "height", self.height)
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let (radius_squared, height) = (self.radius * self.radius, self.height);
         let volume = PI * radius_squared * height;
@@ -39,7 +39,7 @@ impl Cylinder {
         MassProperties { mass, center: Vec3::zeros(), euler_tensor: Mat3::from_diagonal(&(spread * mass)), volume }
     }
 
-    /// The support function h(n) = max X·n = r |n_xy| + (h/2) |n_z| [m].
+    /// The support function h(n) = max X·n = r |n_xy| + (h/2) |n_z| \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.radius * direction.xy().norm() + 0.5 * self.height * direction.z.abs()
     }

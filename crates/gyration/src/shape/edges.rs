@@ -14,9 +14,9 @@ const LISTED: usize = 3;
 /// An edge by the points of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// One end [m].
+    /// One end \[m\].
     pub from: Vec3,
-    /// The other end [m].
+    /// The other end \[m\].
     pub to: Vec3,
 }
 

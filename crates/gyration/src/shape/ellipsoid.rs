@@ -14,7 +14,7 @@ use crate::tensor::{Mat3, Vec3};
 /// An ellipsoid with its centre at the origin and its axes along those of the frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipsoid {
-    /// a_i [m].
+    /// a_i \[m\].
     pub semi_axes: Vec3,
 }
 
@@ -27,7 +27,7 @@ impl Ellipsoid {
         self.semi_axes.iter().try_for_each(|&axis| positive("ellipsoid", "semi_axes", axis))
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let volume = 4.0 / 3.0 * PI * self.semi_axes.product();
         let mass = density * volume;
@@ -35,7 +35,7 @@ impl Ellipsoid {
         MassProperties { mass, center: Vec3::zeros(), euler_tensor, volume }
     }
 
-    /// The support function h(n) = max X·n = √(Σ a_i² n_i²) [m].
+    /// The support function h(n) = max X·n = √(Σ a_i² n_i²) \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.semi_axes.component_mul(direction).norm()
     }

@@ -28,9 +28,9 @@ pub enum ShapeError {
     /// The tube of a torus closes its hole.
     #[error("major_radius of the torus is {major} and minor_radius {minor}: major_radius must be the larger")]
     TorusWithoutHole {
-        /// Distance from the axis to the middle of the tube [m].
+        /// Distance from the axis to the middle of the tube \[m\].
         major: f64,
-        /// Radius of the tube [m].
+        /// Radius of the tube \[m\].
         minor: f64,
     },
     /// A polyhedron that does not bound a volume.

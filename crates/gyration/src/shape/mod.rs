@@ -71,9 +71,9 @@ pub enum Shape {
 /// The box along the axes that just holds a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// Smallest coordinates [m].
+    /// Smallest coordinates \[m\].
     pub min: Vec3,
-    /// Largest coordinates [m].
+    /// Largest coordinates \[m\].
     pub max: Vec3,
 }
 
@@ -104,7 +104,7 @@ impl Shape {
         each!(self, shape => Ok(shape.validate()?))
     }
 
-    /// Exact mass properties in the shape's frame for a uniform density [kg/m³].
+    /// Exact mass properties in the shape's frame for a uniform density \[kg/m³\].
     ///
     /// A union and a set of points [bring their own mass](Shape::brings_mass); the argument then multiplies it.
     pub fn mass_properties(&self, density: f64) -> MassProperties {
@@ -116,7 +116,7 @@ impl Shape {
         matches!(self, Self::Union(_) | Self::Points(_))
     }
 
-    /// The support function h(n) = max X·n over the shape [m], n of any length; the lowest point along n is at −h(−n).
+    /// The support function h(n) = max X·n over the shape \[m\], n of any length; the lowest point along n is at −h(−n).
     pub fn extent(&self, direction: &Vec3) -> f64 {
         each!(self, shape => shape.extent(direction))
     }
@@ -127,7 +127,7 @@ impl Shape {
         Bounds { min: Vec3::from_fn(|axis, _| -extent(axis, -1.0)), max: Vec3::from_fn(|axis, _| extent(axis, 1.0)) }
     }
 
-    /// The largest side of the bounding box [m], the length that tolerances refer to.
+    /// The largest side of the bounding box \[m\], the length that tolerances refer to.
     pub fn size(&self) -> f64 {
         let bounds = self.bounds();
         (bounds.max - bounds.min).max()

@@ -15,7 +15,7 @@ pub const SILHOUETTE_POINTS: usize = 400;
 /// A wireframe in the frame of its shape.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outline {
-    /// The points [m].
+    /// The points \[m\].
     pub points: Vec<Vec3>,
     /// Lines through points, by index; closed ones repeat their first point at the end.
     pub polylines: Vec<Vec<usize>>,

@@ -19,9 +19,9 @@ pub struct Points {
 /// A material point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MassPoint {
-    /// m_k [kg].
+    /// m_k \[kg\].
     pub mass: f64,
-    /// X_k, where it stands in the shape's frame [m].
+    /// X_k, where it stands in the shape's frame \[m\].
     pub at: Vec3,
 }
 
@@ -56,7 +56,7 @@ impl Points {
         MassProperties::sum(self.points.iter().map(one)).scaled(factor)
     }
 
-    /// The support function h(n) = max X_k·n [m].
+    /// The support function h(n) = max X_k·n \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.points.iter().map(|point| point.at.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
     }

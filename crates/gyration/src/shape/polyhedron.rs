@@ -18,7 +18,7 @@ use crate::tensor::{Mat3, Vec3};
 /// A closed surface of triangles.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Polyhedron {
-    /// The vertices [m].
+    /// The vertices \[m\].
     pub vertices: Vec<Vec3>,
     /// Indices of vertices, counter-clockwise seen from outside.
     pub triangles: Vec<[usize; 3]>,
@@ -88,15 +88,15 @@ pub enum PolyhedronError {
     /// All triangles lie in one plane, or have no area.
     #[error("the surface encloses no volume: {volume:e} m³ at a size of {size:e} m")]
     NoVolume {
-        /// The signed volume [m³].
+        /// The signed volume \[m³\].
         volume: f64,
-        /// Largest side of the bounding box [m].
+        /// Largest side of the bounding box \[m\].
         size: f64,
     },
     /// The triangles face inward.
     #[error("the surface faces inward (signed volume {volume:e} m³): flip all triangles")]
     InsideOut {
-        /// The signed volume [m³].
+        /// The signed volume \[m³\].
         volume: f64,
     },
 }
@@ -153,7 +153,7 @@ impl Polyhedron {
         Ok(())
     }
 
-    /// The corners of a triangle [m].
+    /// The corners of a triangle \[m\].
     pub fn corners(&self, triangle: &[usize; 3]) -> [Vec3; 3] {
         triangle.map(|index| self.vertices[index])
     }
@@ -164,7 +164,7 @@ impl Polyhedron {
         Self { vertices: self.vertices.clone(), triangles }
     }
 
-    /// Exact mass properties for a uniform density [kg/m³].
+    /// Exact mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let moments = self.moments();
         let center = moments.first / moments.volume;
@@ -193,7 +193,7 @@ impl Polyhedron {
         VolumeMoments { origin, volume, first, second }
     }
 
-    /// The area of the surface [m²].
+    /// The area of the surface \[m²\].
     pub fn area(&self) -> f64 {
         let twice = |triangle: &[usize; 3]| {
             let [a, b, c] = self.corners(triangle);
@@ -202,13 +202,13 @@ impl Polyhedron {
         0.5 * self.triangles.iter().map(twice).sum::<f64>()
     }
 
-    /// The largest side of the bounding box [m].
+    /// The largest side of the bounding box \[m\].
     fn size(&self) -> f64 {
         let extent = |axis: Vec3| self.extent(&axis) + self.extent(&-axis);
         extent(Vec3::x()).max(extent(Vec3::y())).max(extent(Vec3::z()))
     }
 
-    /// The support function h(n) = max X·n over the vertices [m].
+    /// The support function h(n) = max X·n over the vertices \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.vertices.iter().map(|vertex| vertex.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
     }

@@ -13,7 +13,7 @@ use crate::tensor::Vec3;
 /// A sphere with its centre at the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
-    /// R [m].
+    /// R \[m\].
     pub radius: f64,
 }
 
@@ -26,12 +26,12 @@ impl Sphere {
         positive("sphere", "radius", self.radius)
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         self.as_ellipsoid().mass_properties(density)
     }
 
-    /// The support function h(n) = max X·n = R |n| [m].
+    /// The support function h(n) = max X·n = R |n| \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.radius * direction.norm()
     }

@@ -14,9 +14,9 @@ use crate::tensor::{Mat3, Vec3};
 /// A torus with its centre at the origin and its axis along z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torus {
-    /// R, from the axis to the middle of the tube [m].
+    /// R, from the axis to the middle of the tube \[m\].
     pub major_radius: f64,
-    /// r, of the tube [m]; r < R.
+    /// r, of the tube \[m\]; r < R.
     pub minor_radius: f64,
 }
 
@@ -34,7 +34,7 @@ impl Torus {
         Ok(())
     }
 
-    /// Mass properties for a uniform density [kg/m³].
+    /// Mass properties for a uniform density \[kg/m³\].
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let (major_squared, minor_squared) = (self.major_radius.powi(2), self.minor_radius.powi(2));
         let volume = 2.0 * PI * PI * self.major_radius * minor_squared;
@@ -44,7 +44,7 @@ impl Torus {
         MassProperties { mass, center: Vec3::zeros(), euler_tensor: Mat3::from_diagonal(&(spread * mass)), volume }
     }
 
-    /// The support function h(n) = max X·n = R |n_xy| + r |n| [m].
+    /// The support function h(n) = max X·n = R |n_xy| + r |n| \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.major_radius * direction.xy().norm() + self.minor_radius * direction.norm()
     }

@@ -26,11 +26,11 @@ pub struct Union {
 pub struct Part {
     /// The shape in its own frame.
     pub shape: Shape,
-    /// a, where its frame's origin stands in the union's frame [m].
+    /// a, where its frame's origin stands in the union's frame \[m\].
     pub offset: Vec3,
     /// R, which turns its frame's axes to where they point in the union's frame.
     pub rotation: Mat3,
-    /// ρ [kg/m³]; for a shape that brings its own mass, a factor.
+    /// ρ \[kg/m³\]; for a shape that brings its own mass, a factor.
     pub density: f64,
 }
 
@@ -58,7 +58,7 @@ impl Union {
         MassProperties::sum(self.parts.iter().map(Part::mass_properties)).scaled(factor)
     }
 
-    /// The support function h(n) = max over the parts of a_k·n + h_k(R_kᵀn) [m].
+    /// The support function h(n) = max over the parts of a_k·n + h_k(R_kᵀn) \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.parts.iter().map(|part| part.extent(direction)).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -96,7 +96,7 @@ impl Part {
         self.shape.mass_properties(self.density).transformed(&self.rotation, &self.offset)
     }
 
-    /// The support function in the union's frame [m].
+    /// The support function in the union's frame \[m\].
     pub fn extent(&self, direction: &Vec3) -> f64 {
         self.offset.dot(direction) + self.shape.extent(&self.rotation.tr_mul(direction))
     }

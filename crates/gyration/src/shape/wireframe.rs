@@ -9,9 +9,9 @@ use super::outline::Outline;
 use super::polyhedron::Polyhedron;
 use crate::tensor::Vec3;
 
-/// The smallest angle between faces that is drawn [rad]: 15°.
+/// The smallest angle between faces that is drawn \[rad\]: 15°.
 const SHARP_ANGLE: f64 = 15.0 * std::f64::consts::PI / 180.0;
-/// Angle below which two faces are one plane [rad]; single-precision meshes stay below it.
+/// Angle below which two faces are one plane \[rad\]; single-precision meshes stay below it.
 const PLANE_ANGLE: f64 = 1e-3;
 /// Upper limit of the points of an outline.
 const OUTLINE_POINTS: usize = 2000;
