@@ -77,3 +77,36 @@ fn worst(
     }
     result
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn layout() -> Layout {
+        Layout { dimension: 3, width: 4, groups: vec![0..2, 2..3, 3..4], blocks: 2 }
+    }
+
+    #[test]
+    fn the_worst_group_counts_by_the_smaller_scale() {
+        let ones = [1.0; 4];
+        assert_eq!(norm(&layout(), &[3.0, 4.0, 0.1, 0.2], &ones, &ones), Norm { value: 12.5_f64.sqrt(), component: 1 });
+        // Little is allowed to the third component at one end, to the quadrature at the other.
+        let (start, end) = ([1.0, 1.0, 0.01, 1.0], [1.0, 1.0, 1.0, 0.001]);
+        assert_eq!(norm(&layout(), &[3.0, 4.0, 0.1, 0.0], &start, &end), Norm { value: 10.0, component: 2 });
+        assert_eq!(norm(&layout(), &[3.0, 4.0, 0.1, 0.25], &start, &end), Norm { value: 250.0, component: 3 });
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_never_allowed() {
+        let ones = [1.0; 4];
+        for error in [[f64::NAN, 0.0, 0.0, 9.0], [0.0, 9.0, 0.0, f64::NAN]] {
+            let size = norm(&layout(), &error, &ones, &ones);
+            assert!(size.value.is_nan() && error[size.component].is_nan());
+            assert!(size.allow::<()>().is_err());
+            assert!(embedded_norm(&layout(), &error, &ones, &ones, &ones).value.is_nan());
+        }
+        // A freed component is never wrong; nothing at all is no error.
+        assert_eq!(norm(&layout(), &[1e9, 0.0, 0.0, 0.0], &[f64::INFINITY; 4], &[f64::INFINITY; 4]).value, 0.0);
+        assert_eq!(embedded_norm(&layout(), &[0.0; 4], &[0.0; 4], &ones, &ones).value, 0.0);
+    }
+}
