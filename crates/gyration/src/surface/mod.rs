@@ -187,14 +187,18 @@ impl Surface {
     /// Orders above a request's are zero. `out` must be as long as `requests`.
     ///
     /// # Errors
-    /// `GapClosed` if the smallest gap is not a positive finite number; `out` is then unspecified.
+    /// `GapClosed` if the smallest gap is not a positive finite number, or over a smooth patch is positive by no more than
+    /// rounding; `out` is then unspecified.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         assert_eq!(requests.len(), out.len(), "one place for each request");
         out.fill(Moments::default());
         self.facets.moments(field, requests, out)?;
         for patch in &self.patches {
-            let gap = field.gap(&patch.support(&-field.direction));
-            if !gap.is_finite() || gap <= 0.0 {
+            let point = patch.support(&-field.direction);
+            let (gap, fall) = (field.gap(&point), field.direction.dot(&point));
+            // A gap within the rounding of its two terms has no known sign.
+            let rounding = 16.0 * f64::EPSILON * (field.height.abs() + fall.abs());
+            if !gap.is_finite() || gap <= rounding {
                 return Err(GapClosed { gap });
             }
             patch.add_moments(field, requests, out);

@@ -1,7 +1,7 @@
 //! A smooth primitive somewhere in a body: X = offset + Q Y.
 //!
 //! Moments are computed in the primitive's frame, where the gap is g₀' + m'·Y with g₀' = g₀ + m·offset, m' = Qᵀm,
-//! and carried back by [`Moments::carried`], the only place where tensors change frame. Support points give the
+//! and carried back by `Moments::carried`, the only place where tensors change frame. Support points give the
 //! smallest gap, and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the
 //! support point along its gradient Aᵀ(v + A X) never lowers it.
 

@@ -26,8 +26,8 @@ pub struct Ellipsoid {
     pub semi_axes: Vec3,
 }
 
-/// The largest relative error of the trapezoidal rule, as a natural logarithm.
-const AZIMUTH_DIGITS: f64 = 22.0;
+/// The e-folds of e^(−Nη) asked for; the zeros of |B s|² are branch points, whose error is 1e-3 of that.
+const AZIMUTH_DIGITS: f64 = 20.0;
 
 impl Ellipsoid {
     /// The area ∫ |B s| dΩ [m²].
@@ -144,8 +144,8 @@ impl AreaElement {
 fn half_circle(points: f64) -> &'static [(f64, f64)] {
     /// The k-th table divides the circle into k times as many parts, up to `FINE`; then they double.
     const UNIT: usize = 8;
-    const FINE: usize = 16;
-    const TABLES: usize = FINE + 6;
+    const FINE: usize = 32;
+    const TABLES: usize = FINE + 5;
     static CIRCLES: [OnceLock<Vec<(f64, f64)>>; TABLES] = [const { OnceLock::new() }; TABLES];
     let units = (points / UNIT as f64).ceil().clamp(1.0, 1e6);
     let index = if units <= FINE as f64 {

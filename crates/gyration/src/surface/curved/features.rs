@@ -27,6 +27,9 @@ const MOST: usize = 5;
 /// Digits of the result, as a natural logarithm.
 const DIGITS: f64 = 24.0;
 
+/// The same where the area element is singular: branch points, whose error is 1e-3 of that of a pole.
+const AREA_DIGITS: f64 = 20.0;
+
 /// Dips narrower than this get intervals of their own; wider ones only more points.
 const NARROW: f64 = 0.25;
 
@@ -54,7 +57,7 @@ impl Features {
         if share < 1.0 - 1e-9 {
             let distance = share.atanh();
             for at in [at, PI - at] {
-                self.singularities[self.count] = Singularity { at, distance, digits: DIGITS };
+                self.singularities[self.count] = Singularity { at, distance, digits: AREA_DIGITS };
                 self.count += 1;
             }
         }

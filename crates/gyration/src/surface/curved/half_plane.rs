@@ -52,30 +52,6 @@ impl TiltedGap {
 pub(crate) struct HalfPlane(pub(crate) [f64; 10]);
 
 impl HalfPlane {
-    /// Adds a point of weight w.
-    #[inline]
-    pub(crate) fn add_point(&mut self, w: f64, rho: f64, z: f64, order: usize) {
-        let s = &mut self.0;
-        s[0] += w;
-        let (wr, wz) = (w * rho, w * z);
-        s[1] += wr;
-        s[2] += wz;
-        if order < 2 {
-            return;
-        }
-        let (wrr, wrz, wzz) = (wr * rho, wr * z, wz * z);
-        s[3] += wrr;
-        s[4] += wrz;
-        s[5] += wzz;
-        if order < 3 {
-            return;
-        }
-        s[6] += wrr * rho;
-        s[7] += wrr * z;
-        s[8] += wrz * z;
-        s[9] += wzz * z;
-    }
-
     /// The half-plane of a straight line on which ∫ κ z^j dz is `line[j]` and ρ is constant.
     #[inline]
     pub(crate) fn parallel(line: &[f64; 4], rho: f64) -> Self {

@@ -45,7 +45,8 @@ pub(crate) struct Demand {
 impl Ring {
     /// The rule for gaps between `near` and `far` ≥ `near` > 0.
     pub(crate) fn new(near: f64, far: f64, demand: &Demand) -> Self {
-        let p = (near / far).sqrt().min(1.0);
+        // Below 1e-9 the gap is lost in the rounding of a and b.
+        let p = (near / far).sqrt().clamp(1e-9, 1.0);
         let k = (1.0 - p * p).max(0.0).sqrt();
         let quarter = FRAC_PI_2 / mean(p);
         let height = FRAC_PI_2 / mean(k.max(1e-8));

@@ -13,7 +13,6 @@ use std::f64::consts::PI;
 use super::super::power::LineKernel;
 use super::super::{GapField, MomentRequest, Moments};
 use super::half_plane::Chart;
-use super::integrand::Lines;
 use crate::tensor::{Mat3, Vec3};
 
 /// A sphere about the origin.
@@ -37,8 +36,8 @@ impl Sphere {
     /// Sums the moments in a frame with z along c; every gap must be positive.
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
         let reach = self.radius * field.direction.norm();
-        for ((kernel, request), moments) in Lines::new(requests).iter().zip(requests).zip(out) {
-            let u = height_moments(kernel, field.height, reach, -1.0, 1.0, request.order);
+        for (request, moments) in requests.iter().zip(out) {
+            let u = height_moments(&LineKernel::new(request.kernel), field.height, reach, -1.0, 1.0, request.order);
             add_zone(self.radius, request.order, &u, moments);
         }
         Chart::frame(frame_along(&field.direction))

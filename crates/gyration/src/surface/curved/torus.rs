@@ -95,7 +95,11 @@ impl Torus {
                 }
             }
         }
-        cosines.map(|sums| self.half_plane(&sums, tube.facing))
+        let mut planes = [HalfPlane::default(); GROUP];
+        for (plane, sums) in planes.iter_mut().zip(&cosines).take(integrand.count()) {
+            *plane = self.half_plane(sums, tube.facing);
+        }
+        planes
     }
 
     /// The sums S_ij = ∫ κ ρ^i z^j r ρ dθ from ∫ κ cosᵏθ dθ, k = 0 … 4.
