@@ -57,15 +57,13 @@ impl Ellipsoid {
         let element = AreaElement::new(&cofactor, &frame);
         let integrand = Integrand::new(requests);
         let features = Features::new(near, near + 2.0 * reach, &cofactor, &frame.column(2).into(), &integrand);
-        let drop = 0.5 * (integrand.cut(near, 1.0) - near) / reach;
-        let last = if drop < 1.0 { 2.0 * drop.sqrt().asin() } else { PI };
-        for (interval, points) in features.intervals(last) {
+        for (interval, points) in features.intervals() {
             for node in interval.nodes(points) {
                 let half = (0.5 * node.at).sin();
                 let gap = near + 2.0 * reach * half * half;
                 // Parallels that count less need fewer digits.
-                let spared = (integrand.mildest - 1.0).max(0.0) * (gap / near).ln();
-                let parallel = element.parallel(node.at, node.weight, AZIMUTH_DIGITS - spared, integrand.order);
+                let digits = AZIMUTH_DIGITS - features.spared(node.at);
+                let parallel = element.parallel(node.at, node.weight, digits, integrand.order);
                 for ((value, request), moments) in integrand.at(gap).iter().zip(requests).zip(out.iter_mut()) {
                     parallel.add(*value, request.order, moments);
                 }

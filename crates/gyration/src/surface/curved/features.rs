@@ -16,19 +16,21 @@ use crate::tensor::Vec3;
 pub(super) struct Features {
     singularities: [Singularity; MOST],
     count: usize,
-    /// Where the gap, as a share of the smallest, is read: κ has fallen by (d/near)^−mildness.
+    /// Half of this is how much the gap rises from θ = 0 to ½π, as a share of the smallest.
     rise: f64,
+    /// Parallels weigh as (d/near)^−mildness, at most e^excess times more where |B s| is larger than at the lowest point.
     mildness: f64,
+    excess: f64,
 }
 
 /// The gap, the two ends of the longest axis, two tangents of the great circle.
 const MOST: usize = 5;
 
 /// Digits of the result, as a natural logarithm.
-const DIGITS: f64 = 24.0;
+const DIGITS: f64 = 25.0;
 
-/// The same where the area element is singular: branch points, whose error is 1e-3 of that of a pole.
-const AREA_DIGITS: f64 = 20.0;
+/// The same where the area element dips: a few more, since κ is not smallest there.
+const AREA_DIGITS: f64 = 28.0;
 
 /// Dips narrower than this get intervals of their own; wider ones only more points.
 const NARROW: f64 = 0.25;
@@ -39,8 +41,9 @@ impl Features {
         let grazing = 2.0 * (near / far).sqrt().min(1.0 - 1e-9).atanh();
         let pole = Singularity { at: 0.0, distance: grazing, digits: DIGITS + 1.6 * integrand.sharpest.max(0.0) };
         let mildness = (integrand.mildest - 1.0).max(0.0);
-        let mut features = Self { singularities: [pole; MOST], count: 1, rise: far / near - 1.0, mildness };
         let (i, j) = (cofactor.imin(), cofactor.imax());
+        let excess = (cofactor[j] * mildness.max(1.0) / cofactor.component_mul(lowest).norm()).ln();
+        let mut features = Self { singularities: [pole; MOST], count: 1, rise: far / near - 1.0, mildness, excess };
         features.push_pair(lowest[i].abs().min(1.0).acos(), cofactor[i] / cofactor[j]);
         let mut touching = *lowest;
         touching[j] = 0.0;
@@ -69,8 +72,23 @@ impl Features {
         self.singularities[..self.count].iter().map(distance).fold(2.0, f64::min)
     }
 
-    /// The intervals that cover 0 ≤ θ ≤ `last`, each with its number of points.
-    pub(super) fn intervals(&self, last: f64) -> impl Iterator<Item = (GradedInterval, usize)> + '_ {
+    /// The e-folds by which the parallel at θ weighs less than the lowest part of the surface.
+    pub(super) fn spared(&self, theta: f64) -> f64 {
+        let half = (0.5 * theta).sin();
+        (self.mildness * (self.rise * half * half).ln_1p() - self.excess).max(0.0)
+    }
+
+    /// The angle beyond which parallels are negligible, or π.
+    fn last(&self) -> f64 {
+        /// e^−28 ≈ 1e-12.
+        const NEGLIGIBLE: f64 = 28.0;
+        let drop = ((NEGLIGIBLE + self.excess) / self.mildness).exp_m1() / self.rise;
+        if drop < 1.0 { 2.0 * drop.sqrt().asin() } else { PI }
+    }
+
+    /// The intervals that cover 0 ≤ θ ≤ π as far as it counts, each with its number of points.
+    pub(super) fn intervals(&self) -> impl Iterator<Item = (GradedInterval, usize)> + '_ {
+        let last = self.last();
         let mut breaks = [last; MOST + 2];
         breaks[0] = 0.0;
         let mut count = 1;
@@ -93,8 +111,7 @@ impl Features {
 
     /// The singularities with the digits that matter where κ has fallen to its value at θ.
     fn resolved(&self, theta: f64) -> [Singularity; MOST] {
-        let half = (0.5 * theta).sin();
-        let spared = self.mildness * (self.rise * half * half).ln_1p();
+        let spared = self.spared(theta);
         self.singularities.map(|s| Singularity { digits: (s.digits - spared).max(4.0), ..s })
     }
 }
