@@ -25,25 +25,35 @@ impl Moments {
         }
     }
 
-    /// The moments of the same weights at the points offset + linear · Y; orders above `order` are left at zero.
+    /// The moments of the same weights at the points offset + linear · Y, up to `order`.
     pub(crate) fn carried(&self, linear: &Mat3, offset: &Vec3, order: usize) -> Self {
         let mut out = Self { zeroth: self.zeroth, ..Self::default() };
-        if order == 0 {
-            return out;
+        if order >= 1 {
+            out.first = linear * self.first;
         }
-        let first = linear * self.first;
-        out.first = first + self.zeroth * offset;
-        if order == 1 {
-            return out;
+        if order >= 2 {
+            out.second = linear * self.second * linear.transpose();
         }
-        let second = linear * self.second * linear.transpose();
-        let cross = first * offset.transpose();
-        out.second = second + cross + cross.transpose() + self.zeroth * offset * offset.transpose();
         if order >= 3 {
             out.third = map_third(&self.third, linear);
-            add_offset_terms(self.zeroth, &first, &second, offset, &mut out.third);
         }
+        out.shift(offset, order);
         out
+    }
+
+    /// Replaces the points Y by offset + Y, up to `order`.
+    pub(crate) fn shift(&mut self, offset: &Vec3, order: usize) {
+        // From the highest order down, since each needs the lower ones about the old origin.
+        if order >= 3 {
+            add_offset_terms(self.zeroth, &self.first, &self.second, offset, &mut self.third);
+        }
+        if order >= 2 {
+            let cross = (self.first + 0.5 * self.zeroth * offset) * offset.transpose();
+            self.second += cross + cross.transpose();
+        }
+        if order >= 1 {
+            self.first += self.zeroth * offset;
+        }
     }
 }
 

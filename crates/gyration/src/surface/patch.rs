@@ -90,7 +90,11 @@ impl Patch {
             let mut sums = [Moments::default(); GROUP];
             let sums = &mut sums[..requests.len()];
             let chart = match &self.primitive {
-                Primitive::Sphere(p) => p.moments(&own, requests, sums),
+                Primitive::Sphere(p) => {
+                    // A sphere has no attitude, and is so cheap that a change of frame would double its cost.
+                    p.add_moments(&self.offset, field, requests, out);
+                    continue;
+                }
                 Primitive::Hemisphere(p) => p.moments(&own, requests, sums),
                 Primitive::Ellipsoid(p) => p.moments(&own, requests, sums),
                 Primitive::CylinderWall(p) => p.moments(&own, requests, sums),

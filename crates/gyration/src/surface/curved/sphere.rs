@@ -8,11 +8,10 @@
 //! is left:  A₀ = 2πR² U₀,  A₁ = 2πR³ U₁ c,  A₂ = 2πR⁴ [U₂ c⊗c + ½(U₀ − U₂)(I − c⊗c)], and A₃ likewise with U₁, U₃.
 //! The U_k are moments along a segment, u = 2x − 1, in closed form.
 
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 
 use super::super::power::LineKernel;
 use super::super::{GapField, MomentRequest, Moments};
-use super::half_plane::Chart;
 use crate::tensor::{Mat3, Vec3};
 
 /// A sphere about the origin.
@@ -25,7 +24,7 @@ pub struct Sphere {
 impl Sphere {
     /// 4πR² [m²].
     pub fn area(&self) -> f64 {
-        4.0 * PI * self.radius * self.radius
+        2.0 * TAU * self.radius * self.radius
     }
 
     /// The point farthest along `direction`.
@@ -33,15 +32,43 @@ impl Sphere {
         self.radius * unit_or_z(direction)
     }
 
-    /// Sums the moments in a frame with z along c; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
-        let reach = self.radius * field.direction.norm();
+    /// Adds the moments of a sphere about `center` to those about the origin; every gap must be positive.
+    pub(crate) fn add_moments(&self, center: &Vec3, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
+        let slope = field.direction.norm();
+        let axis = unit_or_z(&field.direction);
         for (request, moments) in requests.iter().zip(out) {
-            let u = height_moments(&LineKernel::new(request.kernel), field.height, reach, -1.0, 1.0, request.order);
-            add_zone(self.radius, request.order, &u, moments);
+            let kernel = LineKernel::new(request.kernel);
+            let u = height_moments(&kernel, field.gap(center), self.radius * slope, -1.0, 1.0, request.order);
+            let mut sum = axial(self.radius, &axis, request.order, &u);
+            sum.shift(center, request.order);
+            moments.add(&sum, request.order);
         }
-        Chart::frame(frame_along(&field.direction))
     }
+}
+
+/// The moments of a density on a sphere that depends on the height u along `axis` only, from its moments U_k.
+fn axial(radius: f64, axis: &Vec3, order: usize, u: &[f64; 4]) -> Moments {
+    let scale = TAU * radius * radius;
+    let mut out = Moments { zeroth: scale * u[0], ..Moments::default() };
+    if order >= 1 {
+        out.first = scale * radius * u[1] * axis;
+    }
+    if order >= 2 {
+        let squared = scale * radius * radius;
+        let across = 0.5 * squared * (u[0] - u[2]);
+        out.second = Mat3::from_diagonal_element(across) + (squared * u[2] - across) * axis * axis.transpose();
+    }
+    if order >= 3 {
+        // U₃ c⊗c⊗c + ½(U₁ − U₃) (c⊗(I − c⊗c) and its two permutations).
+        let cubed = scale * radius * radius * radius;
+        let across = 0.5 * cubed * (u[1] - u[3]);
+        out.third.add_point(cubed * u[3] - 3.0 * across, axis);
+        let (x, y, z) = (across * axis.x, across * axis.y, across * axis.z);
+        for (sum, entry) in out.third.0.iter_mut().zip([3.0 * x, y, z, x, 0.0, x, 3.0 * y, z, y, 3.0 * z]) {
+            *sum += entry;
+        }
+    }
+    out
 }
 
 /// The unit vector along `v`; e_z where v vanishes, since then every direction serves.
@@ -86,7 +113,7 @@ pub(super) fn shifted(line: &[f64], from: f64, span: f64) -> [f64; 4] {
 
 /// Adds a zone between two parallels of a sphere, from its moments U_k along the axis z.
 pub(super) fn add_zone(radius: f64, order: usize, u: &[f64; 4], out: &mut Moments) {
-    let scale = 2.0 * PI * radius * radius;
+    let scale = TAU * radius * radius;
     out.zeroth += scale * u[0];
     if order >= 1 {
         out.first.z += scale * radius * u[1];
