@@ -5,6 +5,9 @@
 //! count a row that is not there, and the checkpoint never one that the metadata do not count. To resume is to cut
 //! back to the checkpoint's rows and to go on. A new recording grows as `NAME.gyr.part` and gets its name at the first
 //! flush: a recording that exists has its scene, its first row and a checkpoint. No clock is read here.
+//!
+//! Readers that ignore consolidated metadata see a file an array; a crash among the renames of step 2 leaves those, and
+//! nothing else, of two lengths until the run is resumed.
 
 use crate::Attributes;
 use crate::checkpoint::Checkpoint;

@@ -108,6 +108,34 @@ fn a_finished_recording_can_be_continued_with_other_attributes() {
 }
 
 #[test]
+fn resuming_cuts_off_all_that_lies_beyond_the_checkpoint() {
+    let folder = tempdir().unwrap();
+    // In the middle of a chunk of four, and at its end.
+    for kept in [6, 8] {
+        let (path, whole) = (folder.path().join("run.gyr"), folder.path().join("whole.gyr"));
+        for (path, rows) in [(&whole, kept), (&path, 19)] {
+            let mut writer = Writer::create(path, &layout(4), Attributes::new()).unwrap();
+            write_to(&mut writer, kept, usize::MAX).unwrap();
+            writer.flush(&checkpoint(kept)).unwrap();
+            // Full chunks beyond the flush reach the disk, but nothing counts them.
+            write_to(&mut writer, rows, usize::MAX).unwrap();
+        }
+        assert!(path.join("time/c.3").exists() && !whole.join("time/c.3").exists());
+        for left in ["zarr.json.part", "time/c.4.part", "state/checkpoint.part"] {
+            fs::write(path.join(left), "half").unwrap();
+        }
+        for path in [&whole, &path] {
+            let resumed = Writer::resume(path).unwrap();
+            assert_eq!(resumed.writer.rows(), kept);
+            resumed.writer.finish(Attributes::new(), &checkpoint(kept)).unwrap();
+        }
+        assert!(tree(&path) == tree(&whole), "{kept} rows kept");
+        remove(&path).unwrap();
+        remove(&whole).unwrap();
+    }
+}
+
+#[test]
 fn rows_of_the_wrong_length_unknown_events_and_reserved_attributes_change_nothing() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("run.gyr");
