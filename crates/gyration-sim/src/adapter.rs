@@ -110,19 +110,19 @@ impl System for ModelSystem<'_> {
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);
-            // Far from the origin the rounding of p₀ itself is all that can be had.
-            let rounding = 4.0 * f64::EPSILON * motion.placement.position.norm();
+            // The rounding of the places from which the gap is computed is all that can be had.
+            let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);
             let velocity = atol * self.speeds[index] + rtol * speed;
             let scales = &mut y_scale[block.clone()];
             match (&body.kind, &body.pin) {
                 (BodyKind::Rigid(_), None) => {
                     scales[..3].fill(length + rounding);
-                    scales[3..7].fill(length / body.size);
+                    scales[3..7].fill((length + rounding) / body.size);
                     scales[7..10].fill(velocity);
                     scales[10..].fill(velocity / body.size);
                 }
                 (BodyKind::Rigid(_), Some(_)) => {
-                    scales[..4].fill(length / body.size);
+                    scales[..4].fill((length + rounding) / body.size);
                     scales[4..].fill(velocity / body.size);
                 }
             }

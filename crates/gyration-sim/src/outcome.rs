@@ -127,10 +127,7 @@ impl Stop {
         let (reason, what, advice) = match left.quantity {
             Quantity::Gap { support } => (
                 Reason::GapClosed,
-                format!(
-                    "body {body:?} reaches support {:?} (smallest gap {:e} m)",
-                    model.supports[support].name, left.value
-                ),
+                format!("body {body:?} reaches support {:?}{}", model.supports[support].name, in_brackets(left.value)),
                 "No law forbids this touch at this speed: raise an exponent (see `gyration check` \
                  for the critical one), a coefficient, or reduce the speed."
                     .to_string(),
@@ -148,6 +145,11 @@ impl Stop {
         };
         Self { time, reason, body: Some(body), what, advice }
     }
+}
+
+/// The gap, if the last attempt left one to tell.
+fn in_brackets(gap: f64) -> String {
+    if gap.is_finite() { format!(" (smallest gap tried {gap:e} m)") } else { String::new() }
 }
 
 fn owner(model: &Model, index: usize) -> Option<String> {

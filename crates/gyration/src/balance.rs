@@ -7,11 +7,11 @@
 //! of the ledger is (Σ energies) − (Σ energies at 0) − Σ works. Source: `physics.md` §2, §3, §6.
 
 use crate::body::Body;
-use crate::contact::{Action, Contact, Term};
+use crate::contact::{Action, Contact, ContactLoads, Term};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{Workspace, contact_loads, meet};
+use crate::rates::{Meeting, Workspace, for_each_contact, meet};
 use crate::state::{BodyMotion, State};
 use crate::surface::{GapClosed, GapField, Kernel, MomentRequest, Moments, Surface};
 use crate::tensor::{Mat3, Vec3};
@@ -96,8 +96,10 @@ pub fn observe(
     let body = &model.bodies[index];
     let motion = state.motion(model, index);
     let mut loads = Loads::default();
-    contact_loads(model, workspace, state.time, index, &motion, false, |_, contact| {
-        loads += contact.total();
+    for_each_contact(model, state.time, index, &motion, |meeting| {
+        let Meeting { contact, surface, field, motion } = meeting;
+        loads += ContactLoads::integrate(contact, surface, field, *motion, &mut workspace.contact)?.total();
+        Ok(())
     })?;
     let (placement, velocity) = (&motion.placement, &motion.velocity);
     let affine_momentum = placement.gradient * body.mass.euler_tensor * velocity.gradient_rate.transpose();

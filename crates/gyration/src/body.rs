@@ -92,8 +92,9 @@ impl RigidInertia {
         let tensor = Mat3::from_diagonal_element(euler.trace()) - euler;
         let principal = tensor.symmetric_eigenvalues();
         let (smallest, largest) = (principal.min(), principal.max());
-        match tensor.try_inverse() {
-            Some(inverse) if smallest > SINGULAR_RATIO * largest => Ok(Self { tensor, inverse }),
+        // Scaled, so that the determinant neither under- nor overflows for a grain or a mountain.
+        match (tensor / largest).try_inverse() {
+            Some(inverse) if smallest > SINGULAR_RATIO * largest => Ok(Self { tensor, inverse: inverse / largest }),
             _ => Err(SingularInertia { smallest, largest }),
         }
     }

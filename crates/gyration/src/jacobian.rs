@@ -8,12 +8,12 @@
 //! δθ = 2 vec(q⁻¹ ∘ δq). A pinned body's centre follows its rotation: δp₀ = −δR r, δṗ₀ = −δṖ r.
 
 use crate::body::{Body, BodyKind, RigidInertia};
-use crate::contact::{ContactLoads, GapDirection};
+use crate::contact::ContactSlopes;
 use crate::inadmissible::Inadmissible;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{Loads, SpringLoads};
 use crate::model::Model;
-use crate::rates::{Workspace, contact_loads, spring_loads};
+use crate::rates::{Meeting, Workspace, for_each_contact, spring_loads};
 use crate::state::BodyMotion;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 use nalgebra::DMatrix;
@@ -49,17 +49,17 @@ pub fn jacobian(
     Ok(())
 }
 
-/// The loads and their change along the directions of a rigid body: translation, turn, velocity, spin (3 each).
+/// The directions of a rigid body (translation, turn, velocity, spin, 3 each), and the loads and their changes.
 struct RigidColumns {
+    directions: [Direction; 12],
     loads: Loads,
     along: [Loads; 12],
 }
 
-/// The twelve directions of a free rigid body; a pinned one uses the turns and the spins.
+/// One of the twelve directions of a free rigid body; a pinned one uses the turns and the spins.
 fn direction(body: &Body, motion: &BodyMotion, number: usize) -> Direction {
     let rotation = &motion.placement.gradient;
-    let mut unit = Vec3::zeros();
-    unit[number % 3] = 1.0;
+    let unit = Vec3::ith(number % 3, 1.0);
     let (mut turn, mut spin) = (Vec3::zeros(), Vec3::zeros());
     let mut placement = Placement { position: Vec3::zeros(), gradient: Mat3::zeros() };
     let mut velocity = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
@@ -91,34 +91,38 @@ fn rigid_columns(
     motion: &BodyMotion,
 ) -> Result<RigidColumns, Inadmissible> {
     let body = &model.bodies[index];
-    let mut columns = RigidColumns { loads: Loads::default(), along: [Loads::default(); 12] };
-    let numbers = if body.pin.is_some() { [3..6, 9..12] } else { [0..6, 6..12] };
-    contact_loads(model, workspace, time, index, motion, true, |support, contact| {
-        columns.loads += contact.total();
-        let normal = &model.supports[support].normal;
-        for number in numbers.clone().into_iter().flatten() {
-            let direction = direction(body, motion, number);
-            columns.along[number] += contact_along(contact, normal, &direction);
+    let directions = std::array::from_fn(|number| direction(body, motion, number));
+    let mut columns = RigidColumns { directions, loads: Loads::default(), along: [Loads::default(); 12] };
+    for_each_contact(model, time, index, motion, |meeting| {
+        let Meeting { contact, surface, field, motion } = meeting;
+        let slopes = ContactSlopes::integrate(contact, surface, field, *motion, &mut workspace.contact)?;
+        columns.loads += slopes.total;
+        for (number, (direction, along)) in columns.directions.iter().zip(&mut columns.along).enumerate() {
+            *along += contact_along(&slopes, &motion.normal, number, direction, body.pin.is_some());
         }
+        Ok(())
     })?;
     spring_loads(index, body, motion, |spring: &SpringLoads| {
         columns.loads += spring.total();
-        for number in numbers.clone().into_iter().flatten() {
-            let direction = direction(body, motion, number);
-            columns.along[number] += spring.along(&direction.placement, &direction.velocity);
+        for (direction, along) in columns.directions.iter().zip(&mut columns.along) {
+            *along += spring.along(&direction.placement, &direction.velocity);
         }
     })?;
     Ok(columns)
 }
 
 /// The change of a contact's loads along one direction: δg₀ = n·δp₀, δm = δPᵀn, δw₀ = δṗ₀, δW = δṖ.
-fn contact_along(contact: &ContactLoads, normal: &Vec3, direction: &Direction) -> Loads {
-    let gap = GapDirection {
-        height: normal.dot(&direction.placement.position),
-        direction: direction.placement.gradient.tr_mul(normal),
-    };
-    let mut change = contact.along_gap(&gap);
-    change += contact.along_velocity(&direction.velocity.velocity, &direction.velocity.gradient_rate);
+///
+/// Translations and turns move the gaps; turns, velocities and spins the velocities (of a pinned body, the same).
+fn contact_along(slopes: &ContactSlopes, normal: &Vec3, number: usize, direction: &Direction, pinned: bool) -> Loads {
+    let Direction { placement, velocity, .. } = direction;
+    let mut change = Loads::default();
+    if number < 6 {
+        change += slopes.along_gap(normal.dot(&placement.position), &placement.gradient.tr_mul(normal));
+    }
+    if number >= 3 || pinned {
+        change += slopes.along_velocity(&velocity.velocity, &velocity.gradient_rate);
+    }
     change
 }
 
@@ -136,9 +140,8 @@ fn fill_rigid(
     let (quaternion_at, spin_at) = if free { (3, 10) } else { (0, 4) };
     let mut accelerations = [(Vec3::zeros(), Vec3::zeros()); 12];
     for (number, acceleration) in accelerations.iter_mut().enumerate() {
-        let direction = direction(body, motion, number);
         let loads = (&columns.loads, &columns.along[number]);
-        *acceleration = rigid_acceleration(model, body, inertia, motion, &direction, loads);
+        *acceleration = rigid_acceleration(model, body, inertia, motion, &columns.directions[number], loads);
     }
     let mut write = |column: usize, (linear, angular): &(Vec3, Vec3)| {
         if free {

@@ -9,12 +9,12 @@
 
 use crate::balance::Work;
 use crate::body::{Body, BodyKind, RigidInertia};
-use crate::contact::{ContactLoads, ContactScratch, LawKind, RelativeMotion};
+use crate::contact::{Contact, ContactLoads, ContactScratch, LawKind, RelativeMotion};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::{Loads, SpringLoads};
 use crate::model::Model;
 use crate::state::BodyMotion;
-use crate::surface::GapField;
+use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::Vec3;
 
 /// Scratch of the mechanics, reused from call to call.
@@ -41,18 +41,21 @@ pub fn rates(
     for (index, (body, block)) in model.bodies.iter().zip(model.blocks()).enumerate() {
         let motion = BodyMotion::unpack(body, &bodies[block.clone()]);
         let mut loads = Loads::default();
-        contact_loads(model, workspace, time, index, &motion, false, |support, contact| {
-            let total = contact.total();
-            let carried = model.supports[support].motion.velocity(time);
+        for_each_contact(model, time, index, &motion, |meeting| {
+            let Meeting { contact, surface, field, motion } = meeting;
+            let contact_loads = ContactLoads::integrate(contact, surface, field, *motion, &mut workspace.contact)?;
+            let total = contact_loads.total();
+            let carried = model.supports[contact.support].motion.velocity(time);
             for (work, power) in model.works().iter().zip(powers.iter_mut()) {
                 *power += match work {
-                    Work::Damping => contact.relative_power(LawKind::Damping),
-                    Work::Friction => contact.relative_power(LawKind::Friction),
+                    Work::Damping => contact_loads.relative_power(LawKind::Damping),
+                    Work::Friction => contact_loads.relative_power(LawKind::Friction),
                     Work::Support => total.force.dot(&carried),
                     _ => 0.0,
                 };
             }
             loads += total;
+            Ok(())
         })?;
         spring_loads(index, body, &motion, |spring| {
             if let Some(at) = model.works().iter().position(|work| *work == Work::Load) {
@@ -69,15 +72,25 @@ pub fn rates(
     Ok(())
 }
 
-/// Hands the loads of each contact of a body to `each`, with the support's index.
-pub(crate) fn contact_loads(
+/// A gap below this fraction of the lengths from which it is computed cannot be told from zero: rounding alone would
+/// change the forces by more than any tolerance.
+const RESOLUTION: f64 = 64.0 * f64::EPSILON;
+
+/// A contact of a body at one instant: what its integrals need.
+pub(crate) struct Meeting<'a> {
+    pub contact: &'a Contact,
+    pub surface: &'a Surface,
+    pub field: GapField,
+    pub motion: RelativeMotion,
+}
+
+/// Hands each contact of a body to `each`, and says which support a closed gap belongs to.
+pub(crate) fn for_each_contact(
     model: &Model,
-    workspace: &mut Workspace,
     time: f64,
     index: usize,
     motion: &BodyMotion,
-    derivatives: bool,
-    mut each: impl FnMut(usize, &ContactLoads),
+    mut each: impl FnMut(&Meeting) -> Result<(), GapClosed>,
 ) -> Result<(), Inadmissible> {
     let body = &model.bodies[index];
     let Some(surface) = &body.surface else {
@@ -85,12 +98,14 @@ pub(crate) fn contact_loads(
     };
     for contact in &body.contacts {
         let (field, relative) = meet(model, contact.support, time, motion);
-        let scratch = &mut workspace.contact;
-        let loads =
-            ContactLoads::integrate(contact, surface, &field, relative, derivatives, scratch).map_err(|closed| {
-                Inadmissible { body: index, quantity: Quantity::Gap { support: contact.support }, value: closed.gap }
-            })?;
-        each(contact.support, &loads);
+        let (gap, _) = surface.smallest_gap(&field);
+        let resolved = gap > RESOLUTION * (body.size + field.height.abs());
+        let meeting = Meeting { contact, surface, field, motion: relative };
+        let result = if resolved { each(&meeting) } else { Err(GapClosed { gap }) };
+        result.map_err(|closed| {
+            let quantity = Quantity::Gap { support: contact.support };
+            Inadmissible { body: index, quantity, value: closed.gap }
+        })?;
     }
     Ok(())
 }

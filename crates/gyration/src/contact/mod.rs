@@ -23,7 +23,7 @@ pub use damping::Damping;
 pub use friction::Friction;
 pub use plan::{Contact, ContactScratch};
 pub use repulsion::Repulsion;
-pub use resultant::{ContactLoads, GapDirection, RelativeMotion};
+pub use resultant::{ContactLoads, ContactSlopes, RelativeMotion};
 
 /// In which measure of area the tractions are given; on a rigid body all three are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -26,16 +26,7 @@ pub struct RelativeMotion {
     pub gradient_rate: Mat3,
 }
 
-/// An increment of the gap field: δd(X) = δg₀ + δm·X.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GapDirection {
-    /// δg₀ [m].
-    pub height: f64,
-    /// δm.
-    pub direction: Vec3,
-}
-
-/// The sums of coefficient × moment over the terms of one action.
+/// The sums of coefficient × moment over the terms of one law or action.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     zeroth: f64,
@@ -44,10 +35,12 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, coefficient: f64, zeroth: f64, first: &Vec3, second: &Mat3) {
-        self.zeroth += coefficient * zeroth;
-        self.first += coefficient * first;
-        self.second += coefficient * second;
+    fn add(&mut self, coefficient: f64, action: Action, moments: &Moments) {
+        self.zeroth += coefficient * moments.zeroth;
+        self.first += coefficient * moments.first;
+        if action != Action::Central {
+            self.second += coefficient * moments.second;
+        }
     }
 
     fn central(&self, normal: &Vec3) -> Loads {
@@ -63,33 +56,32 @@ impl Sums {
     }
 
     fn tangential(&self, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
-        let normal = self.normal(n, velocity, gradient_rate);
         let force = -(velocity * self.zeroth + gradient_rate * self.first);
         let moment = -(velocity * self.first.transpose() + gradient_rate * self.second);
-        Loads { force: force - normal.force, moment: moment - normal.moment }
+        // Less what of it is along n: the projection (I − n⊗n) from the left.
+        Loads { force: force - n * n.dot(&force), moment: moment - n * moment.tr_mul(n).transpose() }
     }
 
-    fn act(&self, kind: LawKind, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
-        match kind {
-            LawKind::Repulsion | LawKind::Adhesion => self.central(n),
-            LawKind::Damping => self.normal(n, velocity, gradient_rate),
-            LawKind::Friction => self.tangential(n, velocity, gradient_rate),
+    fn act(&self, action: Action, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
+        match action {
+            Action::Central => self.central(n),
+            Action::Normal => self.normal(n, velocity, gradient_rate),
+            Action::Tangential => self.tangential(n, velocity, gradient_rate),
         }
     }
 }
 
-/// The loads of one contact, law by law, and what their derivatives need.
+const ACTIONS: [Action; 3] = [Action::Central, Action::Normal, Action::Tangential];
+
+/// The loads of one contact, law by law.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactLoads {
     motion: RelativeMotion,
-    sums: [Sums; LawKind::COUNT],
-    /// −ν × moments of exponent ν + 1: the derivative of `sums` along δg₀ and along the axes of δm.
-    slopes: [[Sums; 4]; LawKind::COUNT],
-    active: [bool; LawKind::COUNT],
+    loads: [Loads; LawKind::COUNT],
 }
 
 impl ContactLoads {
-    /// Integrates the laws of a contact over a surface; with the slopes too if `derivatives`.
+    /// Integrates the laws of a contact over a surface.
     ///
     /// # Errors
     /// [`GapClosed`] if a point of the surface lies on or behind the plane.
@@ -98,84 +90,123 @@ impl ContactLoads {
         surface: &Surface,
         field: &GapField,
         motion: RelativeMotion,
-        derivatives: bool,
         scratch: &mut ContactScratch,
     ) -> Result<Self, GapClosed> {
-        let requests = if derivatives { contact.derivative_requests() } else { contact.value_requests() };
+        let requests = contact.value_requests();
         let moments = scratch.take(requests.len());
         surface.moments(field, requests, moments)?;
-        let mut loads =
-            Self { motion, sums: Default::default(), slopes: Default::default(), active: [false; LawKind::COUNT] };
+        let mut loads = [Loads::default(); LawKind::COUNT];
         for planned in contact.terms() {
-            let kind = planned.term.kind as usize;
-            loads.active[kind] = true;
-            let index = if derivatives { planned.value_with_derivative } else { planned.value };
-            let value = &moments[index];
-            let viscous = planned.term.action != Action::Central;
-            let second = if viscous { value.second } else { Mat3::zeros() };
-            loads.sums[kind].add(planned.term.coefficient, value.zeroth, &value.first, &second);
-            if derivatives {
-                let slope = -planned.term.exponent * planned.term.coefficient;
-                add_slopes(&mut loads.slopes[kind], slope, &moments[planned.derivative], viscous);
-            }
+            let term = &planned.term;
+            let mut sums = Sums::default();
+            sums.add(term.coefficient, term.action, &moments[planned.value]);
+            loads[term.kind as usize] += sums.act(term.action, &motion.normal, &motion.velocity, &motion.gradient_rate);
         }
-        Ok(loads)
+        Ok(Self { motion, loads })
     }
 
     /// f and M of one law.
     pub fn of(&self, kind: LawKind) -> Loads {
-        let RelativeMotion { normal, velocity, gradient_rate } = &self.motion;
-        self.sums[kind as usize].act(kind, normal, velocity, gradient_rate)
+        self.loads[kind as usize]
     }
 
     /// f and M of all laws together.
     pub fn total(&self) -> Loads {
-        self.kinds().map(|kind| self.of(kind)).sum()
+        self.loads.iter().copied().sum()
     }
 
     /// The power f·w₀ + M·W [W] of one law on the relative motion.
     pub fn relative_power(&self, kind: LawKind) -> f64 {
-        self.of(kind).power(&self.motion.velocity, &self.motion.gradient_rate)
-    }
-
-    /// The laws that act in this contact.
-    pub fn kinds(&self) -> impl Iterator<Item = LawKind> + '_ {
-        LawKind::ALL.into_iter().filter(|kind| self.active[*kind as usize])
-    }
-
-    /// The change of f and M when the gap field changes, velocities kept.
-    pub fn along_gap(&self, change: &GapDirection) -> Loads {
-        let RelativeMotion { normal, velocity, gradient_rate } = &self.motion;
-        let weights = [change.height, change.direction.x, change.direction.y, change.direction.z];
-        self.kinds()
-            .map(|kind| {
-                let mut sums = Sums::default();
-                for (slope, weight) in self.slopes[kind as usize].iter().zip(weights) {
-                    sums.add(weight, slope.zeroth, &slope.first, &slope.second);
-                }
-                sums.act(kind, normal, velocity, gradient_rate)
-            })
-            .sum()
-    }
-
-    /// The change of f and M when the relative velocity changes by (δw₀, δW), gaps kept.
-    pub fn along_velocity(&self, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
-        self.kinds()
-            .filter(|kind| matches!(kind, LawKind::Damping | LawKind::Friction))
-            .map(|kind| self.sums[kind as usize].act(kind, &self.motion.normal, velocity, gradient_rate))
-            .sum()
+        self.loads[kind as usize].power(&self.motion.velocity, &self.motion.gradient_rate)
     }
 }
 
-/// Adds `slope` × the moments of exponent ν + 1 to the four derivatives.
-fn add_slopes(slopes: &mut [Sums; 4], slope: f64, moments: &Moments, viscous: bool) {
-    let second = if viscous { moments.second } else { Mat3::zeros() };
-    slopes[0].add(slope, moments.zeroth, &moments.first, &second);
+/// The loads of one contact and their derivatives.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactSlopes {
+    /// f and M of all laws together.
+    pub total: Loads,
+    normal: Vec3,
+    /// ∂(f, M)/∂g₀ and ∂(f, M)/∂m along the three axes, velocities kept.
+    by_gap: [Loads; 4],
+    /// Σ β d₀^ν × moments of damping and of friction: the derivative by (w₀, W) is their action on the increment.
+    viscous: [Sums; 2],
+    is_viscous: [bool; 2],
+}
+
+impl ContactSlopes {
+    /// Integrates the laws of a contact and their derivatives over a surface.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
+    pub fn integrate(
+        contact: &Contact,
+        surface: &Surface,
+        field: &GapField,
+        motion: RelativeMotion,
+        scratch: &mut ContactScratch,
+    ) -> Result<Self, GapClosed> {
+        let requests = contact.derivative_requests();
+        let moments = scratch.take(requests.len());
+        surface.moments(field, requests, moments)?;
+        let mut values = [Sums::default(); 3];
+        let mut slopes = [[Sums::default(); 4]; 3];
+        let mut acts = [false; 3];
+        for planned in contact.terms() {
+            let term = &planned.term;
+            let action = term.action as usize;
+            acts[action] = true;
+            values[action].add(term.coefficient, term.action, &moments[planned.value_with_derivative]);
+            // ∂(d^−ν) = −ν d^−(ν+1) (δg₀ + δm·X): moments of exponent ν + 1, of the same order and of one more.
+            let slope = -term.exponent * term.coefficient;
+            add_slopes(&mut slopes[action], slope, term.action, &moments[planned.derivative]);
+        }
+        let RelativeMotion { normal, velocity, gradient_rate } = &motion;
+        let mut total = Loads::default();
+        let mut by_gap = [Loads::default(); 4];
+        for action in ACTIONS.into_iter().filter(|action| acts[*action as usize]) {
+            total += values[action as usize].act(action, normal, velocity, gradient_rate);
+            for (sum, slope) in by_gap.iter_mut().zip(&slopes[action as usize]) {
+                *sum += slope.act(action, normal, velocity, gradient_rate);
+            }
+        }
+        let [_, damping, friction] = values;
+        let [_, damps, rubs] = acts;
+        Ok(Self { total, normal: *normal, by_gap, viscous: [damping, friction], is_viscous: [damps, rubs] })
+    }
+
+    /// The change of f and M when the gap field changes by δg₀ + δm·X, velocities kept.
+    pub fn along_gap(&self, height: f64, direction: &Vec3) -> Loads {
+        let mut change = Loads::default();
+        for (slope, weight) in self.by_gap.iter().zip([height, direction.x, direction.y, direction.z]) {
+            change.force += weight * slope.force;
+            change.moment += weight * slope.moment;
+        }
+        change
+    }
+
+    /// The change of f and M when the relative velocity changes by δw₀ + δW X, gaps kept.
+    pub fn along_velocity(&self, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
+        let mut change = Loads::default();
+        if self.is_viscous[0] {
+            change += self.viscous[0].normal(&self.normal, velocity, gradient_rate);
+        }
+        if self.is_viscous[1] {
+            change += self.viscous[1].tangential(&self.normal, velocity, gradient_rate);
+        }
+        change
+    }
+}
+
+/// Adds `slope` × the moments of exponent ν + 1 to the derivatives by g₀ and by the components of m.
+fn add_slopes(slopes: &mut [Sums; 4], slope: f64, action: Action, moments: &Moments) {
+    slopes[0].add(slope, action, moments);
     for axis in 0..3 {
-        let first = moments.second.column(axis).into_owned();
-        let mut unit = Vec3::zeros();
-        unit[axis] = 1.0;
-        let second = if viscous { moments.third.contract(&unit) } else { Mat3::zeros() };
-        slopes[axis + 1].add(slope, moments.first[axis], &first, &second);
+        let sums = &mut slopes[axis + 1];
+        sums.zeroth += slope * moments.first[axis];
+        sums.first += slope * moments.second.column(axis);
+        if action != Action::Central {
+            sums.second += slope * moments.third.contract(&Vec3::ith(axis, 1.0));
+        }
     }
 }

@@ -171,10 +171,7 @@ impl Surface {
 
     /// Both surfaces as one; every part of each makes contact.
     pub fn merged(&self, other: &Self) -> Self {
-        Self {
-            facets: self.facets.merged(&other.facets),
-            patches: [self.patches.as_slice(), &other.patches].concat(),
-        }
+        Self { facets: self.facets.merged(&other.facets), patches: [self.patches.as_slice(), &other.patches].concat() }
     }
 
     /// Area [m²].

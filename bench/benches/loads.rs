@@ -1,0 +1,97 @@
+//! Loads of one body near a table under three laws, with and without their derivatives, and the rates and the Jacobian
+//! of the whole body around them.
+
+use divan::Bencher;
+use gyration::contact::{ContactLoads, ContactScratch, ContactSlopes, RelativeMotion};
+use gyration::jacobian::jacobian;
+use gyration::rates::{Workspace, rates};
+use gyration::surface::GapField;
+use gyration_bench::{SHAPES, near_table};
+use nalgebra::DMatrix;
+
+fn main() {
+    divan::main();
+}
+
+const NAMES: [&str; 6] = ["box", "sphere", "cylinder", "cone", "ellipsoid", "torus"];
+
+fn set_up(name: &str, exponents: (f64, f64)) -> (gyration::model::Model, gyration::state::State) {
+    let (_, shape, height) = SHAPES.into_iter().find(|(shape, ..)| *shape == name).unwrap_or(SHAPES[0]);
+    near_table(shape, height, exponents)
+}
+
+/// The contact of the body with the table at its start.
+fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (GapField, RelativeMotion) {
+    let motion = state.motion(model, 0);
+    let normal = model.supports[0].normal;
+    let direction = motion.placement.gradient.tr_mul(&normal);
+    let field = GapField { height: model.supports[0].gap(&motion.placement.position, 0.0), direction };
+    let (velocity, gradient_rate) = (motion.velocity.velocity, motion.velocity.gradient_rate);
+    (field, RelativeMotion { normal, velocity, gradient_rate })
+}
+
+#[divan::bench(args = NAMES)]
+fn loads(bencher: Bencher, name: &str) {
+    let (model, state) = set_up(name, (6.0, 3.0));
+    let (field, motion) = meeting(&model, &state);
+    let body = &model.bodies[0];
+    let surface = body.surface.as_ref().expect("every shape here has a surface");
+    let mut scratch = ContactScratch::default();
+    bencher.bench_local(|| {
+        let field = divan::black_box(&field);
+        ContactLoads::integrate(&body.contacts[0], surface, field, motion, &mut scratch)
+    });
+}
+
+#[divan::bench(args = NAMES)]
+fn loads_with_jacobian(bencher: Bencher, name: &str) {
+    let (model, state) = set_up(name, (6.0, 3.0));
+    let (field, motion) = meeting(&model, &state);
+    let body = &model.bodies[0];
+    let surface = body.surface.as_ref().expect("every shape here has a surface");
+    let mut scratch = ContactScratch::default();
+    bencher.bench_local(|| {
+        let field = divan::black_box(&field);
+        ContactSlopes::integrate(&body.contacts[0], surface, field, motion, &mut scratch)
+    });
+}
+
+fn bench_rates(bencher: Bencher, name: &str, exponents: (f64, f64)) {
+    let (model, state) = set_up(name, exponents);
+    let mut workspace = Workspace::default();
+    let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
+    bencher.bench_local(|| {
+        let bodies = divan::black_box(&state.bodies);
+        rates(&model, &mut workspace, 0.0, bodies, &mut slopes, &mut powers)
+    });
+}
+
+fn bench_jacobian(bencher: Bencher, name: &str, exponents: (f64, f64)) {
+    let (model, state) = set_up(name, exponents);
+    let mut workspace = Workspace::default();
+    let mut blocks = vec![DMatrix::zeros(13, 13)];
+    bencher.bench_local(|| {
+        let bodies = divan::black_box(&state.bodies);
+        jacobian(&model, &mut workspace, 0.0, bodies, &mut blocks)
+    });
+}
+
+#[divan::bench(args = NAMES)]
+fn rates_integer(bencher: Bencher, name: &str) {
+    bench_rates(bencher, name, (6.0, 3.0));
+}
+
+#[divan::bench(args = NAMES)]
+fn rates_real(bencher: Bencher, name: &str) {
+    bench_rates(bencher, name, (6.3, 3.2));
+}
+
+#[divan::bench(args = NAMES)]
+fn jacobian_integer(bencher: Bencher, name: &str) {
+    bench_jacobian(bencher, name, (6.0, 3.0));
+}
+
+#[divan::bench(args = NAMES)]
+fn jacobian_real(bencher: Bencher, name: &str) {
+    bench_jacobian(bencher, name, (6.3, 3.2));
+}

@@ -1,0 +1,51 @@
+//! Set-ups shared by the benchmarks and by the instruction counts: a body near a table under three laws.
+
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_scene::Scene;
+use std::path::Path;
+
+/// A unit body of density one near a table: rest gap 0.03, ν = 6; damping and friction ν = 3 (`exponents` replaces them).
+///
+/// # Panics
+/// If the scene is not valid: a mistake in this file.
+pub fn near_table(shape: &str, height: f64, exponents: (f64, f64)) -> (Model, State) {
+    let (repulsion, viscous) = exponents;
+    let text = format!(
+        r#"
+title = "{shape} near a table"
+world = {{ gravity = [0, 0, -1] }}
+time = {{ end = 10.0, sample = 0.1 }}
+[[support]]
+name = "table"
+plane = {{ origin = [0, 0, 0], normal = [0, 0, 1] }}
+[[contact]]
+support = "table"
+repulsion = {{ alpha = 7.29e-10, nu = {repulsion:?} }}
+damping = {{ beta = 5e-5, nu = {viscous:?} }}
+friction = {{ beta = 5e-5, nu = {viscous:?} }}
+[[body]]
+name = "body"
+shape = {shape}
+density = 1
+position = [0, 0, {height}]
+orientation = {{ axis_angle = {{ axis = [1, 0.7, 0.3], angle = 0.5 }} }}
+velocity = [0.3, 0, 0]
+angular_velocity = [1, 0.5, 2]
+"#
+    );
+    match Scene::parse("bench.toml", &text, Path::new(""), &[]) {
+        Ok(scene) => (scene.built().model.clone(), scene.built().state.clone()),
+        Err(errors) => panic!("{errors}"),
+    }
+}
+
+/// The shapes measured: name, TOML, height of the centre at which the gap is about 0.03.
+pub const SHAPES: [(&str, &str, f64); 6] = [
+    ("box", "{ box = { size = [1, 1, 1] } }", 0.86),
+    ("sphere", "{ sphere = { radius = 0.5 } }", 0.53),
+    ("cylinder", "{ cylinder = { radius = 0.5, height = 1 } }", 0.71),
+    ("cone", "{ cone = { radius = 0.5, height = 1 } }", 0.5),
+    ("ellipsoid", "{ ellipsoid = { semi_axes = [0.5, 0.3, 0.4] } }", 0.47),
+    ("torus", "{ torus = { major_radius = 0.4, minor_radius = 0.1 } }", 0.32),
+];
