@@ -6,115 +6,12 @@
 //!
 //!   validation: row=13 case="…" quantity="…" reference=… measured=… error=… tolerance=… source="…"
 //!
-//! Measures are relative to the reference, error = |measured − reference|/|reference|, and absolute where it is 0.
+//! [`Experiment`] runs a scene, or a model made by hand, in memory. Nothing here computes a reference.
 
-use std::fmt;
+mod answer;
+mod experiment;
+mod facet;
 
-/// A number with a known value.
-///
-/// ```no_run
-/// use gyration_validation::Answer;
-/// Answer {
-///     row: Some(13),
-///     case: "bounce without loss, nu = 3",
-///     quantity: "smallest gap [m]",
-///     reference: 0.01,
-///     measured: 0.01 * (1.0 + 1e-12),
-///     tolerance: 1e-9,
-///     source: "d_min² = αA/(m v²)",
-/// }
-/// .check();
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer {
-    /// The row in the list of known answers; none for a further case.
-    pub row: Option<u32>,
-    /// The problem, with the numbers that tell it from others.
-    pub case: &'static str,
-    /// What is measured, with its unit.
-    pub quantity: &'static str,
-    /// The known value.
-    pub reference: f64,
-    /// The value that the program gives.
-    pub measured: f64,
-    /// The largest error allowed, relative (absolute if the reference is 0).
-    pub tolerance: f64,
-    /// Where the reference comes from.
-    pub source: &'static str,
-}
-
-impl Answer {
-    /// The error, relative to the reference; absolute if that is 0.
-    pub fn error(&self) -> f64 {
-        let difference = (self.measured - self.reference).abs();
-        if self.reference == 0.0 { difference } else { difference / self.reference.abs() }
-    }
-
-    /// Prints the line and returns the error.
-    ///
-    /// # Panics
-    /// If the error is above the tolerance or not a number, or a text could not be read back from the line.
-    pub fn check(&self) -> f64 {
-        println!("validation: {self}");
-        self.assert_holds()
-    }
-
-    fn assert_holds(&self) -> f64 {
-        let texts = [self.case, self.quantity, self.source];
-        assert!(!texts.iter().any(|text| text.contains(['"', '|', '\n'])), "quote, bar or line break in {texts:?}");
-        let error = self.error();
-        assert!(error <= self.tolerance, "{self}");
-        error
-    }
-}
-
-impl fmt::Display for Answer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let row = self.row.map_or("–".to_owned(), |row| row.to_string());
-        write!(
-            f,
-            "row={row} case=\"{}\" quantity=\"{}\" reference={:.12e} measured={:.12e} error={:.1e} tolerance={:.0e} source=\"{}\"",
-            self.case,
-            self.quantity,
-            self.reference,
-            self.measured,
-            self.error(),
-            self.tolerance,
-            self.source,
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    // Nothing here is printed: the table of known answers is made from what tests print.
-
-    const ANSWER: Answer =
-        Answer { row: Some(1), case: "a", quantity: "b", reference: 2.0, measured: 2.1, tolerance: 0.06, source: "c" };
-
-    #[test]
-    fn error_is_relative_unless_the_reference_is_zero() {
-        assert!((ANSWER.assert_holds() - 0.05).abs() < 1e-15);
-        assert_eq!(Answer { reference: 0.0, measured: -3.0, ..ANSWER }.error(), 3.0);
-    }
-
-    #[test]
-    #[should_panic(expected = "error=5.0e-2")]
-    fn an_error_above_the_tolerance_fails() {
-        Answer { tolerance: 0.04, ..ANSWER }.assert_holds();
-    }
-
-    #[test]
-    #[should_panic(expected = "quote, bar or line break")]
-    fn a_text_that_would_break_the_line_fails() {
-        Answer { case: "a \"b\"", ..ANSWER }.assert_holds();
-    }
-
-    #[test]
-    #[should_panic(expected = "measured=NaN")]
-    fn not_a_number_fails() {
-        Answer { measured: f64::NAN, ..ANSWER }.assert_holds();
-    }
-}
+pub use answer::Answer;
+pub use experiment::{Experiment, Run};
+pub use facet::FacetBody;

@@ -15,7 +15,7 @@ pub fn page_path() -> PathBuf {
 pub fn run() -> ExitCode {
     let mut steps = Steps::default();
     let mut command = cargo();
-    command.args(["test", "--workspace", "--test", "row*", "--test", "case*", "--no-fail-fast", "--", "--show-output"]);
+    command.args(["test", "--package", "gyration-validation", "--no-fail-fast", "--", "--show-output"]);
     if steps.run_tests("known answers", &mut command) {
         write_page(&mut steps);
     } else {

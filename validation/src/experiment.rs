@@ -1,0 +1,197 @@
+//! Running a scene or a hand-made model in memory, and finding the instant at which something happens.
+//!
+//! A programming mistake in a test, such as a scene with errors, panics with the message of the program.
+
+use gyration::balance;
+use gyration::body::BodyKind;
+use gyration::model::Model;
+use gyration::rates::{Workspace, rates};
+use gyration::state::{BodyMotion, State};
+use gyration::tensor::Vec3;
+use gyration_ode::{Method, Options};
+use gyration_scene::Scene;
+use gyration_sim::events::Event;
+use gyration_sim::{MemorySink, Outcome, RestCriterion, RunPlan, Simulation, Tolerance, Unwatched, rows};
+use std::path::Path;
+
+/// A model, its start, and how to run it.
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    /// The model.
+    pub model: Model,
+    /// The state at t = 0.
+    pub start: State,
+    /// End, samples, tolerances, method.
+    pub plan: RunPlan,
+}
+
+/// A run that has ended.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Times of the samples [s].
+    pub times: Vec<f64>,
+    /// The events.
+    pub events: Vec<Event>,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The last state.
+    pub end: State,
+    /// Largest |residual| of the ledger over the samples [J].
+    pub largest_residual: f64,
+    /// Largest kinetic energy, or sum of |works|, over the samples [J].
+    pub energy_in_play: f64,
+    /// Accepted steps of both methods.
+    pub steps: u64,
+    columns: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Experiment {
+    /// The experiment that a scene describes.
+    ///
+    /// # Panics
+    /// If the scene has errors.
+    pub fn of_scene(text: &str) -> Self {
+        let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        let built = scene.built();
+        let plan = &built.plan;
+        let method = match plan.method {
+            gyration_scene::Method::Auto => Method::Auto,
+            gyration_scene::Method::Explicit => Method::Explicit,
+            gyration_scene::Method::Implicit => Method::Implicit,
+        };
+        Self {
+            model: built.model.clone(),
+            start: built.state.clone(),
+            plan: RunPlan {
+                end: plan.end,
+                sample: plan.sample,
+                stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
+                tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
+                options: Options { method, max_step: plan.max_step.unwrap_or(f64::INFINITY), ..Options::default() },
+            },
+        }
+    }
+
+    /// An experiment with a model made by hand, the method chosen by the program.
+    pub fn of_model(model: Model, start: State, tolerance: Tolerance) -> Self {
+        let plan = RunPlan { end: 1.0, sample: 1.0, stop_at_rest: None, tolerance, options: Options::default() };
+        Self { model, start, plan }
+    }
+
+    /// The same until another end [s], sampled there only.
+    pub fn until(&self, end: f64) -> Self {
+        Self { plan: RunPlan { end, sample: end, ..self.plan }, ..self.clone() }
+    }
+
+    /// Runs it.
+    ///
+    /// # Panics
+    /// If the run cannot begin, or stops early.
+    pub fn run(&self) -> Run {
+        let fail = |error| -> ! { panic!("{error}") };
+        let mut sink = MemorySink::default();
+        let mut simulation = Simulation::new(&self.model, &self.start, self.plan).unwrap_or_else(|e| fail(e));
+        simulation.begin(&mut sink).unwrap_or_else(|e| fail(e));
+        let outcome = simulation.run(&mut sink, &mut Unwatched).unwrap_or_else(|e| fail(e));
+        assert!(!matches!(outcome, Outcome::Stopped(_)), "{}", outcome.in_words());
+        let (times, rows) = sink.rows.into_iter().unzip();
+        Run {
+            times,
+            rows,
+            events: sink.events,
+            outcome,
+            end: simulation.state(),
+            largest_residual: simulation.tally().largest_residual,
+            energy_in_play: simulation.tally().energy_in_play,
+            steps: simulation.statistics().accepted(),
+            columns: columns(&self.model),
+        }
+    }
+
+    /// The motion of the first body at a time [s].
+    pub fn motion_at(&self, time: f64) -> BodyMotion {
+        self.until(time).run().end.motion(&self.model, 0)
+    }
+
+    /// The time [s] near `guess` at which a function of the first body's motion vanishes, by secants over whole runs.
+    ///
+    /// # Panics
+    /// If the secants do not converge to rounding.
+    pub fn time_when(&self, guess: f64, function: impl Fn(&BodyMotion) -> f64) -> f64 {
+        let value = |time: f64| function(&self.motion_at(time));
+        let (mut before, mut now) = (guess * (1.0 - 1e-6), guess);
+        let (mut value_before, mut value_now) = (value(before), value(now));
+        for _ in 0..20 {
+            let step = -value_now * (now - before) / (value_now - value_before);
+            (before, value_before) = (now, value_now);
+            now += step;
+            if step.abs() <= 1e-14 * now {
+                return now;
+            }
+            value_now = value(now);
+            if value_now == value_before {
+                return now;
+            }
+        }
+        panic!("no instant found near {guess} s: the last step was from {before} s to {now} s");
+    }
+
+    /// Force of all contacts on the first body at t = 0 [N].
+    ///
+    /// # Panics
+    /// If the start is outside the model.
+    pub fn contact_force(&self) -> Vec3 {
+        let seen = balance::observe(&self.model, &mut Workspace::default(), &self.start, 0);
+        seen.unwrap_or_else(|error| panic!("{error:?}")).contact_force
+    }
+
+    /// Torque I Ω̇ on the first body, which does not spin, at t = 0, in body axes [N m].
+    ///
+    /// # Panics
+    /// If the start is outside the model.
+    pub fn torque(&self) -> Vec3 {
+        let mut slopes = vec![0.0; self.model.dimension()];
+        let mut powers = vec![0.0; self.model.works().len()];
+        let bodies = &self.start.bodies;
+        rates(&self.model, &mut Workspace::default(), 0.0, bodies, &mut slopes, &mut powers)
+            .unwrap_or_else(|error| panic!("{error:?}"));
+        let BodyKind::Rigid(inertia) = &self.model.bodies[0].kind;
+        // A block ends with Ω; in the block of the rates with Ω̇.
+        inertia.tensor * BodyMotion::unpack(&self.model.bodies[0], &slopes[self.model.blocks()[0].clone()]).spin
+    }
+}
+
+/// The name of every number of a row, in its order.
+fn columns(model: &Model) -> Vec<String> {
+    let mut names = Vec::new();
+    for array in rows::arrays(model).0 {
+        // An array without columns in the CSV still takes its place in the row.
+        let len = array.row_len();
+        names.extend(array.columns.into_iter().chain(std::iter::repeat(String::new())).take(len));
+    }
+    names
+}
+
+impl Run {
+    /// The samples of a column of the CSV, `ball.z`.
+    ///
+    /// # Panics
+    /// If there is no such column.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let found = self.columns.iter().position(|column| column == name);
+        let index = found.unwrap_or_else(|| panic!("no column {name}; there are {:?}", self.columns));
+        self.rows.iter().map(|row| row[index]).collect()
+    }
+
+    /// The times [s] of the events of a kind (`apex`, `closest_approach`, `lift_off`).
+    pub fn times_of(&self, kind: &str) -> Vec<f64> {
+        let of_kind = |event: &&Event| gyration_sim::events::EVENT_KINDS[event.kind] == kind;
+        self.events.iter().filter(of_kind).map(|event| event.time).collect()
+    }
+
+    /// The largest residual of the ledger as a fraction of the energy in play.
+    pub fn relative_residual(&self) -> f64 {
+        self.largest_residual / self.energy_in_play
+    }
+}
