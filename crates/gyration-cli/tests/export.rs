@@ -1,5 +1,7 @@
 //! `gyration export` and `gyration plot`: columns, formats, stdout, the same bytes for the same recording.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{BALL, Sandbox};

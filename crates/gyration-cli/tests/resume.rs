@@ -1,5 +1,7 @@
 //! A run that is killed or interrupted goes on to the same bytes as one that is not.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{BALL, Said, Sandbox, assert_same_bytes};

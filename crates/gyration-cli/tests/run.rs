@@ -1,5 +1,7 @@
 //! `gyration run`: names, exit codes, what is printed where, what is left on disk.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{BALL, Sandbox, assert_same_bytes};

@@ -1,7 +1,7 @@
 //! Whether a law forbids a shape to touch: its exponent against that of the sharpest feature.
 //!
-//! The work against ν-th powers of the gap diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as
-//! d^p. Source: `physics.md` §3; the table is that of `gyration::shape::Feature`.
+//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p. The table of
+//! 1 + p is that of `gyration::shape::Feature`. Source: `physics.md` §3.
 
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::shape::Shape;
@@ -18,6 +18,8 @@ pub struct LawCheck {
     pub feature: Option<&'static str>,
     /// The least exponent that forbids this feature to touch.
     pub critical_exponent: Option<f64>,
+    /// Whether the law does anything: its coefficient is not zero.
+    pub acts: bool,
     /// Whether the law forbids touching; none for friction, which does not act along the normal.
     pub forbids_touching: Option<bool>,
 }
@@ -27,13 +29,15 @@ impl LawCheck {
     pub fn of(law: &ContactLaw, shape: &Shape) -> Self {
         let feature = shape.sharpest_feature();
         let exponent = law.leading_exponent();
-        let forbids = |critical: f64| (law.kind() != LawKind::Friction).then_some(exponent >= critical);
+        let acts = law.terms().iter().flatten().any(|term| term.coefficient != 0.0);
+        let forbids = |critical: f64| (law.kind() != LawKind::Friction).then_some(acts && exponent >= critical);
         let critical = feature.map(|feature| feature.critical_exponent());
         Self {
             law: law.kind().name(),
             exponent,
             feature: feature.map(|feature| feature.name()),
             critical_exponent: critical,
+            acts,
             forbids_touching: critical.and_then(forbids),
         }
     }

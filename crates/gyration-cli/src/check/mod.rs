@@ -45,6 +45,8 @@ pub struct PairCheck {
     pub weight: f64,
     /// The laws between the two; empty if they do not act on each other.
     pub laws: Vec<LawCheck>,
+    /// Whether one of the laws forbids touching.
+    pub forbids_touching: bool,
     /// Gaps at which the central laws carry the weight, in the orientation of the start, ascending.
     pub rests: Vec<Rest>,
 }
@@ -58,12 +60,15 @@ fn check_body(model: &Model, start: &State, index: usize) -> BodyCheck {
     let body = &model.bodies[index];
     let pair = |support: usize| {
         let approach = Approach::new(model, start, index, support)?;
-        let contacts = || body.contacts.iter().filter(|contact| contact.support == support);
+        let contacts = body.contacts.iter().filter(|contact| contact.support == support);
+        let laws = contacts.flat_map(|contact| contact.laws());
+        let laws: Vec<LawCheck> = laws.map(|law| LawCheck::of(law, &body.shape)).collect();
         Some(PairCheck {
             support: model.supports[support].name.clone(),
             initial_gap: approach.initial_gap,
             weight: approach.weight,
-            laws: contacts().flat_map(|contact| contact.laws()).map(|law| LawCheck::of(law, &body.shape)).collect(),
+            forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
+            laws,
             rests: approach.rests(),
         })
     };

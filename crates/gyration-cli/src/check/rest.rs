@@ -7,13 +7,15 @@
 //!   period 2π/ω, ω² = k/m;   damping ratio ζ = c/(2 m ω);   decay time 1/(ζω) for ζ < 1, of the slower of two
 //!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
 //!
-//! With adhesion there may be several such gaps, or none.
+//! All of them are sums over the powers c d^−ν of the laws: F = Σ c A₀(ν), k = Σ ν c A₀(ν+1) for the central ones,
+//! c, c_t = Σ c A₀(ν) for the viscous ones, with A₀(ν) = ∫ d^−ν dA over the surface. With adhesion there may be several
+//! such gaps, or none.
 
-use gyration::contact::{Contact, ContactLoads, ContactScratch, GapDirection, RelativeMotion};
+use gyration::contact::{Action, Contact, Term};
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::surface::{GapField, Surface};
-use gyration::tensor::{Mat3, Vec3};
+use gyration::surface::{GapField, Kernel, MomentRequest, Moments, Surface};
+use gyration::tensor::Vec3;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -47,9 +49,7 @@ pub struct Rest {
 #[derive(Debug, Clone)]
 pub struct Approach<'a> {
     surface: &'a Surface,
-    contacts: Vec<&'a Contact>,
-    /// n.
-    normal: Vec3,
+    terms: Vec<Term>,
     /// Rᵀn.
     direction: Vec3,
     /// Height of the centre of mass less the gap [m].
@@ -63,19 +63,6 @@ pub struct Approach<'a> {
     pinned: bool,
 }
 
-/// Force and resistances at a gap.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Response {
-    /// F [N].
-    force: f64,
-    /// −F' [N/m].
-    stiffness: f64,
-    /// c [N s/m].
-    normal_resistance: f64,
-    /// c_t [N s/m]: the mean of the two directions across the normal.
-    tangential_resistance: f64,
-}
-
 impl<'a> Approach<'a> {
     /// Of a body to a support; none for mass points.
     pub fn new(model: &'a Model, start: &State, body: usize, support: usize) -> Option<Self> {
@@ -85,10 +72,11 @@ impl<'a> Approach<'a> {
         let direction = motion.placement.gradient.tr_mul(&plane.normal);
         let height = plane.gap(&motion.placement.position, start.time);
         let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
+        let acting = |contact: &&Contact| contact.support == support;
+        let laws = body.contacts.iter().filter(acting).flat_map(|contact| contact.laws());
         Some(Self {
             surface,
-            contacts: body.contacts.iter().filter(|contact| contact.support == support).collect(),
-            normal: plane.normal,
+            terms: laws.flat_map(|law| law.terms()).flatten().collect(),
             direction,
             depth: height - initial_gap,
             mass: body.mass.mass,
@@ -101,7 +89,7 @@ impl<'a> Approach<'a> {
 
     /// Whether any law acts.
     pub fn acts(&self) -> bool {
-        !self.contacts.is_empty()
+        !self.terms.is_empty()
     }
 
     /// The largest side of the body [m].
@@ -111,13 +99,20 @@ impl<'a> Approach<'a> {
 
     /// F(d) of the central laws [N]; none where it cannot be computed.
     pub fn force(&self, gap: f64) -> Option<f64> {
-        let loads = |contact: &&Contact| {
-            let field = self.field(gap);
-            let mut scratch = ContactScratch::default();
-            ContactLoads::integrate(contact, self.surface, &field, self.at_rest(), false, &mut scratch).ok()
-        };
-        let forces = self.contacts.iter().map(|contact| Some(loads(contact)?.total().force.dot(&self.normal)));
-        forces.sum::<Option<f64>>().filter(|force| force.is_finite())
+        self.sum(gap, Action::Central, 0.0, |_| 1.0)
+    }
+
+    /// Σ weight · c A₀(ν + raised) over the terms of one action; none where it is not a number.
+    fn sum(&self, gap: f64, action: Action, raised: f64, weight: impl Fn(&Term) -> f64) -> Option<f64> {
+        let field = GapField { height: self.depth + gap, direction: self.direction };
+        let terms = self.terms.iter().filter(|term| term.action == action);
+        let parts = terms.map(|term| {
+            let mut moments = [Moments::default()];
+            let request = MomentRequest { kernel: Kernel::Power(term.exponent + raised), order: 0 };
+            self.surface.moments(&field, &[request], &mut moments).ok()?;
+            Some(weight(term) * term.coefficient * moments[0].zeroth)
+        });
+        parts.sum::<Option<f64>>().filter(|sum| sum.is_finite())
     }
 
     /// All gaps at which the weight is carried, ascending; none for a pinned body, which does not rest on anything.
@@ -144,48 +139,22 @@ impl<'a> Approach<'a> {
         rests
     }
 
-    fn field(&self, gap: f64) -> GapField {
-        GapField { height: self.depth + gap, direction: self.direction }
-    }
-
-    fn at_rest(&self) -> RelativeMotion {
-        RelativeMotion { normal: self.normal, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() }
-    }
-
-    fn response(&self, gap: f64) -> Option<Response> {
-        let field = self.field(gap);
-        let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
-        let tangents = [across, self.normal.cross(&across)];
-        let mut sum = Response { force: 0.0, stiffness: 0.0, normal_resistance: 0.0, tangential_resistance: 0.0 };
-        for contact in &self.contacts {
-            let mut scratch = ContactScratch::default();
-            let loads =
-                ContactLoads::integrate(contact, self.surface, &field, self.at_rest(), true, &mut scratch).ok()?;
-            let lift = GapDirection { height: 1.0, direction: Vec3::zeros() };
-            let resistance = |v: &Vec3| -loads.along_velocity(v, &Mat3::zeros()).force.dot(v);
-            sum.force += loads.total().force.dot(&self.normal);
-            sum.stiffness -= loads.along_gap(&lift).force.dot(&self.normal);
-            sum.normal_resistance += resistance(&self.normal);
-            sum.tangential_resistance += 0.5 * (resistance(&tangents[0]) + resistance(&tangents[1]));
-        }
-        Some(sum)
-    }
-
     fn rest_at(&self, gap: f64) -> Option<Rest> {
-        let response = self.response(gap)?;
-        let stable = response.stiffness > 0.0;
-        let frequency = stable.then(|| (response.stiffness / self.mass).sqrt());
-        let damped = frequency.filter(|_| response.normal_resistance > 0.0);
-        let ratio = damped.map(|frequency| response.normal_resistance / (2.0 * self.mass * frequency));
-        let slid = response.tangential_resistance > 0.0;
+        let stiffness = self.sum(gap, Action::Central, 1.0, |term| term.exponent)?;
+        let normal_resistance = self.sum(gap, Action::Normal, 0.0, |_| 1.0)?;
+        let tangential_resistance = self.sum(gap, Action::Tangential, 0.0, |_| 1.0)?;
+        let stable = stiffness > 0.0;
+        let frequency = stable.then(|| (stiffness / self.mass).sqrt());
+        let damped = frequency.filter(|_| normal_resistance > 0.0);
+        let ratio = damped.map(|frequency| normal_resistance / (2.0 * self.mass * frequency));
         Some(Rest {
             gap,
             stable,
-            stiffness: response.stiffness,
+            stiffness,
             period: frequency.map(|frequency| TAU / frequency),
             damping_ratio: ratio,
             damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
-            friction_time: slid.then(|| self.mass / response.tangential_resistance),
+            friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
         })
     }
 }

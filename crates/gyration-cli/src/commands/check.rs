@@ -69,6 +69,9 @@ fn write_pair(text: &mut String, pair: &PairCheck) {
     for law in &pair.laws {
         let _ = writeln!(text, "    {}", verdict(law));
     }
+    if !pair.forbids_touching {
+        let _ = writeln!(text, "    no law forbids touching: a body that is fast enough gets there, and the run stops");
+    }
     if pair.rests.is_empty() {
         let weight = pair.weight;
         let _ = writeln!(
@@ -89,10 +92,9 @@ fn verdict(law: &LawCheck) -> String {
         return format!("{name:<10} ν = {exponent}");
     };
     match law.forbids_touching {
+        _ if !law.acts => format!("{name:<10} has no strength: does nothing"),
         Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
-        Some(false) => format!(
-            "{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching; a fast body gets through"
-        ),
+        Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
         None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
     }
 }

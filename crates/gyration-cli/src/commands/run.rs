@@ -188,11 +188,7 @@ fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Re
         output::say(&format!("recording  {}\npicture    {}", shown(path), shown(&path.join(PICTURE))));
     }
     if !summary.outcome.is_final() && (interrupted || !arguments.quiet) {
-        output::say(&format!(
-            "gyration: go on with `gyration run {} -o {} --resume`",
-            arguments.scene.scene,
-            shown(path)
-        ));
+        output::say(&format!("gyration: go on with `{}`", resume_command(arguments, path)));
     }
     Ok(())
 }
@@ -211,6 +207,23 @@ fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Resul
         output::say(&format!("{} had ended before: {outcome}. Nothing was done.", shown(path)));
     }
     Ok(())
+}
+
+/// The command by which an interrupted run goes on.
+fn resume_command(arguments: &Run, path: &Path) -> String {
+    let overrides = arguments.scene.overrides.iter().map(|text| format!(" --set {}", quoted(text)));
+    let overrides: String = overrides.collect();
+    format!("gyration run {} -o {}{overrides} --resume", quoted(&arguments.scene.scene), quoted(&shown(path)))
+}
+
+/// An argument as a shell reads it.
+fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
 }
 
 /// The path from here, as the user would write it.

@@ -33,7 +33,10 @@ fn list() -> String {
         let title = Scene::open(name, &[]).ok().and_then(|scene| scene.file().title.clone()).unwrap_or_default();
         // Writing to a string does not fail.
         let _ = writeln!(list, "{name:<12} {title}");
-        for line in wrapped(&head(text)) {
+        let head = head(text);
+        // A head that begins with the title goes on after it.
+        let told = head.strip_prefix(&title).map_or(head.as_str(), |rest| rest.trim_start_matches(['.', ' ']));
+        for line in wrapped(told) {
             let _ = writeln!(list, "{:<12} {line}", "");
         }
     }

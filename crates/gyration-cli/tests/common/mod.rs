@@ -1,6 +1,7 @@
 //! The real program in a temporary folder.
 
-#![allow(dead_code)]
+// Each file of tests uses a part of it.
+#![allow(dead_code, clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
 use std::fs;

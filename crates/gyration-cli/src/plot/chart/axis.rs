@@ -97,7 +97,10 @@ impl Axis {
             Scale::Logarithmic => ticks::logarithmic(self.low, self.high, count),
             Scale::Linear => {
                 let factor = self.prefix().0;
-                let mut ticks = ticks::linear(factor * self.low, factor * self.high, count);
+                let with = |count: usize| ticks::linear(factor * self.low, factor * self.high, count);
+                // One tick alone tells no scale.
+                let enough = (count..2 * count + 4).map(with).find(|ticks| ticks.len() > 1);
+                let mut ticks = enough.unwrap_or_else(|| with(count));
                 ticks.iter_mut().for_each(|tick| tick.value /= factor);
                 ticks
             }
@@ -116,6 +119,14 @@ mod tests {
         let ticks = axis.ticks(4);
         assert_eq!(ticks[1].label.as_deref(), Some("5"));
         assert!((ticks[1].value - 0.005).abs() < 1e-15);
+    }
+
+    #[test]
+    fn there_are_two_ticks_at_least() {
+        for (low, high) in [(-3.9, 4.3), (0.1, 9.9), (-0.9, 4.9), (1.01e-3, 1.99e-3)] {
+            let ticks = Axis::exact("x", "m", low, high).ticks(2);
+            assert!(ticks.len() > 1, "{low} to {high}: {ticks:?}");
+        }
     }
 
     #[test]

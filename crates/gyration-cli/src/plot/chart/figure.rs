@@ -98,7 +98,7 @@ impl Figure {
             y += 1.6 * SIZE;
             drawing.text(Text { color: color::GREY, ..line(&self.subtitle, y, SIZE) });
         }
-        y
+        y + 0.5 * MARGIN
     }
 }
 

@@ -15,8 +15,9 @@ pub const TITLE_SIZE: f64 = 9.5;
 const TICK: f64 = 4.0;
 /// Between a tick and its words [pt].
 const SPACE: f64 = 3.0;
-/// Points of an axis for every tick with words.
-const UPRIGHT_PITCH: f64 = 24.0;
+/// Points of an upright axis for every tick with words.
+const UPRIGHT_PITCH: f64 = 20.0;
+/// Points of a level axis for every tick with words.
 const LEVEL_PITCH: f64 = 62.0;
 /// Lines are drawn through at most so many points at once: viewers slow down on longer ones.
 const LONGEST_LINE: usize = 4000;

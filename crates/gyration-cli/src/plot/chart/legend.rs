@@ -11,7 +11,7 @@ const SAMPLE: f64 = 18.0;
 /// Between the piece of line and the name [pt].
 const SPACE: f64 = 5.0;
 /// Names longer than this are cut [letters].
-const LONGEST_NAME: usize = 28;
+const LONGEST_NAME: usize = 34;
 
 /// Names of what is drawn.
 #[derive(Debug, Clone, Default, PartialEq)]

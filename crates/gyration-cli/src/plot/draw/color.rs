@@ -35,6 +35,9 @@ pub const FAINT: Color = Color::new(0xDD, 0xDD, 0xDD);
 /// Secondary labels and lines.
 pub const GREY: Color = Color::new(0x77, 0x77, 0x77);
 
+/// The page.
+pub const WHITE: Color = Color::new(0xFF, 0xFF, 0xFF);
+
 /// The colours of series, in order.
 pub const SERIES: [Color; 7] = [
     Color::new(0x00, 0x72, 0xB2),

@@ -48,7 +48,7 @@ impl Canvas {
         }
         let Some(outline) = builder.finish() else { return };
         self.prepare_mask(path.clip);
-        let mask = path.clip.and_then(|_| self.mask.as_ref()).map(|(_, mask)| mask);
+        let mask = path.clip.and(self.mask.as_ref()).map(|(_, mask)| mask);
         if let Some(fill) = &path.fill {
             let paint = paint(fill);
             self.pixmap.fill_path(&outline, &paint, FillRule::Winding, self.transform, mask);

@@ -5,6 +5,7 @@
 
 use super::{body_series, drawn_bodies, time_axis, values};
 use crate::plot::PlotError;
+use crate::plot::chart::ticks::short;
 use crate::plot::chart::{Axis, Chart, DOTTED, Scale, Series, extremes};
 use crate::plot::recorded::Recorded;
 use gyration::tensor::Vec3;
@@ -32,7 +33,8 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
     if most == 0.0 || !most.is_finite() {
         return Err(PlotError::Nothing { what: "forces", reason: "no support acts on a body" });
     }
-    let (mut series, remarks) = body_series(recorded, &bodies, lines);
+    let (mut series, mut remarks) = body_series(recorded, &bodies, lines);
+    remarks.push(sampling(recorded)?);
     if count == 1 {
         series[0].name = "normal".into();
     }
@@ -45,7 +47,8 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
                 _ if k == 0 => "tangential: dotted".to_owned(),
                 _ => String::new(),
             };
-            Series { name, ..line }.dashed(DOTTED)
+            let hue = if count == 1 { 1 } else { bodies[k] };
+            Series::solid(name, line.points, hue).dashed(DOTTED)
         }));
     }
     let x = time_axis(recorded)?;
@@ -57,6 +60,13 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
     let y = axis(&series, weight, most);
     let title = "Force of contact".to_owned();
     Ok(Chart { title, x, y, series, remarks, height: HEIGHT })
+}
+
+/// How far samples are apart: peaks of shorter impacts are not seen whole.
+fn sampling(recorded: &Recorded) -> Result<String, PlotError> {
+    let times = recorded.recording.read_rows("time", 0..recorded.recording.rows().min(2))?.data;
+    let spacing = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+    Ok(format!("sampled every {} s", short(spacing)))
 }
 
 fn axis(series: &[Series], weight: f64, most: f64) -> Axis {

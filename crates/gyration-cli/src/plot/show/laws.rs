@@ -4,7 +4,7 @@
 //! tractions [Pa], viscous ones resistances per speed [Pa s/m]. Attraction is drawn dashed, with its sign reversed.
 
 use super::{MOST_LINES, MOST_NAMES};
-use crate::check::Approach;
+use crate::check::{Approach, Rest};
 use crate::plot::PlotError;
 use crate::plot::chart::ticks::length_in_words;
 use crate::plot::chart::{Axis, Chart, DASHED, DOTTED, Panel, Series, extremes};
@@ -17,8 +17,10 @@ const HEIGHT: f64 = 170.0;
 /// Points along the curve of a law.
 const POINTS: usize = 241;
 /// The gaps drawn reach from and to this factor of the gaps of rest.
-const AROUND_REST: f64 = 30.0;
-/// Decades of force that are drawn below the largest one.
+const AROUND_REST: f64 = 10.0;
+/// The values drawn reach so far below and above those at the gaps of rest.
+const AROUND_VALUES: (f64, f64) = (1e-5, 1e7);
+/// Without a gap of rest, so many decades below the largest value are drawn.
 const MOST_DECADES: f64 = 14.0;
 
 /// Charts of the laws and of the forces that they make.
@@ -26,46 +28,58 @@ const MOST_DECADES: f64 = 14.0;
 /// # Errors
 /// [`PlotError::Nothing`] without contacts.
 pub fn law_panels(model: &Model, start: &State) -> Result<Vec<Panel>, PlotError> {
-    let approaches = approaches(model, start);
-    if approaches.is_empty() {
+    let pairs = pairs(model, start);
+    if pairs.is_empty() {
         return Err(PlotError::Nothing { what: "laws", reason: "no contact is given between a body and a support" });
     }
-    let gaps = gap_axis(&approaches);
-    let charts = [
-        law_chart(model, &gaps, "Tractions of the central laws", "traction", "Pa", |action| action == Action::Central),
-        law_chart(model, &gaps, "Resistances of the viscous laws", "traction per speed", "Pa s/m", |action| {
-            action != Action::Central
-        }),
-        force_chart(model, &approaches, &gaps),
-    ];
+    let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap).collect();
+    let gaps = Gaps { axis: gap_axis(&pairs), rests };
+    let charts =
+        [law_chart(model, &gaps, &CENTRAL), law_chart(model, &gaps, &VISCOUS), force_chart(model, &pairs, &gaps)];
     Ok(charts.into_iter().flatten().map(Panel::Chart).collect())
 }
 
-/// Each pair of a body and a support that act on each other.
-fn approaches<'a>(model: &'a Model, start: &State) -> Vec<(usize, usize, Approach<'a>)> {
-    let mut approaches = Vec::new();
+/// A body and a support that act on each other.
+struct Pair<'a> {
+    body: usize,
+    support: usize,
+    approach: Approach<'a>,
+    rests: Vec<Rest>,
+}
+
+fn pairs<'a>(model: &'a Model, start: &State) -> Vec<Pair<'a>> {
+    let mut pairs = Vec::new();
     for body in 0..model.bodies.len().min(MOST_LINES) {
         for support in 0..model.supports.len() {
-            let approach = Approach::new(model, start, body, support).filter(Approach::acts);
-            approaches.extend(approach.map(|approach| (body, support, approach)));
+            if let Some(approach) = Approach::new(model, start, body, support).filter(Approach::acts) {
+                pairs.push(Pair { body, support, rests: approach.rests(), approach });
+            }
         }
     }
-    approaches
+    pairs
 }
 
 /// From well below the nearest gap of rest to well above the farthest; without any, by the sizes of the bodies.
-fn gap_axis(approaches: &[(usize, usize, Approach)]) -> Axis {
-    let rests = approaches.iter().flat_map(|(_, _, approach)| approach.rests()).map(|rest| rest.gap);
-    let sizes = approaches.iter().flat_map(|(_, _, approach)| [1e-3 * approach.size(), approach.size()]);
+fn gap_axis(pairs: &[Pair]) -> Axis {
+    let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap);
+    let sizes = pairs.iter().map(|pair| pair.approach.size()).flat_map(|size| [1e-3 * size, size]);
     let (low, high) = extremes(rests)
         .map_or_else(|| extremes(sizes).unwrap_or((1e-3, 1.0)), |(low, high)| (low / AROUND_REST, high * AROUND_REST));
     let axis = Axis::logarithmic("distance", "m", [low, high]);
     Axis { low, high, ..axis }
 }
 
-fn sampled(axis: &Axis) -> impl Iterator<Item = f64> + '_ {
-    let ratio = axis.high / axis.low;
-    (0..POINTS).map(move |k| axis.low * ratio.powf(k as f64 / (POINTS - 1) as f64))
+/// The gaps that are drawn, and those of rest.
+struct Gaps {
+    axis: Axis,
+    rests: Vec<f64>,
+}
+
+impl Gaps {
+    fn sampled(&self) -> impl Iterator<Item = f64> + '_ {
+        let Axis { low, high, .. } = self.axis;
+        (0..POINTS).map(move |k| low * (high / low).powf(k as f64 / (POINTS - 1) as f64))
+    }
 }
 
 /// The different contacts of the model with the name of their support.
@@ -79,26 +93,32 @@ fn contacts(model: &Model) -> Vec<&Contact> {
     contacts
 }
 
-fn law_chart(
-    model: &Model,
-    gaps: &Axis,
-    title: &str,
-    name: &str,
-    unit: &str,
-    wanted: impl Fn(Action) -> bool,
-) -> Option<Chart> {
+/// One of the two charts of laws.
+struct Laws {
+    title: &'static str,
+    name: &'static str,
+    unit: &'static str,
+    central: bool,
+}
+
+const CENTRAL: Laws = Laws { title: "Tractions of the central laws", name: "traction", unit: "Pa", central: true };
+const VISCOUS: Laws =
+    Laws { title: "Resistances of the viscous laws", name: "traction per speed", unit: "Pa s/m", central: false };
+
+fn law_chart(model: &Model, gaps: &Gaps, laws: &Laws) -> Option<Chart> {
     let contacts = contacts(model);
     let several = contacts.len() > 1;
+    let acting =
+        |law: &&ContactLaw| law.terms().iter().flatten().any(|term| (term.action == Action::Central) == laws.central);
     let mut series = Vec::new();
     for (index, contact) in contacts.iter().enumerate() {
-        let acting = |law: &&ContactLaw| law.terms().iter().flatten().any(|term| wanted(term.action));
         for law in contact.laws().iter().filter(acting) {
             let of = if several { format!(" ({})", model.supports[contact.support].name) } else { String::new() };
             let hue = hue(law.kind()) + if several { index } else { 0 };
             series.extend(law_series(law, &of, hue, gaps));
         }
     }
-    chart(title, name, unit, gaps, series)
+    chart([laws.title, laws.name, laws.unit], gaps, series)
 }
 
 /// The colour of a kind of law.
@@ -112,9 +132,9 @@ fn hue(kind: LawKind) -> usize {
 }
 
 /// A law's factor over the gap; where it is negative, its magnitude in a dashed line.
-fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &Axis) -> Vec<Series> {
+fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &Gaps) -> Vec<Series> {
     let kind = law.kind().name();
-    let points: Vec<[f64; 2]> = sampled(gaps).map(|gap| [gap, law.factor(gap)]).collect();
+    let points: Vec<[f64; 2]> = gaps.sampled().map(|gap| [gap, law.factor(gap)]).collect();
     let name = match law {
         ContactLaw::Adhesion(law) => {
             format!("{kind}{of}: {}, {}", law.attractive_exponent, law.repulsive_exponent)
@@ -133,7 +153,8 @@ fn by_sign(name: String, points: Vec<[f64; 2]>, hue: usize) -> Vec<Series> {
     let drawn = |points: &[[f64; 2]]| points.iter().any(|point| point[1].is_finite());
     let mut series = Vec::new();
     if drawn(&pulling) {
-        series.push(Series::solid(format!("{name}, pulling"), pulling, hue).dashed(DASHED));
+        let name = if name.is_empty() { String::new() } else { format!("{name}, pulling") };
+        series.push(Series::solid(name, pulling, hue).dashed(DASHED));
     }
     if drawn(&pushing) {
         series.insert(0, Series::solid(name, pushing, hue));
@@ -142,55 +163,65 @@ fn by_sign(name: String, points: Vec<[f64; 2]>, hue: usize) -> Vec<Series> {
 }
 
 /// The force of the central laws on each body, its weight, and the gaps at which they balance.
-fn force_chart(model: &Model, approaches: &[(usize, usize, Approach)], gaps: &Axis) -> Option<Chart> {
+fn force_chart(model: &Model, pairs: &[Pair], gaps: &Gaps) -> Option<Chart> {
     let several_supports = model.supports.len() > 1;
     let mut series = Vec::new();
-    let mut marks = Vec::new();
-    for (body, support, approach) in approaches {
-        let force = |gap: f64| [gap, approach.force(gap).unwrap_or(f64::NAN)];
-        let of = if several_supports { format!(" on {}", model.supports[*support].name) } else { String::new() };
-        let name = format!("{}{of}", model.bodies[*body].name);
-        let points: Vec<[f64; 2]> = sampled(gaps).map(force).collect();
+    for (index, pair) in pairs.iter().enumerate() {
+        let force = |gap: f64| [gap, pair.approach.force(gap).unwrap_or(f64::NAN)];
+        let of = if several_supports { format!(" on {}", model.supports[pair.support].name) } else { String::new() };
         let named = series.len() < MOST_NAMES;
-        series.extend(by_sign(name, points, *body).into_iter().map(|line| match named {
-            true => line,
-            false => Series { name: String::new(), ..line },
-        }));
-        if approaches.len() <= MOST_NAMES {
-            marks.extend(balance_marks(approach, &model.bodies[*body].name, *body, gaps));
-        }
+        let name = if named { format!("{}{of}", model.bodies[pair.body].name) } else { String::new() };
+        series.extend(by_sign(name, gaps.sampled().map(force).collect(), index));
     }
-    let mut chart = chart("Force of the central laws on a body at its first orientation", "force", "N", gaps, series)?;
-    // Marks do not decide the range; weights outside of it are not drawn.
-    let (low, high) = (chart.y.low, chart.y.high);
-    chart.series.extend(marks.into_iter().filter(|mark| (low..=high).contains(&mark.points[1][1])));
+    let title = "Force of the central laws on a body at its first orientation";
+    let mut chart = chart([title, "force", "N"], gaps, series)?;
+    if pairs.len() <= MOST_NAMES {
+        // Marks do not decide the range; weights outside of it are not drawn.
+        let (low, high) = (chart.y.low, chart.y.high);
+        let marks = pairs
+            .iter()
+            .enumerate()
+            .flat_map(|(index, pair)| balance_marks(pair, &model.bodies[pair.body].name, index, gaps));
+        chart.series.extend(marks.filter(|mark| (low..=high).contains(&mark.points[1][1])));
+    }
     Some(chart)
 }
 
 /// The weight as a level line and each gap of rest as an upright one below it.
-fn balance_marks(approach: &Approach, name: &str, body: usize, gaps: &Axis) -> Vec<Series> {
-    let weight = approach.weight;
+fn balance_marks(pair: &Pair, name: &str, hue: usize, gaps: &Gaps) -> Vec<Series> {
+    let weight = pair.approach.weight;
     let mut marks = Vec::new();
     if weight > 0.0 {
-        marks.push(Series::level(format!("weight of {name}"), weight, gaps));
+        marks.push(Series::level(format!("weight of {name}"), weight, &gaps.axis));
     }
-    for rest in approach.rests() {
-        let mut mark = Series::solid(format!("rest gap {}", length_in_words(rest.gap)), Vec::new(), body);
+    for rest in &pair.rests {
+        let points = vec![[rest.gap, f64::MIN_POSITIVE], [rest.gap, weight.abs()]];
+        let kind = if rest.stable { "" } else { " (unstable)" };
+        let mut mark = Series::solid(format!("rest gap {}{kind}", length_in_words(rest.gap)), points, hue);
         mark.stroke.width = 0.9;
-        mark.points = vec![[rest.gap, f64::MIN_POSITIVE], [rest.gap, weight.abs()]];
         if !rest.stable {
             mark.stroke.color = color::GREY;
-            mark.name += " (unstable)";
         }
         marks.push(mark.dashed(DOTTED));
     }
     marks
 }
 
-fn chart(title: &str, name: &str, unit: &str, gaps: &Axis, series: Vec<Series>) -> Option<Chart> {
-    let values = || series.iter().flat_map(|series| &series.points).map(|point| point[1]);
-    let (low, high) = extremes(values().filter(|y| *y > 0.0))?;
-    let low = low.max(high * 10f64.powf(-MOST_DECADES));
+/// A chart with title, name and unit of its upward axis; none without anything to draw.
+fn chart([title, name, unit]: [&str; 3], gaps: &Gaps, series: Vec<Series>) -> Option<Chart> {
+    let (low, high) = range(gaps, &series)?;
     let y = Axis::logarithmic(name, unit, [low, high]);
-    Some(Chart { title: title.into(), x: gaps.clone(), y, series, remarks: Vec::new(), height: HEIGHT })
+    Some(Chart { title: title.into(), x: gaps.axis.clone(), y, series, remarks: Vec::new(), height: HEIGHT })
+}
+
+/// The values that are drawn: some decades around those at the gaps of rest, as far as there are any.
+fn range(gaps: &Gaps, series: &[Series]) -> Option<(f64, f64)> {
+    let points = || series.iter().flat_map(|series| &series.points).filter(|point| point[1] > 0.0);
+    let (least, most) = extremes(points().map(|point| point[1]))?;
+    let near = |gap: f64| points().filter(move |point| (point[0] / gap).ln().abs() < 0.1).map(|point| point[1]);
+    let typical = extremes(gaps.rests.iter().flat_map(|gap| near(*gap)));
+    Some(match typical {
+        Some((low, high)) => (least.max(AROUND_VALUES.0 * low), most.min(AROUND_VALUES.1 * high)),
+        None => (least.max(most * 10f64.powf(-MOST_DECADES)), most),
+    })
 }

@@ -18,8 +18,8 @@ use view::{Motion, View};
 
 /// Samples by which the motion is judged.
 const PROBES: usize = 400;
-/// Times in a picture for all of them.
-const STROBE_TIMES: usize = 16;
+/// Times in a picture for all of them: as many of these as leave the bodies room.
+const STROBE_TIMES: [usize; 4] = [16, 12, 9, 7];
 /// Pictures of one time each.
 const FRAMES: usize = 10;
 /// Bodies drawn at most.
@@ -72,11 +72,14 @@ impl Strip {
         };
         let path = |body: usize| probes.iter().map(|probe| view.project(&probe.poses[body].position)).collect();
         let bodies = recorded.bodies.len().min(MOST_BODIES);
-        let strobe = without_overlaps(frames(STROBE_TIMES), recorded);
-        let shared = strobe.len() * 3 >= 2 * STROBE_TIMES.min(moving + 1) && strobe.len() > 3;
+        let strobe = STROBE_TIMES.into_iter().find_map(|count| {
+            let kept = without_overlaps(frames(count), recorded);
+            // Where a third of the times had to be left out, the rest does not tell the motion.
+            (kept.len() * 3 >= 2 * count.min(moving + 1) && kept.len() > 3).then_some(kept)
+        });
         Ok(Self {
-            frames: if shared { strobe } else { frames(FRAMES) },
-            shared,
+            shared: strobe.is_some(),
+            frames: strobe.unwrap_or_else(|| frames(FRAMES)),
             paths: (0..bodies).map(path).collect(),
             left_out: recorded.bodies.len() - bodies,
         })

@@ -3,7 +3,7 @@
 use super::ground::Ground;
 use super::silhouette::Silhouette;
 use super::{Frame, Strip};
-use crate::plot::chart::ticks::{length_in_words, round_step, short};
+use crate::plot::chart::ticks::{decimals, length_in_words, round_step};
 use crate::plot::draw::{Anchor, Color, Drawing, Label, Point, Rect, Stroke, Text, color};
 
 /// Height of times [pt].
@@ -16,6 +16,11 @@ const FRAMES_HEIGHT: f64 = 210.0;
 const GUTTER: f64 = 10.0;
 /// Depth of the hatching below a support [pt].
 const HATCH: f64 = 6.0;
+
+/// Beside and above what is drawn, as fractions of its longer side.
+const MARGINS: [f64; 2] = [0.03, 0.012];
+/// Room above a picture for the time of the highest body [pt].
+const HEADROOM: f64 = 12.0;
 
 /// From metres to points of the page.
 #[derive(Clone, Copy)]
@@ -82,8 +87,8 @@ impl Bounds {
         let (mut low, mut high) = (self.low, self.high);
         for k in [0, 1] {
             let lacking = (longest / 6.0 - (high[k] - low[k])).max(0.0);
-            low[k] -= 0.5 * lacking + 0.04 * longest;
-            high[k] += 0.5 * lacking + 0.04 * longest;
+            low[k] -= 0.5 * lacking + MARGINS[k] * longest;
+            high[k] += 0.5 * lacking + MARGINS[k] * longest;
         }
         Self { low, high }
     }
@@ -111,10 +116,10 @@ fn caption(words: &str, at: Point, anchor: Anchor) -> Text {
 
 fn draw_shared(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect) -> f64 {
     let scale = (area.width / bounds.width()).min(MOST_HEIGHT / bounds.height());
-    let (width, height) = (area.width, scale * bounds.height() + HATCH);
-    let frame = Rect { height, ..area };
+    let floor = area.y + HEADROOM + scale * bounds.height();
+    let frame = Rect { height: floor + HATCH - area.y, ..area };
     // The picture stands in the middle of the width.
-    let corner = [area.x + 0.5 * (width - scale * bounds.width()), area.y + scale * bounds.height()];
+    let corner = [area.x + 0.5 * (area.width - scale * bounds.width()), floor];
     let map = Map { scale, corner, low: bounds.low };
     let last = strip.frames.len() - 1;
     draw_grounds(&strip.frames[last].grounds, &map, drawing, frame);
@@ -125,25 +130,30 @@ fn draw_shared(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect
         moment.bodies.iter().for_each(|body| draw_body(body, 0.12 + 0.3 * age, &map, drawing, frame));
     }
     for moment in &strip.frames {
-        write_time(moment, &map, drawing, frame, &mut written);
+        let words = time_in_words(moment.time, strip.decimals());
+        write_time(moment, &words, &map, drawing, &mut written);
     }
-    draw_scale_bar(scale, drawing, [frame.right(), frame.bottom() + 12.0]);
-    frame.bottom() + 16.0
+    draw_scale_bar(scale, drawing, [frame.right(), frame.bottom() + 8.0]);
+    frame.bottom() + 10.0
 }
 
 /// The time above the highest body, if nothing is written there yet.
-fn write_time(moment: &Frame, map: &Map, drawing: &mut Drawing, frame: Rect, written: &mut Vec<Rect>) {
-    let points = moment.bodies.iter().flat_map(|body| &body.hull).map(|point| map.place(*point));
-    let Some(top) = points.min_by(|a, b| a[1].total_cmp(&b[1])) else { return };
-    let label = Label::new(&time_in_words(moment.time));
+fn write_time(moment: &Frame, words: &str, map: &Map, drawing: &mut Drawing, written: &mut Vec<Rect>) {
+    let top = |body: &Silhouette| {
+        let heights = body.hull.iter().chain([&body.center]).map(|point| map.place(*point)[1]);
+        [map.place(body.center)[0], heights.fold(f64::INFINITY, f64::min)]
+    };
+    let Some(top) = moment.bodies.iter().map(top).min_by(|a, b| a[1].total_cmp(&b[1])) else { return };
+    let label = Label::new(words);
     let width = label.width(TIME_SIZE, false);
-    let x = top[0].clamp(frame.x + 0.5 * width, frame.right() - 0.5 * width);
-    let at = [x, (top[1] - 4.0).max(frame.y + TIME_SIZE)];
-    let space = Rect { x: x - 0.5 * width - 2.0, y: at[1] - TIME_SIZE, width: width + 4.0, height: TIME_SIZE + 1.0 };
+    let at = [top[0], top[1] - 4.0];
+    let space =
+        Rect { x: at[0] - 0.5 * width - 2.0, y: at[1] - TIME_SIZE, width: width + 4.0, height: TIME_SIZE + 2.0 };
     let apart = |other: &Rect| {
         space.right() < other.x || other.right() < space.x || space.bottom() < other.y || other.bottom() < space.y
     };
     if written.iter().all(apart) {
+        drawing.area(space.corners().to_vec(), Some(color::WHITE.faded(0.8)), None, None);
         drawing.text(Text { label, ..caption("", at, Anchor::Middle) });
         written.push(space);
     }
@@ -168,16 +178,24 @@ fn draw_frames(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect
         draw_grounds(&moment.grounds, &map, drawing, cell);
         moment.bodies.iter().for_each(|body| draw_body(body, 0.3, &map, drawing, cell));
         let at = [x + 0.5 * size[0], cell.bottom() + 1.1 * TIME_SIZE];
-        drawing.text(caption(&time_in_words(moment.time), at, Anchor::Middle));
+        drawing.text(caption(&time_in_words(moment.time, strip.decimals()), at, Anchor::Middle));
     }
     let bottom = area.y + height(columns);
     draw_scale_bar(scale, drawing, [area.right(), bottom + 8.0]);
     bottom + 12.0
 }
 
-fn time_in_words(time: f64) -> String {
-    let digits = if time == 0.0 { 0 } else { (2.0 - time.abs().log10().floor()).clamp(0.0, 3.0) as usize };
-    if (1e-3..1e4).contains(&time) || time == 0.0 { format!("{time:.digits$} s") } else { format!("{} s", short(time)) }
+impl Strip {
+    /// Decimals [s] that tell the times apart to a tenth of their distance.
+    fn decimals(&self) -> usize {
+        let times = self.frames.iter().map(|frame| frame.time);
+        let nearest = times.clone().zip(times.skip(1)).map(|(a, b)| b - a).fold(f64::INFINITY, f64::min);
+        if nearest.is_finite() && nearest > 0.0 { decimals(nearest) + 1 } else { 3 }
+    }
+}
+
+fn time_in_words(time: f64, decimals: usize) -> String {
+    format!("{time:.decimals$} s")
 }
 
 fn draw_paths(strip: &Strip, map: &Map, drawing: &mut Drawing, frame: Rect) {
@@ -221,9 +239,11 @@ fn draw_grounds(grounds: &[Ground], map: &Map, drawing: &mut Drawing, frame: Rec
         let reach = 0.5 * frame.width.hypot(frame.height);
         let at = |s: f64, depth: f64| [0, 1].map(|k| middle[k] + s * along[k] - depth * normal[k]);
         let strokes = (reach / HATCH).ceil() as i64;
+        // Of the two ways to lean, the one that is nearer to the vertical.
+        let lean = if along[1] > 0.1 { HATCH } else { -HATCH };
         let hatch = (-strokes..=strokes).map(|k| {
             let s = HATCH * k as f64;
-            vec![at(s, 0.0), at(s - HATCH, HATCH)]
+            vec![at(s, 0.0), at(s + lean, HATCH)]
         });
         drawing.lines(hatch.collect(), Stroke::solid(color::GREY, 0.4), Some(frame));
         drawing.line(vec![at(-reach, 0.0), at(reach, 0.0)], Stroke::solid(color::INK, 0.9), Some(frame));
