@@ -6,8 +6,8 @@ Formulation, on purpose not that of the code. Bodies of revolution: the azimuth 
   integral of cos(n phi) (1 - 2 q cos(phi) + q^2)^-nu dphi
     = 2 pi ((nu)_n/n!) q^n (1 - q^2)^(1 - 2 nu) 2F1(1 - nu, n + 1 - nu; n + 1; q^2)
 
-then the meridian by Gauss-Legendre on panels that shrink towards the nearest point. A triaxial ellipsoid: over the
-sphere of normals n, X = A^2 n/|A n|, dA = (det A)^2/|A n|^4 dOmega, with its own panels and a trapezoid in azimuth,
+then the meridian by Gauss-Legendre on panels that shrink towards the nearest point. A triaxial ellipsoid: by spherical
+angles about its longest axis (the code's are about the lowest point), with such panels and a trapezoid in azimuth,
 doubled until the values stand still.
 
 Usage: python3 curved_moments.py > ../../crates/gyration/tests/data/curved_moments.csv     (needs mpmath; some minutes)
@@ -168,47 +168,44 @@ def sphere(kernel, g, m, p, eps):
 
 
 def ellipsoid(kernel, g, m, p, eps):
-    """By the sphere of normals, poles along m."""
+    """By spherical angles about the first, longest axis: X = A s, dA = |cof(A) s| dOmega."""
     axes = [mpf(x) for x in p]
-    size = sqrt(sum(x * x for x in m))
-    pole = [-x / size for x in m]
-    helper = [1, 0, 0] if abs(pole[0]) < 0.6 else [0, 1, 0]
-    e1 = cross(helper, pole)
-    length = sqrt(sum(x * x for x in e1))
-    e1 = [x / length for x in e1]
-    e2 = cross(pole, e1)
-    det2 = (axes[0] * axes[1] * axes[2]) ** 2
+    cofactor = [axes[1] * axes[2], axes[2] * axes[0], axes[0] * axes[1]]
 
-    def circle(theta, count):
+    def point(w, s):
+        x = [a * v for a, v in zip(axes, s)]
+        d = g + sum(u * v for u, v in zip(m, x))
+        w *= (log(d) if kernel == "log" else d ** -mpf(kernel)) * sqrt(sum((b * v) ** 2 for b, v in zip(cofactor, s)))
+        return matrix([w] + [w * product(x[i] for i in monomial) for monomial in MONOMIALS[1:]])
+
+    def circle(theta, count, shift):
         total = matrix([0] * len(MONOMIALS))
-        st, ct = sin(theta), cos(theta)
+        sine, cosine = sin(theta), cos(theta)
         for k in range(count):
-            phi = 2 * pi * k / count
-            c, s = st * cos(phi), st * sin(phi)
-            n = [ct * f + c * u + s * v for f, u, v in zip(pole, e1, e2)]
-            an = [a * x for a, x in zip(axes, n)]
-            norm = sqrt(sum(x * x for x in an))
-            x = [a * v / norm for a, v in zip(axes, an)]
-            d = g + sum(u * v for u, v in zip(m, x))
-            w = (log(d) if kernel == "log" else d ** -mpf(kernel)) * det2 / norm**4 * st * 2 * pi / count
-            total += matrix([w] + [w * product(x[i] for i in monomial) for monomial in MONOMIALS[1:]])
+            phi = 2 * pi * (k + shift) / count
+            total += point(2 * pi * sine / count, [cosine, sine * cos(phi), sine * sin(phi)])
         return total
 
     def settled(theta):
-        count, previous = 16, None
+        # Doubling adds the points halfway between; the last change is about the square root of the error that is left.
+        count, value = 16, circle(theta, 16, mpf(0))
         while True:
-            value = circle(theta, count)
-            if previous is not None and max(abs(v) for v in value - previous) <= mpf("1e-13") * max(abs(v) for v in value):
-                return value
-            count, previous = 2 * count, value
+            finer = (value + circle(theta, count, mpf(1) / 2)) / 2
+            largest = max(abs(v) for v in finer)
+            if max(abs(v) for v in finer - value) <= mpf("1e-9") * largest:
+                return finer
+            count, value = 2 * count, finer
 
-    points = [mpf(0)]
-    width = pi
-    while width > sqrt(eps):
-        width /= 3
-        points.append(width)
-    points = sorted(points) + [pi / 2, 2 * pi / 3, pi]
-    points = sorted(set(points))
+    image = [a * x for a, x in zip(axes, m)]
+    lowest = atan2(hypot(image[1], image[2]), -image[0])
+    finest = min(sqrt(eps), min(axes) / max(axes)) / 2
+    points = {mpf(0), pi}
+    for peak in (mpf(0), lowest, pi):
+        width = pi
+        while width > finest:
+            points.update(x for x in (peak - width, peak + width) if 0 < x < pi)
+            width /= 3
+    points = sorted(points)
     total = matrix([0] * len(MONOMIALS))
     for left, right in zip(points, points[1:]):
         total += vector_quad(settled, left, right)
@@ -220,10 +217,6 @@ def product(factors):
     for factor in factors:
         result *= factor
     return result
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def support(shape, p, m):
