@@ -5,6 +5,7 @@
 
 use crate::error::{CliError, code};
 use crate::output;
+use crate::summary::plain;
 use gyration_sim::{Monitor, Progress, Reason, limit_in_words};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -97,8 +98,8 @@ impl Bar {
         let limit = limit_in_words(progress.model, &progress.step.limit);
         self.bar.set_prefix(format!("t = {time:.4} of {end} s"));
         self.bar.set_message(format!(
-            "{:.2e} s/s, {} left, step {:.1e} s limited by {limit}",
-            self.rate,
+            "{} s/s, {} left, step {:.1e} s limited by {limit}",
+            plain(self.rate, 3),
             duration_in_words(remaining),
             progress.step.end - progress.step.start,
         ));

@@ -9,13 +9,13 @@ use std::fmt::Write as _;
 /// Bodies whose momenta are listed.
 const MOST_BODIES: usize = 8;
 
-/// The summary as lines of text.
-pub fn in_words(scene: &Scene, summary: &RunSummary) -> String {
+/// The summary as lines of text; `start` are the energies at t = 0, in the order of the ledger.
+pub fn in_words(scene: &Scene, summary: &RunSummary, start: &[f64]) -> String {
     let title = scene.file().title.clone().unwrap_or_else(|| scene.name().to_owned());
     let mut text = format!("{title}\noutcome    {}\n", summary.in_words);
     // Writing to a string does not fail.
     let _ = writeln!(text, "{}", steps(summary));
-    text += &ledger(&summary.ledger);
+    text += &ledger(&summary.ledger, start);
     text += &bodies(&summary.bodies);
     text += &events(&summary.events);
     text.trim_end().to_owned()
@@ -31,24 +31,26 @@ fn steps(summary: &RunSummary) -> String {
     };
     format!(
         "time       {} s simulated in {wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} rejected",
-        plain(summary.time),
+        plain(summary.time, 7),
         explicit + implicit,
     )
 }
 
-/// The ledger as a table, and how well it closes.
-fn ledger(ledger: &LedgerSummary) -> String {
-    let mut text = String::from("energy [J]\n");
-    let _ = writeln!(text, "  {:<20} {:>16}", "sum at t = 0", number(ledger.initial_energy));
-    for (name, value) in &ledger.energies {
-        let _ = writeln!(text, "  {name:<20} {:>16}", number(*value));
+/// The ledger as a table, and how well it closes; `start` are the energies at t = 0, in the order of the ledger.
+fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
+    let mut text = format!("energy [J]  {:>26} {:>16}\n", "at t = 0", "at the end");
+    let end: f64 = ledger.energies.iter().map(|(_, value)| value).sum();
+    let energies = ledger.energies.iter().map(|(name, value)| (*name, *value)).zip(start);
+    for ((name, value), start) in energies {
+        let _ = writeln!(text, "  {name:<19} {:>16} {:>16}", number(*start), number(value));
     }
+    let _ = writeln!(text, "  {:<19} {:>16} {:>16}", "sum", number(ledger.initial_energy), number(end));
     for (name, value) in &ledger.works {
-        let _ = writeln!(text, "  {:<20} {:>16}", format!("work of {name}"), number(*value));
+        let _ = writeln!(text, "  {:<36} {:>16}", format!("work of {name}"), number(*value));
     }
+    let _ = writeln!(text, "  {:<36} {:>16}", "residual", number(ledger.residual));
     let relative = ledger.largest_residual / ledger.energy_in_play;
     let relative = if relative.is_finite() { format!(", {relative:.1e} of the energy in play") } else { String::new() };
-    let _ = writeln!(text, "  {:<20} {:>16}", "residual", number(ledger.residual));
     let _ = writeln!(text, "  the balance closes to {:.1e} J{relative}", ledger.largest_residual);
     text
 }
@@ -56,7 +58,7 @@ fn ledger(ledger: &LedgerSummary) -> String {
 fn bodies(bodies: &[BodySummary]) -> String {
     let mut text = String::from("at the end\n");
     for body in bodies.iter().take(MOST_BODIES) {
-        let gap = body.gap.map(|gap| format!(", gap {} m", plain(gap))).unwrap_or_default();
+        let gap = body.gap.map(|gap| format!(", gap {} m", plain(gap, 5))).unwrap_or_default();
         let _ = writeln!(text, "  {:<20} at {} m{gap}", body.name, vector(&body.position));
         let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "", vector(&body.linear_momentum));
         let _ = writeln!(text, "  {:<20} angular momentum {} kg m²/s", "", vector(&body.angular_momentum));
@@ -76,8 +78,11 @@ fn events(events: &Value) -> String {
     if counts.is_empty() { String::new() } else { format!("events     {}\n", counts.join(", ")) }
 }
 
-fn vector(v: &[f64; 3]) -> String {
-    format!("({}, {}, {})", plain(v[0]), plain(v[1]), plain(v[2]))
+/// Five digits of each component; what is rounding beside the largest reads as zero.
+pub fn vector(v: &[f64; 3]) -> String {
+    let largest = v.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+    let [x, y, z] = v.map(|c| if c.abs() > 1e-14 * largest { plain(c, 5) } else { "0".to_owned() });
+    format!("({x}, {y}, {z})")
 }
 
 /// Seven digits, in a column.
@@ -85,16 +90,17 @@ fn number(value: f64) -> String {
     format!("{value:.6e}")
 }
 
-/// Five digits, without an exponent where that is short.
-pub fn plain(value: f64) -> String {
+/// So many digits, without an exponent where that is short.
+pub fn plain(value: f64, digits: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
     let power = value.abs().log10().floor();
     if !(-4.0..6.0).contains(&power) {
-        return format!("{value:.4e}");
+        let digits = (digits - 1) as usize;
+        return format!("{value:.digits$e}");
     }
-    let decimals = (4.0 - power).max(0.0) as usize;
+    let decimals = (f64::from(digits) - 1.0 - power).max(0.0) as usize;
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
@@ -104,10 +110,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn plain_numbers_have_five_digits() {
-        assert_eq!(
-            [0.0, 1.5, -0.000123456, 123456.7, 1e-9, 4.0].map(plain),
-            ["0", "1.5", "-0.00012346", "123457", "1.0000e-9", "4"]
-        );
+    fn plain_numbers_have_the_digits_asked_for() {
+        let words = [0.0, 1.5, -0.000123456, 123456.7, 1e-9, 4.0].map(|value| plain(value, 5));
+        assert_eq!(words, ["0", "1.5", "-0.00012346", "123457", "1.0000e-9", "4"]);
+        assert_eq!(plain(0.75649, 3), "0.756");
+    }
+
+    #[test]
+    fn rounding_beside_large_components_reads_as_zero() {
+        assert_eq!(vector(&[0.5, -2.7e-18, 0.25]), "(0.5, 0, 0.25)");
+        assert_eq!(vector(&[0.0, 1e-15, 0.0]), "(0, 1.0000e-15, 0)");
     }
 }

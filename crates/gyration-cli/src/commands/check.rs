@@ -5,6 +5,7 @@ use crate::arguments::Check;
 use crate::check::{self, BodyCheck, LawCheck, PairCheck, Rest, SceneCheck};
 use crate::error::{CliError, code};
 use crate::output;
+use crate::summary::{plain, vector};
 use gyration_scene::Scene;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -116,11 +117,7 @@ fn write_rest(text: &mut String, rest: &Rest) {
     }
 }
 
-fn vector(v: &[f64; 3]) -> String {
-    format!("({}, {}, {})", short(v[0]), short(v[1]), short(v[2]))
-}
-
-/// Five digits; what is but rounding beside one reads as it is.
+/// Five digits.
 fn short(value: f64) -> String {
-    crate::summary::plain(value)
+    plain(value, 5)
 }

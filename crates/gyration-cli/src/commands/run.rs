@@ -175,22 +175,36 @@ fn leave_picture(path: &Path, picture: &Path) {
 }
 
 fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Result<(), CliError> {
+    let start = starting_energies(path, summary)?;
+    let picture = shown(&path.join(PICTURE));
     if arguments.json {
-        let mut value = json!({ "recording": shown(path), "picture": shown(&path.join(PICTURE)) });
+        let names = summary.ledger.energies.iter().map(|(name, _)| (*name).to_owned());
+        let start: Attributes = names.zip(start.iter().map(|value| json!(value))).collect();
+        let mut value = json!({ "recording": shown(path), "picture": picture, "energies_at_start": start });
         if let (Some(all), Ok(Value::Object(told))) = (value.as_object_mut(), serde_json::to_value(summary)) {
             all.extend(told);
         }
         output::print(&format!("{value:#}\n"))?;
+    } else if !arguments.quiet {
+        output::say(&summary::in_words(scene, summary, &start));
+        output::say(&format!("recording  {}\npicture    {picture}", shown(path)));
     }
-    let interrupted = matches!(&summary.outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted);
-    if !arguments.quiet && !arguments.json {
-        output::say(&summary::in_words(scene, summary));
-        output::say(&format!("recording  {}\npicture    {}", shown(path), shown(&path.join(PICTURE))));
+    let Outcome::Stopped(_) = &summary.outcome else { return Ok(()) };
+    // An exit code alone does not tell what happened.
+    if arguments.quiet || arguments.json {
+        output::say(&format!("gyration: {}", summary.in_words));
     }
-    if !summary.outcome.is_final() && (interrupted || !arguments.quiet) {
+    if !summary.outcome.is_final() {
         output::say(&format!("gyration: go on with `{}`", resume_command(arguments, path)));
     }
     Ok(())
+}
+
+/// The energies [J] of the first row, in the order of the ledger.
+fn starting_energies(path: &Path, summary: &RunSummary) -> Result<Vec<f64>, CliError> {
+    let recording = Recording::open(path)?;
+    let first = |(name, _): &(&str, f64)| Ok(recording.read_rows(&format!("energy_{name}"), 0..1)?.data[0]);
+    summary.ledger.energies.iter().map(first).collect()
 }
 
 fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Result<(), CliError> {

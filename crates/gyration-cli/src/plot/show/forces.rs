@@ -7,6 +7,7 @@ use super::{body_series, drawn_bodies, time_axis, values};
 use crate::plot::PlotError;
 use crate::plot::chart::ticks::short;
 use crate::plot::chart::{Axis, Chart, DOTTED, Scale, Series, extremes};
+use crate::plot::draw::Point;
 use crate::plot::recorded::Recorded;
 use gyration::tensor::Vec3;
 
@@ -14,52 +15,84 @@ const HEIGHT: f64 = 120.0;
 /// Forces that exceed the weight by this factor are drawn over a logarithmic axis.
 const VIOLENT: f64 = 30.0;
 
+/// The forces on the bodies that are touched.
+struct Forces {
+    bodies: Vec<usize>,
+    normal: Vec<Vec<Point>>,
+    tangential: Vec<Vec<Point>>,
+}
+
 /// Normal and tangential force of each body.
 pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
     let normal = common_normal(recorded);
-    let bodies = drawn_bodies(recorded);
-    let count = bodies.len();
-    let part = |row: &[&[f64]], k: usize| {
-        let force = Vec3::from_column_slice(&row[0][3 * bodies[k % count]..][..3]);
-        let along = force.dot(&normal);
-        if k < count { along } else { (force - along * normal).norm() }
-    };
-    let mut lines = recorded.lines(&["contact_force"], 2 * count, part)?;
-    let tangential = lines.split_off(count);
-    let largest = |lines: &[Vec<[f64; 2]>]| {
-        extremes(lines.iter().flatten().map(|point| point[1].abs())).map_or(0.0, |(_, high)| high)
-    };
-    let most = largest(&lines).max(largest(&tangential));
+    let forces = Forces::read(recorded, &normal)?;
+    let most = largest(&forces.normal).max(largest(&forces.tangential));
     if most == 0.0 || !most.is_finite() {
         return Err(PlotError::Nothing { what: "forces", reason: "no support acts on a body" });
     }
-    let (mut series, mut remarks) = body_series(recorded, &bodies, lines);
-    remarks.push(sampling(recorded)?);
-    if count == 1 {
-        series[0].name = "normal".into();
-    }
-    // Across the normal there is but rounding where nothing slides.
-    if largest(&tangential) > 1e-9 * most {
-        let (across, _) = body_series(recorded, &bodies, tangential);
-        series.extend(across.into_iter().enumerate().map(|(k, line)| {
-            let name = match count {
-                1 => "tangential".to_owned(),
-                _ if k == 0 => "tangential: dotted".to_owned(),
-                _ => String::new(),
-            };
-            let hue = if count == 1 { 1 } else { bodies[k] };
-            Series::solid(name, line.points, hue).dashed(DOTTED)
-        }));
-    }
     let x = time_axis(recorded)?;
-    let weight =
-        bodies.iter().map(|body| recorded.bodies[*body].mass).fold(0.0, f64::max) * recorded.gravity.dot(&normal).abs();
-    if weight > 0.0 && count == 1 {
+    let masses = forces.bodies.iter().map(|body| recorded.bodies[*body].mass);
+    let weight = masses.fold(0.0, f64::max) * recorded.gravity.dot(&normal).abs();
+    let (mut series, mut remarks) = forces.series(recorded, most);
+    if weight > 0.0 && forces.bodies.len() == 1 {
         series.push(Series::level("weight", weight, &x));
     }
+    remarks.push(sampling(recorded)?);
     let y = axis(&series, weight, most);
     let title = "Force of contact".to_owned();
     Ok(Chart { title, x, y, series, remarks, height: HEIGHT })
+}
+
+/// The largest magnitude.
+fn largest(lines: &[Vec<Point>]) -> f64 {
+    extremes(lines.iter().flatten().map(|point| point[1].abs())).map_or(0.0, |(_, high)| high)
+}
+
+impl Forces {
+    fn read(recorded: &Recorded, normal: &Vec3) -> Result<Self, PlotError> {
+        let bodies = drawn_bodies(recorded);
+        let count = bodies.len();
+        let part = |row: &[&[f64]], k: usize| {
+            let force = Vec3::from_column_slice(&row[0][3 * bodies[k % count]..][..3]);
+            let along = force.dot(normal);
+            if k < count { along } else { (force - along * normal).norm() }
+        };
+        let mut along = recorded.lines(&["contact_force"], 2 * count, part)?;
+        let across = along.split_off(count);
+        let mut forces = Self { bodies: Vec::new(), normal: Vec::new(), tangential: Vec::new() };
+        for (body, (along, across)) in bodies.into_iter().zip(along.into_iter().zip(across)) {
+            let touched = along.iter().chain(&across).any(|point| point[1] != 0.0);
+            if touched {
+                forces.bodies.push(body);
+                forces.normal.push(along);
+                forces.tangential.push(across);
+            }
+        }
+        Ok(forces)
+    }
+
+    /// A solid line for each normal force, a dotted one for each tangential force, and remarks.
+    fn series(&self, recorded: &Recorded, most: f64) -> (Vec<Series>, Vec<String>) {
+        let (mut series, remarks) = body_series(recorded, &self.bodies, self.normal.clone());
+        let alone = series.len() == 1;
+        if alone {
+            series[0].name = "normal".into();
+        }
+        // Across the normal there is but rounding where nothing slides.
+        if largest(&self.tangential) <= 1e-9 * most {
+            return (series, remarks);
+        }
+        for (k, (body, points)) in self.bodies.iter().zip(&self.tangential).enumerate() {
+            let name = match (alone, k) {
+                (true, _) => "tangential",
+                (false, 0) => "tangential: dotted",
+                _ => "",
+            };
+            let hue = if alone { 1 } else { *body };
+            series.push(Series::solid(name, points.clone(), hue).dashed(DOTTED));
+        }
+        (series, remarks)
+    }
 }
 
 /// How far samples are apart: peaks of shorter impacts are not seen whole.

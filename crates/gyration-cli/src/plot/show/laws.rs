@@ -141,7 +141,12 @@ fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &Gaps) -> Vec<Series
         }
         _ => format!("{kind}{of}: ν = {}", law.leading_exponent()),
     };
-    by_sign(name, points, hue)
+    let mut series = by_sign(name, points, hue);
+    // Friction is often given the numbers of damping: its line must not hide the other.
+    if law.kind() == LawKind::Friction {
+        series.iter_mut().for_each(|line| line.stroke.dash = DASHED);
+    }
+    series
 }
 
 /// The positive part in a solid line, the negative one with its sign reversed in a dashed line.
@@ -178,21 +183,18 @@ fn force_chart(model: &Model, pairs: &[Pair], gaps: &Gaps) -> Option<Chart> {
     if pairs.len() <= MOST_NAMES {
         // Marks do not decide the range; weights outside of it are not drawn.
         let (low, high) = (chart.y.low, chart.y.high);
-        let marks = pairs
-            .iter()
-            .enumerate()
-            .flat_map(|(index, pair)| balance_marks(pair, &model.bodies[pair.body].name, index, gaps));
+        let marks = pairs.iter().enumerate().flat_map(|(index, pair)| balance_marks(pair, index, gaps));
         chart.series.extend(marks.filter(|mark| (low..=high).contains(&mark.points[1][1])));
     }
     Some(chart)
 }
 
-/// The weight as a level line and each gap of rest as an upright one below it.
-fn balance_marks(pair: &Pair, name: &str, hue: usize, gaps: &Gaps) -> Vec<Series> {
+/// The weight as a level line, named once, and each gap of rest as an upright one below it.
+fn balance_marks(pair: &Pair, hue: usize, gaps: &Gaps) -> Vec<Series> {
     let weight = pair.approach.weight;
     let mut marks = Vec::new();
     if weight > 0.0 {
-        marks.push(Series::level(format!("weight of {name}"), weight, &gaps.axis));
+        marks.push(Series::level(if hue == 0 { "weight" } else { "" }, weight, &gaps.axis));
     }
     for rest in &pair.rests {
         let points = vec![[rest.gap, f64::MIN_POSITIVE], [rest.gap, weight.abs()]];

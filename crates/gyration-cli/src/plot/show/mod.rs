@@ -32,6 +32,8 @@ pub enum Quantity {
 const MOST_LINES: usize = 40;
 /// Bodies with a name in the legend.
 const MOST_NAMES: usize = 7;
+/// Width of lines where there are many [pt].
+const THIN: f64 = 0.7;
 
 /// The panels of one quantity.
 ///
@@ -83,8 +85,11 @@ pub fn figure(recorded: &Recorded, panels: Vec<Panel>) -> Figure {
 /// A series for each body, named in the legend if they are few.
 fn body_series(recorded: &Recorded, indices: &[usize], lines: Vec<Vec<Point>>) -> (Vec<Series>, Vec<String>) {
     let names = |k: usize| if k < MOST_NAMES { recorded.bodies[indices[k]].name.clone() } else { String::new() };
-    let series: Vec<Series> =
-        lines.into_iter().enumerate().map(|(k, points)| Series::solid(names(k), points, indices[k])).collect();
+    let lines = lines.into_iter().enumerate();
+    let mut series: Vec<Series> = lines.map(|(k, points)| Series::solid(names(k), points, indices[k])).collect();
+    if series.len() > MOST_NAMES {
+        series.iter_mut().for_each(|line| line.stroke.width = THIN);
+    }
     let unnamed = series.len().saturating_sub(MOST_NAMES);
     let undrawn = recorded.bodies.len().saturating_sub(MOST_LINES);
     let remark = |count: usize, words: &str| (count > 0).then(|| format!("{count} {words}"));

@@ -17,6 +17,10 @@ const GUTTER: f64 = 10.0;
 /// Depth of the hatching below a support [pt].
 const HATCH: f64 = 6.0;
 
+/// Points of an outline that are nearer to each other are one [pt].
+const RESOLUTION: f64 = 0.4;
+/// Bodies narrower than this are drawn without edges [pt].
+const LEAST_EDGED: f64 = 8.0;
 /// Beside and above what is drawn, as fractions of its longer side.
 const MARGINS: [f64; 2] = [0.03, 0.012];
 /// Room above a picture for the time of the highest body [pt].
@@ -34,6 +38,19 @@ struct Map {
 impl Map {
     fn place(&self, point: Point) -> Point {
         [self.corner[0] + self.scale * (point[0] - self.low[0]), self.corner[1] - self.scale * (point[1] - self.low[1])]
+    }
+
+    /// A line on the page, without points that lie so near to the one before that nobody sees them.
+    fn place_line(&self, line: &[Point]) -> Vec<Point> {
+        let mut placed: Vec<Point> = Vec::with_capacity(line.len());
+        for (index, point) in line.iter().enumerate() {
+            let point = self.place(*point);
+            let near = |last: &Point| (point[0] - last[0]).hypot(point[1] - last[1]) < RESOLUTION;
+            if index + 1 == line.len() || !placed.last().is_some_and(near) {
+                placed.push(point);
+            }
+        }
+        placed
     }
 }
 
@@ -201,16 +218,14 @@ fn time_in_words(time: f64, decimals: usize) -> String {
 fn draw_paths(strip: &Strip, map: &Map, drawing: &mut Drawing, frame: Rect) {
     for (body, path) in strip.paths.iter().enumerate() {
         let stroke = Stroke { color: color::series(body).faded(0.55), width: 0.6, dash: &[2.0, 2.0] };
-        drawing.line(path.iter().map(|point| map.place(*point)).collect(), stroke, Some(frame));
+        drawing.line(map.place_line(path), stroke, Some(frame));
     }
 }
 
 fn draw_body(body: &Silhouette, strength: f64, map: &Map, drawing: &mut Drawing, frame: Rect) {
     let hue: Color = color::series(body.body);
-    let placed = |lines: &[Vec<Point>]| -> Vec<Vec<Point>> {
-        lines.iter().map(|line| line.iter().map(|point| map.place(*point)).collect()).collect()
-    };
-    let hull: Vec<Point> = body.hull.iter().map(|point| map.place(*point)).collect();
+    let placed = |lines: &[Vec<Point>]| lines.iter().map(|line| map.place_line(line)).collect::<Vec<_>>();
+    let hull = map.place_line(&body.hull);
     if hull.len() < 3 {
         drawing.dot(map.place(body.center), 1.5, hue, Some(frame));
         return;
@@ -221,8 +236,10 @@ fn draw_body(body: &Silhouette, strength: f64, map: &Map, drawing: &mut Drawing,
     let width = (0.02 * extent).clamp(0.25, 0.8);
     let ink = hue.faded((0.45 + strength).min(1.0));
     drawing.area(hull.clone(), Some(hue.tint(strength).faded(0.85)), None, Some(frame));
-    drawing.lines(placed(&body.behind), Stroke::solid(hue.faded(0.18), 0.5 * width), Some(frame));
-    drawing.lines(placed(&body.front), Stroke::solid(ink, 0.6 * width), Some(frame));
+    if extent > LEAST_EDGED {
+        drawing.lines(placed(&body.behind), Stroke::solid(hue.faded(0.18), 0.5 * width), Some(frame));
+        drawing.lines(placed(&body.front), Stroke::solid(ink, 0.6 * width), Some(frame));
+    }
     drawing.area(hull, None, Some(Stroke::solid(ink, width)), Some(frame));
 }
 
