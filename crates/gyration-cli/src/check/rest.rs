@@ -183,3 +183,29 @@ fn decay_time(frequency: f64, ratio: f64) -> f64 {
     // ζ − √(ζ²−1) without cancellation.
     (ratio + (ratio * ratio - 1.0).sqrt()) / frequency
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decay_is_that_of_the_slowest_part() {
+        let frequency = 3.0;
+        assert!((decay_time(frequency, 0.5) - 2.0 / 3.0).abs() < 1e-15);
+        // From both sides of critical damping, where two roots meet as a square root.
+        let (below, above) = (decay_time(frequency, 1.0 - 1e-12), decay_time(frequency, 1.0 + 1e-12));
+        assert!((below - above).abs() < 1e-5);
+        // Far beyond, the body creeps with c/k = 2ζ/ω.
+        assert!((decay_time(frequency, 1e9) / (2e9 / frequency) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn halving_finds_the_root_of_a_falling_and_of_a_rising_balance() {
+        for sign in [1.0, -1.0] {
+            let balance = |gap: f64| Some(sign * (2.0 - gap));
+            let root = bisect((0.5, balance(0.5).unwrap()), (30.0, balance(30.0).unwrap()), balance);
+            // Sixty halvings of ln 60 leave rounding.
+            assert!((root.unwrap() - 2.0).abs() < 1e-14);
+        }
+    }
+}
