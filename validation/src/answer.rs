@@ -79,6 +79,14 @@ impl fmt::Display for Answer {
     }
 }
 
+/// The largest magnitude; NaN if there is one, which `f64::max` would lose.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest: f64, value| match value.is_nan() || largest.is_nan() {
+        true => f64::NAN,
+        false => largest.max(value.abs()),
+    })
+}
+
 /// Thirteen digits; nothing but the digit for 0.
 fn digits(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.12e}") }
@@ -115,5 +123,11 @@ mod tests {
     #[should_panic(expected = "measured=NaN")]
     fn not_a_number_fails() {
         Answer { measured: f64::NAN, ..ANSWER }.assert_holds();
+    }
+
+    #[test]
+    fn largest_keeps_what_is_not_a_number() {
+        assert_eq!(largest([0.5, -2.0, 1.0]), 2.0);
+        assert!(largest([f64::NAN, 1.0]).is_nan() && largest([1.0, f64::NAN]).is_nan());
     }
 }

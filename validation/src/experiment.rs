@@ -8,10 +8,10 @@ use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::Vec3;
-use gyration_ode::{Method, Options};
+use gyration_ode::Options;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
-use gyration_sim::{MemorySink, Outcome, RestCriterion, RunPlan, Simulation, Tolerance, Unwatched, rows};
+use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched, rows};
 use std::path::Path;
 
 /// A model, its start, and how to run it.
@@ -54,23 +54,7 @@ impl Experiment {
     pub fn of_scene(text: &str) -> Self {
         let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
         let built = scene.built();
-        let plan = &built.plan;
-        let method = match plan.method {
-            gyration_scene::Method::Auto => Method::Auto,
-            gyration_scene::Method::Explicit => Method::Explicit,
-            gyration_scene::Method::Implicit => Method::Implicit,
-        };
-        Self {
-            model: built.model.clone(),
-            start: built.state.clone(),
-            plan: RunPlan {
-                end: plan.end,
-                sample: plan.sample,
-                stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
-                tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
-                options: Options { method, max_step: plan.max_step.unwrap_or(f64::INFINITY), ..Options::default() },
-            },
-        }
+        Self { model: built.model.clone(), start: built.state.clone(), plan: RunPlan::from(&built.plan) }
     }
 
     /// An experiment with a model made by hand, the method chosen by the program.

@@ -6,7 +6,7 @@
 
 use gyration::contact::{ContactLaw, Repulsion};
 use gyration_sim::Tolerance;
-use gyration_validation::{Answer, Experiment, FacetBody};
+use gyration_validation::{Answer, Experiment, FacetBody, largest};
 
 const ROW: Option<u32> = Some(13);
 const AREA: f64 = 0.01;
@@ -45,7 +45,7 @@ fn face_follows_the_hyperbola_of_the_cube_law() {
     let run = experiment.run();
     let gaps = run.column("facet.gap");
     let exact = |time: f64| least.hypot(FAR_SPEED * (time - turn));
-    let error = run.times.iter().zip(&gaps).map(|(time, gap)| (gap / exact(*time) - 1.0).abs()).fold(0.0, f64::max);
+    let error = largest(run.times.iter().zip(&gaps).map(|(time, gap)| gap / exact(*time) - 1.0));
     Answer {
         row: ROW,
         case: "bounce of one face, ν = 3",

@@ -3,11 +3,11 @@
 //! It is made once and again whenever the list of packages changes. Debian keeps `venv` in a package of its own, which
 //! is installed where that is possible without asking (as root), and named otherwise.
 
-use crate::steps::Steps;
+use crate::steps::{Steps, succeeds};
 use crate::{root, target_directory};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// The interpreter of the environment, made if it is not there; none, with a complaint noted, if it cannot be.
 pub fn environment(steps: &mut Steps) -> Option<PathBuf> {
@@ -48,11 +48,6 @@ fn is_current(folder: &Path, pinned: &Path) -> bool {
 
 fn python() -> Command {
     Command::new(if cfg!(windows) { "python" } else { "python3" })
-}
-
-fn succeeds(command: &mut Command) -> bool {
-    let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
-    status.is_ok_and(|status| status.success())
 }
 
 fn has_venv() -> bool {

@@ -1,8 +1,8 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
-use crate::steps::Steps;
+use crate::steps::{Steps, succeeds};
 use crate::{answers, python, root, validate};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
 /// How much to check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,11 +16,15 @@ pub enum Extent {
 /// Runs every check and prints the sums.
 pub fn run(extent: Extent) -> ExitCode {
     let mut steps = Steps::default();
+    for component in ["fmt", "clippy"] {
+        install_component(&mut steps, component);
+    }
     steps.run("format", cargo().args(["fmt", "--all", "--check"]));
     steps.run("lints", cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]));
     if extent == Extent::Full {
         let mut doc = cargo();
-        doc.args(["doc", "--workspace", "--no-deps", "--document-private-items"]);
+        // The program has the name of the library, and so would its pages.
+        doc.args(["doc", "--workspace", "--exclude", "gyration-cli", "--no-deps", "--document-private-items"]);
         steps.run("documentation", doc.env("RUSTDOCFLAGS", "-D warnings"));
     }
     // The output of tests that pass is shown: it has the measured errors of the known answers.
@@ -41,6 +45,14 @@ pub fn cargo() -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
     command
+}
+
+/// Asks rustup for a part of the toolchain that a minimal installation lacks.
+fn install_component(steps: &mut Steps, command: &str) {
+    if !succeeds(cargo().args([command, "--version"])) {
+        let name = if command == "fmt" { "rustfmt" } else { command };
+        steps.run("install a component", Command::new("rustup").args(["component", "add", name]).current_dir(root()));
+    }
 }
 
 /// The page of known answers must list those that the tests printed; digits may differ.
@@ -70,9 +82,7 @@ fn python_tests(steps: &mut Steps) {
 
 /// Licences, advisories and sources of dependencies.
 fn dependencies(steps: &mut Steps) {
-    let mut probe = cargo();
-    let found = probe.args(["deny", "--version"]).stdout(Stdio::null()).stderr(Stdio::null()).status();
-    if found.is_ok_and(|status| status.success()) {
+    if succeeds(cargo().args(["deny", "--version"])) {
         steps.run("dependencies", cargo().args(["deny", "check"]));
     } else {
         steps.skip("licences and advisories of dependencies: cargo-deny is not installed");
