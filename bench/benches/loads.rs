@@ -1,5 +1,6 @@
 //! Loads of one body near a table under three laws, with and without their derivatives, and the rates and the Jacobian
 //! of the whole body around them.
+#![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
 use gyration::contact::{ContactLoads, ContactScratch, ContactSlopes, RelativeMotion};

@@ -1,4 +1,5 @@
 //! Whole scenes in memory, from the start to the end or to rest.
+#![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
 use gyration_scene::{Scene, gallery};

@@ -66,9 +66,9 @@ impl Outcome {
     pub fn in_words(&self) -> String {
         match self {
             Self::Completed => "completed".into(),
-            Self::AtRest { time } => format!("at rest since the last hold, stopped at t = {time} s"),
+            Self::AtRest { time } => format!("came to rest, stopped at t = {time:.6} s"),
             Self::Stopped(stop) => {
-                format!("stopped at t = {} s: {}. {}", stop.time, stop.what, stop.advice)
+                format!("stopped at t = {:.9} s: {}. {}", stop.time, stop.what, stop.advice)
             }
         }
     }

@@ -235,10 +235,10 @@ impl<'a> Simulation<'a> {
             let statistics = integrator.statistics();
             let (time, end, model) = (report.end, self.plan.end, self.system.model());
             let progress = Progress { time, end, step: &report, statistics, model };
-            if let Some(reason) = monitor.after_step(&progress) {
-                if time < end {
-                    return Ok(Outcome::Stopped(Stop::by_request(time, reason)));
-                }
+            if let Some(reason) = monitor.after_step(&progress)
+                && time < end
+            {
+                return Ok(Outcome::Stopped(Stop::by_request(time, reason)));
             }
         }
     }

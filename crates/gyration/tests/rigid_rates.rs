@@ -1,4 +1,5 @@
 //! Relations that the rates of rigid bodies obey, whatever the scene: exact Jacobian, power balance, dissipation.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration::balance::{Energy, Work, energies, kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, Pin, RigidInertia};

@@ -1,7 +1,7 @@
 //! CSV: one line a sample, `t` first, the columns in the order of the layout.
 //!
-//! Each number is the shortest decimal that reads back as the same f64 (at most 17 significant digits), with an
-//! exponent where that is shorter; NaN and infinities are `NaN`, `inf`, `-inf`, as NumPy and pandas read them.
+//! Each number has 17 significant digits, which read back as the same f64 in any language; NaN and infinities are
+//! `NaN`, `inf`, `-inf`, as NumPy and pandas read them.
 
 use crate::error::RecordError;
 use crate::recording::{Array, Recording};
@@ -46,8 +46,8 @@ fn write_line(out: &mut impl Write, numbers: impl Iterator<Item = f64>) -> io::R
         if at > 0 {
             out.write_all(b",")?;
         }
-        // `{:?}` is the shortest text that reads back as the same number.
-        write!(out, "{number:?}")?;
+        // 17 significant digits read back as the same number in any language.
+        if number.is_finite() { write!(out, "{number:.16e}")? } else { write!(out, "{number}")? }
     }
     out.write_all(b"\n")
 }
