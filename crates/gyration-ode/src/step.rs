@@ -15,8 +15,6 @@ use crate::system::{Context, Layout, System};
 
 /// An attempt shorter than this many ulp of the time cannot tell its nodes apart.
 const LEAST_ULPS: f64 = 16.0;
-/// An attempt shorter than this part of the longest step is hopeless.
-const LEAST_PART: f64 = 1e-15;
 /// A step that would leave less than this part of itself to the end takes it along.
 const LAST_STRETCH: f64 = 0.01;
 
@@ -132,8 +130,7 @@ impl Integrator {
     }
 
     fn least_step(&self) -> f64 {
-        let part = if self.options.max_step.is_finite() { LEAST_PART * self.options.max_step } else { 0.0 };
-        (LEAST_ULPS * f64::EPSILON * self.current.t.abs()).max(part).max(f64::MIN_POSITIVE)
+        (LEAST_ULPS * f64::EPSILON * self.current.t.abs()).max(f64::MIN_POSITIVE)
     }
 
     fn linearize<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {

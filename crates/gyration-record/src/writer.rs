@@ -231,14 +231,16 @@ impl Writer {
         })
     }
 
-    /// Flushes and then sets the last attributes (outcome, statistics): one that has them is complete.
+    /// Sets the last attributes (outcome, statistics) with the last flush: one that has them is complete.
+    ///
+    /// They come to the disk with the metadata, after the last rows and before the checkpoint: no crash leaves a
+    /// checkpoint of the end without the outcome.
     ///
     /// # Errors
     /// `Layout` if a name is reserved; `Io`.
     pub fn finish(mut self, patch: Attributes, checkpoint: &[u8]) -> Result<(), RecordError> {
-        self.flush(checkpoint)?;
         self.patch_attributes(patch)?;
-        self.store_metadata()
+        self.flush(checkpoint)
     }
 
     fn store_rows(&mut self) -> Result<(), RecordError> {

@@ -9,6 +9,8 @@ use gyration::body::BodyKind;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::state::{BodyMotion, State};
+use gyration::surface::Surface;
+use gyration::tensor::{Mat3, Vec3};
 use gyration::{Inadmissible, jacobian};
 use gyration_ode::System;
 use nalgebra::DMatrix;
@@ -31,6 +33,7 @@ pub struct ModelSystem<'a> {
     tolerance: Tolerance,
     speeds: Vec<f64>,
     energy: f64,
+    radii: Vec<f64>,
 }
 
 impl<'a> ModelSystem<'a> {
@@ -45,7 +48,10 @@ impl<'a> ModelSystem<'a> {
         rates(model, &mut workspace, start.time, &start.bodies, &mut slopes, &mut powers)?;
         let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(model, start, &slopes, body)).collect();
         let energy = model.bodies.iter().zip(&speeds).map(|(b, v)| 0.5 * b.mass.mass * v * v).sum();
-        Ok(Self { model, workspace, tolerance, speeds, energy })
+        // |X| is the speed of X under the unit gradient rate.
+        let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
+        let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
+        Ok(Self { model, workspace, tolerance, speeds, energy, radii })
     }
 
     /// The model.
@@ -53,28 +59,36 @@ impl<'a> ModelSystem<'a> {
         self.model
     }
 
+    /// The radius of each body's surface about its centre of mass [m].
+    pub fn radii(&self) -> &[f64] {
+        &self.radii
+    }
+
     /// The scratch of the mechanics, for observations between steps.
     pub fn workspace(&mut self) -> &mut Workspace {
         &mut self.workspace
     }
 
-    /// The speed scale of a body [m/s]: its initial speed, or √(g·size), or √(acceleration·size), whichever is larger.
+    /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.
     pub fn speed_scale(&self, body: usize) -> f64 {
         self.speeds[body]
     }
 }
 
-/// A body's own speed [m/s]; one size a second for a body that nothing moves.
+/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, and one size a second
+/// for a body that nothing moves.
 fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
     let body = &model.bodies[index];
     let motion = start.motion(model, index);
-    let slope = BodyMotion::unpack(body, &slopes[model.blocks()[index].clone()]);
-    // In the block of the rates, the places of velocity and spin hold the accelerations.
-    let linear = if body.pin.is_some() { 0.0 } else { slope.velocity.velocity.norm() };
-    let acceleration = linear + slope.spin.norm() * body.size;
-    let scale = fastest_speed(body, &motion)
-        .max((model.gravity.norm() * body.size).sqrt())
-        .max((acceleration * body.size).sqrt());
+    let slopes = &slopes[model.blocks()[index].clone()];
+    let scale = fastest_speed(body, &motion).max((model.gravity.norm() * body.size).sqrt());
+    if scale > 0.0 {
+        return scale;
+    }
+    // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
+    let (linear, angular) = if body.pin.is_some() { (&[][..], &slopes[4..]) } else { slopes[7..].split_at(3) };
+    let norm = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
+    let scale = ((norm(linear) + norm(angular) * body.size) * body.size).sqrt();
     if scale > 0.0 { scale } else { body.size }
 }
 

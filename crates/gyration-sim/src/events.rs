@@ -6,8 +6,9 @@
 //! | closest approach | rate of the smallest gap, n·(ṗ(X_c) − support's velocity) | − → + |
 //! | lift-off         | |contact force| − 1 % of the weight (or of m v²/size)      | + → − |
 //!
-//! An event is found by its sign at the ends of a step and located on the dense output. Speeds below 1e-6 of the
-//! body's speed scale are taken for rest: a body that has settled gives no events.
+//! An event is found by its sign at the ends of steps and located on the dense output. Speeds below 1e-6 of the
+//! body's speed scale are taken for rest: a body that has settled gives no events, and one that passes through rest
+//! keeps the sign that it had before. Two events of one kind within a step cancel and go unseen.
 
 use gyration::balance::observe;
 use gyration::model::Model;
@@ -49,10 +50,14 @@ pub fn signals(model: &Model, workspace: &mut Workspace, state: &State, body: us
     ]
 }
 
-/// Whether the signal of this kind passed its event between two instants.
+/// Whether a signal stands out from rest.
+pub fn is_significant(signal: f64) -> bool {
+    signal.abs() > 1.0
+}
+
+/// Whether the signal of this kind passed its event between two significant values.
 pub fn happened(kind: usize, before: f64, after: f64) -> bool {
-    let significant = before.abs() > 1.0 && after.abs() > 1.0;
-    significant && before * after < 0.0 && rises(kind) == (after > 0.0)
+    before * after < 0.0 && rises(kind) == (after > 0.0)
 }
 
 /// Whether the signal of this kind rises through zero at its event.

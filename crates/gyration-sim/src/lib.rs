@@ -9,7 +9,9 @@
 
 pub mod adapter;
 pub mod events;
+mod horizon;
 mod outcome;
+mod plan;
 mod record;
 pub mod rows;
 mod run;
@@ -17,7 +19,8 @@ mod summary;
 mod tally;
 
 pub use adapter::Tolerance;
-pub use outcome::{Outcome, Reason, Stop};
+pub use outcome::{Outcome, Reason, Stop, limit_in_words};
+pub use plan::{RestCriterion, RunPlan};
 pub use record::{Job, MemorySink, Provenance, Recorded, Unwatched};
-pub use run::{Monitor, Progress, RestCriterion, RunError, RunPlan, Simulation, Sink, limit_in_words};
+pub use run::{Monitor, Progress, RunError, Simulation, Sink};
 pub use summary::{BodySummary, LedgerSummary, RunSummary};

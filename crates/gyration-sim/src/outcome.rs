@@ -2,7 +2,7 @@
 
 use gyration::model::Model;
 use gyration::{Inadmissible, Quantity};
-use gyration_ode::{Cause, Failure};
+use gyration_ode::{Cause, Failure, Limit};
 use serde::{Deserialize, Serialize};
 
 /// How a run ended.
@@ -87,6 +87,17 @@ impl Stop {
         Self { time, reason, body: None, what: what.into(), advice: advice.into() }
     }
 
+    /// A stop because the energies are beyond the range of numbers.
+    pub fn by_infinite_energy(time: f64) -> Self {
+        Self {
+            time,
+            reason: Reason::NotFinite,
+            body: None,
+            what: "the energy is not finite".into(),
+            advice: "Look for masses, speeds or coefficients that are out of all proportion.".into(),
+        }
+    }
+
     /// A stop because the stepper could not go on.
     pub fn by_failure(model: &Model, failure: &Failure<Inadmissible>) -> Self {
         let (time, step, cause) = match failure {
@@ -122,25 +133,21 @@ impl Stop {
         }
     }
 
-    fn by_inadmissible(model: &Model, time: f64, left: &Inadmissible) -> Self {
+    /// A stop because a state is outside the model.
+    pub fn by_inadmissible(model: &Model, time: f64, left: &Inadmissible) -> Self {
         let body = model.bodies[left.body].name.clone();
         let (reason, what, advice) = match left.quantity {
             Quantity::Gap { support } => (
                 Reason::GapClosed,
                 format!("body {body:?} reaches support {:?}{}", model.supports[support].name, in_brackets(left.value)),
-                "No law forbids this touch at this speed: raise an exponent (see `gyration check` \
-                 for the critical one), a coefficient, or reduce the speed."
+                "Either no law forbids the touch (`gyration check` tells the critical exponent), or the gap is too \
+                 small for the digits of a number: raise an exponent, a coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
             Quantity::SpringLength { spring } => (
                 Reason::SpringCollapsed,
                 format!("spring {spring} of body {body:?} has no length left"),
                 "Give it rest_length = 0 without damping, or another anchor.".to_string(),
-            ),
-            Quantity::State => (
-                Reason::NotFinite,
-                format!("a number of body {body:?} is not finite"),
-                "Look for coefficients or speeds that are out of all proportion.".to_string(),
             ),
         };
         Self { time, reason, body: Some(body), what, advice }
@@ -155,4 +162,19 @@ fn in_brackets(gap: f64) -> String {
 fn owner(model: &Model, index: usize) -> Option<String> {
     let body = model.blocks().iter().position(|block| block.contains(&index))?;
     Some(model.bodies[body].name.clone())
+}
+
+/// What limits a step, in words.
+pub fn limit_in_words(model: &Model, limit: &Limit) -> String {
+    match limit {
+        Limit::Error { component } => match model.blocks().iter().position(|block| block.contains(component)) {
+            Some(body) => format!("accuracy of {:?}", model.bodies[body].name),
+            None => "accuracy of the ledger".into(),
+        },
+        Limit::Stability => "stiffness".into(),
+        Limit::Domain => "a closing gap".into(),
+        Limit::Newton => "the implicit equations".into(),
+        Limit::MaxStep => "solver.max_step".into(),
+        Limit::End => "an approaching support, or the end".into(),
+    }
 }

@@ -7,8 +7,9 @@
 
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
+use crate::plan::RunPlan;
 use crate::rows;
-use crate::run::{Monitor, Progress, RunError, RunPlan, Simulation, Sink};
+use crate::run::{Monitor, Progress, RunError, Simulation, Sink};
 use crate::summary::RunSummary;
 use gyration::model::Model;
 use gyration::state::State;
@@ -79,7 +80,7 @@ impl<'a> Job<'a> {
 
     /// Whether a recording is of this scene, whatever its `solver.max_wall_time`.
     pub fn is_recorded_in(&self, recording: &Attributes) -> bool {
-        comparable(&self.attributes) == comparable(recording)
+        comparable(&self.all_attributes()) == comparable(recording)
     }
 
     /// Runs the scene into a new recording.
@@ -155,13 +156,14 @@ impl<'a> Job<'a> {
     }
 }
 
-/// The resolved scene without what may differ between a run and its resumption.
-fn comparable(attributes: &Attributes) -> Option<Value> {
+/// The resolved scene without what may differ between a run and its resumption, and the bodies that it led to: a mesh
+/// file may have changed behind its name.
+fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     let mut resolved = attributes.get("resolved")?.clone();
     if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
         solver.remove("max_wall_time");
     }
-    Some(resolved)
+    Some((resolved, attributes.get("bodies")?.clone()))
 }
 
 /// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass.
@@ -174,6 +176,8 @@ fn describe_body(body: &gyration::body::Body) -> Value {
         "name": body.name,
         "kind": "rigid",
         "mass": body.mass.mass,
+        "center": center.as_slice(),
+        "euler_tensor": body.mass.euler_tensor.as_slice(),
         "size": body.size,
         "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
         "silhouette": relative(&body.shape.silhouette_points()),

@@ -4,64 +4,22 @@
 //! accumulated); one within 1e-9·sample of `end` is `end`; the last row is the end or the stop. The mechanics reads no
 //! clock; the loop asks its [`Monitor`] whether to go on.
 
-use crate::adapter::{ModelSystem, Tolerance};
+use crate::adapter::ModelSystem;
 use crate::events::{self, Event, Signals};
+use crate::horizon::horizon;
 use crate::outcome::{Outcome, Reason, Stop};
+use crate::plan::RunPlan;
 use crate::rows;
 use crate::tally::Tally;
-use gyration::Inadmissible;
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Direction, Integrator, Limit, MemoryError, Method, Options, Statistics, StepReport, find_crossing};
+use gyration_ode::{Direction, Integrator, MemoryError, Statistics, StepReport, find_crossing};
 use gyration_record::RecordError;
-use gyration_scene::Plan;
 use std::path::PathBuf;
-
-/// How long to run, how finely to sample, how precisely to step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RunPlan {
-    /// The end [s].
-    pub end: f64,
-    /// Spacing of recorded samples [s].
-    pub sample: f64,
-    /// When to end early, at rest.
-    pub stop_at_rest: Option<RestCriterion>,
-    /// Errors allowed per step.
-    pub tolerance: Tolerance,
-    /// Stepper and longest step.
-    pub options: Options,
-}
-
-/// Rest: every body's fastest material point slower than `speed` for `hold`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RestCriterion {
-    /// Speed of the fastest material point [m/s].
-    pub speed: f64,
-    /// For how long [s].
-    pub hold: f64,
-}
 
 /// On how many parts of a step an event is looked for: it is known to be in there.
 const SUBINTERVALS: usize = 4;
-
-impl From<&Plan> for RunPlan {
-    fn from(plan: &Plan) -> Self {
-        let method = match plan.method {
-            gyration_scene::Method::Auto => Method::Auto,
-            gyration_scene::Method::Explicit => Method::Explicit,
-            gyration_scene::Method::Implicit => Method::Implicit,
-        };
-        let max_step = plan.max_step.unwrap_or(f64::INFINITY);
-        Self {
-            end: plan.end,
-            sample: plan.sample,
-            stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
-            tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
-            options: Options { method, max_step, initial_step: None },
-        }
-    }
-}
 
 /// Where rows, events and checkpoints go.
 pub trait Sink {
@@ -109,8 +67,8 @@ pub struct Progress<'a> {
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The start is outside the model.
-    #[error("the start is outside the model: {0}")]
-    Start(Inadmissible),
+    #[error("the start is outside the model: {}. {}", .0.what, .0.advice)]
+    Start(Stop),
     /// The recording failed.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -139,6 +97,8 @@ pub struct Simulation<'a> {
     tally: Tally,
     row: Vec<f64>,
     sampled: State,
+    /// The time of the last row [s].
+    recorded: f64,
 }
 
 impl<'a> Simulation<'a> {
@@ -147,9 +107,18 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`RunError::Start`] if the start is outside the model.
     pub fn new(model: &'a Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        let system = ModelSystem::new(model, start, plan.tolerance).map_err(RunError::Start)?;
+        let system = ModelSystem::new(model, start, plan.tolerance)
+            .map_err(|left| RunError::Start(Stop::by_inadmissible(model, start.time, &left)))?;
         let integrator = Integrator::new(start.time, &start.bodies, &start.works, plan.options);
-        Ok(Self { system, integrator, plan, tally: Tally::new(), row: Vec::new(), sampled: start.clone() })
+        Ok(Self {
+            system,
+            integrator,
+            plan,
+            tally: Tally::new(model.bodies.len()),
+            row: Vec::new(),
+            sampled: start.clone(),
+            recorded: f64::NEG_INFINITY,
+        })
     }
 
     /// Goes on from a checkpoint of the same scene; `start` is the scene's start, from which the scales come.
@@ -162,8 +131,7 @@ impl<'a> Simulation<'a> {
             Tally::restore(checkpoint).ok_or_else(|| RunError::Checkpoint("its bytes are damaged".into()))?;
         this.integrator = Integrator::resume(&memory, plan.options)?;
         this.tally = tally;
-        // The last row: whether it is that of the last step decides if the end must still be recorded.
-        this.sampled.time = this.sample_time(this.tally.next_sample.saturating_sub(1));
+        this.recorded = this.sample_time(this.tally.next_sample.saturating_sub(1));
         Ok(this)
     }
 
@@ -197,9 +165,14 @@ impl<'a> Simulation<'a> {
     /// [`RunError`] if the start is outside the model or the row cannot be stored.
     pub fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
         self.sampled = self.state();
-        let ledger = self.record(sink)?;
-        self.tally.initial_energy = ledger;
+        if let Err(stop) = self.record(sink)? {
+            return Err(RunError::Start(stop));
+        }
         self.tally.next_sample = 1;
+        self.tally.signals = self.signals();
+        if self.is_slow() {
+            self.tally.slow_since = self.integrator.time();
+        }
         Ok(())
     }
 
@@ -208,39 +181,57 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`RunError::Record`] if the recording fails.
     pub fn run(&mut self, sink: &mut dyn Sink, monitor: &mut dyn Monitor) -> Result<Outcome, RunError> {
-        let mut before = self.signals();
-        loop {
-            if self.integrator.time() >= self.plan.end {
-                return Ok(Outcome::Completed);
-            }
-            let report = match self.integrator.step(&mut self.system, self.plan.end) {
+        let model = self.system.model();
+        while self.integrator.time() < self.plan.end {
+            let target = self.target();
+            let report = match self.integrator.step(&mut self.system, target) {
                 Ok(report) => report,
-                Err(failure) => {
-                    let stop = Stop::by_failure(self.system.model(), &failure);
-                    self.record_last(sink)?;
-                    return Ok(Outcome::Stopped(stop));
-                }
+                Err(failure) => return self.stop(Stop::by_failure(model, &failure), sink),
             };
             self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
-            let after = self.signals();
-            self.find_events(&report, &before, &after, sink)?;
-            before = after;
-            self.sample_step(&report, sink)?;
+            self.find_events(&report, sink)?;
+            if let Err(stop) = self.sample_step(&report, sink)? {
+                return self.stop(stop, sink);
+            }
             if self.has_come_to_rest(&report) {
-                self.record_last(sink)?;
+                self.record_last(sink)?.ok();
                 return Ok(Outcome::AtRest { time: report.end });
             }
             let (tally, integrator) = (&self.tally, &self.integrator);
             sink.step_end(&|| tally.checkpoint(&integrator.memory()))?;
-            let statistics = integrator.statistics();
-            let (time, end, model) = (report.end, self.plan.end, self.system.model());
-            let progress = Progress { time, end, step: &report, statistics, model };
+            let (time, end) = (report.end, self.plan.end);
+            let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
             if let Some(reason) = monitor.after_step(&progress)
                 && time < end
             {
                 return Ok(Outcome::Stopped(Stop::by_request(time, reason)));
             }
         }
+        Ok(Outcome::Completed)
+    }
+
+    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time at
+    /// which a support could be reached.
+    fn target(&self) -> f64 {
+        let time = self.integrator.time();
+        let mut end = self.plan.end;
+        if let Some(rest) = self.plan.stop_at_rest
+            && self.tally.slow_since.is_finite()
+        {
+            end = end.min((self.tally.slow_since + rest.hold).max(time));
+        }
+        if end <= time {
+            end = self.plan.end;
+        }
+        let target = time + horizon(self.system.model(), &self.state(), self.system.radii(), end - time);
+        // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
+        if target > time { target.min(end) } else { end }
+    }
+
+    /// Ends with the last row.
+    fn stop(&mut self, stop: Stop, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
+        self.record_last(sink)?.ok();
+        Ok(Outcome::Stopped(stop))
     }
 
     /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
@@ -249,26 +240,25 @@ impl<'a> Simulation<'a> {
         if (time - self.plan.end).abs() <= 1e-9 * self.plan.sample { self.plan.end } else { time }
     }
 
-    /// Records the samples that fall into the last step, and the end.
-    fn sample_step(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<(), RunError> {
+    /// Records the samples that fall into the last step, and the end; a sample outside the model is a stop.
+    fn sample_step(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
         while self.sample_time(self.tally.next_sample) <= report.end {
             self.interpolate(self.sample_time(self.tally.next_sample));
-            self.record(sink)?;
+            if let Err(stop) = self.record(sink)? {
+                return Ok(Err(stop));
+            }
             self.tally.next_sample += 1;
         }
-        if report.end >= self.plan.end && self.sampled.time < report.end {
-            self.record_last(sink)?;
-        }
-        Ok(())
+        if report.end >= self.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
     }
 
     /// Records the state after the last step, unless it was just sampled.
-    fn record_last(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
-        if self.sampled.time < self.integrator.time() {
-            self.sampled = self.state();
-            self.record(sink)?;
+    fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        if self.recorded >= self.integrator.time() {
+            return Ok(Ok(()));
         }
-        Ok(())
+        self.sampled = self.state();
+        self.record(sink)
     }
 
     /// The state at a time within the last step.
@@ -282,19 +272,29 @@ impl<'a> Simulation<'a> {
         self.integrator.interpolate(time, &mut self.sampled.bodies, &mut self.sampled.works);
     }
 
-    /// Records `sampled` and audits it; returns the sum of its energies.
-    fn record(&mut self, sink: &mut dyn Sink) -> Result<f64, RunError> {
-        let model = self.system.model();
-        let initial = (self.tally.next_sample > 0).then_some(self.tally.initial_energy);
-        let ledger = rows::fill(model, self.system.workspace(), &self.sampled, initial, &mut self.row)
-            .map_err(RunError::Start)?;
-        sink.row(self.sampled.time, &self.row)?;
+    /// Records `sampled` and audits it, unless it is outside the model.
+    fn record(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        let (model, time) = (self.system.model(), self.sampled.time);
+        let first = self.tally.next_sample == 0;
+        let initial = (!first).then_some(self.tally.initial_energy);
+        let ledger = match rows::fill(model, self.system.workspace(), &self.sampled, initial, &mut self.row) {
+            Ok(ledger) => ledger,
+            Err(left) => return Ok(Err(Stop::by_inadmissible(model, time, &left))),
+        };
+        if !ledger.total().is_finite() {
+            return Ok(Err(Stop::by_infinite_energy(time)));
+        }
+        sink.row(time, &self.row)?;
+        self.recorded = time;
         let exchanged = ledger.works.iter().map(|work| work.abs()).sum::<f64>();
         let tally = &mut self.tally;
+        if first {
+            tally.initial_energy = ledger.total();
+        }
         tally.energy_in_play = tally.energy_in_play.max(ledger.energies[0]).max(exchanged);
         tally.largest_residual = tally.largest_residual.max(ledger.residual.abs());
         tally.smallest_gap = tally.smallest_gap.min(rows::smallest_gap(model, &self.row));
-        Ok(ledger.total())
+        Ok(Ok(()))
     }
 
     /// The signals of every body after the last step.
@@ -308,20 +308,15 @@ impl<'a> Simulation<'a> {
             .collect()
     }
 
-    fn find_events(
-        &mut self,
-        report: &StepReport,
-        before: &[Signals],
-        after: &[Signals],
-        sink: &mut dyn Sink,
-    ) -> Result<(), RunError> {
+    fn find_events(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<(), RunError> {
         let model = self.system.model();
+        let now = self.signals();
         let mut found = Vec::new();
-        for (body, (before, after)) in before.iter().zip(after).enumerate() {
-            for kind in 0..events::EVENT_KINDS.len() {
-                if events::happened(kind, before[kind], after[kind]) {
-                    let time = self.locate(report, model, body, kind);
-                    found.push(Event { time, kind, body });
+        for (body, after) in now.iter().enumerate() {
+            for (kind, after) in after.iter().copied().enumerate().filter(|(_, after)| events::is_significant(*after)) {
+                let before = std::mem::replace(&mut self.tally.signals[body][kind], after);
+                if events::happened(kind, before, after) {
+                    found.push(Event { time: self.locate(report, model, body, kind), kind, body });
                 }
             }
         }
@@ -348,36 +343,23 @@ impl<'a> Simulation<'a> {
         find_crossing(&mut self.integrator, signal, direction, SUBINTERVALS).unwrap_or(report.end)
     }
 
+    /// Whether every body's fastest material point is slower than the speed of rest.
+    fn is_slow(&self) -> bool {
+        let Some(rest) = self.plan.stop_at_rest else { return false };
+        let (model, state) = (self.system.model(), self.state());
+        let speed = |(index, body)| fastest_speed(body, &state.motion(model, index));
+        model.bodies.iter().enumerate().all(|body| speed(body) < rest.speed)
+    }
+
     /// Whether every body has now been slow for long enough.
     fn has_come_to_rest(&mut self, report: &StepReport) -> bool {
-        let Some(rest) = self.plan.stop_at_rest else { return false };
-        let model = self.system.model();
-        let state = self.state();
-        let slow = model
-            .bodies
-            .iter()
-            .enumerate()
-            .all(|(index, body)| fastest_speed(body, &state.motion(model, index)) < rest.speed);
+        let slow = self.is_slow();
         if !slow {
             self.tally.slow_since = f64::NAN;
         } else if self.tally.slow_since.is_nan() {
             self.tally.slow_since = report.end;
         }
-        slow && report.end - self.tally.slow_since >= rest.hold
-    }
-}
-
-/// What limits a step, in words.
-pub fn limit_in_words(model: &Model, limit: &Limit) -> String {
-    match limit {
-        Limit::Error { component } => match model.blocks().iter().position(|block| block.contains(component)) {
-            Some(body) => format!("accuracy of {:?}", model.bodies[body].name),
-            None => "accuracy of the ledger".into(),
-        },
-        Limit::Stability => "stiffness".into(),
-        Limit::Domain => "a closing gap".into(),
-        Limit::Newton => "the implicit equations".into(),
-        Limit::MaxStep => "solver.max_step".into(),
-        Limit::End => "the end".into(),
+        // The target of the step was slow_since + hold, whatever the rounding of the difference.
+        slow && self.plan.stop_at_rest.is_some_and(|rest| report.end >= self.tally.slow_since + rest.hold)
     }
 }

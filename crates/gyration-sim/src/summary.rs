@@ -8,7 +8,7 @@ use gyration::balance::observe;
 use gyration::model::Model;
 use gyration::rates::Workspace;
 use gyration_record::Attributes;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::time::Duration;
 
@@ -29,6 +29,8 @@ pub struct RunSummary {
     pub ledger: LedgerSummary,
     /// The bodies at the end.
     pub bodies: Vec<BodySummary>,
+    /// Smallest gap over the samples [m]; none without supports.
+    pub smallest_gap: Option<f64>,
     /// How many events of each kind.
     pub events: Value,
 }
@@ -39,8 +41,10 @@ pub struct LedgerSummary {
     /// Σ energies at t = 0 [J].
     pub initial_energy: f64,
     /// Energies at the end [J], by name.
+    #[serde(serialize_with = "as_map")]
     pub energies: Vec<(&'static str, f64)>,
     /// Works [J], by name.
+    #[serde(serialize_with = "as_map")]
     pub works: Vec<(&'static str, f64)>,
     /// Residual at the end [J].
     pub residual: f64,
@@ -48,6 +52,11 @@ pub struct LedgerSummary {
     pub largest_residual: f64,
     /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
     pub energy_in_play: f64,
+}
+
+/// Pairs as an object, in their order.
+fn as_map<S: Serializer>(pairs: &[(&'static str, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().copied())
 }
 
 /// One body at the end of a run.
@@ -106,6 +115,7 @@ impl RunSummary {
                 energy_in_play: tally.energy_in_play,
             },
             bodies,
+            smallest_gap: Some(tally.smallest_gap).filter(|gap| gap.is_finite()),
             events: Value::Object(events),
         }
     }

@@ -24,12 +24,15 @@ pub struct Tally {
     pub largest_projection: f64,
     /// How many events of each kind.
     pub events: [u64; 3],
+    /// The last significant signal of each kind for each body; NaN before there is one.
+    pub signals: Vec<[f64; 3]>,
 }
 
 impl Tally {
     /// At the start of a run.
-    pub fn new() -> Self {
-        Self { slow_since: f64::NAN, smallest_gap: f64::INFINITY, ..Self::default() }
+    pub fn new(bodies: usize) -> Self {
+        let signals = vec![[f64::NAN; 3]; bodies];
+        Self { slow_since: f64::NAN, smallest_gap: f64::INFINITY, signals, ..Self::default() }
     }
 
     /// Tally and memory as bytes.
@@ -50,6 +53,7 @@ impl Tally {
         };
         list(&mut integers.into_iter());
         list(&mut reals.iter().map(|real| real.to_bits()));
+        list(&mut self.signals.as_flattened().iter().map(|real| real.to_bits()));
         list(&mut memory.integers.iter().copied());
         list(&mut memory.reals.iter().map(|real| real.to_bits()));
         bytes
@@ -67,6 +71,11 @@ impl Tally {
         };
         let integers: [u64; 4] = list()?.try_into().ok()?;
         let reals: [u64; 6] = list()?.try_into().ok()?;
+        let signals = list()?.into_iter().map(f64::from_bits).collect::<Vec<_>>();
+        let (signals, rest_of_signals) = signals.as_chunks::<3>();
+        if !rest_of_signals.is_empty() {
+            return None;
+        }
         let memory = Memory { integers: list()?, reals: list()?.into_iter().map(f64::from_bits).collect() };
         let [initial_energy, slow_since, largest_residual, energy_in_play, smallest_gap, largest_projection] =
             reals.map(f64::from_bits);
@@ -79,6 +88,7 @@ impl Tally {
             smallest_gap,
             largest_projection,
             events: [integers[1], integers[2], integers[3]],
+            signals: signals.to_vec(),
         };
         rest.is_empty().then_some((tally, memory))
     }
@@ -96,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_checkpoint_restores_every_bit() {
-        let tally = Tally { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..Tally::new() };
+        let tally = Tally { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..Tally::new(2) };
         let memory = Memory { integers: vec![1, 2, 3], reals: vec![0.1, f64::INFINITY, -0.0] };
         let bytes = tally.checkpoint(&memory);
         let (read, read_memory) = Tally::restore(&bytes).unwrap();
@@ -107,7 +117,7 @@ mod tests {
 
     #[test]
     fn damaged_checkpoints_are_refused() {
-        let bytes = Tally::new().checkpoint(&Memory { integers: vec![4], reals: vec![1.0] });
+        let bytes = Tally::new(1).checkpoint(&Memory { integers: vec![4], reals: vec![1.0] });
         assert!((0..bytes.len()).all(|length| Tally::restore(&bytes[..length]).is_none()));
         let mut huge = bytes;
         huge[..8].copy_from_slice(&u64::MAX.to_le_bytes());

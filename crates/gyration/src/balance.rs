@@ -9,62 +9,15 @@
 use crate::body::Body;
 use crate::contact::{Action, Contact, ContactLoads, Term};
 use crate::inadmissible::{Inadmissible, Quantity};
+use crate::kinematics::Velocity;
+use crate::ledger::Energy;
 use crate::load::Loads;
 use crate::model::Model;
 use crate::rates::{Meeting, Workspace, for_each_contact, meet};
+use crate::shape::{MassPoint, Points, Shape};
 use crate::state::{BodyMotion, State};
 use crate::surface::{GapClosed, GapField, Kernel, MomentRequest, Moments, Surface};
 use crate::tensor::{Mat3, Vec3};
-
-/// A store of energy [J].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Energy {
-    /// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ).
-    Kinetic,
-    /// −m g·p₀.
-    Gravity,
-    /// ∫U(d) dA, where repulsion and adhesion have a potential.
-    Contact,
-    /// Springs.
-    Load,
-}
-
-impl Energy {
-    /// The word of the column `energy.…`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Kinetic => "kinetic",
-            Self::Gravity => "gravity",
-            Self::Contact => "contact",
-            Self::Load => "load",
-        }
-    }
-}
-
-/// A work done on the bodies since t = 0 [J].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Work {
-    /// By damping, with the relative velocity; ≤ 0.
-    Damping,
-    /// By friction, with the relative velocity; ≤ 0.
-    Friction,
-    /// By dashpots; ≤ 0.
-    Load,
-    /// By the motion of the supports: ∫∫ q·(velocity of the support), all laws.
-    Support,
-}
-
-impl Work {
-    /// The word of the column `work.…`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Damping => "damping",
-            Self::Friction => "friction",
-            Self::Load => "load",
-            Self::Support => "support",
-        }
-    }
-}
 
 /// What is recorded of one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,14 +79,22 @@ pub fn smallest_gap(model: &Model, time: f64, index: usize, motion: &BodyMotion)
 }
 
 /// The speed of a body's fastest material point [m/s].
+///
+/// Without a surface, that of the fastest mass point; of a body given by its mass properties alone, the bound
+/// |ṗ₀| + |Ṗ| r with the radius of gyration r = √(tr J/m).
 pub fn fastest_speed(body: &Body, motion: &BodyMotion) -> f64 {
     let velocity = &motion.velocity;
-    match &body.surface {
-        Some(surface) => surface.fastest_point(&velocity.velocity, &velocity.gradient_rate),
-        None => {
-            let centre = body.mass.center;
-            let speed = |at: Vec3| velocity.at(&(at - centre)).norm();
-            body.shape.silhouette_points().into_iter().map(speed).fold(0.0, f64::max)
+    if let Some(surface) = &body.surface {
+        return surface.fastest_point(&velocity.velocity, &velocity.gradient_rate);
+    }
+    match &body.shape {
+        Shape::Points(Points { points }) if points.len() > 1 => {
+            let speed = |point: &MassPoint| velocity.at(&(point.at - body.mass.center)).norm();
+            points.iter().map(speed).fold(0.0, f64::max)
+        }
+        _ => {
+            let radius = (body.mass.euler_tensor.trace() / body.mass.mass).sqrt();
+            velocity.velocity.norm() + velocity.gradient_rate.norm() * radius
         }
     }
 }
@@ -160,20 +121,9 @@ pub fn energies(model: &Model, state: &State, values: &mut [f64]) -> Result<(), 
 
 /// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ) [J].
 pub fn kinetic_energy(body: &Body, motion: &BodyMotion) -> f64 {
-    let Velocities { linear, gradient_rate } = Velocities::of(motion);
-    let spread = (gradient_rate * body.mass.euler_tensor).dot(&gradient_rate);
-    0.5 * (body.mass.mass * linear.norm_squared() + spread)
-}
-
-struct Velocities {
-    linear: Vec3,
-    gradient_rate: Mat3,
-}
-
-impl Velocities {
-    fn of(motion: &BodyMotion) -> Self {
-        Self { linear: motion.velocity.velocity, gradient_rate: motion.velocity.gradient_rate }
-    }
+    let Velocity { velocity, gradient_rate } = &motion.velocity;
+    let spread = (gradient_rate * body.mass.euler_tensor).dot(gradient_rate);
+    0.5 * (body.mass.mass * velocity.norm_squared() + spread)
 }
 
 /// The potential of the central laws over a body's surface [J].
@@ -194,7 +144,10 @@ fn contact_energy(model: &Model, time: f64, index: usize, motion: &BodyMotion) -
     Ok(total)
 }
 
-/// ∫U(d) dA [J] of the central laws of one contact.
+/// ∫U(d) dA [J] of the central laws of one contact. Source: `physics.md` §3.
+///
+/// # Errors
+/// [`GapClosed`] if a point of the surface lies on or behind the plane.
 pub fn contact_potential(contact: &Contact, surface: &Surface, field: &GapField) -> Result<f64, GapClosed> {
     let terms = contact.laws().iter().flat_map(|law| law.terms()).flatten();
     let mut total = 0.0;

@@ -14,7 +14,7 @@ use crate::contact::Contact;
 use crate::load::Spring;
 use crate::mass::MassProperties;
 use crate::shape::Shape;
-use crate::surface::Surface;
+use crate::surface::{GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
 
 /// A body of the model.
@@ -100,7 +100,16 @@ impl RigidInertia {
     }
 }
 
+/// A gap below this fraction of the lengths from which it is computed cannot be told from zero: rounding alone would
+/// change the forces by more than any tolerance.
+const RESOLUTION: f64 = 64.0 * f64::EPSILON;
+
 impl Body {
+    /// Whether a smallest gap [m] to a support is above zero by more than its own rounding.
+    pub fn is_apart(&self, gap: f64, field: &GapField) -> bool {
+        gap.is_finite() && gap > RESOLUTION * (self.size + field.height.abs())
+    }
+
     /// How many numbers its state has.
     pub fn dimension(&self) -> usize {
         match (&self.kind, &self.pin) {

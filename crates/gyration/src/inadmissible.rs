@@ -13,8 +13,6 @@ pub enum Quantity {
         /// Index of the spring in its body.
         spring: usize,
     },
-    /// A number of the state that is not finite.
-    State,
 }
 
 /// A state outside the model: which body, which quantity, its value.

@@ -4,8 +4,8 @@
 //!
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
 //! random numbers, no threads. Each module imports only what stands to its left:
-//! `tensor → surface → shape, mass → kinematics → contact, load → support, body → model, state → rates, jacobian,
-//! balance`. Read [`rates`] first.
+//! `tensor → surface → shape, mass → kinematics → contact, load → support, body, ledger → model, state → rates,
+//! jacobian, balance`. Read [`rates`] first.
 
 pub mod balance;
 pub mod body;
@@ -13,6 +13,7 @@ pub mod contact;
 mod inadmissible;
 pub mod jacobian;
 pub mod kinematics;
+pub mod ledger;
 pub mod load;
 pub mod mass;
 pub mod model;

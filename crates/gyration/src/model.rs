@@ -2,9 +2,9 @@
 //!
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
-use crate::balance::{Energy, Work};
 use crate::body::Body;
 use crate::contact::LawKind;
+use crate::ledger::{Energy, Work};
 use crate::support::{Support, SupportMotion};
 use crate::tensor::Vec3;
 use std::ops::Range;

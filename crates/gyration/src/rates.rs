@@ -7,10 +7,10 @@
 //! works of the ledger. A pinned body takes moments about its pin: M_p = M − (f + m g) ⊗ r, r = X_p − X₀.
 //! Source: `physics.md` §2.
 
-use crate::balance::Work;
 use crate::body::{Body, BodyKind, RigidInertia};
 use crate::contact::{Contact, ContactLoads, ContactScratch, LawKind, RelativeMotion};
 use crate::inadmissible::{Inadmissible, Quantity};
+use crate::ledger::Work;
 use crate::load::{Loads, SpringLoads};
 use crate::model::Model;
 use crate::state::BodyMotion;
@@ -72,10 +72,6 @@ pub fn rates(
     Ok(())
 }
 
-/// A gap below this fraction of the lengths from which it is computed cannot be told from zero: rounding alone would
-/// change the forces by more than any tolerance.
-const RESOLUTION: f64 = 64.0 * f64::EPSILON;
-
 /// A contact of a body at one instant: what its integrals need.
 pub(crate) struct Meeting<'a> {
     pub contact: &'a Contact,
@@ -99,9 +95,8 @@ pub(crate) fn for_each_contact(
     for contact in &body.contacts {
         let (field, relative) = meet(model, contact.support, time, motion);
         let (gap, _) = surface.smallest_gap(&field);
-        let resolved = gap > RESOLUTION * (body.size + field.height.abs());
         let meeting = Meeting { contact, surface, field, motion: relative };
-        let result = if resolved { each(&meeting) } else { Err(GapClosed { gap }) };
+        let result = if body.is_apart(gap, &field) { each(&meeting) } else { Err(GapClosed { gap }) };
         result.map_err(|closed| {
             let quantity = Quantity::Gap { support: contact.support };
             Inadmissible { body: index, quantity, value: closed.gap }
@@ -110,8 +105,8 @@ pub(crate) fn for_each_contact(
     Ok(())
 }
 
-/// The gap field of a support over a body, and the body's motion relative to it.
-pub(crate) fn meet(model: &Model, support: usize, time: f64, motion: &BodyMotion) -> (GapField, RelativeMotion) {
+/// The gap field of a support over a body, d(X) = (p₀ − o)·n + (Pᵀn)·X, and the body's motion relative to it.
+pub fn meet(model: &Model, support: usize, time: f64, motion: &BodyMotion) -> (GapField, RelativeMotion) {
     let support = &model.supports[support];
     let field = GapField {
         height: support.gap(&motion.placement.position, time),

@@ -1,11 +1,12 @@
 //! Relations that the rates of rigid bodies obey, whatever the scene: exact Jacobian, power balance, dissipation.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use gyration::balance::{Energy, Work, energies, kinetic_energy, observe};
+use gyration::balance::{energies, kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, Pin, RigidInertia};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
 use gyration::jacobian::jacobian;
 use gyration::kinematics::Quaternion;
+use gyration::ledger::{Energy, Work};
 use gyration::load::Spring;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};

@@ -3,7 +3,6 @@
 use super::mass::{Source, lone_point, size};
 use super::orientation::orientation;
 use super::shape::Maker;
-use super::surface::surface;
 use crate::check::{Judge, Placed};
 use crate::file::Body;
 use crate::key::Key;
@@ -48,12 +47,11 @@ impl Solid {
             Pin { point, anchor: start.position + turned.rotation() * point }
         });
         let inertia = inertia(placed, &mass, pin.as_ref(), judge);
-        let surface = surface(&shape).map_err(|error| judge.note(&key.key("shape"), error, "change the shape")).ok()?;
         let body = Moving {
             name: value.name.clone(),
             kind: BodyKind::Rigid(inertia?),
             mass,
-            surface: surface.map(|surface| surface.translated(&-mass.center)),
+            surface: shape.surface().map(|surface| surface.translated(&-mass.center)),
             size: size(&shape, &mass, &pin.map_or(Vec3::zeros(), |pin| pin.point)),
             shape,
             contacts: Vec::new(),

@@ -9,7 +9,6 @@ mod orientation;
 mod overlap;
 mod shape;
 mod support;
-mod surface;
 
 use crate::check::{Draft, Judge};
 use crate::file::{Method, Solver, Time};

@@ -17,14 +17,14 @@ pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Sup
             direction: solid.start.orientation.rotation().tr_mul(&support.normal),
         };
         let (gap, _) = surface.smallest_gap(&field);
-        if gap > 0.0 && gap.is_finite() {
+        if solid.body.is_apart(gap, &field) {
             continue;
         }
         let (body, name) = (&solid.body.name, &support.name);
         let [x, y, z] = support.normal.into();
         let message =
             format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
-        let help = format!("move it by more than {:.6e} m along the normal [{x}, {y}, {z}]", -gap);
+        let help = format!("move it by more than {:.6e} m along the normal [{x}, {y}, {z}]", -gap.min(0.0));
         judge.note(&placed.key.key("position"), message, help);
     }
 }

@@ -8,7 +8,7 @@
 //! | adhesion  | −β ((d/d₀)^−ν_a − (d/d₀)^−ν_r) n      | β [Pa], ν_r > ν_a  |
 //!
 //! n is the support's unit normal, w the velocity relative to the support. A law sees a gap and a velocity, never a
-//! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `contact::loads`
+//! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `resultant`
 //! needs to integrate it over a surface. Source: Tatone, *Soft and rigid impact*.
 
 mod adhesion;

@@ -1,0 +1,146 @@
+//! How far a step may go before a support could come within reach.
+//!
+//! A stepper sees forces only where it looks; a field of short range could be jumped over within a long step of free
+//! flight. So a step ends before the first contact that a bound on the motion allows:
+//!
+//!   d(X, t) ≥ (g₀ + t c₀) + (m + t c)·X − ½ a t²,   c₀ = n·w₀, c = Ṗᵀn, a = max(0, −g·n)
+//!
+//! for a body that turns by less than a radian, and for any turn as long as the sphere around the body stays clear.
+//! An oscillating support counts as its foremost place, and is followed in eighths of its period where it may meet the
+//! body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
+
+use gyration::model::Model;
+use gyration::rates::meet;
+use gyration::state::{BodyMotion, State};
+use gyration::support::{Support, SupportMotion};
+use gyration::surface::{GapField, Surface};
+use gyration::tensor::Vec3;
+
+/// The part of the time to contact that a step may take: what the bound leaves out is left to the error control.
+const PART: f64 = 0.8;
+/// The turn of a body over which its motion is taken for linear [rad].
+const TURN: f64 = 1.0;
+/// The part of an oscillating support's period that a step near it may take.
+const PERIOD_PART: f64 = 0.125;
+/// The time to contact is found to this fraction of itself.
+const PRECISION: f64 = 0.05;
+
+/// The motion of a body towards a plane that stands still or moves with constant velocity.
+struct Approach<'a> {
+    surface: &'a Surface,
+    field: GapField,
+    /// c₀ and c.
+    rate: GapField,
+    /// a [m/s²].
+    acceleration: f64,
+    /// Radius about the centre of mass [m].
+    radius: f64,
+    /// |Ω| [rad/s].
+    spin: f64,
+}
+
+/// The longest step [s] from this state, at most `longest`; `radii` of the bodies about their centres [m].
+pub fn horizon(model: &Model, state: &State, radii: &[f64], longest: f64) -> f64 {
+    let mut step = longest;
+    for (index, body) in model.bodies.iter().enumerate() {
+        let Some(surface) = &body.surface else { continue };
+        let motion = state.motion(model, index);
+        for contact in &body.contacts {
+            let support = &model.supports[contact.support];
+            let approach = Approach::of(model, contact.support, state.time, &motion, surface, radii[index]);
+            step = step.min(match support.motion {
+                SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
+                    let near = surface.smallest_gap(&approach.field).0 < body.size;
+                    let resolved = PERIOD_PART / frequency.abs();
+                    if near { resolved } else { approach.time(step).max(resolved) }
+                }
+                _ => approach.time(step),
+            });
+        }
+    }
+    step
+}
+
+/// How far an oscillating support comes forward from its origin along its normal [m].
+fn reach(support: &Support) -> f64 {
+    match support.motion {
+        SupportMotion::Oscillation { direction, amplitude, .. } => (amplitude * direction.dot(&support.normal)).abs(),
+        _ => 0.0,
+    }
+}
+
+impl<'a> Approach<'a> {
+    fn of(model: &Model, index: usize, time: f64, motion: &BodyMotion, surface: &'a Surface, radius: f64) -> Self {
+        let support = &model.supports[index];
+        let (mut field, relative) = meet(model, index, time, motion);
+        let mut velocity = relative.velocity;
+        if let SupportMotion::Oscillation { .. } = support.motion {
+            field.height = (motion.placement.position - support.origin).dot(&support.normal) - reach(support);
+            velocity = motion.velocity.velocity;
+        }
+        let normal: &Vec3 = &support.normal;
+        let rate = GapField { height: normal.dot(&velocity), direction: motion.velocity.gradient_rate.tr_mul(normal) };
+        let acceleration = (-model.gravity.dot(normal)).max(0.0);
+        Self { surface, field, rate, acceleration, radius, spin: motion.spin.norm() }
+    }
+
+    /// The longest step [s] that this approach allows, at most `longest`.
+    fn time(&self, longest: f64) -> f64 {
+        let clear = PART * first_root(longest, |t| self.sphere_gap(t));
+        if clear >= longest {
+            return longest;
+        }
+        let straight = PART * first_root(longest / PART, |t| self.smallest_gap(t));
+        clear.max(straight.min(TURN / self.spin)).min(longest)
+    }
+
+    /// A bound on the gap of the sphere around the body [m].
+    fn sphere_gap(&self, t: f64) -> f64 {
+        self.field.height + t * self.rate.height - self.radius - 0.5 * self.acceleration * t * t
+    }
+
+    /// A bound on the gap of the body while it turns little [m].
+    fn smallest_gap(&self, t: f64) -> f64 {
+        let height = self.field.height + t * self.rate.height;
+        let direction = self.field.direction + t * self.rate.direction;
+        self.surface.smallest_gap(&GapField { height, direction }).0 - 0.5 * self.acceleration * t * t
+    }
+}
+
+/// A time just before the root in (0, longest] of a concave function; `longest` if there is none, 0 if it starts below.
+fn first_root(longest: f64, function: impl Fn(f64) -> f64) -> f64 {
+    let (mut left, mut right) = (0.0, longest);
+    if function(0.0) <= 0.0 {
+        return 0.0;
+    }
+    if function(longest) > 0.0 {
+        return longest;
+    }
+    while right - left > PRECISION * right {
+        let middle = 0.5 * (left + right);
+        if function(middle) > 0.0 {
+            left = middle
+        } else {
+            right = middle
+        }
+        if right < f64::MIN_POSITIVE {
+            break;
+        }
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_root_is_approached_from_the_safe_side() {
+        for root in [1e-6, 0.3, 0.9999] {
+            let found = first_root(1.0, |t| root - t);
+            assert!(found <= root && found >= root * (1.0 - 2.0 * PRECISION), "{found} for {root}");
+        }
+        assert_eq!(first_root(1.0, |t| 2.0 - t), 1.0);
+        assert_eq!(first_root(1.0, |_| -1.0), 0.0);
+    }
+}

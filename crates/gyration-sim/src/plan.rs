@@ -1,0 +1,47 @@
+//! What a run is asked for: the plan of a scene in the terms of the run loop and the stepper.
+
+use crate::adapter::Tolerance;
+use gyration_ode::{Method, Options};
+use gyration_scene::Plan;
+
+/// How long to run, how finely to sample, how precisely to step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunPlan {
+    /// The end [s].
+    pub end: f64,
+    /// Spacing of recorded samples [s].
+    pub sample: f64,
+    /// When to end early, at rest.
+    pub stop_at_rest: Option<RestCriterion>,
+    /// Errors allowed per step.
+    pub tolerance: Tolerance,
+    /// Stepper and longest step.
+    pub options: Options,
+}
+
+/// Rest: every body's fastest material point slower than `speed` for `hold`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestCriterion {
+    /// Speed of the fastest material point [m/s].
+    pub speed: f64,
+    /// For how long [s].
+    pub hold: f64,
+}
+
+impl From<&Plan> for RunPlan {
+    fn from(plan: &Plan) -> Self {
+        let method = match plan.method {
+            gyration_scene::Method::Auto => Method::Auto,
+            gyration_scene::Method::Explicit => Method::Explicit,
+            gyration_scene::Method::Implicit => Method::Implicit,
+        };
+        let max_step = plan.max_step.unwrap_or(f64::INFINITY);
+        Self {
+            end: plan.end,
+            sample: plan.sample,
+            stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
+            tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
+            options: Options { method, max_step, initial_step: None },
+        }
+    }
+}
