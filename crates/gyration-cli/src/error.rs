@@ -71,9 +71,8 @@ impl CliError {
     /// The exit code that tells it to scripts.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } | Self::Run(RunError::Start(_)) => {
-                code::BAD_INPUT
-            }
+            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } => code::BAD_INPUT,
+            Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
             Self::Plot(PlotError::Nothing { .. }) => code::BAD_INPUT,
             Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,
             Self::Scene(LoadError::Read(_))

@@ -97,9 +97,12 @@ fn another_scene_is_not_resumed() {
     let sandbox = Sandbox::with_ball();
     sandbox.refused(3, &["run", "ball.toml", "--resume"]);
     sandbox.done(&["run", "ball.toml", "--quiet"]);
-    sandbox.refused(2, &["run", "ball.toml", "--resume", "--set", "body.ball.density=2000"]);
+    let before = common::tree(&sandbox.path("ball.gyr"));
+    let said = sandbox.refused(2, &["run", "ball.toml", "--resume", "--set", "body.ball.density=2000"]);
+    assert!(said.stderr.contains("another scene"), "{}", said.stderr);
     sandbox.write("other.toml", &BALL.replace("5 cm", "4 cm"));
     sandbox.refused(2, &["run", "other.toml", "-o", "ball.gyr", "--resume"]);
+    assert!(before == common::tree(&sandbox.path("ball.gyr")));
     // What only the comments tell is the same scene.
     sandbox.write("same.toml", &format!("# a remark\n{BALL}"));
     sandbox.done(&["run", "same.toml", "-o", "ball.gyr", "--resume"]);

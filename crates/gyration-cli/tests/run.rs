@@ -4,9 +4,10 @@
 
 mod common;
 
-use common::{BALL, Sandbox, assert_same_bytes};
+use common::{BALL, Said, Sandbox, assert_same_bytes, tree};
 use serde_json::Value;
 use std::fs;
+use std::process::Stdio;
 
 #[test]
 fn run_leaves_a_recording_and_a_picture() {
@@ -56,6 +57,36 @@ fn force_removes_recordings_only() {
     sandbox.refused(3, &["run", "ball.toml", "-o", "thesis", "--force"]);
     assert_eq!(fs::read_to_string(sandbox.path("thesis/chapter.txt")).unwrap(), "precious");
     sandbox.done(&["run", "ball.toml", "--quiet", "-o", "new.gyr", "--force", "--set", "time.end=0.01"]);
+}
+
+#[test]
+fn force_keeps_the_old_recording_if_the_new_run_cannot_start() {
+    let sandbox = Sandbox::with_ball();
+    sandbox.done(&["run", "ball.toml", "--quiet", "--set", "time.end=0.05"]);
+    let before = tree(&sandbox.path("ball.gyr"));
+    // (0.15 m / 1 m)^−400 is beyond the largest number: the start has no finite traction.
+    let infinite = "contact.0.repulsion={ alpha = 1, nu = 400, d0 = 1 }";
+    for more in [&["--force"][..], &["-o", "new.gyr"]] {
+        let said = sandbox.refused(2, &[&["run", "ball.toml", "--set", infinite][..], more].concat());
+        assert!(said.stderr.contains("start"), "{}", said.stderr);
+    }
+    assert!(before == tree(&sandbox.path("ball.gyr")));
+    assert_eq!(sandbox.names(), ["ball.gyr", "ball.toml"]);
+}
+
+#[test]
+fn exit_code_does_not_hang_on_a_reader_of_stdout() {
+    let sandbox = Sandbox::with_ball();
+    let early = ["run", "ball.toml", "--json", "--set", "solver.max_wall_time=1e-9", "--set", "time.end=60"];
+    let resumed = [&early[..], &["--resume"]].concat();
+    let whole = ["run", "ball.toml", "--json", "-o", "whole.gyr"];
+    for (arguments, code) in [(&early[..], 1), (&resumed, 1), (&whole, 0)] {
+        let mut child = sandbox.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let said = Said::from(child.wait_with_output().unwrap());
+        assert_eq!(said.code, Some(code), "{arguments:?}: {}", said.stderr);
+        assert_eq!(said.stderr.contains("--resume"), code == 1, "{}", said.stderr);
+    }
 }
 
 #[test]

@@ -10,14 +10,12 @@ use crate::plot::recorded::Recorded;
 use crate::plot::show;
 use crate::progress::Watch;
 use crate::summary;
-use gyration_ode::{Method as OdeMethod, Options};
 use gyration_record::{Attributes, Recording, remove};
-use gyration_scene::{Method, Plan, Scene};
-use gyration_sim::{Job, Outcome, Reason, Recorded as Ended, RestCriterion, RunPlan, RunSummary, Tolerance};
+use gyration_scene::Scene;
+use gyration_sim::{Job, MemorySink, Outcome, Provenance, Reason, Recorded as Ended, RunSummary, Simulation};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// The picture that every run leaves.
 const PICTURE: &str = "overview.svg";
@@ -28,13 +26,12 @@ const MOST_NAMES: usize = 10_000;
 pub fn execute(arguments: &Run) -> Result<u8, CliError> {
     let scene = open(&arguments.scene)?;
     let path = directory(arguments, &scene)?;
-    let job = job(&scene);
-    let resumed = arguments.resume;
-    if resumed {
-        refuse_another_scene(&path, &job.attributes)?;
+    let job = Job::of(&scene, &provenance());
+    if !arguments.resume {
+        make_room(arguments, &job, &path)?;
     }
     let mut watch = Watch::new(!arguments.quiet)?;
-    let ended = if resumed { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
+    let ended = if arguments.resume { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
     watch.finish();
     let ended = ended?;
     let picture = path.join(PICTURE);
@@ -61,7 +58,12 @@ fn exit_code(outcome: &Outcome) -> u8 {
     }
 }
 
-/// Where the recording goes; what is replaced is removed.
+/// The program that runs.
+fn provenance() -> Provenance {
+    Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: Some(env!("GYRATION_COMMIT").to_owned()) }
+}
+
+/// Where the recording goes; one that is there must be meant to be resumed or replaced.
 fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
     let numbered = |k: usize| match k {
         1 => PathBuf::from(format!("{}.gyr", scene.name())),
@@ -69,18 +71,14 @@ fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
     };
     let path = arguments.output.clone().unwrap_or_else(|| numbered(1));
     // A link that leads nowhere is something as well.
-    let exists = path.symlink_metadata().is_ok();
-    if arguments.resume {
+    let exists = |path: &PathBuf| path.symlink_metadata().is_ok();
+    if arguments.resume || arguments.force {
         return Ok(path);
     }
-    if arguments.force && exists {
-        remove(&path)?;
-        return Ok(path);
-    }
-    match (exists, &arguments.output) {
+    match (exists(&path), &arguments.output) {
         (false, _) => Ok(path),
         (true, None) => {
-            let free = (2..MOST_NAMES).map(numbered).find(|path| path.symlink_metadata().is_err());
+            let free = (2..MOST_NAMES).map(numbered).find(|path| !exists(path));
             free.ok_or_else(|| CliError::arguments("too many recordings of this scene here", "name one with -o DIR"))
         }
         (true, Some(_)) => Err(CliError::arguments(
@@ -90,73 +88,13 @@ fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
     }
 }
 
-/// What the simulation needs of the scene.
-fn job(scene: &Scene) -> Job<'_> {
-    let built = scene.built();
-    Job {
-        model: &built.model,
-        start: &built.state,
-        plan: run_plan(&built.plan),
-        max_wall_time: built.plan.max_wall_time.map(wall_time),
-        attributes: attributes(scene),
+/// Removes the recording that is to be replaced, once it is known that the new run has a start within the model.
+fn make_room(arguments: &Run, job: &Job, path: &Path) -> Result<(), CliError> {
+    Simulation::new(job.model, job.start, job.plan)?.begin(&mut MemorySink::default())?;
+    if arguments.force && path.symlink_metadata().is_ok() {
+        remove(path)?;
     }
-}
-
-/// A time longer than the clock can count is no limit.
-fn wall_time(seconds: f64) -> Duration {
-    Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
-}
-
-fn run_plan(plan: &Plan) -> RunPlan {
-    let method = match plan.method {
-        Method::Auto => OdeMethod::Auto,
-        Method::Explicit => OdeMethod::Explicit,
-        Method::Implicit => OdeMethod::Implicit,
-    };
-    let rest = plan.stop_at_rest.as_ref();
-    RunPlan {
-        end: plan.end,
-        sample: plan.sample,
-        stop_at_rest: rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
-        tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
-        options: Options { method, max_step: plan.max_step.unwrap_or(f64::INFINITY), ..Options::default() },
-    }
-}
-
-/// The scene and the program, as the recording tells of them.
-fn attributes(scene: &Scene) -> Attributes {
-    let plan = &scene.built().plan;
-    let entries = [
-        ("title", json!(scene.file().title)),
-        ("scene", json!(scene.text())),
-        ("scene_name", json!(scene.name())),
-        ("overrides", json!(scene.overrides())),
-        ("resolved", scene.resolved()),
-        ("version", json!(env!("CARGO_PKG_VERSION"))),
-        ("commit", json!(env!("GYRATION_COMMIT"))),
-        ("tolerances", json!({ "rtol": plan.rtol, "atol": plan.atol })),
-    ];
-    entries.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
-}
-
-/// A recording goes on with the scene that it began with; only the limit of wall time may differ.
-fn refuse_another_scene(path: &Path, attributes: &Attributes) -> Result<(), CliError> {
-    let recording = Recording::open(path)?;
-    let without_limit = |value: Option<&Value>| {
-        let mut value = value.cloned().unwrap_or(Value::Null);
-        if let Some(solver) = value.get_mut("solver").and_then(Value::as_object_mut) {
-            solver.remove("max_wall_time");
-        }
-        value
-    };
-    let before = without_limit(recording.attributes().get("resolved"));
-    if before == without_limit(attributes.get("resolved")) {
-        return Ok(());
-    }
-    Err(CliError::arguments(
-        format!("{} is a recording of another scene, or of other values of it", path.display()),
-        "resume with the same file and the same --set, or record anew with another -o",
-    ))
+    Ok(())
 }
 
 /// Draws the overview into the recording; a picture that fails does not make the run fail.
@@ -184,7 +122,7 @@ fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Re
         if let (Some(all), Ok(Value::Object(told))) = (value.as_object_mut(), serde_json::to_value(summary)) {
             all.extend(told);
         }
-        output::print(&format!("{value:#}\n"))?;
+        output::offer(&format!("{value:#}\n"))?;
     } else if !arguments.quiet {
         output::say(&summary::in_words(scene, summary, &start));
         output::say(&format!("recording  {}\npicture    {picture}", shown(path)));
@@ -216,7 +154,7 @@ fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Resul
         value.insert("recording".into(), json!(shown(path)));
         value.insert("in_words".into(), json!(outcome));
         value.insert("already_finished".into(), json!(true));
-        output::print(&format!("{:#}\n", Value::Object(value)))?;
+        output::offer(&format!("{:#}\n", Value::Object(value)))?;
     } else if !arguments.quiet {
         output::say(&format!("{} had ended before: {outcome}. Nothing was done.", shown(path)));
     }
