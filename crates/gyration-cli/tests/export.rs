@@ -61,6 +61,61 @@ fn what_cannot_be_exported_is_refused() {
 }
 
 #[test]
+fn failed_export_leaves_the_old_file_and_no_half_of_a_new_one() {
+    let sandbox = recorded();
+    for format in ["csv", "npz"] {
+        sandbox.done(&["export", "ball.gyr", "--format", format]);
+    }
+    let before = common::tree(&sandbox.path("."));
+    let chunk = sandbox.path("ball.gyr/position/c.0.0.0");
+    fs::write(&chunk, b"short").unwrap();
+    for format in ["csv", "npz"] {
+        sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
+    }
+    fs::write(&chunk, &before[chunk.strip_prefix(sandbox.path(".")).unwrap()]).unwrap();
+    assert!(before == common::tree(&sandbox.path(".")));
+}
+
+#[cfg(unix)]
+#[test]
+fn export_goes_through_links_and_into_devices() {
+    let sandbox = recorded();
+    sandbox.done(&["export", "ball.gyr", "--format", "csv", "-o", "/dev/null"]);
+    sandbox.write("real.csv", "");
+    std::os::unix::fs::symlink("real.csv", sandbox.path("link.csv")).unwrap();
+    sandbox.done(&["export", "ball.gyr", "--format", "csv", "-o", "link.csv"]);
+    assert!(fs::read_to_string(sandbox.path("real.csv")).unwrap().starts_with("t,ball.x"));
+    assert_eq!(sandbox.names(), ["ball.gyr", "ball.toml", "link.csv", "real.csv"]);
+}
+
+#[test]
+fn laws_of_a_recording_with_a_mesh_need_the_same_mesh() {
+    let sandbox = Sandbox::new();
+    let tetrahedron =
+        |size: f64| format!("v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nv 0 0 {size}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    fs::create_dir(sandbox.path("scenes")).unwrap();
+    let shape = "{ sphere = { radius = \"5 cm\" } }";
+    let text = BALL.replace(shape, "{ mesh = { file = \"body.obj\" } }").replace("0.6", "0.01");
+    sandbox.write("scenes/ball.toml", &text);
+    sandbox.write("scenes/body.obj", &tetrahedron(0.1));
+    sandbox.done(&["run", "scenes/ball.toml", "--quiet"]);
+    let laws = ["plot", "ball.gyr", "laws"];
+    let refused = || sandbox.refused(2, &laws);
+    let said = refused();
+    assert!(said.stderr.contains("body.obj") && said.stderr.contains("gyration plot SCENE laws"), "{}", said.stderr);
+    // A mesh of that name that is another one must not be taken for it.
+    sandbox.write("body.obj", &tetrahedron(0.05));
+    assert!(refused().stderr.contains("another one"));
+    sandbox.write("body.obj", &tetrahedron(0.1));
+    sandbox.done(&laws);
+    sandbox.done(&["plot", "scenes/ball.toml", "laws"]);
+    // Beside the scene the recording finds the mesh from anywhere.
+    fs::remove_file(sandbox.path("body.obj")).unwrap();
+    fs::rename(sandbox.path("ball.gyr"), sandbox.path("scenes/ball.gyr")).unwrap();
+    sandbox.done(&["plot", "scenes/ball.gyr", "laws"]);
+}
+
+#[test]
 fn closed_pipes_are_quiet() {
     let sandbox = Sandbox::with_ball();
     // More rows than a pipe holds.

@@ -29,11 +29,11 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
             export::csv(&recording, &mut out)?;
             out.flush()?;
         }
-        ExportFormat::Csv => write_csv(&recording, &path)?,
+        ExportFormat::Csv => output::in_place(&path, |partial| write_csv(&recording, partial))?,
         _ if to_stdout => {
             return Err(CliError::arguments("only csv can be written to stdout", "name a file with -o FILE.npz"));
         }
-        _ => export::npz(&recording, &path)?,
+        _ => output::in_place(&path, |partial| Ok(export::npz(&recording, partial)?))?,
     }
     if !to_stdout {
         output::say(&format!("wrote {} ({} samples)", path.display(), recording.rows()));
@@ -42,8 +42,8 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
 }
 
 fn write_csv(recording: &Recording, path: &Path) -> Result<(), CliError> {
-    let failed = |source: io::Error| CliError::Write { path: path.to_path_buf(), source };
-    let mut out = BufWriter::new(File::create(path).map_err(failed)?);
+    let failed = output::cannot_write(path);
+    let mut out = BufWriter::new(File::create(path).map_err(&failed)?);
     export::csv(recording, &mut out)?;
     out.flush().map_err(failed)
 }
