@@ -31,7 +31,7 @@ pub struct Arguments {
 pub enum Command {
     /// Run a scene into a recording
     Run(Run),
-    /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching
+    /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching, resolved form
     Check(Check),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
@@ -88,7 +88,7 @@ pub struct Check {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Print JSON, with the resolved scene
+    /// Print JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -40,6 +40,9 @@ pub enum CliError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The resolved scene has no form in TOML.
+    #[error("the resolved scene cannot be written as TOML: {0}; take it from `gyration check SCENE --json`")]
+    Resolved(toml::ser::Error),
     /// Stdout cannot be written; a closed pipe is no error.
     #[error("cannot write to stdout: {0}")]
     Stdout(#[from] io::Error),
@@ -71,7 +74,7 @@ impl CliError {
     /// The exit code that tells it to scripts.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } => code::BAD_INPUT,
+            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } | Self::Resolved(_) => code::BAD_INPUT,
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
             Self::Plot(PlotError::Nothing { .. }) => code::BAD_INPUT,
             Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,

@@ -145,6 +145,55 @@ fn check_says_so_in_words() {
 }
 
 #[test]
+fn check_shows_a_resolved_scene_that_resolves_to_itself() {
+    let sandbox = Sandbox::with_ball();
+    sandbox.write("ball.toml", &format!("{BALL}orientation = {{ euler_xyz = [\"30 deg\", 0, 0.1] }}\n"));
+    let changed = ["check", "ball.toml", "--set", "body.ball.spring=[{ anchor = [0, 0, 1], stiffness = 3 }]"];
+    for arguments in [&changed[..], &["check", "dice"]] {
+        let words = sandbox.done(arguments).stdout;
+        let (_, resolved) = words.split_once("# The resolved scene").unwrap();
+        sandbox.write("resolved.toml", &format!("#{resolved}"));
+        let json = |arguments: &[&str]| -> Value {
+            serde_json::from_str(&sandbox.done(&[arguments, &["--json"]].concat()).stdout).unwrap()
+        };
+        let (before, after) = (json(arguments), json(&["check", "resolved.toml"]));
+        assert_eq!((&before["resolved"], &before["bodies"]), (&after["resolved"], &after["bodies"]));
+        assert!(before["resolved"]["solver"]["atol"].is_number(), "defaults stand in it");
+    }
+}
+
+#[test]
+fn no_gap_of_rest_is_given_where_one_support_does_not_tell() {
+    let sandbox = Sandbox::with_ball();
+    let spring = "body.ball.spring=[{ anchor = [0, 0, 1], stiffness = 3 }]";
+    for (key, word) in [(spring, "springs"), ("body.ball.pin=[0, 0, 0.01]", "pin")] {
+        let still = ["check", "ball.toml", "--set", "body.ball.velocity=[0, 0, 0]", "--set", key];
+        no_gap_of_rest(&sandbox, &still, word);
+    }
+    let wall = "[[support]]\nname = \"wall\"\nplane = { origin = [-1, 0, 0], normal = [1, 0, 0] }\n";
+    let contact = "[[contact]]\nsupport = \"wall\"\nrepulsion = { alpha = 1e-6, nu = 6 }\n";
+    sandbox.write("corner.toml", &format!("{BALL}{wall}{contact}"));
+    no_gap_of_rest(&sandbox, &["check", "corner.toml"], "other supports");
+    // A wall that does not push changes nothing.
+    let weak = ["check", "corner.toml", "--json", "--set", "contact.1.repulsion.alpha=0"];
+    let found: Value = serde_json::from_str(&sandbox.done(&weak).stdout).unwrap();
+    let pair = &found["bodies"][0]["supports"][0];
+    assert!(pair["no_rest_because"].is_null() && pair["rests"][0]["gap"].is_number(), "{pair}");
+}
+
+fn no_gap_of_rest(sandbox: &Sandbox, arguments: &[&str], word: &str) {
+    let words = sandbox.done(arguments).stdout;
+    assert!(words.contains("no gap of rest is given") && words.contains(word), "{words}");
+    assert!(!words.contains("rests at") && !words.contains("no gap at which"), "{words}");
+    let found = sandbox.done(&[arguments, &["--json"]].concat()).stdout;
+    let found: Value = serde_json::from_str(&found).unwrap();
+    for pair in found["bodies"][0]["supports"].as_array().unwrap() {
+        assert_eq!(pair["rests"], Value::Array(Vec::new()));
+        assert!(pair["no_rest_because"].as_str().is_some_and(|reason| reason.contains(word)), "{pair}");
+    }
+}
+
+#[test]
 fn adhesion_may_hold_a_body_from_below() {
     let sandbox = Sandbox::with_ball();
     let adhesion = "contact.0.adhesion={ beta = 1e5, nu_attractive = 4, nu_repulsive = 8, d0 = 0.002 }";

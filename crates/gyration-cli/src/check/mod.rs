@@ -49,6 +49,8 @@ pub struct PairCheck {
     pub forbids_touching: bool,
     /// Gaps at which the central laws carry the weight, in the orientation of the start, ascending.
     pub rests: Vec<Rest>,
+    /// Why no such gap is given, in words: something else holds the body too.
+    pub no_rest_because: Option<&'static str>,
 }
 
 /// Looks at a scene in its first state.
@@ -70,6 +72,7 @@ fn check_body(model: &Model, start: &State, index: usize) -> BodyCheck {
             forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
             laws,
             rests: approach.rests(),
+            no_rest_because: approach.no_rest_because,
         })
     };
     BodyCheck {

@@ -9,8 +9,10 @@
 //!
 //! All of them are sums over the powers c d^−ν of the laws: F = Σ c A₀(ν), k = Σ ν c A₀(ν+1) for the central ones,
 //! c, c_t = Σ c A₀(ν) for the viscous ones, with A₀(ν) = ∫ d^−ν dA over the surface. With adhesion there may be several
-//! such gaps, or none.
+//! such gaps, or none. A body that something else holds too, a pin, a spring, another support, rests elsewhere: no
+//! such gap is then given, but the reason why not.
 
+use gyration::body::Body;
 use gyration::contact::{Action, Contact, Term};
 use gyration::model::Model;
 use gyration::state::State;
@@ -60,7 +62,8 @@ pub struct Approach<'a> {
     pub weight: f64,
     /// Smallest distance at the start [m].
     pub initial_gap: f64,
-    pinned: bool,
+    /// Why the balance on this support alone does not tell where the body rests.
+    pub no_rest_because: Option<&'static str>,
 }
 
 impl<'a> Approach<'a> {
@@ -83,7 +86,7 @@ impl<'a> Approach<'a> {
             size: body.size,
             weight: -body.mass.mass * model.gravity.dot(&plane.normal),
             initial_gap,
-            pinned: body.pin.is_some(),
+            no_rest_because: held_otherwise(body),
         })
     }
 
@@ -115,9 +118,9 @@ impl<'a> Approach<'a> {
         parts.sum::<Option<f64>>().filter(|sum| sum.is_finite())
     }
 
-    /// All gaps at which the weight is carried, ascending; none for a pinned body, which does not rest on anything.
+    /// All gaps at which the weight is carried, ascending; none for a body that is held otherwise as well.
     pub fn rests(&self) -> Vec<Rest> {
-        if !self.acts() || self.pinned {
+        if !self.acts() || self.no_rest_because.is_some() {
             return Vec::new();
         }
         let (low, high) = (SEARCHED.0 * self.size, SEARCHED.1 * self.size);
@@ -157,6 +160,26 @@ impl<'a> Approach<'a> {
             friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
         })
     }
+}
+
+/// What holds a body besides a single support, in words.
+fn held_otherwise(body: &Body) -> Option<&'static str> {
+    let acts = |contact: &&Contact| contact.laws().iter().flat_map(|law| law.terms()).flatten().any(acts);
+    let mut supports = body.contacts.iter().filter(acts).map(|contact| contact.support);
+    let first = supports.next();
+    if body.pin.is_some() {
+        Some("a pin holds the body as well")
+    } else if !body.springs.is_empty() {
+        Some("springs pull at the body as well")
+    } else if supports.any(|support| Some(support) != first) {
+        Some("the laws of other supports act on the body as well")
+    } else {
+        None
+    }
+}
+
+fn acts(term: Term) -> bool {
+    term.coefficient != 0.0
 }
 
 /// Whether the balance changes its sign; a zero counts with what follows, so that it is found once.

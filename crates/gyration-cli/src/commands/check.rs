@@ -10,6 +10,9 @@ use gyration_scene::Scene;
 use serde_json::json;
 use std::fmt::Write as _;
 
+/// Stands above the resolved scene, a comment of TOML.
+const HEADING: &str = "# The resolved scene: SI units, every default in its place";
+
 /// Prints what can be said of the scene.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let scene = open(&arguments.scene)?;
@@ -18,10 +21,16 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
         let value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": found.bodies });
         format!("{value:#}\n")
     } else {
-        in_words(&scene, &found)
+        in_words(&scene, &found) + &resolved(&scene)?
     };
     output::print(&text)?;
     Ok(code::DONE)
+}
+
+/// The resolved scene under a heading; from there on the text is itself a scene.
+fn resolved(scene: &Scene) -> Result<String, CliError> {
+    let text = toml::to_string(scene.file()).map_err(CliError::Resolved)?;
+    Ok(format!("\n{HEADING}\n\n{text}"))
 }
 
 // Writing to a string does not fail: the results of writeln! are dropped in this file.
@@ -73,7 +82,9 @@ fn write_pair(text: &mut String, pair: &PairCheck) {
     if !pair.forbids_touching {
         let _ = writeln!(text, "    no law forbids touching: a body that is fast enough gets there, and the run stops");
     }
-    if pair.rests.is_empty() {
+    if let Some(reason) = pair.no_rest_because {
+        let _ = writeln!(text, "    no gap of rest is given: {reason}, and this support alone does not tell");
+    } else if pair.rests.is_empty() {
         let weight = pair.weight;
         let _ = writeln!(
             text,
