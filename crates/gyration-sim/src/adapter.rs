@@ -2,7 +2,8 @@
 //!
 //! The errors allowed per step are scale-free. rtol is relative to what the forces depend on: lengths to the gap (or
 //! the size, if that is smaller), velocities to the speed of the fastest material point, works to the energy in play.
-//! atol is a fraction of the body's size, of 1 for a rotation, and of the body's own speed scale.
+//! atol is a fraction of the body's size, of 1 for a rotation, and of the body's own speed scale. One step may spend a
+//! tenth of either.
 
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::BodyKind;
@@ -24,6 +25,10 @@ pub struct Tolerance {
     /// Error allowed per step as a fraction of the body's scales.
     pub atol: f64,
 }
+
+/// The share of the tolerances that one step may spend. Errors of thousands of bounces add up, most of them in one
+/// sense; with a tenth each, the ledger of a long run stays within a hundred times rtol.
+const SHARE: f64 = 0.1;
 
 /// A model with its scratch and scales, as a stepper sees it.
 #[derive(Debug)]
@@ -116,7 +121,7 @@ impl System for ModelSystem<'_> {
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
-        let Tolerance { rtol, atol } = self.tolerance;
+        let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
         let mut energy = self.energy;
         for (index, (body, block)) in self.model.bodies.iter().zip(self.model.blocks()).enumerate() {
             let motion = BodyMotion::unpack(body, &y[block.clone()]);
@@ -126,7 +131,7 @@ impl System for ModelSystem<'_> {
             let length = atol * body.size + rtol * gap.min(body.size);
             // The rounding of the places from which the gap is computed is all that can be had.
             let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);
-            let velocity = atol * self.speeds[index] + rtol * speed;
+            let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
             let scales = &mut y_scale[block.clone()];
             match (&body.kind, &body.pin) {
                 (BodyKind::Rigid(_), None) => {

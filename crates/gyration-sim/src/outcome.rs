@@ -110,7 +110,7 @@ impl Stop {
                 time: *time,
                 reason: Reason::NotFinite,
                 body: owner(model, *index),
-                what: format!("a rate is not finite (number {index} of the state)"),
+                what: format!("a rate is not finite, in the {}", accuracy_of(model, *index)),
                 advice: "Look for coefficients or speeds that are out of all proportion.".into(),
             },
             Cause::Error { component, .. } => Self {
@@ -118,8 +118,8 @@ impl Stop {
                 reason: Reason::StepTooSmall,
                 body: owner(model, *component),
                 what: format!(
-                    "no step meets the tolerance (the last tried was {step:e} s, limited by number \
-                     {component} of the state)"
+                    "no step meets the tolerance (the last tried was {step:e} s, limited by the {})",
+                    limit_in_words(model, &Limit::Error { component: *component })
                 ),
                 advice: "Loosen solver.rtol or solver.atol, or soften the contact law.".into(),
             },
@@ -167,14 +167,19 @@ fn owner(model: &Model, index: usize) -> Option<String> {
 /// What limits a step, in words.
 pub fn limit_in_words(model: &Model, limit: &Limit) -> String {
     match limit {
-        Limit::Error { component } => match model.blocks().iter().position(|block| block.contains(component)) {
-            Some(body) => format!("accuracy of {:?}", model.bodies[body].name),
-            None => "accuracy of the ledger".into(),
-        },
+        Limit::Error { component } => accuracy_of(model, *component),
         Limit::Stability => "stiffness".into(),
         Limit::Domain => "a closing gap".into(),
         Limit::Newton => "the implicit equations".into(),
         Limit::MaxStep => "solver.max_step".into(),
         Limit::End => "an approaching support, or the end".into(),
+    }
+}
+
+/// Whose accuracy a component of the state and the works stands for.
+fn accuracy_of(model: &Model, component: usize) -> String {
+    match owner(model, component) {
+        Some(body) => format!("accuracy of {body:?}"),
+        None => "accuracy of the ledger".into(),
     }
 }

@@ -156,7 +156,7 @@ fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Resul
         value.insert("already_finished".into(), json!(true));
         output::offer(&format!("{:#}\n", Value::Object(value)))?;
     } else if !arguments.quiet {
-        output::say(&format!("{} had ended before: {outcome}. Nothing was done.", shown(path)));
+        output::say(&format!("{} had ended before: {}. Nothing was done.", shown(path), outcome.trim_end_matches('.')));
     }
     Ok(())
 }

@@ -24,7 +24,7 @@ pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Sup
         let [x, y, z] = support.normal.into();
         let message =
             format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
-        let help = format!("move it by more than {:.6e} m along the normal [{x}, {y}, {z}]", -gap.min(0.0));
+        let help = format!("move it by more than {:.6e} m along the normal [{x}, {y}, {z}]", gap.min(0.0).abs());
         judge.note(&placed.key.key("position"), message, help);
     }
 }
