@@ -8,8 +8,9 @@
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
 use crate::plan::RunPlan;
+use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows;
-use crate::run::{Monitor, Progress, RunError, Simulation, Sink};
+use crate::run::Simulation;
 use crate::summary::RunSummary;
 use gyration::model::Model;
 use gyration::state::State;

@@ -7,87 +7,18 @@
 use crate::adapter::ModelSystem;
 use crate::events::{self, Event, Signals};
 use crate::horizon::horizon;
-use crate::outcome::{Outcome, Reason, Stop};
+use crate::outcome::{Outcome, Stop};
 use crate::plan::RunPlan;
+use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows;
 use crate::tally::Tally;
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Direction, Integrator, MemoryError, Statistics, StepReport, find_crossing};
-use gyration_record::RecordError;
-use std::path::PathBuf;
+use gyration_ode::{Direction, Integrator, Statistics, StepReport, find_crossing};
 
 /// On how many parts of a step an event is looked for: it is known to be in there.
 const SUBINTERVALS: usize = 4;
-
-/// Where rows, events and checkpoints go.
-pub trait Sink {
-    /// One sample, flattened in the order of [`rows::arrays`].
-    ///
-    /// # Errors
-    /// Whatever keeps it from being stored.
-    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError>;
-
-    /// One event.
-    ///
-    /// # Errors
-    /// Whatever keeps it from being stored.
-    fn event(&mut self, event: &Event) -> Result<(), RecordError>;
-
-    /// The end of a step, when a checkpoint may be taken.
-    ///
-    /// # Errors
-    /// Whatever keeps it from being stored.
-    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError>;
-}
-
-/// What the run says of itself after each step, and whether it is to go on.
-pub trait Monitor {
-    /// Called after each step; a reason to stop ends the run.
-    fn after_step(&mut self, progress: &Progress) -> Option<Reason>;
-}
-
-/// Where a run stands.
-#[derive(Debug, Clone, Copy)]
-pub struct Progress<'a> {
-    /// Simulated time [s].
-    pub time: f64,
-    /// The end [s].
-    pub end: f64,
-    /// The step just made.
-    pub step: &'a StepReport,
-    /// Counters.
-    pub statistics: &'a Statistics,
-    /// The model, for names.
-    pub model: &'a Model,
-}
-
-/// Why a run could not begin, or its recording not go on.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    /// The start is outside the model.
-    #[error("the start is outside the model: {}. {}", .0.what, .0.advice)]
-    Start(Stop),
-    /// The recording failed.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// The recording to be resumed is of another scene.
-    #[error("{} is a recording of another scene: give another -o, or --force to overwrite it", path.display())]
-    OtherScene {
-        /// The recording.
-        path: PathBuf,
-    },
-    /// The checkpoint is not one of this program.
-    #[error("the checkpoint cannot be used: {0}; run the scene anew with --force")]
-    Checkpoint(String),
-}
-
-impl From<MemoryError> for RunError {
-    fn from(error: MemoryError) -> Self {
-        Self::Checkpoint(error.to_string())
-    }
-}
 
 /// A run under way.
 pub struct Simulation<'a> {

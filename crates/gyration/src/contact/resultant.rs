@@ -105,11 +105,6 @@ impl ContactLoads {
         Ok(Self { motion, loads })
     }
 
-    /// f and M of one law.
-    pub fn of(&self, kind: LawKind) -> Loads {
-        self.loads[kind as usize]
-    }
-
     /// f and M of all laws together.
     pub fn total(&self) -> Loads {
         self.loads.iter().copied().sum()
