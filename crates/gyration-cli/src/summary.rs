@@ -72,6 +72,9 @@ fn bodies(bodies: &[BodySummary]) -> String {
         let _ = writeln!(text, "  {:<20} at {} m{gap}", body.name, vector(&body.position));
         let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "", vector(&body.linear_momentum));
         let _ = writeln!(text, "  {:<20} angular momentum {} kg m²/s", "", vector(&body.angular_momentum));
+        let [first, second, third] = &body.affine_momentum;
+        let rows = [vector(first), vector(second), vector(third)].join(" ");
+        let _ = writeln!(text, "  {:<20} affine momentum {rows} kg m²/s", "");
     }
     if let Some(more) = bodies.len().checked_sub(MOST_BODIES).filter(|more| *more > 0) {
         let _ = writeln!(text, "  and {more} more");
