@@ -1,6 +1,6 @@
 //! A scene: read → check → build, all errors at once.
 
-use crate::build::{Built, build};
+use crate::build::{Built, build, salvage};
 use crate::check::{Draft, Judge, structure, values};
 use crate::document::{Document, Findings};
 use crate::error::{LoadError, ReadError, SceneErrors};
@@ -78,6 +78,7 @@ impl Scene {
         let mut judge = Judge { document: &document, findings: &mut findings };
         values(&draft, &mut judge);
         let built = build(&mut draft, base, &mut judge);
+        salvage(&document, base, &mut findings);
         match (draft.complete(), built) {
             (Some(file), Some(built)) if findings.0.is_empty() => {
                 Ok(Self { name: stem(name), text: text.to_owned(), overrides: overrides.to_vec(), file, built })

@@ -7,8 +7,11 @@ mod contact;
 mod mass;
 mod orientation;
 mod overlap;
+mod salvage;
 mod shape;
 mod support;
+
+pub(crate) use salvage::salvage;
 
 use crate::check::{Draft, Judge};
 use crate::file::{Method, Solver, Time};

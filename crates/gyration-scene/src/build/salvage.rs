@@ -1,0 +1,49 @@
+//! What can be said of a body that is not well formed as a whole: the values of its well-formed keys.
+//!
+//! All errors of a file are to come at once, so that a wrong type in one key must not hide a wrong value in another. The
+//! body is built without the keys that something was found against; of what that finds, only that counts which no
+//! missing key can have caused.
+
+use super::body::Solid;
+use crate::check::{Judge, Placed};
+use crate::document::{Document, Findings};
+use crate::file::Body;
+use crate::key::Key;
+use crate::tree::Node;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Keys whose values are judged by themselves.
+const ALONE: [&str; 3] = ["orientation", "mass_properties", "spring"];
+/// The shape is judged together with these: parts of a union may take the body's density.
+const WEIGHTS: [&str; 3] = ["density", "mass", "mass_properties"];
+
+/// Notes what is wrong in the well-formed keys of bodies that are not well formed.
+pub(crate) fn salvage(document: &Document, base: &Path, findings: &mut Findings) {
+    let section = Key::root().key("body");
+    let dirty: BTreeSet<Key> = findings.0.iter().map(|finding| finding.key.clone()).collect();
+    for (index, node) in document.root.get("body").map(Node::items).unwrap_or_default().iter().enumerate() {
+        let key = section.index(index);
+        // What lies inside of a key follows it in the order of keys.
+        let is_dirty = |name: &str| {
+            let place = key.key(name);
+            dirty.range(&place..).next().is_some_and(|found| place.holds(found))
+        };
+        let mut json = node.to_json();
+        let Some(written) = json.as_object_mut() else { continue };
+        let before = written.len();
+        written.retain(|name, _| !is_dirty(name));
+        if written.len() == before {
+            continue;
+        }
+        let mut judged: Vec<&str> = ALONE.into_iter().filter(|name| written.contains_key(*name)).collect();
+        if written.contains_key("shape") && !WEIGHTS.iter().any(|name| is_dirty(name)) {
+            judged.push("shape");
+        }
+        let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
+        let mut found = Findings::default();
+        Solid::new(&Placed { key: key.clone(), value }, base, &mut Judge { document, findings: &mut found });
+        let counts = |place: &Key| judged.iter().any(|name| key.key(name).holds(place));
+        findings.0.extend(found.0.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
+    }
+}
