@@ -3,10 +3,10 @@
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
-use gyration::contact::{ContactLoads, ContactScratch, ContactSlopes, RelativeMotion};
+use gyration::contact::{Contact, ContactLoads, ContactScratch, ContactSlopes, RelativeMotion};
 use gyration::jacobian::jacobian;
 use gyration::rates::{Workspace, rates};
-use gyration::surface::GapField;
+use gyration::surface::{GapClosed, GapField, Surface};
 use gyration_bench::{SHAPES, near_table};
 use nalgebra::DMatrix;
 
@@ -31,30 +31,28 @@ fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (G
     (field, RelativeMotion { normal, velocity, gradient_rate })
 }
 
-#[divan::bench(args = NAMES)]
-fn loads(bencher: Bencher, name: &str) {
+/// Times one way of integrating the laws of the body's contact.
+fn bench_contact<T>(
+    bencher: Bencher,
+    name: &str,
+    integrate: fn(&Contact, &Surface, &GapField, RelativeMotion, &mut ContactScratch) -> Result<T, GapClosed>,
+) {
     let (model, state) = set_up(name, (6.0, 3.0));
     let (field, motion) = meeting(&model, &state);
     let body = &model.bodies[0];
     let surface = body.surface.as_ref().expect("every shape here has a surface");
     let mut scratch = ContactScratch::default();
-    bencher.bench_local(|| {
-        let field = divan::black_box(&field);
-        ContactLoads::integrate(&body.contacts[0], surface, field, motion, &mut scratch)
-    });
+    bencher.bench_local(|| integrate(&body.contacts[0], surface, divan::black_box(&field), motion, &mut scratch));
+}
+
+#[divan::bench(args = NAMES)]
+fn loads(bencher: Bencher, name: &str) {
+    bench_contact(bencher, name, ContactLoads::integrate);
 }
 
 #[divan::bench(args = NAMES)]
 fn loads_with_jacobian(bencher: Bencher, name: &str) {
-    let (model, state) = set_up(name, (6.0, 3.0));
-    let (field, motion) = meeting(&model, &state);
-    let body = &model.bodies[0];
-    let surface = body.surface.as_ref().expect("every shape here has a surface");
-    let mut scratch = ContactScratch::default();
-    bencher.bench_local(|| {
-        let field = divan::black_box(&field);
-        ContactSlopes::integrate(&body.contacts[0], surface, field, motion, &mut scratch)
-    });
+    bench_contact(bencher, name, ContactSlopes::integrate);
 }
 
 fn bench_rates(bencher: Bencher, name: &str, exponents: (f64, f64)) {
