@@ -129,6 +129,15 @@ proptest! {
     }
 }
 
+/// A thin rod of 1e-308 kg m²: the inverse of its inertia was infinite, and the scene was taken.
+#[test]
+fn inertia_whose_inverse_overflows_is_refused() {
+    let text = "[time]\nend = 1\nsample = 1\n[[body]]\nname = \"b\"\nshape = { box = { size = [1, 0.016, 2e-307] } }\n\
+                density = 1\norientation = { quaternion = [1, 1, 0.016, 1] }\npin = [1, 1, 2e-307]\n";
+    let Err(errors) = read("scene.toml", text, &[]) else { panic!("taken") };
+    assert!(errors.to_string().contains("leaves the range of numbers"), "{errors}");
+}
+
 #[test]
 fn nesting_bombs_are_refused() {
     let depth = 100_000;

@@ -72,8 +72,7 @@ fn inertia(
     let name = if placed.value.mass_properties.is_some() { "mass_properties" } else { "shape" };
     let key = placed.key.key(name);
     match RigidInertia::new(mass, pin) {
-        // Far from one kilogram and metre determinants leave the range of numbers, and the inverse is none.
-        Ok(inertia) if (inertia.tensor * inertia.inverse - Mat3::identity()).amax() < 0.5 => Some(inertia),
+        Ok(inertia) if inverts(&inertia) => Some(inertia),
         Ok(inertia) => {
             let message = format!("the inertia, {:e} kg m², leaves the range of numbers", inertia.tensor.amax());
             judge.note(&key, message, "change the size or the mass");
@@ -84,6 +83,13 @@ fn inertia(
             None
         }
     }
+}
+
+/// Whether I⁻¹ is one: far from one kilogram and metre its entries leave the range of numbers.
+fn inverts(inertia: &RigidInertia) -> bool {
+    // Of all entries: the largest of a matrix passes over what is not a number.
+    let residual = inertia.tensor * inertia.inverse - Mat3::identity();
+    inertia.inverse.iter().all(|entry| entry.is_finite()) && residual.iter().all(|entry| entry.abs() < 0.5)
 }
 
 /// Refuses what only a deformable body has.
