@@ -2,11 +2,13 @@
 //!
 //! `test` is the one test command: format, lints, documentation, every test of the workspace, the Python tests, the
 //! table of known answers and, where cargo-deny is installed, licences and advisories. `validate` runs the problems
-//! with a known answer and writes `docs/known-answers.md` from what they print.
+//! with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes, draws their
+//! pictures and writes `docs/gallery.md`.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
 mod answers;
+mod gallery;
 mod python;
 mod steps;
 mod tally;
@@ -21,7 +23,8 @@ usage: cargo xtask CHORE
 
   test           run every check; the last line is `N passed, N failed`
   test --fast    the same without documentation, Python and cargo-deny
-  validate       run the problems with a known answer and rewrite docs/known-answers.md";
+  validate       run the problems with a known answer and rewrite docs/known-answers.md
+  gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -30,6 +33,7 @@ fn main() -> ExitCode {
         ["test"] => test::run(test::Extent::Full),
         ["test", "--fast"] => test::run(test::Extent::Fast),
         ["validate"] => validate::run(),
+        ["gallery", names @ ..] => gallery::run(names),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             ExitCode::SUCCESS

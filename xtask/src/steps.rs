@@ -88,8 +88,13 @@ impl Steps {
         self.all_is_well()
     }
 
+    /// Whether nothing is wrong so far.
+    pub fn is_clean(&self) -> bool {
+        self.complaints.is_empty() && self.tally.failed == 0
+    }
+
     fn all_is_well(&self) -> bool {
-        self.complaints.is_empty() && self.tally.failed == 0 && self.tally.passed > 0
+        self.is_clean() && self.tally.passed > 0
     }
 }
 

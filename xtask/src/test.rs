@@ -1,7 +1,7 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
 use crate::steps::{Steps, succeeds};
-use crate::{answers, python, root, validate};
+use crate::{answers, gallery, python, root, validate};
 use std::process::{Command, ExitCode};
 
 /// How much to check.
@@ -35,6 +35,7 @@ pub fn run(extent: Extent) -> ExitCode {
     // The output of tests that pass is shown: it has the measured errors of the known answers.
     steps.run_tests("tests", cargo().args(["test", "--workspace", "--no-fail-fast", "--", "--show-output"]));
     check_known_answers(&mut steps);
+    gallery::check(&mut steps);
     match extent {
         Extent::Full => {
             python_tests(&mut steps);

@@ -1,0 +1,151 @@
+//! The page of the gallery: every scene with its picture, made by running it.
+//!
+//! The words come from the scenes themselves, as `gyration scenes` prints them: a title a scene, indented lines that say
+//! what to look at. So the page cannot tell of another scene than the one that runs.
+
+use crate::root;
+use crate::steps::Steps;
+use crate::test::cargo;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// A scene as the program lists it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    name: String,
+    title: String,
+    /// What to look at.
+    text: String,
+}
+
+/// The page of the gallery.
+fn page_path() -> PathBuf {
+    root().join("docs/gallery.md")
+}
+
+fn picture_path(name: &str) -> PathBuf {
+    root().join(format!("docs/pictures/{name}.svg"))
+}
+
+/// Runs the scenes named, or all, draws their strips and writes the page.
+pub fn run(names: &[&str]) -> ExitCode {
+    let mut steps = Steps::default();
+    match list() {
+        Err(reason) => steps.complain(reason),
+        Ok(entries) => {
+            for entry in entries.iter().filter(|entry| names.is_empty() || names.contains(&entry.name.as_str())) {
+                draw(&mut steps, &entry.name);
+            }
+            if let Some(name) = names.iter().find(|name| entries.iter().all(|entry| entry.name != **name)) {
+                steps.complain(format!("the gallery has no scene `{name}`"));
+            }
+            if let Err(error) = std::fs::write(page_path(), page(&entries)) {
+                steps.complain(format!("{}: {error}", page_path().display()));
+            }
+        }
+    }
+    if steps.is_clean() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// Complains about a page that is not the one that the scenes give, and about pictures that are missing.
+pub fn check(steps: &mut Steps) {
+    let entries = match list() {
+        Ok(entries) => entries,
+        Err(reason) => return steps.complain(reason),
+    };
+    let written = std::fs::read_to_string(page_path()).unwrap_or_default();
+    if written != page(&entries) {
+        steps.complain("docs/gallery.md is out of step with the scenes (run `cargo xtask gallery`)".into());
+    }
+    for entry in entries.iter().filter(|entry| !picture_path(&entry.name).exists()) {
+        steps.complain(format!("`{0}` has no picture (run `cargo xtask gallery {0}`)", entry.name));
+    }
+}
+
+/// Runs a scene and draws its strip.
+fn draw(steps: &mut Steps, name: &str) {
+    let recording = crate::target_directory().join(format!("gallery/{name}.gyr"));
+    let mut run = program();
+    run.args(["run", name, "--quiet", "--force", "-o"]).arg(&recording);
+    let mut plot = program();
+    plot.arg("plot").arg(&recording).args(["strip", "-o"]).arg(picture_path(name));
+    if steps.run(&format!("run {name}"), &mut run) {
+        steps.run(&format!("draw {name}"), &mut plot);
+    }
+}
+
+/// The program, built for speed.
+fn program() -> std::process::Command {
+    let mut command = cargo();
+    command.args(["run", "--release", "--quiet", "--package", "gyration-cli", "--"]);
+    command
+}
+
+/// The scenes, as the program lists them.
+fn list() -> Result<Vec<Entry>, String> {
+    let mut command = cargo();
+    // As the tests have built it.
+    command.args(["run", "--quiet", "--package", "gyration-cli", "--", "scenes"]);
+    let output = command.output().map_err(|error| format!("`gyration scenes` cannot be started: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("`gyration scenes`: {}", String::from_utf8_lossy(&output.stderr)));
+    }
+    let entries = entries(&String::from_utf8_lossy(&output.stdout));
+    if entries.is_empty() { Err("`gyration scenes` lists nothing".into()) } else { Ok(entries) }
+}
+
+/// Entries from a listing: `name  title`, then indented lines; an empty line ends it.
+fn entries(listing: &str) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for line in listing.lines().take_while(|line| !line.is_empty()) {
+        match (line.strip_prefix(' '), entries.last_mut()) {
+            (Some(told), Some(entry)) => {
+                let gap = if entry.text.is_empty() { "" } else { " " };
+                let _ = write!(entry.text, "{gap}{}", told.trim());
+            }
+            _ => {
+                let (name, title) = line.split_once(' ').unwrap_or((line, ""));
+                entries.push(Entry { name: name.into(), title: title.trim().into(), text: String::new() });
+            }
+        }
+    }
+    entries
+}
+
+fn page(entries: &[Entry]) -> String {
+    let mut page = String::from(
+        "# The gallery\n\n\
+         Scenes that run by name: `gyration run NAME`. `gyration scenes NAME` prints the file, to copy and change.\n\
+         This page and its pictures are made by `cargo xtask gallery`, which runs every scene and draws\n\
+         `gyration plot NAME.gyr strip`; the words stand at the head of each scene.\n\n",
+    );
+    for Entry { name, title, text } in entries {
+        let _ = write!(page, "## `{name}`\n\n**{title}.** {text}\n\n![{title}](pictures/{name}.svg)\n\n");
+    }
+    page.truncate(page.trim_end().len());
+    page + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_listing_is_read_back() {
+        let listing = "dice         A die thrown\n             Look at it,\n             and again.\nrock-2       A block\n\n`gyration run NAME` runs\n";
+        let entry =
+            |name: &str, title: &str, text: &str| Entry { name: name.into(), title: title.into(), text: text.into() };
+        assert_eq!(
+            entries(listing),
+            [entry("dice", "A die thrown", "Look at it, and again."), entry("rock-2", "A block", "")]
+        );
+    }
+
+    #[test]
+    fn every_scene_has_its_place_on_the_page() {
+        let page = page(&entries("a  First\n   One.\nb  Second\n   Two.\n"));
+        assert!(page.contains("## `a`\n\n**First.** One.\n\n![First](pictures/a.svg)\n\n## `b`"), "{page}");
+        assert!(page.ends_with("![Second](pictures/b.svg)\n"));
+    }
+}
