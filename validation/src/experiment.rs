@@ -53,6 +53,19 @@ impl Experiment {
     /// If the scene has errors.
     pub fn of_scene(text: &str) -> Self {
         let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        Self::of(&scene)
+    }
+
+    /// The experiment of a scene of the gallery, with overrides as in `--set`.
+    ///
+    /// # Panics
+    /// If the gallery has no such scene, or an override is wrong.
+    pub fn of_gallery(name: &str, overrides: &[&str]) -> Self {
+        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        Self::of(&Scene::open(name, &overrides).unwrap_or_else(|errors| panic!("{errors}")))
+    }
+
+    fn of(scene: &Scene) -> Self {
         let built = scene.built();
         Self { model: built.model.clone(), start: built.state.clone(), plan: RunPlan::from(&built.plan) }
     }
