@@ -151,7 +151,7 @@ pub struct Plot {
 pub enum What {
     /// All that the recording has
     Overview,
-    /// Outlines at successive times, from the side
+    /// Outlines at successive times, from the side; bodies that spin on the spot from above
     Strip,
     /// Heights of the centres of mass
     Height,

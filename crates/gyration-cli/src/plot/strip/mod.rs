@@ -1,4 +1,4 @@
-//! Strips: the outlines of bodies at successive times, seen from the side, to scale.
+//! Strips: the outlines of bodies at successive times, to scale.
 //!
 //! Where the bodies leave room for one another, all times share one picture, as under a stroboscope; where they would
 //! cover each other, each time has a picture of its own.
@@ -11,7 +11,7 @@ mod view;
 use super::PlotError;
 use super::draw::{Drawing, Point, Rect};
 use super::recorded::{Pose, Recorded};
-use ground::Ground;
+use ground::{Ground, Site};
 use gyration::tensor::Vec3;
 use silhouette::Silhouette;
 use view::{Motion, View};
@@ -26,6 +26,8 @@ const FRAMES: usize = 10;
 const MOST_BODIES: usize = 60;
 /// A centre that has moved less than this fraction of the size has not moved to the eye.
 const VISIBLE: f64 = 0.02;
+/// Half the side of a patch of a support, as a fraction of the largest body's size.
+const PATCH: f64 = 0.8;
 
 /// One time.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,7 +140,9 @@ fn frame(recorded: &Recorded, probe: &Probe, view: &View) -> Frame {
     let bodies = recorded.bodies.iter().zip(&probe.poses).take(MOST_BODIES).enumerate();
     let bodies: Vec<Silhouette> = bodies.map(|(index, (body, pose))| Silhouette::of(index, body, pose, view)).collect();
     let mean = probe.poses.iter().map(|pose| pose.position).sum::<Vec3>() / probe.poses.len().max(1) as f64;
-    let ground = |support| Ground::of(support, probe.time, &mean, view);
+    let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
+    let site = Site { mean, half_side: PATCH * size };
+    let ground = |support| Ground::of(support, probe.time, &site, view);
     Frame { time: probe.time, bodies, grounds: recorded.supports.iter().filter_map(ground).collect() }
 }
 

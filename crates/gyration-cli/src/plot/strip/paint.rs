@@ -1,6 +1,6 @@
 //! Strips on the page: one scale for all, supports hatched, times written beside the bodies, a bar for the scale.
 
-use super::ground::Ground;
+use super::ground::{Cut, Ground};
 use super::silhouette::Silhouette;
 use super::{Frame, Strip};
 use crate::plot::chart::ticks::{decimals, length_in_words, round_step};
@@ -82,10 +82,9 @@ impl Bounds {
         }
         let reach = 1.5 * bounds.width().max(bounds.height());
         let center = [0, 1].map(|k| 0.5 * (bounds.low[k] + bounds.high[k]));
-        for ground in frames().flat_map(|frame| &frame.grounds) {
-            let near = ground.nearest(center);
-            if (near[0] - center[0]).hypot(near[1] - center[1]) < reach {
-                bounds.include(near);
+        for point in frames().flat_map(|frame| &frame.grounds).flat_map(|ground| ground.points(center)) {
+            if (point[0] - center[0]).hypot(point[1] - center[1]) < reach {
+                bounds.include(point);
             }
         }
         bounds.widened()
@@ -243,28 +242,42 @@ fn draw_body(body: &Silhouette, strength: f64, map: &Map, drawing: &mut Drawing,
     drawing.area(hull, None, Some(Stroke::solid(ink, width)), Some(frame));
 }
 
-/// The line of a support through the frame and hatching on its far side.
+/// The supports, behind everything else.
 fn draw_grounds(grounds: &[Ground], map: &Map, drawing: &mut Drawing, frame: Rect) {
     for ground in grounds {
-        let center = [frame.x + 0.5 * frame.width, frame.y + 0.5 * frame.height];
-        let origin = map.place(ground.origin);
-        // The page counts downwards.
-        let normal = [ground.normal[0], -ground.normal[1]];
-        let along = [-normal[1], normal[0]];
-        let offset = (center[0] - origin[0]) * along[0] + (center[1] - origin[1]) * along[1];
-        let middle = [0, 1].map(|k| origin[k] + offset * along[k]);
-        let reach = 0.5 * frame.width.hypot(frame.height);
-        let at = |s: f64, depth: f64| [0, 1].map(|k| middle[k] + s * along[k] - depth * normal[k]);
-        let strokes = (reach / HATCH).ceil() as i64;
-        // Of the two ways to lean, the one that is nearer to the vertical.
-        let lean = if along[1] > 0.1 { HATCH } else { -HATCH };
-        let hatch = (-strokes..=strokes).map(|k| {
-            let s = HATCH * k as f64;
-            vec![at(s, 0.0), at(s + lean, HATCH)]
-        });
-        drawing.lines(hatch.collect(), Stroke::solid(color::GREY, 0.4), Some(frame));
-        drawing.line(vec![at(-reach, 0.0), at(reach, 0.0)], Stroke::solid(color::INK, 0.9), Some(frame));
+        match ground {
+            Ground::Cut(cut) => draw_cut(cut, map, drawing, frame),
+            Ground::Patch { corners, grid } => {
+                let corners = map.place_line(corners);
+                let lines = grid.iter().map(|line| map.place_line(line)).collect();
+                drawing.area(corners.clone(), Some(color::GREY.tint(0.12)), None, Some(frame));
+                drawing.lines(lines, Stroke::solid(color::GREY.faded(0.45), 0.3), Some(frame));
+                drawing.area(corners, None, Some(Stroke::solid(color::GREY, 0.5)), Some(frame));
+            }
+        }
     }
+}
+
+/// The line of a support through the frame and hatching on its far side.
+fn draw_cut(ground: &Cut, map: &Map, drawing: &mut Drawing, frame: Rect) {
+    let center = [frame.x + 0.5 * frame.width, frame.y + 0.5 * frame.height];
+    let origin = map.place(ground.origin);
+    // The page counts downwards.
+    let normal = [ground.normal[0], -ground.normal[1]];
+    let along = [-normal[1], normal[0]];
+    let offset = (center[0] - origin[0]) * along[0] + (center[1] - origin[1]) * along[1];
+    let middle = [0, 1].map(|k| origin[k] + offset * along[k]);
+    let reach = 0.5 * frame.width.hypot(frame.height);
+    let at = |s: f64, depth: f64| [0, 1].map(|k| middle[k] + s * along[k] - depth * normal[k]);
+    let strokes = (reach / HATCH).ceil() as i64;
+    // Of the two ways to lean, the one that is nearer to the vertical.
+    let lean = if along[1] > 0.1 { HATCH } else { -HATCH };
+    let hatch = (-strokes..=strokes).map(|k| {
+        let s = HATCH * k as f64;
+        vec![at(s, 0.0), at(s + lean, HATCH)]
+    });
+    drawing.lines(hatch.collect(), Stroke::solid(color::GREY, 0.4), Some(frame));
+    drawing.line(vec![at(-reach, 0.0), at(reach, 0.0)], Stroke::solid(color::INK, 0.9), Some(frame));
 }
 
 /// A bar of a round length, with its length, ending at the point.

@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn three_edges_of_a_cube_on_its_corner_are_behind() {
-        let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y() };
+        let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y(), raised: false };
         // A diagonal of the cube turned into the line of sight.
         let y = Vec3::new(1.0, 1.0, 1.0).normalize();
         let x = Vec3::new(1.0, -1.0, 0.0).normalize();
@@ -153,7 +153,7 @@ mod tests {
     fn edges_with_indices_outside_are_left_out() {
         let mut body = cube();
         body.outline.polylines = vec![vec![0, 99], vec![0, 1]];
-        let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y() };
+        let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y(), raised: false };
         let pose = Pose { position: Vec3::zeros(), gradient: Mat3::identity() };
         let seen = Silhouette::of(0, &body, &pose, &view);
         assert_eq!(seen.front.len() + seen.behind.len(), 1);

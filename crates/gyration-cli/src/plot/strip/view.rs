@@ -1,8 +1,11 @@
 //! The plane of a side view: the one that shows most of the motion.
 //!
-//! The view is level. Its upward direction w is against gravity; its level direction u is, in this order, the one in
-//! which the centres travel most, that of the fall line of an inclined support, that in which turning is seen best
-//! (across the mean axis of rotation), or x.
+//! The upward direction w is against gravity; the level direction u is, in this order, the one in which the centres
+//! travel most, that of the fall line of an inclined support, that in which turning is seen best (across the mean axis
+//! of rotation), or x. The view is level, unless a body spins about the vertical on the spot, which nobody sees from the side:
+//! such a motion is looked at from above, by the angle e,
+//!
+//!   v' = v cos e + w sin e,   w' = w cos e − v sin e
 
 use crate::plot::draw::Point;
 use gyration::tensor::{Mat3, Vec3, axial};
@@ -16,7 +19,12 @@ pub struct View {
     pub up: Vec3,
     /// To the viewer.
     pub toward: Vec3,
+    /// Whether it is seen from above, so that a level plane is a surface and not a line.
+    pub raised: bool,
 }
+
+/// How far above the level a spinning body is looked at from [rad].
+const RAISED: f64 = 0.42;
 
 /// What the choice of a view depends on.
 #[derive(Debug, Clone, Default)]
@@ -53,7 +61,18 @@ impl View {
             })
             .normalize();
         let right = if right[right.iamax()] < 0.0 { -right } else { right };
-        Self { right, up, toward: right.cross(&up) }
+        let level_view = Self { right, up, toward: right.cross(&up), raised: false };
+        let spinning: f64 = motion.turns.iter().map(|turn| turn.dot(&up).powi(2)).sum();
+        // On the spot: within two thirds of the size around the mean, root mean square.
+        let still = spread.trace() < (0.67 * motion.size).powi(2);
+        if still && spinning > turning.trace().max(1e-4) { level_view.raised() } else { level_view }
+    }
+
+    /// The same from above.
+    fn raised(self) -> Self {
+        let (sine, cosine) = RAISED.sin_cos();
+        let Self { right, up, toward, .. } = self;
+        Self { right, up: cosine * up - sine * toward, toward: cosine * toward + sine * up, raised: true }
     }
 
     /// Where a place is drawn [m].
@@ -101,6 +120,16 @@ mod tests {
         let view = View::of(&traveling, up);
         assert!((view.right - Vec3::new(1.0, 1.0, 0.0).normalize()).norm() < 1e-12);
         assert!((view.right.cross(&view.up) - view.toward).norm() < 1e-12);
+    }
+
+    #[test]
+    fn spinning_on_the_spot_is_seen_from_above() {
+        let spinning = Motion { turns: vec![Vec3::new(0.1, 0.0, 0.5)], size: 0.1, ..Motion::default() };
+        let view = View::of(&spinning, Vec3::z());
+        assert!(view.raised && view.toward.z > 0.3 && view.up.z > 0.9);
+        assert!((view.right.cross(&view.up) - view.toward).norm() < 1e-15);
+        let traveling = Motion { paths: vec![vec![Vec3::zeros(), Vec3::x()]], ..spinning };
+        assert!(!View::of(&traveling, Vec3::z()).raised);
     }
 
     #[test]
