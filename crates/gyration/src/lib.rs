@@ -4,7 +4,7 @@
 //!
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
 //! random numbers, no threads. Each module imports only what stands to its left:
-//! `tensor → surface → shape, mass → kinematics → contact, load → support, body, ledger → model, state → rates,
+//! `tensor → surface → shape, mass → kinematics → material, contact, load → support, body, ledger → model, state → rates,
 //! jacobian, balance`. Read [`rates`] first.
 
 pub mod balance;
@@ -16,6 +16,7 @@ pub mod kinematics;
 pub mod ledger;
 pub mod load;
 pub mod mass;
+pub mod material;
 pub mod model;
 pub mod rates;
 pub mod shape;

@@ -1,0 +1,167 @@
+//! Materials: an energy per reference volume φ(P), its derivative S = ∂φ/∂P and the derivative of that.
+//!
+//! All are isotropic and objective, so that φ is a function of C = PᵀP: of its invariants
+//! (`invariants`: ι₁ = tr C, ι₂ = ½(tr²C − tr C²), J = det P), or of its principal values (`principal`).
+//!
+//! | material             | φ                                             | with a bulk modulus K                      |
+//! |----------------------|-----------------------------------------------|--------------------------------------------|
+//! | Mooney–Rivlin        | c₁(ι₁ − 3) + c₂(ι₂ − 3)                       | c₁(J^−⅔ι₁ − 3) + c₂(J^−4/3ι₂ − 3) + K/2 (J − 1)² |
+//! | Fung                 | μ/(2b) (e^{b(ι₁ − 3)} − 1)                    | of J^−⅔ι₁, + K/2 (J − 1)²                  |
+//! | Ogden                | Σ μ_p/α_p (Σ λ_i^α_p − 3)                     | of J^−⅓λ_i, + K/2 (J − 1)²                 |
+//! | neo-Hookean with log |                                               | μ/2 (ι₁ − 3) − μ ln J + λ/2 ln²J           |
+//! | St Venant–Kirchhoff  |                                               | λ/2 tr²E + μ E·E, E = (C − I)/2            |
+//! | Hencky               |                                               | μ |dev ln U|² + K/2 ln²J                   |
+//!
+//! Without K the material is incompressible: det P = 1 is a constraint, its pressure is not part of S.
+//! The orthogonality energy κ|PᵀP − I|² is St Venant–Kirchhoff with λ = 0, μ = 4κ; neo-Hookean is Mooney–Rivlin with
+//! c₁ = μ/2. This module sees a gradient, never a body or a time.
+
+mod fung;
+mod hencky;
+mod invariants;
+mod mooney_rivlin;
+mod neo_hookean_log;
+mod ogden;
+mod principal;
+mod st_venant_kirchhoff;
+mod volume;
+
+pub use fung::Fung;
+pub use hencky::Hencky;
+pub use mooney_rivlin::MooneyRivlin;
+pub use neo_hookean_log::NeoHookeanLog;
+pub use ogden::{Ogden, OgdenTerm};
+pub use st_venant_kirchhoff::StVenantKirchhoff;
+
+use crate::tensor::Mat3;
+use invariants::{ByInvariants, Invariants};
+use principal::{ByPrincipal, Principal};
+
+/// The material of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Material {
+    /// Mooney–Rivlin, and neo-Hookean.
+    MooneyRivlin(MooneyRivlin),
+    /// Exponential.
+    Fung(Fung),
+    /// Powers of the stretches.
+    Ogden(Ogden),
+    /// Neo-Hookean with ln J, compressible.
+    NeoHookeanLog(NeoHookeanLog),
+    /// Quadratic in Green's strain; the orthogonality energy.
+    StVenantKirchhoff(StVenantKirchhoff),
+    /// Quadratic in the logarithmic strain.
+    Hencky(Hencky),
+}
+
+/// Energy and stress at a gradient.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    /// φ [J/m³].
+    pub energy: f64,
+    /// S = ∂φ/∂P, first Piola stress [Pa].
+    pub stress: Mat3,
+}
+
+/// A number of a material that it cannot have.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("`{name}` is {value}: it must be finite and {bound}")]
+pub struct MaterialError {
+    /// The number, as scenes call it.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What is allowed.
+    pub bound: &'static str,
+}
+
+/// The derivative of the stress at a gradient, as a linear map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tangent(Kept);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kept {
+    Invariants(ByInvariants),
+    Principal(ByPrincipal),
+}
+
+impl Material {
+    /// φ(P) and S = ∂φ/∂P, det P > 0; not finite where the energy is not.
+    pub fn response(&self, p: &Mat3) -> Response {
+        match self.kept(p) {
+            Kept::Invariants(kept) => Response { energy: kept.energy(), stress: kept.stress() },
+            Kept::Principal(kept) => Response { energy: kept.energy(), stress: kept.stress() },
+        }
+    }
+
+    /// ∂S/∂P at P, det P > 0.
+    pub fn tangent(&self, p: &Mat3) -> Tangent {
+        Tangent(self.kept(p))
+    }
+
+    /// Whether det P = 1 is a constraint.
+    pub fn is_incompressible(&self) -> bool {
+        match self {
+            Self::MooneyRivlin(material) => material.bulk.is_none(),
+            Self::Fung(material) => material.bulk.is_none(),
+            Self::Ogden(material) => material.bulk.is_none(),
+            Self::NeoHookeanLog(_) | Self::StVenantKirchhoff(_) | Self::Hencky(_) => false,
+        }
+    }
+
+    /// Refuses numbers for which the rest state would not be stable, or extreme stretch would be free.
+    ///
+    /// # Errors
+    /// [`MaterialError`] naming the number.
+    pub fn validate(&self) -> Result<(), MaterialError> {
+        match self {
+            Self::MooneyRivlin(material) => material.validate(),
+            Self::Fung(material) => material.validate(),
+            Self::Ogden(material) => material.validate(),
+            Self::NeoHookeanLog(material) => material.validate(),
+            Self::StVenantKirchhoff(material) => material.validate(),
+            Self::Hencky(material) => material.validate(),
+        }
+    }
+
+    fn kept(&self, p: &Mat3) -> Kept {
+        let by_invariants = |derivatives: &dyn Fn(&Invariants) -> invariants::Derivatives| {
+            let invariants = Invariants::of(p);
+            Kept::Invariants(ByInvariants::new(p, invariants, derivatives(&invariants)))
+        };
+        let by_principal = |of: &dyn Fn(&[f64; 3]) -> Principal| Kept::Principal(ByPrincipal::new(p, of));
+        match self {
+            Self::MooneyRivlin(material) => by_invariants(&|i| material.derivatives(i)),
+            Self::Fung(material) => by_invariants(&|i| material.derivatives(i)),
+            Self::NeoHookeanLog(material) => by_invariants(&|i| material.derivatives(i)),
+            Self::StVenantKirchhoff(material) => by_invariants(&|i| material.derivatives(i)),
+            Self::Ogden(material) => by_principal(&|c| material.principal(c)),
+            Self::Hencky(material) => by_principal(&|c| material.principal(c)),
+        }
+    }
+}
+
+impl Tangent {
+    /// The change of the stress with that of the gradient, dS = (∂S/∂P) : dP [Pa].
+    pub fn apply(&self, dp: &Mat3) -> Mat3 {
+        match &self.0 {
+            Kept::Invariants(kept) => kept.tangent(dp),
+            Kept::Principal(kept) => kept.tangent(dp),
+        }
+    }
+}
+
+/// Refuses a number that is not finite or does not hold to its bound.
+fn require(name: &'static str, value: f64, holds: bool, bound: &'static str) -> Result<(), MaterialError> {
+    if holds && value.is_finite() { Ok(()) } else { Err(MaterialError { name, value, bound }) }
+}
+
+/// Refuses a modulus that is not finite and ≥ 0.
+fn require_modulus(name: &'static str, value: f64) -> Result<(), MaterialError> {
+    require(name, value, value >= 0.0, "≥ 0")
+}
+
+/// Refuses a bulk modulus that is not finite and > 0.
+fn require_bulk(bulk: Option<f64>) -> Result<(), MaterialError> {
+    bulk.map_or(Ok(()), |bulk| require("bulk", bulk, bulk > 0.0, "> 0 (leave it out for an incompressible material)"))
+}
