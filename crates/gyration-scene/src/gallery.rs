@@ -5,6 +5,13 @@ static SCENES: &[(&str, &str)] = &[
     ("dice", include_str!("../../../scenes/dice.toml")),
     ("bounce", include_str!("../../../scenes/bounce.toml")),
     ("slide", include_str!("../../../scenes/slide.toml")),
+    ("top", include_str!("../../../scenes/top.toml")),
+    ("top-slow", include_str!("../../../scenes/top-slow.toml")),
+    ("top-falling", include_str!("../../../scenes/top-falling.toml")),
+    ("rattleback", include_str!("../../../scenes/rattleback.toml")),
+    ("tippe-top", include_str!("../../../scenes/tippe-top.toml")),
+    ("euler-disk", include_str!("../../../scenes/euler-disk.toml")),
+    ("rocking-block", include_str!("../../../scenes/rocking-block.toml")),
 ];
 
 /// Name and text of each scene of the gallery.
