@@ -4,7 +4,7 @@
 //! power that d^−7 asks for), so the requests are merged once, when the contact is made.
 
 use super::{Action, AreaMeasure, ContactLaw, Term};
-use crate::surface::{Kernel, MomentRequest, Moments};
+use crate::surface::{Kernel, MomentPlan, MomentRequest, Moments};
 
 /// The laws between one body and one support.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,8 +15,8 @@ pub struct Contact {
     pub measure: AreaMeasure,
     laws: Vec<ContactLaw>,
     terms: Vec<PlannedTerm>,
-    value_requests: Vec<MomentRequest>,
-    derivative_requests: Vec<MomentRequest>,
+    values: MomentPlan,
+    derivatives: MomentPlan,
 }
 
 /// A term and where its moments stand among those requested.
@@ -67,7 +67,8 @@ impl Contact {
                 }
             })
             .collect();
-        Self { support, measure, laws, terms, value_requests, derivative_requests }
+        let (values, derivatives) = (MomentPlan::new(value_requests), MomentPlan::new(derivative_requests));
+        Self { support, measure, laws, terms, values, derivatives }
     }
 
     /// The laws.
@@ -79,12 +80,14 @@ impl Contact {
         &self.terms
     }
 
-    pub(super) fn value_requests(&self) -> &[MomentRequest] {
-        &self.value_requests
+    /// The moments that the loads need.
+    pub(super) fn values(&self) -> &MomentPlan {
+        &self.values
     }
 
-    pub(super) fn derivative_requests(&self) -> &[MomentRequest] {
-        &self.derivative_requests
+    /// The moments that the loads and their derivatives need.
+    pub(super) fn derivatives(&self) -> &MomentPlan {
+        &self.derivatives
     }
 }
 
@@ -115,10 +118,10 @@ mod tests {
         let orders = |requests: &[MomentRequest]| {
             requests.iter().map(|request| (request.kernel, request.order)).collect::<Vec<_>>()
         };
-        assert_eq!(orders(contact.value_requests()), [(Kernel::Power(6.0), 1), (Kernel::Power(5.0), 2)]);
+        assert_eq!(orders(contact.values().requests()), [(Kernel::Power(6.0), 1), (Kernel::Power(5.0), 2)]);
         // d^−6 serves the repulsion itself and the derivative of the damping.
         assert_eq!(
-            orders(contact.derivative_requests()),
+            orders(contact.derivatives().requests()),
             [(Kernel::Power(6.0), 3), (Kernel::Power(7.0), 2), (Kernel::Power(5.0), 2)]
         );
     }

@@ -92,9 +92,9 @@ impl ContactLoads {
         motion: RelativeMotion,
         scratch: &mut ContactScratch,
     ) -> Result<Self, GapClosed> {
-        let requests = contact.value_requests();
-        let moments = scratch.take(requests.len());
-        surface.moments(field, requests, moments)?;
+        let plan = contact.values();
+        let moments = scratch.take(plan.requests().len());
+        surface.planned_moments(field, plan, moments)?;
         let mut loads = [Loads::default(); LawKind::COUNT];
         for planned in contact.terms() {
             let term = &planned.term;
@@ -141,9 +141,9 @@ impl ContactSlopes {
         motion: RelativeMotion,
         scratch: &mut ContactScratch,
     ) -> Result<Self, GapClosed> {
-        let requests = contact.derivative_requests();
-        let moments = scratch.take(requests.len());
-        surface.moments(field, requests, moments)?;
+        let plan = contact.derivatives();
+        let moments = scratch.take(plan.requests().len());
+        surface.planned_moments(field, plan, moments)?;
         let mut values = [Sums::default(); 3];
         let mut slopes = [[Sums::default(); 4]; 3];
         let mut acts = [false; 3];

@@ -1,42 +1,28 @@
 //! Flat facets: triangles, over which the contact integrals are exact whatever the gap.
 //!
-//! The triangles are kept in clusters of a dozen vertices. A call evaluates the gap and its powers once for each
-//! vertex of a cluster, on the stack, and then every triangle from its three corners: a box costs eight powers a law at most,
-//! a mesh of any size needs no scratch memory.
+//! The triangles are kept in packs of eight, corner by corner and component by component (`facets_pack`), and a call works
+//! on as many of them at once as the registers of the processor hold (`lanes`): gaps, corners put in order, the
+//! weights of each request (`facets_plan`), tensors, sums. A mesh of any size needs no scratch memory.
 //!
 //! Facets are for polyhedra and meshes: a cylinder made of facets does not roll. X is relative to the centre of mass.
 
-use std::ops::Range;
-
-use super::facets_plan::{BATCH, CLUSTER, Plan};
-use super::facets_triangle::{Corner, Triangle, add_tensors};
+use super::facets_pack::{Pack, Points};
+use super::facets_plan::{BATCH, Plan};
+use super::facets_sums::{add_moments, smallest_gap};
+use super::lanes::WIDTH;
 use super::{GapClosed, GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// Triangles with their areas, ready for contact integrals.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Facets {
-    /// Vertices, cluster after cluster; those on a seam occur once in each cluster.
+    /// The vertices that triangles use.
     vertices: Vec<Vec3>,
-    triangles: Vec<Facet>,
-    clusters: Vec<Cluster>,
+    /// Triangles as places of vertices.
+    triangles: Vec<[usize; 3]>,
+    points: Vec<Points>,
+    packs: Vec<Pack>,
     area: f64,
-}
-
-/// A triangle of a cluster.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Facet {
-    /// Corners as places in the cluster.
-    corners: [u8; 3],
-    /// Twice the area [m²].
-    twice_area: f64,
-}
-
-/// Consecutive vertices and the triangles between them.
-#[derive(Debug, Clone, PartialEq)]
-struct Cluster {
-    vertices: Range<usize>,
-    triangles: Range<usize>,
 }
 
 /// What is wrong with a list of triangles.
@@ -71,70 +57,61 @@ impl Facets {
         if let Some(vertex) = vertices.iter().position(|point| !point.iter().all(|x| x.is_finite())) {
             return Err(FacetsError::NotFinite { vertex });
         }
-        let mut facets = Self::default();
         for (triangle, corners) in triangles.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&corner| corner >= vertices.len()) {
                 return Err(FacetsError::NoSuchVertex { triangle, vertex, count: vertices.len() });
             }
-            facets.push(corners.map(|corner| vertices[corner]));
         }
-        Ok(facets)
+        Ok(Self::packed(vertices, triangles))
     }
 
     /// A box with the given edge lengths [m] about the origin.
     pub fn cuboid(edges: &Vec3) -> Self {
-        let mut facets = Self::default();
+        // Bit i of a vertex's place tells on which side of axis i it is.
+        let side = |place: usize, axis: usize| if place >> axis & 1 == 1 { 0.5 } else { -0.5 };
+        let vertices: Vec<Vec3> =
+            (0..8).map(|place| Vec3::from_fn(|axis, _| side(place, axis)).component_mul(edges)).collect();
+        let mut triangles = Vec::with_capacity(12);
         for axis in 0..3 {
-            for side in [-0.5, 0.5] {
-                let corner = |a: f64, b: f64| {
-                    let mut unit = Vec3::zeros();
-                    unit[axis] = side;
-                    unit[(axis + 1) % 3] = a;
-                    // Seen from outside both faces turn counter-clockwise.
-                    unit[(axis + 2) % 3] = b * side.signum();
-                    unit.component_mul(edges)
-                };
-                let (p, q) = (corner(-0.5, -0.5), corner(0.5, 0.5));
-                facets.push([p, corner(0.5, -0.5), q]);
-                facets.push([p, q, corner(-0.5, 0.5)]);
+            let (one, two) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
+            // Seen from outside both faces turn counter-clockwise.
+            for (base, second, fourth) in [(0, two, one), (1 << axis, one, two)] {
+                let opposite = base + one + two;
+                triangles.push([base, base + second, opposite]);
+                triangles.push([base, opposite, base + fourth]);
             }
         }
-        facets
+        Self::packed(&vertices, &triangles)
     }
 
-    /// Adds a triangle to the last cluster, or to a new one when that is full.
-    fn push(&mut self, corners: [Vec3; 3]) {
-        let twice_area = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).norm();
-        if twice_area <= 0.0 {
-            return;
-        }
-        let room = |cluster: &Cluster| cluster.vertices.len() + 3 <= CLUSTER;
-        if !self.clusters.last().is_some_and(room) {
-            let (vertex, triangle) = (self.vertices.len(), self.triangles.len());
-            self.clusters.push(Cluster { vertices: vertex..vertex, triangles: triangle..triangle });
-        }
-        let Some(cluster) = self.clusters.last_mut() else { return };
-        let corners = corners.map(|corner| {
-            let known = &self.vertices[cluster.vertices.clone()];
-            let place = known.iter().position(|vertex| *vertex == corner).unwrap_or(known.len());
-            if place == known.len() {
-                self.vertices.push(corner);
-                cluster.vertices.end += 1;
+    /// Lays out triangles whose corners exist.
+    fn packed(vertices: &[Vec3], triangles: &[[usize; 3]]) -> Self {
+        let mut facets = Self::default();
+        let mut places = vec![None; vertices.len()];
+        let mut areas = Vec::with_capacity(triangles.len());
+        for corners in triangles {
+            let [a, b, c] = corners.map(|corner| vertices[corner]);
+            let twice_area = (b - a).cross(&(c - a)).norm();
+            if twice_area <= 0.0 {
+                continue;
             }
-            place as u8
-        });
-        self.triangles.push(Facet { corners, twice_area });
-        cluster.triangles.end += 1;
-        self.area += 0.5 * twice_area;
+            facets.triangles.push(corners.map(|corner| {
+                *places[corner].get_or_insert_with(|| {
+                    facets.vertices.push(vertices[corner]);
+                    facets.vertices.len() - 1
+                })
+            }));
+            areas.push(([a, b, c], twice_area));
+            facets.area += 0.5 * twice_area;
+        }
+        facets.points = facets.vertices.chunks(WIDTH).map(Points::new).collect();
+        facets.packs = areas.chunks(WIDTH).map(Pack::new).collect();
+        facets
     }
 
     /// The triangles as corner points [m], in the order given.
     pub fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
-        self.clusters.iter().flat_map(move |cluster| {
-            let points = &self.vertices[cluster.vertices.clone()];
-            let facets = self.triangles[cluster.triangles.clone()].iter();
-            facets.map(move |facet| facet.corners.map(|corner| points[usize::from(corner)]))
-        })
+        self.triangles.iter().map(|corners| corners.map(|corner| self.vertices[corner]))
     }
 
     /// Whether there is no triangle.
@@ -144,20 +121,16 @@ impl Facets {
 
     /// The facets after X ↦ map · X + offset, for any matrix `map`.
     pub fn transformed(&self, map: &Mat3, offset: &Vec3) -> Self {
-        let mut facets = Self::default();
-        for corners in self.triangles() {
-            facets.push(corners.map(|corner| map * corner + offset));
-        }
-        facets
+        let vertices: Vec<Vec3> = self.vertices.iter().map(|vertex| map * vertex + offset).collect();
+        Self::packed(&vertices, &self.triangles)
     }
 
     /// These facets and those of `other` as one surface.
     pub fn merged(&self, other: &Self) -> Self {
-        let mut facets = self.clone();
-        for corners in other.triangles() {
-            facets.push(corners);
-        }
-        facets
+        let shift = self.vertices.len();
+        let shifted = other.triangles.iter().map(|corners| corners.map(|corner| corner + shift));
+        let triangles: Vec<_> = self.triangles.iter().copied().chain(shifted).collect();
+        Self::packed(&[self.vertices.as_slice(), &other.vertices].concat(), &triangles)
     }
 
     /// Area [m²].
@@ -169,17 +142,13 @@ impl Facets {
     ///
     /// The first gap that is not finite is returned at once.
     pub fn smallest_gap(&self, field: &GapField) -> (f64, Vec3) {
-        let mut smallest = (f64::INFINITY, Vec3::zeros());
-        for vertex in &self.vertices {
-            let gap = field.gap(vertex);
-            if !gap.is_finite() {
-                return (gap, *vertex);
-            }
-            if gap < smallest.0 {
-                smallest = (gap, *vertex);
+        match smallest_gap(&self.points, field) {
+            Some((gap, place)) => (gap, self.vertices.get(place).copied().unwrap_or_default()),
+            None => {
+                let gaps = self.vertices.iter().map(|vertex| (field.gap(vertex), *vertex));
+                gaps.into_iter().find(|(gap, _)| !gap.is_finite()).unwrap_or((f64::INFINITY, Vec3::zeros()))
             }
         }
-        smallest
     }
 
     /// The largest speed |v + A X| [m/s] on the facets; it is convex in X, hence reached at a vertex.
@@ -196,44 +165,33 @@ impl Facets {
     /// −1 to 17, of the facets whose vertex gaps are the computed ones.
     ///
     /// # Errors
-    /// `GapClosed` if the gap of a vertex is not a positive finite number; `out` is then unchanged.
+    /// `GapClosed` if the gap of a vertex is not a positive finite number; `out` is then unchanged, if there are no more
+    /// than four requests.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         debug_assert_eq!(requests.len(), out.len());
-        if self.is_empty() {
-            return Ok(());
-        }
-        let (gap, _) = self.smallest_gap(field);
-        if !gap.is_finite() || gap <= 0.0 {
-            return Err(GapClosed { gap });
-        }
         for (requests, out) in requests.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
-            let plan = Plan::new(requests);
-            for cluster in &self.clusters {
-                self.add_cluster(cluster, field, &plan, out);
-            }
+            self.add_planned(field, &Plan::new(requests), out)?;
         }
         Ok(())
     }
 
-    /// Adds the planned moments over one cluster.
-    fn add_cluster(&self, cluster: &Cluster, field: &GapField, plan: &Plan, out: &mut [Moments]) {
-        let points = &self.vertices[cluster.vertices.clone()];
-        let (mut gaps, mut inverses) = ([1.0; CLUSTER], [1.0; CLUSTER]);
-        for ((gap, inverse), point) in gaps.iter_mut().zip(&mut inverses).zip(points) {
-            *gap = field.gap(point);
-            *inverse = 1.0 / *gap;
+    /// The triangles as laid out for lanes.
+    #[cfg(test)]
+    pub(super) fn packs(&self) -> &[Pack] {
+        &self.packs
+    }
+
+    /// The vertices as laid out for lanes.
+    #[cfg(test)]
+    pub(super) fn points(&self) -> &[Points] {
+        &self.points
+    }
+
+    /// Adds the moments of a plan to the entries of `out`.
+    pub(super) fn add_planned(&self, field: &GapField, plan: &Plan, out: &mut [Moments]) -> Result<(), GapClosed> {
+        if self.is_empty() || add_moments(&self.packs, field, plan, out) {
+            return Ok(());
         }
-        let mut table = plan.table(&gaps[..points.len()]);
-        for facet in &self.triangles[cluster.triangles.clone()] {
-            let corners = facet.corners.map(|corner| {
-                // Always less than CLUSTER; said so that no bound is checked below.
-                let place = usize::from(corner) % CLUSTER;
-                Corner { place, gap: gaps[place], inverse: inverses[place] }
-            });
-            let triangle = Triangle::new(corners, points, facet.twice_area);
-            plan.visit(&triangle, &mut table, |place, order, weights| {
-                add_tensors(&mut out[place], weights, &triangle, order);
-            });
-        }
+        Err(GapClosed { gap: self.smallest_gap(field).0 })
     }
 }

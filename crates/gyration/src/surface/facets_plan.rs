@@ -1,4 +1,4 @@
-//! How each of a few requests is evaluated over a triangle; made once a call.
+//! How each of a few requests is evaluated over triangles; made once for each contact.
 //!
 //! In order of cost:
 //!
@@ -8,124 +8,161 @@
 //!
 //! Derivatives ask for (ν, n) and (ν + 1, n + 1) together, so that their first half comes almost free.
 
-use super::facets_split::split_weights;
-use super::facets_triangle::{Corner, Triangle, Weights};
+use pulp::Simd;
+
+use super::facets_split::SplitKernel;
+use super::facets_triangle::{COMPONENTS, Levels, Triangle, Weights, add_tensors};
 use super::facets_whole::WholeExponent;
-use super::power::{GapSample, LineKernel};
+use super::lanes::{Lanes, Row};
 use super::{Kernel, MomentRequest};
 
 /// Requests that share one pass over the triangles.
 pub(super) const BATCH: usize = 4;
 
-/// Vertices of a cluster: enough to share most of them, few enough for a table on the stack.
-pub(super) const CLUSTER: usize = 16;
+/// The most rows of sums that a plan asks for.
+pub(super) const MOST_ROWS: usize = BATCH * COMPONENTS[3];
 
 /// Exponents whose distance from ν + 1 is below this count as ν + 1: it changes d^−ν by less than 1e-14 |ln d|.
 const SAME_EXPONENT: f64 = 1e-14;
 
 /// The way to the weights of one request.
-#[derive(Debug, Clone, Copy)]
-#[allow(clippy::large_enum_variant, reason = "a plan lives on the stack: a call must not allocate")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a plan may live on the stack: a call must not allocate")]
 enum Method {
-    /// From the weights of the request at this place.
-    Lowered(usize),
+    /// From the weights of the step before.
+    Lowered,
     Whole(WholeExponent),
-    Split(LineKernel),
+    Split(SplitKernel),
 }
 
-/// The methods of at most `BATCH` requests, and the order in which they are evaluated.
-#[derive(Debug, Clone, Copy)]
+/// One request: how its weights are found, and where its moments go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Step {
+    method: Method,
+    order: usize,
+    /// The first of its rows of sums.
+    row: usize,
+}
+
+/// At most `BATCH` requests in the order in which they are evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Plan {
-    methods: [Method; BATCH],
-    orders: [usize; BATCH],
-    /// Places of the requests: those that others are lowered from come first.
-    sequence: [usize; BATCH],
+    steps: [Step; BATCH],
     count: usize,
-}
-
-/// The functions of the gap at the vertices of one cluster, and the weights over its triangle in hand.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Table {
-    samples: [[GapSample; CLUSTER]; BATCH],
-    weights: [Weights; BATCH],
+    /// For each request its order and the first of its rows.
+    places: [(usize, usize); BATCH],
+    row_count: usize,
+    splits: bool,
 }
 
 impl Plan {
     /// Plans at most `BATCH` requests.
     pub fn new(requests: &[MomentRequest]) -> Self {
-        let mut plan = Self {
-            methods: [Method::Lowered(0); BATCH],
-            orders: [0; BATCH],
-            sequence: [0, 1, 2, 3],
-            count: requests.len().min(BATCH),
-        };
-        for (place, request) in requests.iter().enumerate().take(BATCH) {
-            plan.orders[place] = request.order.min(3);
-            plan.methods[place] = match (source(requests, request), request.kernel) {
-                (Some(from), _) => Method::Lowered(from),
-                (None, Kernel::Power(exponent)) => match WholeExponent::new(exponent, plan.orders[place]) {
-                    Some(whole) => Method::Whole(whole),
-                    None => Method::Split(LineKernel::up_to(request.kernel, plan.orders[place] + 1)),
-                },
-                (None, Kernel::Log) => Method::Split(LineKernel::up_to(Kernel::Log, plan.orders[place] + 1)),
-            };
+        let requests = &requests[..requests.len().min(BATCH)];
+        let unused = Step { method: Method::Lowered, order: 0, row: 0 };
+        let mut plan = Self { steps: [unused; BATCH], count: 0, places: [(0, 0); BATCH], row_count: 0, splits: false };
+        let mut planned = [false; BATCH];
+        // Each request that is not lowered from another starts a chain of those that are lowered one from the other.
+        let starts = (0..requests.len()).filter(|&to| !requests.iter().any(|from| lowers(from, &requests[to])));
+        for start in starts.chain(0..requests.len()) {
+            let mut next = Some(start).filter(|&start| !planned[start]);
+            let mut method = own_method(&requests[start]);
+            while let Some(place) = next {
+                planned[place] = true;
+                plan.push(place, method, requests[place].order.min(3));
+                next = (0..requests.len()).find(|&to| !planned[to] && lowers(&requests[place], &requests[to]));
+                method = Method::Lowered;
+            }
         }
-        let rank = |place: &usize| match requests[*place].kernel {
-            Kernel::Power(exponent) => -exponent,
-            Kernel::Log => f64::INFINITY,
-        };
-        plan.sequence[..plan.count].sort_unstable_by(|a, b| rank(a).total_cmp(&rank(b)));
         plan
     }
 
-    /// The table for vertices with these gaps.
-    pub fn table(&self, gaps: &[f64]) -> Table {
-        let mut samples = [[GapSample::UNIT; CLUSTER]; BATCH];
-        for (samples, method) in samples.iter_mut().zip(&self.methods).take(self.count) {
-            if let Method::Split(kernel) = method {
-                for (sample, gap) in samples.iter_mut().zip(gaps) {
-                    *sample = kernel.sample(*gap);
-                }
-            }
-        }
-        Table { samples, weights: [[0.0; 10]; BATCH] }
+    /// Appends the step of a request.
+    fn push(&mut self, request: usize, method: Method, order: usize) {
+        self.splits |= matches!(method, Method::Split(_));
+        self.places[request] = (order, self.row_count);
+        self.steps[self.count] = Step { method, order, row: self.row_count };
+        self.row_count += COMPONENTS[order];
+        self.count += 1;
     }
 
-    /// Calls `each` with the place, the order and the weights of every request over a triangle.
-    #[inline]
-    pub fn visit(&self, triangle: &Triangle, table: &mut Table, mut each: impl FnMut(usize, usize, &Weights)) {
-        let Table { samples, weights } = table;
-        for &place in &self.sequence[..self.count] {
-            let order = self.orders[place];
-            weights[place] = match &self.methods[place] {
-                Method::Lowered(from) => lowered(&weights[*from], triangle, order),
-                Method::Whole(whole) => whole.weights(triangle),
-                Method::Split(kernel) => split_weights(triangle, kernel, &samples[place], order),
+    /// How many rows the sums of all requests take.
+    pub fn row_count(&self) -> usize {
+        self.row_count
+    }
+
+    /// The order of a request and the place of its first row.
+    pub fn place(&self, request: usize) -> (usize, usize) {
+        self.places[request]
+    }
+
+    /// Adds the moments of the triangles in a register to the rows of sums.
+    #[inline(always)]
+    pub fn add<S: Simd>(&self, triangle: &Triangle<S>, register: usize, sums: &mut [Row]) {
+        let mut weights = [Lanes::splat(triangle.twice_area.simd, 0.0); 10];
+        let levels = if self.splits { Some(triangle.levels()) } else { None };
+        for step in &self.steps[..self.count] {
+            let Some(sums) = sums.get_mut(step.row..) else { return };
+            let at = Place { triangle, levels: levels.as_ref(), register };
+            match step.order {
+                0 => step.add::<S, 0>(&at, &mut weights, sums),
+                1 => step.add::<S, 1>(&at, &mut weights, sums),
+                2 => step.add::<S, 2>(&at, &mut weights, sums),
+                _ => step.add::<S, 3>(&at, &mut weights, sums),
             };
-            each(place, order, &weights[place]);
         }
     }
 }
 
-/// The place of a request with the exponent ν + 1 and a higher order.
-fn source(requests: &[MomentRequest], request: &MomentRequest) -> Option<usize> {
-    let Kernel::Power(exponent) = request.kernel else { return None };
-    requests.iter().position(|other| match other.kernel {
-        Kernel::Power(higher) => (higher - exponent - 1.0).abs() < SAME_EXPONENT && other.order > request.order,
-        Kernel::Log => false,
-    })
+/// The method of a request by itself.
+fn own_method(request: &MomentRequest) -> Method {
+    let whole = match request.kernel {
+        Kernel::Power(exponent) => WholeExponent::new(exponent, request.order.min(3)),
+        Kernel::Log => None,
+    };
+    whole.map_or_else(|| Method::Split(SplitKernel::new(request)), Method::Whole)
 }
 
+/// Whether a request has the exponent of another plus one, and a higher order.
+fn lowers(from: &MomentRequest, to: &MomentRequest) -> bool {
+    match (from.kernel, to.kernel) {
+        (Kernel::Power(higher), Kernel::Power(exponent)) => {
+            (higher - exponent - 1.0).abs() < SAME_EXPONENT && from.order > to.order
+        }
+        _ => false,
+    }
+}
+
+/// The triangles of a register, which of the registers of a row it is, and what a split needs.
+struct Place<'a, S: Simd> {
+    triangle: &'a Triangle<S>,
+    levels: Option<&'a Levels<S>>,
+    register: usize,
+}
+
+impl Step {
+    /// Finds the weights of its request, up to ORDER, and adds the moments to rows of sums.
+    #[inline(always)]
+    fn add<S: Simd, const ORDER: usize>(&self, at: &Place<S>, weights: &mut Weights<S>, sums: &mut [Row]) {
+        match (&self.method, at.levels) {
+            (Method::Whole(whole), _) => whole.weights::<S, ORDER>(at.triangle, weights),
+            (Method::Split(split), Some(levels)) => split.weights::<S, ORDER>(at.triangle, levels, weights),
+            _ => lower::<S, ORDER>(weights, at.triangle),
+        }
+        add_tensors::<S, ORDER>(sums, weights, at.triangle, at.register);
+    }
+}
+
+/// Lowers weights from ν + 1 to ν, up to ORDER:
 /// J_ab(ν) = d₀ J_ab + (d₁ − d₀) J_(a+1)b + (d₂ − d₀) J_a(b+1), all at ν + 1; every term is positive.
-#[inline]
-fn lowered(higher: &Weights, triangle: &Triangle, order: usize) -> Weights {
-    /// Places of J_(a+1)b and J_a(b+1) for the place of J_ab.
+#[inline(always)]
+fn lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, triangle: &Triangle<S>) {
+    /// Places of J_(a+1)b and J_a(b+1) for the place of J_ab; they come after it, and are still those of ν + 1.
     const RAISED: [(usize, usize); 6] = [(1, 2), (3, 4), (4, 5), (6, 7), (7, 8), (8, 9)];
     const COUNT: [usize; 4] = [1, 3, 6, 6];
-    let [low, middle, high] = triangle.corners.map(|Corner { gap, .. }| gap);
-    let mut weights = [0.0; 10];
-    for (place, (one, two)) in RAISED.into_iter().enumerate().take(COUNT[order]) {
-        weights[place] = low * higher[place] + (middle - low) * higher[one] + (high - low) * higher[two];
+    let [low, middle, high] = triangle.gaps;
+    let (to_middle, to_high) = (middle - low, high - low);
+    for (place, (one, two)) in RAISED.into_iter().enumerate().take(COUNT[ORDER]) {
+        weights[place] = (low * weights[place] + to_middle * weights[one]) + to_high * weights[two];
     }
-    weights
 }

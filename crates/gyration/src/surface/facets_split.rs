@@ -9,85 +9,115 @@
 //! so that J_ab = ∫ λ₁^a λ₂^b κ dA are sums, all positive, of the moments of κ along a segment (`power`). Equal gaps need no
 //! special case: τ is then any number in [0, 1].
 
-use super::facets_triangle::{Triangle, Weights};
-use super::power::{GapSample, LineKernel, LineMoments};
+use pulp::Simd;
 
-/// The weights J_ab for a + b ≤ order, from the samples of the kernel at the vertices.
-#[inline]
-pub(super) fn split_weights(triangle: &Triangle, kernel: &LineKernel, samples: &[GapSample], order: usize) -> Weights {
-    match order {
-        0 => in_order::<0>(triangle, kernel, samples),
-        1 => in_order::<1>(triangle, kernel, samples),
-        2 => in_order::<2>(triangle, kernel, samples),
-        _ => in_order::<3>(triangle, kernel, samples),
+use super::facets_triangle::{Levels, Triangle, Weights};
+use super::lanes::Lanes;
+use super::lanes_power::{SplitExponent, whole_power};
+use super::power::LineKernel;
+use super::power_lanes::{End, LineMoments, line_moments};
+use super::{Kernel, MomentRequest};
+
+/// A kernel prepared for the moments of one order over split triangles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SplitKernel {
+    line: LineKernel,
+    exponent: SplitExponent,
+}
+
+impl SplitKernel {
+    /// Prepares any kernel.
+    pub fn new(request: &MomentRequest) -> Self {
+        let exponent = match request.kernel {
+            Kernel::Power(exponent) => exponent,
+            Kernel::Log => 1.0,
+        };
+        let line = LineKernel::up_to(request.kernel, request.order.min(3) + 1);
+        Self { line, exponent: SplitExponent::new(exponent) }
+    }
+
+    /// The weights J_ab for a + b ≤ ORDER.
+    #[inline(always)]
+    pub fn weights<S: Simd, const ORDER: usize>(
+        &self,
+        triangle: &Triangle<S>,
+        levels: &Levels<S>,
+        weights: &mut Weights<S>,
+    ) {
+        let (low, middle, high) =
+            (self.end(triangle, levels, 0), self.end(triangle, levels, 1), self.end(triangle, levels, 2));
+        let [tau, rest] = levels.shares;
+        let lower = line_moments(&self.line, &low, &middle, ORDER + 1);
+        set_lower::<S, ORDER>(weights, &lower, triangle.twice_area * tau, tau);
+        let upper = line_moments(&self.line, &middle, &high, ORDER + 1);
+        add_upper::<S, ORDER>(weights, &upper, triangle.twice_area * rest, tau);
+    }
+
+    #[inline(always)]
+    fn end<S: Simd>(&self, triangle: &Triangle<S>, levels: &Levels<S>, corner: usize) -> End<S> {
+        let (gap, inverse, log) = (triangle.gaps[corner], triangle.inverses[corner], levels.logs[corner]);
+        let power = match self.line.integer {
+            Some(exponent) => whole_power(gap, inverse, exponent),
+            None => log.negative_power(&self.exponent),
+        };
+        End { gap, inverse, power, log }
     }
 }
 
-/// `split_weights` with the order known to the compiler.
-#[inline]
-fn in_order<const ORDER: usize>(triangle: &Triangle, kernel: &LineKernel, samples: &[GapSample]) -> Weights {
-    let [low, middle, high] = triangle.corners.map(|corner| &samples[corner.place]);
-    let range = high.gap - low.gap;
-    let parts =
-        if range > 0.0 { [(middle.gap - low.gap) / range, (high.gap - middle.gap) / range] } else { [0.5, 0.5] };
-    let mut weights = [0.0; 10];
-    let lower = kernel.moments(low, middle, ORDER + 1);
-    add_lower(&mut weights, &lower, triangle.twice_area * parts[0], parts[0], ORDER);
-    let upper = kernel.moments(middle, high, ORDER + 1);
-    add_upper(&mut weights, &upper, triangle.twice_area * parts[1], parts[0], ORDER);
-    weights
-}
-
-/// Lower part: J_ab += w τ^b E_ab m_(a+b+1), E_ab = ∫ (1 − u)^a u^b du = a! b!/(a + b + 1)!.
+/// Lower part: J_ab = w τ^b E_ab m_(a+b+1), E_ab = ∫ (1 − u)^a u^b du = a! b!/(a + b + 1)!.
 #[inline(always)]
-fn add_lower(weights: &mut Weights, m: &LineMoments, w: f64, tau: f64, order: usize) {
-    weights[0] += w * m[1];
-    if order >= 1 {
-        let first = 0.5 * w * m[2];
-        weights[1] += first;
-        weights[2] += first * tau;
+fn set_lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMoments<S>, w: Lanes<S>, tau: Lanes<S>) {
+    weights[0] = w * m[1];
+    if ORDER >= 1 {
+        let first = (w * m[2]) * 0.5;
+        weights[1] = first;
+        weights[2] = first * tau;
     }
-    if order >= 2 {
-        let second = w * m[3] / 6.0;
-        weights[3] += 2.0 * second;
-        weights[4] += second * tau;
-        weights[5] += 2.0 * second * tau * tau;
+    if ORDER >= 2 {
+        let second = (w * m[3]) * (1.0 / 3.0);
+        let mixed = second * tau;
+        weights[3] = second;
+        weights[4] = mixed * 0.5;
+        weights[5] = mixed * tau;
     }
-    if order >= 3 {
-        let third = w * m[4] / 12.0;
-        weights[6] += 3.0 * third;
-        weights[7] += third * tau;
-        weights[8] += third * tau * tau;
-        weights[9] += 3.0 * third * tau * tau * tau;
+    if ORDER >= 3 {
+        let third = (w * m[4]) * 0.25;
+        let (once, twice) = (third * tau, third * tau * tau);
+        weights[6] = third;
+        weights[7] = once * (1.0 / 3.0);
+        weights[8] = twice * (1.0 / 3.0);
+        weights[9] = twice * tau;
     }
 }
 
 /// Upper part: J_ab += w Σ_j (b over j) τ^j E_aj B(1 + a + j, b − j), B(i, j) = ∫ (1 − x)^i x^j κ dx.
 #[inline(always)]
-fn add_upper(weights: &mut Weights, m: &LineMoments, w: f64, tau: f64, order: usize) {
+fn add_upper<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMoments<S>, w: Lanes<S>, tau: Lanes<S>) {
     // B(i, j) = B(i − 1, j) − B(i − 1, j + 1); the near end dominates B(i − 1, j), so that little cancels.
-    let b1: [f64; 4] = std::array::from_fn(|j| w * (m[j] - m[j + 1]));
+    let b1 = [w * (m[0] - m[1]), w * (m[1] - m[2]), w * (m[2] - m[3]), w * (m[3] - m[4])];
     weights[0] += b1[0];
-    if order == 0 {
+    if ORDER == 0 {
         return;
     }
-    let b2: [f64; 3] = std::array::from_fn(|j| b1[j] - b1[j + 1]);
-    weights[1] += 0.5 * b2[0];
-    weights[2] += b1[1] + 0.5 * tau * b2[0];
-    if order == 1 {
+    let b2 = [b1[0] - b1[1], b1[1] - b1[2], b1[2] - b1[3]];
+    let half = b2[0] * 0.5;
+    weights[1] += half;
+    weights[2] += b1[1] + tau * half;
+    if ORDER == 1 {
         return;
     }
-    let b3: [f64; 2] = std::array::from_fn(|j| b2[j] - b2[j + 1]);
-    let squared = tau * tau;
-    weights[3] += b3[0] / 3.0;
-    weights[4] += 0.5 * b2[1] + tau * b3[0] / 6.0;
-    weights[5] += b1[2] + tau * b2[1] + squared * b3[0] / 3.0;
-    if order == 2 {
+    let b3 = [b2[0] - b2[1], b2[1] - b2[2]];
+    let (third, squared) = (b3[0] * (1.0 / 3.0), tau * tau);
+    weights[3] += third;
+    weights[4] += b2[1] * 0.5 + (tau * third) * 0.5;
+    weights[5] += (b1[2] + tau * b2[1]) + squared * third;
+    if ORDER == 2 {
         return;
     }
     let b4 = b3[0] - b3[1];
-    weights[6] += 0.25 * b4;
-    weights[7] += b3[1] / 3.0 + tau * b4 / 12.0;
-    weights[8] += 0.5 * b2[2] + tau * b3[1] / 3.0 + squared * b4 / 12.0;
-    weights[9] += b1[3] + 1.5 * tau * b2[2] + squared * b3[1] + 0.25 * squared * tau * b4;
+    let (quarter, twelfth) = (b4 * 0.25, b4 * (1.0 / 12.0));
+    weights[6] += quarter;
+    weights[7] += b3[1] * (1.0 / 3.0) + tau * twelfth;
+    weights[8] += (b2[2] * 0.5 + (tau * b3[1]) * (1.0 / 3.0)) + squared * twelfth;
+    weights[9] += (b1[3] + (tau * b2[2]) * 1.5) + (squared * b3[1] + (squared * tau) * quarter);
 }

@@ -1,4 +1,4 @@
-//! A triangle and the step from scalar weights to tensors.
+//! A register of triangles and the step from scalar weights to tensors.
 //!
 //! With the corners in the order of their gaps, d₀ ≤ d₁ ≤ d₂, and X = V₀ + λ₁ E₁ + λ₂ E₂, every moment of X follows from
 //!
@@ -6,92 +6,161 @@
 //!
 //! Starting at the corner with the smallest gap keeps the tensors free of cancellation where κ is concentrated there.
 
-use super::Moments;
-use crate::tensor::{Mat3, Vec3};
+use pulp::Simd;
 
-/// J_ab for (a, b) = 00, 10, 01, 20, 11, 02, 30, 21, 12, 03; those above the wanted order are zero.
-pub(super) type Weights = [f64; 10];
+use super::facets_pack::{FieldLanes, Pack, Vector};
+use super::lanes::{Lanes, Row};
+use super::lanes_power::Log2;
 
-/// A corner of a triangle.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Corner {
-    /// Its place in the tables of the cluster.
-    pub place: usize,
-    /// Its gap [m].
-    pub gap: f64,
-    /// The reciprocal of the gap [1/m].
-    pub inverse: f64,
-}
+/// J_ab for (a, b) = 00, 10, 01, 20, 11, 02, 30, 21, 12, 03; those above the wanted order have no meaning.
+pub(super) type Weights<S> = [Lanes<S>; 10];
 
-/// A triangle with its corners in the order of their gaps.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Triangle {
-    /// The corners, the lowest first.
-    pub corners: [Corner; 3],
+/// How many components the moments up to an order have, symmetric ones counted once.
+pub(super) const COMPONENTS: [usize; 4] = [1, 4, 10, 20];
+
+/// Triangles with their corners in the order of their gaps.
+#[derive(Clone, Copy)]
+pub(super) struct Triangle<S: Simd> {
+    /// d₀ ≤ d₁ ≤ d₂ [m].
+    pub gaps: [Lanes<S>; 3],
+    /// 1/d [1/m].
+    pub inverses: [Lanes<S>; 3],
     /// Twice the area [m²].
-    pub twice_area: f64,
+    pub twice_area: Lanes<S>,
     /// V₀.
-    origin: Vec3,
+    origin: Vector<S>,
     /// E₁ = V₁ − V₀, E₂ = V₂ − V₀.
-    edges: [Vec3; 2],
+    edges: [Vector<S>; 2],
 }
 
-impl Triangle {
-    /// Sorts the corners; `points` are those of the cluster.
-    #[inline]
-    pub fn new([mut a, mut b, mut c]: [Corner; 3], points: &[Vec3], twice_area: f64) -> Self {
-        if b.gap < a.gap {
-            std::mem::swap(&mut a, &mut b);
+/// What the split of a triangle at its middle level needs besides.
+#[derive(Clone, Copy)]
+pub(super) struct Levels<S: Simd> {
+    /// τ = (d₁ − d₀)/(d₂ − d₀) and 1 − τ.
+    pub shares: [Lanes<S>; 2],
+    /// Logarithms of the gaps.
+    pub logs: [Log2<S>; 3],
+}
+
+impl<S: Simd> Triangle<S> {
+    /// Sorts the corners of the triangles in one register of a pack.
+    #[inline(always)]
+    pub fn new(pack: &Pack, simd: S, register: usize, field: &FieldLanes<S>) -> Self {
+        let [mut a, mut b, mut c] = pack.corners(simd, register);
+        let (mut low, mut middle, mut high) = (field.gap(&a), field.gap(&b), field.gap(&c));
+        sort(&mut low, &mut a, &mut middle, &mut b);
+        sort(&mut middle, &mut b, &mut high, &mut c);
+        sort(&mut low, &mut a, &mut middle, &mut b);
+        Self {
+            gaps: [low, middle, high],
+            inverses: [1.0 / low, 1.0 / middle, 1.0 / high],
+            twice_area: pack.twice_area(simd, register),
+            origin: a,
+            edges: [difference(&b, &a), difference(&c, &a)],
         }
-        if c.gap < b.gap {
-            std::mem::swap(&mut b, &mut c);
-            if b.gap < a.gap {
-                std::mem::swap(&mut a, &mut b);
-            }
+    }
+
+    /// Shares and logarithms of the gaps.
+    #[inline(always)]
+    pub fn levels(&self) -> Levels<S> {
+        let [low, middle, high] = self.gaps;
+        let simd = low.simd;
+        let range = high - low;
+        let (flat, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 0.5));
+        let proper = flat.less_than(range);
+        Levels {
+            shares: [proper.select((middle - low) / range, half), proper.select((high - middle) / range, half)],
+            logs: [Log2::new(low), Log2::new(middle), Log2::new(high)],
         }
-        let origin = points[a.place];
-        Self { corners: [a, b, c], twice_area, origin, edges: [points[b.place] - origin, points[c.place] - origin] }
     }
 }
 
-/// Adds the moments of X = V₀ + λ₁ E₁ + λ₂ E₂ up to `order`.
+/// Puts the lower of two gaps first, with its point.
+#[inline(always)]
+fn sort<S: Simd>(low: &mut Lanes<S>, a: &mut Vector<S>, high: &mut Lanes<S>, b: &mut Vector<S>) {
+    let wrong = high.less_than(*low);
+    wrong.exchange(low, high);
+    for axis in 0..3 {
+        wrong.exchange(&mut a[axis], &mut b[axis]);
+    }
+}
+
+#[inline(always)]
+fn difference<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Adds the components of the moments of X = V₀ + λ₁ E₁ + λ₂ E₂ up to an order to rows of sums:
+/// 1, then x y z, xx xy xz yy yz zz, xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz.
 ///
 /// Each order is built from the one below with the weights multiplied by λ₁ and λ₂:
 /// A_n = V₀ ⊗ A_(n−1)[J] + E₁ ⊗ A_(n−1)[λ₁ J] + E₂ ⊗ A_(n−1)[λ₂ J], every factor being symmetric as a whole.
-#[inline]
-pub(super) fn add_tensors(sums: &mut Moments, j: &Weights, triangle: &Triangle, order: usize) {
-    let (v, [e1, e2]) = (&triangle.origin, &triangle.edges);
-    let vector = |a: usize, b: usize, c: usize| v * j[a] + e1 * j[b] + e2 * j[c];
-    sums.zeroth += j[0];
-    if order == 0 {
+#[inline(always)]
+pub(super) fn add_tensors<S: Simd, const ORDER: usize>(
+    sums: &mut [Row],
+    j: &Weights<S>,
+    triangle: &Triangle<S>,
+    register: usize,
+) {
+    let Triangle { origin: v, edges: [e1, e2], .. } = triangle;
+    let Some(sums) = sums.get_mut(..COMPONENTS[ORDER]) else { return };
+    j[0].add_to(&mut sums[0], register);
+    if ORDER == 0 {
         return;
     }
-    let first = vector(0, 1, 2);
-    sums.first += first;
-    if order == 1 {
+    let first = combine(v, j[0], e1, j[1], e2, j[2]);
+    add_all(&mut sums[1..], &first, register);
+    if ORDER == 1 {
         return;
     }
-    let (first1, first2) = (vector(1, 3, 4), vector(2, 4, 5));
+    let (first1, first2) = (combine(v, j[1], e1, j[3], e2, j[4]), combine(v, j[2], e1, j[4], e2, j[5]));
     let second = symmetric(v, &first, e1, &first1, e2, &first2);
-    sums.second +=
-        Mat3::new(second[0], second[1], second[2], second[1], second[3], second[4], second[2], second[4], second[5]);
-    if order == 2 {
+    add_all(&mut sums[4..], &second, register);
+    if ORDER == 2 {
         return;
     }
-    let (first11, first12, first22) = (vector(3, 6, 7), vector(4, 7, 8), vector(5, 8, 9));
+    let first11 = combine(v, j[3], e1, j[6], e2, j[7]);
+    let first12 = combine(v, j[4], e1, j[7], e2, j[8]);
+    let first22 = combine(v, j[5], e1, j[8], e2, j[9]);
     let second1 = symmetric(v, &first1, e1, &first11, e2, &first12);
     let second2 = symmetric(v, &first2, e1, &first12, e2, &first22);
     // The ten components ijk as the product of component i of a vector and component jk of a matrix.
-    const COMPONENTS: [(usize, usize); 10] =
+    const PRODUCTS: [(usize, usize); 10] =
         [(0, 0), (0, 1), (0, 2), (0, 3), (0, 4), (0, 5), (1, 3), (1, 4), (1, 5), (2, 5)];
-    for (sum, (i, jk)) in sums.third.0.iter_mut().zip(COMPONENTS) {
-        *sum += v[i] * second[jk] + e1[i] * second1[jk] + e2[i] * second2[jk];
+    for (sum, (i, jk)) in sums[10..].iter_mut().zip(PRODUCTS) {
+        dot([v[i], e1[i], e2[i]], [second[jk], second1[jk], second2[jk]]).add_to(sum, register);
     }
 }
 
+#[inline(always)]
+fn add_all<S: Simd>(sums: &mut [Row], terms: &[Lanes<S>], register: usize) {
+    for (sum, term) in sums.iter_mut().zip(terms) {
+        term.add_to(sum, register);
+    }
+}
+
+/// a p + b q + c r.
+#[inline(always)]
+fn combine<S: Simd>(a: &Vector<S>, p: Lanes<S>, b: &Vector<S>, q: Lanes<S>, c: &Vector<S>, r: Lanes<S>) -> Vector<S> {
+    [dot([a[0], b[0], c[0]], [p, q, r]), dot([a[1], b[1], c[1]], [p, q, r]), dot([a[2], b[2], c[2]], [p, q, r])]
+}
+
 /// The components xx, xy, xz, yy, yz, zz of a⊗b + c⊗d + e⊗f, known to be symmetric.
-#[inline]
-fn symmetric(a: &Vec3, b: &Vec3, c: &Vec3, d: &Vec3, e: &Vec3, f: &Vec3) -> [f64; 6] {
-    let entry = |i: usize, j: usize| a[i] * b[j] + c[i] * d[j] + e[i] * f[j];
-    [entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)]
+#[inline(always)]
+fn symmetric<S: Simd>(
+    a: &Vector<S>,
+    b: &Vector<S>,
+    c: &Vector<S>,
+    d: &Vector<S>,
+    e: &Vector<S>,
+    f: &Vector<S>,
+) -> [Lanes<S>; 6] {
+    let (x, y, z) = ([a[0], c[0], e[0]], [a[1], c[1], e[1]], [a[2], c[2], e[2]]);
+    let (u, v, w) = ([b[0], d[0], f[0]], [b[1], d[1], f[1]], [b[2], d[2], f[2]]);
+    [dot(x, u), dot(x, v), dot(x, w), dot(y, v), dot(y, w), dot(z, w)]
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: Vector<S>, b: Vector<S>) -> Lanes<S> {
+    (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
 }

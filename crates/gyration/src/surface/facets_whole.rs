@@ -8,120 +8,21 @@
 //! Adding a variable is h_k(…, u) = h_k(…) + u h_(k−1)(…, u). All terms are positive: no sorting, no splitting, no
 //! cancellation, however the gaps compare.
 
+use pulp::Simd;
+
 use super::facets_triangle::{Triangle, Weights};
+use super::lanes::Lanes;
 
 /// The largest exponent taken: the cost grows with ν, and that of a split triangle does not.
 const LARGEST: f64 = 24.0;
 
 /// A whole exponent prepared for the moments of one order.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct WholeExponent {
-    /// n.
-    order: usize,
     /// M = ν − n − 3.
     degree: usize,
     /// (ν − n − 3)!/(ν − 1)!.
     factor: f64,
-}
-
-impl WholeExponent {
-    /// Prepares ν for the order n ≤ 3; none if ν is not whole or is below n + 3.
-    pub fn new(exponent: f64, order: usize) -> Option<Self> {
-        let degree = exponent - (order + 3) as f64;
-        if exponent.fract() != 0.0 || degree < 0.0 || exponent > LARGEST {
-            return None;
-        }
-        let product: f64 = (1..=order + 2).map(|i| exponent - i as f64).product();
-        Some(Self { order, degree: degree as usize, factor: 1.0 / product })
-    }
-
-    /// The weights J_ab of a triangle.
-    #[inline]
-    pub fn weights(&self, triangle: &Triangle) -> Weights {
-        let scale = triangle.twice_area * self.factor;
-        let u = triangle.corners.map(|corner| corner.inverse);
-        match self.order {
-            0 => self.zeroth(u, scale),
-            1 => self.first(u, scale),
-            2 => self.second(u, scale),
-            _ => self.third(u, scale),
-        }
-    }
-
-    #[inline]
-    fn zeroth(&self, u: [f64; 3], scale: f64) -> Weights {
-        let mut base = Base::ONE;
-        for _ in 0..self.degree {
-            base.raise(u);
-        }
-        let mut weights = [0.0; 10];
-        weights[0] = scale * u[0] * u[1] * u[2] * base.0[2];
-        weights
-    }
-
-    #[inline]
-    fn first(&self, u: [f64; 3], scale: f64) -> Weights {
-        let (mut base, mut one) = (Base::ONE, [1.0; 3]);
-        for _ in 0..self.degree {
-            let sum = base.raise(u);
-            one = raise_one(sum, one, u);
-        }
-        let scale = scale * u[0] * u[1] * u[2];
-        let [j0, j1, j2]: [f64; 3] = std::array::from_fn(|i| scale * u[i] * one[i]);
-        let mut weights = [0.0; 10];
-        weights[..3].copy_from_slice(&[j0 + j1 + j2, j1, j2]);
-        weights
-    }
-
-    #[inline]
-    fn second(&self, u: [f64; 3], scale: f64) -> Weights {
-        let (mut base, mut one, mut two) = (Base::ONE, [1.0; 3], [1.0; 6]);
-        for _ in 0..self.degree {
-            let sum = base.raise(u);
-            one = raise_one(sum, one, u);
-            two = raise_two(&one, &two, u);
-        }
-        let scale = scale * u[0] * u[1] * u[2];
-        // The factorials a! double the squares.
-        let j: [f64; 6] = std::array::from_fn(|i| {
-            let (p, q) = PAIRS[i];
-            let factorial = if p == q { 2.0 } else { 1.0 };
-            scale * factorial * u[p] * u[q] * two[i]
-        });
-        let mut weights = [0.0; 10];
-        fill_second(&mut weights, &j);
-        weights
-    }
-
-    #[inline]
-    fn third(&self, u: [f64; 3], scale: f64) -> Weights {
-        let (mut base, mut one, mut two, mut three) = (Base::ONE, [1.0; 3], [1.0; 6], [1.0; 10]);
-        for _ in 0..self.degree {
-            let sum = base.raise(u);
-            one = raise_one(sum, one, u);
-            two = raise_two(&one, &two, u);
-            three = std::array::from_fn(|i| two[TRIPLES[i].0] + u[TRIPLES[i].1] * three[i]);
-        }
-        let scale = scale * u[0] * u[1] * u[2];
-        let j: [f64; 10] = std::array::from_fn(|i| {
-            let (pair, r) = TRIPLES[i];
-            let (p, q) = PAIRS[pair];
-            scale * TRIPLE_FACTORIALS[i] * u[p] * u[q] * u[r] * three[i]
-        });
-        // Summing over the third index lowers 000 … 222 to 00 … 22.
-        let lower = [
-            j[0] + j[1] + j[2],
-            j[1] + j[3] + j[4],
-            j[2] + j[4] + j[5],
-            j[3] + j[6] + j[7],
-            j[4] + j[7] + j[8],
-            j[5] + j[8] + j[9],
-        ];
-        let mut weights = [0.0; 10];
-        fill_second(&mut weights, &lower);
-        weights[6..].copy_from_slice(&j[6..]);
-        weights
-    }
 }
 
 /// The pairs of corners 00, 01, 02, 11, 12, 22.
@@ -133,40 +34,115 @@ const TRIPLES: [(usize, usize); 10] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (
 /// a! for the triples.
 const TRIPLE_FACTORIALS: [f64; 10] = [6.0, 2.0, 2.0, 2.0, 1.0, 2.0, 6.0, 2.0, 2.0, 6.0];
 
-/// h_k(u₀), h_k(u₀, u₁), h_k(u₀, u₁, u₂).
-struct Base([f64; 3]);
+impl WholeExponent {
+    /// Prepares ν for the order n ≤ 3; none if ν is not whole or is below n + 3.
+    pub fn new(exponent: f64, order: usize) -> Option<Self> {
+        let degree = exponent - (order + 3) as f64;
+        if exponent.fract() != 0.0 || degree < 0.0 || exponent > LARGEST {
+            return None;
+        }
+        let product: f64 = (1..=order + 2).map(|i| exponent - i as f64).product();
+        Some(Self { degree: degree as usize, factor: 1.0 / product })
+    }
 
-impl Base {
-    /// k = 0.
-    const ONE: Self = Self([1.0; 3]);
-
-    /// From k to k + 1; returns h_k of all three.
-    #[inline]
-    fn raise(&mut self, u: [f64; 3]) -> f64 {
-        self.0[0] *= u[0];
-        self.0[1] = self.0[0] + u[1] * self.0[1];
-        self.0[2] = self.0[1] + u[2] * self.0[2];
-        self.0[2]
+    /// The weights J_ab of triangles up to the order that this was prepared for.
+    #[inline(always)]
+    pub fn weights<S: Simd, const ORDER: usize>(&self, triangle: &Triangle<S>, weights: &mut Weights<S>) {
+        let u = triangle.inverses;
+        let h = Homogeneous::raised::<ORDER>(self.degree, &u);
+        let scale = (triangle.twice_area * self.factor) * ((u[0] * u[1]) * u[2]);
+        match ORDER {
+            0 => weights[0] = scale * h.base[2],
+            1 => {
+                let j = [scale * u[0] * h.one[0], scale * u[1] * h.one[1], scale * u[2] * h.one[2]];
+                weights[..3].copy_from_slice(&[(j[0] + j[1]) + j[2], j[1], j[2]]);
+            }
+            2 => {
+                let mut j = [scale; 6];
+                for (i, j) in j.iter_mut().enumerate() {
+                    let (p, q) = PAIRS[i];
+                    let product = *j * u[p] * u[q] * h.two[i];
+                    // The factorials a! double the squares.
+                    *j = if p == q { product + product } else { product };
+                }
+                fill_second(weights, &j);
+            }
+            _ => third(weights, &u, &h.three, scale),
+        }
     }
 }
 
-/// h_k with one more of each corner.
-#[inline]
-fn raise_one(base: f64, one: [f64; 3], u: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| base + u[i] * one[i])
-}
-
-/// h_k with one more of each pair.
-#[inline]
-fn raise_two(one: &[f64; 3], two: &[f64; 6], u: [f64; 3]) -> [f64; 6] {
-    std::array::from_fn(|i| one[PAIRS[i].0] + u[PAIRS[i].1] * two[i])
+/// Up to the third order from h_M with three more corners.
+#[inline(always)]
+fn third<S: Simd>(weights: &mut Weights<S>, u: &[Lanes<S>; 3], three: &[Lanes<S>; 10], scale: Lanes<S>) {
+    let mut j = [scale; 10];
+    for (i, j) in j.iter_mut().enumerate() {
+        let (pair, r) = TRIPLES[i];
+        let (p, q) = PAIRS[pair];
+        *j = *j * TRIPLE_FACTORIALS[i] * u[p] * u[q] * u[r] * three[i];
+    }
+    // Summing over the third index lowers 000 … 222 to 00 … 22.
+    let lower = [
+        (j[0] + j[1]) + j[2],
+        (j[1] + j[3]) + j[4],
+        (j[2] + j[4]) + j[5],
+        (j[3] + j[6]) + j[7],
+        (j[4] + j[7]) + j[8],
+        (j[5] + j[8]) + j[9],
+    ];
+    fill_second(weights, &lower);
+    weights[6..].copy_from_slice(&j[6..]);
 }
 
 /// J_ab up to the second order from ∫ λ_p λ_q κ dA over the pairs.
-#[inline]
-fn fill_second(weights: &mut Weights, j: &[f64; 6]) {
-    let first = j[1] + j[3] + j[4];
-    let second = j[2] + j[4] + j[5];
-    let zeroth = j[0] + j[1] + j[2] + first + second;
+#[inline(always)]
+fn fill_second<S: Simd>(weights: &mut Weights<S>, j: &[Lanes<S>; 6]) {
+    let first = (j[1] + j[3]) + j[4];
+    let second = (j[2] + j[4]) + j[5];
+    let zeroth = ((j[0] + j[1]) + j[2]) + (first + second);
     weights[..6].copy_from_slice(&[zeroth, first, second, j[3], j[4], j[5]]);
+}
+
+/// h_k of the corners taken once: u₀; u₀ u₁; u₀ u₁ u₂, and with one, two and three more.
+struct Homogeneous<S: Simd> {
+    base: [Lanes<S>; 3],
+    one: [Lanes<S>; 3],
+    two: [Lanes<S>; 6],
+    three: [Lanes<S>; 10],
+}
+
+impl<S: Simd> Homogeneous<S> {
+    /// h_degree, with as many more corners as the order asks for.
+    #[inline(always)]
+    fn raised<const ORDER: usize>(degree: usize, u: &[Lanes<S>; 3]) -> Self {
+        let unit = Lanes::splat(u[0].simd, 1.0);
+        let mut h = Self { base: [unit; 3], one: [unit; 3], two: [unit; 6], three: [unit; 10] };
+        for _ in 0..degree {
+            h.raise::<ORDER>(u);
+        }
+        h
+    }
+
+    /// From k to k + 1.
+    #[inline(always)]
+    fn raise<const ORDER: usize>(&mut self, u: &[Lanes<S>; 3]) {
+        self.base[0] = self.base[0] * u[0];
+        self.base[1] = self.base[0] + u[1] * self.base[1];
+        self.base[2] = self.base[1] + u[2] * self.base[2];
+        if ORDER >= 1 {
+            for (one, u) in self.one.iter_mut().zip(u) {
+                *one = self.base[2] + *u * *one;
+            }
+        }
+        if ORDER >= 2 {
+            for i in 0..6 {
+                self.two[i] = self.one[PAIRS[i].0] + u[PAIRS[i].1] * self.two[i];
+            }
+        }
+        if ORDER >= 3 {
+            for i in 0..10 {
+                self.three[i] = self.two[TRIPLES[i].0] + u[TRIPLES[i].1] * self.three[i];
+            }
+        }
+    }
 }

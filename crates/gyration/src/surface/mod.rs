@@ -15,15 +15,21 @@ pub mod patch;
 pub mod power;
 
 mod carry;
+mod facets_pack;
 mod facets_plan;
 mod facets_split;
+mod facets_sums;
 mod facets_triangle;
 mod facets_whole;
+mod lanes;
+mod lanes_power;
+mod power_lanes;
 mod rule;
 
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
 use curved::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Sphere, Torus};
 use facets::{Facets, FacetsError};
+use facets_plan::{BATCH, Plan};
 use patch::{Patch, Primitive};
 
 /// The gap of a plane as a function of the material point: d(X) = g₀ + m·X.
@@ -60,6 +66,26 @@ pub struct MomentRequest {
     pub kernel: Kernel,
     /// The highest order wanted, 0 to 3; higher ones are left untouched.
     pub order: usize,
+}
+
+/// The moments that a contact needs, with all that does not depend on the gaps worked out once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentPlan {
+    requests: Vec<MomentRequest>,
+    facets: Vec<Plan>,
+}
+
+impl MomentPlan {
+    /// Prepares these requests for any surface.
+    pub fn new(requests: Vec<MomentRequest>) -> Self {
+        let facets = requests.chunks(BATCH).map(Plan::new).collect();
+        Self { requests, facets }
+    }
+
+    /// The requests, in the order of the results.
+    pub fn requests(&self) -> &[MomentRequest] {
+        &self.requests
+    }
 }
 
 /// Moments of a kernel over a surface, about the origin of X.
@@ -190,6 +216,24 @@ impl Surface {
         assert_eq!(requests.len(), out.len(), "one place for each request");
         out.fill(Moments::default());
         self.facets.moments(field, requests, out)?;
+        self.add_patches(field, requests, out)
+    }
+
+    /// [`Surface::moments`] of requests that were planned before.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn planned_moments(&self, field: &GapField, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
+        assert_eq!(plan.requests.len(), out.len(), "one place for each request");
+        out.fill(Moments::default());
+        for (plan, out) in plan.facets.iter().zip(out.chunks_mut(BATCH)) {
+            self.facets.add_planned(field, plan, out)?;
+        }
+        self.add_patches(field, &plan.requests, out)
+    }
+
+    /// Adds the moments over the smooth patches.
+    fn add_patches(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         for patch in &self.patches {
             let point = patch.support(&-field.direction);
             let (gap, fall) = (field.gap(&point), field.direction.dot(&point));

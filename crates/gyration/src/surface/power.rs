@@ -26,7 +26,7 @@ pub const HIGHEST_DEGREE: usize = 5;
 pub type LineMoments = [f64; HIGHEST_DEGREE + 1];
 
 /// Binomial coefficients (k over p).
-const BINOMIAL: [[f64; 6]; 6] = [
+pub(super) const BINOMIAL: [[f64; 6]; 6] = [
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     [1.0, 1.0, 0.0, 0.0, 0.0, 0.0],
     [1.0, 2.0, 1.0, 0.0, 0.0, 0.0],
@@ -37,7 +37,7 @@ const BINOMIAL: [[f64; 6]; 6] = [
 
 /// Terms of the series, summed in lanes; for gaps that are closer fewer are enough.
 const TERMS: usize = 32;
-const LANES: usize = 4;
+pub(super) const SERIES_LANES: usize = 4;
 
 /// The series of `TERMS` terms serves while θ (a + b max(ν, 0)) ≤ 1, with (a, b) for the degree 0 to 5.
 ///
@@ -70,21 +70,21 @@ impl GapSample {
 /// A kernel prepared for integration along segments, up to one degree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineKernel {
-    kernel: Kernel,
+    pub(super) kernel: Kernel,
     /// ν of the power that is integrated; 1 for the logarithmic kernel.
     exponent: f64,
     /// ν as an integer, where it is a small one.
-    integer: Option<i32>,
+    pub(super) integer: Option<i32>,
     /// The highest degree of the power's moments: one above the wanted for the logarithmic kernel.
     degree: usize,
     /// k + 1 − ν and, except at `log_degree`, its reciprocal.
-    steps: [(f64, f64); HIGHEST_DEGREE + 1],
+    pub(super) steps: [(f64, f64); HIGHEST_DEGREE + 1],
     /// The degree k at which k + 1 − ν is small.
-    log_degree: usize,
+    pub(super) log_degree: usize,
     /// 1/θ below which the numbers of terms in `NEARER`, then `TERMS`, are enough.
-    limits: [f64; 3],
+    pub(super) limits: [f64; 3],
     /// (ν)_n/(degree + 2)_n/(degree + 1).
-    series: [[f64; LANES]; TERMS / LANES],
+    pub(super) series: [[f64; SERIES_LANES]; TERMS / SERIES_LANES],
 }
 
 impl LineKernel {
@@ -97,7 +97,7 @@ impl LineKernel {
         steps: [(1.0, 1.0); HIGHEST_DEGREE + 1],
         log_degree: usize::MAX,
         limits: [0.0; 3],
-        series: [[0.0; LANES]; TERMS / LANES],
+        series: [[0.0; SERIES_LANES]; TERMS / SERIES_LANES],
     };
 
     /// Prepares a kernel for moments of any degree; the exponent may be any real number from −1 to 17.
@@ -226,7 +226,7 @@ impl LineKernel {
             TERMS
         };
         let mut moments = [0.0; HIGHEST_DEGREE + 1];
-        let mut value = far.power * sum_in_lanes(&self.series[..terms / LANES], theta);
+        let mut value = far.power * sum_in_lanes(&self.series[..terms / SERIES_LANES], theta);
         moments[degree] = value;
         let end = far.gap * far.power;
         let inverse = 1.0 / near.gap;
@@ -261,7 +261,7 @@ impl LineKernel {
 }
 
 /// 1/n, for n ≥ 1.
-const RECIPROCAL: [f64; TERMS + HIGHEST_DEGREE + 3] = {
+pub(super) const RECIPROCAL: [f64; TERMS + HIGHEST_DEGREE + 3] = {
     let mut table = [0.0; TERMS + HIGHEST_DEGREE + 3];
     let mut n = 1;
     while n < table.len() {
@@ -273,10 +273,10 @@ const RECIPROCAL: [f64; TERMS + HIGHEST_DEGREE + 3] = {
 
 /// Σ c_n θ^n, the coefficients row after row: one Horner scheme in θ⁴ for each lane.
 #[inline]
-fn sum_in_lanes(coefficients: &[[f64; LANES]], theta: f64) -> f64 {
+fn sum_in_lanes(coefficients: &[[f64; SERIES_LANES]], theta: f64) -> f64 {
     let squared = theta * theta;
     let fourth = squared * squared;
-    let mut sums = [0.0; LANES];
+    let mut sums = [0.0; SERIES_LANES];
     for row in coefficients.iter().rev() {
         for (sum, coefficient) in sums.iter_mut().zip(row) {
             *sum = *sum * fourth + coefficient;

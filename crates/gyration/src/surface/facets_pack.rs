@@ -1,0 +1,106 @@
+//! Triangles and vertices laid out for lanes: eight of each in a pack, component by component.
+//!
+//! A pack of triangles holds the coordinates of its corners, so that nothing is gathered in a call: the gaps of a
+//! vertex are computed anew in every triangle that it belongs to, by the same operations, to the same bytes. Unused places
+//! repeat the last triangle without its area, or the last vertex.
+
+use pulp::Simd;
+
+use super::GapField;
+use super::lanes::{Lanes, Row, WIDTH};
+use crate::tensor::Vec3;
+
+/// Three components in lanes.
+pub(super) type Vector<S> = [Lanes<S>; 3];
+
+/// Eight points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Points(pub [Row; 3]);
+
+/// Eight triangles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Pack {
+    corners: [Points; 3],
+    twice_area: Row,
+    used: usize,
+}
+
+impl Points {
+    /// The points given, at most eight, the last one repeated.
+    pub fn new(points: &[Vec3]) -> Self {
+        let mut rows = [[0.0; WIDTH]; 3];
+        for place in 0..WIDTH {
+            if let Some(point) = points.get(place).or(points.last()) {
+                for (row, x) in rows.iter_mut().zip(point) {
+                    row[place] = *x;
+                }
+            }
+        }
+        Self(rows)
+    }
+
+    /// The register of points at this place.
+    #[inline(always)]
+    pub fn load<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
+        let [x, y, z] = &self.0;
+        [Lanes::load(simd, x, register), Lanes::load(simd, y, register), Lanes::load(simd, z, register)]
+    }
+}
+
+impl Pack {
+    /// The triangles given by corners and twice the area [m²]; at most eight.
+    pub fn new(triangles: &[([Vec3; 3], f64)]) -> Self {
+        let corner = |k: usize| {
+            let points: Vec<Vec3> = triangles.iter().map(|(corners, _)| corners[k]).collect();
+            Points::new(&points)
+        };
+        let mut twice_area = [0.0; WIDTH];
+        for (place, (_, area)) in twice_area.iter_mut().zip(triangles) {
+            *place = *area;
+        }
+        Self { corners: [corner(0), corner(1), corner(2)], twice_area, used: triangles.len() }
+    }
+
+    /// How many registers of this width the triangles fill.
+    #[inline(always)]
+    pub fn registers<S: Simd>(&self) -> usize {
+        self.used.div_ceil(S::F64_LANES)
+    }
+
+    /// The corners of the triangles in a register.
+    #[inline(always)]
+    pub fn corners<S: Simd>(&self, simd: S, register: usize) -> [Vector<S>; 3] {
+        let [a, b, c] = &self.corners;
+        [a.load(simd, register), b.load(simd, register), c.load(simd, register)]
+    }
+
+    /// Twice the areas of the triangles in a register [m²].
+    #[inline(always)]
+    pub fn twice_area<S: Simd>(&self, simd: S, register: usize) -> Lanes<S> {
+        Lanes::load(simd, &self.twice_area, register)
+    }
+}
+
+/// A gap field in every lane.
+#[derive(Clone, Copy)]
+pub(super) struct FieldLanes<S: Simd> {
+    height: Lanes<S>,
+    direction: Vector<S>,
+}
+
+impl<S: Simd> FieldLanes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, field: &GapField) -> Self {
+        let m = &field.direction;
+        let splat = |x| Lanes::splat(simd, x);
+        Self { height: splat(field.height), direction: [splat(m.x), splat(m.y), splat(m.z)] }
+    }
+
+    /// The gaps g₀ + m·X [m], rounded as [`GapField::gap`] does.
+    #[inline(always)]
+    pub fn gap(&self, [x, y, z]: &Vector<S>) -> Lanes<S> {
+        let [mx, my, mz] = self.direction;
+        self.height + ((mx * *x + my * *y) + mz * *z)
+    }
+}

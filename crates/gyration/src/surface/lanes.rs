@@ -1,0 +1,162 @@
+//! Lanes: the same arithmetic on several numbers at once, with the widest registers that the processor has.
+//!
+//! [`dispatch`] finds the instruction set at run time and calls the work with it; the work is generic over it and is
+//! compiled once for each (512 and 256 bits, 128 on ARM, one number at a time elsewhere). Whatever the width, a sum runs
+//! over [`WIDTH`] logical lanes: number i belongs to lane i mod `WIDTH`, and [`fold`] adds the lanes in a fixed
+//! order. Products and sums are rounded one by one, never fused, so that every width gives the same bytes.
+//!
+//! Every function that takes lanes is `inline(always)`: it has to become part of the function that was compiled for the
+//! instruction set.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use pulp::{Arch, Simd, WithSimd};
+
+/// Logical lanes: the widest registers hold as many numbers.
+pub(super) const WIDTH: usize = 8;
+
+/// Numbers of one kind, one for each logical lane.
+pub(super) type Row = [f64; WIDTH];
+
+/// Calls the work with the widest instruction set that this processor has.
+pub(super) fn dispatch<W: WithSimd>(work: W) -> W::Output {
+    Arch::new().dispatch(work)
+}
+
+/// The registers that make up a row.
+#[inline(always)]
+pub(super) fn registers<S: Simd>(row: &Row) -> &[S::f64s] {
+    S::as_simd_f64s(row).0
+}
+
+/// The registers that make up a row, to be written.
+#[inline(always)]
+pub(super) fn registers_mut<S: Simd>(row: &mut Row) -> &mut [S::f64s] {
+    S::as_mut_simd_f64s(row).0
+}
+
+/// The sum of a row, in an order that does not depend on the width of registers.
+#[inline(always)]
+pub(super) fn fold(row: &Row) -> f64 {
+    let four = [row[0] + row[4], row[1] + row[5], row[2] + row[6], row[3] + row[7]];
+    (four[0] + four[2]) + (four[1] + four[3])
+}
+
+/// One register of numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Lanes<S: Simd> {
+    pub simd: S,
+    pub values: S::f64s,
+}
+
+/// A truth for each lane.
+#[derive(Clone, Copy)]
+pub(super) struct Mask<S: Simd> {
+    simd: S,
+    values: S::m64s,
+}
+
+impl<S: Simd> Lanes<S> {
+    /// The number in every lane.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f64) -> Self {
+        Self { simd, values: simd.splat_f64s(value) }
+    }
+
+    /// The register of a row at this place.
+    #[inline(always)]
+    pub fn load(simd: S, row: &Row, register: usize) -> Self {
+        Self { simd, values: registers::<S>(row)[register] }
+    }
+
+    /// Adds the register to that of a row at this place.
+    #[inline(always)]
+    pub fn add_to(self, row: &mut Row, register: usize) {
+        let sum = &mut registers_mut::<S>(row)[register];
+        *sum = self.simd.add_f64s(*sum, self.values);
+    }
+
+    /// Where a < b.
+    #[inline(always)]
+    pub fn less_than(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, values: self.simd.less_than_f64s(self.values, other.values) }
+    }
+
+    /// The smallest of the lanes; none of them may be NaN.
+    #[inline(always)]
+    pub fn smallest(self) -> f64 {
+        self.simd.reduce_min_f64s(self.values)
+    }
+
+    /// The largest of the lanes; none of them may be NaN.
+    #[inline(always)]
+    pub fn largest(self) -> f64 {
+        self.simd.reduce_max_f64s(self.values)
+    }
+}
+
+impl<S: Simd> Mask<S> {
+    /// `yes` where it is true, `no` elsewhere.
+    #[inline(always)]
+    pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
+        Lanes { simd: self.simd, values: self.simd.select_f64s(self.values, yes.values, no.values) }
+    }
+
+    /// Exchanges a and b where it is true.
+    #[inline(always)]
+    pub fn exchange(self, a: &mut Lanes<S>, b: &mut Lanes<S>) {
+        (*a, *b) = (self.select(*b, *a), self.select(*a, *b));
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $function:ident, $instruction:ident) => {
+        impl<S: Simd> $trait for Lanes<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self { simd: self.simd, values: self.simd.$instruction(self.values, other.values) }
+            }
+        }
+
+        impl<S: Simd> $trait<f64> for Lanes<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: f64) -> Self {
+                $trait::$function(self, Self::splat(self.simd, other))
+            }
+        }
+
+        impl<S: Simd> $trait<Lanes<S>> for f64 {
+            type Output = Lanes<S>;
+
+            #[inline(always)]
+            fn $function(self, other: Lanes<S>) -> Lanes<S> {
+                $trait::$function(Lanes::splat(other.simd, self), other)
+            }
+        }
+    };
+}
+
+operator!(Add, add, add_f64s);
+operator!(Sub, sub, sub_f64s);
+operator!(Mul, mul, mul_f64s);
+operator!(Div, div, div_f64s);
+
+impl<S: Simd> AddAssign for Lanes<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { simd: self.simd, values: self.simd.neg_f64s(self.values) }
+    }
+}
