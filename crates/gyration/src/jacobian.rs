@@ -1,30 +1,24 @@
 //! The exact Jacobian of the rates, block by block.
 //!
-//! The loads depend on the state through (δp₀, δP, δṗ₀, δṖ) only; for each direction of a rigid body
+//! In the body's own axes the wrench on a rigid body depends on few numbers, and its derivatives by them follow from the
+//! same moments with exponent ν + 1 (`contact`); they are carried over to the state here, once:
 //!
-//!   δp₀;   δR = R[δθ]×, δṖ = R[δθ]×[Ω]×;   δṗ₀;   δΩ, δṖ = R[δΩ]×
+//!   m p̈₀ = m g + R F         δ(R F) = R (δF − F×δθ)
+//!   I Ω̇ = τ − Ω × IΩ         δ(Ω × IΩ) = ([Ω]× I − [IΩ]×) δΩ
 //!
-//! their change follows from the same moments with exponent ν + 1. Columns of the quaternion come from those of δθ by
-//! δθ = 2 vec(q⁻¹ ∘ δq). A pinned body's centre follows its rotation: δp₀ = −δR r, δṗ₀ = −δṖ r.
+//! Columns of the quaternion come from those of δθ by δθ = 2 vec(q⁻¹ ∘ δq).
+
+mod rigid_slopes;
 
 use crate::body::{Body, BodyKind, RigidInertia};
-use crate::contact::ContactSlopes;
+use crate::contact::{ContactWrench, RigidMotion};
 use crate::inadmissible::Inadmissible;
-use crate::kinematics::{Placement, Velocity};
-use crate::load::{Loads, SpringLoads};
 use crate::model::Model;
 use crate::rates::{Meeting, Workspace, for_each_contact, spring_loads};
 use crate::state::BodyMotion;
-use crate::tensor::{Mat3, Vec3, cross_matrix};
-use nalgebra::DMatrix;
-
-/// An increment of a body's motion and of what a rigid body's balance needs besides.
-struct Direction {
-    placement: Placement,
-    velocity: Velocity,
-    turn: Vec3,
-    spin: Vec3,
-}
+use crate::tensor::{Mat3, cross_matrix};
+use nalgebra::{DMatrix, SMatrix};
+use rigid_slopes::RigidSlopes;
 
 /// ∂(rates)/∂(state) of every body, one square matrix a block of `Model::blocks`.
 ///
@@ -41,175 +35,83 @@ pub fn jacobian(
         let motion = BodyMotion::unpack(body, &bodies[model.blocks()[index].clone()]);
         match &body.kind {
             BodyKind::Rigid(inertia) => {
-                let columns = rigid_columns(model, workspace, time, index, &motion)?;
-                fill_rigid(matrix, model, body, inertia, &motion, &columns);
+                let slopes = rigid_slopes(model, workspace, time, index, &motion)?;
+                matrix.fill(0.0);
+                match body.pin {
+                    None => fill_free(matrix, body, inertia, &motion, &slopes),
+                    Some(_) => fill_pinned(matrix, inertia, &motion, &slopes),
+                }
             }
         }
     }
     Ok(())
 }
 
-/// The directions of a rigid body (translation, turn, velocity, spin, 3 each), and the loads and their changes.
-struct RigidColumns {
-    directions: [Direction; 12],
-    loads: Loads,
-    along: [Loads; 12],
-}
-
-/// One of the twelve directions of a free rigid body; a pinned one uses the turns and the spins.
-fn direction(body: &Body, motion: &BodyMotion, number: usize) -> Direction {
-    let rotation = &motion.placement.gradient;
-    let unit = Vec3::ith(number % 3, 1.0);
-    let (mut turn, mut spin) = (Vec3::zeros(), Vec3::zeros());
-    let mut placement = Placement { position: Vec3::zeros(), gradient: Mat3::zeros() };
-    let mut velocity = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
-    match number / 3 {
-        0 => placement.position = unit,
-        1 => {
-            turn = unit;
-            placement.gradient = rotation * cross_matrix(&unit);
-            velocity.gradient_rate = placement.gradient * cross_matrix(&motion.spin);
-        }
-        2 => velocity.velocity = unit,
-        _ => {
-            spin = unit;
-            velocity.gradient_rate = rotation * cross_matrix(&unit);
-        }
-    }
-    if let Some(pin) = &body.pin {
-        placement.position = -(placement.gradient * pin.point);
-        velocity.velocity = -(velocity.gradient_rate * pin.point);
-    }
-    Direction { placement, velocity, turn, spin }
-}
-
-fn rigid_columns(
+/// The wrench on a rigid body and its derivatives, about the pin if it has one.
+fn rigid_slopes(
     model: &Model,
     workspace: &mut Workspace,
     time: f64,
     index: usize,
     motion: &BodyMotion,
-) -> Result<RigidColumns, Inadmissible> {
+) -> Result<RigidSlopes, Inadmissible> {
     let body = &model.bodies[index];
-    let directions = std::array::from_fn(|number| direction(body, motion, number));
-    let mut columns = RigidColumns { directions, loads: Loads::default(), along: [Loads::default(); 12] };
+    let rotation = &motion.placement.gradient;
+    let mut slopes = RigidSlopes::default();
     for_each_contact(model, time, index, motion, |meeting| {
-        let Meeting { contact, surface, field, motion } = meeting;
-        let slopes = ContactSlopes::integrate(contact, surface, field, *motion, &mut workspace.contact)?;
-        columns.loads += slopes.total;
-        for (number, (direction, along)) in columns.directions.iter().zip(&mut columns.along).enumerate() {
-            *along += contact_along(&slopes, &motion.normal, number, direction, body.pin.is_some());
-        }
+        let Meeting { contact, surface, field, motion: relative } = meeting;
+        let relative =
+            RigidMotion { normal: field.direction, velocity: rotation.tr_mul(&relative.velocity), spin: motion.spin };
+        let wrench = ContactWrench::integrate(contact, surface, field, &relative, &mut workspace.contact)?;
+        slopes.add_contact(&wrench, &relative);
         Ok(())
     })?;
-    spring_loads(index, body, motion, |spring: &SpringLoads| {
-        columns.loads += spring.total();
-        for (direction, along) in columns.directions.iter().zip(&mut columns.along) {
-            *along += spring.along(&direction.placement, &direction.velocity);
-        }
-    })?;
-    Ok(columns)
-}
-
-/// The change of a contact's loads along one direction: δg₀ = n·δp₀, δm = δPᵀn, δw₀ = δṗ₀, δW = δṖ.
-///
-/// Translations and turns move the gaps; turns, velocities and spins the velocities (of a pinned body, the same).
-fn contact_along(slopes: &ContactSlopes, normal: &Vec3, number: usize, direction: &Direction, pinned: bool) -> Loads {
-    let Direction { placement, velocity, .. } = direction;
-    let mut change = Loads::default();
-    if number < 6 {
-        change += slopes.along_gap(normal.dot(&placement.position), &placement.gradient.tr_mul(normal));
-    }
-    if number >= 3 || pinned {
-        change += slopes.along_velocity(&velocity.velocity, &velocity.gradient_rate);
-    }
-    change
-}
-
-/// Writes the block of a rigid body.
-fn fill_rigid(
-    matrix: &mut DMatrix<f64>,
-    model: &Model,
-    body: &Body,
-    inertia: &RigidInertia,
-    motion: &BodyMotion,
-    columns: &RigidColumns,
-) {
-    matrix.fill(0.0);
-    let free = body.pin.is_none();
-    let (quaternion_at, spin_at) = if free { (3, 10) } else { (0, 4) };
-    let mut accelerations = [(Vec3::zeros(), Vec3::zeros()); 12];
-    for (number, acceleration) in accelerations.iter_mut().enumerate() {
-        let loads = (&columns.loads, &columns.along[number]);
-        *acceleration = rigid_acceleration(model, body, inertia, motion, &columns.directions[number], loads);
-    }
-    let mut write = |column: usize, (linear, angular): &(Vec3, Vec3)| {
-        if free {
-            matrix.fixed_view_mut::<3, 1>(7, column).copy_from(linear);
-        }
-        matrix.fixed_view_mut::<3, 1>(spin_at, column).copy_from(angular);
-    };
-    for axis in 0..3 {
-        if free {
-            write(axis, &accelerations[axis]);
-            write(7 + axis, &accelerations[6 + axis]);
-        }
-        write(spin_at + axis, &accelerations[9 + axis]);
-    }
-    for component in 0..4 {
-        let turn = motion.quaternion.turn_of_component(component);
-        let (mut linear, mut angular) = (Vec3::zeros(), Vec3::zeros());
-        for axis in 0..3 {
-            linear += turn[axis] * accelerations[3 + axis].0;
-            angular += turn[axis] * accelerations[3 + axis].1;
-        }
-        write(quaternion_at + component, &(linear, angular));
-    }
-    fill_kinematics(matrix, motion, free, quaternion_at, spin_at);
-}
-
-/// ∂ṗ₀/∂ṗ₀ = 1, and q̇ = ½ q ∘ (0, Ω), linear in q and in Ω.
-fn fill_kinematics(matrix: &mut DMatrix<f64>, motion: &BodyMotion, free: bool, quaternion_at: usize, spin_at: usize) {
-    if free {
-        for axis in 0..3 {
-            matrix[(axis, 7 + axis)] = 1.0;
-        }
-    }
-    for component in 0..4 {
-        let mut unit = crate::kinematics::Quaternion([0.0; 4]);
-        unit.0[component] = 1.0;
-        for (row, value) in unit.rate(&motion.spin).into_iter().enumerate() {
-            matrix[(quaternion_at + row, quaternion_at + component)] = value;
-        }
-    }
-    for axis in 0..3 {
-        let mut unit = Vec3::zeros();
-        unit[axis] = 1.0;
-        for (row, value) in motion.quaternion.rate(&unit).into_iter().enumerate() {
-            matrix[(quaternion_at + row, spin_at + axis)] = value;
-        }
-    }
-}
-
-/// The change of (p̈₀, Ω̇) along one direction.
-fn rigid_acceleration(
-    model: &Model,
-    body: &Body,
-    inertia: &RigidInertia,
-    motion: &BodyMotion,
-    direction: &Direction,
-    (loads, change): (&Loads, &Loads),
-) -> (Vec3, Vec3) {
-    let rotation = &motion.placement.gradient;
-    // τ = axial(RᵀM): δτ = axial(−[δθ]× RᵀM + Rᵀ δM).
-    let turned = -cross_matrix(&direction.turn) * rotation.tr_mul(&loads.moment);
-    let mut torque = crate::tensor::axial(&(turned + rotation.tr_mul(&change.moment)));
+    spring_loads(index, body, motion, |spring| slopes.add_spring(spring, motion))?;
     if let Some(pin) = &body.pin {
-        let force = rotation.tr_mul(&(loads.force + body.mass.mass * model.gravity));
-        let arm_force = rotation.tr_mul(&change.force) - direction.turn.cross(&force);
-        torque -= pin.point.cross(&arm_force);
+        let weight = rotation.tr_mul(&(body.mass.mass * model.gravity));
+        slopes.tie_to_pin(&pin.point, &weight, &motion.spin);
     }
-    let spin = &motion.spin;
-    let gyroscopic = direction.spin.cross(&(inertia.tensor * spin)) + spin.cross(&(inertia.tensor * direction.spin));
-    (change.force / body.mass.mass, inertia.inverse * (torque - gyroscopic))
+    Ok(slopes)
+}
+
+/// Writes a matrix into a block at a row and a column.
+fn write<const ROWS: usize, const COLUMNS: usize>(
+    block: &mut DMatrix<f64>,
+    at: (usize, usize),
+    part: &SMatrix<f64, ROWS, COLUMNS>,
+) {
+    block.fixed_view_mut::<ROWS, COLUMNS>(at.0, at.1).copy_from(part);
+}
+
+/// ∂(Ω × IΩ)/∂Ω.
+fn gyroscopic(inertia: &RigidInertia, motion: &BodyMotion) -> Mat3 {
+    cross_matrix(&motion.spin) * inertia.tensor - cross_matrix(&(inertia.tensor * motion.spin))
+}
+
+/// The block of a free body: p₀, q, ṗ₀, Ω from 0, 3, 7, 10.
+fn fill_free(block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, motion: &BodyMotion, slopes: &RigidSlopes) {
+    let rotation = &motion.placement.gradient;
+    let (back, turns) = (rotation.transpose(), motion.quaternion.turn_by_component());
+    let linear = rotation / body.mass.mass;
+    let force_by_turn = slopes.by_turn.force - cross_matrix(&slopes.wrench.force);
+    write(block, (0, 7), &Mat3::identity());
+    write(block, (3, 3), &motion.quaternion.rate_by_component(&motion.spin));
+    write(block, (3, 10), &motion.quaternion.rate_by_spin());
+    write(block, (7, 0), &(linear * slopes.by_place.force * back));
+    write(block, (7, 3), &(linear * force_by_turn * turns));
+    write(block, (7, 7), &(linear * slopes.by_velocity.force * back));
+    write(block, (7, 10), &(linear * slopes.by_spin.force));
+    write(block, (10, 0), &(inertia.inverse * slopes.by_place.torque * back));
+    write(block, (10, 3), &(inertia.inverse * slopes.by_turn.torque * turns));
+    write(block, (10, 7), &(inertia.inverse * slopes.by_velocity.torque * back));
+    write(block, (10, 10), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, motion))));
+}
+
+/// The block of a pinned body: q, Ω from 0, 4.
+fn fill_pinned(block: &mut DMatrix<f64>, inertia: &RigidInertia, motion: &BodyMotion, slopes: &RigidSlopes) {
+    let turns = motion.quaternion.turn_by_component();
+    write(block, (0, 0), &motion.quaternion.rate_by_component(&motion.spin));
+    write(block, (0, 4), &motion.quaternion.rate_by_spin());
+    write(block, (4, 0), &(inertia.inverse * slopes.by_turn.torque * turns));
+    write(block, (4, 4), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, motion))));
 }

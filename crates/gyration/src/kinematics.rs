@@ -8,6 +8,7 @@
 //! q̇ = ½ q ∘ (0, Ω), Ṗ = P [Ω]×.
 
 use crate::tensor::{Mat3, Vec3, cross_matrix};
+use nalgebra::{Matrix3x4, Matrix4, Matrix4x3};
 
 /// Where a body is: p₀ [m] and the placement gradient P (3×3).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,13 +102,23 @@ impl Quaternion {
         self.times(&Self([0.0, 0.5 * spin.x, 0.5 * spin.y, 0.5 * spin.z])).0
     }
 
-    /// The rotation vector δθ (body axes) of an increment of one component: δR = R [δθ]×, δθ = 2 vec(q⁻¹ ∘ δq).
-    pub fn turn_of_component(&self, component: usize) -> Vec3 {
+    /// The rotation vector δθ (body axes) of increments of the components: δR = R [δθ]×, δθ = 2 vec(q⁻¹ ∘ δq).
+    pub fn turn_by_component(&self) -> Matrix3x4<f64> {
         let [w, x, y, z] = self.0;
-        let mut increment = [0.0; 4];
-        increment[component] = 2.0 / (w * w + x * x + y * y + z * z);
-        let turn = Self([w, -x, -y, -z]).times(&Self(increment)).0;
-        Vec3::new(turn[1], turn[2], turn[3])
+        let turns = Matrix3x4::new(-x, w, z, -y, -y, -z, w, x, -z, y, -x, w);
+        turns * (2.0 / (w * w + x * x + y * y + z * z))
+    }
+
+    /// ∂q̇/∂q, q̇ = ½ q ∘ (0, Ω).
+    pub fn rate_by_component(&self, spin: &Vec3) -> Matrix4<f64> {
+        let (x, y, z) = (0.5 * spin.x, 0.5 * spin.y, 0.5 * spin.z);
+        Matrix4::new(0.0, -x, -y, -z, x, 0.0, z, -y, y, -z, 0.0, x, z, y, -x, 0.0)
+    }
+
+    /// ∂q̇/∂Ω.
+    pub fn rate_by_spin(&self) -> Matrix4x3<f64> {
+        let [w, x, y, z] = self.0.map(|component| 0.5 * component);
+        Matrix4x3::new(-x, -y, -z, w, -z, y, z, w, -x, -y, x, w)
     }
 }
 
@@ -146,9 +157,18 @@ mod tests {
             ahead.0[component] += step;
             behind.0[component] -= step;
             let difference = (ahead.rotation() - behind.rotation()) / (2.0 * step);
-            let exact = q.rotation() * cross_matrix(&q.turn_of_component(component));
+            let exact = q.rotation() * cross_matrix(&q.turn_by_component().column(component).into());
             // Central differences: step² of truncation, eps/step of rounding, both below 1e-9.
             assert!((difference - exact).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn rate_of_a_quaternion_is_the_sum_of_its_derivatives() {
+        let (q, spin) = (Quaternion([0.8, -0.3, 0.4, 0.6]), Vec3::new(0.7, -1.1, 0.4));
+        // Bilinear in q and Ω: each derivative times its argument is the whole.
+        let rate = nalgebra::Vector4::from(q.rate(&spin));
+        assert!((q.rate_by_component(&spin) * nalgebra::Vector4::from(q.0) - rate).norm() < 1e-15);
+        assert!((q.rate_by_spin() * spin - rate).norm() < 1e-15);
     }
 }

@@ -34,6 +34,13 @@ impl SymmetricThird {
         Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     }
 
+    /// The matrix `T_ijk` for the component k, which is the contraction with a unit vector without its products by zero.
+    pub fn slice(&self, component: usize) -> Mat3 {
+        const PLACES: [[usize; 6]; 3] = [[0, 1, 2, 3, 4, 5], [1, 3, 4, 6, 7, 8], [2, 4, 5, 7, 8, 9]];
+        let [xx, xy, xz, yy, yz, zz] = PLACES[component].map(|place| self.0[place]);
+        Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+
     /// Adds `w · a⊗a⊗a` for one point `a` of weight `w`.
     pub fn add_point(&mut self, w: f64, a: &Vec3) {
         let (x, y, z) = (a.x, a.y, a.z);
@@ -52,6 +59,19 @@ impl SymmetricThird {
         ];
         for (sum, product) in self.0.iter_mut().zip(products) {
             *sum += product;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slice_is_the_contraction_with_a_unit_vector() {
+        let third = SymmetricThird(std::array::from_fn(|i| (1.0 + i as f64).sqrt()));
+        for axis in 0..3 {
+            assert_eq!(third.slice(axis), third.contract(&Vec3::ith(axis, 1.0)));
         }
     }
 }

@@ -17,6 +17,8 @@ mod friction;
 mod plan;
 mod repulsion;
 mod resultant;
+mod sums;
+mod wrench;
 
 pub use adhesion::Adhesion;
 pub use damping::Damping;
@@ -24,6 +26,7 @@ pub use friction::Friction;
 pub use plan::{Contact, ContactScratch};
 pub use repulsion::Repulsion;
 pub use resultant::{ContactLoads, ContactSlopes, RelativeMotion};
+pub use wrench::{ContactWrench, RigidMotion, Wrench, WrenchSlope};
 
 /// In which measure of area the tractions are given; on a rigid body all three are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -84,6 +87,11 @@ pub enum Action {
     Normal,
     /// −(w − (n·w) n).
     Tangential,
+}
+
+impl Action {
+    /// How many actions there are.
+    pub const COUNT: usize = 3;
 }
 
 /// One power of the gap: traction = c d^−ν × (what the action says), c = coefficient × d₀^ν.

@@ -10,9 +10,10 @@
 //! formula with moments of exponent ν + 1, or with the increment of the velocity. Source: `physics.md` §2–3.
 
 use super::plan::{Contact, ContactScratch};
+use super::sums::{SumSlopes, Sums};
 use super::{Action, LawKind};
 use crate::load::Loads;
-use crate::surface::{GapClosed, GapField, Moments, Surface};
+use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
 
 /// The support's normal and the motion relative to it.
@@ -26,23 +27,7 @@ pub struct RelativeMotion {
     pub gradient_rate: Mat3,
 }
 
-/// The sums of coefficient × moment over the terms of one law or action.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    zeroth: f64,
-    first: Vec3,
-    second: Mat3,
-}
-
 impl Sums {
-    fn add(&mut self, coefficient: f64, action: Action, moments: &Moments) {
-        self.zeroth += coefficient * moments.zeroth;
-        self.first += coefficient * moments.first;
-        if action != Action::Central {
-            self.second += coefficient * moments.second;
-        }
-    }
-
     fn central(&self, normal: &Vec3) -> Loads {
         Loads { force: self.zeroth * normal, moment: normal * self.first.transpose() }
     }
@@ -144,18 +129,7 @@ impl ContactSlopes {
         let plan = contact.derivatives();
         let moments = scratch.take(plan.requests().len());
         surface.planned_moments(field, plan, moments)?;
-        let mut values = [Sums::default(); 3];
-        let mut slopes = [[Sums::default(); 4]; 3];
-        let mut acts = [false; 3];
-        for planned in contact.terms() {
-            let term = &planned.term;
-            let action = term.action as usize;
-            acts[action] = true;
-            values[action].add(term.coefficient, term.action, &moments[planned.value_with_derivative]);
-            // ∂(d^−ν) = −ν d^−(ν+1) (δg₀ + δm·X): moments of exponent ν + 1, of the same order and of one more.
-            let slope = -term.exponent * term.coefficient;
-            add_slopes(&mut slopes[action], slope, term.action, &moments[planned.derivative]);
-        }
+        let SumSlopes { values, by_gap: slopes, acts } = SumSlopes::new(contact, moments);
         let RelativeMotion { normal, velocity, gradient_rate } = &motion;
         let mut total = Loads::default();
         let mut by_gap = [Loads::default(); 4];
@@ -190,18 +164,5 @@ impl ContactSlopes {
             change += self.viscous[1].tangential(&self.normal, velocity, gradient_rate);
         }
         change
-    }
-}
-
-/// Adds `slope` × the moments of exponent ν + 1 to the derivatives by g₀ and by the components of m.
-fn add_slopes(slopes: &mut [Sums; 4], slope: f64, action: Action, moments: &Moments) {
-    slopes[0].add(slope, action, moments);
-    for axis in 0..3 {
-        let sums = &mut slopes[axis + 1];
-        sums.zeroth += slope * moments.first[axis];
-        sums.first += slope * moments.second.column(axis);
-        if action != Action::Central {
-            sums.second += slope * moments.third.contract(&Vec3::ith(axis, 1.0));
-        }
     }
 }

@@ -35,7 +35,8 @@ pub struct SpringLoads {
     pub by_velocity: Mat3,
     /// −c l̇² [W].
     pub dashpot_power: f64,
-    point: Vec3,
+    /// The material point X (from the centre of mass) [m].
+    pub point: Vec3,
 }
 
 impl Spring {

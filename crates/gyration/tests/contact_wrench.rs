@@ -1,0 +1,138 @@
+//! The wrench of a contact on a rigid body is the general resultant seen in the body's axes, and so are its derivatives.
+#![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
+
+use gyration::contact::{
+    Adhesion, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, ContactSlopes, ContactWrench, Damping,
+    Friction, RelativeMotion, Repulsion, RigidMotion, Wrench,
+};
+use gyration::load::Loads;
+use gyration::surface::{GapField, Surface};
+use gyration::tensor::{Mat3, Vec3, cross_matrix};
+use proptest::prelude::*;
+
+/// A body of rotation R near the plane with normal n.
+#[derive(Debug)]
+struct Scene {
+    contact: Contact,
+    surface: Surface,
+    rotation: Mat3,
+    normal: Vec3,
+    height: f64,
+    /// w₀ and Ω.
+    velocity: Vec3,
+    spin: Vec3,
+}
+
+impl Scene {
+    fn field(&self) -> GapField {
+        GapField { height: self.height, direction: self.rotation.tr_mul(&self.normal) }
+    }
+
+    fn relative(&self) -> RelativeMotion {
+        let gradient_rate = self.rotation * cross_matrix(&self.spin);
+        RelativeMotion { normal: self.normal, velocity: self.velocity, gradient_rate }
+    }
+
+    fn wrench(&self) -> ContactWrench {
+        let velocity = self.rotation.tr_mul(&self.velocity);
+        let motion = RigidMotion { normal: self.field().direction, velocity, spin: self.spin };
+        let mut scratch = ContactScratch::default();
+        ContactWrench::integrate(&self.contact, &self.surface, &self.field(), &motion, &mut scratch).unwrap()
+    }
+
+    fn slopes(&self) -> ContactSlopes {
+        let mut scratch = ContactScratch::default();
+        ContactSlopes::integrate(&self.contact, &self.surface, &self.field(), self.relative(), &mut scratch).unwrap()
+    }
+
+    /// Rᵀf and the torque of RᵀM.
+    fn seen(&self, loads: &Loads) -> Wrench {
+        Wrench { force: self.rotation.tr_mul(&loads.force), torque: loads.body_torque(&self.rotation) }
+    }
+}
+
+fn contact(exponents: [f64; 3]) -> Contact {
+    let [repulsion, damping, friction] = exponents;
+    let laws = vec![
+        ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent: repulsion, reference_gap: 0.3 }),
+        ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4 }),
+        ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2 }),
+        ContactLaw::Adhesion(Adhesion {
+            beta: 1.3,
+            attractive_exponent: 2.0,
+            repulsive_exponent: 4.5,
+            reference_gap: 0.25,
+        }),
+    ];
+    Contact::new(0, AreaMeasure::default(), laws)
+}
+
+fn vector() -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(-1.0..1.0).prop_map(|x: [f64; 3]| Vec3::from(x))
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let exponents = prop::array::uniform3(prop_oneof![1.0..7.0, (1..7).prop_map(f64::from)]);
+    (exponents, prop::array::uniform4(vector()), any::<bool>()).prop_map(
+        |(exponents, [turn, n, velocity, spin], ball)| {
+            let surface = if ball { Surface::sphere(0.5) } else { Surface::cuboid(&Vec3::new(0.6, 0.8, 0.4)) };
+            let normal = (n + Vec3::new(0.0, 0.0, 2.0)).normalize();
+            let rotation = *nalgebra::Rotation3::new(3.0 * turn).matrix();
+            Scene { contact: contact(exponents), surface, rotation, normal, height: 0.75, velocity, spin }
+        },
+    )
+}
+
+/// The difference as a fraction of the sizes that enter: rounding of a few dozen operations.
+fn differ(a: &Wrench, b: &Wrench, scale: f64) -> f64 {
+    ((a.force - b.force).norm() + (a.torque - b.torque).norm()) / scale
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn wrench_is_the_resultant_seen_in_the_body(scene in scene()) {
+        let mut scratch = ContactScratch::default();
+        let loads =
+            ContactLoads::integrate(&scene.contact, &scene.surface, &scene.field(), scene.relative(), &mut scratch);
+        let seen = scene.seen(&loads.unwrap().total());
+        let wrench = scene.wrench().wrench;
+        let scale = seen.force.norm() + seen.torque.norm() + 1.0;
+        prop_assert!(differ(&wrench, &seen, scale) < 1e-13);
+        prop_assert!(differ(&wrench, &scene.seen(&scene.slopes().total), scale) < 1e-13);
+    }
+
+    #[test]
+    fn slopes_of_the_wrench_are_those_of_the_resultant(scene in scene()) {
+        let (wrench, slopes) = (scene.wrench(), scene.slopes());
+        let scale = wrench.by_height.force.norm() + wrench.by_normal.force.norm() + 1.0;
+        let by_height = scene.seen(&slopes.along_gap(1.0, &Vec3::zeros()));
+        prop_assert!(differ(&wrench.by_height, &by_height, scale) < 1e-13);
+        for axis in 0..3 {
+            let unit = Vec3::ith(axis, 1.0);
+            let column = |slope: &gyration::contact::WrenchSlope| Wrench {
+                force: slope.force.column(axis).into(),
+                torque: slope.torque.column(axis).into(),
+            };
+            let by_velocity = scene.seen(&slopes.along_velocity(&(scene.rotation * unit), &Mat3::zeros()));
+            prop_assert!(differ(&column(&wrench.by_velocity), &by_velocity, scale) < 1e-13);
+            let spinning = scene.rotation * cross_matrix(&unit);
+            let by_spin = scene.seen(&slopes.along_velocity(&Vec3::zeros(), &spinning));
+            prop_assert!(differ(&column(&wrench.by_spin), &by_spin, scale) < 1e-13);
+        }
+    }
+
+    #[test]
+    fn resistance_of_a_contact_is_symmetric_and_dissipates(scene in scene()) {
+        let wrench = scene.wrench();
+        let (velocity, spin) = (wrench.by_velocity, wrench.by_spin);
+        let scale = velocity.force.norm() + spin.torque.norm() + spin.force.norm();
+        prop_assert!((velocity.force - velocity.force.transpose()).norm() < 1e-14 * scale);
+        prop_assert!((velocity.torque - spin.force.transpose()).norm() < 1e-14 * scale);
+        prop_assert!((spin.torque - spin.torque.transpose()).norm() < 1e-13 * scale);
+        let (v, w) = (scene.velocity, scene.spin);
+        let power = v.dot(&(velocity.force * v + spin.force * w)) + w.dot(&(velocity.torque * v + spin.torque * w));
+        prop_assert!(power <= 0.0, "{power} W");
+    }
+}
