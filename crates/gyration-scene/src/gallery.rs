@@ -4,7 +4,13 @@
 static SCENES: &[(&str, &str)] = &[
     ("dice", include_str!("../../../scenes/dice.toml")),
     ("bounce", include_str!("../../../scenes/bounce.toml")),
+    ("bounce-flat", include_str!("../../../scenes/bounce-flat.toml")),
+    ("bounce-tilted", include_str!("../../../scenes/bounce-tilted.toml")),
     ("slide", include_str!("../../../scenes/slide.toml")),
+    ("roll", include_str!("../../../scenes/roll.toml")),
+    ("rock", include_str!("../../../scenes/rock.toml")),
+    ("adhere", include_str!("../../../scenes/adhere.toml")),
+    ("shaker", include_str!("../../../scenes/shaker.toml")),
     ("top", include_str!("../../../scenes/top.toml")),
     ("top-slow", include_str!("../../../scenes/top-slow.toml")),
     ("top-falling", include_str!("../../../scenes/top-falling.toml")),
