@@ -1,7 +1,7 @@
 //! Which stepper advances further for its cost.
 //!
-//!   explicit → implicit:  h|λ| > 5 or −h Re λ > 2 in 10 of the last 16 steps (the boundary of stability is near 6)
-//!   implicit → explicit:  min(3/ρ(J), h_max)/12 > 2 h/cost in 6 of the last 8 steps
+//!   explicit → implicit:  h|λ| > 3.7 or −h Re λ > 1.5 in 10 of the last 16 steps (the boundary of stability is at 4.6)
+//!   implicit → explicit:  min(2.2/ρ(J), h_max)/17 > 2 h/cost in 6 of the last 8 steps
 //!
 //! An explicit method on a stiff problem is held at the boundary of stability by its error control, whatever the
 //! accuracy asked for; that is seen from the last two stages at no cost. Back, the spectral radius ρ of the known
@@ -15,13 +15,13 @@ use crate::report::{Statistics, Stepper};
 use crate::system::Layout;
 
 /// h ρ(J) that an explicit step can be expected to reach, between what accuracy and what stability allow.
-pub(crate) const EXPLICIT_REACH: f64 = 3.0;
+pub(crate) const EXPLICIT_REACH: f64 = 2.2;
 /// Explicit steps that vote, and the votes that decide.
 const EXPLICIT_VOTES: (u32, u32) = (16, 10);
 /// Implicit steps that vote, and the votes that decide.
 const IMPLICIT_VOTES: (u32, u32) = (8, 6);
 /// Evaluations of an explicit step.
-const EXPLICIT_COST: f64 = 12.0;
+const EXPLICIT_COST: f64 = 17.0;
 /// An analytic Jacobian in evaluations: it shares the geometry with the rates and adds a few matrices to it.
 const JACOBIAN_COST: f64 = 4.0;
 /// Factorizing the real and the complex matrix of a body of a dozen unknowns, and a few solutions, in evaluations.

@@ -1,11 +1,13 @@
-//! The next step size, from the errors of the last two steps.
+//! The next step size, from the errors and sizes of the last two steps.
 //!
-//!   explicit, proportional and integral:  h' = h · 0.9 ‖e‖^−α ‖e_old‖^β,   β = 0.04, α = 1/8 − β/5
-//!   implicit, predictive (Gustafsson):    h' = h · min( φ ‖e‖^−¼, φ (h/h_old) (‖e_old‖/‖e‖²)^¼ )
+//!   explicit, predictive:              h' = h · 0.9 ‖e‖^−⅛ · (h/h_old) (‖e_old‖/‖e‖)^⅛
+//!   implicit, predictive (Gustafsson): h' = h · min( φ ‖e‖^−¼, φ (h/h_old) (‖e_old‖/‖e‖²)^¼ )
 //!
-//! with φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations. Both are bounded, and a step that follows a
-//! rejection does not grow. Leaving the domain says nothing on accuracy and leaves the memory of errors alone.
-//! Source: Hairer, Nørsett, Wanner I, §II.4, II.10; Hairer, Wanner II, §IV.2, IV.8; codes dop853.f and radau5.f.
+//! with φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations. Both go on with the trend: towards a contact
+//! the steps that the error allows shrink by a nearly constant factor from one to the next, and a law that looks at the
+//! last error only would be rejected every other time. Both are bounded, and a step that follows a rejection does not
+//! grow. Leaving the domain says nothing on accuracy and leaves the memory of errors alone.
+//! Source: Gustafsson, *ACM Trans. Math. Softw.* 20 (1994) 496; Hairer, Wanner II, §IV.2, IV.8; code radau5.f.
 
 use crate::newton::MAX_ITERATIONS;
 use crate::norm::norm;
@@ -14,8 +16,12 @@ use crate::system::{Context, Point, System};
 
 /// Aim below the tolerance by this factor, so that few steps are rejected.
 const SAFETY: f64 = 0.9;
-/// The exponent of the older error, for a smoother sequence of steps.
-const PI_EXPONENT: f64 = 0.04;
+/// One over the order of the explicit error estimate.
+const EXPLICIT_EXPONENT: f64 = 1.0 / 8.0;
+/// The factors by which an explicit step may change.
+const EXPLICIT_FACTORS: (f64, f64) = (1.0 / 3.0, 6.0);
+/// Errors below this are taken for it: a step all but free of error says little on the trend.
+const EXPLICIT_LEAST: f64 = 1e-4;
 /// Shrinking after leaving the domain: the boundary is somewhere within the attempt, the error says nothing of where.
 const DOMAIN_FACTOR: f64 = 0.25;
 /// Shrinking after Newton's method failed.
@@ -26,6 +32,8 @@ const NEWTON_FACTOR: f64 = 0.5;
 pub(crate) struct Control {
     /// The error of the last explicit step; 0 if there is none.
     pub explicit_error: f64,
+    /// The size of the last explicit step.
+    pub explicit_step: f64,
     /// The error of the last implicit step.
     pub implicit_error: f64,
     /// The size of the last implicit step; 0 if there is none.
@@ -39,21 +47,23 @@ impl Control {
             (Cause::Inadmissible(_) | Cause::NotFinite { .. }, _) => DOMAIN_FACTOR,
             (Cause::Newton, _) => NEWTON_FACTOR,
             (Cause::Error { norm, .. }, Stepper::Explicit) => {
-                let exponent = 1.0 / 8.0 - 0.2 * PI_EXPONENT;
-                at_least(SAFETY * norm.powf(-exponent), 1.0 / 3.0)
+                at_least(SAFETY * norm.powf(-EXPLICIT_EXPONENT), EXPLICIT_FACTORS.0)
             }
             (Cause::Error { norm, .. }, Stepper::Implicit) => at_least(SAFETY * norm.powf(-0.25), 1.0 / 8.0),
         }
     }
 
-    /// The factor on the step after an accepted explicit one.
-    pub fn after_explicit(&mut self, error: f64, rejected: bool) -> f64 {
-        let exponent = 1.0 / 8.0 - 0.2 * PI_EXPONENT;
-        let old = if self.explicit_error > 0.0 { self.explicit_error } else { 1e-4 };
+    /// The factor on the step after an accepted explicit one of size h.
+    pub fn after_explicit(&mut self, error: f64, h: f64, rejected: bool) -> f64 {
         // The bound below keeps a step without any error from exploding the next one.
-        let factor = SAFETY * error.max(1e-10).powf(-exponent) * old.powf(PI_EXPONENT);
-        self.explicit_error = error.max(1e-4);
-        factor.clamp(1.0 / 3.0, if rejected { 1.0 } else { 6.0 })
+        let mut factor = SAFETY * error.max(1e-10).powf(-EXPLICIT_EXPONENT);
+        let error = error.max(EXPLICIT_LEAST);
+        if self.explicit_error > 0.0 {
+            factor *= (self.explicit_error / error).powf(EXPLICIT_EXPONENT) * h / self.explicit_step;
+        }
+        (self.explicit_error, self.explicit_step) = (error, h);
+        let (least, most) = EXPLICIT_FACTORS;
+        factor.clamp(least, if rejected { 1.0 } else { most })
     }
 
     /// The factor on the step after an accepted implicit one of size h with so many Newton iterations.

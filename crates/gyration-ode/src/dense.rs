@@ -1,17 +1,14 @@
 //! The solution between the ends of the last step.
 //!
-//!   explicit:  u(θ) = u₀ + θ(Δ + θ̄(B + θ(C + θ̄(D₄ + θ(D₅ + θ̄(D₆ + θ D₇)))))),   θ̄ = 1 − θ, order 7
-//!              Δ = u₁ − u₀,  B = h f₀ − Δ,  C = Δ − h f₁ − B
-//!   implicit:  u(θ) = u₀ + Σ ℓ_i(θ) z_i, the collocation polynomial, order 3
+//!   explicit:  u(θ) = u₀ + θ(u₁ − u₀) + θ(1 − θ) h Σ r_j(θ) k_j, of order 8
+//!   implicit:  u(θ) = u₀ + Σ ℓ_i(θ) z_i, the collocation polynomial, of order 3
 //!
-//! The explicit form is Hermite's cubic for D = 0: what is had without more evaluations, of order 3. Both take the
-//! exact values at the ends, the projected state at θ = 1. In between they do not lie on the manifold; project if it
-//! matters. Source: Hairer, Nørsett, Wanner I, §II.6; Hairer, Wanner II, §IV.8.
+//! Neither needs an evaluation. Both take the exact values at the ends, the projected state at θ = 1. In between they
+//! do not lie on the manifold; project if it matters. Source: as of `prince`; Hairer, Wanner II, §IV.8.
 
 use crate::integrator::Integrator;
 use crate::radau::basis;
-use crate::report::Statistics;
-use crate::system::{Context, System};
+use crate::system::System;
 
 /// What the last accepted step has left to interpolate with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,29 +16,22 @@ pub(crate) enum LastStep {
     /// No step yet, or none since a checkpoint or an attempt that failed.
     #[default]
     None,
-    /// Explicit, ends only: Hermite's cubic.
-    Hermite,
-    /// Explicit, with the coefficients of order 7.
-    Extended,
-    /// Implicit.
+    /// Explicit: the rates of its stages.
+    Explicit,
+    /// Implicit: the collocation polynomial.
     Collocation,
 }
 
 impl Integrator {
-    /// Readies `interpolate` for its full accuracy; returns the order of the interpolant.
+    /// The order of the interpolant of the last step; 0 without one.
     ///
-    /// An explicit step needs three more evaluations for order 7; without them, or where one leaves the domain, the
-    /// order is 3. Neither later steps nor the checkpoint nor `statistics` depend on whether this was called.
-    pub fn prepare_dense<S: System>(&mut self, system: &mut S) -> u32 {
-        if self.last == LastStep::Hermite {
-            let mut uncounted = Statistics::default();
-            let mut context = Context { system, layout: &self.layout, statistics: &mut uncounted };
-            let h = self.last_size;
-            if self.explicit.extend(&mut context, &self.other, h, &self.current).is_ok() {
-                self.last = LastStep::Extended;
-            }
+    /// Nothing has to be prepared for either stepper; the system is asked for in case a method to come needs it.
+    pub fn prepare_dense<S: System>(&mut self, _system: &mut S) -> u32 {
+        match self.last {
+            LastStep::None => 0,
+            LastStep::Explicit => 8,
+            LastStep::Collocation => 3,
         }
-        if self.last == LastStep::Extended { 7 } else { 3 }
     }
 
     /// The solution at a time of the last step, y and w; outside of it, or without one, the nearest end.
@@ -66,31 +56,16 @@ impl Integrator {
             return;
         }
         let theta = (t - start.t) / self.last_size;
-        let outputs = y.iter_mut().chain(w.iter_mut()).enumerate();
         if self.last == LastStep::Collocation {
             let width = start.u.len();
             let (weights, z) = (basis(theta), &self.implicit.stages.collocation);
-            for (i, value) in outputs {
+            for (i, value) in y.iter_mut().chain(w.iter_mut()).enumerate() {
                 *value = start.u[i] + weights[0] * z[i] + weights[1] * z[width + i] + weights[2] * z[2 * width + i];
             }
         } else {
-            for (i, value) in outputs {
-                *value = self.explicit_value(i, theta);
-            }
+            self.explicit.interpolate(start, end, self.last_size, theta, |i, value| {
+                if i < n { y[i] = value } else { w[i - n] = value }
+            });
         }
-    }
-
-    fn explicit_value(&self, i: usize, theta: f64) -> f64 {
-        let (rest, width, h) = (1.0 - theta, self.other.u.len(), self.last_size);
-        let change = self.current.u[i] - self.other.u[i];
-        let bend = h * self.explicit.first_rate()[i] - change;
-        let twist = change - h * self.current.rate[i] - bend;
-        let d = &self.explicit.dense;
-        let high = if self.last == LastStep::Extended {
-            d[i] + theta * (d[width + i] + rest * (d[2 * width + i] + theta * d[3 * width + i]))
-        } else {
-            0.0
-        };
-        self.other.u[i] + theta * (change + rest * (bend + theta * (twist + rest * high)))
     }
 }

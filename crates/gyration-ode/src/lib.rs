@@ -1,7 +1,7 @@
 //! Error-controlled one-step integrators with dense output and events. No mechanics: it can integrate a pendulum.
 //!
 //! A [`System`] says what dy/dt and dw/dt are, where its domain ends, what error it allows and how to return to its
-//! manifold. An [`Integrator`] makes accepted steps, one a call, by an explicit pair of order 8, by an implicit
+//! manifold. An [`Integrator`] makes accepted steps, one a call, by an explicit pair of order 9, by an implicit
 //! L-stable method of order 5 with the exact Jacobian, or by whichever of them advances further for its cost. Between
 //! the ends of a step it interpolates; [`find_crossing`] looks there for events. Its [`Memory`] is a checkpoint.
 //!
@@ -9,7 +9,7 @@
 //! |---|---|
 //! | what a system must say | `system` |
 //! | one accepted step | `integrator`, `step` |
-//! | Dormand–Prince 8(5,3) | `explicit`, `dop853` |
+//! | Prince's pair 9(7) | `explicit`, `prince` |
 //! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear` |
 //! | step sizes, norms | `control`, `norm` |
 //! | which of the two | `auto` |
@@ -19,7 +19,6 @@
 mod auto;
 mod control;
 mod dense;
-mod dop853;
 mod events;
 mod explicit;
 mod implicit;
@@ -28,6 +27,7 @@ mod linear;
 mod memory;
 mod newton;
 mod norm;
+mod prince;
 mod radau;
 mod report;
 mod step;

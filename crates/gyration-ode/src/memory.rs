@@ -10,11 +10,11 @@ use crate::control::Control;
 use crate::report::{Statistics, Stepper};
 
 /// The version of the layout of the numbers.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 /// The integers before and besides the vectors.
 const INTEGERS: usize = 18;
 /// The reals besides the vectors.
-const REALS: usize = 9;
+const REALS: usize = 10;
 
 /// A checkpoint as two vectors of plain numbers, to be stored without loss.
 ///
@@ -116,6 +116,7 @@ pub(crate) fn encode(progress: &Progress, t: f64, u: &[f64], rate: &[f64], collo
     reals.extend_from_slice(&[
         progress.step,
         control.explicit_error,
+        control.explicit_step,
         control.implicit_error,
         control.implicit_step,
         progress.contraction,
@@ -157,9 +158,14 @@ pub(crate) fn decode(memory: &Memory) -> Result<(Progress, Vectors), MemoryError
         started: ints[3] != 0,
         step: rest[0],
         stepper: if ints[4] != 0 { Stepper::Implicit } else { Stepper::Explicit },
-        control: Control { explicit_error: rest[1], implicit_error: rest[2], implicit_step: rest[3] },
-        contraction: rest[4],
-        collocation_step: rest[5],
+        control: Control {
+            explicit_error: rest[1],
+            explicit_step: rest[2],
+            implicit_error: rest[3],
+            implicit_step: rest[4],
+        },
+        contraction: rest[5],
+        collocation_step: rest[6],
         switch: Switch { votes: ints[5], stay: ints[6], bar: ints[7], patience: ints[8] },
         statistics: statistics(ints, rest),
     };
@@ -177,7 +183,7 @@ fn statistics(ints: &[u64], rest: &[f64]) -> Statistics {
         jacobians: ints[15],
         factorizations: ints[16],
         switches: ints[17],
-        smallest_step: rest[6],
-        largest_step: rest[7],
+        smallest_step: rest[7],
+        largest_step: rest[8],
     }
 }

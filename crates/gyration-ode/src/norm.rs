@@ -28,46 +28,20 @@ impl Norm {
     }
 }
 
-/// The norm of a vector over the groups, by the smaller of two scales.
+/// The norm of a vector over the groups, by the smaller of two scales; a NaN is the largest of all.
 pub(crate) fn norm(layout: &Layout, error: &[f64], start: &[f64], end: &[f64]) -> Norm {
-    worst(layout, |i| error[i] / start[i].min(end[i]), |square, _, count| (square / count).sqrt(), |_| 0.0)
-}
-
-/// The norm of the explicit pair: e₅²/√(e₅² + 0.01 e₃²) in each group, which behaves like an error of order 7.
-pub(crate) fn embedded_norm(layout: &Layout, fifth: &[f64], third: &[f64], start: &[f64], end: &[f64]) -> Norm {
-    let scale = |i: usize| start[i].min(end[i]);
-    worst(
-        layout,
-        |i| fifth[i] / scale(i),
-        |square5, square3, count| {
-            let both = square5 + 0.01 * square3;
-            if both == 0.0 { 0.0 } else { square5 / (both * count).sqrt() }
-        },
-        |i| third[i] / scale(i),
-    )
-}
-
-/// The largest group value, `size` of the sums of squares of `first` and `second`; a NaN is the largest of all.
-fn worst(
-    layout: &Layout,
-    first: impl Fn(usize) -> f64,
-    size: impl Fn(f64, f64, f64) -> f64,
-    second: impl Fn(usize) -> f64,
-) -> Norm {
     let mut result = Norm { value: 0.0, component: 0 };
     for group in layout.groups.iter().filter(|group| !group.is_empty()) {
-        let (mut squares, mut others) = (0.0, 0.0);
-        let (mut component, mut largest) = (group.start, 0.0);
+        let (mut squares, mut component, mut largest) = (0.0, group.start, 0.0);
         for i in group.clone() {
-            let relative = first(i).abs();
+            let relative = (error[i] / start[i].min(end[i])).abs();
             squares += relative * relative;
-            others += second(i).powi(2);
             // Written so that a NaN is taken, and kept.
             if relative > largest || relative.is_nan() {
                 (component, largest) = (i, relative);
             }
         }
-        let value = size(squares, others, group.len() as f64);
+        let value = (squares / group.len() as f64).sqrt();
         if value > result.value || value.is_nan() {
             result = Norm { value, component };
         }
@@ -103,10 +77,9 @@ mod tests {
             let size = norm(&layout(), &error, &ones, &ones);
             assert!(size.value.is_nan() && error[size.component].is_nan());
             assert!(size.allow::<()>().is_err());
-            assert!(embedded_norm(&layout(), &error, &ones, &ones, &ones).value.is_nan());
         }
         // A freed component is never wrong; nothing at all is no error.
         assert_eq!(norm(&layout(), &[1e9, 0.0, 0.0, 0.0], &[f64::INFINITY; 4], &[f64::INFINITY; 4]).value, 0.0);
-        assert_eq!(embedded_norm(&layout(), &[0.0; 4], &[0.0; 4], &ones, &ones).value, 0.0);
+        assert_eq!(norm(&layout(), &[0.0; 4], &ones, &ones).value, 0.0);
     }
 }

@@ -6,7 +6,7 @@ pub enum Method {
     /// Explicit or implicit, whichever advances further for its cost; decided anew as the solution changes.
     #[default]
     Auto,
-    /// The explicit pair of order 8 only.
+    /// The explicit pair of order 9 only.
     Explicit,
     /// The implicit method of order 5 only.
     Implicit,
@@ -15,7 +15,7 @@ pub enum Method {
 /// The two steppers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stepper {
-    /// Dormand–Prince 8(5,3).
+    /// Prince's pair 9(7).
     Explicit,
     /// Radau IIA of order 5.
     Implicit,
@@ -90,7 +90,7 @@ pub struct Statistics {
     pub rejected_domain: u64,
     /// Attempts whose nonlinear equations were not solved.
     pub newton_failures: u64,
-    /// Evaluations of the rates, those for dense output aside.
+    /// Evaluations of the rates.
     pub rate_evaluations: u64,
     /// Evaluations of the Jacobian.
     pub jacobians: u64,

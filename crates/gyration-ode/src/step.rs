@@ -205,7 +205,8 @@ impl Integrator {
             self.last = LastStep::Collocation;
             self.progress.collocation_step = attempt.h;
         } else {
-            self.last = LastStep::Hermite;
+            self.explicit.accept(&self.other);
+            self.last = LastStep::Explicit;
             self.progress.collocation_step = 0.0;
         }
         if self.options.method == Method::Auto {
@@ -229,7 +230,7 @@ impl Integrator {
         let progress = &mut self.progress;
         let before = progress.control;
         let factor = match trial.convergence {
-            None => progress.control.after_explicit(trial.error.value, rejected),
+            None => progress.control.after_explicit(trial.error.value, attempt.h, rejected),
             Some(Convergence { iterations, contraction }) => {
                 progress.contraction = contraction;
                 progress.control.after_implicit(trial.error.value, attempt.h, iterations, rejected)

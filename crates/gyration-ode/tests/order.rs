@@ -39,17 +39,18 @@ fn errors(method: Method, n: usize, atol: f64) -> (f64, f64) {
 }
 
 #[test]
-fn explicit_pair_has_order_eight_and_dense_output_seven() {
+fn explicit_pair_has_order_nine_and_dense_output_eight() {
     // Any tolerance that is never reached: explicit steps do not depend on it.
     let both: Vec<_> = [3, 6, 12, 24].iter().map(|n| errors(Method::Explicit, *n, 1e9)).collect();
     let ends: Vec<f64> = both.iter().map(|b| b.0).collect();
     let between: Vec<f64> = both.iter().map(|b| b.1).collect();
-    println!("DOP853: errors {}, slopes {:.2?}", short(&ends), slopes(&ends));
-    println!("DOP853 dense: errors {}, slopes {:.2?}", short(&between), slopes(&between));
-    // A slope between two sizes differs from the order by O(h): half an order is allowed on the last.
-    assert!((7.5..9.5).contains(slopes(&ends).last().unwrap()));
-    // The interpolant is of local order 8, which only a step's own error shows; it is never worse than global order 7.
-    assert!((6.8..9.0).contains(slopes(&between).last().unwrap()));
+    println!("Prince 9(7): errors {}, slopes {:.2?}", short(&ends), slopes(&ends));
+    println!("Prince 9(7) dense: errors {}, slopes {:.2?}", short(&between), slopes(&between));
+    // A slope between two sizes differs from the order by O(h): half an order is allowed on the last but one, beyond
+    // which the error of the ends meets rounding.
+    assert!((8.5..10.5).contains(&slopes(&ends)[1]));
+    // The interpolant is of local order 9, which only a step's own error shows; it is never worse than global order 8.
+    assert!((7.8..10.0).contains(&slopes(&between)[1]));
 }
 
 #[test]
@@ -75,9 +76,9 @@ fn quadratures_have_the_order_of_the_method() {
     let state = 0.5 * (end.cos() + end.sin() + (-end).exp());
     let decays = 0.5 * (1.0 - (-2.0 * end).exp()) + 2.0 * (1.0 - (-end).exp() * end.cos());
     let quadrature = 0.25 * (end + end.sin().powi(2) + decays);
-    for (method, sizes, order) in [(Method::Explicit, [2, 4, 8], 8.0), (Method::Implicit, [4, 8, 16], 5.0)] {
+    for (method, counts, order) in [(Method::Explicit, [3, 6, 12], 9.0), (Method::Implicit, [20, 40, 80], 5.0)] {
         let (mut states, mut quadratures) = (Vec::new(), Vec::new());
-        for n in sizes {
+        for steps in counts {
             let mut problem = Problem::general(
                 1,
                 1,
@@ -88,15 +89,16 @@ fn quadratures_have_the_order_of_the_method() {
                 |_, _, blocks| blocks[0][(0, 0)] = -1.0,
             )
             .tolerances(0.0, 1e9);
-            let reached = common::run(&mut problem, &[1.0], &[0.0], (0.0, end), fixed(method, 1.0 / f64::from(n)));
-            assert_eq!(reached.statistics().accepted(), 5 * n as u64);
+            let reached = common::run(&mut problem, &[1.0], &[0.0], (0.0, end), fixed(method, end / f64::from(steps)));
+            assert_eq!(reached.statistics().accepted(), u64::from(steps as u32));
             states.push((reached.state()[0] - state).abs());
             quadratures.push((reached.quadratures()[0] - quadrature).abs());
         }
         println!("{method:?}: y {} {:.2?}", short(&states), slopes(&states));
         println!("{method:?}: w {} {:.2?}", short(&quadratures), slopes(&quadratures));
         for slope in [slopes(&states)[1], slopes(&quadratures)[1]] {
-            assert!((order - 0.6..order + 1.0).contains(&slope), "{slope}");
+            // From below: with steps as long as these the explicit pair converges faster than its order.
+            assert!(slope > order - 0.6, "{slope}");
         }
     }
 }
