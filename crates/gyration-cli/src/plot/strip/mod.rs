@@ -20,8 +20,8 @@ use view::{Motion, View};
 const PROBES: usize = 400;
 /// Times in a picture for all of them: as many of these as leave the bodies room.
 const STROBE_TIMES: [usize; 4] = [16, 12, 9, 7];
-/// Pictures of one time each.
-const FRAMES: usize = 10;
+/// Pictures of one time each: a number that fills rows of many lengths.
+const FRAMES: usize = 12;
 /// Bodies drawn at most.
 const MOST_BODIES: usize = 60;
 /// A centre that has moved less than this fraction of the size has not moved to the eye.

@@ -182,7 +182,8 @@ fn draw_frames(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect
     let row_height = |columns: usize| cell_height(columns).min(MOST_HEIGHT) + HATCH + 2.0 * TIME_SIZE;
     let height = |columns: usize| count.div_ceil(columns) as f64 * row_height(columns);
     let miss = |columns: usize| (height(columns) - FRAMES_HEIGHT).abs();
-    let columns = (1..=count).min_by(|a, b| miss(*a).total_cmp(&miss(*b))).unwrap_or(1);
+    let full = |columns: &usize| count.is_multiple_of(*columns) || count < super::FRAMES;
+    let columns = (1..=count).filter(full).min_by(|a, b| miss(*a).total_cmp(&miss(*b))).unwrap_or(1);
     let cell_width = pitch(columns) - GUTTER;
     let scale = (cell_width / bounds.width()).min(MOST_HEIGHT / bounds.height());
     let size = [scale * bounds.width(), scale * bounds.height()];
@@ -240,6 +241,9 @@ fn draw_body(body: &Silhouette, strength: f64, map: &Map, drawing: &mut Drawing,
         drawing.lines(placed(&body.front), Stroke::solid(ink, 0.6 * width), Some(frame));
     }
     drawing.area(hull, None, Some(Stroke::solid(ink, width)), Some(frame));
+    if body.lopsided && extent > LEAST_EDGED {
+        drawing.dot(map.place(body.center), (0.03 * extent).clamp(0.8, 2.2), ink, Some(frame));
+    }
 }
 
 /// The supports, behind everything else.

@@ -21,7 +21,12 @@ pub struct Silhouette {
     pub behind: Vec<Vec<Point>>,
     /// The centre of mass.
     pub center: Point,
+    /// Whether the centre of mass is not in the middle of the body, so that it is worth a mark.
+    pub lopsided: bool,
 }
+
+/// A centre of mass this far from the middle of the bounding box is off it, as a fraction of the size.
+const OFF_MIDDLE: f64 = 0.02;
 
 impl Silhouette {
     /// The body of this index in a pose.
@@ -32,8 +37,14 @@ impl Silhouette {
         let depth = |point: &Vec3| view.depth(&(pose.gradient * point));
         let points = seen(&body.outline.points);
         let depths: Vec<f64> = body.outline.points.iter().map(depth).collect();
-        let mut this =
-            Self { body: index, hull, front: Vec::new(), behind: Vec::new(), center: view.project(&pose.position) };
+        let mut this = Self {
+            body: index,
+            hull,
+            front: Vec::new(),
+            behind: Vec::new(),
+            center: view.project(&pose.position),
+            lopsided: is_lopsided(body),
+        };
         for line in &body.outline.polylines {
             this.add_line(line, &points, &depths, body.size);
         }
@@ -73,6 +84,14 @@ impl Silhouette {
         let edges = self.front.iter().chain(&self.behind).flatten();
         self.hull.iter().chain(edges).chain([&self.center])
     }
+}
+
+/// Whether the centre of mass, the origin of the outline, is off the middle.
+fn is_lopsided(body: &BodyPicture) -> bool {
+    let start = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    let (low, high) = body.silhouette.iter().fold(start, |(low, high), point| (low.inf(point), high.sup(point)));
+    // Without points the middle is not a number, and nothing is off it.
+    (0.5 * (low + high)).norm() > OFF_MIDDLE * body.size
 }
 
 fn cross(o: Point, a: Point, b: Point) -> f64 {
@@ -137,6 +156,16 @@ mod tests {
         let seen = Silhouette::of(0, &cube(), &Pose { position: Vec3::zeros(), gradient }, &view);
         assert_eq!(seen.hull.len(), 6);
         assert_eq!((seen.front.len(), seen.behind.len()), (9, 3));
+    }
+
+    #[test]
+    fn a_centre_of_mass_off_the_middle_is_marked() {
+        let mut body = cube();
+        assert!(!is_lopsided(&body));
+        body.silhouette.iter_mut().for_each(|point| point.z += 0.1);
+        assert!(is_lopsided(&body));
+        body.silhouette.clear();
+        assert!(!is_lopsided(&body));
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! The upward direction w is against gravity; the level direction u is, in this order, the one in which the centres
 //! travel most, that of the fall line of an inclined support, that in which turning is seen best (across the mean axis
-//! of rotation), or x. The view is level, unless a body spins about the vertical on the spot, which nobody sees from the side:
-//! such a motion is looked at from above, by the angle e,
+//! of rotation), or x. The view is level, unless the bodies stay on the spot and turn about no one level axis, as tops and
+//! coins do, which nobody sees from the side: such a motion is looked at from above, by the angle e,
 //!
 //!   v' = v cos e + w sin e,   w' = w cos e − v sin e
 
@@ -25,6 +25,9 @@ pub struct View {
 
 /// How far above the level a spinning body is looked at from [rad].
 const RAISED: f64 = 0.42;
+
+/// The part of all turning that must be about one level axis for a view along it.
+const ONE_AXIS: f64 = 0.7;
 
 /// What the choice of a view depends on.
 #[derive(Debug, Clone, Default)]
@@ -62,10 +65,11 @@ impl View {
             .normalize();
         let right = if right[right.iamax()] < 0.0 { -right } else { right };
         let level_view = Self { right, up, toward: right.cross(&up), raised: false };
-        let spinning: f64 = motion.turns.iter().map(|turn| turn.dot(&up).powi(2)).sum();
+        let all: f64 = motion.turns.iter().map(Vec3::norm_squared).sum();
+        let about_one_axis = turning.symmetric_eigenvalues().max() > ONE_AXIS * all;
         // On the spot: within two thirds of the size around the mean, root mean square.
         let still = spread.trace() < (0.67 * motion.size).powi(2);
-        if still && spinning > turning.trace().max(1e-4) { level_view.raised() } else { level_view }
+        if still && all > 1e-4 && !about_one_axis { level_view.raised() } else { level_view }
     }
 
     /// The same from above.
@@ -128,6 +132,8 @@ mod tests {
         let view = View::of(&spinning, Vec3::z());
         assert!(view.raised && view.toward.z > 0.3 && view.up.z > 0.9);
         assert!((view.right.cross(&view.up) - view.toward).norm() < 1e-15);
+        let rolling = Motion { turns: vec![0.3 * Vec3::x(), 0.3 * Vec3::y()], ..spinning.clone() };
+        assert!(View::of(&rolling, Vec3::z()).raised);
         let traveling = Motion { paths: vec![vec![Vec3::zeros(), Vec3::x()]], ..spinning };
         assert!(!View::of(&traveling, Vec3::z()).raised);
     }
