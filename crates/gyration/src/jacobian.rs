@@ -11,7 +11,7 @@
 mod rigid_slopes;
 
 use crate::body::{Body, BodyKind, RigidInertia};
-use crate::contact::{ContactWrench, RigidMotion};
+use crate::contact::ContactWrench;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
 use crate::rates::{Meeting, Workspace, for_each_contact, spring_loads};
@@ -59,9 +59,8 @@ fn rigid_slopes(
     let rotation = &motion.placement.gradient;
     let mut slopes = RigidSlopes::default();
     for_each_contact(model, time, index, motion, |meeting| {
-        let Meeting { contact, surface, field, motion: relative } = meeting;
-        let relative =
-            RigidMotion { normal: field.direction, velocity: rotation.tr_mul(&relative.velocity), spin: motion.spin };
+        let Meeting { contact, surface, field, .. } = meeting;
+        let relative = meeting.in_body(motion);
         let wrench = ContactWrench::integrate(contact, surface, field, &relative, &mut workspace.contact)?;
         slopes.add_contact(&wrench, &relative);
         Ok(())

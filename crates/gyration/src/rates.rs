@@ -1,21 +1,20 @@
 //! The rates of the state: the function to read first.
 //!
-//!   m p̈₀ = m g + f                       M = ∫_∂D q ⊗ (X − X₀) dA
-//!   I Ω̇ = τ − Ω × IΩ,  τ_i = ε_ijk (RᵀM)_kj      (rigid, body axes)
+//!   m p̈₀ = m g + R F                      F = Rᵀ ∫_∂D q dA
+//!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA      (rigid, body axes)
 //!
 //! per body: kinematics → contact → loads → balance solved for the rates, and the powers whose integrals are the
-//! works of the ledger. A pinned body takes moments about its pin: M_p = M − (f + m g) ⊗ r, r = X_p − X₀.
+//! works of the ledger. A pinned body takes torques about its pin: τ_p = τ − r × (F + m Rᵀg), r = X_p − X₀.
 //! Source: `physics.md` §2.
 
 use crate::body::{Body, BodyKind, RigidInertia};
-use crate::contact::{Contact, ContactLoads, ContactScratch, LawKind, RelativeMotion};
+use crate::contact::{Contact, ContactScratch, RelativeMotion, RigidLoads, RigidMotion};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::ledger::Work;
-use crate::load::{Loads, SpringLoads};
+use crate::load::{SpringLoads, Wrench};
 use crate::model::Model;
 use crate::state::BodyMotion;
 use crate::surface::{GapClosed, GapField, Surface};
-use crate::tensor::Vec3;
 
 /// Scratch of the mechanics, reused from call to call.
 #[derive(Debug, Clone, Default)]
@@ -40,36 +39,64 @@ pub fn rates(
     powers.fill(0.0);
     for (index, (body, block)) in model.bodies.iter().zip(model.blocks()).enumerate() {
         let motion = BodyMotion::unpack(body, &bodies[block.clone()]);
-        let mut loads = Loads::default();
-        for_each_contact(model, time, index, &motion, |meeting| {
-            let Meeting { contact, surface, field, motion } = meeting;
-            let contact_loads = ContactLoads::integrate(contact, surface, field, *motion, &mut workspace.contact)?;
-            let total = contact_loads.total();
-            let carried = model.supports[contact.support].motion.velocity(time);
-            for (work, power) in model.works().iter().zip(powers.iter_mut()) {
-                *power += match work {
-                    Work::Damping => contact_loads.relative_power(LawKind::Damping),
-                    Work::Friction => contact_loads.relative_power(LawKind::Friction),
-                    Work::Support => total.force.dot(&carried),
-                    _ => 0.0,
-                };
-            }
-            loads += total;
-            Ok(())
-        })?;
-        spring_loads(index, body, &motion, |spring| {
-            if let Some(at) = model.works().iter().position(|work| *work == Work::Load) {
-                powers[at] += spring.dashpot_power;
-            }
-            loads += spring.total();
-        })?;
         match &body.kind {
             BodyKind::Rigid(inertia) => {
-                rigid_rates(model, body, inertia, &motion, &loads, &mut rates[block.clone()]);
+                let (wrench, done) = rigid_wrench(model, workspace, time, index, &motion)?;
+                for (work, power) in model.works().iter().zip(powers.iter_mut()) {
+                    *power += done.of(*work);
+                }
+                rigid_rates(model, body, inertia, &motion, &wrench, &mut rates[block.clone()]);
             }
         }
     }
     Ok(())
+}
+
+/// The powers [W] of the works done on one body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Powers {
+    damping: f64,
+    friction: f64,
+    load: f64,
+    support: f64,
+}
+
+impl Powers {
+    fn of(&self, work: Work) -> f64 {
+        match work {
+            Work::Damping => self.damping,
+            Work::Friction => self.friction,
+            Work::Load => self.load,
+            Work::Support => self.support,
+        }
+    }
+}
+
+/// Force and torque of the contacts and springs of a rigid body in its own axes, and the powers of their works.
+fn rigid_wrench(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    index: usize,
+    motion: &BodyMotion,
+) -> Result<(Wrench, Powers), Inadmissible> {
+    let rotation = &motion.placement.gradient;
+    let (mut wrench, mut powers) = (Wrench::default(), Powers::default());
+    for_each_contact(model, time, index, motion, |meeting| {
+        let Meeting { contact, surface, field, .. } = meeting;
+        let loads = RigidLoads::integrate(contact, surface, field, &meeting.in_body(motion), &mut workspace.contact)?;
+        wrench += loads.wrench;
+        powers.damping += loads.damping_power;
+        powers.friction += loads.friction_power;
+        let carried = model.supports[contact.support].motion.velocity(time);
+        powers.support += loads.wrench.force.dot(&rotation.tr_mul(&carried));
+        Ok(())
+    })?;
+    spring_loads(index, &model.bodies[index], motion, |spring| {
+        powers.load += spring.dashpot_power;
+        wrench += spring.wrench(rotation);
+    })?;
+    Ok((wrench, powers))
 }
 
 /// A contact of a body at one instant: what its integrals need.
@@ -78,6 +105,14 @@ pub(crate) struct Meeting<'a> {
     pub surface: &'a Surface,
     pub field: GapField,
     pub motion: RelativeMotion,
+}
+
+impl Meeting<'_> {
+    /// The relative motion of a rigid body in its own axes.
+    pub fn in_body(&self, motion: &BodyMotion) -> RigidMotion {
+        let velocity = motion.placement.gradient.tr_mul(&self.motion.velocity);
+        RigidMotion { normal: self.field.direction, velocity, spin: motion.spin }
+    }
 }
 
 /// Hands each contact of a body to `each`, and says which support a closed gap belongs to.
@@ -143,34 +178,23 @@ fn rigid_rates(
     body: &Body,
     inertia: &RigidInertia,
     motion: &BodyMotion,
-    loads: &Loads,
+    wrench: &Wrench,
     rates: &mut [f64],
 ) {
-    let torque = rigid_torque(model, body, motion, loads);
+    let rotation = &motion.placement.gradient;
     let spin = &motion.spin;
-    let angular = inertia.inverse * (torque - spin.cross(&(inertia.tensor * spin)));
+    let gyroscopic = spin.cross(&(inertia.tensor * spin));
     let quaternion = motion.quaternion.rate(spin);
-    if body.pin.is_some() {
+    if let Some(pin) = &body.pin {
+        let force = wrench.force + rotation.tr_mul(&(body.mass.mass * model.gravity));
+        let torque = wrench.torque - pin.point.cross(&force);
         rates[..4].copy_from_slice(&quaternion);
-        rates[4..7].copy_from_slice(angular.as_slice());
+        rates[4..7].copy_from_slice((inertia.inverse * (torque - gyroscopic)).as_slice());
         return;
     }
-    let linear = model.gravity + loads.force / body.mass.mass;
+    let linear = model.gravity + rotation * wrench.force / body.mass.mass;
     rates[..3].copy_from_slice(motion.velocity.velocity.as_slice());
     rates[3..7].copy_from_slice(&quaternion);
     rates[7..10].copy_from_slice(linear.as_slice());
-    rates[10..13].copy_from_slice(angular.as_slice());
-}
-
-/// The torque in body axes about the centre of mass, or about the pin, where gravity has an arm as well.
-fn rigid_torque(model: &Model, body: &Body, motion: &BodyMotion, loads: &Loads) -> Vec3 {
-    let rotation = &motion.placement.gradient;
-    let torque = loads.body_torque(rotation);
-    match body.pin {
-        None => torque,
-        Some(pin) => {
-            let force = loads.force + body.mass.mass * model.gravity;
-            torque - pin.point.cross(&rotation.tr_mul(&force))
-        }
-    }
+    rates[10..13].copy_from_slice((inertia.inverse * (wrench.torque - gyroscopic)).as_slice());
 }

@@ -3,9 +3,9 @@
 
 use gyration::contact::{
     Adhesion, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, ContactSlopes, ContactWrench, Damping,
-    Friction, RelativeMotion, Repulsion, RigidMotion, Wrench,
+    Friction, LawKind, RelativeMotion, Repulsion, RigidLoads, RigidMotion,
 };
-use gyration::load::Loads;
+use gyration::load::{Loads, Wrench, WrenchSlope};
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
 use proptest::prelude::*;
@@ -33,11 +33,19 @@ impl Scene {
         RelativeMotion { normal: self.normal, velocity: self.velocity, gradient_rate }
     }
 
-    fn wrench(&self) -> ContactWrench {
+    fn motion(&self) -> RigidMotion {
         let velocity = self.rotation.tr_mul(&self.velocity);
-        let motion = RigidMotion { normal: self.field().direction, velocity, spin: self.spin };
+        RigidMotion { normal: self.field().direction, velocity, spin: self.spin }
+    }
+
+    fn rigid_loads(&self) -> RigidLoads {
         let mut scratch = ContactScratch::default();
-        ContactWrench::integrate(&self.contact, &self.surface, &self.field(), &motion, &mut scratch).unwrap()
+        RigidLoads::integrate(&self.contact, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
+    }
+
+    fn wrench(&self) -> ContactWrench {
+        let mut scratch = ContactScratch::default();
+        ContactWrench::integrate(&self.contact, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
     }
 
     fn slopes(&self) -> ContactSlopes {
@@ -96,10 +104,17 @@ proptest! {
         let mut scratch = ContactScratch::default();
         let loads =
             ContactLoads::integrate(&scene.contact, &scene.surface, &scene.field(), scene.relative(), &mut scratch);
-        let seen = scene.seen(&loads.unwrap().total());
-        let wrench = scene.wrench().wrench;
+        let loads = loads.unwrap();
+        let seen = scene.seen(&loads.total());
+        let (rigid, wrench) = (scene.rigid_loads(), scene.wrench().wrench);
         let scale = seen.force.norm() + seen.torque.norm() + 1.0;
+        prop_assert!(differ(&rigid.wrench, &seen, scale) < 1e-13);
         prop_assert!(differ(&wrench, &seen, scale) < 1e-13);
+        let powers = [(rigid.damping_power, LawKind::Damping), (rigid.friction_power, LawKind::Friction)];
+        for (power, law) in powers {
+            let expected = loads.relative_power(law);
+            prop_assert!((power - expected).abs() < 1e-13 * (expected.abs() + scale), "{power} against {expected}");
+        }
         prop_assert!(differ(&wrench, &scene.seen(&scene.slopes().total), scale) < 1e-13);
     }
 
@@ -111,7 +126,7 @@ proptest! {
         prop_assert!(differ(&wrench.by_height, &by_height, scale) < 1e-13);
         for axis in 0..3 {
             let unit = Vec3::ith(axis, 1.0);
-            let column = |slope: &gyration::contact::WrenchSlope| Wrench {
+            let column = |slope: &WrenchSlope| Wrench {
                 force: slope.force.column(axis).into(),
                 torque: slope.torque.column(axis).into(),
             };

@@ -26,7 +26,7 @@ pub use friction::Friction;
 pub use plan::{Contact, ContactScratch};
 pub use repulsion::Repulsion;
 pub use resultant::{ContactLoads, ContactSlopes, RelativeMotion};
-pub use wrench::{ContactWrench, RigidMotion, Wrench, WrenchSlope};
+pub use wrench::{ContactWrench, RigidLoads, RigidMotion};
 
 /// In which measure of area the tractions are given; on a rigid body all three are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -31,6 +31,7 @@ pub(super) struct SumSlopes {
 
 impl Sums {
     /// Adds a term's moments.
+    #[inline]
     pub fn add(&mut self, coefficient: f64, action: Action, moments: &Moments) {
         self.zeroth += coefficient * moments.zeroth;
         self.first += coefficient * moments.first;
@@ -46,6 +47,16 @@ impl Sums {
         if action != Action::Central {
             self.second += slope * moments.third.slice(axis);
         }
+    }
+
+    /// The sums of each [`Action`] over the terms of a contact, from the moments that it planned for loads.
+    pub fn by_action(contact: &Contact, moments: &[Moments]) -> [Self; Action::COUNT] {
+        let mut sums = [Self::default(); Action::COUNT];
+        for planned in contact.terms() {
+            let term = &planned.term;
+            sums[term.action as usize].add(term.coefficient, term.action, &moments[planned.value]);
+        }
+        sums
     }
 
     /// Σ c A₀, A₁, A₂ less those of `other`.

@@ -12,27 +12,9 @@
 
 use super::plan::{Contact, ContactScratch};
 use super::sums::{SumSlopes, Sums};
+use crate::load::{Wrench, WrenchSlope};
 use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
-use std::ops::AddAssign;
-
-/// A force F [N] and a torque τ about the centre of mass [N m] in the body's axes.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Wrench {
-    /// F = Rᵀf.
-    pub force: Vec3,
-    /// τ.
-    pub torque: Vec3,
-}
-
-/// The derivatives of a wrench by a vector, one column a component.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct WrenchSlope {
-    /// ∂F.
-    pub force: Mat3,
-    /// ∂τ.
-    pub torque: Mat3,
-}
 
 /// The motion of a rigid body relative to a support, in the body's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +25,17 @@ pub struct RigidMotion {
     pub velocity: Vec3,
     /// Ω [rad/s].
     pub spin: Vec3,
+}
+
+/// The wrench of one contact and the powers of its viscous laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidLoads {
+    /// F and τ of all laws together.
+    pub wrench: Wrench,
+    /// The power of damping on the relative motion [W], −∫κ (m·u)² dA.
+    pub damping_power: f64,
+    /// The power of friction on the relative motion [W], −∫κ (|u|² − (m·u)²) dA.
+    pub friction_power: f64,
 }
 
 /// The wrench of one contact and its derivatives by the ten numbers that it depends on.
@@ -58,27 +51,6 @@ pub struct ContactWrench {
     pub by_velocity: WrenchSlope,
     /// By Ω.
     pub by_spin: WrenchSlope,
-}
-
-impl AddAssign for Wrench {
-    fn add_assign(&mut self, other: Self) {
-        self.force += other.force;
-        self.torque += other.torque;
-    }
-}
-
-impl AddAssign for WrenchSlope {
-    fn add_assign(&mut self, other: Self) {
-        self.force += other.force;
-        self.torque += other.torque;
-    }
-}
-
-impl WrenchSlope {
-    /// The derivatives by a vector of which the old one is `map` times: the chain rule.
-    pub fn times(&self, map: &Mat3) -> Self {
-        Self { force: self.force * map, torque: self.torque * map }
-    }
 }
 
 /// C, T and D.
@@ -135,6 +107,48 @@ impl Actions {
             WrenchSlope { force: translation, torque: coupling.transpose() },
             WrenchSlope { force: coupling, torque: rotation },
         )
+    }
+}
+
+impl RigidMotion {
+    /// ∫κ (m·u)² dA = s² A₀ + 2s c·A₁ + c·A₂c.
+    fn squared_along_normal(&self, sums: &Sums) -> f64 {
+        let (s, c) = (self.normal.dot(&self.velocity), self.normal.cross(&self.spin));
+        s * (s * sums.zeroth + 2.0 * c.dot(&sums.first)) + c.dot(&(sums.second * c))
+    }
+
+    /// ∫κ |u|² dA = v² A₀ + 2 v·(Ω×A₁) + tr A₂ Ω² − Ω·A₂Ω.
+    fn squared(&self, sums: &Sums) -> f64 {
+        let (v, spin) = (&self.velocity, &self.spin);
+        v.norm_squared() * sums.zeroth
+            + 2.0 * v.dot(&spin.cross(&sums.first))
+            + sums.second.trace() * spin.norm_squared()
+            - spin.dot(&(sums.second * spin))
+    }
+}
+
+impl RigidLoads {
+    /// Integrates the laws of a contact over a surface.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
+    pub fn integrate(
+        contact: &Contact,
+        surface: &Surface,
+        field: &GapField,
+        motion: &RigidMotion,
+        scratch: &mut ContactScratch,
+    ) -> Result<Self, GapClosed> {
+        let plan = contact.values();
+        let moments = scratch.take(plan.requests().len());
+        surface.planned_moments(field, plan, moments)?;
+        let sums = Sums::by_action(contact, moments);
+        let [_, normal, tangential] = &sums;
+        Ok(Self {
+            wrench: Actions::new(&sums).wrench(motion),
+            damping_power: -motion.squared_along_normal(normal),
+            friction_power: motion.squared_along_normal(tangential) - motion.squared(tangential),
+        })
     }
 }
 

@@ -6,8 +6,8 @@
 //!   spring    Rᵀδx = Rᵀδp₀ − X×δθ,   Rᵀδẋ = Rᵀδṗ₀ − X×δΩ − (Ω×X)×δθ,   δF = Rᵀ(K δx + C δẋ) + F×δθ,   δτ = X×δF
 //!   pin       Rᵀδp₀ = r×δθ,   Rᵀδṗ₀ = (Ω×r)×δθ + r×δΩ,   τ_p = τ − r×(F + m Rᵀg)
 
-use crate::contact::{ContactWrench, RigidMotion, Wrench, WrenchSlope};
-use crate::load::SpringLoads;
+use crate::contact::{ContactWrench, RigidMotion};
+use crate::load::{SpringLoads, Wrench, WrenchSlope};
 use crate::state::BodyMotion;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 
@@ -45,7 +45,7 @@ impl RigidSlopes {
         let arm = cross_matrix(point);
         let turning = damping * cross_matrix(&motion.spin.cross(point));
         let slope = |force: Mat3| WrenchSlope { force, torque: arm * force };
-        self.wrench += Wrench { force, torque: point.cross(&force) };
+        self.wrench += spring.wrench(rotation);
         self.by_place += slope(stiffness);
         self.by_turn += slope(cross_matrix(&force) - stiffness * arm - turning);
         self.by_velocity += slope(damping);

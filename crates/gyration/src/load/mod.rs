@@ -4,8 +4,10 @@
 //! a material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
 
 mod spring;
+mod wrench;
 
 pub use spring::{Spring, SpringLoads};
+pub use wrench::{Wrench, WrenchSlope};
 
 use crate::tensor::{Mat3, Vec3, axial};
 

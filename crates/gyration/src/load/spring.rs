@@ -5,7 +5,7 @@
 //! with potential ½k(l − l₀)² and dissipation c l̇². At l = 0 the direction e is lost: outside the model unless the
 //! spring has neither rest length nor dashpot.
 
-use super::Loads;
+use super::{Loads, Wrench};
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::{Mat3, Vec3};
 
@@ -82,6 +82,12 @@ impl SpringLoads {
     /// f and M.
     pub fn total(&self) -> Loads {
         Loads::at_point(self.force, &self.point)
+    }
+
+    /// Force and torque in the axes of a rigid body.
+    pub fn wrench(&self, rotation: &Mat3) -> Wrench {
+        let force = rotation.tr_mul(&self.force);
+        Wrench { force, torque: self.point.cross(&force) }
     }
 
     /// The change of f and M when placement and velocity change by these increments.
