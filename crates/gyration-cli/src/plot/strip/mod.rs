@@ -1,7 +1,7 @@
 //! Strips: the outlines of bodies at successive times, to scale.
 //!
-//! Where the bodies leave room for one another, all times share one picture, as under a stroboscope; where they would
-//! cover each other, each time has a picture of its own.
+//! Where the bodies leave room for one another and the supports stand still, all times share one picture, as under a
+//! stroboscope; otherwise each time has a picture of its own.
 
 mod ground;
 mod paint;
@@ -12,6 +12,7 @@ use super::PlotError;
 use super::draw::{Drawing, Point, Rect};
 use super::recorded::{Pose, Recorded};
 use ground::{Ground, Site};
+use gyration::support::Support;
 use gyration::tensor::Vec3;
 use silhouette::Silhouette;
 use view::{Motion, View};
@@ -74,7 +75,8 @@ impl Strip {
         };
         let path = |body: usize| probes.iter().map(|probe| view.project(&probe.poses[body].position)).collect();
         let bodies = recorded.bodies.len().min(MOST_BODIES);
-        let strobe = STROBE_TIMES.into_iter().find_map(|count| {
+        let still = !supports_move(recorded, &probes);
+        let strobe = STROBE_TIMES.into_iter().filter(|_| still).find_map(|count| {
             let kept = without_overlaps(frames(count), recorded);
             // Where a third of the times had to be left out, the rest does not tell the motion.
             (kept.len() * 3 >= 2 * count.min(moving + 1) && kept.len() > 3).then_some(kept)
@@ -119,6 +121,16 @@ fn motion(recorded: &Recorded, probes: &[Probe]) -> Motion {
         normals: recorded.supports.iter().map(|support| support.normal).collect(),
         size: recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max),
     }
+}
+
+/// Whether a support moves to the eye.
+fn supports_move(recorded: &Recorded, probes: &[Probe]) -> bool {
+    let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
+    let height = |support: &Support, probe: &Probe| support.gap(&Vec3::zeros(), probe.time);
+    recorded.supports.iter().any(|support| {
+        let heights = probes.iter().map(|probe| height(support, probe) - height(support, &probes[0]));
+        heights.fold(0.0, |largest: f64, height| largest.max(height.abs())) > VISIBLE * size
+    })
 }
 
 /// The probe from which on nothing moves to the eye; the last if something moves to the end.

@@ -231,8 +231,12 @@ fn draw_body(body: &Silhouette, strength: f64, map: &Map, drawing: &mut Drawing,
         return;
     }
     // Thinner where the body is small on the page, so that its edges do not run together.
-    let extent = hull.iter().map(|point| point[0]).fold(f64::NEG_INFINITY, f64::max)
-        - hull.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
+    let extents = [0, 1].map(|k| {
+        let range = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = hull.iter().fold(range, |(low, high), point| (low.min(point[k]), high.max(point[k])));
+        high - low
+    });
+    let extent = extents[0];
     let width = (0.02 * extent).clamp(0.25, 0.8);
     let ink = hue.faded((0.45 + strength).min(1.0));
     drawing.area(hull.clone(), Some(hue.tint(strength).faded(0.85)), None, Some(frame));
@@ -242,7 +246,7 @@ fn draw_body(body: &Silhouette, strength: f64, map: &Map, drawing: &mut Drawing,
     }
     drawing.area(hull, None, Some(Stroke::solid(ink, width)), Some(frame));
     if body.lopsided && extent > LEAST_EDGED {
-        drawing.dot(map.place(body.center), (0.03 * extent).clamp(0.8, 2.2), ink, Some(frame));
+        drawing.dot(map.place(body.center), (0.05 * extents[0].min(extents[1])).clamp(0.5, 1.8), ink, Some(frame));
     }
 }
 
