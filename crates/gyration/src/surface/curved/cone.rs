@@ -10,8 +10,8 @@ use super::super::power::{GapSample, LineKernel};
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
-use super::integrand::{Integrand, Lines};
-use super::ring::{Demand, Ring};
+use super::integrand::{GROUP, Integrand, Lines};
+use super::ring::{Demand, Rings};
 use crate::tensor::Vec3;
 
 /// The wall of a cone about the z axis, base at z = −height/2, apex at +height/2, without its base.
@@ -39,7 +39,7 @@ impl ConeWall {
     /// Sums the moments about the apex in the frame of [`TiltedGap`]; every gap must be positive.
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
         let gap = TiltedGap::new(field);
-        let (integrand, lines) = (Integrand::new(requests), Lines::new(requests));
+        let (integrand, lines) = (Integrand::new(requests), Lines::new(requests, 1));
         let reach = self.radius * gap.across;
         let apex = gap.height + 0.5 * gap.along * self.height;
         let near = gap.height - 0.5 * gap.along * self.height - reach;
@@ -47,14 +47,19 @@ impl ConeWall {
         // Rulings contribute as the gap of their lower end: once that is the apex they are all alike.
         let cut = integrand.cut(near, 1.5);
         let cut = if cut < apex { cut } else { f64::INFINITY };
+        let mut at_apex = [GapSample::UNIT; GROUP];
+        for (sample, kernel) in at_apex.iter_mut().zip(lines.iter()) {
+            *sample = kernel.sample(apex);
+        }
         let slant = self.radius * self.radius.hypot(self.height);
-        for node in Ring::new(near, near + 2.0 * reach, &demand).nodes() {
+        for node in Rings::new(&demand).nodes(near, near + 2.0 * reach) {
             let base = near + reach * node.versine;
             if base > cut {
                 break;
             }
-            for ((kernel, request), moments) in lines.iter().zip(requests).zip(out.iter_mut()) {
-                let line = from_apex(kernel, &kernel.sample(apex), &kernel.sample(base), request.order);
+            for (((kernel, at_apex), request), moments) in lines.iter().zip(&at_apex).zip(requests).zip(out.iter_mut())
+            {
+                let line = from_apex(kernel, at_apex, &kernel.sample(base), request.order);
                 let sums = HalfPlane::radial(&line, self.radius, -self.height);
                 sums.turn(slant * node.weight, node.cos, node.sin_squared, request.order, moments);
             }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use super::super::{GapField, MomentRequest, Moments};
 use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
 use super::integrand::{Integrand, Lines};
-use super::ring::{Demand, Ring};
+use super::ring::{Demand, Rings};
 use super::sphere::shifted;
 use crate::tensor::Vec3;
 
@@ -35,7 +35,7 @@ impl CylinderWall {
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
         let gap = TiltedGap::new(field);
-        let (integrand, lines) = (Integrand::new(requests), Lines::new(requests));
+        let (integrand, lines) = (Integrand::new(requests), Lines::new(requests, 0));
         // The end nearer to the plane, and the way to the other.
         let near_z = -0.5f64.copysign(gap.along) * self.height;
         let rise = gap.along.abs() * self.height;
@@ -43,7 +43,7 @@ impl CylinderWall {
         let near = gap.height + gap.along * near_z - reach;
         let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order };
         let cut = integrand.cut(near, 1.5);
-        for node in Ring::new(near, near + 2.0 * reach, &demand).nodes() {
+        for node in Rings::new(&demand).nodes(near, near + 2.0 * reach) {
             let d = near + reach * node.versine;
             if d > cut {
                 break;

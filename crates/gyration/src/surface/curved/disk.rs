@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
-use super::integrand::Integrand;
-use super::ring::{Demand, Ring};
+use super::half_plane::{Chart, TiltedGap};
+use super::integrand::{GROUP, Integrand, LANES, Lane};
+use super::ring::{Demand, RingChunk, Rings};
 use crate::tensor::Vec3;
 
 /// A disk about the z axis in the plane z = 0, one side of it.
@@ -41,18 +41,54 @@ impl Disk {
         let near = gap.height - reach;
         let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + 2 };
         let cut = integrand.cut(near, 1.5);
-        for node in Ring::new(near, near + 2.0 * reach, &demand).nodes() {
-            let d = near + reach * node.versine;
-            if d > cut {
+        let mut sums = [[[0.0; LANES]; 6]; GROUP];
+        for chunk in Rings::new(&demand).chunks(near, near + 2.0 * reach) {
+            let gaps = chunk.versine.map(|versine| near + reach * versine);
+            if gaps[0] > cut {
                 break;
             }
-            let weight = self.radius * self.radius * node.sin_squared * node.weight;
-            let sums = HalfPlane::parallel(&[1.0, 0.0, 0.0, 0.0], self.radius);
-            for ((value, request), moments) in integrand.at(d).into_iter().zip(requests).zip(out.iter_mut()) {
-                sums.turn(weight * value, node.cos, node.sin_squared / 3.0, request.order, moments);
+            let values = integrand.at_each(&gaps);
+            for (value, sums) in values.iter().zip(&mut sums).take(integrand.count()) {
+                add_chords(chunk, value, sums);
             }
         }
-        out.iter_mut().for_each(mirror);
+        for ((sums, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
+            self.collect(&sums.map(|lanes| lanes.iter().sum()), request.order, moments);
+        }
         Chart::frame(gap.frame)
+    }
+
+    /// The moments from the sums of 1, x, x², y², x³, xy² in units of R.
+    fn collect(&self, sums: &[f64; 6], order: usize, out: &mut Moments) {
+        let (first, squared) = (self.radius, self.radius * self.radius);
+        out.zeroth = squared * sums[0];
+        if order >= 1 {
+            out.first.x = squared * first * sums[1];
+        }
+        if order >= 2 {
+            (out.second.m11, out.second.m22) = (squared * squared * sums[2], squared * squared * sums[3]);
+        }
+        if order >= 3 {
+            (out.third.0[0], out.third.0[3]) =
+                (squared * squared * first * sums[4], squared * squared * first * sums[5]);
+        }
+    }
+}
+
+/// Adds ∫ κ {1, x, x², y², x³, xy²} over the chords of a chunk, in units of R.
+#[inline(always)]
+fn add_chords(chunk: &RingChunk, value: &Lane, sums: &mut [Lane; 6]) {
+    for lane in 0..LANES {
+        let (x, squared) = (chunk.cos[lane], chunk.sin_squared[lane]);
+        let w = chunk.weight[lane] * squared * value[lane];
+        // ⟨y²⟩ of a chord of half length sin θ.
+        let across = squared * (1.0 / 3.0);
+        let (wx, wxx) = (w * x, w * x * x);
+        sums[0][lane] += w;
+        sums[1][lane] += wx;
+        sums[2][lane] += wxx;
+        sums[3][lane] += w * across;
+        sums[4][lane] += wxx * x;
+        sums[5][lane] += wx * across;
     }
 }

@@ -66,7 +66,7 @@ impl Hemisphere {
     fn whole_parallels(&self, p: &Parallels, requests: &[MomentRequest], out: &mut [Moments]) {
         let (from, to) = if p.cosine > 0.0 { (p.sine, 1.0) } else { (-1.0, -p.sine) };
         if from < to {
-            for ((kernel, request), moments) in Lines::new(requests).iter().zip(requests).zip(out) {
+            for ((kernel, request), moments) in Lines::new(requests, 0).iter().zip(requests).zip(out) {
                 let u = height_moments(kernel, p.height, p.reach, from, to, request.order);
                 add_zone(self.radius, request.order, &u, moments);
             }

@@ -14,6 +14,7 @@ mod features;
 mod half_plane;
 mod hemisphere;
 mod integrand;
+mod parallels;
 mod ring;
 mod sphere;
 mod torus;

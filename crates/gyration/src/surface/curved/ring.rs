@@ -1,16 +1,20 @@
 //! Quadrature around a circle over which the gap is a − b cos θ.
 //!
-//! The integrand is singular where the gap vanishes, at θ = ±iη with tanh(η/2) = p, p² = (a−b)/(a+b), and at θ = ±i∞. The
+//! The integrand is singular where the gap vanishes, at θ = ±iη with tan(iη/2) = ip, p² = (a−b)/(a+b), and at ±i∞. The
 //! substitution
 //!
-//!   tan(θ/2) = p sc(w | k),   k'² = 1 − k² = p²,   dθ = 2p/dn(w) dw,   a − b cos θ = (a−b)/dn²(w)
+//!   tan(θ/2) = p sc(w | k),   k'² = 1 − k² = p²,   dθ = 2p/dn(w) dw
 //!
 //! maps the strip |Im w| < K'(k) onto the θ-cylinder slit from ±iη to ±i∞, so that the trapezoidal rule in w, which is
 //! periodic with period 2K, converges like exp(−2πK'/step) whatever the singularity: the number of points grows only
-//! like K ≈ ln(4/p). The integrand must be even in θ; nodes cover 0 ≤ θ ≤ π and weights count both halves.
+//! like K ≈ ln(4/p). It does so too with any smaller p, whose slit is longer, so that rules are kept for p² = P₀ 2^−i. The
+//! integrand must be even in θ; nodes cover 0 ≤ θ ≤ π and weights count both halves.
 //! Source of the idea: N. Hale and T. W. Tee, SIAM J. Sci. Comput. 31 (2009) 3195, conformal maps to slit domains.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::OnceLock;
+
+use super::integrand::{LANES, Lane};
 
 /// A point of the circle, with the weight of both θ and −θ.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,15 +27,19 @@ pub(crate) struct RingNode {
     pub(crate) sin_squared: f64,
 }
 
-/// The nodes of one circle.
+/// [`LANES`] consecutive points; those that fill the last chunk have no weight.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct RingChunk {
+    pub(crate) weight: Lane,
+    pub(crate) cos: Lane,
+    pub(crate) versine: Lane,
+    pub(crate) sin_squared: Lane,
+}
+
+/// The rules that meet one demand, for every ratio of the gaps.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ring {
-    /// p = k'.
-    complement: f64,
-    step: f64,
-    intervals: usize,
-    /// sn and cn of one step.
-    first: (f64, f64),
+pub(crate) struct Rings {
+    rows: &'static [Vec<RingChunk>],
 }
 
 /// What is asked of a ring: integrands d^−ν cosⁱθ with `mildest` ≤ ν ≤ `sharpest` and i ≤ `degree`.
@@ -42,55 +50,103 @@ pub(crate) struct Demand {
     pub(crate) degree: usize,
 }
 
-impl Ring {
-    /// The rule for gaps between `near` and `far` ≥ `near` > 0.
-    pub(crate) fn new(near: f64, far: f64, demand: &Demand) -> Self {
-        // Below 1e-9 the gap is lost in the rounding of a and b.
-        let p = (near / far).sqrt().clamp(1e-9, 1.0);
-        let k = (1.0 - p * p).max(0.0).sqrt();
-        let quarter = FRAC_PI_2 / mean(p);
-        let height = FRAC_PI_2 / mean(k.max(1e-8));
-        let intervals = (quarter * frequency(demand, p, height) / TAU).ceil().max(1.0) + 1.0;
-        let step = quarter / intervals;
-        Self { complement: p, step, intervals: intervals as usize, first: sine_and_cosine(step, p) }
+/// p² of the first rule.
+const FIRST: f64 = 0.9;
+
+/// The rules go down to p² = 1e-15, below which a gap is lost in the rounding of a and b.
+const LEVELS: usize = 50;
+
+/// Frequencies 2π/step grow by this factor from one class of rules to the next.
+const CLASS_RATIO: f64 = 1.12;
+const LOWEST_FREQUENCY: f64 = 16.0;
+const CLASSES: usize = 16;
+
+/// Degrees from 0 to this are told apart.
+const MOST_DEGREES: usize = 5;
+
+impl Rings {
+    /// The rules for a demand; they are computed at its first use.
+    pub(crate) fn new(demand: &Demand) -> Self {
+        static TABLES: [[OnceLock<Vec<Vec<RingChunk>>>; CLASSES]; MOST_DEGREES + 1] =
+            [const { [const { OnceLock::new() }; CLASSES] }; MOST_DEGREES + 1];
+        let degree = demand.degree.min(MOST_DEGREES);
+        let above = (frequency(demand) / LOWEST_FREQUENCY).ln() / CLASS_RATIO.ln();
+        let class = (above.ceil().max(0.0) as usize).min(CLASSES - 1);
+        let rows = TABLES[degree][class].get_or_init(|| {
+            let frequency = LOWEST_FREQUENCY * CLASS_RATIO.powi(class as i32);
+            let levels = (0..LEVELS).map(|level| FIRST * 0.5f64.powi(level as i32));
+            levels.map(|squared| row(squared, frequency, degree as f64)).collect()
+        });
+        Self { rows }
     }
 
-    /// The nodes from θ = 0, where the gap is smallest, to θ = π.
-    pub(crate) fn nodes(self) -> impl Iterator<Item = RingNode> {
-        let squared = self.complement * self.complement;
-        let modulus = 1.0 - squared;
-        let (s1, c1) = self.first;
-        let d1 = (c1 * c1 + squared * s1 * s1).sqrt();
-        let (mut s, mut c) = (0.0, 1.0);
-        (0..=self.intervals).map(move |j| {
-            let dn_squared = c * c + squared * s * s;
-            let d = f64::sqrt(dn_squared);
-            let half_sine = squared * s * s / dn_squared;
-            let half_cosine = c * c / dn_squared;
-            let ends = if j == 0 || j == self.intervals { 1.0 } else { 2.0 };
-            let node = RingNode {
-                weight: ends * self.step * 2.0 * self.complement / d,
-                cos: half_cosine - half_sine,
-                versine: 2.0 * half_sine,
-                sin_squared: 4.0 * half_sine * half_cosine,
+    /// The rule for gaps between `near` and `far` ≥ `near` > 0, from θ = 0, where the gap is smallest, to θ = π.
+    #[inline]
+    pub(crate) fn chunks(&self, near: f64, far: f64) -> &'static [RingChunk] {
+        let level = (FIRST * far / near).log2().ceil().max(0.0) as usize;
+        &self.rows[level.min(LEVELS - 1)]
+    }
+
+    /// The same rule, node by node.
+    pub(crate) fn nodes(&self, near: f64, far: f64) -> impl Iterator<Item = RingNode> + use<> {
+        self.chunks(near, far).iter().flat_map(|chunk| {
+            let node = |lane: usize| RingNode {
+                weight: chunk.weight[lane],
+                cos: chunk.cos[lane],
+                versine: chunk.versine[lane],
+                sin_squared: chunk.sin_squared[lane],
             };
-            // Addition theorem for one more step.
-            let inverse = 1.0 / (1.0 - modulus * s * s * s1 * s1);
-            (s, c) = ((s * c1 * d1 + s1 * c * d) * inverse, (c * c1 - s * d * s1 * d1) * inverse);
-            node
+            (0..LANES).map(node).filter(|node| node.weight != 0.0)
         })
     }
 }
 
-/// The frequency 2π/step that brings the rule's relative error down to some 1e-11.
+/// The rule with k'² = `squared`.
+fn row(squared: f64, frequency: f64, degree: f64) -> Vec<RingChunk> {
+    let (p, modulus) = (squared.sqrt(), 1.0 - squared);
+    let (quarter, height) = (FRAC_PI_2 / mean(p), FRAC_PI_2 / mean(modulus.sqrt()));
+    // The singularities lie at the height K' ≥ π/2; powers of cos θ shift harmonics by their degree where the gap hardly varies.
+    let wanted = frequency * FRAC_PI_2 / height + 2.0 * degree * p;
+    let intervals = (quarter * wanted / TAU).ceil().max(1.0) as usize + 1;
+    let step = quarter / intervals as f64;
+    let (s1, c1) = sine_and_cosine(step, p);
+    let d1 = (c1 * c1 + squared * s1 * s1).sqrt();
+    let (mut s, mut c) = (0.0, 1.0);
+    let mut chunks = vec![RingChunk::default(); (intervals + 1).div_ceil(LANES)];
+    for j in 0..chunks.len() * LANES {
+        let (chunk, lane) = (&mut chunks[j / LANES], j % LANES);
+        let dn_squared = c * c + squared * s * s;
+        let d = f64::sqrt(dn_squared);
+        let half_sine = squared * s * s / dn_squared;
+        let half_cosine = c * c / dn_squared;
+        let share = if j > intervals {
+            0.0
+        } else if j == 0 || j == intervals {
+            1.0
+        } else {
+            2.0
+        };
+        chunk.weight[lane] = share * step * 2.0 * p / d;
+        chunk.cos[lane] = half_cosine - half_sine;
+        chunk.versine[lane] = 2.0 * half_sine;
+        chunk.sin_squared[lane] = 4.0 * half_sine * half_cosine;
+        if j < intervals {
+            // Addition theorem for one more step.
+            let inverse = 1.0 / (1.0 - modulus * s * s * s1 * s1);
+            (s, c) = ((s * c1 * d1 + s1 * c * d) * inverse, (c * c1 - s * d * s1 * d1) * inverse);
+        }
+    }
+    chunks
+}
+
+/// The frequency 2π/step that brings the rule's relative error down to some 1e-11, for K' = π/2.
 ///
 /// A trapezoidal rule errs by the Fourier coefficient at that frequency. For p → 0 the integrand tends to sechⁿ w,
-/// n = 2ν − 1, whose coefficient is |Γ((n+iω)/2)|²/Γ(n/2)²; the fit solves it for the error. The singularities lie at the
-/// height K' ≥ π/2, and powers of cos θ shift harmonics by their degree when the gap hardly varies.
-fn frequency(demand: &Demand, p: f64, height: f64) -> f64 {
+/// n = 2ν − 1, whose coefficient is |Γ((n+iω)/2)|²/Γ(n/2)²; the fit solves it for the error.
+fn frequency(demand: &Demand) -> f64 {
     let degree = demand.degree as f64;
     let order = (2.0 * demand.sharpest - 1.0).max(2.0 * degree + 1.0 - 2.0 * demand.mildest).max(1.0);
-    7.2 * (order + 6.5).sqrt() * FRAC_PI_2 / height + 2.0 * degree * p
+    7.2 * (order + 6.5).sqrt()
 }
 
 /// The arithmetic–geometric mean of 1 and x in (0, 1]; K(k) = π/(2 mean(k')).
@@ -141,8 +197,8 @@ mod tests {
         for near in [1e-8, 1e-4, 0.01, 0.3, 0.9, 1.0] {
             for nu in 1..=3 {
                 let demand = Demand { sharpest: f64::from(nu), mildest: f64::from(nu), degree: 0 };
-                let ring = Ring::new(near, 1.0, &demand);
-                let sum: f64 = ring.nodes().map(|n| n.weight * (near + 0.5 * (1.0 - near) * n.versine).powi(-nu)).sum();
+                let nodes = Rings::new(&demand).nodes(near, 1.0);
+                let sum: f64 = nodes.map(|n| n.weight * (near + 0.5 * (1.0 - near) * n.versine).powi(-nu)).sum();
                 worst = worst.max((sum / exact(near, 1.0, nu) - 1.0).abs());
             }
         }
@@ -161,11 +217,11 @@ mod tests {
                             let kernel: f64 = (near + 0.5 * (1.0 - near) * n.versine).powf(-nu);
                             n.weight * kernel * n.cos.powi(degree)
                         };
-                        Ring::new(near, 1.0, demand).nodes().map(term).sum()
+                        Rings::new(demand).nodes(near, 1.0).map(term).sum()
                     };
                     let demand = Demand { sharpest: nu, mildest: nu, degree: degree as usize };
                     let fine = Demand { sharpest: 60.0, mildest: nu, degree: 20 };
-                    let scale = Ring::new(near, 1.0, &fine).nodes();
+                    let scale = Rings::new(&fine).nodes(near, 1.0);
                     let scale: f64 = scale.map(|n| n.weight * (near + 0.5 * (1.0 - near) * n.versine).powf(-nu)).sum();
                     let error = (sum(&demand) - sum(&fine)).abs() / scale;
                     worst = worst.max(error);

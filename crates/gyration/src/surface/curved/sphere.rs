@@ -37,7 +37,7 @@ impl Sphere {
         let slope = field.direction.norm();
         let axis = unit_or_z(&field.direction);
         for (request, moments) in requests.iter().zip(out) {
-            let kernel = LineKernel::new(request.kernel);
+            let kernel = LineKernel::up_to(request.kernel, request.order);
             let u = height_moments(&kernel, field.gap(center), self.radius * slope, -1.0, 1.0, request.order);
             let mut sum = axial(self.radius, &axis, request.order, &u);
             sum.shift(center, request.order);

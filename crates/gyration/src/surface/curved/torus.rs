@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
-use super::integrand::{GROUP, Integrand};
-use super::ring::{Demand, Ring};
+use super::integrand::{GROUP, Integrand, LANES};
+use super::ring::{Demand, Rings};
 use super::sphere::unit_or_z;
 use crate::tensor::Vec3;
 
@@ -44,11 +44,12 @@ impl Torus {
         let integrand = Integrand::new(requests);
         let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
         let (near, far) = self.outer_gaps(&gap);
-        let outer = Ring::new(near, far, &Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order });
-        let demand = Demand { sharpest, mildest, degree: integrand.order + 1 };
+        let outer = Rings::new(&Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order });
+        let rings = Rings::new(&Demand { sharpest, mildest, degree: integrand.order + 1 });
+        let around = Around { rings, cut_ratio: integrand.cut_ratio(0.5) };
         let smallest = gap.height - self.major_radius * gap.across - self.minor_radius * gap.along.hypot(gap.across);
         let cut = integrand.cut(smallest, 1.0);
-        for node in outer.nodes() {
+        for node in outer.nodes(near, far) {
             let lateral = gap.across * node.cos;
             let steepness = gap.along.hypot(lateral);
             let middle = gap.height - self.major_radius * lateral;
@@ -59,7 +60,7 @@ impl Torus {
             // The side of the tube that faces the plane, in the half-plane (ρ, z).
             let facing = if steepness > 0.0 { (lateral / steepness, -gap.along / steepness) } else { (1.0, 0.0) };
             let tube = Tube { near, reach: self.minor_radius * steepness, facing };
-            let sums = self.around_tube(&tube, &integrand, &demand);
+            let sums = self.around_tube(&tube, &integrand, &around);
             for ((sum, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
                 sum.turn(node.weight, node.cos, node.sin_squared, request.order, moments);
             }
@@ -79,25 +80,27 @@ impl Torus {
     }
 
     /// ∫ κ ρ^i z^j dA/dφ around the tube in one half-plane.
-    fn around_tube(&self, tube: &Tube, integrand: &Integrand, demand: &Demand) -> [HalfPlane; GROUP] {
-        let mut cosines = [[0.0; 5]; GROUP];
-        let cut = integrand.cut(tube.near, 0.5);
-        for node in Ring::new(tube.near, tube.near + 2.0 * tube.reach, demand).nodes() {
-            let d = tube.near + tube.reach * node.versine;
-            if d > cut {
+    fn around_tube(&self, tube: &Tube, integrand: &Integrand, around: &Around) -> [HalfPlane; GROUP] {
+        let mut cosines = [[[0.0; LANES]; 5]; GROUP];
+        let cut = tube.near * around.cut_ratio;
+        for chunk in around.rings.chunks(tube.near, tube.near + 2.0 * tube.reach) {
+            let gaps = chunk.versine.map(|versine| tube.near + tube.reach * versine);
+            if gaps[0] > cut {
                 break;
             }
-            for (value, sums) in integrand.at(d).into_iter().zip(&mut cosines).take(integrand.count()) {
-                let mut term = node.weight * value;
-                for sum in sums {
-                    *sum += term;
-                    term *= node.cos;
+            for (value, sums) in integrand.at_each(&gaps).iter().zip(&mut cosines).take(integrand.count()) {
+                for lane in 0..LANES {
+                    let mut term = chunk.weight[lane] * value[lane];
+                    for sum in sums.iter_mut() {
+                        sum[lane] += term;
+                        term *= chunk.cos[lane];
+                    }
                 }
             }
         }
         let mut planes = [HalfPlane::default(); GROUP];
         for (plane, sums) in planes.iter_mut().zip(&cosines).take(integrand.count()) {
-            *plane = self.half_plane(sums, tube.facing);
+            *plane = self.half_plane(&sums.map(|lanes| lanes.iter().sum()), tube.facing);
         }
         planes
     }
@@ -136,6 +139,13 @@ impl Torus {
             rr * rr * (big * e03 + r * e13),
         ])
     }
+}
+
+/// What all circles around the tube have in common.
+struct Around {
+    rings: Rings,
+    /// The gap beyond which a circle is negligible, by its smallest gap.
+    cut_ratio: f64,
 }
 
 /// The gap around the tube: near + reach (1 − cos θ), θ from the direction `facing` in (ρ, z).
