@@ -19,8 +19,9 @@ const STABLE_MODULUS: f64 = 3.7;
 /// −h Re λ from which on it does so where the direction decays: the error estimate of a solution that only follows its
 /// forcing grows well before the boundary, and an oscillation resolved for accuracy has no decay to show.
 const STABLE_DECAY: f64 = 1.5;
-/// Rows of rates are padded to whole groups of so many numbers, which are summed side by side.
+/// So many components are summed side by side; rows of rates are padded with zeros to whole groups of them.
 const LANES: usize = 4;
+type Group = [f64; LANES];
 
 /// A step that has met its tolerance.
 pub(crate) struct Trial {
@@ -37,10 +38,10 @@ pub(crate) struct Trial {
 /// Scratch of the explicit stepper, sized once.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Explicit {
-    /// Rates of the stages and at the new state, one after the other, each padded with zeros.
-    rates: Vec<f64>,
-    /// The length of a padded row.
-    stride: usize,
+    /// Rates of the stages and at the new state, one after the other.
+    rates: Vec<Group>,
+    /// The groups of one of them.
+    groups: usize,
     stage: Vec<f64>,
     error: Vec<f64>,
 }
@@ -48,9 +49,9 @@ pub(crate) struct Explicit {
 impl Explicit {
     /// Scratch for vectors of the given width.
     pub fn new(width: usize) -> Self {
-        let stride = width.next_multiple_of(LANES);
+        let groups = width.div_ceil(LANES);
         let vector = vec![0.0; width];
-        Self { rates: vec![0.0; (STAGES + 1) * stride], stride, stage: vector.clone(), error: vector }
+        Self { rates: vec![[0.0; LANES]; (STAGES + 1) * groups], groups, stage: vector.clone(), error: vector }
     }
 
     /// Attempts a step from one point to `to`, whose time is set; `to` receives state, rate and scales.
@@ -64,13 +65,13 @@ impl Explicit {
         h: f64,
         to: &mut Point,
     ) -> Result<Trial, Cause<S::Inadmissible>> {
-        let (width, stride) = (self.stage.len(), self.stride);
-        self.rates[..width].copy_from_slice(&from.rate);
+        self.rate_mut(0).copy_from_slice(&from.rate);
         for (index, row) in ROWS.iter().enumerate() {
             let s = index + 1;
             combine(&mut self.stage, &from.u, h, row, &self.rates);
             let time = if s + 1 == STAGES { to.t } else { from.t + NODES[s] * h };
-            context.evaluate(time, &self.stage, &mut self.rates[s * stride..][..width])?;
+            let rate = &mut self.rates[s * self.groups..].as_flattened_mut()[..self.stage.len()];
+            context.evaluate(time, &self.stage, rate)?;
         }
         combine(&mut to.u, &from.u, h, WEIGHTS, &self.rates);
         self.error.fill(0.0);
@@ -92,7 +93,7 @@ impl Explicit {
     ///
     /// Differences at the level of rounding say nothing and give 0.
     fn stability_used(&self, layout: &Layout, from: &Point, to: &Point, h: f64) -> f64 {
-        let last = &self.rates[(STAGES - 1) * self.stride..];
+        let last = self.rates[(STAGES - 1) * self.groups..].as_flattened();
         let mut largest: f64 = 0.0;
         for block in layout.blocks() {
             let (mut rates, mut products, mut states, mut size) = (0.0, 0.0, 0.0, 0.0);
@@ -114,33 +115,38 @@ impl Explicit {
 
     /// Completes the rates of an accepted step by the one at its end, for the interpolant.
     pub fn accept(&mut self, to: &Point) {
-        self.rates[STAGES * self.stride..][..to.rate.len()].copy_from_slice(&to.rate);
+        self.rate_mut(STAGES).copy_from_slice(&to.rate);
+    }
+
+    /// One row of rates.
+    fn rate_mut(&mut self, stage: usize) -> &mut [f64] {
+        &mut self.rates[stage * self.groups..].as_flattened_mut()[..self.stage.len()]
     }
 
     /// Hands u(θ) of the last step to `put`, component by component.
     pub fn interpolate(&self, from: &Point, to: &Point, h: f64, theta: f64, mut put: impl FnMut(usize, f64)) {
         let weights = interpolation_weights(theta);
+        let rates = self.rates.as_flattened();
         for (i, (start, end)) in from.u.iter().zip(&to.u).enumerate() {
-            let sum: f64 = weights.iter().map(|(stage, weight)| weight * self.rates[stage * self.stride + i]).sum();
+            let sum: f64 = weights.iter().map(|(stage, weight)| weight * rates[stage * self.groups * LANES + i]).sum();
             put(i, start + theta * (end - start) + h * sum);
         }
     }
 }
 
 /// out = base + h Σ a_j k_j.
-fn combine(out: &mut [f64], base: &[f64], h: f64, row: Row, rates: &[f64]) {
+fn combine(out: &mut [f64], base: &[f64], h: f64, row: Row, rates: &[Group]) {
     out.copy_from_slice(base);
     accumulate(out, h, row, rates);
 }
 
-/// out += h Σ a_j k_j, a few components at a time, whose sums stay in registers.
-fn accumulate(out: &mut [f64], h: f64, row: Row, rates: &[f64]) {
-    let stride = out.len().next_multiple_of(LANES);
+/// out += h Σ a_j k_j, a group at a time, whose sums stay in registers.
+fn accumulate(out: &mut [f64], h: f64, row: Row, rates: &[Group]) {
+    let groups = out.len().div_ceil(LANES);
     for (group, out) in out.chunks_mut(LANES).enumerate() {
         let mut sums = [0.0; LANES];
         for &(stage, coefficient) in row {
-            let rates = &rates[stage * stride + group * LANES..][..LANES];
-            for (sum, rate) in sums.iter_mut().zip(rates) {
+            for (sum, rate) in sums.iter_mut().zip(&rates[stage * groups + group]) {
                 *sum += coefficient * rate;
             }
         }
