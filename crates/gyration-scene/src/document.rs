@@ -29,14 +29,52 @@ pub(crate) struct Finding {
     pub(crate) help: String,
 }
 
-/// Collects what is wrong.
+/// Collects what is wrong, up to a number that no one reads: a file of megabytes must not take gigabytes of messages.
 #[derive(Debug, Default)]
-pub(crate) struct Findings(pub(crate) Vec<Finding>);
+pub(crate) struct Findings(Vec<Finding>);
+
+/// The most findings that are kept.
+const MOST_FINDINGS: usize = 2000;
 
 impl Findings {
     /// Notes an error at a span.
     pub(crate) fn at(&mut self, span: Span, key: &Key, message: impl Into<String>, help: impl Into<String>) {
-        self.0.push(Finding { key: key.clone(), span, message: message.into(), help: help.into() });
+        if !self.is_full() {
+            self.0.push(Finding { key: key.clone(), span, message: message.into(), help: help.into() });
+        }
+    }
+
+    /// Notes all that another collection has.
+    pub(crate) fn extend(&mut self, other: impl IntoIterator<Item = Finding>) {
+        for finding in other {
+            if !self.is_full() {
+                self.0.push(finding);
+            }
+        }
+    }
+
+    /// Whether nothing is wrong so far.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether no more are kept: there is then no need to look for more.
+    pub(crate) fn is_full(&self) -> bool {
+        self.0.len() >= MOST_FINDINGS
+    }
+
+    /// What was found so far.
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Finding> {
+        self.0.iter()
+    }
+}
+
+impl IntoIterator for Findings {
+    type Item = Finding;
+    type IntoIter = std::vec::IntoIter<Finding>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
     }
 }
 
@@ -51,12 +89,13 @@ impl Document {
     pub(crate) fn settle(&self, findings: Findings) -> SceneErrors {
         // A file with more errors than this is not a scene; the first ones tell.
         const MOST: usize = 200;
+        let is_full = findings.is_full();
         let mut findings = findings.0;
         findings.sort_by(|a, b| (a.span.text, a.span.start, &a.key).cmp(&(b.span.text, b.span.start, &b.key)));
         findings.dedup();
         let omitted = findings.len().saturating_sub(MOST);
         findings.truncate(MOST);
-        SceneErrors::new(findings.into_iter().map(|finding| self.locate(finding)).collect(), omitted)
+        SceneErrors::new(findings.into_iter().map(|finding| self.locate(finding)).collect(), omitted, is_full)
     }
 
     fn locate(&self, finding: Finding) -> SceneError {

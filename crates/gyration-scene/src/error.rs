@@ -61,11 +61,12 @@ impl fmt::Display for SceneError {
 pub struct SceneErrors {
     errors: Vec<SceneError>,
     omitted: usize,
+    has_more: bool,
 }
 
 impl SceneErrors {
-    pub(crate) fn new(errors: Vec<SceneError>, omitted: usize) -> Self {
-        Self { errors, omitted }
+    pub(crate) fn new(errors: Vec<SceneError>, omitted: usize, has_more: bool) -> Self {
+        Self { errors, omitted, has_more }
     }
 
     /// The errors, in the order of the file, those of overrides last; of very many, the first ones.
@@ -73,7 +74,7 @@ impl SceneErrors {
         &self.errors
     }
 
-    /// How many there are.
+    /// How many were found; after some thousands the search ends.
     pub fn count(&self) -> usize {
         self.errors.len() + self.omitted
     }
@@ -96,9 +97,10 @@ impl fmt::Display for SceneErrors {
             let separator = if index == 0 { "" } else { "\n" };
             write!(f, "{separator}{error}")?;
         }
+        let more = if self.has_more { " or more" } else { "" };
         match self.count() {
             0 | 1 => Ok(()),
-            count if count > SHOWN => write!(f, "\n{count} errors, of which the first {SHOWN} are shown"),
+            count if count > SHOWN => write!(f, "\n{count}{more} errors, of which {SHOWN} are shown"),
             count => write!(f, "\n{count} errors"),
         }
     }

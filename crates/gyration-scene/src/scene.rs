@@ -69,7 +69,7 @@ impl Scene {
         let mut findings = Findings::default();
         read::tree(&mut document, &mut findings);
         // Behind an error of syntax the tree is a guess: nothing more can be said about it.
-        if !findings.0.is_empty() {
+        if !findings.is_empty() {
             return Err(document.settle(findings));
         }
         read::apply(&mut document, overrides, &mut findings);
@@ -80,7 +80,7 @@ impl Scene {
         let built = build(&mut draft, base, &mut judge);
         salvage(&document, base, &mut findings);
         match (draft.complete(), built) {
-            (Some(file), Some(built)) if findings.0.is_empty() => {
+            (Some(file), Some(built)) if findings.is_empty() => {
                 Ok(Self { name: stem(name), text: text.to_owned(), overrides: overrides.to_vec(), file, built })
             }
             _ => Err(document.settle(findings)),

@@ -8,12 +8,15 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     let length = word.chars().count();
     // Longer than any key or name that is worth comparing; the cost grows with the square.
     const LONGEST: usize = 64;
+    // More than a person can have in mind; a file may have thousands of names, and as many that are not known.
+    const COMPARED: usize = 1000;
     if length > LONGEST {
         return None;
     }
     let allowed = (length / 3).max(usize::from(length > 2));
     known
         .into_iter()
+        .take(COMPARED)
         .filter(|candidate| candidate.chars().count() <= LONGEST)
         .map(|candidate| (strsim::osa_distance(word, candidate), candidate))
         .filter(|(distance, _)| *distance <= allowed)

@@ -5,23 +5,37 @@ use crate::check::{Draft, Judge, Placed};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, Repulsion};
+use std::collections::HashMap;
+
+/// The most pairs of a body and a contact in a scene.
+const MOST_PAIRS: usize = 1_000_000;
 
 /// Gives the bodies their contacts; notes a contact that names a body without a surface, and a law out of range.
 pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Judge<'_>) {
+    let supports: HashMap<&str, usize> =
+        draft.supports.iter().enumerate().map(|(index, support)| (support.value.name.as_str(), index)).collect();
+    let bodies = named(solids);
+    let mut pairs = 0;
     for Placed { key, value } in &draft.contacts {
         let laws = laws(value);
         laws.iter().for_each(|law| range(law, key, judge));
-        let support = draft.supports.iter().position(|support| support.value.name == value.support);
-        for solid in solids.iter_mut().flatten() {
-            let named = value.body.as_ref();
-            if named.is_some_and(|name| *name != solid.body.name) {
-                continue;
-            }
+        let met = match &value.body {
+            Some(name) => bodies.get(name).map_or(0..0, |&index| index..index + 1),
+            None => 0..solids.len(),
+        };
+        pairs += met.len();
+        if pairs > MOST_PAIRS {
+            let message = format!("with this contact there are more than {MOST_PAIRS} of a body and a support");
+            judge.note(key, message, "give each contact the `body` that it is for");
+            return;
+        }
+        let support = supports.get(value.support.as_str()).copied();
+        for solid in solids[met].iter_mut().flatten() {
             match (&solid.body.surface, support) {
                 (Some(_), Some(support)) => {
                     solid.body.contacts.push(Acting::new(support, measure(value.measure), laws.clone()));
                 }
-                (None, _) if named.is_some() => {
+                (None, _) if value.body.is_some() => {
                     let message = format!("\"{}\" has no surface", solid.body.name);
                     judge.note(&key.key("body"), message, "name a body whose shape has a surface");
                 }
@@ -29,6 +43,12 @@ pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Ju
             }
         }
     }
+}
+
+/// Where the body of each name stands.
+fn named(solids: &[Option<Solid>]) -> HashMap<String, usize> {
+    let name = |(index, solid): (usize, &Option<Solid>)| Some((solid.as_ref()?.body.name.clone(), index));
+    solids.iter().enumerate().filter_map(name).collect()
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

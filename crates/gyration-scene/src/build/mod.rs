@@ -91,7 +91,7 @@ pub(crate) fn build(draft: &mut Draft, base: &Path, judge: &mut Judge<'_>) -> Op
             body.value.velocity = solid.start.velocity.map(crate::quantity::Velocity).into();
         }
     }
-    if !judge.findings.0.is_empty() {
+    if !judge.findings.is_empty() {
         return None;
     }
     let plan = Plan::new(draft.time.as_ref()?, &draft.solver);

@@ -21,7 +21,7 @@ const WEIGHTS: [&str; 3] = ["density", "mass", "mass_properties"];
 /// Notes what is wrong in the well-formed keys of bodies that are not well formed.
 pub(crate) fn salvage(document: &Document, base: &Path, findings: &mut Findings) {
     let section = Key::root().key("body");
-    let dirty: BTreeSet<Key> = findings.0.iter().map(|finding| finding.key.clone()).collect();
+    let dirty: BTreeSet<Key> = findings.iter().map(|finding| finding.key.clone()).collect();
     for (index, node) in document.root.get("body").map(Node::items).unwrap_or_default().iter().enumerate() {
         let key = section.index(index);
         // What lies inside of a key follows it in the order of keys.
@@ -44,6 +44,6 @@ pub(crate) fn salvage(document: &Document, base: &Path, findings: &mut Findings)
         let mut found = Findings::default();
         Solid::new(&Placed { key: key.clone(), value }, base, &mut Judge { document, findings: &mut found });
         let counts = |place: &Key| judged.iter().any(|name| key.key(name).holds(place));
-        findings.0.extend(found.0.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
+        findings.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
     }
 }

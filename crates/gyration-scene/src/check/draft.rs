@@ -29,7 +29,7 @@ pub(crate) struct Draft {
 impl Draft {
     /// Takes from the document what nothing has been found against.
     pub(crate) fn new(document: &Document, findings: &mut Findings) -> Self {
-        let dirty = findings.0.iter().map(|finding| finding.key.clone()).collect();
+        let dirty = findings.iter().map(|finding| finding.key.clone()).collect();
         let mut taker = Taker { root: &document.root, dirty, findings };
         Self {
             title: taker.section("title"),

@@ -22,6 +22,9 @@ struct Walker<'a> {
 
 impl Walker<'_> {
     fn visit(&mut self, node: &Node, key: &Key, field: &Field) {
+        if self.findings.is_full() {
+            return;
+        }
         match (&node.value, self.rules.resolve(&field.rule)) {
             (Value::Table(table), Rule::Table { fields, required }) => self.table(table, node, key, fields, required),
             (Value::Table(table), Rule::Tagged(tags)) => self.tagged(table, node, key, tags),
@@ -84,6 +87,9 @@ impl Walker<'_> {
     /// Every key of a table: unknown, not in this version, or on to its value.
     fn keys(&mut self, table: &Table, key: &Key, fields: &BTreeMap<String, Field>, what: &str) {
         for (name, entry) in table {
+            if self.findings.is_full() {
+                return;
+            }
             let place = key.key(name);
             match fields.get(name) {
                 None => {

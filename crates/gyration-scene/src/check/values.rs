@@ -54,6 +54,9 @@ fn references(section: &str, known: &BTreeSet<String>, judge: &mut Judge<'_>) {
     let items = document.root.get("contact").map(Node::items).unwrap_or_default();
     for (index, item) in items.iter().enumerate() {
         let Some(node) = item.get(section) else { continue };
+        if judge.findings.is_full() {
+            return;
+        }
         if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
             let help = suggest::fix(name, known.iter().map(String::as_str), section);
             let message = format!("there is no {section} \"{name}\"");

@@ -1,19 +1,12 @@
-//! The convex hull of points, by insertion with exact predicates.
+//! The convex hull of points: which points have one, and the hull on its corners only.
 //!
-//! A point p is added to a hull by taking away the triangles (a, b, c) that it sees,
-//!
-//!   (b−a) × (c−a) · (p−a) > 0,
-//!
-//! and joining it to the edges around them. The sign is exact (adaptive arithmetic of Shewchuk, crate `robust`): the triangles
-//! of a face agree, what is seen is bounded by one loop, and no new triangle is without area. So there is nothing to go
-//! wrong with grids, plates or needles, where quickhull with a tolerance loses corners. It takes a sign for every point and
-//! triangle: right for up to some thousand points, which a scene file may hold.
+//! The hull itself is made by `insertion`, with exact signs: there is nothing to go wrong with grids, plates or needles,
+//! where a tolerance loses corners. Before that, points that span no volume are refused; behind it, vertices that lie
+//! within a face or an edge are left out.
 
-use std::collections::HashSet;
-
+use super::insertion::Cloud;
 use gyration::shape::Polyhedron;
 use gyration::tensor::{Mat3, Vec3};
-use robust::{Coord3D, orient3d};
 
 /// Thickness, relative to size, below which points lie in a plane: their own rounding is 1e-16 of their coordinates.
 const FLAT: f64 = 1e-9;
@@ -74,7 +67,15 @@ pub fn hull(points: &[Vec3]) -> Result<Polyhedron, HullError> {
     let mut place = vec![0; count];
     corners.iter().enumerate().for_each(|(new, &old)| place[old] = new);
     let triangles = cloud.triangles(&corners).iter().map(|triangle| triangle.map(|old| place[old])).collect();
-    Ok(Polyhedron { vertices: corners.iter().map(|&index| distinct[index]).collect(), triangles })
+    let made = Polyhedron { vertices: corners.iter().map(|&index| distinct[index]).collect(), triangles };
+    // Points on a needle of 1e-9 or so of its size may pass for a volume above, and have none.
+    match made.validate() {
+        Ok(()) => Ok(made),
+        Err(_) => {
+            let size = distinct.iter().map(|point| (point - distinct[0]).amax()).fold(0.0, f64::max);
+            Err(HullError::Flat { count, place: "in a plane", size, thickness: FLAT * size })
+        }
+    }
 }
 
 fn check_finite(points: &[Vec3]) -> Result<(), HullError> {
@@ -131,67 +132,6 @@ fn extent(points: &[Vec3], axis: &Vec3) -> f64 {
     heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
 }
 
-/// Points about which signs of volumes are asked.
-struct Cloud(Vec<Coord3D<f64>>);
-
-impl Cloud {
-    /// The points in units of a power of two near their size, which is exact and keeps products of coordinates in range.
-    fn new(points: &[Vec3]) -> Self {
-        let size = points.iter().map(|point| point.amax()).fold(0.0, f64::max);
-        let unit = size.log2().ceil().exp2();
-        Self(points.iter().map(|point| Coord3D { x: point.x / unit, y: point.y / unit, z: point.z / unit }).collect())
-    }
-
-    /// The exact sign of (b−a) × (c−a) · (p−a): positive if p sees the triangle.
-    fn height(&self, [a, b, c]: [usize; 3], p: usize) -> f64 {
-        // The crate's sign is positive below.
-        -orient3d(self.0[a], self.0[b], self.0[c], self.0[p])
-    }
-
-    /// The triangles of the hull of some of the points, which do not lie in a plane.
-    fn triangles(&self, chosen: &[usize]) -> Vec<[usize; 3]> {
-        let mut triangles = self.first_tetrahedron(chosen);
-        for &point in chosen {
-            let sees = |triangle: &[usize; 3]| self.height(*triangle, point) > 0.0;
-            let (seen, kept): (Vec<[usize; 3]>, Vec<_>) = triangles.into_iter().partition(sees);
-            let sides: Vec<[usize; 2]> = seen.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-            let inner: HashSet<[usize; 2]> = sides.iter().map(|&[a, b]| [b, a]).collect();
-            triangles = kept;
-            triangles.extend(sides.iter().filter(|side| !inner.contains(*side)).map(|&[a, b]| [a, b, point]));
-        }
-        triangles
-    }
-
-    /// A tetrahedron of points far from each other.
-    fn first_tetrahedron(&self, chosen: &[usize]) -> Vec<[usize; 3]> {
-        let at = |index: usize| Vec3::new(self.0[index].x, self.0[index].y, self.0[index].z);
-        let farthest = |distance: &dyn Fn(usize) -> f64| {
-            let farther = |best: usize, next: &usize| if distance(*next) > distance(best) { *next } else { best };
-            chosen.iter().fold(chosen[0], farther)
-        };
-        let a = farthest(&|p| at(p).x);
-        let b = farthest(&|p| (at(p) - at(a)).norm());
-        let c = farthest(&|p| (at(p) - at(a)).cross(&(at(b) - at(a))).norm());
-        let d = farthest(&|p| self.height([a, b, c], p).abs());
-        let [b, c] = if self.height([a, b, c], d) < 0.0 { [b, c] } else { [c, b] };
-        vec![[a, b, c], [a, d, b], [b, d, c], [c, d, a]]
-    }
-
-    /// The vertices at which at least three faces meet; others lie within a face or an edge.
-    fn corners(&self, triangles: &[[usize; 3]]) -> Vec<usize> {
-        let mut faces_at = vec![Vec::<[usize; 3]>::new(); self.0.len()];
-        for &triangle in triangles {
-            for vertex in triangle {
-                let is_coplanar = |other: &[usize; 3]| other.iter().all(|&corner| self.height(triangle, corner) == 0.0);
-                if !faces_at[vertex].iter().any(is_coplanar) {
-                    faces_at[vertex].push(triangle);
-                }
-            }
-        }
-        (0..self.0.len()).filter(|&vertex| faces_at[vertex].len() >= 3).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Rotation3;
@@ -246,6 +186,30 @@ mod tests {
                 // The volume is a sum of some hundred terms of up to (5 m)³, each rounded to 1e-16 of that.
                 let error = (volume - 27.0 * size.product()).abs();
                 assert!(error < 1e-14, "{size}: {volume:e}, off by {error:e}");
+            }
+        }
+    }
+
+    /// Took minutes: every point was compared with every triangle.
+    #[test]
+    fn thousands_of_points_on_a_sphere_have_a_hull_soon() {
+        let mut random = random();
+        let points: Vec<Vec3> = (0..20_000).map(|_| Vec3::from_fn(|_, _| random() - 0.5).normalize()).collect();
+        let hull = hull(&points).unwrap();
+        // Each is a corner, and a closed surface of triangles on n corners has 2n − 4.
+        assert_eq!((hull.vertices.len(), hull.triangles.len()), (20_000, 39_996));
+        assert_eq!(hull.validate(), Ok(()));
+    }
+
+    /// Products of such coordinates underflow, and signs were wrong.
+    #[test]
+    fn coordinates_of_all_sizes_have_a_hull() {
+        let mut random = random();
+        for trial in 0..2000 {
+            let mut coordinate = || (random() - 0.5) * 10_f64.powf(-320.0 * random() * random());
+            let points: Vec<Vec3> = (0..12).map(|_| Vec3::from_fn(|_, _| coordinate())).collect();
+            if let Ok(hull) = hull(&points) {
+                hull.validate().unwrap_or_else(|fault| panic!("{trial}: {fault}"));
             }
         }
     }

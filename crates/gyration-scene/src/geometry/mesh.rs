@@ -81,25 +81,55 @@ pub enum MeshError {
 /// [`MeshError`]: a file that cannot be read or is not as its format says (with the line or the byte), and triangles that are
 /// not closed, not oriented, inward or without a volume (with the first edges concerned).
 pub fn read_mesh(path: &Path, scale: f64) -> Result<Polyhedron, MeshError> {
-    let owned = || path.to_path_buf();
-    if !(scale > 0.0 && scale.is_finite()) {
-        return Err(MeshError::Scale { path: owned(), value: scale });
-    }
-    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let read = match ending.to_str() {
-        Some("stl") => stl::read,
-        Some("obj") => obj::read,
-        Some("ply") => ply::read,
-        _ => return Err(MeshError::UnknownFormat { path: owned() }),
-    };
+    check_scale(path, scale)?;
+    let parse = parser(path)?;
     let bytes = read_bytes(path)?;
-    let mesh = read(&bytes).map_err(|fault| MeshError::Malformed { path: owned(), fault })?;
+    let mesh = parse(&bytes).map_err(|fault| MeshError::Malformed { path: path.to_path_buf(), fault })?;
     drop(bytes);
+    body(path, mesh, scale)
+}
+
+/// Reads a closed surface from the content of an STL, OBJ or PLY file.
+///
+/// As [`read_mesh`]; `path` tells the format by its ending and stands in messages, nothing is read from there.
+///
+/// # Errors
+/// [`MeshError`] as [`read_mesh`], `Unreadable` and `TooLarge` apart.
+pub fn parse_mesh(path: &Path, bytes: &[u8], scale: f64) -> Result<Polyhedron, MeshError> {
+    check_scale(path, scale)?;
+    let parse = parser(path)?;
+    let mesh = parse(bytes).map_err(|fault| MeshError::Malformed { path: path.to_path_buf(), fault })?;
+    body(path, mesh, scale)
+}
+
+fn check_scale(path: &Path, scale: f64) -> Result<(), MeshError> {
+    if scale > 0.0 && scale.is_finite() {
+        return Ok(());
+    }
+    Err(MeshError::Scale { path: path.to_path_buf(), value: scale })
+}
+
+/// What reads the triangles of a format.
+type Parser = fn(&[u8]) -> Result<Polyhedron, FileFault>;
+
+/// The parser that the ending of a name asks for.
+fn parser(path: &Path) -> Result<Parser, MeshError> {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match ending.to_str() {
+        Some("stl") => Ok(stl::read),
+        Some("obj") => Ok(obj::read),
+        Some("ply") => Ok(ply::read),
+        _ => Err(MeshError::UnknownFormat { path: path.to_path_buf() }),
+    }
+}
+
+/// The triangles of a file as a body: scaled, closed, checked.
+fn body(path: &Path, mesh: Polyhedron, scale: f64) -> Result<Polyhedron, MeshError> {
     let mesh = without_collapsed(scaled(mesh, scale));
     if mesh.triangles.is_empty() {
-        return Err(MeshError::Empty { path: owned() });
+        return Err(MeshError::Empty { path: path.to_path_buf() });
     }
-    closed(mesh).map_err(|fault| MeshError::NotABody { path: owned(), fault })
+    closed(mesh).map_err(|fault| MeshError::NotABody { path: path.to_path_buf(), fault })
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, MeshError> {

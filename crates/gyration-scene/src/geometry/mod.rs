@@ -6,6 +6,7 @@
 
 mod fault;
 mod hull;
+mod insertion;
 mod mesh;
 mod obj;
 mod ply;
@@ -15,4 +16,4 @@ mod stl;
 
 pub use fault::{FileFault, Place, Trouble};
 pub use hull::{HullError, hull};
-pub use mesh::{MAX_MESH_BYTES, MeshError, read_mesh};
+pub use mesh::{MAX_MESH_BYTES, MeshError, parse_mesh, read_mesh};

@@ -23,7 +23,7 @@ pub(crate) fn apply(document: &mut Document, overrides: &[String], findings: &mu
         if let Err(fault) = apply_one(&mut document.root, setting, text) {
             match fault {
                 Fault::Key(span, message, help) => findings.at(span, &Key::root(), message, help),
-                Fault::Value(mut errors) => findings.0.append(&mut errors.0),
+                Fault::Value(errors) => findings.extend(errors),
             }
         }
     }

@@ -32,6 +32,9 @@ pub(super) fn parse_value(value: &str, text: usize, offset: usize) -> Result<Nod
 fn note(errors: &[Error], text: usize, offset: usize, length: usize, findings: &mut Findings) {
     let mut last = None;
     for error in errors {
+        if findings.is_full() {
+            return;
+        }
         let span = error.span().map_or(Span { text, start: 0, end: length }, |range| shift(range, text, offset));
         if last != Some(span.start) {
             findings.at(span, &Key::root(), format!("not valid TOML: {}", error.message()), help(error.message()));

@@ -34,24 +34,24 @@ impl Dimension {
         Self { length, mass, time, angle }
     }
 
-    /// The dimension of a product of two units.
-    pub(crate) fn times(self, other: Self) -> Self {
-        Self {
-            length: self.length + other.length,
-            mass: self.mass + other.mass,
-            time: self.time + other.time,
-            angle: self.angle + other.angle,
-        }
+    /// The dimension of a product of two units; none if an exponent does not fit.
+    pub(crate) fn times(self, other: Self) -> Option<Self> {
+        Some(Self {
+            length: self.length.checked_add(other.length)?,
+            mass: self.mass.checked_add(other.mass)?,
+            time: self.time.checked_add(other.time)?,
+            angle: self.angle.checked_add(other.angle)?,
+        })
     }
 
-    /// The dimension of an integer power of a unit.
-    pub(crate) fn power(self, exponent: i32) -> Self {
-        Self {
-            length: self.length * exponent,
-            mass: self.mass * exponent,
-            time: self.time * exponent,
-            angle: self.angle * exponent,
-        }
+    /// The dimension of an integer power of a unit; none if an exponent does not fit.
+    pub(crate) fn power(self, exponent: i32) -> Option<Self> {
+        Some(Self {
+            length: self.length.checked_mul(exponent)?,
+            mass: self.mass.checked_mul(exponent)?,
+            time: self.time.checked_mul(exponent)?,
+            angle: self.angle.checked_mul(exponent)?,
+        })
     }
 }
 
@@ -84,12 +84,14 @@ impl Unit {
     /// The pure number one.
     pub(crate) const ONE: Self = Self { size: 1.0, dimension: Dimension::new(0, 0, 0, 0) };
 
-    pub(crate) fn times(self, other: Self) -> Self {
-        Self { size: self.size * other.size, dimension: self.dimension.times(other.dimension) }
+    /// The product of two units; none if it leaves the range of exponents.
+    pub(crate) fn times(self, other: Self) -> Option<Self> {
+        Some(Self { size: self.size * other.size, dimension: self.dimension.times(other.dimension)? })
     }
 
-    pub(crate) fn power(self, exponent: i32) -> Self {
-        Self { size: self.size.powi(exponent), dimension: self.dimension.power(exponent) }
+    /// An integer power of a unit; none if it leaves the range of exponents.
+    pub(crate) fn power(self, exponent: i32) -> Option<Self> {
+        Some(Self { size: self.size.powi(exponent), dimension: self.dimension.power(exponent)? })
     }
 }
 

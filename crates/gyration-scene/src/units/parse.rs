@@ -113,7 +113,8 @@ impl<'a> Reader<'a> {
                 return Ok(unit);
             }
             let factor = self.factor(depth)?;
-            unit = unit.times(if divides { factor.power(-1) } else { factor });
+            let factor = if divides { factor.power(-1) } else { Some(factor) };
+            unit = factor.and_then(|factor| unit.times(factor)).ok_or_else(|| self.malformed())?;
         }
     }
 
@@ -134,7 +135,7 @@ impl<'a> Reader<'a> {
         } else {
             self.symbol()?
         };
-        Ok(base.power(self.power()?))
+        base.power(self.power()?).ok_or_else(|| self.malformed())
     }
 
     fn symbol(&mut self) -> Result<Unit, UnitError> {
