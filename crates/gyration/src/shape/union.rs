@@ -66,7 +66,16 @@ impl Union {
     /// The surfaces of all parts, also where one covers another; none if all are points.
     pub fn surface(&self) -> Option<Surface> {
         let of_part = |part: &Part| Some(part.shape.surface()?.transformed(&part.rotation, &part.offset));
-        self.parts.iter().filter_map(of_part).reduce(|sum, surface| sum.merged(&surface))
+        let mut surfaces: Vec<Surface> = self.parts.iter().filter_map(of_part).collect();
+        // In pairs: one after the other, the first of n parts would be copied n times.
+        while surfaces.len() > 1 {
+            let merged = |pair: &[Surface]| match pair {
+                [one, other] => one.merged(other),
+                _ => pair[0].clone(),
+            };
+            surfaces = surfaces.chunks(2).map(merged).collect();
+        }
+        surfaces.pop()
     }
 
     /// The sharpest feature of all parts.
