@@ -86,7 +86,6 @@ fn stone_without_spin_pitches_and_rolls_at_the_frequencies_of_rolling() {
             [1.0, 3.0].map(|count| experiment.time_when(count * quarter, |motion| motion.placement.gradient[entry]));
         let measured = std::f64::consts::PI / (second - first);
         let source = "m g (ϱ−h)/(I + m h²), ϱ = a²/c or b²/c";
-        // The stone slips a little while it rolls.
         Answer { row: ROW, case, quantity, reference, measured, tolerance: 1e-3, source }.check();
     }
 }
