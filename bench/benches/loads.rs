@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
-use gyration::contact::{Contact, ContactLoads, ContactScratch, ContactSlopes, RelativeMotion};
+use gyration::contact::{Contact, ContactScratch, ContactWrench, RigidLoads, RigidMotion};
 use gyration::jacobian::jacobian;
 use gyration::rates::{Workspace, rates};
 use gyration::surface::{GapClosed, GapField, Surface};
@@ -22,37 +22,46 @@ fn set_up(name: &str, exponents: (f64, f64)) -> (gyration::model::Model, gyratio
 }
 
 /// The contact of the body with the table at its start.
-fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (GapField, RelativeMotion) {
+fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (GapField, RigidMotion) {
     let motion = state.motion(model, 0);
-    let normal = model.supports[0].normal;
-    let direction = motion.placement.gradient.tr_mul(&normal);
-    let field = GapField { height: model.supports[0].gap(&motion.placement.position, 0.0), direction };
-    let (velocity, gradient_rate) = (motion.velocity.velocity, motion.velocity.gradient_rate);
-    (field, RelativeMotion { normal, velocity, gradient_rate })
+    let rotation = &motion.placement.gradient;
+    let normal = rotation.tr_mul(&model.supports[0].normal);
+    let field = GapField { height: model.supports[0].gap(&motion.placement.position, 0.0), direction: normal };
+    (field, RigidMotion { normal, velocity: rotation.tr_mul(&motion.velocity.velocity), spin: motion.spin })
 }
 
 /// Times one way of integrating the laws of the body's contact.
 fn bench_contact<T>(
     bencher: Bencher,
-    name: &str,
-    integrate: fn(&Contact, &Surface, &GapField, RelativeMotion, &mut ContactScratch) -> Result<T, GapClosed>,
+    (name, exponents): (&str, (f64, f64)),
+    integrate: fn(&Contact, &Surface, &GapField, &RigidMotion, &mut ContactScratch) -> Result<T, GapClosed>,
 ) {
-    let (model, state) = set_up(name, (6.0, 3.0));
+    let (model, state) = set_up(name, exponents);
     let (field, motion) = meeting(&model, &state);
     let body = &model.bodies[0];
     let surface = body.surface.as_ref().expect("every shape here has a surface");
     let mut scratch = ContactScratch::default();
-    bencher.bench_local(|| integrate(&body.contacts[0], surface, divan::black_box(&field), motion, &mut scratch));
+    bencher.bench_local(|| integrate(&body.contacts[0], surface, divan::black_box(&field), &motion, &mut scratch));
 }
 
 #[divan::bench(args = NAMES)]
 fn loads(bencher: Bencher, name: &str) {
-    bench_contact(bencher, name, ContactLoads::integrate);
+    bench_contact(bencher, (name, (6.0, 3.0)), RigidLoads::integrate);
 }
 
 #[divan::bench(args = NAMES)]
 fn loads_with_jacobian(bencher: Bencher, name: &str) {
-    bench_contact(bencher, name, ContactSlopes::integrate);
+    bench_contact(bencher, (name, (6.0, 3.0)), ContactWrench::integrate);
+}
+
+#[divan::bench(args = NAMES)]
+fn loads_real(bencher: Bencher, name: &str) {
+    bench_contact(bencher, (name, (6.3, 3.2)), RigidLoads::integrate);
+}
+
+#[divan::bench(args = NAMES)]
+fn loads_with_jacobian_real(bencher: Bencher, name: &str) {
+    bench_contact(bencher, (name, (6.3, 3.2)), ContactWrench::integrate);
 }
 
 fn bench_rates(bencher: Bencher, name: &str, exponents: (f64, f64)) {

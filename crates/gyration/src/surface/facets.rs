@@ -165,8 +165,8 @@ impl Facets {
     /// −1 to 17, of the facets whose vertex gaps are the computed ones.
     ///
     /// # Errors
-    /// `GapClosed` if the gap of a vertex is not a positive finite number; `out` is then unchanged, if there are no more
-    /// than four requests.
+    /// `GapClosed` if the gap of a vertex is not a positive, normal, finite number; `out` is then unchanged, if there are no
+    /// more than four requests.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         debug_assert_eq!(requests.len(), out.len());
         for (requests, out) in requests.chunks(BATCH).zip(out.chunks_mut(BATCH)) {

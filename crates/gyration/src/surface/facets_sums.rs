@@ -76,10 +76,10 @@ impl WithSimd for Integrate<'_> {
                 self.plan.add(&triangle, register, self.rows);
             }
         }
-        // A sum of gaps is finite if all of them are.
+        // A sum of gaps is finite if all of them are; what is smaller than a normal number has no reciprocal.
         let mut sums = [0.0; WIDTH];
         total.add_to(&mut sums, 0);
-        lowest.smallest() > 0.0 && fold(&sums).is_finite()
+        lowest.smallest() >= f64::MIN_POSITIVE && fold(&sums).is_finite()
     }
 }
 

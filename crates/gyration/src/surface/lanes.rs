@@ -26,6 +26,7 @@ pub(super) fn dispatch<W: WithSimd>(work: W) -> W::Output {
 /// The registers that make up a row.
 #[inline(always)]
 pub(super) fn registers<S: Simd>(row: &Row) -> &[S::f64s] {
+    const { assert!(WIDTH.is_multiple_of(S::F64_LANES), "a row must consist of whole registers") };
     S::as_simd_f64s(row).0
 }
 
