@@ -39,6 +39,8 @@ pub struct ModelSystem<'a> {
     speeds: Vec<f64>,
     energy: f64,
     radii: Vec<f64>,
+    /// The rates of the bodies at the start.
+    first_rates: Vec<f64>,
 }
 
 impl<'a> ModelSystem<'a> {
@@ -56,7 +58,7 @@ impl<'a> ModelSystem<'a> {
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
-        Ok(Self { model, workspace, tolerance, speeds, energy, radii })
+        Ok(Self { model, workspace, tolerance, speeds, energy, radii, first_rates: slopes })
     }
 
     /// The model.
@@ -67,6 +69,11 @@ impl<'a> ModelSystem<'a> {
     /// The radius of each body's surface about its centre of mass [m].
     pub fn radii(&self) -> &[f64] {
         &self.radii
+    }
+
+    /// The rates of the bodies at the start of the run, laid out as the state.
+    pub fn first_rates(&self) -> &[f64] {
+        &self.first_rates
     }
 
     /// The scratch of the mechanics, for observations between steps.

@@ -3,15 +3,16 @@
 //! A stepper sees forces only where it looks; a field of short range could be jumped over within a long step of free
 //! flight. So a step ends before the first contact that a bound on the motion allows:
 //!
-//!   d(X, t) ≥ (g₀ + t c₀) + (m + t c)·X − ½ a t²,   c₀ = n·w₀, c = Ṗᵀn, a = max(0, −g·n)
+//!   d(X, t) ≥ (g₀ + t c₀) + (m + t c)·X − ½ a t²,   c₀ = n·w₀, c = Ṗᵀn, a = max(0, −p̈₀·n)
 //!
-//! for a body that turns by less than a radian, and for any turn as long as the sphere around the body stays clear.
-//! An oscillating support counts as its foremost place, and is followed in eighths of its period where it may meet the
-//! body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
+//! for a body that turns by less than a radian, and for any turn as long as the sphere around the body stays clear. p̈₀
+//! is the acceleration at hand: g in free flight, none where a support carries the body, whose field the stepper then
+//! sees. An oscillating support counts as its foremost place, and is followed in eighths of its period where it may
+//! meet the body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
 
+use crate::views::View;
 use gyration::model::Model;
 use gyration::rates::meet;
-use gyration::state::{BodyMotion, State};
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::Vec3;
@@ -39,15 +40,14 @@ struct Approach<'a> {
     spin: f64,
 }
 
-/// The longest step [s] from this state, at most `longest`; `radii` of the bodies about their centres [m].
-pub fn horizon(model: &Model, state: &State, radii: &[f64], longest: f64) -> f64 {
+/// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
+pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], longest: f64) -> f64 {
     let mut step = longest;
-    for (index, body) in model.bodies.iter().enumerate() {
+    for ((body, view), radius) in model.bodies.iter().zip(views).zip(radii) {
         let Some(surface) = &body.surface else { continue };
-        let motion = state.motion(model, index);
         for contact in &body.contacts {
             let support = &model.supports[contact.support];
-            let approach = Approach::of(model, contact.support, state.time, &motion, surface, radii[index]);
+            let approach = Approach::of(model, contact.support, time, view, surface, *radius);
             step = step.min(match support.motion {
                 SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
                     let near = surface.smallest_gap(&approach.field).0 < body.size;
@@ -70,8 +70,8 @@ fn reach(support: &Support) -> f64 {
 }
 
 impl<'a> Approach<'a> {
-    fn of(model: &Model, index: usize, time: f64, motion: &BodyMotion, surface: &'a Surface, radius: f64) -> Self {
-        let support = &model.supports[index];
+    fn of(model: &Model, index: usize, time: f64, view: &View, surface: &'a Surface, radius: f64) -> Self {
+        let (support, motion) = (&model.supports[index], &view.motion);
         let (mut field, relative) = meet(model, index, time, motion);
         let mut velocity = relative.velocity;
         if let SupportMotion::Oscillation { .. } = support.motion {
@@ -80,7 +80,7 @@ impl<'a> Approach<'a> {
         }
         let normal: &Vec3 = &support.normal;
         let rate = GapField { height: normal.dot(&velocity), direction: motion.velocity.gradient_rate.tr_mul(normal) };
-        let acceleration = (-model.gravity.dot(normal)).max(0.0);
+        let acceleration = (-view.acceleration.dot(normal)).max(0.0);
         Self { surface, field, rate, acceleration, radius, spin: motion.spin.norm() }
     }
 

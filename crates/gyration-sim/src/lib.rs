@@ -8,6 +8,7 @@
 //! ```
 
 pub mod adapter;
+pub mod ensemble;
 pub mod events;
 mod horizon;
 mod outcome;
@@ -18,6 +19,8 @@ pub mod rows;
 mod run;
 mod summary;
 mod tally;
+mod views;
+mod watch;
 
 pub use adapter::Tolerance;
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};

@@ -186,8 +186,7 @@ impl Ledger {
     pub fn of(model: &Model, state: &State, initial: Option<f64>) -> Result<Self, Inadmissible> {
         let mut values = vec![0.0; model.energies().len()];
         energies(model, state, &mut values)?;
-        let total: f64 = values.iter().sum();
-        let residual = total - initial.unwrap_or(total) - state.works.iter().sum::<f64>();
+        let residual = residual(values.iter().sum(), initial, &state.works);
         Ok(Self { energies: values, works: state.works.clone(), residual })
     }
 
@@ -197,7 +196,22 @@ impl Ledger {
     }
 }
 
-/// Writes the row of a state, flattened in the order of [`arrays`], and returns its ledger.
+/// What a row tells of the ledger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Audit {
+    /// Σ energies [J].
+    pub energy: f64,
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+    /// Σ |works| [J].
+    pub exchanged: f64,
+    /// (Σ energies) − (Σ energies at 0) − Σ works [J].
+    pub residual: f64,
+    /// Smallest gap of all bodies [m]; infinite where none applies.
+    pub smallest_gap: f64,
+}
+
+/// Writes the row of a state, flattened in the order of [`arrays`]; `bodies` is scratch, `initial` Σ energies at t = 0.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
@@ -206,15 +220,15 @@ pub fn fill(
     workspace: &mut Workspace,
     state: &State,
     initial: Option<f64>,
-    row: &mut Vec<f64>,
-) -> Result<Ledger, Inadmissible> {
-    let mut bodies = Vec::with_capacity(model.bodies.len());
+    (bodies, row): (&mut Vec<BodyObservation>, &mut Vec<f64>),
+) -> Result<Audit, Inadmissible> {
+    bodies.clear();
     for index in 0..model.bodies.len() {
         bodies.push(observe(model, workspace, state, index)?);
     }
     row.clear();
     for field in &BODY_FIELDS {
-        for body in &bodies {
+        for body in bodies.iter() {
             match (field.value)(body) {
                 Value::Scalar(value) => row.push(value),
                 Value::Vector(value) => row.extend(value.iter()),
@@ -223,11 +237,20 @@ pub fn fill(
             }
         }
     }
-    let ledger = Ledger::of(model, state, initial)?;
-    row.extend(&ledger.energies);
-    row.extend(&ledger.works);
-    row.push(ledger.residual);
-    Ok(ledger)
+    let ledger = row.len();
+    row.resize(ledger + model.energies().len(), 0.0);
+    energies(model, state, &mut row[ledger..])?;
+    let (energy, kinetic) = (row[ledger..].iter().sum(), row[ledger]);
+    let residual = residual(energy, initial, &state.works);
+    row.extend(&state.works);
+    row.push(residual);
+    Ok(Audit {
+        energy,
+        kinetic,
+        exchanged: state.works.iter().map(|work| work.abs()).sum(),
+        residual,
+        smallest_gap: bodies.iter().map(|body| body.gap).fold(f64::INFINITY, f64::min),
+    })
 }
 
 /// The smallest gap of a row [m]; infinite where no gap applies.
@@ -235,4 +258,8 @@ pub fn smallest_gap(model: &Model, row: &[f64]) -> f64 {
     let before: usize = BODY_FIELDS.iter().take_while(|field| field.name != "gap").map(components).sum();
     let start = before * model.bodies.len();
     row[start..start + model.bodies.len()].iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn residual(energy: f64, initial: Option<f64>, works: &[f64]) -> f64 {
+    energy - initial.unwrap_or(energy) - works.iter().sum::<f64>()
 }

@@ -5,29 +5,33 @@
 //! clock; the loop asks its [`Monitor`] whether to go on.
 
 use crate::adapter::ModelSystem;
-use crate::events::{self, Event, Signals};
+use crate::events::Event;
 use crate::horizon::horizon;
 use crate::outcome::{Outcome, Stop};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows;
 use crate::tally::Tally;
-use gyration::balance::fastest_speed;
+use crate::views::{self, View};
+use gyration::balance::{BodyObservation, fastest_speed};
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Direction, Integrator, Statistics, StepReport, find_crossing};
-
-/// On how many parts of a step an event is looked for: it is known to be in there.
-const SUBINTERVALS: usize = 4;
+use gyration_ode::{Integrator, Statistics, StepReport};
 
 /// A run under way.
 pub struct Simulation<'a> {
-    system: ModelSystem<'a>,
-    integrator: Integrator,
+    pub(crate) system: ModelSystem<'a>,
+    pub(crate) integrator: Integrator,
     plan: RunPlan,
-    tally: Tally,
+    pub(crate) tally: Tally,
+    /// The bodies after the last step.
+    pub(crate) views: Vec<View>,
+    /// A state within the last step; scratch between samples.
+    pub(crate) sampled: State,
+    /// Scratch: the events of a step, the bodies of a row, the row.
+    pub(crate) found: Vec<Event>,
+    observed: Vec<BodyObservation>,
     row: Vec<f64>,
-    sampled: State,
     /// The time of the last row [s].
     recorded: f64,
 }
@@ -41,15 +45,20 @@ impl<'a> Simulation<'a> {
         let system = ModelSystem::new(model, start, plan.tolerance)
             .map_err(|left| RunError::Start(Stop::by_inadmissible(model, start.time, &left)))?;
         let integrator = Integrator::new(start.time, &start.bodies, &start.works, plan.options);
-        Ok(Self {
+        let mut this = Self {
             system,
             integrator,
             plan,
             tally: Tally::new(model.bodies.len()),
-            row: Vec::new(),
+            views: Vec::new(),
             sampled: start.clone(),
+            found: Vec::new(),
+            observed: Vec::new(),
+            row: Vec::new(),
             recorded: f64::NEG_INFINITY,
-        })
+        };
+        this.look();
+        Ok(this)
     }
 
     /// Goes on from a checkpoint of the same scene; `start` is the scene's start, from which the scales come.
@@ -63,6 +72,7 @@ impl<'a> Simulation<'a> {
         this.integrator = Integrator::resume(&memory, plan.options)?;
         this.tally = tally;
         this.recorded = this.sample_time(this.tally.next_sample.saturating_sub(1));
+        this.look();
         Ok(this)
     }
 
@@ -95,12 +105,14 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`RunError`] if the start is outside the model or the row cannot be stored.
     pub fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
-        self.sampled = self.state();
+        self.sample_end();
         if let Err(stop) = self.record(sink)? {
             return Err(RunError::Start(stop));
         }
         self.tally.next_sample = 1;
-        self.tally.signals = self.signals();
+        for body in 0..self.views.len() {
+            self.tally.signals[body] = self.signals(body);
+        }
         if self.is_slow() {
             self.tally.slow_since = self.integrator.time();
         }
@@ -119,6 +131,7 @@ impl<'a> Simulation<'a> {
                 Ok(report) => report,
                 Err(failure) => return self.stop(Stop::by_failure(model, &failure), sink),
             };
+            self.look();
             self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
             self.find_events(&report, sink)?;
             if let Err(stop) = self.sample_step(&report, sink)? {
@@ -154,7 +167,8 @@ impl<'a> Simulation<'a> {
         if end <= time {
             end = self.plan.end;
         }
-        let target = time + horizon(self.system.model(), &self.state(), self.system.radii(), end - time);
+        let horizon = horizon(self.system.model(), time, &self.views, self.system.radii(), end - time);
+        let target = time + horizon;
         // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
         if target > time { target.min(end) } else { end }
     }
@@ -188,15 +202,28 @@ impl<'a> Simulation<'a> {
         if self.recorded >= self.integrator.time() {
             return Ok(Ok(()));
         }
-        self.sampled = self.state();
+        self.sample_end();
         self.record(sink)
+    }
+
+    /// Renews what is known of the bodies after a step, or before the first.
+    fn look(&mut self) {
+        let started = self.integrator.statistics().accepted() > 0;
+        let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
+        views::renew(&mut self.views, self.system.model(), self.integrator.state(), rates);
+    }
+
+    /// Samples the state after the last step.
+    fn sample_end(&mut self) {
+        self.sampled.time = self.integrator.time();
+        self.sampled.bodies.copy_from_slice(self.integrator.state());
+        self.sampled.works.copy_from_slice(self.integrator.quadratures());
     }
 
     /// The state at a time within the last step.
     fn interpolate(&mut self, time: f64) {
         if time >= self.integrator.time() {
-            self.sampled = self.state();
-            return;
+            return self.sample_end();
         }
         self.integrator.prepare_dense(&mut self.system);
         self.sampled.time = time;
@@ -208,78 +235,34 @@ impl<'a> Simulation<'a> {
         let (model, time) = (self.system.model(), self.sampled.time);
         let first = self.tally.next_sample == 0;
         let initial = (!first).then_some(self.tally.initial_energy);
-        let ledger = match rows::fill(model, self.system.workspace(), &self.sampled, initial, &mut self.row) {
-            Ok(ledger) => ledger,
+        let scratch = (&mut self.observed, &mut self.row);
+        let audit = match rows::fill(model, self.system.workspace(), &self.sampled, initial, scratch) {
+            Ok(audit) => audit,
             Err(left) => return Ok(Err(Stop::by_inadmissible(model, time, &left))),
         };
-        if !ledger.total().is_finite() {
+        if !audit.energy.is_finite() {
             return Ok(Err(Stop::by_infinite_energy(time)));
         }
         sink.row(time, &self.row)?;
         self.recorded = time;
-        let exchanged = ledger.works.iter().map(|work| work.abs()).sum::<f64>();
         let tally = &mut self.tally;
         if first {
-            tally.initial_energy = ledger.total();
+            tally.initial_energy = audit.energy;
         }
-        tally.energy_in_play = tally.energy_in_play.max(ledger.energies[0]).max(exchanged);
-        tally.largest_residual = tally.largest_residual.max(ledger.residual.abs());
-        tally.smallest_gap = tally.smallest_gap.min(rows::smallest_gap(model, &self.row));
+        tally.energy_in_play = tally.energy_in_play.max(audit.kinetic).max(audit.exchanged);
+        tally.largest_residual = tally.largest_residual.max(audit.residual.abs());
+        tally.smallest_gap = tally.smallest_gap.min(audit.smallest_gap);
         Ok(Ok(()))
-    }
-
-    /// The signals of every body after the last step.
-    fn signals(&mut self) -> Vec<Signals> {
-        let (model, state) = (self.system.model(), self.state());
-        (0..model.bodies.len())
-            .map(|body| {
-                let speed = self.system.speed_scale(body);
-                events::signals(model, self.system.workspace(), &state, body, speed)
-            })
-            .collect()
-    }
-
-    fn find_events(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<(), RunError> {
-        let model = self.system.model();
-        let now = self.signals();
-        let mut found = Vec::new();
-        for (body, after) in now.iter().enumerate() {
-            for (kind, after) in after.iter().copied().enumerate().filter(|(_, after)| events::is_significant(*after)) {
-                let before = std::mem::replace(&mut self.tally.signals[body][kind], after);
-                if events::happened(kind, before, after) {
-                    found.push(Event { time: self.locate(report, model, body, kind), kind, body });
-                }
-            }
-        }
-        found.sort_by(|a, b| a.time.total_cmp(&b.time));
-        for event in found {
-            self.tally.events[event.kind] += 1;
-            sink.event(&event)?;
-        }
-        Ok(())
-    }
-
-    /// The time of an event within the last step [s].
-    fn locate(&mut self, report: &StepReport, model: &Model, body: usize, kind: usize) -> f64 {
-        self.integrator.prepare_dense(&mut self.system);
-        let speed = self.system.speed_scale(body);
-        let mut state = self.state();
-        let workspace = self.system.workspace();
-        let signal = |time: f64, bodies: &[f64], _: &[f64]| {
-            state.time = time;
-            state.bodies.copy_from_slice(bodies);
-            events::signals(model, workspace, &state, body, speed)[kind]
-        };
-        let direction = if events::rises(kind) { Direction::Rising } else { Direction::Falling };
-        find_crossing(&mut self.integrator, signal, direction, SUBINTERVALS).unwrap_or(report.end)
     }
 
     /// Whether every body's fastest material point is slower than the speed of rest.
     fn is_slow(&self) -> bool {
         let Some(rest) = self.plan.stop_at_rest else { return false };
-        let (model, state) = (self.system.model(), self.state());
-        let speed = |(index, body)| fastest_speed(body, &state.motion(model, index));
-        model.bodies.iter().enumerate().all(|body| speed(body) < rest.speed)
+        let bodies = &self.system.model().bodies;
+        // The centre is never the fastest: looked at first, it spares the search in a body that moves.
+        let speed = |view: &View| view.motion.velocity.velocity.norm();
+        self.views.iter().all(|view| speed(view) < rest.speed)
+            && bodies.iter().zip(&self.views).all(|(body, view)| fastest_speed(body, &view.motion) < rest.speed)
     }
 
     /// Whether every body has now been slow for long enough.

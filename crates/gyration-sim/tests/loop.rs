@@ -1,0 +1,77 @@
+//! The run loop: what it sees within long steps, and what it does not hold up.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use gyration_scene::Scene;
+use gyration_sim::{Job, MemorySink, Outcome, Provenance, Simulation, Unwatched};
+use std::path::Path;
+
+/// Rows, events and counters of a run.
+fn run(text: &str, overrides: &[&str]) -> (MemorySink, gyration_ode::Statistics) {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let scene = Scene::parse("scene.toml", text, Path::new(""), &overrides).unwrap();
+    let job = Job::of(&scene, &Provenance { version: "test".into(), commit: None });
+    let mut sink = MemorySink::default();
+    let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+    simulation.begin(&mut sink).unwrap();
+    assert_eq!(simulation.run(&mut sink, &mut Unwatched).unwrap(), Outcome::Completed);
+    (sink, *simulation.statistics())
+}
+
+/// A rod that spins in front of a plane without laws comes closest twice a turn.
+#[test]
+fn every_closest_approach_is_seen_however_long_the_steps() {
+    let text = r#"
+        world = { gravity = [0, 0, 0] }
+        time = { end = 10, sample = 10 }
+        solver = { rtol = 1e-3, atol = 1e-3 }
+        [[support]]
+        name = "plane"
+        plane = {}
+        [[body]]
+        name = "rod"
+        shape = { capsule = { radius = 0.01, height = 0.2 } }
+        density = 1000
+        position = [0, 0, 1]
+        angular_velocity = [0, 20, 0]
+    "#;
+    let (sink, statistics) = run(text, &[]);
+    let turns = 10.0 * 20.0 / std::f64::consts::TAU;
+    let (count, steps) = (sink.events.len(), statistics.accepted());
+    println!("{count} closest approaches in {turns:.1} turns, {steps} steps of up to {} s", statistics.largest_step);
+    // It starts upright, closest, and leaves from there.
+    assert_eq!(count, (2.0 * turns).floor() as usize);
+    assert!(sink.events.iter().all(|event| event.kind == 1));
+    for (k, event) in sink.events.iter().enumerate() {
+        let expected = std::f64::consts::PI / 20.0 * (k + 1) as f64;
+        // An error of 1e-3 · 1e-1 of a turn may be made in each step.
+        assert!((event.time - expected).abs() < 1e-4 * statistics.accepted() as f64, "{k}: {} {expected}", event.time);
+    }
+}
+
+/// Symptom: a box at rest made fifty steps a second, each as long as its fall through the gap would have taken.
+#[test]
+fn a_body_at_rest_is_not_held_up_by_what_carries_it() {
+    let text = r#"
+        time = { end = 100, sample = 100 }
+        [[support]]
+        name = "table"
+        plane = {}
+        [[contact]]
+        support = "table"
+        repulsion = { alpha = "1 kPa", nu = 6, d0 = "3 mm" }
+        damping = { beta = 1e4, nu = 3, d0 = "3 mm" }
+        friction = { beta = 1e4, nu = 3, d0 = "3 mm" }
+        [[body]]
+        name = "box"
+        shape = { box = { size = [0.1, 0.1, 0.1] } }
+        density = 1000
+        position = [0, 0, 0.053]
+    "#;
+    let (sink, statistics) = run(text, &[]);
+    println!("{} steps", statistics.accepted());
+    assert!(statistics.accepted() < 200, "{statistics:?}");
+    // It stays: a_z, from the contact force of the last row, is that of gravity.
+    let (_, last) = sink.rows.last().unwrap();
+    let (force, weight) = (last[27], 9.81);
+    assert!((force / weight - 1.0).abs() < 1e-6, "{force}");
+}
