@@ -1,0 +1,143 @@
+//! Nothing is allocated in a step, by any method, nor in a run between the things that its sink asks for.
+//!
+//! Allocations are counted by the global allocator of this program, thread by thread.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use allocation_counter::measure;
+use gyration::state::State;
+use gyration_ode::{Direction, Integrator, Method, Options, Statistics, System, find_crossing};
+use gyration_record::RecordError;
+use gyration_scene::Scene;
+use gyration_sim::adapter::ModelSystem;
+use gyration_sim::events::Event;
+use gyration_sim::{Job, Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink, Tolerance, Unwatched};
+use nalgebra::DMatrix;
+use std::path::Path;
+
+/// A small box that falls on a corner, tumbles and comes to rest; a ball beside it.
+const SCENE: &str = r#"
+    [time]
+    end = 2.0
+    sample = 0.01
+    [[support]]
+    name = "table"
+    plane = {}
+    [[contact]]
+    support = "table"
+    repulsion = { alpha = "245 Pa", nu = 6, d0 = "0.6 mm" }
+    damping = { beta = 1e4, nu = 3, d0 = "0.6 mm" }
+    friction = { beta = 1e4, nu = 3, d0 = "0.6 mm" }
+    [[body]]
+    name = "box"
+    shape = { box = { size = ["2 cm", "2 cm", "2 cm"] } }
+    density = "1.25 g/cm^3"
+    position = [0, 0, 0.05]
+    orientation = { axis_angle = { axis = [1, 1, 0], angle = "30 deg" } }
+    angular_velocity = [0, 20, 3]
+    [[body]]
+    name = "ball"
+    shape = { sphere = { radius = "1 cm" } }
+    density = "1.25 g/cm^3"
+    position = [0.1, 0, 0.05]
+"#;
+
+fn scene() -> Scene {
+    Scene::parse("scene.toml", SCENE, Path::new(""), &[]).unwrap()
+}
+
+/// One call of everything that has scratch of its own: what is sized then is not counted.
+fn warm_up(system: &mut ModelSystem, start: &State) {
+    let (n, works) = (start.bodies.len(), start.works.len());
+    system.rates(0.0, &start.bodies, &mut vec![0.0; n], &mut vec![0.0; works]).unwrap();
+    let mut blocks: Vec<_> = system.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect();
+    system.jacobian(0.0, &start.bodies, &mut blocks).unwrap();
+}
+
+/// Steps from the first to the end, each with an interpolation and a search for a crossing.
+fn steps_after_the_first(method: Method, end: f64) -> (u64, Statistics) {
+    let scene = scene();
+    let (model, start) = (&scene.built().model, &scene.built().state);
+    let mut system = ModelSystem::new(model, start, Tolerance { rtol: 1e-6, atol: 1e-9 }).unwrap();
+    warm_up(&mut system, start);
+    let options = Options { method, max_step: 0.1, ..Options::default() };
+    let mut integrator = Integrator::new(0.0, &start.bodies, &start.works, options);
+    let mut sample = start.clone();
+    integrator.step(&mut system, end).unwrap();
+    let counted = measure(|| {
+        while integrator.time() < end {
+            let report = integrator.step(&mut system, end).unwrap();
+            integrator.interpolate(0.5 * (report.start + report.end), &mut sample.bodies, &mut sample.works);
+            find_crossing(&mut integrator, |_, y, _| y[9], Direction::Rising, 4);
+        }
+    });
+    (counted.count_total, *integrator.statistics())
+}
+
+#[test]
+fn no_step_allocates_by_any_method() {
+    // The implicit method is dear where bodies bounce: it need not see more than the first impacts.
+    for (method, end) in [(Method::Explicit, 0.5), (Method::Implicit, 0.15), (Method::Auto, 2.0)] {
+        let (allocations, s) = steps_after_the_first(method, end);
+        println!("{method:?}: {allocations} allocations, {s:?}");
+        assert_eq!(allocations, 0, "{method:?}");
+        // What is to be free of allocations has happened.
+        assert!(s.rejected_error > 0 && s.accepted() > 50, "{method:?}");
+        match method {
+            Method::Explicit => assert!(s.explicit_steps > 0),
+            Method::Implicit => assert!(s.factorizations > s.jacobians),
+            Method::Auto => assert!(s.explicit_steps > 0 && s.implicit_steps > 0 && s.switches > 0),
+        }
+    }
+}
+
+/// Looks at everything and keeps nothing.
+#[derive(Default)]
+struct Nowhere {
+    rows: u64,
+    events: u64,
+}
+
+impl Sink for Nowhere {
+    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
+        self.rows += 1;
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event) -> Result<(), RecordError> {
+        self.events += 1;
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+/// Stops after the first events, when all scratch has been used.
+struct Briefly;
+
+impl Monitor for Briefly {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        (progress.time > 0.2).then_some(Reason::Interrupted)
+    }
+}
+
+#[test]
+fn a_run_allocates_nothing_in_its_loop() {
+    let scene = scene();
+    let job = Job::of(&scene, &Provenance { version: "test".into(), commit: None });
+    let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+    let mut sink = Nowhere::default();
+    simulation.begin(&mut sink).unwrap();
+    simulation.run(&mut sink, &mut Briefly).unwrap();
+    assert!(sink.events > 0, "scratch for events has been used");
+    let before = (sink.rows, sink.events, *simulation.statistics());
+    let mut outcome = None;
+    let counted = measure(|| outcome = Some(simulation.run(&mut sink, &mut Unwatched)));
+    assert_eq!(outcome.unwrap().unwrap(), Outcome::Completed);
+    let after = simulation.statistics();
+    let (rows, events, steps) = (sink.rows - before.0, sink.events - before.1, after.accepted() - before.2.accepted());
+    println!("{} allocations in {steps} steps, {rows} rows, {events} events", counted.count_total);
+    assert!(steps > 50 && rows > 150 && events > 3 && after.implicit_steps > 0);
+    assert_eq!(counted.count_total, 0);
+}
