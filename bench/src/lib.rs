@@ -1,5 +1,7 @@
 //! Set-ups shared by the benchmarks and by the instruction counts: a body near a table under three laws.
 
+pub mod die;
+
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_scene::Scene;
@@ -49,3 +51,32 @@ pub const SHAPES: [(&str, &str, f64); 6] = [
     ("ellipsoid", "{ ellipsoid = { semi_axes = [0.5, 0.3, 0.4] } }", 0.47),
     ("torus", "{ torus = { major_radius = 0.4, minor_radius = 0.1 } }", 0.32),
 ];
+
+/// The time that this thread has spent on a processor [s]; wall time where the system does not tell.
+///
+/// On a machine shared with others, wall time says little.
+pub fn processor_seconds() -> f64 {
+    use std::sync::OnceLock;
+    use std::time::Instant;
+    static BEGIN: OnceLock<Instant> = OnceLock::new();
+    let begin = BEGIN.get_or_init(Instant::now);
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |count| 1e-9 * count)
+}
+
+/// The processor time of one call [s]: the fastest of five batches, each long enough for the clock, which may tick only
+/// every few milliseconds.
+pub fn seconds_each(mut work: impl FnMut()) -> f64 {
+    const BATCH: f64 = 0.2;
+    let mut time = |count: u32| {
+        let begin = processor_seconds();
+        (0..count).for_each(|_| work());
+        (processor_seconds() - begin) / f64::from(count)
+    };
+    let mut count = 1;
+    while time(count) * f64::from(count) < BATCH {
+        count *= 2;
+    }
+    (0..5).map(|_| time(count)).fold(f64::INFINITY, f64::min)
+}
