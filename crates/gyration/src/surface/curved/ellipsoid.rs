@@ -8,11 +8,12 @@
 //! does not depend on φ: κ is evaluated once for a parallel, and the rest, ∮ |B s| s⊗… dφ, is geometry, the same for the
 //! parallel at π − θ but for signs. `features` chooses the parallels, `parallels` sums around them.
 
+use super::super::lanes::dispatch;
 use super::super::{GapField, MomentRequest, Moments};
 use super::features::Features;
 use super::half_plane::Chart;
 use super::integrand::Integrand;
-use super::parallels::{AreaElement, Parallels, Sums};
+use super::parallels::{AreaElement, Sums, Sweep};
 use super::sphere::frame_along;
 use crate::tensor::{Mat3, Vec3};
 
@@ -52,10 +53,8 @@ impl Ellipsoid {
         let integrand = Integrand::new(requests);
         let features = Features::new(near, reach, &cofactor, &frame.column(2).into(), &integrand);
         let mut sums = Sums::ZERO;
-        let mut nodes = features.nodes();
-        while let Some(parallels) = Parallels::gather(&mut nodes) {
-            parallels.add(&element, near, reach, &integrand, &mut sums);
-        }
+        let gap = (near, reach);
+        dispatch(Sweep { nodes: features.nodes(), element: &element, gap, integrand: &integrand, sums: &mut sums });
         for (place, (request, moments)) in requests.iter().zip(out).enumerate() {
             sums.collect(place, request.order, moments);
         }

@@ -8,7 +8,7 @@
 //! Only 0 ≤ x ≤ 1 is covered: the other half mirrors it. Where dips are so narrow that one rule would need too many
 //! points, the range is cut at them and graded to each.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, LN_2};
 
 use super::super::rule::{GradedInterval, Singularity, gauss_legendre};
 use super::integrand::Integrand;
@@ -100,10 +100,9 @@ impl Features {
     /// The parallels from the lowest point to θ = ½π, as far as they count.
     pub(super) fn nodes(&self) -> impl Iterator<Item = PolarNode> + '_ {
         let points = self.points();
-        let (single, cut) = if points <= MOST_POINTS { (Some(points), None) } else { (None, Some(())) };
-        let single = single.into_iter().flat_map(|points| self.logarithmic(points));
-        let cut = cut.into_iter().flat_map(|()| self.graded());
-        single.chain(cut).filter(|node| node.spared < NEGLIGIBLE)
+        let single = (points <= MOST_POINTS).then(|| self.logarithmic(points));
+        let cut = (points > MOST_POINTS).then(|| self.graded());
+        single.into_iter().flatten().chain(cut.into_iter().flatten()).filter(|node| node.spared < NEGLIGIBLE)
     }
 
     /// Points of a rule in y that resolves the exponentials and both dips.
@@ -114,7 +113,11 @@ impl Features {
         /// For the smooth factors beside the singularities.
         const SPARE: f64 = 3.0;
         let growth = (self.sharpest - 1.0).max(4.0 - self.mildest).max(3.0);
-        let mut points = 7.0 + 3.0 * (0.5 * growth * self.span).sqrt();
+        let exponentials = 7.0 + 3.0 * (0.5 * growth * self.span).sqrt();
+        // The far half sees the zero of the gap at x = 2 + δ, beyond the end.
+        let beyond = 2.0 * (1.0 + 2.0 * LN_2 / self.span).acosh();
+        let far = (DIGITS + self.sharpest - self.mildness * self.span).max(3.0) / beyond + SPARE;
+        let mut points = exponentials.max(far);
         for dip in self.dips.iter().filter(|dip| dip.share < 1.0 - 1e-9) {
             let hyperbolic = 1.0 / (1.0 - dip.share * dip.share).sqrt();
             let imaginary = dip.sin * dip.share * hyperbolic / self.depth;

@@ -10,6 +10,8 @@
 
 use std::f64::consts::PI;
 
+use pulp::{Simd, WithSimd};
+
 use super::super::Moments;
 use super::features::PolarNode;
 use super::integrand::{GROUP, Integrand, LANES, Lane};
@@ -53,6 +55,7 @@ impl AreaElement {
     ///
     /// There B(cos θ f + sin θ cosh η e) and sin θ sinh η B e' have equal lengths; the first is at least
     /// |cos θ| √least_beyond and √least · |s|, the second at most sin θ sinh η √most_across.
+    #[inline(always)]
     fn decay(&self, cos_squared: f64, sin_squared: f64) -> f64 {
         let beyond = cos_squared * self.least_beyond / self.most_across;
         let excess = self.most_across - self.least;
@@ -97,6 +100,7 @@ impl Parallels {
     }
 
     /// Pairs of opposite points that resolve |B s| around these parallels.
+    #[inline(always)]
     fn pairs(&self, element: &AreaElement, order: usize) -> f64 {
         // Parallels that count less need fewer digits; the nearest zero is that of the largest circle.
         let z = self.cos.iter().fold(1.0, |least: f64, z| least.min(*z));
@@ -108,6 +112,7 @@ impl Parallels {
     /// Adds κ times the moments of s over these parallels and over their images at π − θ.
     ///
     /// The gap is near + reach · versine.
+    #[inline(always)]
     pub(super) fn add(&self, element: &AreaElement, near: f64, reach: f64, integrand: &Integrand, sums: &mut Sums) {
         let pairs = self.pairs(element, integrand.order);
         let third = integrand.order == 3;
@@ -174,6 +179,7 @@ impl Parallels {
     }
 
     /// The components of s, s⊗s, s⊗s⊗s from the sums of `around`, in the order of [`COMPONENTS`].
+    #[inline(always)]
     fn components(&self, sums: &[Lane; 7], step: f64) -> [Lane; 20] {
         let mut out = [[0.0; LANES]; 20];
         for lane in 0..LANES {
@@ -194,6 +200,26 @@ impl Parallels {
             }
         }
         out
+    }
+}
+
+/// All parallels that `nodes` tells of, the gap being gap.0 + gap.1 · versine: compiled for each instruction set.
+pub(super) struct Sweep<'a, Nodes> {
+    pub(super) nodes: Nodes,
+    pub(super) element: &'a AreaElement,
+    pub(super) gap: (f64, f64),
+    pub(super) integrand: &'a Integrand,
+    pub(super) sums: &'a mut Sums,
+}
+
+impl<Nodes: Iterator<Item = PolarNode>> WithSimd for Sweep<'_, Nodes> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) {
+        while let Some(parallels) = Parallels::gather(&mut self.nodes) {
+            parallels.add(self.element, self.gap.0, self.gap.1, self.integrand, self.sums);
+        }
     }
 }
 

@@ -10,11 +10,14 @@
 
 use std::f64::consts::PI;
 
+use pulp::{Simd, WithSimd};
+
+use super::super::lanes::dispatch;
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
 use super::integrand::{GROUP, Integrand, LANES};
-use super::ring::{Demand, Rings};
+use super::ring::{Demand, RingNode, Rings};
 use super::sphere::unit_or_z;
 use crate::tensor::Vec3;
 
@@ -49,22 +52,17 @@ impl Torus {
         let around = Around { rings, cut_ratio: integrand.cut_ratio(0.5) };
         let smallest = gap.height - self.major_radius * gap.across - self.minor_radius * gap.along.hypot(gap.across);
         let cut = integrand.cut(smallest, 1.0);
-        for node in outer.nodes(near, far) {
-            let lateral = gap.across * node.cos;
-            let steepness = gap.along.hypot(lateral);
-            let middle = gap.height - self.major_radius * lateral;
-            let near = middle - self.minor_radius * steepness;
-            if near > cut {
-                break;
-            }
-            // The side of the tube that faces the plane, in the half-plane (ρ, z).
-            let facing = if steepness > 0.0 { (lateral / steepness, -gap.along / steepness) } else { (1.0, 0.0) };
-            let tube = Tube { near, reach: self.minor_radius * steepness, facing };
-            let sums = self.around_tube(&tube, &integrand, &around);
-            for ((sum, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
-                sum.turn(node.weight, node.cos, node.sin_squared, request.order, moments);
-            }
-        }
+        let nodes = outer.nodes(near, far);
+        dispatch(Sweep {
+            torus: self,
+            gap: &gap,
+            nodes,
+            cut,
+            around: &around,
+            integrand: &integrand,
+            requests,
+            out: &mut *out,
+        });
         out.iter_mut().for_each(mirror);
         Chart::frame(gap.frame)
     }
@@ -80,6 +78,7 @@ impl Torus {
     }
 
     /// ∫ κ ρ^i z^j dA/dφ around the tube in one half-plane.
+    #[inline(always)]
     fn around_tube(&self, tube: &Tube, integrand: &Integrand, around: &Around) -> [HalfPlane; GROUP] {
         let mut cosines = [[[0.0; LANES]; 5]; GROUP];
         let cut = tube.near * around.cut_ratio;
@@ -108,6 +107,7 @@ impl Torus {
     /// The sums S_ij = ∫ κ ρ^i z^j r ρ dθ from ∫ κ cosᵏθ dθ, k = 0 … 4.
     ///
     /// With e = cos θ f + sin θ f⊥, f = (a, b), odd powers of sin θ cancel in E_pq = ∫ κ e_ρ^p e_z^q dθ.
+    #[inline(always)]
     fn half_plane(&self, cosines: &[f64; 5], (a, b): (f64, f64)) -> HalfPlane {
         let [c0, c1, c2, c3, c4] = *cosines;
         // ∫ κ cosᵖ sin^q.
@@ -138,6 +138,44 @@ impl Torus {
             rr * r * (big2 * e02 + 2.0 * big * r * e12 + rr * e22),
             rr * rr * (big * e03 + r * e13),
         ])
+    }
+}
+
+/// The circles around the tube in all half-planes: compiled for each instruction set.
+struct Sweep<'a, Nodes> {
+    torus: &'a Torus,
+    gap: &'a TiltedGap,
+    nodes: Nodes,
+    /// The gap beyond which half-planes are negligible.
+    cut: f64,
+    around: &'a Around,
+    integrand: &'a Integrand,
+    requests: &'a [MomentRequest],
+    out: &'a mut [Moments],
+}
+
+impl<Nodes: Iterator<Item = RingNode>> WithSimd for Sweep<'_, Nodes> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { torus, gap, nodes, cut, around, integrand, requests, out } = self;
+        for node in nodes {
+            let lateral = gap.across * node.cos;
+            let steepness = gap.along.hypot(lateral);
+            let middle = gap.height - torus.major_radius * lateral;
+            let near = middle - torus.minor_radius * steepness;
+            if near > cut {
+                break;
+            }
+            // The side of the tube that faces the plane, in the half-plane (ρ, z).
+            let facing = if steepness > 0.0 { (lateral / steepness, -gap.along / steepness) } else { (1.0, 0.0) };
+            let tube = Tube { near, reach: torus.minor_radius * steepness, facing };
+            let sums = torus.around_tube(&tube, integrand, around);
+            for ((sum, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
+                sum.turn(node.weight, node.cos, node.sin_squared, request.order, moments);
+            }
+        }
     }
 }
 
