@@ -1,0 +1,7 @@
+//! Random admissible scenes, and what each owes.
+
+pub mod laws;
+pub mod scene;
+pub mod shapes;
+pub mod stream;
+pub mod verdict;

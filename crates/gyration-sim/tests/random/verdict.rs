@@ -1,0 +1,161 @@
+//! Runs a scene and looks at the end of every step: gaps, ledger, outcome.
+
+use gyration::balance::{energies, smallest_gap};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_record::RecordError;
+use gyration_scene::Scene;
+use gyration_sim::events::Event;
+use gyration_sim::rows::Ledger;
+use gyration_sim::{Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, Simulation, Sink};
+
+/// The most evaluations of a run: enough for some hundred steps. A longer one is audited up to there.
+const MOST_EVALUATIONS: u64 = 6000;
+
+/// What a run has shown.
+pub struct Seen {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Evaluations of the rates.
+    pub evaluations: u64,
+    /// Smallest gap over samples and ends of steps, as a fraction of the smallest body's size.
+    pub gap: f64,
+    /// Largest residual of the ledger over samples and ends of steps, as a fraction of the energy in play.
+    pub residual: f64,
+    /// The energy needed to bring the bodies nearer than numbers can tell, against the energy there is.
+    pub barrier: f64,
+}
+
+/// Runs a scene.
+///
+/// # Errors
+/// What [`Simulation`] returns: the start is outside the model, or a row cannot be stored.
+pub fn run(scene: &Scene) -> Result<Seen, RunError> {
+    let job = Job::of(scene, &Provenance { version: "test".into(), commit: None });
+    let initial = Ledger::of(job.model, job.start, None).unwrap().energies.iter().sum();
+    let mut watch = Watch { model: job.model, initial, gap: f64::INFINITY, residual: 0.0, play: 0.0 };
+    let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
+    simulation.begin(&mut watch)?;
+    let outcome = simulation.run(&mut watch, &mut limit())?;
+    let (statistics, state) = (*simulation.statistics(), simulation.state());
+    let size = job.model.bodies.iter().map(|body| body.size).fold(f64::INFINITY, f64::min);
+    Ok(Seen {
+        outcome,
+        steps: statistics.explicit_steps + statistics.implicit_steps,
+        evaluations: statistics.rate_evaluations,
+        gap: watch.gap / size,
+        residual: watch.residual / watch.play,
+        barrier: barrier(job.model, &state) / watch.play,
+    })
+}
+
+/// Ends a run that takes too many evaluations.
+struct Limit(u64);
+
+/// As many as `GYRATION_EVALUATIONS` says, if it does.
+fn limit() -> Limit {
+    Limit(std::env::var("GYRATION_EVALUATIONS").map_or(MOST_EVALUATIONS, |number| number.parse().unwrap()))
+}
+
+impl Monitor for Limit {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        (progress.statistics.rate_evaluations >= self.0).then_some(Reason::Interrupted)
+    }
+}
+
+/// Audits each sample and the end of each step.
+struct Watch<'a> {
+    model: &'a Model,
+    initial: f64,
+    gap: f64,
+    residual: f64,
+    /// The energy in play [J]: the largest of any store or work, and of what has been exchanged.
+    play: f64,
+}
+
+impl Watch<'_> {
+    fn see(&mut self, state: &State) {
+        for index in 0..self.model.bodies.len() {
+            let gap = smallest_gap(self.model, state.time, index, &state.motion(self.model, index));
+            self.gap = self.gap.min(gap);
+        }
+        let ledger = Ledger::of(self.model, state, Some(self.initial)).unwrap();
+        let exchanged: f64 = ledger.works.iter().map(|work| work.abs()).sum();
+        self.play = self.play.max(ledger.energies[0]).max(exchanged);
+        self.residual = self.residual.max(ledger.residual.abs());
+    }
+}
+
+impl Sink for Watch<'_> {
+    fn row(&mut self, _: f64, row: &[f64]) -> Result<(), RecordError> {
+        assert!(row.iter().all(|number| !number.is_nan()), "a row holds what is not a number: {row:?}");
+        // Position, P, velocity and Ṗ of every body stand before the gaps, the residual at the end.
+        let bodies = self.model.bodies.len();
+        self.gap = row[24 * bodies..25 * bodies].iter().copied().fold(self.gap, f64::min);
+        self.residual = self.residual.max(row.last().copied().unwrap_or(0.0).abs());
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        assert!(event.time.is_finite());
+        Ok(())
+    }
+
+    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        let state = state_of(self.model, &checkpoint());
+        self.see(&state);
+        Ok(())
+    }
+}
+
+/// The state in a checkpoint: the last of its five lists of numbers is time, bodies, works and more.
+fn state_of(model: &Model, checkpoint: &[u8]) -> State {
+    let (words, _) = checkpoint.as_chunks::<8>();
+    let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
+    for _ in 0..4 {
+        let count = words.next().unwrap() as usize;
+        words.by_ref().take(count).for_each(drop);
+    }
+    let _count = words.next();
+    let mut reals = words.map(f64::from_bits);
+    let time = reals.next().unwrap();
+    let bodies = reals.by_ref().take(model.dimension()).collect();
+    State { time, bodies, works: reals.take(model.works().len()).collect() }
+}
+
+/// The contact energy [J] that it takes to bring the nearest body to a gap of 1e-9 of its size, turned as it is.
+///
+/// Far below, gaps drown in the rounding of places. Infinite without a body near a support.
+fn barrier(model: &Model, state: &State) -> f64 {
+    const NEAREST: f64 = 1e-9;
+    let mut lowest = f64::INFINITY;
+    for (index, body) in model.bodies.iter().enumerate().filter(|(_, body)| body.pin.is_none()) {
+        for contact in &body.contacts {
+            let only = Model::new(
+                model.gravity,
+                vec![model.supports[contact.support].clone()],
+                vec![{
+                    let mut alone = body.clone();
+                    alone.contacts = vec![contact.clone()];
+                    alone.contacts[0].support = 0;
+                    alone
+                }],
+            );
+            let block = model.blocks()[index].clone();
+            let mut moved = State { time: state.time, bodies: state.bodies[block].to_vec(), works: Vec::new() };
+            let gap = smallest_gap(&only, state.time, 0, &moved.motion(&only, 0));
+            let normal = only.supports[0].normal;
+            for axis in 0..3 {
+                moved.bodies[axis] -= (gap - NEAREST * body.size) * normal[axis];
+            }
+            let mut values = vec![0.0; only.energies().len()];
+            if energies(&only, &moved, &mut values).is_ok() {
+                let contact = only.energies().iter().position(|energy| energy.name() == "contact");
+                lowest = lowest.min(contact.map_or(0.0, |index| values[index]));
+            }
+        }
+    }
+    lowest
+}
