@@ -4,17 +4,18 @@
 
 mod common;
 
-use common::{BALL, Said, Sandbox, assert_same_bytes};
+use common::{BALL, Said, Sandbox, assert_same_bytes, tree};
+use gyration_record::Recording;
+use serde_json::Value;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// Long enough to be hit in the middle: many bounces without loss, precisely.
-const LONG: [&str; 10] = [
+/// Many bounces without loss, precisely.
+const PRECISE: [&str; 8] = [
     "run",
     "ball.toml",
-    "--set",
-    "time.end=60",
     "--set",
     "solver.rtol=1e-11",
     "--set",
@@ -23,72 +24,144 @@ const LONG: [&str; 10] = [
     "time.sample=0.001",
 ];
 
-fn start(sandbox: &Sandbox, output: &str) -> Child {
-    let mut command = sandbox.command(&[&LONG[..], &["-o", output]].concat());
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    let began = Instant::now();
-    while !sandbox.path(output).exists() && began.elapsed() < Duration::from_secs(60) {
-        sleep(Duration::from_millis(5));
-    }
-    child
+/// How often the recording of a running program is looked at.
+const LOOK: Duration = Duration::from_millis(2);
+
+/// The arguments of a run to this time [s], with these besides.
+fn to<'a>(end: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&PRECISE[..], &["--set", end], more].concat()
 }
 
-fn interrupt(child: &Child) {
-    let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(status.success());
+/// Starts the program and returns it once it has this many rows on disk; none if it ended before.
+fn start(sandbox: &Sandbox, arguments: &[&str], output: &str, rows: usize) -> Option<Child> {
+    let mut command = sandbox.command(&[arguments, &["-o", output]].concat());
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while rows_on_disk(&sandbox.path(output)) < rows {
+        if child.try_wait().unwrap().is_some() {
+            return None;
+        }
+        sleep(LOOK);
+    }
+    Some(child)
+}
+
+fn rows_on_disk(path: &Path) -> usize {
+    Recording::open(path).map_or(0, |recording| recording.rows())
+}
+
+fn is_finished(path: &Path) -> bool {
+    Recording::open(path).unwrap().attributes().contains_key("outcome")
+}
+
+/// Starts runs, each twice as long as the last, until `stop` meets one in the middle; returns its end, `time.end=…`.
+fn met_in_the_middle(sandbox: &Sandbox, output: &str, mut stop: impl FnMut(&str, Child)) -> String {
+    for doubling in 0..20 {
+        let end = format!("time.end={}", 20 << doubling);
+        if let Some(child) = start(sandbox, &to(&end, &[]), output, 2) {
+            stop(&end, child);
+            if !is_finished(&sandbox.path(output)) {
+                return end;
+            }
+        }
+        // Not with --force: the rows of the old recording would be met before those of the new one.
+        std::fs::remove_dir_all(sandbox.path(output)).unwrap();
+    }
+    panic!("no run is long enough to be met in the middle")
+}
+
+fn kill(mut child: Child) {
+    child.kill().unwrap();
+    child.wait().unwrap();
 }
 
 #[test]
 fn killed_runs_go_on_to_the_same_bytes() {
     let sandbox = Sandbox::with_ball();
-    sandbox.done(&[&LONG[..], &["-o", "whole.gyr", "--quiet"]].concat());
-    let mut hits = 0;
-    for (k, delay) in [0, 150, 400, 700, 1100].into_iter().enumerate() {
-        let output = format!("part-{k}.gyr");
-        let mut child = start(&sandbox, &output);
-        sleep(Duration::from_millis(delay));
-        hits += usize::from(child.try_wait().unwrap().is_none());
-        child.kill().unwrap();
-        child.wait().unwrap();
-        sandbox.done(&[&LONG[..], &["-o", &output, "--resume", "--quiet"]].concat());
-        assert_same_bytes(&sandbox.path("whole.gyr"), &sandbox.path(&output));
+    let end = met_in_the_middle(&sandbox, "part.gyr", |end, child| {
+        kill(child);
+        // A second time, behind the rows that it resumes from.
+        let rows = rows_on_disk(&sandbox.path("part.gyr"));
+        if let Some(child) = start(&sandbox, &to(end, &["--resume"]), "part.gyr", rows + 1) {
+            kill(child);
+        }
+    });
+    sandbox.done(&to(&end, &["-o", "part.gyr", "--resume", "--quiet"]));
+    sandbox.done(&to(&end, &["-o", "whole.gyr", "--quiet"]));
+    assert_same_bytes(&sandbox.path("whole.gyr"), &sandbox.path("part.gyr"));
+    // A third one, with no more than the start on disk.
+    if let Some(child) = start(&sandbox, &to(&end, &[]), "first.gyr", 1) {
+        kill(child);
     }
-    assert!(hits > 1, "the run is too short to be killed in the middle");
+    sandbox.done(&to(&end, &["-o", "first.gyr", "--resume", "--quiet"]));
+    assert_same_bytes(&sandbox.path("whole.gyr"), &sandbox.path("first.gyr"));
     let csv = |name: &str| sandbox.done(&["export", name, "--format", "csv", "-o", "-"]).stdout;
-    assert!(csv("whole.gyr") == csv("part-1.gyr"));
+    assert!(csv("whole.gyr") == csv("part.gyr"));
 }
 
 #[test]
 fn interrupted_run_says_how_to_go_on() {
     let sandbox = Sandbox::with_ball();
-    let child = start(&sandbox, "part.gyr");
-    sleep(Duration::from_millis(200));
-    interrupt(&child);
-    let said = Said::from(child.wait_with_output().unwrap());
+    let mut said = None;
+    let end = met_in_the_middle(&sandbox, "part.gyr", |_, child| {
+        let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        assert!(status.success());
+        said = Some(Said::from(child.wait_with_output().unwrap()));
+    });
+    let said = said.unwrap();
     assert_eq!(said.code, Some(130), "{}", said.stderr);
     assert!(said.stderr.contains("--resume") && said.stderr.contains("-o part.gyr"), "{}", said.stderr);
-    sandbox.done(&[&LONG[..], &["-o", "part.gyr", "--resume", "--quiet"]].concat());
-    sandbox.done(&[&LONG[..], &["-o", "whole.gyr", "--quiet"]].concat());
+    sandbox.done(&to(&end, &["-o", "part.gyr", "--resume", "--quiet"]));
+    sandbox.done(&to(&end, &["-o", "whole.gyr", "--quiet"]));
     assert_same_bytes(&sandbox.path("whole.gyr"), &sandbox.path("part.gyr"));
 }
 
 #[test]
-fn wall_time_ends_a_run_that_can_be_resumed_with_more() {
+fn run_ended_by_its_wall_time_goes_on_to_the_same_bytes() {
     let sandbox = Sandbox::with_ball();
-    let limited = |limit: &'static str| [&LONG[..], &["--quiet", "-o", "part.gyr", "--set", limit]].concat();
-    let said = sandbox.run(&limited("solver.max_wall_time=0.05"));
+    let limited =
+        |limit: &'static str, more: &[&'static str]| to("time.end=5", &[&["--quiet", "--set", limit], more].concat());
+    // No machine bounces a ball for 5 s to 1e-11 within a millisecond.
+    let said = sandbox.run(&limited("solver.max_wall_time=0.001", &["-o", "part.gyr"]));
     assert_eq!(said.code, Some(1), "{}", said.stderr);
-    sandbox.done(&[&limited("solver.max_wall_time=1000")[..], &["--resume"]].concat());
+    assert!(!is_finished(&sandbox.path("part.gyr")));
+    let said = sandbox.run(&limited("solver.max_wall_time=0.001", &["-o", "part.gyr", "--resume"]));
+    assert_eq!(said.code, Some(1), "{}", said.stderr);
+    sandbox.done(&limited("solver.max_wall_time=1000", &["-o", "part.gyr", "--resume"]));
+    sandbox.done(&limited("solver.max_wall_time=1000", &["-o", "whole.gyr"]));
+    let [mut whole, mut part] = ["whole.gyr", "part.gyr"].map(|name| tree(&sandbox.path(name)));
+    // The attributes tell the limit under which a run began; all else is the same.
+    let [group, resumed] =
+        [&mut whole, &mut part].map(|files| attributes(&files.remove(Path::new("zarr.json")).unwrap()));
+    assert_eq!(group, resumed);
+    assert_eq!(whole.keys().collect::<Vec<_>>(), part.keys().collect::<Vec<_>>());
+    let different: Vec<_> = whole.iter().filter(|(path, bytes)| part[*path] != **bytes).map(|(path, _)| path).collect();
+    assert!(different.is_empty(), "{different:?}");
+}
+
+/// The metadata of a recording without the limit of wall time.
+fn attributes(json: &[u8]) -> Value {
+    let mut group: Value = serde_json::from_slice(json).unwrap();
+    let attributes = &mut group["attributes"];
+    let [Value::Object(mut solver), Value::Array(overrides)] =
+        [attributes["resolved"]["solver"].take(), attributes["overrides"].take()]
+    else {
+        panic!("neither solver nor overrides: {attributes}")
+    };
+    assert!(solver.remove("max_wall_time").is_some());
+    attributes["resolved"]["solver"] = Value::Object(solver);
+    attributes["overrides"] =
+        overrides.into_iter().filter(|setting| !setting.as_str().unwrap().contains("max_wall_time")).collect();
+    group
 }
 
 #[test]
 fn finished_run_stays_as_it_is() {
     let sandbox = Sandbox::with_ball();
     sandbox.done(&["run", "ball.toml", "--quiet"]);
-    let before = common::tree(&sandbox.path("ball.gyr"));
+    let before = tree(&sandbox.path("ball.gyr"));
     let said = sandbox.done(&["run", "ball.toml", "--resume"]);
     assert!(said.stderr.contains("Nothing was done"), "{}", said.stderr);
-    assert!(before == common::tree(&sandbox.path("ball.gyr")));
+    assert!(before == tree(&sandbox.path("ball.gyr")));
     assert_eq!(sandbox.names(), ["ball.gyr", "ball.toml"]);
 }
 
@@ -97,12 +170,12 @@ fn another_scene_is_not_resumed() {
     let sandbox = Sandbox::with_ball();
     sandbox.refused(3, &["run", "ball.toml", "--resume"]);
     sandbox.done(&["run", "ball.toml", "--quiet"]);
-    let before = common::tree(&sandbox.path("ball.gyr"));
+    let before = tree(&sandbox.path("ball.gyr"));
     let said = sandbox.refused(2, &["run", "ball.toml", "--resume", "--set", "body.ball.density=2000"]);
     assert!(said.stderr.contains("another scene"), "{}", said.stderr);
     sandbox.write("other.toml", &BALL.replace("5 cm", "4 cm"));
     sandbox.refused(2, &["run", "other.toml", "-o", "ball.gyr", "--resume"]);
-    assert!(before == common::tree(&sandbox.path("ball.gyr")));
+    assert!(before == tree(&sandbox.path("ball.gyr")));
     // What only the comments tell is the same scene.
     sandbox.write("same.toml", &format!("# a remark\n{BALL}"));
     sandbox.done(&["run", "same.toml", "-o", "ball.gyr", "--resume"]);
