@@ -141,8 +141,15 @@ fn a_die_comes_to_rest_and_the_run_ends_there() {
 #[test]
 fn a_touch_that_nothing_forbids_ends_the_run_with_names_and_numbers() {
     // A logarithmic potential under a sphere is finite at contact: at 3 m/s the ball gets there.
-    let scene =
-        gallery("bounce", &["contact.0.repulsion.nu=1", "contact.0.repulsion.alpha=1", "contact.0.damping.nu=1"]);
+    let scene = gallery(
+        "bounce",
+        &[
+            "contact.0.repulsion.nu=1",
+            "contact.0.repulsion.alpha=1",
+            "contact.0.damping.nu=1",
+            "contact.0.friction.nu=1",
+        ],
+    );
     let (_, summary) = run(&scene);
     let Outcome::Stopped(stop) = &summary.outcome else { panic!("{}", summary.in_words) };
     assert_eq!((stop.reason, stop.body.as_deref()), (Reason::GapClosed, Some("ball")));
