@@ -6,13 +6,13 @@
 
 use std::f64::consts::PI;
 
-use super::super::power::{GapSample, LineKernel};
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
-use super::integrand::{GROUP, Integrand, Lines};
+use super::half_plane::{Chart, TiltedGap};
+use super::integrand::Integrand;
 use super::ring::{Demand, Rings};
-use crate::tensor::Vec3;
+use super::rulings::{OtherEnd, RulingSums, Rulings};
+use crate::tensor::{Mat3, SymmetricThird, Vec3};
 
 /// The wall of a cone about the z axis, base at z = −height/2, apex at +height/2, without its base.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,7 @@ impl ConeWall {
     /// Sums the moments about the apex in the frame of [`TiltedGap`]; every gap must be positive.
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
         let gap = TiltedGap::new(field);
-        let (integrand, lines) = (Integrand::new(requests), Lines::new(requests, 1));
+        let integrand = Integrand::new(requests);
         let reach = self.radius * gap.across;
         let apex = gap.height + 0.5 * gap.along * self.height;
         let near = gap.height - 0.5 * gap.along * self.height - reach;
@@ -47,41 +47,27 @@ impl ConeWall {
         // Rulings contribute as the gap of their lower end: once that is the apex they are all alike.
         let cut = integrand.cut(near, 1.5);
         let cut = if cut < apex { cut } else { f64::INFINITY };
-        let mut at_apex = [GapSample::UNIT; GROUP];
-        for (sample, kernel) in at_apex.iter_mut().zip(lines.iter()) {
-            *sample = kernel.sample(apex);
+        let ring = Rings::new(&demand).chunks(near, near + 2.0 * reach);
+        let rulings = Rulings { ring, near, reach, cut, other_end: OtherEnd::Common(apex) };
+        for (request, moments) in requests.iter().zip(out) {
+            self.collect(&rulings.sums(request), moments);
         }
-        let slant = self.radius * self.radius.hypot(self.height);
-        for node in Rings::new(&demand).nodes(near, near + 2.0 * reach) {
-            let base = near + reach * node.versine;
-            if base > cut {
-                break;
-            }
-            for (((kernel, at_apex), request), moments) in lines.iter().zip(&at_apex).zip(requests).zip(out.iter_mut())
-            {
-                let line = from_apex(kernel, at_apex, &kernel.sample(base), request.order);
-                let sums = HalfPlane::radial(&line, self.radius, -self.height);
-                sums.turn(slant * node.weight, node.cos, node.sin_squared, request.order, moments);
-            }
-        }
-        out.iter_mut().for_each(mirror);
         Chart { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
     }
-}
 
-/// K_k = ∫ κ τ^(k+1) dτ, k = 0 … order, τ from the apex; kernels integrate from the nearer end.
-#[inline]
-fn from_apex(kernel: &LineKernel, apex: &GapSample, base: &GapSample, order: usize) -> [f64; 4] {
-    if apex.gap <= base.gap {
-        let m = kernel.moments(apex, base, order + 1);
-        return [m[1], m[2], m[3], m[4]];
+    /// The moments from the sums over the rulings, (ρ, z) = t (R, −h).
+    fn collect(&self, sums: &RulingSums, out: &mut Moments) {
+        let area = self.radius * self.radius.hypot(self.height);
+        let (r, z) = (self.radius, -self.height);
+        let (one, cos) = (sums.one.map(|sum| area * sum), sums.cos.map(|sum| area * r * sum));
+        let across = area * r * r;
+        let [xx, xxz, ..] = sums.cos_squared.map(|sum| across * sum);
+        let [yy, yyz, ..] = sums.sin_squared.map(|sum| across * sum);
+        let [xxx, xyy] = [sums.cos_cubed, sums.cos_sin_squared].map(|sum| across * r * sum);
+        let (xz, xzz) = (z * cos[1], z * z * cos[2]);
+        out.zeroth = one[0];
+        out.first = Vec3::new(cos[0], 0.0, z * one[1]);
+        out.second = Mat3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, z * z * one[2]);
+        out.third = SymmetricThird([xxx, 0.0, z * xxz, xyy, 0.0, xzz, 0.0, z * yyz, 0.0, z * z * z * one[3]]);
     }
-    // τ = 1 − x, x from the base.
-    let m = kernel.moments(base, apex, order + 1);
-    [
-        m[0] - m[1],
-        m[0] - 2.0 * m[1] + m[2],
-        m[0] - 3.0 * m[1] + 3.0 * m[2] - m[3],
-        m[0] - 4.0 * m[1] + 6.0 * m[2] - 4.0 * m[3] + m[4],
-    ]
 }

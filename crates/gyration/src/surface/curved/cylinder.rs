@@ -6,11 +6,12 @@
 use std::f64::consts::TAU;
 
 use super::super::{GapField, MomentRequest, Moments};
-use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
-use super::integrand::{Integrand, Lines};
+use super::half_plane::{Chart, TiltedGap};
+use super::integrand::Integrand;
 use super::ring::{Demand, Rings};
+use super::rulings::{OtherEnd, RulingSums, Rulings};
 use super::sphere::shifted;
-use crate::tensor::Vec3;
+use crate::tensor::{Mat3, SymmetricThird, Vec3};
 
 /// The wall of a cylinder about the z axis, |z| ≤ height/2, without its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,29 +36,36 @@ impl CylinderWall {
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
         let gap = TiltedGap::new(field);
-        let (integrand, lines) = (Integrand::new(requests), Lines::new(requests, 0));
+        let integrand = Integrand::new(requests);
         // The end nearer to the plane, and the way to the other.
         let near_z = -0.5f64.copysign(gap.along) * self.height;
         let rise = gap.along.abs() * self.height;
         let reach = self.radius * gap.across;
         let near = gap.height + gap.along * near_z - reach;
         let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order };
+        let ring = Rings::new(&demand).chunks(near, near + 2.0 * reach);
         let cut = integrand.cut(near, 1.5);
-        for node in Rings::new(&demand).nodes(near, near + 2.0 * reach) {
-            let d = near + reach * node.versine;
-            if d > cut {
-                break;
-            }
-            let weight = self.radius * node.weight;
-            for ((kernel, request), moments) in lines.iter().zip(requests).zip(out.iter_mut()) {
-                let line = kernel.moments(&kernel.sample(d), &kernel.sample(d + rise), request.order);
-                let along = shifted(&line, near_z, -2.0 * near_z);
-                let sums = HalfPlane::parallel(&along, self.radius);
-                sums.turn(weight, node.cos, node.sin_squared, request.order, moments);
-            }
+        let rulings = Rulings { ring, near, reach, cut, other_end: OtherEnd::Above(rise) };
+        for (request, moments) in requests.iter().zip(out) {
+            self.collect(&rulings.sums(request), near_z, moments);
         }
-        out.iter_mut().for_each(mirror);
         Chart::frame(gap.frame)
+    }
+
+    /// The moments from the sums over the rulings, z = near_z (1 − 2t).
+    fn collect(&self, sums: &RulingSums, near_z: f64, out: &mut Moments) {
+        let along = |line: &[f64; 4]| shifted(line, near_z, -2.0 * near_z).map(|z| self.radius * z);
+        let (one, cos) = (along(&sums.one), along(&sums.cos));
+        let (cos_squared, sin_squared) = (along(&sums.cos_squared), along(&sums.sin_squared));
+        let (r, rr) = (self.radius, self.radius * self.radius);
+        let cubic = rr * rr * self.height;
+        out.zeroth = one[0];
+        out.first = Vec3::new(r * cos[0], 0.0, one[1]);
+        let (xx, yy, xz) = (rr * cos_squared[0], rr * sin_squared[0], r * cos[1]);
+        out.second = Mat3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, one[2]);
+        let (xxz, yyz) = (rr * cos_squared[1], rr * sin_squared[1]);
+        let (xxx, xyy) = (cubic * sums.cos_cubed, cubic * sums.cos_sin_squared);
+        out.third = SymmetricThird([xxx, 0.0, xxz, xyy, 0.0, r * cos[2], 0.0, yyz, 0.0, one[3]]);
     }
 }
 

@@ -52,32 +52,6 @@ impl TiltedGap {
 pub(crate) struct HalfPlane(pub(crate) [f64; 10]);
 
 impl HalfPlane {
-    /// The half-plane of a straight line on which ∫ κ z^j dz is `line[j]` and ρ is constant.
-    #[inline]
-    pub(crate) fn parallel(line: &[f64; 4], rho: f64) -> Self {
-        let [a, b, c, d] = *line;
-        let squared = rho * rho;
-        Self([a, rho * a, b, squared * a, rho * b, c, squared * rho * a, squared * b, rho * c, d])
-    }
-
-    /// The half-plane of a line through the origin, (ρ, z) = τ (rho, z), on which ∫ κ τ^k ds is `line[k]`.
-    #[inline]
-    pub(crate) fn radial(line: &[f64; 4], rho: f64, z: f64) -> Self {
-        let [a, b, c, d] = *line;
-        Self([
-            a,
-            rho * b,
-            z * b,
-            rho * rho * c,
-            rho * z * c,
-            z * z * c,
-            rho * rho * rho * d,
-            rho * rho * z * d,
-            rho * z * z * d,
-            z * z * z * d,
-        ])
-    }
-
     /// Adds the pair of half-planes at ±φ, of total weight w, to the moments in the frame of [`TiltedGap`].
     #[inline]
     pub(crate) fn turn(&self, w: f64, cos: f64, sin_squared: f64, order: usize, out: &mut Moments) {

@@ -16,6 +16,7 @@ mod hemisphere;
 mod integrand;
 mod parallels;
 mod ring;
+mod rulings;
 mod sphere;
 mod torus;
 
