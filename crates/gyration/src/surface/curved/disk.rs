@@ -8,6 +8,9 @@
 
 use std::f64::consts::PI;
 
+use pulp::{Simd, WithSimd};
+
+use super::super::lanes::dispatch;
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
@@ -40,18 +43,8 @@ impl Disk {
         let reach = self.radius * gap.across;
         let near = gap.height - reach;
         let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + 2 };
-        let cut = integrand.cut(near, 1.5);
-        let mut sums = [[[0.0; LANES]; 6]; GROUP];
-        for chunk in Rings::new(&demand).chunks(near, near + 2.0 * reach) {
-            let gaps = chunk.versine.map(|versine| near + reach * versine);
-            if gaps[0] > cut {
-                break;
-            }
-            let values = integrand.at_each(&gaps);
-            for (value, sums) in values.iter().zip(&mut sums).take(integrand.count()) {
-                add_chords(chunk, value, sums);
-            }
-        }
+        let chords = Chords { ring: Rings::new(&demand).chunks(near, near + 2.0 * reach), near, reach, integrand };
+        let sums = dispatch(chords);
         for ((sums, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
             self.collect(&sums.map(|lanes| lanes.iter().sum()), request.order, moments);
         }
@@ -72,6 +65,35 @@ impl Disk {
             (out.third.0[0], out.third.0[3]) =
                 (squared * squared * first * sums[4], squared * squared * first * sums[5]);
         }
+    }
+}
+
+/// The pass over the chords, the gap being near + reach · versine: compiled for each instruction set.
+struct Chords {
+    ring: &'static [RingChunk],
+    near: f64,
+    reach: f64,
+    integrand: Integrand,
+}
+
+impl WithSimd for Chords {
+    type Output = [[Lane; 6]; GROUP];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let cut = self.integrand.cut(self.near, 1.5);
+        let mut sums = [[[0.0; LANES]; 6]; GROUP];
+        for chunk in self.ring {
+            let gaps = chunk.versine.map(|versine| self.near + self.reach * versine);
+            if gaps[0] > cut {
+                break;
+            }
+            let values = self.integrand.at_each(&gaps);
+            for (value, sums) in values.iter().zip(&mut sums).take(self.integrand.count()) {
+                add_chords(chunk, value, sums);
+            }
+        }
+        sums
     }
 }
 

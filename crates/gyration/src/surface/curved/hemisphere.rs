@@ -10,11 +10,15 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::super::rule::{GradedInterval, Singularity};
+use pulp::{Simd, WithSimd};
+
+use super::super::lanes::dispatch;
+use super::super::power::LineKernel;
+use super::super::rule::{GradedInterval, Node, Singularity};
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, TiltedGap, mirror};
-use super::integrand::{Integrand, Lines};
+use super::half_plane::{Chart, TiltedGap};
+use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
 use super::sphere::{add_zone, height_moments};
 use crate::tensor::{Mat3, Vec3};
 
@@ -58,7 +62,6 @@ impl Hemisphere {
         let parallels = Parallels { height: gap.height, reach: self.radius * slope, cosine, sine };
         self.whole_parallels(&parallels, requests, out);
         self.arcs(&parallels, requests, out);
-        out.iter_mut().for_each(mirror);
         Chart::frame(gap.frame * Mat3::new(cosine, 0.0, -sine, 0.0, 1.0, 0.0, sine, 0.0, cosine))
     }
 
@@ -66,8 +69,9 @@ impl Hemisphere {
     fn whole_parallels(&self, p: &Parallels, requests: &[MomentRequest], out: &mut [Moments]) {
         let (from, to) = if p.cosine > 0.0 { (p.sine, 1.0) } else { (-1.0, -p.sine) };
         if from < to {
-            for ((kernel, request), moments) in Lines::new(requests, 0).iter().zip(requests).zip(out) {
-                let u = height_moments(kernel, p.height, p.reach, from, to, request.order);
+            for (request, moments) in requests.iter().zip(out) {
+                let kernel = LineKernel::up_to(request.kernel, request.order);
+                let u = height_moments(&kernel, p.height, p.reach, from, to, request.order);
                 add_zone(self.radius, request.order, &u, moments);
             }
         }
@@ -96,71 +100,86 @@ impl Hemisphere {
         let lower = GradedInterval { from: 0.0, to: last.min(FRAC_PI_2), width: grazing.min(opening) };
         let upper = GradedInterval { from: PI, to: FRAC_PI_2, width: opening };
         let upper = (last > FRAC_PI_2).then(|| upper.nodes(upper.points(&below)));
-        for node in lower.nodes(lower.points(&below)).chain(upper.into_iter().flatten()) {
-            let half = (0.5 * node.at).sin();
-            let values = integrand.at(near + 2.0 * reach * half * half);
-            let arc = Arc::new(p, node.at, node.weight * self.radius * self.radius);
-            for ((value, request), moments) in values.iter().zip(requests).zip(out.iter_mut()) {
-                arc.add(*value, self.radius, request.order, moments);
+        let nodes = lower.nodes(lower.points(&below)).chain(upper.into_iter().flatten());
+        let sums = dispatch(Sweep { parallels: p, nodes, gap: (near, reach), integrand: &integrand });
+        for ((sums, request), moments) in sums.iter().zip(requests).zip(out) {
+            self.collect(&sums.map(|lanes| lanes.iter().sum()), request.order, moments);
+        }
+    }
+
+    /// Adds the moments from the sums of those of the arcs of the unit sphere.
+    fn collect(&self, sums: &[f64; 13], order: usize, out: &mut Moments) {
+        let squared = self.radius * self.radius;
+        let [zeroth, x, z, xx, yy, xz, zz, xxx, xyy, xxz, yyz, xzz, zzz] = *sums;
+        out.zeroth += squared * zeroth;
+        if order >= 1 {
+            let scale = squared * self.radius;
+            out.first += scale * Vec3::new(x, 0.0, z);
+        }
+        if order >= 2 {
+            let scale = squared * squared;
+            out.second += scale * Mat3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz);
+        }
+        if order >= 3 {
+            let scale = squared * squared * self.radius;
+            for (place, entry) in [(0, xxx), (3, xyy), (2, xxz), (7, yyz), (5, xzz), (9, zzz)] {
+                out.third.0[place] += scale * entry;
             }
         }
     }
 }
 
-/// Moments of one arc, weight included, in the order of Z = u c + √(1−u²)(cos φ e₁ + sin φ e₂).
-struct Arc {
-    zeroth: f64,
-    first: (f64, f64),
-    /// xx, yy, xz, zz.
-    second: [f64; 4],
-    /// xxx, xyy, xxz, yyz, xzz, zzz.
-    third: [f64; 6],
+/// The pass over the arcs, the gap being gap.0 + gap.1 (1 − cos ψ): compiled for each instruction set.
+struct Sweep<'a, Nodes> {
+    parallels: &'a Parallels,
+    nodes: Nodes,
+    gap: (f64, f64),
+    integrand: &'a Integrand,
 }
 
-impl Arc {
-    fn new(p: &Parallels, psi: f64, weight: f64) -> Self {
-        let (sin, cos) = psi.sin_cos();
-        let u = -p.sine * cos;
-        // √(1−u²) times the cosine and the sine of α.
-        let (x, y) = (p.cosine * cos, sin);
-        let squared = x * x + y * y;
-        let w = weight * p.sine * sin;
-        let angle = y.atan2(x);
-        let (zeroth, first) = (2.0 * w * angle, 2.0 * w * y);
-        let (xx, yy) = (w * (angle * squared + x * y), w * (angle * squared - x * y));
-        let cubic = 2.0 / 3.0 * w * y * y * y;
-        let xxx = 2.0 * w * y * squared - cubic;
-        Self {
-            zeroth,
-            first: (first, u * zeroth),
-            second: [xx, yy, u * first, u * u * zeroth],
-            third: [xxx, cubic, u * xx, u * yy, u * u * first, u * u * u * zeroth],
-        }
-    }
+impl<Nodes: Iterator<Item = Node>> WithSimd for Sweep<'_, Nodes> {
+    type Output = [[Lane; 13]; GROUP];
 
-    #[inline]
-    fn add(&self, value: f64, radius: f64, order: usize, out: &mut Moments) {
-        out.zeroth += value * self.zeroth;
-        if order == 0 {
-            return;
-        }
-        let w = value * radius;
-        out.first.x += w * self.first.0;
-        out.first.z += w * self.first.1;
-        if order == 1 {
-            return;
-        }
-        let w = w * radius;
-        out.second.m11 += w * self.second[0];
-        out.second.m22 += w * self.second[1];
-        out.second.m13 += w * self.second[2];
-        out.second.m33 += w * self.second[3];
-        if order == 2 {
-            return;
-        }
-        let w = w * radius;
-        for (place, entry) in [0, 3, 2, 7, 5, 9].into_iter().zip(self.third) {
-            out.third.0[place] += w * entry;
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) -> Self::Output {
+        let mut sums = [[[0.0; LANES]; 13]; GROUP];
+        loop {
+            // Lanes without a node have no weight.
+            let (mut gaps, mut arcs, mut count) = ([self.gap.0; LANES], [[0.0; LANES]; 13], 0);
+            for (lane, node) in self.nodes.by_ref().take(LANES).enumerate() {
+                let (sin, cos) = (0.5 * node.at).sin_cos();
+                gaps[lane] = self.gap.0 + 2.0 * self.gap.1 * sin * sin;
+                let arc = arc(self.parallels, 2.0 * sin * cos, 1.0 - 2.0 * sin * sin, node.weight);
+                for (arcs, value) in arcs.iter_mut().zip(arc) {
+                    arcs[lane] = value;
+                }
+                count += 1;
+            }
+            if count == 0 {
+                return sums;
+            }
+            let values = self.integrand.at_each(&gaps);
+            for (value, sums) in values.iter().zip(&mut sums).take(self.integrand.count()) {
+                accumulate(value, &arcs, sums);
+            }
         }
     }
+}
+
+/// Moments of the arc at ψ of the unit sphere, weight included, of Z = u c + √(1−u²)(cos φ e₁ + sin φ e₂): 1; x, z; xx, yy,
+/// xz, zz; xxx, xyy, xxz, yyz, xzz, zzz.
+#[inline(always)]
+fn arc(p: &Parallels, sin: f64, cos: f64, weight: f64) -> [f64; 13] {
+    let u = -p.sine * cos;
+    // √(1−u²) times the cosine and the sine of α.
+    let (x, y) = (p.cosine * cos, sin);
+    let squared = x * x + y * y;
+    let w = weight * p.sine * sin;
+    let angle = y.atan2(x);
+    let (zeroth, first) = (2.0 * w * angle, 2.0 * w * y);
+    let (xx, yy) = (w * (angle * squared + x * y), w * (angle * squared - x * y));
+    let cubic = 2.0 / 3.0 * w * y * y * y;
+    let xxx = 2.0 * w * y * squared - cubic;
+    let uu = u * u;
+    [zeroth, first, u * zeroth, xx, yy, u * first, uu * zeroth, xxx, cubic, u * xx, u * yy, uu * first, u * uu * zeroth]
 }

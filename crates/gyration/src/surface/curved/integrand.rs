@@ -6,7 +6,6 @@
 //! every kernel has fallen below [`NEGLIGIBLE`] of its largest value may be left out; [`Integrand::cut`] says from
 //! which gap on.
 
-use super::super::power::LineKernel;
 use super::super::{Kernel, MomentRequest};
 
 /// The most requests that are worked on at once; longer lists are cut into groups of this size.
@@ -80,12 +79,6 @@ impl Integrand {
         self.count
     }
 
-    /// The kernels at a gap d > 0 [m]; entries beyond the requests are zero.
-    #[inline]
-    pub(crate) fn at(&self, gap: f64) -> [f64; GROUP] {
-        self.at_each(&[gap]).map(|[value]| value)
-    }
-
     /// The kernels at several gaps d > 0 [m]; entries beyond the requests are zero.
     #[inline(always)]
     pub(crate) fn at_each<const N: usize>(&self, gaps: &[f64; N]) -> [[f64; N]; GROUP] {
@@ -147,26 +140,13 @@ fn product<const N: usize>(squarings: &[[f64; N]; 4], whole: u32, start: [f64; N
     value
 }
 
-/// The kernels of at most [`GROUP`] requests, for integration along straight lines.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Lines {
-    kernels: [LineKernel; GROUP],
-    count: usize,
-}
-
-impl Lines {
-    /// The kernels of `requests` for moments of `beyond` degrees more than the orders requested.
-    pub(crate) fn new(requests: &[MomentRequest], beyond: usize) -> Self {
-        let mut kernels = [LineKernel::UNIT; GROUP];
-        for (kernel, request) in kernels.iter_mut().zip(requests) {
-            *kernel = LineKernel::up_to(request.kernel, request.order + beyond);
+/// Adds value × component to the sums, lane by lane.
+#[inline(always)]
+pub(crate) fn accumulate(value: &Lane, components: &[Lane], sums: &mut [Lane]) {
+    for (sum, component) in sums.iter_mut().zip(components) {
+        for lane in 0..LANES {
+            sum[lane] += value[lane] * component[lane];
         }
-        Self { kernels, count: requests.len().min(GROUP) }
-    }
-
-    /// The kernels, in the order of the requests.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &LineKernel> {
-        self.kernels[..self.count].iter()
     }
 }
 

@@ -14,7 +14,7 @@ use pulp::{Simd, WithSimd};
 
 use super::super::Moments;
 use super::features::PolarNode;
-use super::integrand::{GROUP, Integrand, LANES, Lane};
+use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
 use crate::tensor::{Mat3, Vec3};
 
 /// The e-folds of e^(−Nη) asked for; the zeros of |B s|² are branch points, whose error is 1e-3 of that.
@@ -227,15 +227,6 @@ impl<Nodes: Iterator<Item = PolarNode>> WithSimd for Sweep<'_, Nodes> {
 #[inline(always)]
 fn root(x: f64) -> f64 {
     if x > 0.0 { x.sqrt() } else { 0.0 }
-}
-
-#[inline(always)]
-fn accumulate(value: &Lane, components: &[Lane], sums: &mut [Lane]) {
-    for (sum, component) in sums.iter_mut().zip(components) {
-        for lane in 0..LANES {
-            sum[lane] += value[lane] * component[lane];
-        }
-    }
 }
 
 /// The moments of each kernel, lane by lane.

@@ -64,14 +64,14 @@ impl Rulings {
         let beyond = usize::from(matches!(self.other_end, OtherEnd::Common(_)));
         let line = LineKernel::up_to(request.kernel, order + beyond);
         let needs_log = line.needs_log() || line.integer.is_none();
-        dispatch(Sweep { rulings: self, line, exponent: SplitExponent::new(exponent), needs_log, order })
+        dispatch(Sweep { rulings: self, line: &line, exponent: SplitExponent::new(exponent), needs_log, order })
     }
 }
 
 /// The pass over the rulings for one kernel: compiled for each instruction set.
 struct Sweep<'a> {
     rulings: &'a Rulings,
-    line: LineKernel,
+    line: &'a LineKernel,
     exponent: SplitExponent,
     needs_log: bool,
     order: usize,
@@ -130,14 +130,14 @@ impl Sweep<'_> {
     fn line<S: Simd, const ORDER: usize>(&self, base: Lanes<S>) -> [Lanes<S>; 4] {
         match self.rulings.other_end {
             OtherEnd::Above(rise) => {
-                let m = line_moments(&self.line, &self.end(base), &self.end(base + rise), ORDER);
+                let m = line_moments(self.line, &self.end(base), &self.end(base + rise), ORDER);
                 [m[0], m[1], m[2], m[3]]
             }
             OtherEnd::Common(apex) => {
                 let apex = Lanes::splat(base.simd, apex);
                 let apex_nearer = apex.less_than(base);
                 let (near, far) = (apex_nearer.select(apex, base), apex_nearer.select(base, apex));
-                let m = line_moments(&self.line, &self.end(near), &self.end(far), ORDER + 1);
+                let m = line_moments(self.line, &self.end(near), &self.end(far), ORDER + 1);
                 // Else t = 1 − x, x from the base.
                 let reversed = [
                     m[0] - m[1],
