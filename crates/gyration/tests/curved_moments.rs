@@ -241,6 +241,24 @@ proptest! {
         }
     }
 
+    /// Rules serve all kernels of a call, so that company changes the nodes: what changes with them is the rules' error.
+    #[test]
+    fn moments_do_not_depend_on_what_else_is_asked(
+        direction in directions(), gap in gaps(-6.0), nu in -1.0..12.0f64, axes in prop::array::uniform3(-1.3..0.0f64),
+    ) {
+        let ellipsoid = Surface::ellipsoid(&Vec3::from(axes.map(|exponent| 0.5 * 10f64.powf(exponent))));
+        for surface in samples().into_iter().chain([ellipsoid]) {
+            let field = field_above(&surface, direction.normalize(), gap);
+            let alone = moments(&surface, &field, Kernel::Power(nu));
+            let kernels = [Kernel::Power(nu), Kernel::Power(-1.0), Kernel::Power(15.0), Kernel::Log];
+            let mut out = [Moments::default(); 4];
+            surface.moments(&field, &kernels.map(|kernel| MomentRequest { kernel, order: 3 }), &mut out).unwrap();
+            let tolerance = 1e-9 + 1e-15 * nu.abs() / gap;
+            let scales = kernel_scales(&surface, &field, Kernel::Power(nu), &alone);
+            assert_same(&out[0], &alone, &scales, tolerance, &format!("{surface:?}"));
+        }
+    }
+
     /// Surfaces that coincide by construction but not in the code.
     #[test]
     fn equal_surfaces_have_equal_moments(direction in directions(), gap in gaps(-6.0), nu in -1.0..12.0f64) {
