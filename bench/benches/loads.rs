@@ -5,7 +5,7 @@
 use divan::Bencher;
 use gyration::contact::{Contact, ContactScratch, ContactWrench, RigidLoads, RigidMotion};
 use gyration::jacobian::jacobian;
-use gyration::rates::{Workspace, rates};
+use gyration::rates::{Workspace, meet, rates};
 use gyration::surface::{GapClosed, GapField, Surface};
 use gyration_bench::{SHAPES, near_table};
 use nalgebra::DMatrix;
@@ -24,10 +24,8 @@ fn set_up(name: &str, exponents: (f64, f64)) -> (gyration::model::Model, gyratio
 /// The contact of the body with the table at its start.
 fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (GapField, RigidMotion) {
     let motion = state.motion(model, 0);
-    let rotation = &motion.placement.gradient;
-    let normal = rotation.tr_mul(&model.supports[0].normal);
-    let field = GapField { height: model.supports[0].gap(&motion.placement.position, 0.0), direction: normal };
-    (field, RigidMotion { normal, velocity: rotation.tr_mul(&motion.velocity.velocity), spin: motion.spin })
+    let (field, relative) = meet(model, 0, 0.0, &motion);
+    (field, RigidMotion::new(&relative, &motion.placement.gradient, motion.spin))
 }
 
 /// Times one way of integrating the laws of the body's contact.

@@ -1,10 +1,9 @@
 //! The exact Jacobian of the rates, block by block.
 //!
-//! In the body's own axes the wrench on a rigid body depends on few numbers, and its derivatives by them follow from the
-//! same moments with exponent ν + 1 (`contact`); they are carried over to the state here, once:
+//! The wrench on a rigid body depends on few numbers, and its derivatives by them follow from the same moments with
+//! exponent ν + 1 (`contact`); they are carried over to the state here, once:
 //!
-//!   m p̈₀ = m g + R F         δ(R F) = R (δF − F×δθ)
-//!   I Ω̇ = τ − Ω × IΩ         δ(Ω × IΩ) = ([Ω]× I − [IΩ]×) δΩ
+//!   m p̈₀ = m g + f           I Ω̇ = τ − Ω × IΩ,   δ(Ω × IΩ) = ([Ω]× I − [IΩ]×) δΩ
 //!
 //! Columns of the quaternion come from those of δθ by δθ = 2 vec(q⁻¹ ∘ δq).
 
@@ -56,19 +55,17 @@ fn rigid_slopes(
     motion: &BodyMotion,
 ) -> Result<RigidSlopes, Inadmissible> {
     let body = &model.bodies[index];
-    let rotation = &motion.placement.gradient;
     let mut slopes = RigidSlopes::default();
     for_each_contact(model, time, index, motion, |meeting| {
         let Meeting { contact, surface, field, .. } = meeting;
-        let relative = meeting.in_body(motion);
+        let relative = meeting.rigid(motion);
         let wrench = ContactWrench::integrate(contact, surface, field, &relative, &mut workspace.contact)?;
         slopes.add_contact(&wrench, &relative);
         Ok(())
     })?;
     spring_loads(index, body, motion, |spring| slopes.add_spring(spring, motion))?;
     if let Some(pin) = &body.pin {
-        let weight = rotation.tr_mul(&(body.mass.mass * model.gravity));
-        slopes.tie_to_pin(&pin.point, &weight, &motion.spin);
+        slopes.tie_to_pin(&pin.point, &(body.mass.mass * model.gravity), motion);
     }
     Ok(slopes)
 }
@@ -89,20 +86,18 @@ fn gyroscopic(inertia: &RigidInertia, motion: &BodyMotion) -> Mat3 {
 
 /// The block of a free body: p₀, q, ṗ₀, Ω from 0, 3, 7, 10.
 fn fill_free(block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, motion: &BodyMotion, slopes: &RigidSlopes) {
-    let rotation = &motion.placement.gradient;
-    let (back, turns) = (rotation.transpose(), motion.quaternion.turn_by_component());
-    let linear = rotation / body.mass.mass;
-    let force_by_turn = slopes.by_turn.force - cross_matrix(&slopes.wrench.force);
+    let turns = motion.quaternion.turn_by_component();
+    let mobility = 1.0 / body.mass.mass;
     write(block, (0, 7), &Mat3::identity());
     write(block, (3, 3), &motion.quaternion.rate_by_component(&motion.spin));
     write(block, (3, 10), &motion.quaternion.rate_by_spin());
-    write(block, (7, 0), &(linear * slopes.by_place.force * back));
-    write(block, (7, 3), &(linear * force_by_turn * turns));
-    write(block, (7, 7), &(linear * slopes.by_velocity.force * back));
-    write(block, (7, 10), &(linear * slopes.by_spin.force));
-    write(block, (10, 0), &(inertia.inverse * slopes.by_place.torque * back));
+    write(block, (7, 0), &(slopes.by_place.force * mobility));
+    write(block, (7, 3), &(slopes.by_turn.force * mobility * turns));
+    write(block, (7, 7), &(slopes.by_velocity.force * mobility));
+    write(block, (7, 10), &(slopes.by_spin.force * mobility));
+    write(block, (10, 0), &(inertia.inverse * slopes.by_place.torque));
     write(block, (10, 3), &(inertia.inverse * slopes.by_turn.torque * turns));
-    write(block, (10, 7), &(inertia.inverse * slopes.by_velocity.torque * back));
+    write(block, (10, 7), &(inertia.inverse * slopes.by_velocity.torque));
     write(block, (10, 10), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, motion))));
 }
 

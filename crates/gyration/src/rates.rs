@@ -1,10 +1,10 @@
 //! The rates of the state: the function to read first.
 //!
-//!   m p̈₀ = m g + R F                      F = Rᵀ ∫_∂D q dA
+//!   m p̈₀ = m g + f                        f = ∫_∂D q dA
 //!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA      (rigid, body axes)
 //!
 //! per body: kinematics → contact → loads → balance solved for the rates, and the powers whose integrals are the
-//! works of the ledger. A pinned body takes torques about its pin: τ_p = τ − r × (F + m Rᵀg), r = X_p − X₀.
+//! works of the ledger. A pinned body takes torques about its pin: τ_p = τ − r × Rᵀ(f + m g), r = X_p − X₀.
 //! Source: `physics.md` §2.
 
 use crate::body::{Body, BodyKind, RigidInertia};
@@ -72,7 +72,7 @@ impl Powers {
     }
 }
 
-/// Force and torque of the contacts and springs of a rigid body in its own axes, and the powers of their works.
+/// Force and torque of the contacts and springs of a rigid body, and the powers of their works.
 fn rigid_wrench(
     model: &Model,
     workspace: &mut Workspace,
@@ -84,12 +84,12 @@ fn rigid_wrench(
     let (mut wrench, mut powers) = (Wrench::default(), Powers::default());
     for_each_contact(model, time, index, motion, |meeting| {
         let Meeting { contact, surface, field, .. } = meeting;
-        let loads = RigidLoads::integrate(contact, surface, field, &meeting.in_body(motion), &mut workspace.contact)?;
+        let loads = RigidLoads::integrate(contact, surface, field, &meeting.rigid(motion), &mut workspace.contact)?;
         wrench += loads.wrench;
         powers.damping += loads.damping_power;
         powers.friction += loads.friction_power;
         let carried = model.supports[contact.support].motion.velocity(time);
-        powers.support += loads.wrench.force.dot(&rotation.tr_mul(&carried));
+        powers.support += loads.wrench.force.dot(&carried);
         Ok(())
     })?;
     spring_loads(index, &model.bodies[index], motion, |spring| {
@@ -108,10 +108,9 @@ pub(crate) struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// The relative motion of a rigid body in its own axes.
-    pub fn in_body(&self, motion: &BodyMotion) -> RigidMotion {
-        let velocity = motion.placement.gradient.tr_mul(&self.motion.velocity);
-        RigidMotion { normal: self.field.direction, velocity, spin: motion.spin }
+    /// The relative motion of a rigid body.
+    pub fn rigid(&self, motion: &BodyMotion) -> RigidMotion {
+        RigidMotion::new(&self.motion, &motion.placement.gradient, motion.spin)
     }
 }
 
@@ -181,18 +180,17 @@ fn rigid_rates(
     wrench: &Wrench,
     rates: &mut [f64],
 ) {
-    let rotation = &motion.placement.gradient;
     let spin = &motion.spin;
     let gyroscopic = spin.cross(&(inertia.tensor * spin));
     let quaternion = motion.quaternion.rate(spin);
     if let Some(pin) = &body.pin {
-        let force = wrench.force + rotation.tr_mul(&(body.mass.mass * model.gravity));
+        let force = motion.placement.gradient.tr_mul(&(wrench.force + body.mass.mass * model.gravity));
         let torque = wrench.torque - pin.point.cross(&force);
         rates[..4].copy_from_slice(&quaternion);
         rates[4..7].copy_from_slice((inertia.inverse * (torque - gyroscopic)).as_slice());
         return;
     }
-    let linear = model.gravity + rotation * wrench.force / body.mass.mass;
+    let linear = model.gravity + wrench.force / body.mass.mass;
     rates[..3].copy_from_slice(motion.velocity.velocity.as_slice());
     rates[3..7].copy_from_slice(&quaternion);
     rates[7..10].copy_from_slice(linear.as_slice());

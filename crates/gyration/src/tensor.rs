@@ -19,6 +19,12 @@ pub fn axial(a: &Mat3) -> Vec3 {
     Vec3::new(a[(2, 1)] - a[(1, 2)], a[(0, 2)] - a[(2, 0)], a[(1, 0)] - a[(0, 1)])
 }
 
+/// `tr(A) I − A` of a symmetric matrix, free of cancellation: with A = ∫X⊗X it takes a rate of turn to X × (Ω × X).
+pub fn turning(a: &Mat3) -> Mat3 {
+    let diagonal = Vec3::new(a.m22 + a.m33, a.m11 + a.m33, a.m11 + a.m22);
+    Mat3::new(diagonal.x, -a.m12, -a.m13, -a.m21, diagonal.y, -a.m23, -a.m31, -a.m32, diagonal.z)
+}
+
 /// A fully symmetric tensor of third rank, stored as its ten independent components
 /// `xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

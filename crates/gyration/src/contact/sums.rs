@@ -58,11 +58,6 @@ impl Sums {
         }
         sums
     }
-
-    /// Σ c A₀, A₁, A₂ less those of `other`.
-    pub fn minus(&self, other: &Self) -> Self {
-        Self { zeroth: self.zeroth - other.zeroth, first: self.first - other.first, second: self.second - other.second }
-    }
 }
 
 impl SumSlopes {

@@ -1,36 +1,46 @@
-//! A contact of a rigid body in the body's own axes: force, torque and their derivatives.
+//! A contact of a rigid body: its force in space, its torque in the body's own axes, and their derivatives.
 //!
-//! With the normal m = Rᵀn, the relative velocity u(X) = v + Ω × X, the sums C of the central laws, T of the tangential ones
-//! and D of the normal ones less the tangential ones,
+//! With the normal n, m = Rᵀn, the relative velocity of the centre split into approach s = n·w₀ and sliding v = w₀ − s n, the sums
+//! C, N, T of the central, normal and tangential laws and c = m×Ω, so that m·u(X) = s + c·X,
 //!
-//!   F = C₀ m − (T₀v + Ω×T₁) − push m                          push = D₀ s + D₁·c,   lever = D₁ s + D₂ c
-//!   τ = C₁×m − (T₁×v + (tr T₂) Ω − T₂Ω) − lever×m             s = m·v,  c = m×Ω,    m·u = s + c·X
+//!   f = (C₀ − push) n − (1 − n⊗n)(T₀v + R(Ω×T₁))                        push = N₀ s + N₁·c
+//!   τ = (C₁ − lever)×m − (T₁×Rᵀv + (tr T₂ − T₂)Ω − T₂c×m)               lever = N₁ s + N₂c
 //!
-//! These are f and M of `resultant` for P = R, seen in the body: F = Rᵀf, τ_i = ε_ijk (RᵀM)_kj. They depend on ten
-//! numbers, g₀, m, v and Ω, however many the state has; derivatives are taken by those and carried over once
-//! (`rigid_slopes`). Moments are linear in the sums, so that derivatives through the gap are the same formula with other sums.
+//! These are f and M of `resultant` for P = R, τ_i = ε_ijk (RᵀM)_kj. They depend on few numbers, g₀, m, w₀ and Ω, however
+//! many the state has; derivatives are taken here and carried over to the state once (`jacobian`). Moments are linear in
+//! the sums, so that derivatives through the gap are the same formula with other sums.
+//!
+//! Normal and tangential parts are not mixed: next to a support one may exceed the other by more than the digits of a
+//! number. The force is therefore formed in space, where the normal of a support is often an axis.
 
 use super::plan::{Contact, ContactScratch};
+use super::resultant::RelativeMotion;
 use super::sums::{SumSlopes, Sums};
 use crate::load::{Wrench, WrenchSlope};
 use crate::surface::{GapClosed, GapField, Surface};
-use crate::tensor::{Mat3, Vec3, cross_matrix};
+use crate::tensor::{Mat3, Vec3, cross_matrix, turning};
 
-/// The motion of a rigid body relative to a support, in the body's axes.
+/// The motion of a rigid body relative to a support.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
-    /// m = Rᵀn, unit normal of the support.
+    /// n, unit normal of the support.
     pub normal: Vec3,
-    /// v = Rᵀw₀ [m/s], relative velocity of the centre of mass.
-    pub velocity: Vec3,
-    /// Ω [rad/s].
+    /// m = Rᵀn, the same in the body's axes.
+    pub direction: Vec3,
+    /// s = n·w₀ [m/s], relative velocity of the centre of mass along the normal.
+    pub approach: f64,
+    /// v = w₀ − s n [m/s], the rest of it.
+    pub sliding: Vec3,
+    /// R.
+    pub rotation: Mat3,
+    /// Ω [rad/s], in the body's axes.
     pub spin: Vec3,
 }
 
 /// The wrench of one contact and the powers of its viscous laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidLoads {
-    /// F and τ of all laws together.
+    /// f and τ of all laws together.
     pub wrench: Wrench,
     /// The power of damping on the relative motion [W], −∫κ (m·u)² dA.
     pub damping_power: f64,
@@ -38,71 +48,89 @@ pub struct RigidLoads {
     pub friction_power: f64,
 }
 
-/// The wrench of one contact and its derivatives by the ten numbers that it depends on.
+/// The wrench of one contact and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactWrench {
-    /// F and τ of all laws together.
+    /// f and τ of all laws together.
     pub wrench: Wrench,
     /// By the height g₀ of the centre of mass.
     pub by_height: Wrench,
-    /// By m, through the gap and through the laws.
-    pub by_normal: WrenchSlope,
-    /// By v.
+    /// By a turn δθ, δR = R[δθ]×, with w₀ and Ω kept.
+    pub by_turn: WrenchSlope,
+    /// By w₀.
     pub by_velocity: WrenchSlope,
     /// By Ω.
     pub by_spin: WrenchSlope,
 }
 
-/// C, T and D.
-struct Actions {
-    central: Sums,
-    tangential: Sums,
-    difference: Sums,
-}
-
-impl Actions {
-    fn new([central, normal, tangential]: &[Sums; 3]) -> Self {
-        Self { central: *central, tangential: *tangential, difference: normal.minus(tangential) }
+impl RigidMotion {
+    /// The motion of a body of this rotation and spin.
+    pub fn new(relative: &RelativeMotion, rotation: &Mat3, spin: Vec3) -> Self {
+        let RelativeMotion { normal, velocity, .. } = relative;
+        let approach = normal.dot(velocity);
+        let sliding = velocity - approach * normal;
+        Self { normal: *normal, direction: rotation.tr_mul(normal), approach, sliding, rotation: *rotation, spin }
     }
 
-    /// push and lever.
-    fn along_normal(&self, motion: &RigidMotion) -> (f64, Vec3) {
-        let RigidMotion { normal, velocity, spin } = motion;
-        let (s, c) = (normal.dot(velocity), normal.cross(spin));
-        let d = &self.difference;
-        (d.zeroth * s + d.first.dot(&c), d.first * s + d.second * c)
+    /// c.
+    fn slope(&self) -> Vec3 {
+        self.direction.cross(&self.spin)
     }
 
-    fn wrench(&self, motion: &RigidMotion) -> Wrench {
-        let RigidMotion { normal, velocity, spin } = motion;
-        let (push, lever) = self.along_normal(motion);
-        let (c, t) = (&self.central, &self.tangential);
-        let drag = t.zeroth * velocity + spin.cross(&t.first);
-        let drag_torque = t.first.cross(velocity) + t.second.trace() * spin - t.second * spin;
-        Wrench { force: (c.zeroth - push) * normal - drag, torque: (c.first - lever).cross(normal) - drag_torque }
+    /// ∫κ (m·u)² dA = s² A₀ + 2s c·A₁ + c·A₂c.
+    fn squared_along_normal(&self, sums: &Sums) -> f64 {
+        let (s, c) = (self.approach, self.slope());
+        s * (s * sums.zeroth + 2.0 * c.dot(&sums.first)) + c.dot(&(sums.second * c))
     }
 
-    /// By m, the sums being kept.
-    fn by_normal(&self, motion: &RigidMotion) -> WrenchSlope {
-        let RigidMotion { normal, velocity, spin } = motion;
-        let (push, lever) = self.along_normal(motion);
-        let d = &self.difference;
-        // ∂push/∂m and ∂lever/∂m, with ∂s/∂m = v and ∂c/∂m = −[Ω]×.
-        let push_slope = d.zeroth * velocity + spin.cross(&d.first);
-        let lever_slope = d.first * velocity.transpose() - d.second * cross_matrix(spin);
-        WrenchSlope {
-            force: Mat3::from_diagonal_element(self.central.zeroth - push) - normal * push_slope.transpose(),
-            torque: cross_matrix(&(self.central.first - lever)) + cross_matrix(normal) * lever_slope,
+    /// ∫κ |u − (m·u) m|² dA = v² A₀ + 2v·R(Ω×A₁) + Ω·(tr A₂ − A₂)Ω − c·A₂c.
+    fn squared_across(&self, sums: &Sums) -> f64 {
+        let (v, spin, c) = (&self.sliding, &self.spin, self.slope());
+        v.norm_squared() * sums.zeroth
+            + 2.0 * v.dot(&(self.rotation * spin.cross(&sums.first)))
+            + (spin.dot(&(turning(&sums.second) * spin)) - c.dot(&(sums.second * c)))
+    }
+
+    /// f and τ of the sums C, N, T.
+    fn wrench(&self, [central, normal, tangential]: [&Sums; 3]) -> Wrench {
+        let Self { normal: n, direction: m, approach, sliding, rotation, spin } = self;
+        let c = self.slope();
+        let push = normal.zeroth * approach + normal.first.dot(&c);
+        let lever = normal.first * *approach + normal.second * c;
+        let drag = tangential.zeroth * sliding + rotation * spin.cross(&tangential.first);
+        let along = (tangential.second * c).cross(m);
+        let sliding = rotation.tr_mul(sliding);
+        let drag_torque = tangential.first.cross(&sliding) + (turning(&tangential.second) * spin - along);
+        Wrench {
+            force: (central.zeroth - push) * n - (drag - n * n.dot(&drag)),
+            torque: (central.first - lever).cross(m) - drag_torque,
         }
     }
 
-    /// By v and by Ω: minus a symmetric 6×6 matrix, the resistance of the contact.
-    fn by_motion(&self, normal: &Vec3) -> (WrenchSlope, WrenchSlope) {
-        let (t, d) = (&self.tangential, &self.difference);
-        let coupling = cross_matrix(&t.first) - normal * d.first.cross(normal).transpose();
-        let translation = -d.zeroth * normal * normal.transpose() - Mat3::from_diagonal_element(t.zeroth);
-        let across = cross_matrix(normal);
-        let rotation = t.second - Mat3::from_diagonal_element(t.second.trace()) + across * d.second * across;
+    /// By a turn, the sums being kept: δm = m×δθ, δ(Rᵀv) = Rᵀv×δθ.
+    fn by_turn(&self, [central, normal, tangential]: [&Sums; 3]) -> WrenchSlope {
+        let Self { normal: n, direction: m, approach, sliding, rotation, spin } = self;
+        let c = self.slope();
+        let lever = normal.first * *approach + normal.second * c;
+        let (across, turn_of_slope) = (cross_matrix(m), cross_matrix(spin) * cross_matrix(m));
+        let swing = rotation * cross_matrix(&spin.cross(&tangential.first));
+        let upright = n * spin.cross(&normal.first).cross(m).transpose();
+        let pressed = cross_matrix(&(central.first - lever)) * across - across * normal.second * turn_of_slope;
+        let dragged = cross_matrix(&(tangential.second * c)) * across + across * tangential.second * turn_of_slope
+            - cross_matrix(&tangential.first) * cross_matrix(&rotation.tr_mul(sliding));
+        WrenchSlope { force: project(n, &swing) - upright, torque: pressed + dragged }
+    }
+
+    /// By w₀ and by Ω: minus a symmetric 6×6 matrix, the resistance of the contact.
+    fn by_motion(&self, [_, normal, tangential]: [&Sums; 3]) -> (WrenchSlope, WrenchSlope) {
+        let Self { normal: n, direction: m, rotation, .. } = self;
+        let across = cross_matrix(m);
+        let translation =
+            project(n, &Mat3::from_diagonal_element(-tangential.zeroth)) - normal.zeroth * n * n.transpose();
+        let dragged = rotation * cross_matrix(&tangential.first);
+        let coupling = project(n, &dragged) - n * normal.first.cross(m).transpose();
+        let rotation =
+            across * normal.second * across - (turning(&tangential.second) + across * tangential.second * across);
         (
             WrenchSlope { force: translation, torque: coupling.transpose() },
             WrenchSlope { force: coupling, torque: rotation },
@@ -110,21 +138,9 @@ impl Actions {
     }
 }
 
-impl RigidMotion {
-    /// ∫κ (m·u)² dA = s² A₀ + 2s c·A₁ + c·A₂c.
-    fn squared_along_normal(&self, sums: &Sums) -> f64 {
-        let (s, c) = (self.normal.dot(&self.velocity), self.normal.cross(&self.spin));
-        s * (s * sums.zeroth + 2.0 * c.dot(&sums.first)) + c.dot(&(sums.second * c))
-    }
-
-    /// ∫κ |u|² dA = v² A₀ + 2 v·(Ω×A₁) + tr A₂ Ω² − Ω·A₂Ω.
-    fn squared(&self, sums: &Sums) -> f64 {
-        let (v, spin) = (&self.velocity, &self.spin);
-        v.norm_squared() * sums.zeroth
-            + 2.0 * v.dot(&spin.cross(&sums.first))
-            + sums.second.trace() * spin.norm_squared()
-            - spin.dot(&(sums.second * spin))
-    }
+/// (1 − n⊗n) A.
+fn project(n: &Vec3, a: &Mat3) -> Mat3 {
+    a - n * a.tr_mul(n).transpose()
 }
 
 impl RigidLoads {
@@ -145,9 +161,9 @@ impl RigidLoads {
         let sums = Sums::by_action(contact, moments);
         let [_, normal, tangential] = &sums;
         Ok(Self {
-            wrench: Actions::new(&sums).wrench(motion),
+            wrench: motion.wrench(sums.each_ref()),
             damping_power: -motion.squared_along_normal(normal),
-            friction_power: motion.squared_along_normal(tangential) - motion.squared(tangential),
+            friction_power: -motion.squared_across(tangential),
         })
     }
 }
@@ -168,19 +184,19 @@ impl ContactWrench {
         let moments = scratch.take(plan.requests().len());
         surface.planned_moments(field, plan, moments)?;
         let sums = SumSlopes::new(contact, moments);
-        let values = Actions::new(&sums.values);
         let through_gap = |slope: usize| {
             let [central, normal, tangential] = &sums.by_gap;
-            Actions::new(&[central[slope], normal[slope], tangential[slope]]).wrench(motion)
+            motion.wrench([&central[slope], &normal[slope], &tangential[slope]])
         };
-        let mut by_normal = values.by_normal(motion);
-        for axis in 0..3 {
-            let slope = through_gap(axis + 1);
-            by_normal.force.set_column(axis, &(by_normal.force.column(axis) + slope.force));
-            by_normal.torque.set_column(axis, &(by_normal.torque.column(axis) + slope.torque));
-        }
-        let (by_velocity, by_spin) = values.by_motion(&motion.normal);
-        let (wrench, by_height) = (values.wrench(motion), through_gap(0));
-        Ok(Self { wrench, by_height, by_normal, by_velocity, by_spin })
+        let by_direction = [through_gap(1), through_gap(2), through_gap(3)];
+        let through_direction = WrenchSlope {
+            force: Mat3::from_columns(&by_direction.map(|slope| slope.force)),
+            torque: Mat3::from_columns(&by_direction.map(|slope| slope.torque)),
+        };
+        let values = sums.values.each_ref();
+        let mut by_turn = motion.by_turn(values);
+        by_turn += through_direction.times(&cross_matrix(&motion.direction));
+        let (by_velocity, by_spin) = motion.by_motion(values);
+        Ok(Self { wrench: motion.wrench(values), by_height: through_gap(0), by_turn, by_velocity, by_spin })
     }
 }

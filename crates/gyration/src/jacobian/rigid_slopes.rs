@@ -1,10 +1,10 @@
-//! How the wrench on a rigid body changes with its motion, in the body's own axes.
+//! How the wrench on a rigid body changes with its motion.
 //!
-//! The increments are those of the place Rᵀδp₀, the turn δθ (δR = R[δθ]×), the velocity Rᵀδṗ₀ and the spin δΩ. With them
+//! The increments are those of the place δp₀, the turn δθ (δR = R[δθ]×), the velocity δṗ₀ and the spin δΩ. With them
 //!
-//!   contact   δg₀ = m·Rᵀδp₀,   δm = m×δθ,   δv = v×δθ + Rᵀδṗ₀
-//!   spring    Rᵀδx = Rᵀδp₀ − X×δθ,   Rᵀδẋ = Rᵀδṗ₀ − X×δΩ − (Ω×X)×δθ,   δF = Rᵀ(K δx + C δẋ) + F×δθ,   δτ = X×δF
-//!   pin       Rᵀδp₀ = r×δθ,   Rᵀδṗ₀ = (Ω×r)×δθ + r×δΩ,   τ_p = τ − r×(F + m Rᵀg)
+//!   contact   δg₀ = n·δp₀,   δw₀ = δṗ₀
+//!   spring    δx = δp₀ − R(X×δθ),   δẋ = δṗ₀ − R(X×δΩ + (Ω×X)×δθ),   δf = K δx + C δẋ,   δτ = X×(Rᵀδf + Rᵀf×δθ)
+//!   pin       δp₀ = R(r×δθ),   δṗ₀ = R((Ω×r)×δθ + r×δΩ),   τ_p = τ − r×Rᵀ(f + m g)
 
 use crate::contact::{ContactWrench, RigidMotion};
 use crate::load::{SpringLoads, Wrench, WrenchSlope};
@@ -24,14 +24,11 @@ pub(super) struct RigidSlopes {
 impl RigidSlopes {
     /// Adds a contact.
     pub fn add_contact(&mut self, contact: &ContactWrench, motion: &RigidMotion) {
-        let RigidMotion { normal, velocity, .. } = motion;
+        let along = motion.normal.transpose();
+        let Wrench { force, torque } = &contact.by_height;
         self.wrench += contact.wrench;
-        self.by_place += WrenchSlope {
-            force: contact.by_height.force * normal.transpose(),
-            torque: contact.by_height.torque * normal.transpose(),
-        };
-        self.by_turn += contact.by_normal.times(&cross_matrix(normal));
-        self.by_turn += contact.by_velocity.times(&cross_matrix(velocity));
+        self.by_place += WrenchSlope { force: force * along, torque: torque * along };
+        self.by_turn += contact.by_turn;
         self.by_velocity += contact.by_velocity;
         self.by_spin += contact.by_spin;
     }
@@ -39,28 +36,30 @@ impl RigidSlopes {
     /// Adds a spring.
     pub fn add_spring(&mut self, spring: &SpringLoads, motion: &BodyMotion) {
         let rotation = &motion.placement.gradient;
-        let (point, force) = (&spring.point, rotation.tr_mul(&spring.force));
-        let stiffness = rotation.tr_mul(&spring.by_place) * rotation;
-        let damping = rotation.tr_mul(&spring.by_velocity) * rotation;
-        let arm = cross_matrix(point);
-        let turning = damping * cross_matrix(&motion.spin.cross(point));
-        let slope = |force: Mat3| WrenchSlope { force, torque: arm * force };
+        let arm = cross_matrix(&spring.point);
+        let (swing, sway) = (rotation * arm, rotation * cross_matrix(&motion.spin.cross(&spring.point)));
+        let lever = arm * rotation.transpose();
+        let slope = |force: Mat3| WrenchSlope { force, torque: lever * force };
         self.wrench += spring.wrench(rotation);
-        self.by_place += slope(stiffness);
-        self.by_turn += slope(cross_matrix(&force) - stiffness * arm - turning);
-        self.by_velocity += slope(damping);
-        self.by_spin += slope(-damping * arm);
+        self.by_place += slope(spring.by_place);
+        self.by_turn += slope(-(spring.by_place * swing + spring.by_velocity * sway));
+        self.by_turn.torque += arm * cross_matrix(&rotation.tr_mul(&spring.force));
+        self.by_velocity += slope(spring.by_velocity);
+        self.by_spin += slope(-(spring.by_velocity * swing));
     }
 
     /// Ties the place and the velocity to the turn and the spin about a pin at `arm` = r, and takes torques about it.
     ///
-    /// `weight` is m Rᵀg [N].
-    pub fn tie_to_pin(&mut self, arm: &Vec3, weight: &Vec3, spin: &Vec3) {
+    /// `weight` is m g [N].
+    pub fn tie_to_pin(&mut self, arm: &Vec3, weight: &Vec3, motion: &BodyMotion) {
+        let rotation = &motion.placement.gradient;
         let across = cross_matrix(arm);
-        self.by_turn += self.by_place.times(&across);
-        self.by_turn += self.by_velocity.times(&cross_matrix(&spin.cross(arm)));
-        self.by_spin += self.by_velocity.times(&across);
-        self.by_turn.torque -= across * (self.by_turn.force + cross_matrix(weight));
-        self.by_spin.torque -= across * self.by_spin.force;
+        let (swing, sway) = (rotation * across, rotation * cross_matrix(&motion.spin.cross(arm)));
+        self.by_turn += self.by_place.times(&swing);
+        self.by_turn += self.by_velocity.times(&sway);
+        self.by_spin += self.by_velocity.times(&swing);
+        let force = rotation.tr_mul(&(self.wrench.force + weight));
+        self.by_turn.torque -= across * (rotation.tr_mul(&self.by_turn.force) + cross_matrix(&force));
+        self.by_spin.torque -= across * rotation.tr_mul(&self.by_spin.force);
     }
 }

@@ -84,10 +84,9 @@ impl SpringLoads {
         Loads::at_point(self.force, &self.point)
     }
 
-    /// Force and torque in the axes of a rigid body.
+    /// Force, and torque in the axes of a rigid body.
     pub fn wrench(&self, rotation: &Mat3) -> Wrench {
-        let force = rotation.tr_mul(&self.force);
-        Wrench { force, torque: self.point.cross(&force) }
+        Wrench { force: self.force, torque: self.point.cross(&rotation.tr_mul(&self.force)) }
     }
 
     /// The change of f and M when placement and velocity change by these increments.

@@ -1,12 +1,12 @@
-//! A force and a torque on a rigid body, in the body's own axes, and their derivatives.
+//! A force and a torque on a rigid body and their derivatives: the force in space, the torque in the body's own axes.
 
 use crate::tensor::{Mat3, Vec3};
 use std::ops::AddAssign;
 
-/// A force F [N] and a torque τ about the centre of mass [N m] in the body's axes.
+/// A force f in space [N] and a torque τ about the centre of mass in the body's axes [N m].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Wrench {
-    /// F = Rᵀf.
+    /// f.
     pub force: Vec3,
     /// τ.
     pub torque: Vec3,
