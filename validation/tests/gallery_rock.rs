@@ -111,7 +111,8 @@ fn every_swing_down_takes_the_time_of_the_closed_form() {
             let quantity = ["first swing down from downhill [s]", "first swing down from uphill [s]"][uphill];
             answer(CASE, quantity, quarter(extreme.tilt), measured, 3e-2, SOURCE);
             let linear = (1.0 / (1.0 - extreme.tilt.abs() / balance(extreme.tilt))).acosh() / p_squared().sqrt();
-            let small = ["first swing from downhill, small tilts [s]", "first swing from uphill, small tilts [s]"][uphill];
+            let small =
+                ["first swing from downhill, small tilts [s]", "first swing from uphill, small tilts [s]"][uphill];
             answer(CASE, small, linear, measured, 3e-2, "(1/p) arccosh(1/(1 − φ₀/A)), A = α_c ∓ θ");
         }
     }
