@@ -25,6 +25,14 @@ impl Moments {
         }
     }
 
+    /// Multiplies all of them by a number.
+    pub(crate) fn scale(&mut self, by: f64) {
+        self.zeroth *= by;
+        self.first *= by;
+        self.second *= by;
+        self.third.0.iter_mut().for_each(|entry| *entry *= by);
+    }
+
     /// The moments of the same weights at the points offset + linear · Y, up to `order`.
     pub(crate) fn carried(&self, linear: &Mat3, offset: &Vec3, order: usize) -> Self {
         let mut out = Self { zeroth: self.zeroth, ..Self::default() };

@@ -6,11 +6,12 @@
 //!
 //! Facets are for polyhedra and meshes: a cylinder made of facets does not roll. X is relative to the centre of mass.
 
+use super::facets_oriented::add_oriented;
 use super::facets_pack::{Pack, Points};
 use super::facets_plan::{BATCH, Plan};
-use super::facets_sums::{add_moments, smallest_gap};
+use super::facets_sums::{add_deformed, add_moments, smallest_gap};
 use super::lanes::WIDTH;
-use super::{GapClosed, GapField, MomentRequest, Moments};
+use super::{GapClosed, GapField, MomentRequest, Moments, OrientedMoments};
 use crate::tensor::{Mat3, Vec3};
 
 /// Triangles with their areas, ready for contact integrals.
@@ -91,8 +92,8 @@ impl Facets {
         let mut areas = Vec::with_capacity(triangles.len());
         for corners in triangles {
             let [a, b, c] = corners.map(|corner| vertices[corner]);
-            let twice_area = (b - a).cross(&(c - a)).norm();
-            if twice_area <= 0.0 {
+            let area_vector = (b - a).cross(&(c - a));
+            if area_vector.norm() <= 0.0 {
                 continue;
             }
             facets.triangles.push(corners.map(|corner| {
@@ -101,8 +102,8 @@ impl Facets {
                     facets.vertices.len() - 1
                 })
             }));
-            areas.push(([a, b, c], twice_area));
-            facets.area += 0.5 * twice_area;
+            areas.push(([a, b, c], area_vector));
+            facets.area += 0.5 * area_vector.norm();
         }
         facets.points = facets.vertices.chunks(WIDTH).map(Points::new).collect();
         facets.packs = areas.chunks(WIDTH).map(Pack::new).collect();
@@ -169,6 +170,9 @@ impl Facets {
     /// more than four requests.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         debug_assert_eq!(requests.len(), out.len());
+        if self.is_empty() {
+            return Ok(());
+        }
         for (requests, out) in requests.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
             self.add_planned(field, &Plan::new(requests), out)?;
         }
@@ -189,9 +193,35 @@ impl Facets {
 
     /// Adds the moments of a plan to the entries of `out`.
     pub(super) fn add_planned(&self, field: &GapField, plan: &Plan, out: &mut [Moments]) -> Result<(), GapClosed> {
-        if self.is_empty() || add_moments(&self.packs, field, plan, out) {
-            return Ok(());
-        }
-        Err(GapClosed { gap: self.smallest_gap(field).0 })
+        let open = self.is_empty() || add_moments(&self.packs, field, plan, out);
+        self.closed_unless(open, field)
+    }
+
+    /// The same per deformed area, given the cofactor of P.
+    pub(super) fn add_deformed(
+        &self,
+        field: &GapField,
+        cofactor: &Mat3,
+        plan: &Plan,
+        out: &mut [Moments],
+    ) -> Result<(), GapClosed> {
+        let open = self.is_empty() || add_deformed(&self.packs, field, cofactor, plan, out);
+        self.closed_unless(open, field)
+    }
+
+    /// The same weighted with the dyads of the current normals.
+    pub(super) fn add_oriented(
+        &self,
+        field: &GapField,
+        cofactor: &Mat3,
+        plan: &Plan,
+        out: &mut [OrientedMoments],
+    ) -> Result<(), GapClosed> {
+        let open = self.is_empty() || add_oriented(&self.packs, field, cofactor, plan, out);
+        self.closed_unless(open, field)
+    }
+
+    fn closed_unless(&self, open: bool, field: &GapField) -> Result<(), GapClosed> {
+        if open { Ok(()) } else { Err(GapClosed { gap: self.smallest_gap(field).0 }) }
     }
 }

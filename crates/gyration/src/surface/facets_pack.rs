@@ -2,7 +2,8 @@
 //!
 //! A pack of triangles holds the coordinates of its corners, so that nothing is gathered in a call: the gaps of a
 //! vertex are computed anew in every triangle that it belongs to, by the same operations, to the same bytes. Unused places
-//! repeat the last triangle without its area, or the last vertex.
+//! repeat the last triangle without its area, or the last vertex. A body that deforms needs the area vectors 2A N too:
+//! their images under the cofactor of P are those of the deformed triangles.
 
 use pulp::Simd;
 
@@ -23,6 +24,7 @@ pub(super) struct Points(pub [Row; 3]);
 pub(super) struct Pack {
     corners: [Points; 3],
     twice_area: Row,
+    area_vectors: Points,
     used: usize,
 }
 
@@ -49,17 +51,22 @@ impl Points {
 }
 
 impl Pack {
-    /// The triangles given by corners and twice the area [m²]; at most eight.
-    pub fn new(triangles: &[([Vec3; 3], f64)]) -> Self {
+    /// The triangles given by corners and twice the area vector [m²]; at most eight.
+    pub fn new(triangles: &[([Vec3; 3], Vec3)]) -> Self {
         let corner = |k: usize| {
             let points: Vec<Vec3> = triangles.iter().map(|(corners, _)| corners[k]).collect();
             Points::new(&points)
         };
-        let mut twice_area = [0.0; WIDTH];
-        for (place, (_, area)) in twice_area.iter_mut().zip(triangles) {
-            *place = *area;
+        let (mut twice_area, mut area_vectors) = ([0.0; WIDTH], [Vec3::zeros(); WIDTH]);
+        for (place, (_, vector)) in triangles.iter().enumerate().take(WIDTH) {
+            (twice_area[place], area_vectors[place]) = (vector.norm(), *vector);
         }
-        Self { corners: [corner(0), corner(1), corner(2)], twice_area, used: triangles.len() }
+        Self {
+            corners: [corner(0), corner(1), corner(2)],
+            twice_area,
+            area_vectors: Points::new(&area_vectors),
+            used: triangles.len(),
+        }
     }
 
     /// How many registers of this width the triangles fill.
@@ -79,6 +86,12 @@ impl Pack {
     #[inline(always)]
     pub fn twice_area<S: Simd>(&self, simd: S, register: usize) -> Lanes<S> {
         Lanes::load(simd, &self.twice_area, register)
+    }
+
+    /// Twice the area vectors of the triangles in a register [m²].
+    #[inline(always)]
+    pub fn area_vectors<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
+        self.area_vectors.load(simd, register)
     }
 }
 

@@ -86,6 +86,11 @@ impl Plan {
         self.count += 1;
     }
 
+    /// How many requests there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// How many rows the sums of all requests take.
     pub fn row_count(&self) -> usize {
         self.row_count

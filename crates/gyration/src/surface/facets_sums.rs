@@ -4,7 +4,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::facets_pack::{FieldLanes, Pack, Points};
+use super::facets_pack::{FieldLanes, Pack, Points, Vector};
 use super::facets_plan::{MOST_ROWS, Plan};
 use super::facets_triangle::Triangle;
 use super::lanes::{Lanes, Row, WIDTH, dispatch, fold, registers_mut};
@@ -13,20 +13,35 @@ use crate::tensor::{Mat3, Vec3};
 
 /// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and finite.
 pub(super) fn add_moments(packs: &[Pack], field: &GapField, plan: &Plan, out: &mut [Moments]) -> bool {
+    add::<false>(&Request { packs, field, plan, cofactor: &Mat3::identity() }, out)
+}
+
+/// The same per deformed area, given the cofactor of P.
+pub(super) fn add_deformed(
+    packs: &[Pack],
+    field: &GapField,
+    cofactor: &Mat3,
+    plan: &Plan,
+    out: &mut [Moments],
+) -> bool {
+    add::<true>(&Request { packs, field, plan, cofactor }, out)
+}
+
+fn add<const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
     // Few rows need not be cleared where few are used.
-    match plan.row_count() {
-        0..=16 => in_rows::<16>(packs, field, plan, out),
-        17..=48 => in_rows::<48>(packs, field, plan, out),
-        _ => in_rows::<MOST_ROWS>(packs, field, plan, out),
+    match request.plan.row_count() {
+        0..=16 => in_rows::<16, DEFORMED>(request, out),
+        17..=48 => in_rows::<48, DEFORMED>(request, out),
+        _ => in_rows::<MOST_ROWS, DEFORMED>(request, out),
     }
 }
 
-fn in_rows<const ROWS: usize>(packs: &[Pack], field: &GapField, plan: &Plan, out: &mut [Moments]) -> bool {
+fn in_rows<const ROWS: usize, const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
     let mut rows = [[0.0; WIDTH]; ROWS];
-    let admissible = dispatch(Integrate { packs, field, plan, rows: &mut rows });
+    let admissible = dispatch(Integrate::<DEFORMED> { request, rows: &mut rows });
     if admissible {
-        for (request, moments) in out.iter_mut().enumerate() {
-            let (order, row) = plan.place(request);
+        for (place, moments) in out.iter_mut().enumerate() {
+            let (order, row) = request.plan.place(place);
             add_folded(moments, &rows[row..], order);
         }
     }
@@ -34,7 +49,7 @@ fn in_rows<const ROWS: usize>(packs: &[Pack], field: &GapField, plan: &Plan, out
 }
 
 /// Adds rows of components to moments.
-fn add_folded(moments: &mut Moments, rows: &[Row], order: usize) {
+pub(super) fn add_folded(moments: &mut Moments, rows: &[Row], order: usize) {
     moments.zeroth += fold(&rows[0]);
     if order >= 1 {
         moments.first += Vec3::new(fold(&rows[1]), fold(&rows[2]), fold(&rows[3]));
@@ -51,36 +66,98 @@ fn add_folded(moments: &mut Moments, rows: &[Row], order: usize) {
     }
 }
 
+/// What is integrated over which packs.
+#[derive(Clone, Copy)]
+pub(super) struct Request<'a> {
+    pub packs: &'a [Pack],
+    pub field: &'a GapField,
+    pub plan: &'a Plan,
+    /// det P P⁻ᵀ, for deformed areas.
+    pub cofactor: &'a Mat3,
+}
+
 /// The moments of a plan over packs; whether every gap is positive and finite.
-struct Integrate<'a> {
-    packs: &'a [Pack],
-    field: &'a GapField,
-    plan: &'a Plan,
+struct Integrate<'a, const DEFORMED: bool> {
+    request: &'a Request<'a>,
     rows: &'a mut [Row],
 }
 
-impl WithSimd for Integrate<'_> {
+impl<const DEFORMED: bool> WithSimd for Integrate<'_, DEFORMED> {
     type Output = bool;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let field = FieldLanes::new(simd, self.field);
-        let mut lowest = Lanes::splat(simd, f64::INFINITY);
-        let mut total = Lanes::splat(simd, 0.0);
-        for pack in self.packs {
+        let Request { packs, field, plan, cofactor } = *self.request;
+        let field = FieldLanes::new(simd, field);
+        let cofactor = MatrixLanes::new(simd, cofactor);
+        let mut seen = Gaps::new(simd);
+        for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
-                let triangle = Triangle::new(pack, simd, register, &field);
-                let [low, middle, high] = triangle.gaps;
-                lowest = low.less_than(lowest).select(low, lowest);
-                total += (low + middle) + high;
-                self.plan.add(&triangle, register, self.rows);
+                let twice_area = if DEFORMED {
+                    length(&cofactor.image(&pack.area_vectors(simd, register)))
+                } else {
+                    pack.twice_area(simd, register)
+                };
+                let triangle = Triangle::new(pack, register, &field, twice_area);
+                seen.add(&triangle);
+                plan.add(&triangle, register, self.rows);
             }
         }
+        seen.are_open()
+    }
+}
+
+/// The gaps that a pass has met.
+#[derive(Clone, Copy)]
+pub(super) struct Gaps<S: Simd> {
+    lowest: Lanes<S>,
+    total: Lanes<S>,
+}
+
+impl<S: Simd> Gaps<S> {
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        Self { lowest: Lanes::splat(simd, f64::INFINITY), total: Lanes::splat(simd, 0.0) }
+    }
+
+    #[inline(always)]
+    pub fn add(&mut self, triangle: &Triangle<S>) {
+        let [low, middle, high] = triangle.gaps;
+        self.lowest = low.less_than(self.lowest).select(low, self.lowest);
+        self.total += (low + middle) + high;
+    }
+
+    /// Whether all of them are positive and finite.
+    #[inline(always)]
+    pub fn are_open(&self) -> bool {
         // A sum of gaps is finite if all of them are; what is smaller than a normal number has no reciprocal.
         let mut sums = [0.0; WIDTH];
-        total.add_to(&mut sums, 0);
-        lowest.smallest() >= f64::MIN_POSITIVE && fold(&sums).is_finite()
+        self.total.add_to(&mut sums, 0);
+        self.lowest.smallest() >= f64::MIN_POSITIVE && fold(&sums).is_finite()
     }
+}
+
+/// A 3×3 matrix in every lane, row by row.
+#[derive(Clone, Copy)]
+pub(super) struct MatrixLanes<S: Simd>([Vector<S>; 3]);
+
+impl<S: Simd> MatrixLanes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, matrix: &Mat3) -> Self {
+        Self([0, 1, 2].map(|i| [0, 1, 2].map(|j| Lanes::splat(simd, matrix[(i, j)]))))
+    }
+
+    /// The product with vectors.
+    #[inline(always)]
+    pub fn image(&self, v: &Vector<S>) -> Vector<S> {
+        self.0.map(|row| (row[0] * v[0] + row[1] * v[1]) + row[2] * v[2])
+    }
+}
+
+/// The lengths of vectors.
+#[inline(always)]
+pub(super) fn length<S: Simd>(v: &Vector<S>) -> Lanes<S> {
+    ((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]).sqrt()
 }
 
 /// The smallest gap and the place of the vertex where it is, the first of several; none if one is not finite.
@@ -141,7 +218,8 @@ mod tests {
     /// The rows of a plan, folded, and the smallest gap, with one instruction set.
     fn evaluate(arch: Arch, facets: &Facets, field: &GapField, plan: &Plan) -> (Vec<f64>, Option<(f64, usize)>) {
         let mut rows = [[0.0; WIDTH]; MOST_ROWS];
-        assert!(arch.dispatch(Integrate { packs: facets.packs(), field, plan, rows: &mut rows }));
+        let request = Request { packs: facets.packs(), field, plan, cofactor: &Mat3::identity() };
+        assert!(arch.dispatch(Integrate::<false> { request: &request, rows: &mut rows }));
         (rows.iter().map(fold).collect(), arch.dispatch(Smallest { points: facets.points(), field }))
     }
 

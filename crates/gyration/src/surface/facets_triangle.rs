@@ -25,7 +25,7 @@ pub(super) struct Triangle<S: Simd> {
     pub gaps: [Lanes<S>; 3],
     /// 1/d [1/m].
     pub inverses: [Lanes<S>; 3],
-    /// Twice the area [m²].
+    /// Twice the area [m²], deformed or not.
     pub twice_area: Lanes<S>,
     /// V₀.
     origin: Vector<S>,
@@ -43,9 +43,10 @@ pub(super) struct Levels<S: Simd> {
 }
 
 impl<S: Simd> Triangle<S> {
-    /// Sorts the corners of the triangles in one register of a pack.
+    /// Sorts the corners of the triangles in one register of a pack; their integrals count with this area.
     #[inline(always)]
-    pub fn new(pack: &Pack, simd: S, register: usize, field: &FieldLanes<S>) -> Self {
+    pub fn new(pack: &Pack, register: usize, field: &FieldLanes<S>, twice_area: Lanes<S>) -> Self {
+        let simd = twice_area.simd;
         let [mut a, mut b, mut c] = pack.corners(simd, register);
         let (mut low, mut middle, mut high) = (field.gap(&a), field.gap(&b), field.gap(&c));
         sort(&mut low, &mut a, &mut middle, &mut b);
@@ -54,7 +55,7 @@ impl<S: Simd> Triangle<S> {
         Self {
             gaps: [low, middle, high],
             inverses: [1.0 / low, 1.0 / middle, 1.0 / high],
-            twice_area: pack.twice_area(simd, register),
+            twice_area,
             origin: a,
             edges: [difference(&b, &a), difference(&c, &a)],
         }

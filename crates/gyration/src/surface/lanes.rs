@@ -83,6 +83,12 @@ impl<S: Simd> Lanes<S> {
         Mask { simd: self.simd, values: self.simd.less_than_f64s(self.values, other.values) }
     }
 
+    /// The square roots.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        Self { simd: self.simd, values: self.simd.sqrt_f64s(self.values) }
+    }
+
     /// The smallest of the lanes; none of them may be NaN.
     #[inline(always)]
     pub fn smallest(self) -> f64 {

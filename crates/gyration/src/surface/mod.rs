@@ -15,6 +15,8 @@ pub mod patch;
 pub mod power;
 
 mod carry;
+mod deformed;
+mod facets_oriented;
 mod facets_pack;
 mod facets_plan;
 mod facets_split;
@@ -27,7 +29,10 @@ mod power_lanes;
 mod rule;
 
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
+pub use deformed::OrientedMoments;
+
 use curved::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Sphere, Torus};
+use deformed::{FOURTH, PAIRS};
 use facets::{Facets, FacetsError};
 use facets_plan::{BATCH, Plan};
 use patch::{Patch, Primitive};
@@ -235,13 +240,7 @@ impl Surface {
     /// Adds the moments over the smooth patches.
     fn add_patches(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         for patch in &self.patches {
-            let point = patch.support(&-field.direction);
-            let (gap, fall) = (field.gap(&point), field.direction.dot(&point));
-            // A gap within the rounding of its two terms has no known sign.
-            let rounding = 16.0 * f64::EPSILON * (field.height.abs() + fall.abs());
-            if !gap.is_finite() || gap <= rounding {
-                return Err(GapClosed { gap });
-            }
+            patch.check_gap(field)?;
             patch.add_moments(field, requests, out);
         }
         Ok(())

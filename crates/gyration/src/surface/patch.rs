@@ -5,8 +5,10 @@
 //! smallest gap, and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the
 //! support point along its gradient Aᵀ(v + A X) never lowers it.
 
-use super::curved::{ConeWall, CylinderWall, Disk, Ellipsoid, GROUP, Hemisphere, Sphere, Torus};
-use super::{GapField, MomentRequest, Moments};
+use super::curved::{
+    Chart, ConeWall, CylinderWall, Deformed, Disk, Ellipsoid, GROUP, Hemisphere, Product, Sphere, Torus,
+};
+use super::{GapClosed, GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// The smooth surfaces that contact knows.
@@ -102,11 +104,54 @@ impl Patch {
                 Primitive::ConeWall(p) => p.moments(&own, requests, sums),
                 Primitive::Torus(p) => p.moments(&own, requests, sums),
             };
-            let (linear, offset) = (self.rotation * chart.linear, self.offset + self.rotation * chart.offset);
-            for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
-                moments.add(&sum.carried(&linear, &offset, request.order), request.order);
-            }
+            self.collect(&chart, sums, requests, out);
         }
+    }
+
+    /// Adds the moments weighted by the current area vectors cof(P) N; every gap on the patch must be positive.
+    pub(crate) fn add_weighted<const N: usize>(
+        &self,
+        field: &GapField,
+        cofactor: &Mat3,
+        weight: &Product<N>,
+        requests: &[MomentRequest],
+        out: &mut [Moments],
+    ) {
+        let height = field.gap(&self.offset);
+        let own = GapField { height, direction: self.rotation.tr_mul(&field.direction) };
+        // Takes the reference normal in the own frame to the current area vector.
+        let deformed = Deformed { field: own, cofactor: cofactor * self.rotation, weight: *weight };
+        for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
+            let mut sums = [Moments::default(); GROUP];
+            let sums = &mut sums[..requests.len()];
+            let chart = match &self.primitive {
+                Primitive::Sphere(p) => p.deformed_moments(&deformed, requests, sums),
+                Primitive::Hemisphere(p) => p.deformed_moments(&deformed, requests, sums),
+                Primitive::Ellipsoid(p) => p.deformed_moments(&deformed, requests, sums),
+                Primitive::CylinderWall(p) => p.deformed_moments(&deformed, requests, sums),
+                Primitive::Disk(p) => p.deformed_moments(&deformed, requests, sums),
+                Primitive::ConeWall(p) => p.deformed_moments(&deformed, requests, sums),
+                Primitive::Torus(p) => p.deformed_moments(&deformed, requests, sums),
+            };
+            self.collect(&chart, sums, requests, out);
+        }
+    }
+
+    /// Carries moments summed in a chart to the body's frame.
+    fn collect(&self, chart: &Chart, sums: &[Moments], requests: &[MomentRequest], out: &mut [Moments]) {
+        let (linear, offset) = (self.rotation * chart.linear, self.offset + self.rotation * chart.offset);
+        for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
+            moments.add(&sum.carried(&linear, &offset, request.order), request.order);
+        }
+    }
+
+    /// Refuses a field whose smallest gap on the patch is not a positive finite number beyond rounding.
+    pub(crate) fn check_gap(&self, field: &GapField) -> Result<(), GapClosed> {
+        let point = self.support(&-field.direction);
+        let (gap, fall) = (field.gap(&point), field.direction.dot(&point));
+        // A gap within the rounding of its two terms has no known sign.
+        let rounding = 16.0 * f64::EPSILON * (field.height.abs() + fall.abs());
+        if gap.is_finite() && gap > rounding { Ok(()) } else { Err(GapClosed { gap }) }
     }
 
     /// The largest |v + A X| over the patch, by ascents from seven starts.

@@ -55,8 +55,22 @@ impl ConeWall {
         Chart { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
     }
 
+    /// Sets the moments odd in y, from sums weighted with sin φ; one more t stands with every y.
+    pub(super) fn collect_odd(&self, sums: &RulingSums, out: &mut Moments) {
+        let area = self.radius * self.radius.hypot(self.height);
+        let (r, z) = (self.radius, -self.height);
+        let (one, cos) = (sums.one.map(|sum| area * r * sum), sums.cos.map(|sum| area * r * r * sum));
+        let cubic = area * r * r * r;
+        out.first.y = one[1];
+        (out.second.m12, out.second.m23) = (cos[1], z * one[2]);
+        (out.second.m21, out.second.m32) = (out.second.m12, out.second.m23);
+        let third = &mut out.third.0;
+        (third[1], third[4], third[6], third[8]) =
+            (cubic * sums.cos_squared[1], z * cos[2], cubic * sums.sin_squared[1], z * z * one[3]);
+    }
+
     /// The moments from the sums over the rulings, (ρ, z) = t (R, −h).
-    fn collect(&self, sums: &RulingSums, out: &mut Moments) {
+    pub(super) fn collect(&self, sums: &RulingSums, out: &mut Moments) {
         let area = self.radius * self.radius.hypot(self.height);
         let (r, z) = (self.radius, -self.height);
         let (one, cos) = (sums.one.map(|sum| area * sum), sums.cos.map(|sum| area * r * sum));

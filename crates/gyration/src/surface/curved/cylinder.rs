@@ -52,8 +52,22 @@ impl CylinderWall {
         Chart::frame(gap.frame)
     }
 
+    /// Sets the moments odd in y, from sums weighted with sin φ.
+    pub(super) fn collect_odd(&self, sums: &RulingSums, near_z: f64, out: &mut Moments) {
+        let along = |line: &[f64; 4]| shifted(line, near_z, -2.0 * near_z).map(|z| self.radius * z);
+        let (one, cos) = (along(&sums.one), along(&sums.cos));
+        let (cos_squared, sin_squared) = (along(&sums.cos_squared), along(&sums.sin_squared));
+        let (r, rr) = (self.radius, self.radius * self.radius);
+        out.first.y = r * one[0];
+        (out.second.m12, out.second.m23) = (rr * cos[0], r * one[1]);
+        (out.second.m21, out.second.m32) = (out.second.m12, out.second.m23);
+        let third = &mut out.third.0;
+        (third[1], third[4], third[6], third[8]) =
+            (r * rr * cos_squared[0], rr * cos[1], r * rr * sin_squared[0], r * one[2]);
+    }
+
     /// The moments from the sums over the rulings, z = near_z (1 − 2t).
-    fn collect(&self, sums: &RulingSums, near_z: f64, out: &mut Moments) {
+    pub(super) fn collect(&self, sums: &RulingSums, near_z: f64, out: &mut Moments) {
         let along = |line: &[f64; 4]| shifted(line, near_z, -2.0 * near_z).map(|z| self.radius * z);
         let (one, cos) = (along(&sums.one), along(&sums.cos));
         let (cos_squared, sin_squared) = (along(&sums.cos_squared), along(&sums.sin_squared));

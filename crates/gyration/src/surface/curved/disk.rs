@@ -16,6 +16,7 @@ use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
 use super::integrand::{GROUP, Integrand, LANES, Lane};
 use super::ring::{Demand, RingChunk, Rings};
+use super::weight::Deformed;
 use crate::tensor::Vec3;
 
 /// A disk about the z axis in the plane z = 0, one side of it.
@@ -49,6 +50,19 @@ impl Disk {
             self.collect(&sums.map(|lanes| lanes.iter().sum()), request.order, moments);
         }
         Chart::frame(gap.frame)
+    }
+
+    /// The same for a deformed disk, whose weight is the same everywhere.
+    pub(crate) fn deformed_moments<const N: usize>(
+        &self,
+        deformed: &Deformed<N>,
+        requests: &[MomentRequest],
+        out: &mut [Moments],
+    ) -> Chart {
+        let chart = self.moments(&deformed.field, requests, out);
+        let weight = deformed.weight.of(&deformed.cofactor.column(2).into());
+        out.iter_mut().for_each(|moments| moments.scale(weight));
+        chart
     }
 
     /// The moments from the sums of 1, x, x², y², x³, xy² in units of R.

@@ -53,8 +53,8 @@ impl Ellipsoid {
         let integrand = Integrand::new(requests);
         let features = Features::new(near, reach, &cofactor, &frame.column(2).into(), &integrand);
         let mut sums = Sums::ZERO;
-        let gap = (near, reach);
-        dispatch(Sweep { nodes: features.nodes(), element: &element, gap, integrand: &integrand, sums: &mut sums });
+        let (gap, element, integrand) = ((near, reach), &element, &integrand);
+        dispatch(Sweep { nodes: features.nodes(), element, gap, integrand, factors: &[], sums: &mut sums });
         for (place, (request, moments)) in requests.iter().zip(out).enumerate() {
             sums.collect(place, request.order, moments);
         }

@@ -27,7 +27,7 @@ pub(super) struct PolarNode {
 
 /// A place θ where |B s| dips to `share` of its largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Dip {
+pub(super) struct Dip {
     cos: f64,
     sin: f64,
     share: f64,
@@ -46,6 +46,8 @@ pub(super) struct Features {
     /// Parallels weigh as (d/near)^−mildness, at most e^excess times more where |B s| is larger than at the lowest point.
     mildness: f64,
     excess: f64,
+    /// Further digits for weights that are harder to resolve than |B s|.
+    extra: f64,
 }
 
 /// The end of the longest axis, the great circle normal to the shortest.
@@ -70,31 +72,51 @@ const NARROW: f64 = 0.25;
 /// Beyond this the powers of the gap are smooth in x itself.
 const LARGEST_DEPTH: f64 = 10.0;
 
+/// The dips for the cofactor B and the lowest direction f, both in the axes of B.
+pub(super) fn dips(cofactor: &Vec3, lowest: &Vec3) -> [Dip; MOST_DIPS] {
+    let (i, j) = (cofactor.imin(), cofactor.imax());
+    let mut touching = *lowest;
+    touching[j] = 0.0;
+    let length = touching.norm();
+    let dip = if length > 1e-8 { cofactor.component_mul(&touching).norm() / length } else { cofactor[j] };
+    let (pole, across) = (lowest[i].abs().min(1.0), lowest[j].abs().min(1.0));
+    let other = |x: f64| (1.0 - x * x).max(0.0).sqrt();
+    [
+        Dip { cos: pole, sin: other(pole), share: cofactor[i] / cofactor[j] },
+        Dip { cos: other(across), sin: across, share: dip / cofactor[j] },
+    ]
+}
+
+impl Dip {
+    /// Its singularities at θ and, since −X lies as X, at π − θ.
+    pub(super) fn singularities(&self, digits: f64) -> [Singularity; 2] {
+        let distance = self.share.min(1.0 - 1e-9).atanh();
+        [self.cos, -self.cos].map(|cos| Singularity { at: self.sin.atan2(cos), distance, digits })
+    }
+}
+
 impl Features {
     /// The features for the smallest gap `near`, which rises by `reach` to x = 1, cofactor B and lowest direction f.
     pub(super) fn new(near: f64, reach: f64, cofactor: &Vec3, lowest: &Vec3, integrand: &Integrand) -> Self {
         // A gap within rounding has no known size.
         let depth = (near / reach).clamp(1e-15, LARGEST_DEPTH);
-        let (i, j) = (cofactor.imin(), cofactor.imax());
-        let mut touching = *lowest;
-        touching[j] = 0.0;
-        let length = touching.norm();
-        let dip = if length > 1e-8 { cofactor.component_mul(&touching).norm() / length } else { cofactor[j] };
-        let (pole, across) = (lowest[i].abs().min(1.0), lowest[j].abs().min(1.0));
-        let other = |x: f64| (1.0 - x * x).max(0.0).sqrt();
+        let largest = cofactor.max();
         let mildness = (integrand.mildest - 1.0).max(0.0);
         Self {
-            dips: [
-                Dip { cos: pole, sin: other(pole), share: cofactor[i] / cofactor[j] },
-                Dip { cos: other(across), sin: across, share: dip / cofactor[j] },
-            ],
+            dips: dips(cofactor, lowest),
             depth,
             span: (1.0 / depth).ln_1p(),
             sharpest: integrand.sharpest,
             mildest: integrand.mildest,
             mildness,
-            excess: (cofactor[j] * mildness.max(1.0) / cofactor.component_mul(lowest).norm()).ln(),
+            excess: (largest * mildness.max(1.0) / cofactor.component_mul(lowest).norm()).ln(),
+            extra: 0.0,
         }
+    }
+
+    /// The features for a weight whose singularities need so many more digits.
+    pub(super) fn sharpened(self, extra: f64) -> Self {
+        Self { extra, ..self }
     }
 
     /// The parallels from the lowest point to θ = ½π, as far as they count.
@@ -128,7 +150,7 @@ impl Features {
                 let s = 0.5 * ((t - 1.0).hypot(height) + (t + 1.0).hypot(height));
                 let rate = 2.0 * (s + (s * s - 1.0).max(0.0).sqrt()).ln();
                 let spared = (self.mildness * log - self.excess).max(0.0);
-                points = points.max((DIGITS - spared).max(3.0) / rate + SPARE);
+                points = points.max((DIGITS + self.extra - spared).max(3.0) / rate + SPARE);
             }
         }
         points.ceil()
@@ -172,17 +194,14 @@ impl Features {
         })
     }
 
-    /// The zero of the gap, then the dips at θ and, since −X lies as X, at π − θ.
+    /// The zero of the gap, then those of the dips.
     fn singularities(&self) -> [Singularity; 1 + 2 * MOST_DIPS] {
         let gap = Singularity {
             at: 0.0,
             distance: (1.0 + self.depth).acosh(),
             digits: GAP_DIGITS + 1.6 * self.sharpest.max(0.0),
         };
-        let [a, b] = self.dips.map(|dip| {
-            let distance = dip.share.min(1.0 - 1e-9).atanh();
-            [dip.cos, -dip.cos].map(|cos| Singularity { at: dip.sin.atan2(cos), distance, digits: GRADED_DIGITS })
-        });
+        let [a, b] = self.dips.map(|dip| dip.singularities(GRADED_DIGITS + self.extra));
         [gap, a[0], a[1], b[0], b[1]]
     }
 

@@ -15,6 +15,7 @@ use pulp::{Simd, WithSimd};
 use super::super::Moments;
 use super::features::PolarNode;
 use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
+use super::weight::Product;
 use crate::tensor::{Mat3, Vec3};
 
 /// The e-folds of e^(−Nη) asked for; the zeros of |B s|² are branch points, whose error is 1e-3 of that.
@@ -51,17 +52,34 @@ impl AreaElement {
         }
     }
 
+    /// The element |B s| of a deformed surface, from B in the columns e₁, e₂, f and the eigenvalues of BᵀB.
+    pub(super) fn deformed(vectors: &Mat3, squares: &Vec3) -> Self {
+        let form = vectors.tr_mul(vectors);
+        let (sum, difference) = (0.5 * (form.m11 + form.m22), 0.5 * (form.m11 - form.m22));
+        let across = form.m11 * form.m22 - form.m12 * form.m12;
+        // 1/(f·(BᵀB)⁻¹ f); where rounding leaves nothing of the minor, least squares bound it.
+        let least = squares.min().max(0.0);
+        let beyond = if across > 0.0 { squares.product() / across } else { least };
+        Self { form, least, least_beyond: beyond.max(least), most_across: sum + difference.hypot(form.m12) }
+    }
+
     /// A lower bound of η, the imaginary part of the azimuth at which |B s|² vanishes, on parallels (cos θ, sin θ)².
     ///
     /// There B(cos θ f + sin θ cosh η e) and sin θ sinh η B e' have equal lengths; the first is at least
     /// |cos θ| √least_beyond and √least · |s|, the second at most sin θ sinh η √most_across.
     #[inline(always)]
-    fn decay(&self, cos_squared: f64, sin_squared: f64) -> f64 {
+    pub(super) fn decay(&self, cos_squared: f64, sin_squared: f64) -> f64 {
         let beyond = cos_squared * self.least_beyond / self.most_across;
         let excess = self.most_across - self.least;
         let least = if excess > 0.0 { self.least / excess } else { f64::INFINITY };
         (beyond.max(least) / sin_squared).sqrt().asinh()
     }
+}
+
+/// The element and its factors.
+struct Weighted<'a, const N: usize> {
+    element: &'a AreaElement,
+    factors: &'a [Vec3; N],
 }
 
 /// A group of neighbouring parallels; those that fill the last group have no weight.
@@ -101,22 +119,24 @@ impl Parallels {
 
     /// Pairs of opposite points that resolve |B s| around these parallels.
     #[inline(always)]
-    fn pairs(&self, element: &AreaElement, order: usize) -> f64 {
+    fn pairs<const N: usize>(&self, element: &AreaElement, order: usize) -> f64 {
         // Parallels that count less need fewer digits; the nearest zero is that of the largest circle.
         let z = self.cos.iter().fold(1.0, |least: f64, z| least.min(*z));
         let decay = element.decay(z * z, 1.0 - z * z).min(10.0);
-        let points = (AZIMUTH_DIGITS - self.spared).max(3.0) / decay + order as f64 + 1.0;
+        let digits = AZIMUTH_DIGITS + Product::<N>::EXTRA_DIGITS - self.spared;
+        let points = digits.max(3.0) / decay + (order + N) as f64 + 1.0;
         (0.5 * points).ceil().clamp(FEWEST_PAIRS, MOST_PAIRS)
     }
 
-    /// Adds κ times the moments of s over these parallels and over their images at π − θ.
+    /// Adds κ times the moments of s over these parallels and over their images at π − θ, weighted with the element and
+    /// its factors.
     ///
     /// The gap is near + reach · versine.
     #[inline(always)]
-    pub(super) fn add(&self, element: &AreaElement, near: f64, reach: f64, integrand: &Integrand, sums: &mut Sums) {
-        let pairs = self.pairs(element, integrand.order);
+    fn add<const N: usize>(&self, of: &Weighted<N>, (near, reach): (f64, f64), integrand: &Integrand, sums: &mut Sums) {
+        let pairs = self.pairs::<N>(of.element, integrand.order);
         let third = integrand.order == 3;
-        let circle = if third { self.around::<true>(element, pairs) } else { self.around::<false>(element, pairs) };
+        let circle = if third { self.around::<true, N>(of, pairs) } else { self.around::<false, N>(of, pairs) };
         let components = self.components(&circle, PI / pairs);
         let mut gaps = [0.0; 2 * LANES];
         for lane in 0..LANES {
@@ -139,10 +159,10 @@ impl Parallels {
         }
     }
 
-    /// The sums of |B s| times 1, c, s, c², cs, and c³, c²s if `THIRD`, over pairs of opposite points.
+    /// The sums of the weight times 1, c, s, c², cs, and c³, c²s if `THIRD`, over pairs of opposite points.
     #[inline(always)]
-    fn around<const THIRD: bool>(&self, element: &AreaElement, pairs: f64) -> [Lane; 7] {
-        let q = &element.form;
+    fn around<const THIRD: bool, const N: usize>(&self, of: &Weighted<N>, pairs: f64) -> [Lane; 7] {
+        let q = &of.element.form;
         let [mut constant, mut square, mut mixed] = [[0.0; LANES]; 3];
         let [mut along_c, mut along_s] = [[0.0; LANES]; 2];
         for lane in 0..LANES {
@@ -161,7 +181,11 @@ impl Parallels {
             for lane in 0..LANES {
                 let even = constant[lane] + square[lane] * cc + mixed[lane] * cs;
                 let odd = along_c[lane] * c + along_s[lane] * s;
-                let (here, opposite) = (root(even + odd), root(even - odd));
+                let (mut here, mut opposite) = (Product::<N>::base(even + odd), Product::<N>::base(even - odd));
+                for factor in of.factors {
+                    let (along, across) = (self.cos[lane] * factor.z, self.sin[lane] * (c * factor.x + s * factor.y));
+                    (here, opposite) = (here * (along + across), opposite * (along - across));
+                }
                 let (w, v) = (here + opposite, here - opposite);
                 sums[0][lane] += w;
                 sums[1][lane] += v * c;
@@ -204,35 +228,32 @@ impl Parallels {
 }
 
 /// All parallels that `nodes` tells of, the gap being gap.0 + gap.1 · versine: compiled for each instruction set.
-pub(super) struct Sweep<'a, Nodes> {
+pub(super) struct Sweep<'a, Nodes, const N: usize> {
     pub(super) nodes: Nodes,
     pub(super) element: &'a AreaElement,
     pub(super) gap: (f64, f64),
     pub(super) integrand: &'a Integrand,
+    /// The linear forms in (e₁, e₂, f) with which the element is multiplied and, as often, divided by its length.
+    pub(super) factors: &'a [Vec3; N],
     pub(super) sums: &'a mut Sums,
 }
 
-impl<Nodes: Iterator<Item = PolarNode>> WithSimd for Sweep<'_, Nodes> {
+impl<Nodes: Iterator<Item = PolarNode>, const N: usize> WithSimd for Sweep<'_, Nodes, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) {
+        let of = Weighted { element: self.element, factors: self.factors };
         while let Some(parallels) = Parallels::gather(&mut self.nodes) {
-            parallels.add(self.element, self.gap.0, self.gap.1, self.integrand, self.sums);
+            parallels.add(&of, self.gap, self.integrand, self.sums);
         }
     }
-}
-
-/// √x, 0 where rounding has made x negative.
-#[inline(always)]
-fn root(x: f64) -> f64 {
-    if x > 0.0 { x.sqrt() } else { 0.0 }
 }
 
 /// The moments of each kernel, lane by lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sums {
-    lanes: [[Lane; 20]; GROUP],
+    pub(super) lanes: [[Lane; 20]; GROUP],
 }
 
 impl Sums {

@@ -21,8 +21,8 @@ use super::ring::RingChunk;
 
 /// The rulings of one wall: gaps base = near + reach · versine at one end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rulings {
-    pub(super) ring: &'static [RingChunk],
+pub(super) struct Rulings<'a> {
+    pub(super) ring: &'a [RingChunk],
     pub(super) near: f64,
     pub(super) reach: f64,
     /// The gap of the base from which on rulings are negligible.
@@ -52,7 +52,7 @@ pub(super) struct RulingSums {
     pub(super) cos_sin_squared: f64,
 }
 
-impl Rulings {
+impl Rulings<'_> {
     /// The sums for one kernel.
     pub(super) fn sums(&self, request: &MomentRequest) -> RulingSums {
         // Degree 1 is the least that a kernel is prepared for.
@@ -70,7 +70,7 @@ impl Rulings {
 
 /// The pass over the rulings for one kernel: compiled for each instruction set.
 struct Sweep<'a> {
-    rulings: &'a Rulings,
+    rulings: &'a Rulings<'a>,
     line: &'a LineKernel,
     exponent: SplitExponent,
     needs_log: bool,

@@ -68,7 +68,7 @@ impl Torus {
     }
 
     /// Gaps in the ratio (c − 1)/(c + 1), c the smaller root cos φ of a² = b².
-    fn outer_gaps(&self, gap: &TiltedGap) -> (f64, f64) {
+    pub(super) fn outer_gaps(&self, gap: &TiltedGap) -> (f64, f64) {
         let (g, r, m) = (gap.height, self.minor_radius, gap.along);
         let surplus = self.major_radius * self.major_radius - r * r;
         let root = (g * g + surplus * m * m).max(0.0).sqrt();
