@@ -6,6 +6,7 @@ use divan::Bencher;
 use gyration::contact::{Contact, ContactScratch, ContactWrench, RigidLoads, RigidMotion};
 use gyration::jacobian::jacobian;
 use gyration::rates::{Workspace, meet, rates};
+use gyration::state::Turn;
 use gyration::surface::{GapClosed, GapField, Surface};
 use gyration_bench::{SHAPES, near_table};
 use nalgebra::DMatrix;
@@ -25,7 +26,8 @@ fn set_up(name: &str, exponents: (f64, f64)) -> (gyration::model::Model, gyratio
 fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (GapField, RigidMotion) {
     let motion = state.motion(model, 0);
     let (field, relative) = meet(model, 0, 0.0, &motion);
-    (field, RigidMotion::new(&relative, &motion.placement.gradient, motion.spin))
+    let turn = Turn::unpack(&model.bodies[0], &state.bodies);
+    (field, RigidMotion::new(&relative, &motion.placement.gradient, turn.spin))
 }
 
 /// Times one way of integrating the laws of the body's contact.

@@ -6,7 +6,7 @@ use gyration::balance;
 use gyration::body::BodyKind;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
-use gyration::state::{BodyMotion, State};
+use gyration::state::{BodyMotion, State, Turn};
 use gyration::tensor::Vec3;
 use gyration_ode::Options;
 use gyration_scene::Scene;
@@ -146,16 +146,17 @@ impl Experiment {
     /// Torque I Ω̇ on the first body, which does not spin, at t = 0, in body axes [N m].
     ///
     /// # Panics
-    /// If the start is outside the model.
+    /// If the start is outside the model, or the body is not rigid.
     pub fn torque(&self) -> Vec3 {
         let mut slopes = vec![0.0; self.model.dimension()];
         let mut powers = vec![0.0; self.model.works().len()];
         let bodies = &self.start.bodies;
         rates(&self.model, &mut Workspace::default(), 0.0, bodies, &mut slopes, &mut powers)
             .unwrap_or_else(|error| panic!("{error:?}"));
-        let BodyKind::Rigid(inertia) = &self.model.bodies[0].kind;
+        let body = &self.model.bodies[0];
+        let BodyKind::Rigid(inertia) = &body.kind else { panic!("{} is not rigid", body.name) };
         // A block ends with Ω; in the block of the rates with Ω̇.
-        inertia.tensor * BodyMotion::unpack(&self.model.bodies[0], &slopes[self.model.blocks()[0].clone()]).spin
+        inertia.tensor * Turn::unpack(body, &slopes[self.model.blocks()[0].clone()]).spin
     }
 }
 

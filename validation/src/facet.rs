@@ -69,7 +69,7 @@ impl FacetBody {
             velocity: Vec3::new(0.0, 0.0, self.velocity),
             angular_velocity: Vec3::zeros(),
         };
-        let start = State::start(&model, &[start]);
+        let start = State::start(&model, &[start.into()]);
         Experiment::of_model(model, start, tolerance)
     }
 }

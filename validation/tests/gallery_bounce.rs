@@ -101,7 +101,7 @@ fn spin_of_the_corner(alpha: f64) -> (Vec3, Vec3) {
     let corner = motion.placement.gradient * half.component_mul(&down.map(|c| -c.signum()));
     let fall = motion.placement.position.z + corner.z;
     let body = &experiment.model.bodies[0];
-    let BodyKind::Rigid(inertia) = &body.kind;
+    let BodyKind::Rigid(inertia) = &body.kind else { panic!("the body is rigid") };
     let inverse = motion.placement.gradient * inertia.inverse * motion.placement.gradient.transpose();
     let arm = corner.cross(&Vec3::z());
     let impulse = 2.0 * (2.0 * GRAVITY * fall).sqrt() / (1.0 / body.mass.mass + arm.dot(&(inverse * arm)));

@@ -44,6 +44,11 @@ impl Case {
         MASS * GRAVITY * (self.nu * BASE * BASE / (12.0 * self.gap) - 0.5 * self.height) / self.inertia()
     }
 
+    /// The angle [rad] by which a box that starts with this tilt leans at a time [s].
+    fn tilt_after(&self, tilt: f64, time: f64) -> f64 {
+        self.standing(tilt).motion_at(time).placement.gradient.m13.asin()
+    }
+
     /// The box at its rest gap, tilted about y [rad]: the facet of `FacetBody`, with the mass of a box above it.
     fn standing(&self, tilt: f64) -> Experiment {
         let law = Repulsion { alpha: self.alpha(), exponent: self.nu, reference_gap: 1.0 };
@@ -104,7 +109,7 @@ fn box_on_the_field_rocks_at_the_frequency_of_the_closed_form() {
         let tilt = 1e-4 * case.gap / (0.5 * BASE);
         // θ = θ₀ cos ωt, five quarters of a period later: ωt = 5π/2 + ε with sin ε = −θ/θ₀.
         let time = 2.5 * PI / omega;
-        let later = 2.0 * case.standing(tilt).motion_at(time).quaternion.0[2];
+        let later = case.tilt_after(tilt, time);
         let measured = (2.5 * PI - (later / tilt).asin()) / time;
         answer(case.name, "rocking frequency of the motion [rad/s]", omega, measured, 1e-7);
     }
@@ -125,7 +130,7 @@ fn box_too_high_for_its_field_falls_over() {
     );
     let (tilt, growth) = (1e-6, (-case.square()).sqrt());
     let time = 3.0 / growth;
-    let later = 2.0 * case.standing(tilt).motion_at(time).quaternion.0[2];
+    let later = case.tilt_after(tilt, time);
     // The tilt has grown to 1e-5; the tolerances of rotation leave 1e-14 of one.
     answer(case.name, "rate at which a tilt grows [1/s]", growth, (later / tilt).acosh() / time, 1e-7);
     let stable = Case { gap: 0.0499, ..case };

@@ -11,6 +11,7 @@
 
 use gyration::balance;
 use gyration::kinematics::Quaternion;
+use gyration::rates::Workspace;
 use gyration::state::{RigidStart, State};
 use gyration::tensor::Vec3;
 use gyration_sim::{MemorySink, Monitor, Outcome, Progress, Reason, Simulation};
@@ -88,7 +89,8 @@ fn throw(die: &Experiment, start: &State) -> usize {
             Outcome::Completed => panic!("not decided after {} s", state.time),
             Outcome::Stopped(_) => {}
         }
-        balance::energies(&die.model, &state, &mut energies).unwrap_or_else(|error| panic!("{error:?}"));
+        balance::energies(&die.model, &mut Workspace::default(), &state, &mut energies)
+            .unwrap_or_else(|error| panic!("{error:?}"));
         if energies.iter().sum::<f64>() < MASS * GRAVITY * SIDE * FRAC_1_SQRT_2 {
             return lowest_face(die, &state);
         }
@@ -130,7 +132,7 @@ fn start(die: &Experiment, random: &mut Random, orientation: Quaternion, fastest
         velocity: Vec3::zeros(),
         angular_velocity: fastest * random.uniform() * random.direction(),
     };
-    State::start(&die.model, &[start])
+    State::start(&die.model, &[start.into()])
 }
 
 /// Any orientation, and any spin up to 40 rad/s.

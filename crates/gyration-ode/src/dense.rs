@@ -8,7 +8,6 @@
 
 use crate::integrator::Integrator;
 use crate::radau::basis;
-use crate::system::System;
 
 /// What the last accepted step has left to interpolate with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,17 +22,6 @@ pub(crate) enum LastStep {
 }
 
 impl Integrator {
-    /// The order of the interpolant of the last step; 0 without one.
-    ///
-    /// Nothing has to be prepared for either stepper; the system is asked for in case a method to come needs it.
-    pub fn prepare_dense<S: System>(&mut self, _system: &mut S) -> u32 {
-        match self.last {
-            LastStep::None => 0,
-            LastStep::Explicit => 8,
-            LastStep::Collocation => 3,
-        }
-    }
-
     /// The solution at a time of the last step, y and w; outside of it, or without one, the nearest end.
     ///
     /// # Panics

@@ -33,17 +33,17 @@ impl Direction {
     }
 }
 
-/// The first time within the last step at which φ(t, y, w) crosses zero, sampled on so many subintervals.
+/// The first time between two times of the last step at which φ(t, y, w) crosses zero, sampled on so many subintervals.
 ///
-/// The time returned lies just past the crossing, within a few ulp. Call `Integrator::prepare_dense` first for the
-/// accuracy of the interpolant. `None` if there is no change of sign, or no last step.
+/// The time returned lies just past the crossing, within a few ulp. `None` if there is no change of sign, or no last step.
 pub fn find_crossing(
     integrator: &mut Integrator,
+    (start, end): (f64, f64),
     mut function: impl FnMut(f64, &[f64], &[f64]) -> f64,
     direction: Direction,
     samples: usize,
 ) -> Option<f64> {
-    let (start, end) = integrator.last_step()?;
+    integrator.last_step()?;
     let mut scratch = std::mem::take(&mut integrator.event_scratch);
     let dimension = integrator.state().len();
     let (y, w) = scratch.split_at_mut(dimension);

@@ -48,7 +48,9 @@ pub trait System {
     fn error_scales(&mut self, t: f64, y: &[f64], w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]);
 
     /// Brings y back to its manifold (a unit quaternion, say) after a step; returns the size of the correction.
-    fn project(&mut self, y: &mut [f64]) -> f64;
+    ///
+    /// What the correction changes of a balance that quadratures keep may be added to them.
+    fn project(&mut self, y: &mut [f64], w: &mut [f64]) -> f64;
 }
 
 /// Sizes and blocks, copied from the system: u = (y, w) is one vector to the steppers.
@@ -140,7 +142,8 @@ impl<S: System> Context<'_, S> {
     /// # Errors
     /// As `evaluate`.
     pub fn land(&mut self, point: &mut Point) -> Result<f64, Cause<S::Inadmissible>> {
-        let correction = self.system.project(&mut point.u[..self.layout.dimension]);
+        let (y, w) = point.u.split_at_mut(self.layout.dimension);
+        let correction = self.system.project(y, w);
         self.evaluate(point.t, &point.u, &mut point.rate)?;
         Ok(correction)
     }

@@ -8,6 +8,17 @@ use std::f64::consts::PI;
 use common::{oscillator, with};
 use gyration_ode::{Direction, Integrator, Method, find_crossing};
 
+/// The first crossing in the whole of the last step.
+fn in_last_step(
+    integrator: &mut Integrator,
+    function: impl FnMut(f64, &[f64], &[f64]) -> f64,
+    direction: Direction,
+    samples: usize,
+) -> Option<f64> {
+    let step = integrator.last_step()?;
+    find_crossing(integrator, step, function, direction, samples)
+}
+
 /// All crossings of x = cos t up to an end.
 fn crossings(method: Method, direction: Direction, end: f64) -> Vec<f64> {
     let mut problem = oscillator(1.0).tolerances(1e-12, 1e-12);
@@ -15,8 +26,7 @@ fn crossings(method: Method, direction: Direction, end: f64) -> Vec<f64> {
     let mut found = Vec::new();
     while integrator.time() < end {
         integrator.step(&mut problem, end).unwrap();
-        integrator.prepare_dense(&mut problem);
-        found.extend(find_crossing(&mut integrator, |_, y, _| y[0], direction, 4));
+        found.extend(in_last_step(&mut integrator, |_, y, _| y[0], direction, 4));
     }
     found
 }
@@ -48,13 +58,12 @@ fn roots_are_closed_in_to_rounding() {
         if integrator.time() < 1.6 {
             continue;
         }
-        integrator.prepare_dense(&mut problem);
         let mut evaluations = 0;
         let function = |_: f64, y: &[f64], w: &[f64]| {
             evaluations += 1;
             y[0].powi(3) + 1e-3 * (w[0] - w[0])
         };
-        let t = find_crossing(&mut integrator, function, Direction::Falling, 1).unwrap();
+        let t = in_last_step(&mut integrator, function, Direction::Falling, 1).unwrap();
         let (mut y, mut w) = ([0.0; 2], [0.0]);
         integrator.interpolate(t, &mut y, &mut w);
         assert!(y[0] <= 0.0 && y[0] > -1e-14, "{}", y[0]);
@@ -77,8 +86,7 @@ fn a_crossing_at_the_end_of_a_step_is_counted_once() {
     for end in [0.5, 1.0] {
         while integrator.time() < end {
             integrator.step(&mut problem, end).unwrap();
-            integrator.prepare_dense(&mut problem);
-            found.extend(find_crossing(&mut integrator, |t, _, _| t - 0.5, Direction::Rising, 3));
+            found.extend(in_last_step(&mut integrator, |t, _, _| t - 0.5, Direction::Rising, 3));
         }
     }
     assert_eq!(found, [0.5]);

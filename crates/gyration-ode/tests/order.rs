@@ -27,7 +27,6 @@ fn errors(method: Method, n: usize, atol: f64) -> (f64, f64) {
     while integrator.time() < end {
         let report = integrator.step(&mut problem, end).unwrap();
         assert_eq!(report.rejections, 0, "the step must be as fixed");
-        integrator.prepare_dense(&mut problem);
         for k in 1..8 {
             let t = report.start + (report.end - report.start) * f64::from(k) / 8.0;
             integrator.interpolate(t, &mut y, &mut []);

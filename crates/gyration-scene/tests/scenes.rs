@@ -290,7 +290,7 @@ fn a_pinned_body_starts_with_the_velocity_that_its_spin_gives() {
          orientation = { euler_xyz = [\"90 deg\", 0, 0] }\nangular_velocity = [0, 0, 2]",
     );
     let built = scene.built();
-    let BodyKind::Rigid(inertia) = &built.model.bodies[0].kind;
+    let BodyKind::Rigid(inertia) = &built.model.bodies[0].kind else { panic!("the body is rigid") };
     // J = m R²/5 = 0.2 about the centre: I = 0.4, and m |X_p|² more across the pin.
     assert!((inertia.tensor - Mat3::from_diagonal(&Vec3::new(1.4, 1.4, 0.4))).amax() < 1e-15);
     let motion = built.state.motion(&built.model, 0);

@@ -2,11 +2,13 @@
 //!
 //! The errors allowed per step are scale-free. rtol is relative to what the forces depend on: lengths to the gap (or
 //! the size, if that is smaller), velocities to the speed of the fastest material point, works to the energy in play.
-//! atol is a fraction of the body's size, of 1 for a rotation, and of the body's own speed scale. One step may spend a
+//! atol is a fraction of the body's size, of 1 for a rotation and for P, and of the body's own speed scale. One step may spend a
 //! tenth of either.
 
+use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
-use gyration::body::BodyKind;
+use gyration::body::{Body, BodyKind};
+use gyration::ledger::Work;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::state::{BodyMotion, State};
@@ -98,7 +100,8 @@ fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f6
         return scale;
     }
     // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
-    let (linear, angular) = if body.pin.is_some() { (&[][..], &slopes[4..]) } else { slopes[7..].split_at(3) };
+    let (_, at_rates) = parts(body);
+    let (linear, angular) = slopes[at_rates..].split_at(if body.pin.is_some() { 0 } else { 3 });
     let norm = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
     let scale = ((norm(linear) + norm(angular) * body.size) * body.size).sqrt();
     if scale > 0.0 { scale } else { body.size }
@@ -139,33 +142,67 @@ impl System for ModelSystem<'_> {
             // The rounding of the places from which the gap is computed is all that can be had.
             let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
-            let scales = &mut y_scale[block.clone()];
-            match (&body.kind, &body.pin) {
-                (BodyKind::Rigid(_), None) => {
-                    scales[..3].fill(length + rounding);
-                    scales[3..7].fill((length + rounding) / body.size);
-                    scales[7..10].fill(velocity);
-                    scales[10..].fill(velocity / body.size);
-                }
-                (BodyKind::Rigid(_), Some(_)) => {
-                    scales[..4].fill((length + rounding) / body.size);
-                    scales[4..].fill(velocity / body.size);
-                }
-            }
+            let (at_turn, at_rates) = parts(body);
+            let (places, rates) = y_scale[block.clone()].split_at_mut(at_rates);
+            let (center, turn) = places.split_at_mut(at_turn);
+            let (center_rate, turn_rate) = rates.split_at_mut(at_turn);
+            center.fill(length + rounding);
+            turn.fill((length + rounding) / body.size);
+            center_rate.fill(velocity);
+            turn_rate.fill(velocity / body.size);
         }
         w_scale.fill((atol + rtol) * energy);
     }
 
-    fn project(&mut self, y: &mut [f64]) -> f64 {
+    fn project(&mut self, y: &mut [f64], w: &mut [f64]) -> f64 {
+        let work = self.model.works().iter().position(|work| *work == Work::Constraint);
         let mut correction: f64 = 0.0;
         for (body, block) in self.model.bodies.iter().zip(self.model.blocks()) {
-            let BodyKind::Rigid(_) = body.kind;
-            let at = block.start + if body.pin.is_some() { 0 } else { 3 };
-            let quaternion = &mut y[at..at + 4];
-            let norm = quaternion.iter().map(|c| c * c).sum::<f64>().sqrt();
-            correction = correction.max((norm - 1.0).abs());
-            quaternion.iter_mut().for_each(|c| *c /= norm);
+            let block = &mut y[block.clone()];
+            correction = correction.max(match &body.kind {
+                BodyKind::Rigid(_) => normalize(body, block),
+                BodyKind::Affine(affine) => {
+                    let (size, energy) = restore_volume(body, &affine.interior, block);
+                    if let Some(work) = work {
+                        w[work] += energy;
+                    }
+                    size
+                }
+            });
         }
         correction
     }
+}
+
+/// Where in a body's block rotation or P begins, and where the velocities do.
+fn parts(body: &Body) -> (usize, usize) {
+    let turn = if body.pin.is_some() { 0 } else { 3 };
+    match body.kind {
+        BodyKind::Rigid(_) => (turn, turn + 4),
+        BodyKind::Affine(_) => (turn, turn + 9),
+    }
+}
+
+/// Puts the quaternion of a rigid body back to length one; returns by how much it was off.
+fn normalize(body: &Body, block: &mut [f64]) -> f64 {
+    let (at, _) = parts(body);
+    let quaternion = &mut block[at..at + 4];
+    let norm = quaternion.iter().map(|c| c * c).sum::<f64>().sqrt();
+    quaternion.iter_mut().for_each(|c| *c /= norm);
+    (norm - 1.0).abs()
+}
+
+/// Puts an incompressible body back to det P = 1, tr L = 0; returns |det P − 1| before, and the energy that it took [J].
+fn restore_volume(body: &Body, interior: &AffineBody, block: &mut [f64]) -> (f64, f64) {
+    if !interior.is_incompressible() {
+        return (0.0, 0.0);
+    }
+    let (at, rates) = parts(body);
+    let matrix = |block: &[f64], at: usize| Mat3::from_column_slice(&block[at..at + 9]);
+    let energy = |p: &Mat3, rate: &Mat3| interior.energy(p) + 0.5 * (rate * interior.euler_tensor).dot(rate);
+    let (p, rate) = (matrix(block, at), matrix(block, rates + at));
+    let corrected = interior.project(&p, &rate);
+    block[at..at + 9].copy_from_slice(corrected.gradient.as_slice());
+    block[rates + at..rates + at + 9].copy_from_slice(corrected.rate.as_slice());
+    (corrected.size, energy(&corrected.gradient, &corrected.rate) - energy(&p, &rate))
 }

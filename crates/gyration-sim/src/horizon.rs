@@ -7,7 +7,8 @@
 //!
 //! for a body that turns by less than a radian, and for any turn as long as the sphere around the body stays clear. p̈₀
 //! is the acceleration at hand: g in free flight, none where a support carries the body, whose field the stepper then
-//! sees. An oscillating support counts as its foremost place, and is followed in eighths of its period where it may
+//! sees. Of a body that deforms, a has |P̈ᵀn| r besides, and the sphere grows with |P|. A step also ends where a couple
+//! given by a table has a kink. An oscillating support counts as its foremost place, and is followed in eighths of its period where it may
 //! meet the body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
 
 use crate::views::View;
@@ -36,13 +37,16 @@ struct Approach<'a> {
     acceleration: f64,
     /// Radius about the centre of mass [m].
     radius: f64,
-    /// |Ω| [rad/s].
+    /// How fast it may grow [m/s].
+    growth: f64,
+    /// |Ω|, or the rate |Ṗ|/|P| at which the body changes its form [1/s].
     spin: f64,
 }
 
 /// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
 pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], longest: f64) -> f64 {
-    let mut step = longest;
+    let kinks = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
+    let mut step = kinks.fold(longest, |step, kink| step.min(kink - time));
     for ((body, view), radius) in model.bodies.iter().zip(views).zip(radii) {
         let Some(surface) = &body.surface else { continue };
         for contact in &body.contacts {
@@ -80,8 +84,18 @@ impl<'a> Approach<'a> {
         }
         let normal: &Vec3 = &support.normal;
         let rate = GapField { height: normal.dot(&velocity), direction: motion.velocity.gradient_rate.tr_mul(normal) };
-        let acceleration = (-view.acceleration.dot(normal)).max(0.0);
-        Self { surface, field, rate, acceleration, radius, spin: motion.spin.norm() }
+        let stretching = view.stretching.map_or(0.0, |stretching| stretching.tr_mul(normal).norm() * radius);
+        let acceleration = (-view.acceleration.dot(normal)).max(0.0) + stretching;
+        let gradient = &motion.placement.gradient;
+        // No point is farther from the centre than |P| times its distance in the reference shape.
+        let (radius, growth, spin) = match view.stretching {
+            None => (radius, 0.0, motion.angular_velocity().norm()),
+            Some(_) => {
+                let (size, rate) = (gradient.norm(), motion.velocity.gradient_rate.norm());
+                (radius * size, radius * rate, rate / size)
+            }
+        };
+        Self { surface, field, rate, acceleration, radius, growth, spin }
     }
 
     /// The longest step [s] that this approach allows, at most `longest`.
@@ -96,7 +110,7 @@ impl<'a> Approach<'a> {
 
     /// A bound on the gap of the sphere around the body [m].
     fn sphere_gap(&self, t: f64) -> f64 {
-        self.field.height + t * self.rate.height - self.radius - 0.5 * self.acceleration * t * t
+        self.field.height + t * (self.rate.height - self.growth) - self.radius - 0.5 * self.acceleration * t * t
     }
 
     /// A bound on the gap of the body while it turns little [m].

@@ -41,6 +41,8 @@ pub struct Stop {
 pub enum Reason {
     /// A surface reached a support.
     GapClosed,
+    /// A body that deforms was flattened: its volume vanished.
+    Inverted,
     /// A spring lost its direction.
     SpringCollapsed,
     /// The tolerance cannot be met with any step.
@@ -149,6 +151,13 @@ impl Stop {
                 format!("spring {spring} of body {body:?} has no length left"),
                 "Give it rest_length = 0 without damping, or another anchor.".to_string(),
             ),
+            Quantity::Volume => (
+                Reason::Inverted,
+                format!("body {body:?} is flattened: det P has come down to {:e}", left.value),
+                "Only a material whose energy grows without bound under compression forbids that: one with a `bulk` or a \
+                 logarithm of the volume, or an incompressible one; or start it with a smaller `gradient_rate`."
+                    .to_string(),
+            ),
         };
         Self { time, reason, body: Some(body), what, advice }
     }
@@ -169,7 +178,7 @@ pub fn limit_in_words(model: &Model, limit: &Limit) -> String {
     match limit {
         Limit::Error { component } => accuracy_of(model, *component),
         Limit::Stability => "stiffness".into(),
-        Limit::Domain => "a closing gap".into(),
+        Limit::Domain => "a closing gap, or a body being flattened".into(),
         Limit::Newton => "the implicit equations".into(),
         Limit::MaxStep => "solver.max_step".into(),
         Limit::End => "an approaching support, or the end".into(),

@@ -183,9 +183,14 @@ impl Ledger {
     ///
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
-    pub fn of(model: &Model, state: &State, initial: Option<f64>) -> Result<Self, Inadmissible> {
+    pub fn of(
+        model: &Model,
+        workspace: &mut Workspace,
+        state: &State,
+        initial: Option<f64>,
+    ) -> Result<Self, Inadmissible> {
         let mut values = vec![0.0; model.energies().len()];
-        energies(model, state, &mut values)?;
+        energies(model, workspace, state, &mut values)?;
         let residual = residual(values.iter().sum(), initial, &state.works);
         Ok(Self { energies: values, works: state.works.clone(), residual })
     }
@@ -239,7 +244,7 @@ pub fn fill(
     }
     let ledger = row.len();
     row.resize(ledger + model.energies().len(), 0.0);
-    energies(model, state, &mut row[ledger..])?;
+    energies(model, workspace, state, &mut row[ledger..])?;
     let (energy, kinetic) = (row[ledger..].iter().sum(), row[ledger]);
     let residual = residual(energy, initial, &state.works);
     row.extend(&state.works);
@@ -251,13 +256,6 @@ pub fn fill(
         residual,
         smallest_gap: bodies.iter().map(|body| body.gap).fold(f64::INFINITY, f64::min),
     })
-}
-
-/// The smallest gap of a row [m]; infinite where no gap applies.
-pub fn smallest_gap(model: &Model, row: &[f64]) -> f64 {
-    let before: usize = BODY_FIELDS.iter().take_while(|field| field.name != "gap").map(components).sum();
-    let start = before * model.bodies.len();
-    row[start..start + model.bodies.len()].iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 fn residual(energy: f64, initial: Option<f64>, works: &[f64]) -> f64 {

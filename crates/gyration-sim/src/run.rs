@@ -16,7 +16,7 @@ use crate::views::{self, View};
 use gyration::balance::{BodyObservation, fastest_speed};
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Integrator, Statistics, StepReport};
+use gyration_ode::{Integrator, Statistics, StepReport, System as _};
 
 /// A run under way.
 pub struct Simulation<'a> {
@@ -30,6 +30,8 @@ pub struct Simulation<'a> {
     pub(crate) sampled: State,
     /// Scratch: the events of a step, the bodies of a row, the row.
     pub(crate) found: Vec<Event>,
+    /// Since when each signal of each body is known within the step [s].
+    pub(crate) since: Vec<[f64; 3]>,
     observed: Vec<BodyObservation>,
     row: Vec<f64>,
     /// The time of the last row [s].
@@ -53,6 +55,7 @@ impl<'a> Simulation<'a> {
             views: Vec::new(),
             sampled: start.clone(),
             found: Vec::new(),
+            since: Vec::new(),
             observed: Vec::new(),
             row: Vec::new(),
             recorded: f64::NEG_INFINITY,
@@ -225,9 +228,11 @@ impl<'a> Simulation<'a> {
         if time >= self.integrator.time() {
             return self.sample_end();
         }
-        self.integrator.prepare_dense(&mut self.system);
         self.sampled.time = time;
-        self.integrator.interpolate(time, &mut self.sampled.bodies, &mut self.sampled.works);
+        let State { bodies, works, .. } = &mut self.sampled;
+        self.integrator.interpolate(time, bodies, works);
+        // Between the ends of a step the interpolant is off its manifold by its error.
+        self.system.project(bodies, works);
     }
 
     /// Records `sampled` and audits it, unless it is outside the model.

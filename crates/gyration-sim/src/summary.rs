@@ -82,10 +82,10 @@ impl RunSummary {
         let state = simulation.state();
         let tally = simulation.tally();
         let none = || Ledger { energies: Vec::new(), works: Vec::new(), residual: f64::NAN };
-        let ledger = Ledger::of(model, &state, Some(tally.initial_energy)).unwrap_or_else(|_| none());
+        let mut workspace = Workspace::default();
+        let ledger = Ledger::of(model, &mut workspace, &state, Some(tally.initial_energy)).unwrap_or_else(|_| none());
         let events =
             EVENT_KINDS.iter().zip(tally.events).map(|(kind, count)| ((*kind).to_string(), json!(count))).collect();
-        let mut workspace = Workspace::default();
         let bodies = (0..model.bodies.len())
             .filter_map(|index| {
                 let seen = observe(model, &mut workspace, &state, index).ok()?;

@@ -1,16 +1,16 @@
 //! What the run loop needs to know of every body at the end of a step: its motion, and the acceleration of its centre.
 //!
 //! The stepper has the rates there, so that nothing is integrated anew. Of a pinned body p₀ = a − R r, with the angular
-//! acceleration Ω̇:
+//! acceleration Ω̇,
 //!
-//!   p̈₀ = −R ([Ω̇]× + [Ω]×²) r
+//!   p̈₀ = −R ([Ω̇]× + [Ω]×²) r,   of an affine one p̈₀ = −P̈ r
 //!
 //! The force of the contacts follows from the balance, f = m (p̈₀ − g), where nothing else pulls at the body.
 
-use gyration::body::Body;
+use gyration::body::{Body, BodyKind};
 use gyration::model::Model;
-use gyration::state::BodyMotion;
-use gyration::tensor::Vec3;
+use gyration::state::{BodyMotion, Turn};
+use gyration::tensor::{Mat3, Vec3};
 
 /// A body at the end of a step.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +19,8 @@ pub(crate) struct View {
     pub motion: BodyMotion,
     /// p̈₀, the acceleration of the centre of mass [m/s²].
     pub acceleration: Vec3,
+    /// P̈ [1/s²] of a body that deforms.
+    pub stretching: Option<Mat3>,
 }
 
 impl View {
@@ -26,19 +28,23 @@ impl View {
     pub fn of(body: &Body, block: &[f64], rates: &[f64]) -> Self {
         let motion = BodyMotion::unpack(body, block);
         let vector = |at: usize| Vec3::new(rates[at], rates[at + 1], rates[at + 2]);
-        let acceleration = match &body.pin {
-            None => vector(7),
-            Some(pin) => {
-                let (spin, arm) = (&motion.spin, &pin.point);
-                -(motion.placement.gradient * (vector(4).cross(arm) + spin.cross(&spin.cross(arm))))
+        let matrix = |at: usize| Mat3::from_column_slice(&rates[at..at + 9]);
+        let (acceleration, stretching) = match (&body.kind, &body.pin) {
+            (BodyKind::Rigid(_), None) => (vector(7), None),
+            (BodyKind::Rigid(_), Some(pin)) => {
+                let (spin, arm) = (Turn::unpack(body, block).spin, &pin.point);
+                (-(motion.placement.gradient * (vector(4).cross(arm) + spin.cross(&spin.cross(arm)))), None)
             }
+            (BodyKind::Affine(_), None) => (vector(12), Some(matrix(15))),
+            (BodyKind::Affine(_), Some(pin)) => (-(matrix(9) * pin.point), Some(matrix(9))),
         };
-        Self { motion, acceleration }
+        Self { motion, acceleration, stretching }
     }
 
-    /// |f| of the contacts [N]; none where pins or springs take a part of the load.
+    /// |f| of the contacts [N]; none where pins, springs or friction take a part of the load.
     pub fn contact_force(&self, model: &Model, body: &Body) -> Option<f64> {
-        let alone = body.pin.is_none() && body.springs.is_empty();
+        let resisted = body.affine().is_some_and(|affine| !affine.resistances.is_empty());
+        let alone = body.pin.is_none() && body.springs.is_empty() && !resisted;
         alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }

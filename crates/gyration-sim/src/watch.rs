@@ -1,8 +1,8 @@
 //! Finds the events of a step.
 //!
-//! The signals are looked at on the quarters of the step, at first on the interpolant that costs no evaluation. Only where
-//! one of them changes its sign is the interpolant made accurate, walked through from quarter to quarter, and the
-//! crossing closed in. Neither the steps nor the samples have a part in this.
+//! The signals are looked at on the quarters of the step, on its interpolant, which costs no evaluation of the rates. Where
+//! one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
+//! samples have a part in this.
 
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
 use crate::ports::{RunError, Sink};
@@ -35,13 +35,16 @@ impl Simulation<'_> {
     pub(crate) fn find_events(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<(), RunError> {
         let mut found = std::mem::take(&mut self.found);
         found.clear();
-        for body in 0..self.system.model().bodies.len() {
-            let end = self.signals(body);
-            if self.changes_sign(report, body, &end) {
-                self.walk(report, body, &end, &mut found);
-            } else {
-                let known = self.tally.signals[body].iter_mut().zip(end);
-                known.filter(|(_, now)| events::is_significant(*now)).for_each(|(known, now)| *known = now);
+        self.since.clear();
+        self.since.resize(self.views.len(), [report.start; 3]);
+        for part in 1..=PARTS {
+            let time = part_of(report, part);
+            if part < PARTS {
+                self.integrator.interpolate(time, &mut self.sampled.bodies, &mut self.sampled.works);
+            }
+            for body in 0..self.views.len() {
+                let signals = if part == PARTS { self.signals(body) } else { self.signals_within(body, time) };
+                self.compare(body, time, &signals, &mut found);
             }
         }
         found.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -53,79 +56,51 @@ impl Simulation<'_> {
         Ok(())
     }
 
-    /// Whether a signal of the body changes its sign between the parts of the step.
-    fn changes_sign(&mut self, report: &StepReport, body: usize, end: &Signals) -> bool {
-        let before = self.tally.signals[body];
-        let against = |signals: &[f64]| {
-            signals.iter().zip(before).any(|(now, before)| events::is_significant(*now) && now * before < 0.0)
-        };
-        against(end)
-            || (1..PARTS).any(|part| {
-                let motion = self.motion_at(part_of(report, part), body);
-                against(&self.motion_signals(body, part_of(report, part), &motion))
-            })
+    /// The signals of a body in the sampled state, but for the one that needs a force.
+    fn signals_within(&self, body: usize, time: f64) -> Signals {
+        let motion = self.sampled.motion(self.system.model(), body);
+        let [apex, approach] = self.motion_signals(body, time, &motion);
+        [apex, approach, f64::NAN]
     }
 
-    /// Walks through the step and collects the events of a body.
-    fn walk(&mut self, report: &StepReport, body: usize, end: &Signals, found: &mut Vec<Event>) {
-        self.integrator.prepare_dense(&mut self.system);
-        let mut since = [report.start; 3];
-        for part in 1..=PARTS {
-            let time = part_of(report, part);
-            let signals = if part == PARTS {
-                *end
-            } else {
-                let motion = self.motion_at(time, body);
-                let [apex, approach] = self.motion_signals(body, time, &motion);
-                [apex, approach, f64::NAN]
-            };
-            for (kind, after) in signals.into_iter().enumerate().filter(|(_, after)| events::is_significant(*after)) {
-                let before = std::mem::replace(&mut self.tally.signals[body][kind], after);
-                if events::happened(kind, before, after) {
-                    found.push(Event { time: self.locate(body, kind, (since[kind], time)), kind, body });
-                }
-                since[kind] = time;
+    /// Compares the signals of a body with the last significant ones, and collects the events between.
+    fn compare(&mut self, body: usize, time: f64, signals: &Signals, found: &mut Vec<Event>) {
+        for (kind, after) in signals.iter().enumerate().filter(|(_, after)| events::is_significant(**after)) {
+            let before = std::mem::replace(&mut self.tally.signals[body][kind], *after);
+            let since = std::mem::replace(&mut self.since[body][kind], time);
+            if events::happened(kind, before, *after) {
+                found.push(Event { time: self.locate(body, kind, (since, time)), kind, body });
             }
         }
     }
 
     /// The time of an event between two times of the last step [s].
-    fn locate(&mut self, body: usize, kind: usize, (from, to): (f64, f64)) -> f64 {
+    fn locate(&mut self, body: usize, kind: usize, between: (f64, f64)) -> f64 {
         let model = self.system.model();
         let speed = self.system.speed_scale(body);
+        let (this, block) = (&model.bodies[body], model.blocks()[body].clone());
         let (workspace, state) = (self.system.workspace(), &mut self.sampled);
-        let sense = if events::rises(kind) { 1.0 } else { -1.0 };
         let signal = |time: f64, bodies: &[f64], _: &[f64]| {
-            // Constant outside of the interval, so that the first crossing is the one within.
-            if time < from || time > to {
-                return if time < from { -sense } else { sense };
-            }
-            state.time = time;
-            state.bodies.copy_from_slice(bodies);
-            let motion = state.motion(model, body);
+            let motion = || BodyMotion::unpack(this, &bodies[block.clone()]);
             match kind {
+                APEX => events::apex(model, body, &motion(), speed),
                 LIFT_OFF => {
-                    let force =
-                        observe(model, workspace, state, body).map_or(f64::NAN, |seen| seen.contact_force.norm());
-                    events::lift_off(model, body, force, speed)
+                    // Looked for at the end of a step only, when nothing else needs the sample.
+                    state.time = time;
+                    state.bodies.copy_from_slice(bodies);
+                    let seen = observe(model, workspace, state, body);
+                    events::lift_off(model, body, seen.map_or(f64::NAN, |seen| seen.contact_force.norm()), speed)
                 }
-                APEX => events::apex(model, body, &motion, speed),
-                _ => events::approach(model, time, body, &motion, speed),
+                _ => events::approach(model, time, body, &motion(), speed),
             }
         };
         let direction = if events::rises(kind) { Direction::Rising } else { Direction::Falling };
-        find_crossing(&mut self.integrator, signal, direction, PARTS).unwrap_or(to)
+        find_crossing(&mut self.integrator, between, signal, direction, 1).unwrap_or(between.1)
     }
 
     fn motion_signals(&self, body: usize, time: f64, motion: &BodyMotion) -> [f64; 2] {
         let (model, speed) = (self.system.model(), self.system.speed_scale(body));
         [events::apex(model, body, motion, speed), events::approach(model, time, body, motion, speed)]
-    }
-
-    /// The motion of a body at a time within the last step.
-    fn motion_at(&mut self, time: f64, body: usize) -> BodyMotion {
-        self.integrator.interpolate(time, &mut self.sampled.bodies, &mut self.sampled.works);
-        self.sampled.motion(self.system.model(), body)
     }
 
     /// |f| of the contacts in the sampled state, by integration [N].

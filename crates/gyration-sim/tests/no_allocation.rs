@@ -67,7 +67,8 @@ fn steps_after_the_first(method: Method, end: f64) -> (u64, Statistics) {
         while integrator.time() < end {
             let report = integrator.step(&mut system, end).unwrap();
             integrator.interpolate(0.5 * (report.start + report.end), &mut sample.bodies, &mut sample.works);
-            find_crossing(&mut integrator, |_, y, _| y[9], Direction::Rising, 4);
+            let step = integrator.last_step().unwrap();
+            find_crossing(&mut integrator, step, |_, y, _| y[9], Direction::Rising, 4);
         }
     });
     (counted.count_total, *integrator.statistics())

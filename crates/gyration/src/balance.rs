@@ -1,22 +1,21 @@
 //! What is conserved, exchanged and audited: energies, works, momenta.
 //!
-//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
+//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   elastic V φ,   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
 //!   K = P J Ṗᵀ (affine momentum; its antisymmetric part is angular momentum)
 //!
 //! U(d) = α d₀ (d/d₀)^(1−ν)/(ν−1); at ν = 1, −α d₀ ln(d/d₀). Works are done on the bodies since t = 0; the residual
 //! of the ledger is (Σ energies) − (Σ energies at 0) − Σ works. Source: `physics.md` §2, §3, §6.
 
-use crate::body::Body;
-use crate::contact::{Action, Contact, ContactLoads, Term};
-use crate::inadmissible::{Inadmissible, Quantity};
+use crate::body::{Body, BodyKind};
+use crate::contact::{ContactLoads, contact_potential};
+use crate::inadmissible::Inadmissible;
 use crate::kinematics::Velocity;
 use crate::ledger::Energy;
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{Meeting, Workspace, for_each_contact, meet};
+use crate::rates::{AffineMotion, Workspace, for_each_contact, meet};
 use crate::shape::{MassPoint, Points, Shape};
 use crate::state::{BodyMotion, State};
-use crate::surface::{GapClosed, GapField, Kernel, MomentRequest, Moments, Surface};
 use crate::tensor::{Mat3, Vec3};
 
 /// What is recorded of one body.
@@ -34,6 +33,8 @@ pub struct BodyObservation {
     pub angular_momentum: Vec3,
     /// K = P J Ṗᵀ [kg m²/s].
     pub affine_momentum: Mat3,
+    /// π [Pa] of an incompressible body.
+    pub pressure: Option<f64>,
 }
 
 /// What is recorded of one body in a state.
@@ -48,24 +49,43 @@ pub fn observe(
 ) -> Result<BodyObservation, Inadmissible> {
     let body = &model.bodies[index];
     let motion = state.motion(model, index);
-    let mut loads = Loads::default();
-    for_each_contact(model, state.time, index, &motion, |meeting| {
-        let Meeting { contact, surface, field, motion } = meeting;
-        loads += ContactLoads::integrate(contact, surface, field, *motion, &mut workspace.contact)?.total();
-        Ok(())
-    })?;
+    let (contact, pressure) = match &body.kind {
+        BodyKind::Rigid(_) => (contact_loads(model, workspace, state.time, index, &motion)?, None),
+        BodyKind::Affine(affine) => {
+            let moving = AffineMotion::new(index, affine, &motion)?;
+            let loads = moving.loads(model, workspace, state.time)?;
+            (loads.contact, moving.balance(model, &loads.total).and_then(|balance| balance.pressure))
+        }
+    };
     let (placement, velocity) = (&motion.placement, &motion.velocity);
     let affine_momentum = placement.gradient * body.mass.euler_tensor * velocity.gradient_rate.transpose();
     let linear_momentum = body.mass.mass * velocity.velocity;
     Ok(BodyObservation {
         motion,
         gap: smallest_gap(model, state.time, index, &motion),
-        contact_force: loads.force,
+        contact_force: contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.
         angular_momentum: placement.position.cross(&linear_momentum) - crate::tensor::axial(&affine_momentum),
         affine_momentum,
+        pressure,
     })
+}
+
+/// f and M of the contacts of a body.
+fn contact_loads(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    index: usize,
+    motion: &BodyMotion,
+) -> Result<Loads, Inadmissible> {
+    let mut loads = Loads::default();
+    for_each_contact(model, time, index, motion, |contact, meeting| {
+        loads += ContactLoads::integrate(contact, meeting, &mut workspace.contact)?.total();
+        Ok(())
+    })?;
+    Ok(loads)
 }
 
 /// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
@@ -103,7 +123,12 @@ pub fn fastest_speed(body: &Body, motion: &BodyMotion) -> f64 {
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
-pub fn energies(model: &Model, state: &State, values: &mut [f64]) -> Result<(), Inadmissible> {
+pub fn energies(
+    model: &Model,
+    workspace: &mut Workspace,
+    state: &State,
+    values: &mut [f64],
+) -> Result<(), Inadmissible> {
     for (energy, value) in model.energies().iter().zip(values) {
         *value = 0.0;
         for (index, body) in model.bodies.iter().enumerate() {
@@ -111,7 +136,10 @@ pub fn energies(model: &Model, state: &State, values: &mut [f64]) -> Result<(), 
             *value += match energy {
                 Energy::Kinetic => kinetic_energy(body, &motion),
                 Energy::Gravity => -body.mass.mass * model.gravity.dot(&motion.placement.position),
-                Energy::Contact => contact_energy(model, state.time, index, &motion)?,
+                Energy::Elastic => {
+                    body.affine().map_or(0.0, |affine| affine.interior.energy(&motion.placement.gradient))
+                }
+                Energy::Contact => contact_energy(model, workspace, state.time, index, &motion)?,
                 Energy::Load => body.springs.iter().map(|spring| spring.energy(&motion.placement)).sum(),
             };
         }
@@ -127,47 +155,17 @@ pub fn kinetic_energy(body: &Body, motion: &BodyMotion) -> f64 {
 }
 
 /// The potential of the central laws over a body's surface [J].
-fn contact_energy(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<f64, Inadmissible> {
-    let body = &model.bodies[index];
-    let Some(surface) = &body.surface else {
-        return Ok(0.0);
-    };
+fn contact_energy(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    index: usize,
+    motion: &BodyMotion,
+) -> Result<f64, Inadmissible> {
     let mut total = 0.0;
-    for contact in &body.contacts {
-        let (field, _) = meet(model, contact.support, time, motion);
-        total += contact_potential(contact, surface, &field).map_err(|closed| Inadmissible {
-            body: index,
-            quantity: Quantity::Gap { support: contact.support },
-            value: closed.gap,
-        })?;
-    }
+    for_each_contact(model, time, index, motion, |contact, meeting| {
+        total += contact_potential(contact, meeting, &mut workspace.contact)?;
+        Ok(())
+    })?;
     Ok(total)
-}
-
-/// ∫U(d) dA [J] of the central laws of one contact. Source: `physics.md` §3.
-///
-/// # Errors
-/// [`GapClosed`] if a point of the surface lies on or behind the plane.
-pub fn contact_potential(contact: &Contact, surface: &Surface, field: &GapField) -> Result<f64, GapClosed> {
-    let terms = contact.laws().iter().flat_map(|law| law.terms()).flatten();
-    let mut total = 0.0;
-    for term in terms.filter(|term| term.action == Action::Central) {
-        total += term_potential(&term, surface, field)?;
-    }
-    Ok(total)
-}
-
-/// c d^(1−ν)/(ν−1) integrated; at ν = 1, −c (ln d − ln d₀).
-fn term_potential(term: &Term, surface: &Surface, field: &GapField) -> Result<f64, GapClosed> {
-    let integral = |kernel: Kernel| {
-        let mut moments = [Moments::default()];
-        surface.moments(field, &[MomentRequest { kernel, order: 0 }], &mut moments)?;
-        Ok(moments[0].zeroth)
-    };
-    if term.exponent == 1.0 {
-        let logarithm = integral(Kernel::Log)? - surface.area() * term.reference_gap.ln();
-        return Ok(-term.coefficient * logarithm);
-    }
-    let power = integral(Kernel::Power(term.exponent - 1.0))?;
-    Ok(term.coefficient * power / (term.exponent - 1.0))
 }

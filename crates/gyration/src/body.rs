@@ -6,12 +6,15 @@
 //! |-------|---------------|----------|-------------------------------------------|
 //! | rigid | p₀, P = R     | ṗ₀, Ω    | p₀ (3), quaternion (4), ṗ₀ (3), Ω (3)     |
 //! | rigid, pinned | P = R | Ω        | quaternion (4), Ω (3)                     |
+//! | affine | p₀, P         | ṗ₀, Ṗ    | p₀ (3), P (9), ṗ₀ (3), Ṗ (9)              |
+//! | affine, pinned | P     | Ṗ        | P (9), Ṗ (9)                              |
 //!
-//! with Ω in body axes. Affine and contractile bodies are further variants of [`BodyKind`]: the compiler lists what
-//! each must answer.
+//! with Ω in body axes, P and Ṗ column by column. A contractile body is a further variant of [`BodyKind`]: the compiler
+//! lists what it must answer.
 
+use crate::affine::AffineBody;
 use crate::contact::Contact;
-use crate::load::Spring;
+use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
 use crate::shape::Shape;
 use crate::surface::{GapField, Surface};
@@ -50,10 +53,29 @@ pub struct Pin {
 }
 
 /// How a body may deform.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum BodyKind {
     /// P is a rotation.
     Rigid(RigidInertia),
+    /// P is free, or of determinant one.
+    Affine(Box<Affine>),
+}
+
+/// What an affine body has beside the loads that any body may have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Affine {
+    /// Inertia, material, internal friction: all that P̈ depends on beside the loads.
+    pub interior: AffineBody,
+    /// An affine moment that acts on it.
+    pub couple: Option<Couple>,
+    /// Friction and gyroscopic loads, linear in (ṗ₀, L).
+    pub resistances: Vec<LinearResistance>,
+}
+
+impl From<AffineBody> for Affine {
+    fn from(interior: AffineBody) -> Self {
+        Self { interior, couple: None, resistances: Vec::new() }
+    }
 }
 
 /// The constant inertia tensor of a rigid body in its own axes, about the centre of mass or the pin.
@@ -110,11 +132,21 @@ impl Body {
         gap.is_finite() && gap > RESOLUTION * (self.size + field.height.abs())
     }
 
+    /// What an affine body has beside other kinds.
+    pub fn affine(&self) -> Option<&Affine> {
+        match &self.kind {
+            BodyKind::Affine(affine) => Some(affine),
+            BodyKind::Rigid(_) => None,
+        }
+    }
+
     /// How many numbers its state has.
     pub fn dimension(&self) -> usize {
         match (&self.kind, &self.pin) {
             (BodyKind::Rigid(_), None) => 13,
             (BodyKind::Rigid(_), Some(_)) => 7,
+            (BodyKind::Affine(_), None) => 24,
+            (BodyKind::Affine(_), Some(_)) => 18,
         }
     }
 }

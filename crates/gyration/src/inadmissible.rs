@@ -13,6 +13,8 @@ pub enum Quantity {
         /// Index of the spring in its body.
         spring: usize,
     },
+    /// det P, which must be > 0: the body is not turned inside out.
+    Volume,
 }
 
 /// A state outside the model: which body, which quantity, its value.

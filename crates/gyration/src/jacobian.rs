@@ -1,20 +1,21 @@
 //! The exact Jacobian of the rates, block by block.
 //!
-//! The wrench on a rigid body depends on few numbers, and its derivatives by them follow from the same moments with
+//! An affine body's loads are differentiated in the coordinates (p₀ | P) (`affine_slopes`). The wrench on a rigid body depends on few numbers, and its derivatives by them follow from the same moments with
 //! exponent ν + 1 (`contact`); they are carried over to the state here, once:
 //!
 //!   m p̈₀ = m g + f           I Ω̇ = τ − Ω × IΩ,   δ(Ω × IΩ) = ([Ω]× I − [IΩ]×) δΩ
 //!
 //! Columns of the quaternion come from those of δθ by δθ = 2 vec(q⁻¹ ∘ δq).
 
+mod affine_slopes;
 mod rigid_slopes;
 
 use crate::body::{Body, BodyKind, RigidInertia};
-use crate::contact::ContactWrench;
+use crate::contact::{ContactWrench, Meeting, RigidMotion};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
-use crate::rates::{Meeting, Workspace, for_each_contact, spring_loads};
-use crate::state::BodyMotion;
+use crate::rates::{AffineMotion, Workspace, for_each_contact, spring_loads};
+use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, cross_matrix};
 use nalgebra::{DMatrix, SMatrix};
 use rigid_slopes::RigidSlopes;
@@ -31,15 +32,21 @@ pub fn jacobian(
     blocks: &mut [DMatrix<f64>],
 ) -> Result<(), Inadmissible> {
     for (index, (body, matrix)) in model.bodies.iter().zip(blocks).enumerate() {
-        let motion = BodyMotion::unpack(body, &bodies[model.blocks()[index].clone()]);
+        let block = &bodies[model.blocks()[index].clone()];
         match &body.kind {
             BodyKind::Rigid(inertia) => {
-                let slopes = rigid_slopes(model, workspace, time, index, &motion)?;
+                let turn = Turn::unpack(body, block);
+                let slopes = rigid_slopes(model, workspace, time, index, (&turn.motion(body, block), &turn))?;
                 matrix.fill(0.0);
                 match body.pin {
-                    None => fill_free(matrix, body, inertia, &motion, &slopes),
-                    Some(_) => fill_pinned(matrix, inertia, &motion, &slopes),
+                    None => fill_free(matrix, body, inertia, &turn, &slopes),
+                    Some(_) => fill_pinned(matrix, inertia, &turn, &slopes),
                 }
+            }
+            BodyKind::Affine(affine) => {
+                let moving = AffineMotion::new(index, affine, &BodyMotion::unpack(body, block))?;
+                let slopes = affine_slopes::load_slopes(model, workspace, time, &moving)?;
+                affine_slopes::fill(matrix, model, &moving, &slopes);
             }
         }
     }
@@ -52,20 +59,20 @@ fn rigid_slopes(
     workspace: &mut Workspace,
     time: f64,
     index: usize,
-    motion: &BodyMotion,
+    (motion, turn): (&BodyMotion, &Turn),
 ) -> Result<RigidSlopes, Inadmissible> {
     let body = &model.bodies[index];
     let mut slopes = RigidSlopes::default();
-    for_each_contact(model, time, index, motion, |meeting| {
-        let Meeting { contact, surface, field, .. } = meeting;
-        let relative = meeting.rigid(motion);
+    for_each_contact(model, time, index, motion, |contact, meeting| {
+        let Meeting { surface, field, .. } = meeting;
+        let relative = RigidMotion::new(&meeting.motion, &motion.placement.gradient, turn.spin);
         let wrench = ContactWrench::integrate(contact, surface, field, &relative, &mut workspace.contact)?;
         slopes.add_contact(&wrench, &relative);
         Ok(())
     })?;
-    spring_loads(index, body, motion, |spring| slopes.add_spring(spring, motion))?;
+    spring_loads(index, body, motion, |spring| slopes.add_spring(spring, motion, &turn.spin))?;
     if let Some(pin) = &body.pin {
-        slopes.tie_to_pin(&pin.point, &(body.mass.mass * model.gravity), motion);
+        slopes.tie_to_pin(&pin.point, &(body.mass.mass * model.gravity), (motion, turn));
     }
     Ok(slopes)
 }
@@ -80,17 +87,17 @@ fn write<const ROWS: usize, const COLUMNS: usize>(
 }
 
 /// ∂(Ω × IΩ)/∂Ω.
-fn gyroscopic(inertia: &RigidInertia, motion: &BodyMotion) -> Mat3 {
-    cross_matrix(&motion.spin) * inertia.tensor - cross_matrix(&(inertia.tensor * motion.spin))
+fn gyroscopic(inertia: &RigidInertia, turn: &Turn) -> Mat3 {
+    cross_matrix(&turn.spin) * inertia.tensor - cross_matrix(&(inertia.tensor * turn.spin))
 }
 
 /// The block of a free body: p₀, q, ṗ₀, Ω from 0, 3, 7, 10.
-fn fill_free(block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, motion: &BodyMotion, slopes: &RigidSlopes) {
-    let turns = motion.quaternion.turn_by_component();
+fn fill_free(block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, turn: &Turn, slopes: &RigidSlopes) {
+    let turns = turn.quaternion.turn_by_component();
     let mobility = 1.0 / body.mass.mass;
     write(block, (0, 7), &Mat3::identity());
-    write(block, (3, 3), &motion.quaternion.rate_by_component(&motion.spin));
-    write(block, (3, 10), &motion.quaternion.rate_by_spin());
+    write(block, (3, 3), &turn.quaternion.rate_by_component(&turn.spin));
+    write(block, (3, 10), &turn.quaternion.rate_by_spin());
     write(block, (7, 0), &(slopes.by_place.force * mobility));
     write(block, (7, 3), &(slopes.by_turn.force * mobility * turns));
     write(block, (7, 7), &(slopes.by_velocity.force * mobility));
@@ -98,14 +105,14 @@ fn fill_free(block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, moti
     write(block, (10, 0), &(inertia.inverse * slopes.by_place.torque));
     write(block, (10, 3), &(inertia.inverse * slopes.by_turn.torque * turns));
     write(block, (10, 7), &(inertia.inverse * slopes.by_velocity.torque));
-    write(block, (10, 10), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, motion))));
+    write(block, (10, 10), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, turn))));
 }
 
 /// The block of a pinned body: q, Ω from 0, 4.
-fn fill_pinned(block: &mut DMatrix<f64>, inertia: &RigidInertia, motion: &BodyMotion, slopes: &RigidSlopes) {
-    let turns = motion.quaternion.turn_by_component();
-    write(block, (0, 0), &motion.quaternion.rate_by_component(&motion.spin));
-    write(block, (0, 4), &motion.quaternion.rate_by_spin());
+fn fill_pinned(block: &mut DMatrix<f64>, inertia: &RigidInertia, turn: &Turn, slopes: &RigidSlopes) {
+    let turns = turn.quaternion.turn_by_component();
+    write(block, (0, 0), &turn.quaternion.rate_by_component(&turn.spin));
+    write(block, (0, 4), &turn.quaternion.rate_by_spin());
     write(block, (4, 0), &(inertia.inverse * slopes.by_turn.torque * turns));
-    write(block, (4, 4), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, motion))));
+    write(block, (4, 4), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, turn))));
 }

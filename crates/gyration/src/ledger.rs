@@ -10,6 +10,8 @@ pub enum Energy {
     Kinetic,
     /// −m g·p₀.
     Gravity,
+    /// V φ, of the materials.
+    Elastic,
     /// ∫U(d) dA, where repulsion and adhesion have a potential.
     Contact,
     /// Springs.
@@ -22,6 +24,7 @@ impl Energy {
         match self {
             Self::Kinetic => "kinetic",
             Self::Gravity => "gravity",
+            Self::Elastic => "elastic",
             Self::Contact => "contact",
             Self::Load => "load",
         }
@@ -31,24 +34,36 @@ impl Energy {
 /// A work done on the bodies since t = 0 [J].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
+    /// By repulsion, with the relative velocity, where it has no potential.
+    Repulsion,
     /// By damping, with the relative velocity; ≤ 0.
     Damping,
     /// By friction, with the relative velocity; ≤ 0.
     Friction,
-    /// By dashpots; ≤ 0.
+    /// By adhesion, with the relative velocity, where it has no potential.
+    Adhesion,
+    /// By internal friction, and friction that is linear in the velocity; ≤ 0.
+    Viscosity,
+    /// By dashpots and couples.
     Load,
     /// By the motion of the supports: ∫∫ q·(velocity of the support), all laws.
     Support,
+    /// By the pressure of incompressible bodies, and by putting them back to det P = 1: what the error of a step leaves.
+    Constraint,
 }
 
 impl Work {
     /// The word of the column `work.…`.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Repulsion => "repulsion",
             Self::Damping => "damping",
             Self::Friction => "friction",
+            Self::Adhesion => "adhesion",
+            Self::Viscosity => "viscosity",
             Self::Load => "load",
             Self::Support => "support",
+            Self::Constraint => "constraint",
         }
     }
 }

@@ -3,7 +3,7 @@
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
 use crate::body::Body;
-use crate::contact::LawKind;
+use crate::contact::{AreaMeasure, LawKind};
 use crate::ledger::{Energy, Work};
 use crate::support::{Support, SupportMotion};
 use crate::tensor::Vec3;
@@ -74,24 +74,44 @@ fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
     let moving = |index: usize| supports[index].motion != SupportMotion::Fixed;
     let dashpots = bodies.iter().flat_map(|body| &body.springs).any(|spring| spring.damping > 0.0);
     let carried = bodies.iter().flat_map(|body| &body.contacts).any(|contact| moving(contact.support));
-    // A rigid body's repulsion and adhesion have a potential: they stand among the energies.
+    let affine = || bodies.iter().filter_map(Body::affine);
+    let resisted = affine().flat_map(|affine| &affine.resistances).any(|load| load.dissipates());
+    let works_alone = !has_potential(bodies);
     [
+        (Work::Repulsion, works_alone && has_law(bodies, &[LawKind::Repulsion])),
         (Work::Damping, has_law(bodies, &[LawKind::Damping])),
         (Work::Friction, has_law(bodies, &[LawKind::Friction])),
-        (Work::Load, dashpots),
+        (Work::Adhesion, works_alone && has_law(bodies, &[LawKind::Adhesion])),
+        (Work::Viscosity, resisted || affine().any(|affine| affine.interior.dissipates())),
+        (Work::Load, dashpots || affine().any(|affine| affine.couple.is_some())),
         (Work::Support, carried),
+        (Work::Constraint, affine().any(|affine| affine.interior.is_incompressible())),
     ]
     .into_iter()
     .filter_map(|(work, applies)| applies.then_some(work))
     .collect()
 }
 
+/// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
+fn has_potential(bodies: &[Body]) -> bool {
+    let central = [LawKind::Repulsion, LawKind::Adhesion];
+    let deforming = bodies.iter().filter(|body| body.affine().is_some());
+    let mut contacts = deforming.flat_map(|body| &body.contacts);
+    contacts.all(|contact| {
+        let acts = contact.laws().iter().any(|law| central.contains(&law.kind()));
+        contact.measure != AreaMeasure::DeformedArea || !acts
+    })
+}
+
 fn energies(bodies: &[Body]) -> Vec<Energy> {
     let springs = bodies.iter().any(|body| !body.springs.is_empty());
+    let elastic = bodies.iter().filter_map(Body::affine).any(|affine| affine.interior.material.is_some());
+    let central = has_law(bodies, &[LawKind::Repulsion, LawKind::Adhesion]);
     [
         (Energy::Kinetic, true),
         (Energy::Gravity, true),
-        (Energy::Contact, has_law(bodies, &[LawKind::Repulsion, LawKind::Adhesion])),
+        (Energy::Elastic, elastic),
+        (Energy::Contact, central && has_potential(bodies)),
         (Energy::Load, springs),
     ]
     .into_iter()

@@ -1,9 +1,9 @@
 //! The state: time, the numbers of every body, and the works done so far. Minimal: the rest follows from the model.
 
-use crate::body::{Body, BodyKind};
+use crate::body::{Body, BodyKind, Pin};
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
-use crate::tensor::Vec3;
+use crate::tensor::{Mat3, Vec3, axial};
 
 /// Time, configuration and velocities, and the work integrals of the ledger.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,15 @@ pub struct State {
 
 /// How a body starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// A rigid body.
+    Rigid(RigidStart),
+    /// A body that deforms: any placement and velocity. Those of a pinned body's centre follow from P and Ṗ.
+    Affine(Placement, Velocity),
+}
+
+/// How a rigid body starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidStart {
     /// p₀ of the centre of mass [m].
     pub position: Vec3,
@@ -29,35 +38,62 @@ pub struct RigidStart {
     pub angular_velocity: Vec3,
 }
 
-/// The motion of one body, unpacked from its block of the state.
+/// The motion of one body of any kind, unpacked from its block of the state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyMotion {
     /// p₀ and P.
     pub placement: Placement,
     /// ṗ₀ and Ṗ.
     pub velocity: Velocity,
+}
+
+/// What the block of a rigid body holds of its rotation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
     /// The quaternion as it stands, not normalised.
     pub quaternion: Quaternion,
     /// Ω, angular velocity in body axes [rad/s].
     pub spin: Vec3,
 }
 
+impl From<RigidStart> for Start {
+    fn from(start: RigidStart) -> Self {
+        Self::Rigid(start)
+    }
+}
+
+impl Start {
+    /// Appends the body's block of the state.
+    fn pack(&self, body: &Body, numbers: &mut Vec<f64>) {
+        let free = body.pin.is_none();
+        let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
+        match self {
+            Self::Rigid(start) => {
+                let quaternion = start.orientation.normalized();
+                let spin = quaternion.rotation().tr_mul(&start.angular_velocity);
+                push(start.position.as_slice(), free);
+                push(&quaternion.0, true);
+                push(start.velocity.as_slice(), free);
+                push(spin.as_slice(), true);
+            }
+            Self::Affine(placement, velocity) => {
+                push(placement.position.as_slice(), free);
+                push(placement.gradient.as_slice(), true);
+                push(velocity.velocity.as_slice(), free);
+                push(velocity.gradient_rate.as_slice(), true);
+            }
+        }
+    }
+}
+
 impl State {
-    /// The state at t = 0 from the start of each body, in order.
-    pub fn start(model: &Model, starts: &[RigidStart]) -> Self {
+    /// The state at t = 0 from the start of each body, in order; each of the kind of its body.
+    pub fn start(model: &Model, starts: &[Start]) -> Self {
         let mut bodies = Vec::with_capacity(model.dimension());
         for (body, start) in model.bodies.iter().zip(starts) {
-            let quaternion = start.orientation.normalized();
-            let spin = quaternion.rotation().tr_mul(&start.angular_velocity);
-            if body.pin.is_none() {
-                bodies.extend(start.position.iter());
-            }
-            bodies.extend(quaternion.0);
-            if body.pin.is_none() {
-                bodies.extend(start.velocity.iter());
-            }
-            bodies.extend(spin.iter());
+            start.pack(body, &mut bodies);
         }
+        debug_assert_eq!(bodies.len(), model.dimension(), "each start is of the kind of its body");
         Self { time: 0.0, bodies, works: vec![0.0; model.works().len()] }
     }
 
@@ -71,36 +107,50 @@ fn vector(numbers: &[f64]) -> Vec3 {
     Vec3::new(numbers[0], numbers[1], numbers[2])
 }
 
+impl Turn {
+    /// Reads the block of a rigid body.
+    pub fn unpack(body: &Body, block: &[f64]) -> Self {
+        let (at, spin) = if body.pin.is_none() { (3, 10) } else { (0, 4) };
+        let quaternion = Quaternion([block[at], block[at + 1], block[at + 2], block[at + 3]]);
+        Self { quaternion, spin: vector(&block[spin..]) }
+    }
+
+    /// The motion that goes with it, the rest being read from the block.
+    pub fn motion(&self, body: &Body, block: &[f64]) -> BodyMotion {
+        let rotation = self.quaternion.rotation();
+        let gradient_rate = rigid_gradient_rate(&rotation, &self.spin);
+        BodyMotion::of(body.pin.as_ref(), rotation, gradient_rate, || (vector(block), vector(&block[7..])))
+    }
+}
+
 impl BodyMotion {
     /// Reads a body's block of the state.
     pub fn unpack(body: &Body, block: &[f64]) -> Self {
         match body.kind {
-            BodyKind::Rigid(_) => Self::unpack_rigid(body, block),
+            BodyKind::Rigid(_) => Turn::unpack(body, block).motion(body, block),
+            BodyKind::Affine(_) => {
+                let (gradient, rate) = if body.pin.is_none() { (3, 15) } else { (0, 9) };
+                let matrix = |at: usize| Mat3::from_column_slice(&block[at..at + 9]);
+                let center = || (vector(block), vector(&block[12..]));
+                Self::of(body.pin.as_ref(), matrix(gradient), matrix(rate), center)
+            }
         }
     }
 
-    fn unpack_rigid(body: &Body, block: &[f64]) -> Self {
-        let free = body.pin.is_none();
-        let at = if free { 3 } else { 0 };
-        let quaternion = Quaternion([block[at], block[at + 1], block[at + 2], block[at + 3]]);
-        let rotation = quaternion.rotation();
-        let spin = vector(&block[if free { 10 } else { 4 }..]);
-        let gradient_rate = rigid_gradient_rate(&rotation, &spin);
-        // A pinned body's centre goes around the pin: p₀ = a − R r, ṗ₀ = −Ṙ r.
-        let (position, velocity) = match body.pin {
-            None => (vector(block), vector(&block[7..])),
-            Some(pin) => (pin.anchor - rotation * pin.point, -(gradient_rate * pin.point)),
+    /// The motion of P and Ṗ. A pinned body's centre follows the pin: p₀ = a − P r, ṗ₀ = −Ṗ r.
+    fn of(pin: Option<&Pin>, gradient: Mat3, gradient_rate: Mat3, center: impl FnOnce() -> (Vec3, Vec3)) -> Self {
+        let (position, velocity) = match pin {
+            None => center(),
+            Some(pin) => (pin.anchor - gradient * pin.point, -(gradient_rate * pin.point)),
         };
-        Self {
-            placement: Placement { position, gradient: rotation },
-            velocity: Velocity { velocity, gradient_rate },
-            quaternion,
-            spin,
-        }
+        Self { placement: Placement { position, gradient }, velocity: Velocity { velocity, gradient_rate } }
     }
 
-    /// ω = R Ω in spatial axes [rad/s].
+    /// ω of a rigid body, half the vorticity ½ rot ẋ of any other, in spatial axes [rad/s].
     pub fn angular_velocity(&self) -> Vec3 {
-        self.placement.gradient * self.spin
+        match self.placement.gradient.try_inverse() {
+            Some(inverse) => 0.5 * axial(&(self.velocity.gradient_rate * inverse)),
+            None => Vec3::from_element(f64::NAN),
+        }
     }
 }

@@ -25,6 +25,64 @@ pub fn turning(a: &Mat3) -> Mat3 {
     Mat3::new(diagonal.x, -a.m12, -a.m13, -a.m21, diagonal.y, -a.m23, -a.m31, -a.m32, diagonal.z)
 }
 
+/// cof A = det A · A⁻ᵀ, for any A: what takes area vectors along.
+pub fn cofactor(a: &Mat3) -> Mat3 {
+    let [x, y, z] = columns(a);
+    Mat3::from_columns(&[y.cross(&z), z.cross(&x), x.cross(&y)])
+}
+
+/// The derivative of cof A in the direction δA.
+pub fn cofactor_change(a: &Mat3, da: &Mat3) -> Mat3 {
+    let ([x, y, z], [dx, dy, dz]) = (columns(a), columns(da));
+    Mat3::from_columns(&[dy.cross(&z) + y.cross(&dz), dz.cross(&x) + z.cross(&dx), dx.cross(&y) + x.cross(&dy)])
+}
+
+fn columns(a: &Mat3) -> [Vec3; 3] {
+    [a.column(0).into(), a.column(1).into(), a.column(2).into()]
+}
+
+/// The polar decomposition P = R U of a gradient with det P > 0: R a rotation, U symmetric, positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Polar {
+    /// R.
+    pub rotation: Mat3,
+    /// U.
+    pub stretch: Mat3,
+}
+
+impl Polar {
+    /// Newton's iteration R ← ½(ρR + (ρR)⁻ᵀ), ρ² = |R⁻¹|/|R|, which converges quadratically. Source: Higham 1986.
+    ///
+    /// Not finite where det P = 0; where det P < 0, R is a rotation times −1.
+    pub fn of(p: &Mat3) -> Self {
+        /// The scaled iteration takes nine steps for stretches of 1 to 10¹⁶.
+        const MOST: usize = 16;
+        let mut r = *p;
+        for _ in 0..MOST {
+            let cofactor = cofactor(&r);
+            let inverse = cofactor / r.column(0).dot(&cofactor.column(0));
+            let (own, other) = (r.norm(), inverse.norm());
+            // Near the end the scale is one, and leaving it out is what makes the convergence quadratic.
+            let scale = if (own * other - 3.0).abs() < 1e-2 { 1.0 } else { (other / own).sqrt() };
+            let next = 0.5 * (scale * r + inverse / scale);
+            let change = (next - r).norm();
+            r = next;
+            // The next change is of the order of the square of this one.
+            if change < 1e-9 {
+                break;
+            }
+        }
+        let u = r.tr_mul(p);
+        Self { rotation: r, stretch: 0.5 * (u + u.transpose()) }
+    }
+
+    /// w with δR = R [w]× for a change δP: (tr U I − U) w = axial(Rᵀ δP).
+    pub fn turn(&self, dp: &Mat3) -> Vec3 {
+        let right = axial(&self.rotation.tr_mul(dp));
+        turning(&self.stretch).try_inverse().map_or(Vec3::from_element(f64::NAN), |inverse| inverse * right)
+    }
+}
+
 /// A fully symmetric tensor of third rank, stored as its ten independent components
 /// `xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -72,6 +130,33 @@ impl SymmetricThird {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn gradient() -> Mat3 {
+        Mat3::new(1.3, 0.4, -0.2, -0.1, 0.7, 0.3, 0.5, -0.6, 1.9)
+    }
+
+    #[test]
+    fn polar_factors_are_a_rotation_and_a_symmetric_stretch() {
+        for p in [gradient(), Mat3::identity(), 1e-6 * gradient(), Mat3::from_diagonal(&Vec3::new(1e-3, 1.0, 1e3))] {
+            let Polar { rotation, stretch } = Polar::of(&p);
+            // A few roundings of each.
+            assert!((rotation.tr_mul(&rotation) - Mat3::identity()).norm() < 1e-14);
+            assert!((rotation * stretch - p).norm() < 1e-14 * p.norm());
+            assert!(stretch.symmetric_eigenvalues().min() > 0.0);
+        }
+    }
+
+    #[test]
+    fn turn_is_the_derivative_of_the_rotation() {
+        let (p, dp) = (gradient(), Mat3::new(0.2, -0.7, 0.1, 0.9, 0.3, -0.4, 0.5, 0.6, -0.8));
+        let step = 1e-6;
+        let at = |t: f64| Polar::of(&(p + t * dp)).rotation;
+        let exact = Polar::of(&p).rotation * cross_matrix(&Polar::of(&p).turn(&dp));
+        // Central differences: step² of truncation, eps/step of rounding, both below 1e-9.
+        assert!(((at(step) - at(-step)) / (2.0 * step) - exact).norm() < 1e-9);
+        let change = (cofactor(&(p + step * dp)) - cofactor(&(p - step * dp))) / (2.0 * step);
+        assert!((change - cofactor_change(&p, &dp)).norm() < 1e-9);
+    }
 
     #[test]
     fn slice_is_the_contraction_with_a_unit_vector() {

@@ -1,15 +1,22 @@
 //! Relations that the balance of an affine body obeys, whatever it is made of.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use gyration::affine::{AffineBody, Viscosity};
+use gyration::affine::{AffineBody, AnisotropicFriction, Viscosity};
 use gyration::mass::MassProperties;
 use gyration::material::{Fung, Hencky, Material, MooneyRivlin, Ogden, OgdenTerm};
 use gyration::tensor::{Mat3, Vec3};
+use nalgebra::Matrix6;
 use proptest::prelude::*;
 
 fn mass() -> MassProperties {
     let euler_tensor = Mat3::new(0.5, 0.1, 0.0, 0.1, 0.3, 0.05, 0.0, 0.05, 0.9);
     MassProperties { mass: 2.0, center: Vec3::zeros(), euler_tensor, volume: 0.7 }
+}
+
+/// Friction that has no symmetry but that of the matrix.
+fn fibres() -> AnisotropicFriction {
+    let root = Matrix6::from_fn(|i, j| (1.3 * i as f64 + 0.7 * (j * j) as f64).sin());
+    AnisotropicFriction::new(&(root * root.transpose())).unwrap()
 }
 
 /// Bodies of several materials, compressible and not, with and without friction, one of them pinned.
@@ -25,6 +32,7 @@ fn bodies() -> Vec<AffineBody> {
         body(Some(rubber(Some(20.0))), viscosity),
         body(Some(Material::Fung(Fung { shear: 2.0, exponent: 0.5, bulk: None })), viscosity),
         body(Some(Material::Ogden(Ogden { terms: vec![OgdenTerm { mu: 2.0, alpha: 1.7 }], bulk: None })), viscosity),
+        AffineBody { anisotropic: Some(fibres()), ..body(Some(rubber(None)), Viscosity::default()) },
         AffineBody::new(&mass(), Some(&pin), Some(Material::Hencky(Hencky { shear: 2.0, bulk: 5.0 })), viscosity)
             .unwrap(),
     ]

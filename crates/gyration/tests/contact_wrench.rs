@@ -3,9 +3,9 @@
 
 use gyration::contact::{
     Adhesion, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, ContactSlopes, ContactWrench, Damping,
-    Friction, LawKind, RelativeMotion, Repulsion, RigidLoads, RigidMotion,
+    Friction, LawKind, Meeting, RelativeMotion, Repulsion, RigidLoads, RigidMotion,
 };
-use gyration::load::{Loads, Wrench, WrenchSlope};
+use gyration::load::{LoadSlopes, Loads, Wrench, WrenchSlope};
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
 use proptest::prelude::*;
@@ -33,6 +33,10 @@ impl Scene {
         RelativeMotion { normal: self.normal, velocity: self.velocity, gradient_rate }
     }
 
+    fn meeting(&self) -> Meeting<'_> {
+        Meeting { surface: &self.surface, field: self.field(), motion: self.relative(), deformation: None }
+    }
+
     fn motion(&self) -> RigidMotion {
         RigidMotion::new(&self.relative(), &self.rotation, self.spin)
     }
@@ -47,9 +51,11 @@ impl Scene {
         ContactWrench::integrate(&self.contact, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
     }
 
-    fn slopes(&self) -> ContactSlopes {
+    fn slopes(&self) -> LoadSlopes {
+        let mut slopes = LoadSlopes::default();
         let mut scratch = ContactScratch::default();
-        ContactSlopes::integrate(&self.contact, &self.surface, &self.field(), self.relative(), &mut scratch).unwrap()
+        ContactSlopes::integrate(&self.contact, &self.meeting(), &mut scratch).unwrap().add_to(&mut slopes);
+        slopes
     }
 
     /// f and the torque of RᵀM.
@@ -101,9 +107,7 @@ proptest! {
     #[test]
     fn wrench_is_that_of_the_resultant(scene in scene()) {
         let mut scratch = ContactScratch::default();
-        let loads =
-            ContactLoads::integrate(&scene.contact, &scene.surface, &scene.field(), scene.relative(), &mut scratch);
-        let loads = loads.unwrap();
+        let loads = ContactLoads::integrate(&scene.contact, &scene.meeting(), &mut scratch).unwrap();
         let seen = scene.seen(&loads.total());
         let (rigid, wrench) = (scene.rigid_loads(), scene.wrench().wrench);
         let scale = seen.force.norm() + seen.torque.norm() + 1.0;
@@ -114,14 +118,14 @@ proptest! {
             let expected = loads.relative_power(law);
             prop_assert!((power - expected).abs() < 1e-13 * (expected.abs() + scale), "{power} against {expected}");
         }
-        prop_assert!(differ(&wrench, &scene.seen(&scene.slopes().total), scale) < 1e-13);
+        prop_assert!(differ(&wrench, &scene.seen(&scene.slopes().loads), scale) < 1e-13);
     }
 
     #[test]
     fn slopes_of_the_wrench_are_those_of_the_resultant(scene in scene()) {
         let (wrench, slopes) = (scene.wrench(), scene.slopes());
         let scale = wrench.by_height.force.norm() + wrench.by_turn.force.norm() + 1.0;
-        let by_height = scene.seen(&slopes.along_gap(1.0, &Vec3::zeros()));
+        let by_height = scene.seen(&slopes.along_place(&scene.normal, &Mat3::zeros()));
         prop_assert!(differ(&wrench.by_height, &by_height, scale) < 1e-13);
         for axis in 0..3 {
             let unit = Vec3::ith(axis, 1.0);
@@ -129,10 +133,10 @@ proptest! {
                 force: slope.force.column(axis).into(),
                 torque: slope.torque.column(axis).into(),
             };
-            let by_velocity = scene.seen(&slopes.along_velocity(&unit, &Mat3::zeros()));
+            let by_velocity = scene.seen(&slopes.along_rate(&unit, &Mat3::zeros()));
             prop_assert!(differ(&column(&wrench.by_velocity), &by_velocity, scale) < 1e-13);
             let spinning = scene.rotation * cross_matrix(&unit);
-            let by_spin = scene.seen(&slopes.along_velocity(&Vec3::zeros(), &spinning));
+            let by_spin = scene.seen(&slopes.along_rate(&Vec3::zeros(), &spinning));
             prop_assert!(differ(&column(&wrench.by_spin), &by_spin, scale) < 1e-13);
         }
     }

@@ -11,7 +11,7 @@ use gyration::load::Spring;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
-use gyration::state::{RigidStart, State};
+use gyration::state::{RigidStart, State, Turn};
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::Vec3;
 use nalgebra::DMatrix;
@@ -93,7 +93,7 @@ fn state(model: &Model, numbers: &[f64; 10]) -> State {
         velocity: Vec3::new(numbers[5], numbers[6], numbers[7]),
         angular_velocity: Vec3::new(2.0 * numbers[8], 1.0 - numbers[9], 3.0 * numbers[9]),
     };
-    let mut state = State::start(model, &vec![start; model.bodies.len()]);
+    let mut state = State::start(model, &vec![start.into(); model.bodies.len()]);
     state.time = 0.37;
     state
 }
@@ -152,7 +152,7 @@ proptest! {
             let bodies = state.bodies.iter().zip(&slopes).map(ahead).collect();
             let mut values = vec![0.0; model.energies().len()];
             let ahead = State { time: state.time + sign * step, bodies, works: state.works.clone() };
-            energies(&model, &ahead, &mut values).unwrap();
+            energies(&model, &mut Workspace::default(), &ahead, &mut values).unwrap();
             values
         };
         let (before, after) = (at(-1.0), at(1.0));
@@ -194,7 +194,8 @@ fn kinetic_energy_and_spin_agree_with_the_inertia_tensor() {
         let body = &model.bodies[index];
         let seen = observe(&model, &mut Workspace::default(), &state, index).unwrap();
         let motion = seen.motion;
-        let spin_momentum = motion.placement.gradient * body.mass.inertia() * motion.spin;
+        let turn = Turn::unpack(body, &state.bodies[model.blocks()[index].clone()]);
+        let spin_momentum = motion.placement.gradient * body.mass.inertia() * turn.spin;
         let velocity = motion.velocity.velocity;
         let expected = 0.5 * (body.mass.mass * velocity.norm_squared() + spin_momentum.dot(&motion.angular_velocity()));
         assert!((kinetic_energy(body, &motion) - expected).abs() < 1e-14 * expected);

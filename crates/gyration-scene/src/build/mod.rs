@@ -18,7 +18,7 @@ use crate::file::{Method, Solver, Time};
 use crate::quantity::si;
 use body::Solid;
 use gyration::model::Model;
-use gyration::state::{RigidStart, State};
+use gyration::state::{Start, State};
 use std::path::Path;
 
 /// A scene ready to run.
@@ -95,7 +95,8 @@ pub(crate) fn build(draft: &mut Draft, base: &Path, judge: &mut Judge<'_>) -> Op
         return None;
     }
     let plan = Plan::new(draft.time.as_ref()?, &draft.solver);
-    let (bodies, starts): (Vec<_>, Vec<RigidStart>) = solids.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
+    let (bodies, starts): (Vec<_>, Vec<Start>) =
+        solids.into_iter().flatten().map(|s| (s.body, Start::Rigid(s.start))).unzip();
     let model = Model::new(si(&draft.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
     let state = State::start(&model, &starts);
     Some(Built { model, state, plan })

@@ -2,6 +2,7 @@
 
 use gyration::balance::{energies, smallest_gap};
 use gyration::model::Model;
+use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration_record::RecordError;
 use gyration_scene::Scene;
@@ -34,7 +35,7 @@ pub struct Seen {
 /// What [`Simulation`] returns: the start is outside the model, or a row cannot be stored.
 pub fn run(scene: &Scene) -> Result<Seen, RunError> {
     let job = Job::of(scene, &Provenance { version: "test".into(), commit: None });
-    let initial = Ledger::of(job.model, job.start, None).unwrap().energies.iter().sum();
+    let initial = Ledger::of(job.model, &mut Workspace::default(), job.start, None).unwrap().energies.iter().sum();
     let mut watch = Watch { model: job.model, initial, gap: f64::INFINITY, residual: 0.0, play: 0.0 };
     let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
     simulation.begin(&mut watch)?;
@@ -81,7 +82,7 @@ impl Watch<'_> {
             let gap = smallest_gap(self.model, state.time, index, &state.motion(self.model, index));
             self.gap = self.gap.min(gap);
         }
-        let ledger = Ledger::of(self.model, state, Some(self.initial)).unwrap();
+        let ledger = Ledger::of(self.model, &mut Workspace::default(), state, Some(self.initial)).unwrap();
         let exchanged: f64 = ledger.works.iter().map(|work| work.abs()).sum();
         self.play = self.play.max(ledger.energies[0]).max(exchanged);
         self.residual = self.residual.max(ledger.residual.abs());
@@ -151,7 +152,7 @@ fn barrier(model: &Model, state: &State) -> f64 {
                 moved.bodies[axis] -= (gap - NEAREST * body.size) * normal[axis];
             }
             let mut values = vec![0.0; only.energies().len()];
-            if energies(&only, &moved, &mut values).is_ok() {
+            if energies(&only, &mut Workspace::default(), &moved, &mut values).is_ok() {
                 let contact = only.energies().iter().position(|energy| energy.name() == "contact");
                 lowest = lowest.min(contact.map_or(0.0, |index| values[index]));
             }

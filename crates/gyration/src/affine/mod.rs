@@ -6,9 +6,11 @@
 //! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M:
 //! no state, no time, no contact. Source: `physics.md` §2, §4.
 
+mod anisotropic;
 mod constraint;
 mod viscosity;
 
+pub use anisotropic::AnisotropicFriction;
 pub use constraint::Correction;
 pub use viscosity::Viscosity;
 
@@ -30,6 +32,8 @@ pub struct AffineBody {
     pub material: Option<Material>,
     /// Internal friction.
     pub viscosity: Viscosity,
+    /// More of it, with directions of its own.
+    pub anisotropic: Option<AnisotropicFriction>,
 }
 
 /// The Euler tensor cannot be inverted: the mass lies in a plane, and the stretch across it has no meaning.
@@ -67,6 +71,7 @@ pub struct AffineBalance {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AffineSlopes<'a> {
     body: &'a AffineBody,
+    gradient: Mat3,
     gyration: Gyration,
     tangent: Option<Tangent>,
     kirchhoff: Mat3,
@@ -111,16 +116,37 @@ impl AffineBody {
         let (smallest, largest) = (principal.min(), principal.max());
         // Scaled, so that the determinant neither under- nor overflows for a grain or a mountain.
         match (euler_tensor / largest).try_inverse() {
-            Some(inverse) if smallest > SINGULAR_RATIO * largest => {
-                Ok(Self { volume: mass.volume, euler_tensor, inverse: inverse / largest, material, viscosity })
-            }
+            Some(inverse) if smallest > SINGULAR_RATIO * largest => Ok(Self {
+                volume: mass.volume,
+                euler_tensor,
+                inverse: inverse / largest,
+                material,
+                viscosity,
+                anisotropic: None,
+            }),
             _ => Err(SingularEulerTensor { smallest, largest }),
         }
+    }
+
+    /// τ \[Pa\], the viscous part of the Kirchhoff stress.
+    fn viscous_stress(&self, p: &Mat3, l: &Mat3) -> Mat3 {
+        let isotropic = self.viscosity.kirchhoff_stress(p, l);
+        self.anisotropic.map_or(isotropic, |friction| isotropic + friction.kirchhoff_stress(p, l))
+    }
+
+    /// Whether it has internal friction.
+    pub fn dissipates(&self) -> bool {
+        self.viscosity != Viscosity::default() || self.anisotropic.is_some()
     }
 
     /// Whether det P = 1 is a constraint.
     pub fn is_incompressible(&self) -> bool {
         self.material.as_ref().is_some_and(Material::is_incompressible)
+    }
+
+    /// V φ \[J\].
+    pub fn energy(&self, p: &Mat3) -> f64 {
+        self.volume * self.material.as_ref().map_or(0.0, |material| material.response(p).energy)
     }
 
     /// Solves the balance for P̈ and, of an incompressible body, the pressure. None where P cannot be inverted.
@@ -130,7 +156,7 @@ impl AffineBody {
         let gyration = Gyration::of(p, rate)?;
         let response = self.material.as_ref().map(|material| material.response(p));
         let elastic = response.map_or(Mat3::zeros(), |response| response.stress);
-        let kirchhoff = self.viscosity.kirchhoff_stress(p, &gyration.gradient);
+        let kirchhoff = self.viscous_stress(p, &gyration.gradient);
         let stress = elastic + kirchhoff * gyration.inverse.transpose();
         let free = moment - self.volume * stress;
         let constraint = self.is_incompressible().then(|| Constraint::solve(self, &gyration, &free));
@@ -148,14 +174,14 @@ impl AffineBody {
     pub fn slopes(&self, p: &Mat3, rate: &Mat3, moment: &Mat3) -> Option<AffineSlopes<'_>> {
         let gyration = Gyration::of(p, rate)?;
         let tangent = self.material.as_ref().map(|material| material.tangent(p));
-        let kirchhoff = self.viscosity.kirchhoff_stress(p, &gyration.gradient);
+        let kirchhoff = self.viscous_stress(p, &gyration.gradient);
         let constraint = if self.is_incompressible() {
             let free = moment - self.volume * self.balance(p, rate, moment)?.stress;
             Some(ConstraintSlopes::new(self, &gyration, &free))
         } else {
             None
         };
-        Some(AffineSlopes { body: self, gyration, tangent, kirchhoff, constraint })
+        Some(AffineSlopes { body: self, gradient: *p, gyration, tangent, kirchhoff, constraint })
     }
 
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.
@@ -167,10 +193,13 @@ impl AffineBody {
 impl AffineSlopes<'_> {
     /// The changes of P̈ and of the pressure (0 without one) with those of P, Ṗ and M.
     pub fn apply(&self, dp: &Mat3, drate: &Mat3, dmoment: &Mat3) -> (Mat3, f64) {
-        let Self { body, gyration, tangent, kirchhoff, constraint } = self;
+        let Self { body, gradient, gyration, tangent, kirchhoff, constraint } = self;
         let change = gyration.change(dp, drate);
         let elastic = tangent.map_or(Mat3::zeros(), |tangent| tangent.apply(dp));
-        let dkirchhoff = body.viscosity.change(gyration, &change, kirchhoff, dp);
+        let mut dkirchhoff = body.viscosity.change(gradient, gyration, &change, dp);
+        if let Some(friction) = &body.anisotropic {
+            dkirchhoff += friction.change(gradient, gyration, &change, dp);
+        }
         let viscous = dkirchhoff * gyration.inverse.transpose() + kirchhoff * change.inverse.transpose();
         let free = dmoment - body.volume * (elastic + viscous);
         let (reaction, pressure) =

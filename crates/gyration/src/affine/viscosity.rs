@@ -26,15 +26,14 @@ impl Viscosity {
         if self.is_newtonian() { linear + p.determinant() * self.newtonian(l) } else { linear }
     }
 
-    /// dτ; τ − μ sym L is proportional to det P, whose change is det P tr(dP P⁻¹).
-    pub(super) fn change(&self, gyration: &Gyration, change: &Gyration, kirchhoff: &Mat3, dp: &Mat3) -> Mat3 {
+    /// dτ; det P changes by det P tr(dP P⁻¹).
+    pub(super) fn change(&self, p: &Mat3, gyration: &Gyration, change: &Gyration, dp: &Mat3) -> Mat3 {
         let linear = self.kirchhoff * symmetric(&change.gradient);
         if !self.is_newtonian() {
             return linear;
         }
-        let newtonian = kirchhoff - self.kirchhoff * symmetric(&gyration.gradient);
-        let volume = 1.0 / gyration.inverse.determinant();
-        linear + volume * self.newtonian(&change.gradient) + (dp * gyration.inverse).trace() * newtonian
+        let growth = (dp * gyration.inverse).trace();
+        linear + p.determinant() * (self.newtonian(&change.gradient) + growth * self.newtonian(&gyration.gradient))
     }
 
     fn is_newtonian(&self) -> bool {

@@ -17,7 +17,9 @@ mod friction;
 mod plan;
 mod repulsion;
 mod resultant;
+mod slopes;
 mod sums;
+mod tension;
 mod wrench;
 
 pub use adhesion::Adhesion;
@@ -25,7 +27,9 @@ pub use damping::Damping;
 pub use friction::Friction;
 pub use plan::{Contact, ContactScratch};
 pub use repulsion::Repulsion;
-pub use resultant::{ContactLoads, ContactSlopes, RelativeMotion};
+pub use resultant::{ContactLoads, Deformation, Meeting, RelativeMotion};
+pub use slopes::ContactSlopes;
+pub use tension::contact_potential;
 pub use wrench::{ContactWrench, RigidLoads, RigidMotion};
 
 /// In which measure of area the tractions are given; on a rigid body all three are the same.

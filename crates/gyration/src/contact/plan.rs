@@ -3,8 +3,9 @@
 //! Laws share powers of the gap (damping and friction often have the same exponent, and the derivative of d^−6 is the
 //! power that d^−7 asks for), so the requests are merged once, when the contact is made.
 
+use super::tension::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, Term};
-use crate::surface::{Kernel, MomentPlan, MomentRequest, Moments};
+use crate::surface::{Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments};
 
 /// The laws between one body and one support.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +18,8 @@ pub struct Contact {
     terms: Vec<PlannedTerm>,
     values: MomentPlan,
     derivatives: MomentPlan,
+    potentials: MomentPlan,
+    potential_terms: Vec<PotentialTerm>,
 }
 
 /// A term and where its moments stand among those requested.
@@ -34,7 +37,8 @@ pub(super) struct PlannedTerm {
 /// Room for the moments of one evaluation; made once, reused.
 #[derive(Debug, Clone, Default)]
 pub struct ContactScratch {
-    pub(super) moments: Vec<Moments>,
+    moments: Vec<Moments>,
+    oriented: Vec<OrientedMoments>,
 }
 
 impl ContactScratch {
@@ -44,6 +48,14 @@ impl ContactScratch {
             self.moments.resize(count, Moments::default());
         }
         &mut self.moments[..count]
+    }
+
+    /// The first `count` oriented moments, growing if this is the first use.
+    pub(super) fn take_oriented(&mut self, count: usize) -> &mut [OrientedMoments] {
+        if self.oriented.len() < count {
+            self.oriented.resize(count, OrientedMoments::default());
+        }
+        &mut self.oriented[..count]
     }
 }
 
@@ -68,7 +80,9 @@ impl Contact {
             })
             .collect();
         let (values, derivatives) = (MomentPlan::new(value_requests), MomentPlan::new(derivative_requests));
-        Self { support, measure, laws, terms, values, derivatives }
+        let (requests, potential_terms) = tension::plan(laws.iter().flat_map(ContactLaw::terms).flatten());
+        let potentials = MomentPlan::new(requests);
+        Self { support, measure, laws, terms, values, derivatives, potentials, potential_terms }
     }
 
     /// The laws.
@@ -83,6 +97,16 @@ impl Contact {
     /// The moments that the loads need.
     pub(super) fn values(&self) -> &MomentPlan {
         &self.values
+    }
+
+    /// The moments of the potentials of the central laws.
+    pub(super) fn potentials(&self) -> &MomentPlan {
+        &self.potentials
+    }
+
+    /// How the potentials are put together from them.
+    pub(super) fn potential_terms(&self) -> &[PotentialTerm] {
+        &self.potential_terms
     }
 
     /// The moments that the loads and their derivatives need.

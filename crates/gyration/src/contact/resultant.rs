@@ -1,4 +1,4 @@
-//! Force, moment and their derivatives of the contact laws over a whole surface, from its moments.
+//! Force and moment of the contact laws over a whole surface, from its moments.
 //!
 //! With the relative velocity w(X) = w₀ + W X and the moments A₀, A₁, A₂ of d^−ν (times the law's coefficient):
 //!
@@ -6,15 +6,17 @@
 //!   normal      f = −n (c₀A₀ + c·A₁)          M = −n ⊗ (c₀A₁ + A₂c),      c₀ = n·w₀, c = Wᵀn
 //!   tangential  f = −(w₀A₀ + W A₁) − normal   M = −(w₀⊗A₁ + W A₂) − normal
 //!
-//! f [N], M = ∫ q ⊗ X dA [N m]. These are linear in the moments and in (w₀, W), so that a derivative is the same
-//! formula with moments of exponent ν + 1, or with the increment of the velocity. Source: `physics.md` §2–3.
+//! f [N], M = ∫ q ⊗ X dA [N m]. On a body that deforms the moments are those per deformed or per reference area, as the
+//! measure of the contact says; `tension` adds what makes tractions per deformed area derive from a potential. These are
+//! linear in the moments and in (w₀, W), from which `slopes` takes the derivatives. Source: `physics.md` §2–3.
 
 use super::plan::{Contact, ContactScratch};
-use super::sums::{SumSlopes, Sums};
-use super::{Action, LawKind};
+use super::sums::Sums;
+use super::tension::Tension;
+use super::{Action, AreaMeasure, LawKind};
 use crate::load::Loads;
-use crate::surface::{GapClosed, GapField, Surface};
-use crate::tensor::{Mat3, Vec3};
+use crate::surface::{GapClosed, GapField, MomentPlan, Moments, Surface};
+use crate::tensor::{Mat3, Vec3, cofactor};
 
 /// The support's normal and the motion relative to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,12 +29,56 @@ pub struct RelativeMotion {
     pub gradient_rate: Mat3,
 }
 
+/// How a body that deforms takes its surface along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deformation {
+    /// P⁻¹.
+    pub inverse: Mat3,
+    /// cof P: the area factor is |cof(P) N|.
+    pub cofactor: Mat3,
+}
+
+/// A body at a support: surface, gaps and motion at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Meeting<'a> {
+    /// The surface of the body.
+    pub surface: &'a Surface,
+    /// The gap to the support.
+    pub field: GapField,
+    /// The motion relative to it.
+    pub motion: RelativeMotion,
+    /// None for a rigid body, on which all measures of area are the same.
+    pub deformation: Option<Deformation>,
+}
+
+impl Deformation {
+    /// Of the gradient P; none where it cannot be inverted.
+    pub fn of(p: &Mat3) -> Option<Self> {
+        Some(Self { inverse: p.try_inverse()?, cofactor: cofactor(p) })
+    }
+}
+
+impl Meeting<'_> {
+    /// The deformation, where areas are those of the deformed body.
+    pub(super) fn area_change(&self, contact: &Contact) -> Option<&Deformation> {
+        self.deformation.as_ref().filter(|_| contact.measure != AreaMeasure::ReferenceArea)
+    }
+
+    /// The moments of a plan in the measure of the contact.
+    pub(super) fn moments(&self, contact: &Contact, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
+        match self.area_change(contact) {
+            Some(deformation) => self.surface.deformed_moments(&self.field, &deformation.cofactor, plan, out),
+            None => self.surface.planned_moments(&self.field, plan, out),
+        }
+    }
+}
+
 impl Sums {
     fn central(&self, normal: &Vec3) -> Loads {
         Loads { force: self.zeroth * normal, moment: normal * self.first.transpose() }
     }
 
-    fn normal(&self, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
+    pub(super) fn normal(&self, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
         let speed = n.dot(velocity);
         let slope = gradient_rate.tr_mul(n);
         let push = -(speed * self.zeroth + slope.dot(&self.first));
@@ -40,14 +86,14 @@ impl Sums {
         Loads { force: push * n, moment: n * lever.transpose() }
     }
 
-    fn tangential(&self, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
+    pub(super) fn tangential(&self, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
         let force = -(velocity * self.zeroth + gradient_rate * self.first);
         let moment = -(velocity * self.first.transpose() + gradient_rate * self.second);
         // Less what of it is along n: the projection (I − n⊗n) from the left.
         Loads { force: force - n * n.dot(&force), moment: moment - n * moment.tr_mul(n).transpose() }
     }
 
-    fn act(&self, action: Action, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
+    pub(super) fn act(&self, action: Action, n: &Vec3, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
         match action {
             Action::Central => self.central(n),
             Action::Normal => self.normal(n, velocity, gradient_rate),
@@ -55,8 +101,6 @@ impl Sums {
         }
     }
 }
-
-const ACTIONS: [Action; 3] = [Action::Central, Action::Normal, Action::Tangential];
 
 /// The loads of one contact, law by law.
 #[derive(Debug, Clone, Copy)]
@@ -66,26 +110,24 @@ pub struct ContactLoads {
 }
 
 impl ContactLoads {
-    /// Integrates the laws of a contact over a surface.
+    /// Integrates the laws of a contact over the surface of a body.
     ///
     /// # Errors
     /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-    pub fn integrate(
-        contact: &Contact,
-        surface: &Surface,
-        field: &GapField,
-        motion: RelativeMotion,
-        scratch: &mut ContactScratch,
-    ) -> Result<Self, GapClosed> {
+    pub fn integrate(contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
         let plan = contact.values();
         let moments = scratch.take(plan.requests().len());
-        surface.planned_moments(field, plan, moments)?;
+        meeting.moments(contact, plan, moments)?;
+        let motion = meeting.motion;
         let mut loads = [Loads::default(); LawKind::COUNT];
         for planned in contact.terms() {
             let term = &planned.term;
             let mut sums = Sums::default();
             sums.add(term.coefficient, term.action, &moments[planned.value]);
             loads[term.kind as usize] += sums.act(term.action, &motion.normal, &motion.velocity, &motion.gradient_rate);
+        }
+        if let Some(tension) = Tension::integrate(contact, meeting, scratch)? {
+            tension.add_to(&mut loads);
         }
         Ok(Self { motion, loads })
     }
@@ -98,71 +140,5 @@ impl ContactLoads {
     /// The power f·w₀ + M·W [W] of one law on the relative motion.
     pub fn relative_power(&self, kind: LawKind) -> f64 {
         self.loads[kind as usize].power(&self.motion.velocity, &self.motion.gradient_rate)
-    }
-}
-
-/// The loads of one contact and their derivatives.
-#[derive(Debug, Clone, Copy)]
-pub struct ContactSlopes {
-    /// f and M of all laws together.
-    pub total: Loads,
-    normal: Vec3,
-    /// ∂(f, M)/∂g₀ and ∂(f, M)/∂m along the three axes, velocities kept.
-    by_gap: [Loads; 4],
-    /// Σ β d₀^ν × moments of damping and of friction: the derivative by (w₀, W) is their action on the increment.
-    viscous: [Sums; 2],
-    is_viscous: [bool; 2],
-}
-
-impl ContactSlopes {
-    /// Integrates the laws of a contact and their derivatives over a surface.
-    ///
-    /// # Errors
-    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-    pub fn integrate(
-        contact: &Contact,
-        surface: &Surface,
-        field: &GapField,
-        motion: RelativeMotion,
-        scratch: &mut ContactScratch,
-    ) -> Result<Self, GapClosed> {
-        let plan = contact.derivatives();
-        let moments = scratch.take(plan.requests().len());
-        surface.planned_moments(field, plan, moments)?;
-        let SumSlopes { values, by_gap: slopes, acts } = SumSlopes::new(contact, moments);
-        let RelativeMotion { normal, velocity, gradient_rate } = &motion;
-        let mut total = Loads::default();
-        let mut by_gap = [Loads::default(); 4];
-        for action in ACTIONS.into_iter().filter(|action| acts[*action as usize]) {
-            total += values[action as usize].act(action, normal, velocity, gradient_rate);
-            for (sum, slope) in by_gap.iter_mut().zip(&slopes[action as usize]) {
-                *sum += slope.act(action, normal, velocity, gradient_rate);
-            }
-        }
-        let [_, damping, friction] = values;
-        let [_, damps, rubs] = acts;
-        Ok(Self { total, normal: *normal, by_gap, viscous: [damping, friction], is_viscous: [damps, rubs] })
-    }
-
-    /// The change of f and M when the gap field changes by δg₀ + δm·X, velocities kept.
-    pub fn along_gap(&self, height: f64, direction: &Vec3) -> Loads {
-        let mut change = Loads::default();
-        for (slope, weight) in self.by_gap.iter().zip([height, direction.x, direction.y, direction.z]) {
-            change.force += weight * slope.force;
-            change.moment += weight * slope.moment;
-        }
-        change
-    }
-
-    /// The change of f and M when the relative velocity changes by δw₀ + δW X, gaps kept.
-    pub fn along_velocity(&self, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
-        let mut change = Loads::default();
-        if self.is_viscous[0] {
-            change += self.viscous[0].normal(&self.normal, velocity, gradient_rate);
-        }
-        if self.is_viscous[1] {
-            change += self.viscous[1].tangential(&self.normal, velocity, gradient_rate);
-        }
-        change
     }
 }

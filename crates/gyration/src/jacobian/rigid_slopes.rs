@@ -8,7 +8,7 @@
 
 use crate::contact::{ContactWrench, RigidMotion};
 use crate::load::{SpringLoads, Wrench, WrenchSlope};
-use crate::state::BodyMotion;
+use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 
 /// The wrench and its derivatives by the twelve increments.
@@ -34,10 +34,10 @@ impl RigidSlopes {
     }
 
     /// Adds a spring.
-    pub fn add_spring(&mut self, spring: &SpringLoads, motion: &BodyMotion) {
+    pub fn add_spring(&mut self, spring: &SpringLoads, motion: &BodyMotion, spin: &Vec3) {
         let rotation = &motion.placement.gradient;
         let arm = cross_matrix(&spring.point);
-        let (swing, sway) = (rotation * arm, rotation * cross_matrix(&motion.spin.cross(&spring.point)));
+        let (swing, sway) = (rotation * arm, rotation * cross_matrix(&spin.cross(&spring.point)));
         let lever = arm * rotation.transpose();
         let slope = |force: Mat3| WrenchSlope { force, torque: lever * force };
         self.wrench += spring.wrench(rotation);
@@ -51,10 +51,10 @@ impl RigidSlopes {
     /// Ties the place and the velocity to the turn and the spin about a pin at `arm` = r, and takes torques about it.
     ///
     /// `weight` is m g [N].
-    pub fn tie_to_pin(&mut self, arm: &Vec3, weight: &Vec3, motion: &BodyMotion) {
+    pub fn tie_to_pin(&mut self, arm: &Vec3, weight: &Vec3, (motion, turn): (&BodyMotion, &Turn)) {
         let rotation = &motion.placement.gradient;
         let across = cross_matrix(arm);
-        let (swing, sway) = (rotation * across, rotation * cross_matrix(&motion.spin.cross(arm)));
+        let (swing, sway) = (rotation * across, rotation * cross_matrix(&turn.spin.cross(arm)));
         self.by_turn += self.by_place.times(&swing);
         self.by_turn += self.by_velocity.times(&sway);
         self.by_spin += self.by_velocity.times(&swing);

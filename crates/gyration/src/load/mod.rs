@@ -1,11 +1,20 @@
-//! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), and those of springs at material points.
+//! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material
+//! points, of couples, and of friction that is linear in the velocity.
 //!
 //! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at
 //! a material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
 
+mod couple;
+mod resistance;
+mod slopes;
 mod spring;
 mod wrench;
 
+pub use couple::{Couple, CoupleTable, TableError};
+pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
+pub(crate) use resistance::{mirrored, semi_definite};
+pub use slopes::LoadSlopes;
+pub(crate) use slopes::{loads, unit};
 pub use spring::{Spring, SpringLoads};
 pub use wrench::{Wrench, WrenchSlope};
 
@@ -24,6 +33,11 @@ impl Loads {
     /// The loads of a force at a material point X (from the centre of mass).
     pub fn at_point(force: Vec3, point: &Vec3) -> Self {
         Self { force, moment: force * point.transpose() }
+    }
+
+    /// All of it times a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { force: factor * self.force, moment: factor * self.moment }
     }
 
     /// The power f·v + M·Ṗ [W].

@@ -5,7 +5,7 @@
 //!
 //! f_k are the derivatives of the energy. cof P is quadratic in P: neither S nor its derivative needs an inverse.
 
-use crate::tensor::{Mat3, Vec3};
+use crate::tensor::{Mat3, cofactor, cofactor_change};
 
 /// ι₁, ι₂ and J of a gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,20 +92,4 @@ impl ByInvariants {
         let fixed = 2.0 * (f1 + invariants.first * f2) * dp + (2.0 * f2 * d1) * p - 2.0 * f2 * d_pc;
         fixed + f3 * cofactor_change(p, dp) + self.combination(&changes)
     }
-}
-
-/// cof P = det P · P⁻ᵀ, for any P.
-fn cofactor(p: &Mat3) -> Mat3 {
-    let [a, b, c] = columns(p);
-    Mat3::from_columns(&[b.cross(&c), c.cross(&a), a.cross(&b)])
-}
-
-/// The derivative of cof P in the direction dP.
-fn cofactor_change(p: &Mat3, dp: &Mat3) -> Mat3 {
-    let ([a, b, c], [da, db, dc]) = (columns(p), columns(dp));
-    Mat3::from_columns(&[db.cross(&c) + b.cross(&dc), dc.cross(&a) + c.cross(&da), da.cross(&b) + a.cross(&db)])
-}
-
-fn columns(p: &Mat3) -> [Vec3; 3] {
-    [p.column(0).into(), p.column(1).into(), p.column(2).into()]
 }

@@ -1,0 +1,146 @@
+//! The derivatives of the loads of one contact on a body that moves homogeneously.
+//!
+//! Moments change with the gap, ∂(d^−ν) = −ν d^−(ν+1)(δg₀ + δm·X), and per deformed area with the area factor,
+//! δk = k (I − m⊗m)·H, H = δP P⁻¹: the formulas of `resultant` with other moments. With the velocity they change as
+//! they stand. In the coordinates q = (p₀ | P), a 3×4 matrix with the loads Q = (f | M) beside it, and X̃ = (1; X),
+//!
+//!   ∂Q/∂q = (∂Q by gap) ⊗ n + …,   ∂Q_ia/∂q̇_jb = −n_i n_j ∫κ_N X̃_a X̃_b dA − (δ_ij − n_i n_j) ∫κ_T X̃_a X̃_b dA
+//!
+//! with κ_N, κ_T of damping and friction.
+
+use super::plan::{Contact, ContactScratch};
+use super::resultant::{Meeting, RelativeMotion};
+use super::sums::{SumSlopes, Sums};
+use super::tension::{PAIR, TensionSlopes};
+use super::{Action, AreaMeasure};
+use crate::load::{LoadSlopes, Loads};
+use crate::surface::{GapClosed, Moments, OrientedMoments};
+use crate::tensor::Mat3;
+
+const ACTIONS: [Action; 3] = [Action::Central, Action::Normal, Action::Tangential];
+
+/// The loads of one contact and their derivatives.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactSlopes {
+    /// f and M of all laws together.
+    pub total: Loads,
+    motion: RelativeMotion,
+    /// ∂(f, M)/∂g₀ and ∂(f, M)/∂m along the three axes, velocities kept.
+    by_gap: [Loads; 4],
+    /// ∂(f, M)/∂H_jl at 3j + l, H = δP P⁻¹, gaps and velocities kept; with P⁻¹.
+    by_stretch: Option<([Loads; 9], Mat3)>,
+    /// Σ β d₀^ν × moments of damping and of friction.
+    viscous: [Sums; 2],
+}
+
+impl ContactSlopes {
+    /// Integrates the laws of a contact and their derivatives over the surface of a body.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
+    pub fn integrate(contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
+        let plan = contact.derivatives();
+        let moments = scratch.take(plan.requests().len());
+        meeting.moments(contact, plan, moments)?;
+        let SumSlopes { values, by_gap: slopes, acts } = SumSlopes::new(contact, moments);
+        let motion = meeting.motion;
+        let RelativeMotion { normal, velocity, gradient_rate } = &motion;
+        let mut total = Loads::default();
+        let mut by_gap = [Loads::default(); 4];
+        for action in ACTIONS.into_iter().filter(|action| acts[*action as usize]) {
+            total += values[action as usize].act(action, normal, velocity, gradient_rate);
+            for (sum, slope) in by_gap.iter_mut().zip(&slopes[action as usize]) {
+                *sum += slope.act(action, normal, velocity, gradient_rate);
+            }
+        }
+        let [_, damping, friction] = values;
+        let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction] };
+        this.stretch(contact, meeting, scratch)?;
+        Ok(this)
+    }
+
+    /// The derivatives through the area factor.
+    fn stretch(&mut self, contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<(), GapClosed> {
+        let Some(deformation) = meeting.area_change(contact) else { return Ok(()) };
+        let plan = contact.values();
+        let moments = scratch.take_oriented(plan.requests().len());
+        meeting.surface.oriented_moments(&meeting.field, &deformation.cofactor, plan, moments)?;
+        let RelativeMotion { normal, velocity, gradient_rate } = &self.motion;
+        // The loads with the weights m_a m_b; with (I − m⊗m)_jl they are δ_jl times their trace less those of jl.
+        let pairs: [Loads; 6] = std::array::from_fn(|pair| {
+            let sums = pair_sums(contact, moments, pair);
+            ACTIONS.iter().map(|action| sums[*action as usize].act(*action, normal, velocity, gradient_rate)).sum()
+        });
+        let trace: Loads = [pairs[0], pairs[3], pairs[5]].into_iter().sum();
+        let mut by_stretch = PAIR.map(|pair| pairs[pair].scaled(-1.0));
+        for place in [0, 4, 8] {
+            by_stretch[place] += trace;
+        }
+        if contact.measure == AreaMeasure::DeformedAreaPotential {
+            self.tighten_by_gap(contact, moments, &deformation.inverse);
+            if let Some(tension) = TensionSlopes::integrate(contact, meeting, scratch)? {
+                self.total.moment -= tension.total * deformation.inverse.transpose();
+                tighten(&tension, &deformation.inverse, &mut by_stretch);
+            }
+        }
+        self.by_stretch = Some((by_stretch, deformation.inverse));
+        Ok(())
+    }
+
+    /// The change of the tension with the gap: U′ = −c d^−ν.
+    fn tighten_by_gap(&mut self, contact: &Contact, moments: &[OrientedMoments], inverse: &Mat3) {
+        for planned in contact.terms().iter().filter(|planned| planned.term.action == Action::Central) {
+            let oriented = &moments[planned.value].pairs;
+            for (place, slope) in self.by_gap.iter_mut().enumerate() {
+                let part = |moments: &Moments| if place == 0 { moments.zeroth } else { moments.first[place - 1] };
+                let [xx, xy, xz, yy, yz, zz] = oriented.map(|moments| part(&moments));
+                let across = Mat3::new(yy + zz, -xy, -xz, -xy, xx + zz, -yz, -xz, -yz, xx + yy);
+                slope.moment += planned.term.coefficient * across * inverse.transpose();
+            }
+        }
+    }
+
+    /// Adds the derivatives by (p₀ | P) and their rates.
+    pub fn add_to(&self, slopes: &mut LoadSlopes) {
+        let normal = &self.motion.normal;
+        slopes.loads += self.total;
+        for (column, slope) in self.by_gap.iter().enumerate() {
+            for axis in 0..3 {
+                slopes.add_by_place(3 * column + axis, &slope.scaled(normal[axis]));
+            }
+        }
+        if let Some((by_stretch, inverse)) = &self.by_stretch {
+            for (place, slope) in by_stretch.iter().enumerate() {
+                let (j, l) = (place / 3, place % 3);
+                for material in 0..3 {
+                    // H_jl of δP = e_j ⊗ e_B.
+                    slopes.add_by_place(3 + 3 * material + j, &slope.scaled(inverse[(material, l)]));
+                }
+            }
+        }
+        let along = normal * normal.transpose();
+        let [damping, friction] = &self.viscous;
+        slopes.resist(&along, damping.zeroth, &damping.first, &damping.second);
+        slopes.resist(&(Mat3::identity() - along), friction.zeroth, &friction.first, &friction.second);
+    }
+}
+
+/// The sums of each action over the terms of a contact with the weights of one pair of normals.
+fn pair_sums(contact: &Contact, moments: &[OrientedMoments], pair: usize) -> [Sums; Action::COUNT] {
+    let mut sums = [Sums::default(); Action::COUNT];
+    for planned in contact.terms() {
+        let term = &planned.term;
+        sums[term.action as usize].add(term.coefficient, term.action, &moments[planned.value].pairs[pair]);
+    }
+    sums
+}
+
+/// −T P⁻ᵀ changes by (T Hᵀ − δT) P⁻ᵀ.
+fn tighten(tension: &TensionSlopes, inverse: &Mat3, by_stretch: &mut [Loads; 9]) {
+    for (place, (slope, change)) in by_stretch.iter_mut().zip(&tension.by_stretch).enumerate() {
+        let (j, l) = (place / 3, place % 3);
+        let mut back = Mat3::zeros();
+        back.set_column(j, &tension.total.column(l));
+        slope.moment += (back - change) * inverse.transpose();
+    }
+}

@@ -1,0 +1,159 @@
+//! The rates of the state: the function to read first.
+//!
+//!   m p̈₀ = m g + f                        f = ∫_∂D q dA
+//!   P̈ J = M − V S                         M = ∫_∂D q ⊗ X dA            (affine)
+//!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA          (rigid, body axes)
+//!
+//! per body: kinematics → contact → loads → balance solved for the rates, and the powers whose integrals are the
+//! works of the ledger. A pinned body takes everything about its pin, r = X_p − X₀: τ_p = τ − r × Rᵀ(f + m g),
+//! M_p = M − (f + m g) ⊗ r. Source: `physics.md` §2.
+
+mod affine;
+mod rigid;
+
+use crate::body::{Body, BodyKind};
+use crate::contact::{Contact, ContactScratch, Deformation, Meeting, RelativeMotion};
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::ledger::Work;
+use crate::load::SpringLoads;
+use crate::model::Model;
+use crate::state::{BodyMotion, Turn};
+use crate::surface::{GapClosed, GapField};
+
+pub(crate) use affine::AffineMotion;
+
+/// Scratch of the mechanics, reused from call to call.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace {
+    pub(crate) contact: ContactScratch,
+}
+
+/// The rates of all bodies and the powers of all works at time t.
+///
+/// `bodies` and `rates` are laid out as `Model::blocks`, `powers` [W] as `Model::works`.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model: a gap or a spring's length not above zero.
+pub fn rates(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    bodies: &[f64],
+    rates: &mut [f64],
+    powers: &mut [f64],
+) -> Result<(), Inadmissible> {
+    powers.fill(0.0);
+    for (index, (body, block)) in model.bodies.iter().zip(model.blocks()).enumerate() {
+        let (state, rates) = (&bodies[block.clone()], &mut rates[block.clone()]);
+        let done = match &body.kind {
+            BodyKind::Rigid(inertia) => {
+                let turn = Turn::unpack(body, state);
+                let motion = turn.motion(body, state);
+                let (wrench, done) = rigid::wrench(model, workspace, time, index, (&motion, &turn))?;
+                rigid::fill(model, body, inertia, (&motion, &turn), &wrench, rates);
+                done
+            }
+            BodyKind::Affine(affine) => {
+                let moving = AffineMotion::new(index, affine, &BodyMotion::unpack(body, state))?;
+                let mut loads = moving.loads(model, workspace, time)?;
+                moving.fill(model, &mut loads, rates);
+                loads.powers
+            }
+        };
+        for (work, power) in model.works().iter().zip(powers.iter_mut()) {
+            *power += done.of(*work);
+        }
+    }
+    Ok(())
+}
+
+/// The powers [W] of the works done on one body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Powers {
+    repulsion: f64,
+    damping: f64,
+    friction: f64,
+    adhesion: f64,
+    viscosity: f64,
+    load: f64,
+    support: f64,
+    constraint: f64,
+}
+
+impl Powers {
+    fn of(&self, work: Work) -> f64 {
+        match work {
+            Work::Repulsion => self.repulsion,
+            Work::Damping => self.damping,
+            Work::Friction => self.friction,
+            Work::Adhesion => self.adhesion,
+            Work::Viscosity => self.viscosity,
+            Work::Load => self.load,
+            Work::Support => self.support,
+            Work::Constraint => self.constraint,
+        }
+    }
+}
+
+/// Hands each contact of a body to `each`, and says which support a closed gap belongs to.
+pub(crate) fn for_each_contact(
+    model: &Model,
+    time: f64,
+    index: usize,
+    motion: &BodyMotion,
+    mut each: impl FnMut(&Contact, &Meeting) -> Result<(), GapClosed>,
+) -> Result<(), Inadmissible> {
+    let body = &model.bodies[index];
+    let Some(surface) = &body.surface else {
+        return Ok(());
+    };
+    let deformation = deformation(body, motion);
+    for contact in &body.contacts {
+        let (field, relative) = meet(model, contact.support, time, motion);
+        let (gap, _) = surface.smallest_gap(&field);
+        let meeting = Meeting { surface, field, motion: relative, deformation };
+        let result = if body.is_apart(gap, &field) { each(contact, &meeting) } else { Err(GapClosed { gap }) };
+        result.map_err(|closed| {
+            let quantity = Quantity::Gap { support: contact.support };
+            Inadmissible { body: index, quantity, value: closed.gap }
+        })?;
+    }
+    Ok(())
+}
+
+/// How a body takes its surface along, if it deforms.
+pub(crate) fn deformation(body: &Body, motion: &BodyMotion) -> Option<Deformation> {
+    body.affine().and_then(|_| Deformation::of(&motion.placement.gradient))
+}
+
+/// The gap field of a support over a body, d(X) = (p₀ − o)·n + (Pᵀn)·X, and the body's motion relative to it.
+pub fn meet(model: &Model, support: usize, time: f64, motion: &BodyMotion) -> (GapField, RelativeMotion) {
+    let support = &model.supports[support];
+    let field = GapField {
+        height: support.gap(&motion.placement.position, time),
+        direction: motion.placement.gradient.tr_mul(&support.normal),
+    };
+    let relative = RelativeMotion {
+        normal: support.normal,
+        velocity: motion.velocity.velocity - support.motion.velocity(time),
+        gradient_rate: motion.velocity.gradient_rate,
+    };
+    (field, relative)
+}
+
+/// Hands the loads of each spring of a body to `each`.
+pub(crate) fn spring_loads(
+    index: usize,
+    body: &Body,
+    motion: &BodyMotion,
+    mut each: impl FnMut(&SpringLoads),
+) -> Result<(), Inadmissible> {
+    for (number, spring) in body.springs.iter().enumerate() {
+        let loads = spring.loads(&motion.placement, &motion.velocity).ok_or_else(|| {
+            let quantity = Quantity::SpringLength { spring: number };
+            Inadmissible { body: index, quantity, value: spring.length(&motion.placement) }
+        })?;
+        each(&loads);
+    }
+    Ok(())
+}
