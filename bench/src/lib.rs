@@ -1,6 +1,7 @@
 //! Set-ups shared by the benchmarks and by the instruction counts: a body near a table under three laws.
 
 pub mod die;
+pub mod soft;
 
 use gyration::model::Model;
 use gyration::state::State;

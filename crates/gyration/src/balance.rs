@@ -54,7 +54,7 @@ pub fn observe(
         BodyKind::Affine(affine) => {
             let moving = AffineMotion::new(index, affine, &motion)?;
             let loads = moving.loads(model, workspace, state.time)?;
-            (loads.contact, moving.balance(model, &loads.total).and_then(|balance| balance.pressure))
+            (loads.contact, moving.balance(model, &loads.total).pressure)
         }
     };
     let (placement, velocity) = (&motion.placement, &motion.velocity);

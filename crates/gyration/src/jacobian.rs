@@ -44,9 +44,9 @@ pub fn jacobian(
                 }
             }
             BodyKind::Affine(affine) => {
-                let moving = AffineMotion::new(index, affine, &BodyMotion::unpack(body, block))?;
-                let slopes = affine_slopes::load_slopes(model, workspace, time, &moving)?;
-                affine_slopes::fill(matrix, model, &moving, &slopes);
+                let motion = BodyMotion::unpack(body, block);
+                let moving = AffineMotion::new(index, affine, &motion)?;
+                affine_slopes::fill(matrix, model, workspace, time, &moving)?;
             }
         }
     }

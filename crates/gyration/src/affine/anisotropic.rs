@@ -8,7 +8,8 @@
 //! sign and the volume that dissipate.
 
 use super::Gyration;
-use crate::load::{ResistanceError, mirrored, semi_definite};
+use super::slopes::{Mat9, Vec9, each_column};
+use crate::load::{ResistanceError, mirrored, semi_definite, unit};
 use crate::tensor::{Mat3, Polar, cross_matrix};
 use nalgebra::{Matrix6, Vector6};
 
@@ -27,22 +28,32 @@ impl AnisotropicFriction {
         Ok(Self(matrix))
     }
 
-    /// τ \[Pa\] at P and L.
-    pub fn kirchhoff_stress(&self, p: &Mat3, l: &Mat3) -> Mat3 {
-        p.determinant() * self.cauchy_stress(&Polar::of(p).rotation, l)
+    /// τ \[Pa\].
+    pub fn kirchhoff_stress(&self, at: &Gyration) -> Mat3 {
+        at.volume_ratio * self.cauchy_stress(&Polar::of(&at.gradient).rotation, &at.velocity_gradient)
     }
 
-    /// dτ.
-    pub(super) fn change(&self, p: &Mat3, gyration: &Gyration, change: &Gyration, dp: &Mat3) -> Mat3 {
-        let polar = Polar::of(p);
-        let r = &polar.rotation;
-        let l = &gyration.gradient;
-        let turn = cross_matrix(&(r * polar.turn(dp)));
+    /// Takes the derivatives of V τ P⁻ᵀ by P and Ṗ away.
+    pub(super) fn add_slopes(&self, volume: f64, at: &Gyration, by_gradient: &mut Mat9, by_rate: &mut Mat9) {
+        let polar = Polar::of(&at.gradient);
+        let (r, f, l) = (&polar.rotation, &at.inverse, &at.velocity_gradient);
         let stress = self.cauchy_stress(r, l);
-        // The stress turns with the axes, and the rate seen from them turns back.
-        let turned = turn * stress - stress * turn - self.cauchy_stress(r, &(turn * l - l * turn));
-        let growth = (dp * gyration.inverse).trace();
-        p.determinant() * (growth * stress + self.cauchy_stress(r, &change.gradient) + turned)
+        let volume = volume * at.volume_ratio;
+        each_column(|column, j, b| {
+            let along = |change: Mat3| Vec9::from_column_slice((change * f.transpose()).as_slice());
+            // δL = (δṖ − L δP) F for δP, δṖ = e_j ⊗ e_B.
+            let unit = unit(column);
+            let mut rate = by_rate.column_mut(column);
+            rate -= volume * along(self.cauchy_stress(r, &(unit * f)));
+            // The stress turns with the axes, and the rate seen from them turns back.
+            let turn = cross_matrix(&(r * polar.turn(&unit)));
+            let seen = turn * l - l * turn + l * (unit * f);
+            let turned = turn * stress - stress * turn - self.cauchy_stress(r, &seen);
+            // det P grows by det P F_Bj, and τ P⁻ᵀ loses τ (δP F)ᵀ P⁻ᵀ.
+            let grown = f[(b, j)] * stress - stress * (unit * f).transpose();
+            let mut gradient = by_gradient.column_mut(column);
+            gradient -= volume * along(turned + grown);
+        });
     }
 
     /// R C[Rᵀ sym L R] Rᵀ.
@@ -73,7 +84,8 @@ mod tests {
         let p = Mat3::new(1.3, 0.4, -0.2, -0.1, 0.7, 0.3, 0.5, -0.6, 1.9);
         let l = Mat3::new(0.2, -0.7, 0.1, 0.9, 0.3, -0.4, 0.5, 0.6, -0.8);
         let isotropic = Viscosity { kirchhoff: 0.0, shear: eta, bulk: zeta };
-        let difference = friction.kirchhoff_stress(&p, &l) - isotropic.kirchhoff_stress(&p, &l);
+        let at = Gyration::of(&p, &(l * p)).unwrap();
+        let difference = friction.kirchhoff_stress(&at) - isotropic.kirchhoff_stress(&at);
         assert!(difference.norm() < 1e-14, "{difference}");
     }
 

@@ -1,67 +1,34 @@
-//! det P = 1 as a constraint. Twice differentiated it reads tr(P̈ P⁻¹) = tr(L²); with B = M − V(S_e + S_v)
+//! det P = 1 as a constraint. Twice differentiated it reads tr(P̈ P⁻¹) = tr(L²). A pressure accelerates P along Y:
 //!
-//!   π V a = tr(L²) − tr(B J⁻¹ P⁻¹),   a = tr(P⁻ᵀ J⁻¹ P⁻¹),   P̈ = (B + π V P⁻ᵀ) J⁻¹
+//!   P̈ = B J⁻¹ + π V Y,   Y = P⁻ᵀ J⁻¹,   π V a = tr(L²) − tr(B J⁻¹ P⁻¹),   a = tr(Y P⁻¹)
 //!
-//! The corrections after a step go the way in which a pressure would push: δP, δṖ ∝ P⁻ᵀ J⁻¹. Then δṖ J Pᵀ is a multiple of I:
-//! the spin is left alone. Source: `physics.md` §4.
+//! with B = M − V(S_e + S_v). The corrections after a step go the same way, δP, δṖ ∝ Y: then δṖ J Pᵀ is a multiple of I,
+//! and the spin is left alone. Source: `physics.md` §4.
 
 use super::{AffineBody, Gyration};
 use crate::tensor::Mat3;
 
-/// The pressure.
+/// The way in which a pressure pushes, and what it takes to do so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Constraint {
-    /// π [Pa].
-    pub pressure: f64,
+    /// Y.
+    pub way: Mat3,
+    /// P⁻ᵀ.
+    pub across: Mat3,
+    /// 1/a.
+    pub compliance: f64,
 }
 
 impl Constraint {
-    /// The pressure for B.
-    pub fn solve(body: &AffineBody, gyration: &Gyration, free: &Mat3) -> Self {
-        let l = &gyration.gradient;
-        let across = body.inverse * gyration.inverse;
-        let lacking = l.dot(&l.transpose()) - free.dot(&across.transpose());
-        Self { pressure: lacking / (body.volume * gyration.inverse.dot(&across)) }
+    pub fn new(body: &AffineBody, at: &Gyration) -> Self {
+        let across = at.inverse.transpose();
+        let way = across * body.inverse;
+        Self { way, across, compliance: 1.0 / way.dot(&across) }
     }
 
-    /// π V P⁻ᵀ.
-    pub fn reaction(&self, body: &AffineBody, gyration: &Gyration) -> Mat3 {
-        self.pressure * body.volume * gyration.inverse.transpose()
-    }
-}
-
-/// What the derivative of the pressure needs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ConstraintSlopes {
-    pressure: f64,
-    /// a.
-    stiffness: f64,
-    /// J⁻¹ P⁻¹.
-    across: Mat3,
-    /// (B J⁻¹)ᵀ.
-    driven: Mat3,
-}
-
-impl ConstraintSlopes {
-    pub fn new(body: &AffineBody, gyration: &Gyration, free: &Mat3) -> Self {
-        let across = body.inverse * gyration.inverse;
-        Self {
-            pressure: Constraint::solve(body, gyration, free).pressure,
-            stiffness: gyration.inverse.dot(&across),
-            across,
-            driven: (free * body.inverse).transpose(),
-        }
-    }
-
-    /// The changes of π V P⁻ᵀ and of π.
-    pub fn apply(&self, body: &AffineBody, gyration: &Gyration, change: &Gyration, dfree: &Mat3) -> (Mat3, f64) {
-        let lacking = 2.0 * gyration.gradient.dot(&change.gradient.transpose())
-            - dfree.dot(&self.across.transpose())
-            - self.driven.dot(&change.inverse);
-        let dstiffness = 2.0 * self.across.dot(&change.inverse);
-        let dpressure = lacking / (body.volume * self.stiffness) - self.pressure * dstiffness / self.stiffness;
-        let reaction = dpressure * gyration.inverse.transpose() + self.pressure * change.inverse.transpose();
-        (body.volume * reaction, dpressure)
+    /// π V that takes tr(P̈ P⁻¹) from that of `free` to the one asked for.
+    pub fn push(&self, free: &Mat3, asked: f64) -> f64 {
+        (asked - free.dot(&self.across)) * self.compliance
     }
 }
 

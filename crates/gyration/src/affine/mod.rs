@@ -4,20 +4,24 @@
 //!
 //! V reference volume, J Euler tensor, M affine moment of the loads, φ energy of the material, τ viscous Kirchhoff
 //! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M:
-//! no state, no time, no contact. Source: `physics.md` §2, §4.
+//! no state, no time, no contact. Derivatives are in `slopes`. Source: `physics.md` §2, §4.
 
 mod anisotropic;
 mod constraint;
+mod gyration;
+mod slopes;
 mod viscosity;
 
 pub use anisotropic::AnisotropicFriction;
 pub use constraint::Correction;
+pub use gyration::Gyration;
+pub use slopes::{AffineSlopes, Mat9, Vec9};
 pub use viscosity::Viscosity;
 
 use crate::mass::MassProperties;
-use crate::material::{Material, Tangent};
+use crate::material::Material;
 use crate::tensor::Mat3;
-use constraint::{Constraint, ConstraintSlopes};
+use constraint::Constraint;
 
 /// What makes a body affine: its inertia and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,42 +65,8 @@ pub struct AffineBalance {
     pub stress: Mat3,
     /// π [Pa]; none if the volume may change.
     pub pressure: Option<f64>,
-    /// V φ [J].
-    pub energy: f64,
     /// V τ·L ≥ 0, what internal friction turns into heat [W].
     pub dissipation: f64,
-}
-
-/// The derivative of the balance at P, Ṗ, M.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AffineSlopes<'a> {
-    body: &'a AffineBody,
-    gradient: Mat3,
-    gyration: Gyration,
-    tangent: Option<Tangent>,
-    kirchhoff: Mat3,
-    constraint: Option<ConstraintSlopes>,
-}
-
-/// P⁻¹ and L = Ṗ P⁻¹.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Gyration {
-    pub inverse: Mat3,
-    pub gradient: Mat3,
-}
-
-impl Gyration {
-    /// None where P cannot be inverted.
-    fn of(p: &Mat3, rate: &Mat3) -> Option<Self> {
-        let inverse = p.try_inverse()?;
-        Some(Self { inverse, gradient: rate * inverse })
-    }
-
-    /// The changes of P⁻¹ and L: dP⁻¹ = −P⁻¹ dP P⁻¹, dL = (dṖ − L dP) P⁻¹.
-    fn change(&self, dp: &Mat3, drate: &Mat3) -> Self {
-        let inverse = -self.inverse * (dp * self.inverse);
-        Self { inverse, gradient: (drate - self.gradient * dp) * self.inverse }
-    }
 }
 
 impl AffineBody {
@@ -116,22 +86,12 @@ impl AffineBody {
         let (smallest, largest) = (principal.min(), principal.max());
         // Scaled, so that the determinant neither under- nor overflows for a grain or a mountain.
         match (euler_tensor / largest).try_inverse() {
-            Some(inverse) if smallest > SINGULAR_RATIO * largest => Ok(Self {
-                volume: mass.volume,
-                euler_tensor,
-                inverse: inverse / largest,
-                material,
-                viscosity,
-                anisotropic: None,
-            }),
+            Some(inverse) if smallest > SINGULAR_RATIO * largest => {
+                let inverse = inverse / largest;
+                Ok(Self { volume: mass.volume, euler_tensor, inverse, material, viscosity, anisotropic: None })
+            }
             _ => Err(SingularEulerTensor { smallest, largest }),
         }
-    }
-
-    /// τ \[Pa\], the viscous part of the Kirchhoff stress.
-    fn viscous_stress(&self, p: &Mat3, l: &Mat3) -> Mat3 {
-        let isotropic = self.viscosity.kirchhoff_stress(p, l);
-        self.anisotropic.map_or(isotropic, |friction| isotropic + friction.kirchhoff_stress(p, l))
     }
 
     /// Whether it has internal friction.
@@ -149,61 +109,39 @@ impl AffineBody {
         self.volume * self.material.as_ref().map_or(0.0, |material| material.response(p).energy)
     }
 
-    /// Solves the balance for P̈ and, of an incompressible body, the pressure. None where P cannot be inverted.
-    ///
-    /// P (3×3), Ṗ (3×3) [1/s], M (3×3) [N m].
-    pub fn balance(&self, p: &Mat3, rate: &Mat3, moment: &Mat3) -> Option<AffineBalance> {
-        let gyration = Gyration::of(p, rate)?;
-        let response = self.material.as_ref().map(|material| material.response(p));
-        let elastic = response.map_or(Mat3::zeros(), |response| response.stress);
-        let kirchhoff = self.viscous_stress(p, &gyration.gradient);
-        let stress = elastic + kirchhoff * gyration.inverse.transpose();
-        let free = moment - self.volume * stress;
-        let constraint = self.is_incompressible().then(|| Constraint::solve(self, &gyration, &free));
-        let driven = free + constraint.map_or(Mat3::zeros(), |constraint| constraint.reaction(self, &gyration));
-        Some(AffineBalance {
-            acceleration: driven * self.inverse,
-            stress,
-            pressure: constraint.map(|constraint| constraint.pressure),
-            energy: self.volume * response.map_or(0.0, |response| response.energy),
-            dissipation: self.volume * kirchhoff.dot(&gyration.gradient),
-        })
+    /// τ \[Pa\], the viscous part of the Kirchhoff stress.
+    fn viscous_stress(&self, at: &Gyration) -> Mat3 {
+        let isotropic = self.viscosity.kirchhoff_stress(at);
+        match &self.anisotropic {
+            Some(friction) => isotropic + friction.kirchhoff_stress(at),
+            None => isotropic,
+        }
     }
 
-    /// The derivative of the balance. None where P cannot be inverted.
-    pub fn slopes(&self, p: &Mat3, rate: &Mat3, moment: &Mat3) -> Option<AffineSlopes<'_>> {
-        let gyration = Gyration::of(p, rate)?;
-        let tangent = self.material.as_ref().map(|material| material.tangent(p));
-        let kirchhoff = self.viscous_stress(p, &gyration.gradient);
-        let constraint = if self.is_incompressible() {
-            let free = moment - self.volume * self.balance(p, rate, moment)?.stress;
-            Some(ConstraintSlopes::new(self, &gyration, &free))
-        } else {
-            None
-        };
-        Some(AffineSlopes { body: self, gradient: *p, gyration, tangent, kirchhoff, constraint })
+    /// Solves the balance for P̈ and, of an incompressible body, the pressure; `moment` is M [N m].
+    pub fn balance(&self, at: &Gyration, moment: &Mat3) -> AffineBalance {
+        let kirchhoff = self.viscous_stress(at);
+        let mut stress = kirchhoff * at.inverse.transpose();
+        if let Some(material) = &self.material {
+            stress += material.stress(&at.gradient);
+        }
+        let free = (moment - self.volume * stress) * self.inverse;
+        let dissipation = self.volume * kirchhoff.dot(&at.velocity_gradient);
+        if !self.is_incompressible() {
+            return AffineBalance { acceleration: free, stress, pressure: None, dissipation };
+        }
+        let constraint = Constraint::new(self, at);
+        let push = constraint.push(&free, at.squared_rate());
+        AffineBalance {
+            acceleration: free + push * constraint.way,
+            stress,
+            pressure: Some(push / self.volume),
+            dissipation,
+        }
     }
 
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.
     pub fn project(&self, p: &Mat3, rate: &Mat3) -> Correction {
         if self.is_incompressible() { constraint::project(self, p, rate) } else { Correction::none(p, rate) }
-    }
-}
-
-impl AffineSlopes<'_> {
-    /// The changes of P̈ and of the pressure (0 without one) with those of P, Ṗ and M.
-    pub fn apply(&self, dp: &Mat3, drate: &Mat3, dmoment: &Mat3) -> (Mat3, f64) {
-        let Self { body, gradient, gyration, tangent, kirchhoff, constraint } = self;
-        let change = gyration.change(dp, drate);
-        let elastic = tangent.map_or(Mat3::zeros(), |tangent| tangent.apply(dp));
-        let mut dkirchhoff = body.viscosity.change(gradient, gyration, &change, dp);
-        if let Some(friction) = &body.anisotropic {
-            dkirchhoff += friction.change(gradient, gyration, &change, dp);
-        }
-        let viscous = dkirchhoff * gyration.inverse.transpose() + kirchhoff * change.inverse.transpose();
-        let free = dmoment - body.volume * (elastic + viscous);
-        let (reaction, pressure) =
-            constraint.map_or((Mat3::zeros(), 0.0), |constraint| constraint.apply(body, gyration, &change, &free));
-        ((free + reaction) * body.inverse, pressure)
     }
 }

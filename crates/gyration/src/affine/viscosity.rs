@@ -1,6 +1,6 @@
 //! Internal friction: the viscous Kirchhoff stress τ, with S_v = τ P⁻ᵀ and the dissipated power V τ·L ≥ 0.
 //!
-//!   τ = μ sym L + det P (2η dev(sym L) + ζ tr(L) I)
+//!   τ = μ sym L + det P (2η dev(sym L) + ζ tr(L) I) = a sym L + c tr(L) I,   a = μ + 2η det P,   c = (ζ − ⅔η) det P
 //!
 //! The first term is that of the slides (Tatone): μ is twice a Newtonian viscosity, of the Kirchhoff stress. The second is
 //! Newtonian, of the Cauchy stress (Sławianowski 4.13 with the sign and the volume that dissipate).
@@ -20,33 +20,25 @@ pub struct Viscosity {
 }
 
 impl Viscosity {
-    /// τ [Pa] at P and L.
-    pub fn kirchhoff_stress(&self, p: &Mat3, l: &Mat3) -> Mat3 {
-        let linear = self.kirchhoff * symmetric(l);
-        if self.is_newtonian() { linear + p.determinant() * self.newtonian(l) } else { linear }
+    /// a and c [Pa s].
+    pub(super) fn coefficients(&self, volume_ratio: f64) -> (f64, f64) {
+        (self.kirchhoff + 2.0 * self.shear * volume_ratio, (self.bulk - 2.0 / 3.0 * self.shear) * volume_ratio)
     }
 
-    /// dτ; det P changes by det P tr(dP P⁻¹).
-    pub(super) fn change(&self, p: &Mat3, gyration: &Gyration, change: &Gyration, dp: &Mat3) -> Mat3 {
-        let linear = self.kirchhoff * symmetric(&change.gradient);
-        if !self.is_newtonian() {
-            return linear;
+    /// τ [Pa].
+    pub fn kirchhoff_stress(&self, at: &Gyration) -> Mat3 {
+        let (a, c) = self.coefficients(at.volume_ratio);
+        let l = &at.velocity_gradient;
+        let mut stress = (0.5 * a) * (l + l.transpose());
+        let isotropic = c * l.trace();
+        for axis in 0..3 {
+            stress[(axis, axis)] += isotropic;
         }
-        let growth = (dp * gyration.inverse).trace();
-        linear + p.determinant() * (self.newtonian(&change.gradient) + growth * self.newtonian(&gyration.gradient))
+        stress
     }
 
-    fn is_newtonian(&self) -> bool {
-        self.shear != 0.0 || self.bulk != 0.0
+    /// det P ∂τ/∂(det P) [Pa]: the Newtonian part.
+    pub(super) fn newtonian_stress(&self, at: &Gyration) -> Mat3 {
+        Self { kirchhoff: 0.0, ..*self }.kirchhoff_stress(at)
     }
-
-    /// 2η dev(sym L) + ζ tr(L) I [Pa].
-    fn newtonian(&self, l: &Mat3) -> Mat3 {
-        let isotropic = (self.bulk - 2.0 / 3.0 * self.shear) * l.trace();
-        2.0 * self.shear * symmetric(l) + Mat3::from_diagonal_element(isotropic)
-    }
-}
-
-fn symmetric(l: &Mat3) -> Mat3 {
-    0.5 * (l + l.transpose())
 }

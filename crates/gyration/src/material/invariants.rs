@@ -5,7 +5,8 @@
 //!
 //! f_k are the derivatives of the energy. cof P is quadratic in P: neither S nor its derivative needs an inverse.
 
-use crate::tensor::{Mat3, cofactor, cofactor_change};
+use super::Tangent;
+use crate::tensor::{Mat3, cofactor};
 
 /// ι₁, ι₂ and J of a gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +24,7 @@ pub(super) struct Invariants {
 }
 
 impl Invariants {
+    #[inline(always)]
     pub fn of(p: &Mat3) -> Self {
         let right = p.tr_mul(p);
         let e = right - Mat3::identity();
@@ -77,19 +79,54 @@ impl ByInvariants {
         2.0 * (g[0] + self.invariants.first * g[1]) * self.p - 2.0 * g[1] * self.pc + g[2] * self.cofactor
     }
 
-    /// dS, with df_k = f_kl dι_l.
-    pub fn tangent(&self, dp: &Mat3) -> Mat3 {
+    /// ∂S/∂P. With G₁ = 2P, G₂ = 2(ι₁P − PC), G₃ = cof P, the derivatives of ι₁, ι₂, J, and the derivatives of these,
+    ///
+    ///   ∂S_iA/∂P_jB = 2(f₁ + ι₁f₂) δ_ij δ_AB − 2f₂ (δ_ij C_AB + P_iB P_jA + (PPᵀ)_ij δ_AB) + f₂ (G₁ ⊗ G₁)_iAjB
+    ///                 + f₃ ε_ijk ε_ABC P_kC + Σ f_kl (G_k ⊗ G_l)_iAjB
+    pub fn tangent(&self) -> Tangent {
         let Self { p, invariants, derivatives, pc, cofactor } = self;
         let [f1, f2, f3] = derivatives.first;
-        let d1 = 2.0 * p.dot(dp);
-        let d2 = 2.0 * (invariants.first * p.dot(dp) - pc.dot(dp));
-        let d3 = cofactor.dot(dp);
         let [f11, f12, f13, f22, f23, f33] = derivatives.second;
-        let changes = [f11 * d1 + f12 * d2 + f13 * d3, f12 * d1 + f22 * d2 + f23 * d3, f13 * d1 + f23 * d2 + f33 * d3];
-        let half = p.tr_mul(dp);
-        // d(PC) = dP C + P (dPᵀP + PᵀdP).
-        let d_pc = dp * invariants.right + p * (half + half.transpose());
-        let fixed = 2.0 * (f1 + invariants.first * f2) * dp + (2.0 * f2 * d1) * p - 2.0 * f2 * d_pc;
-        fixed + f3 * cofactor_change(p, dp) + self.combination(&changes)
+        let own = 2.0 * (f1 + invariants.first * f2);
+        let (left, right) = (2.0 * f2 * p * p.transpose(), 2.0 * f2 * invariants.right);
+        let (g1, g2, twice) = (2.0 * p, 2.0 * (invariants.first * p - pc), 2.0 * f2 * p);
+        let mut tangent = Tangent::zeros();
+        for (place, column) in tangent.as_mut_slice().chunks_exact_mut(9).enumerate() {
+            let (j, b) = (place % 3, place / 3);
+            let (x, y, z) = (g1[(j, b)], g2[(j, b)], cofactor[(j, b)]);
+            let by = [(f11 + f2) * x + f12 * y + f13 * z, f12 * x + f22 * y + f23 * z, f13 * x + f23 * y + f33 * z];
+            for row in 0..9 {
+                let (i, a) = (row % 3, row / 3);
+                column[row] = (by[0] * g1[row] + by[1] * g2[row] + by[2] * cofactor[row]) - twice[(i, b)] * p[(j, a)];
+            }
+            for k in 0..3 {
+                column[3 * k + j] -= right[(k, b)];
+                column[3 * b + k] -= left[(k, j)];
+            }
+            column[place] += own;
+            // ε_ijk ε_ABC P_kC has four terms for each (j, B): those of the other indices.
+            for (s, t) in [(1, 2), (2, 1)] {
+                let (i, k) = ((j + s) % 3, (j + t) % 3);
+                let (a, c) = ((b + s) % 3, (b + t) % 3);
+                column[3 * a + i] += f3 * p[(k, c)];
+                column[3 * c + i] -= f3 * p[(k, a)];
+            }
+        }
+        tangent
     }
+}
+
+/// S for the derivatives of an energy: what [`ByInvariants::stress`] gives, without what only the tangent needs.
+#[inline(always)]
+pub(super) fn stress(p: &Mat3, derivatives: impl Fn(&Invariants) -> Derivatives) -> Mat3 {
+    let invariants = Invariants::of(p);
+    let [f1, f2, f3] = derivatives(&invariants).first;
+    let mut stress = 2.0 * (f1 + invariants.first * f2) * p;
+    if f2 != 0.0 {
+        stress -= 2.0 * f2 * (p * invariants.right);
+    }
+    if f3 != 0.0 {
+        stress += f3 * cofactor(p);
+    }
+    stress
 }

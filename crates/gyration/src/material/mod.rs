@@ -35,6 +35,7 @@ pub use st_venant_kirchhoff::StVenantKirchhoff;
 
 use crate::tensor::Mat3;
 use invariants::{ByInvariants, Invariants};
+use nalgebra::SMatrix;
 use principal::{ByPrincipal, Principal};
 
 /// The material of a body.
@@ -75,9 +76,8 @@ pub struct MaterialError {
     pub bound: &'static str,
 }
 
-/// The derivative of the stress at a gradient, as a linear map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tangent(Kept);
+/// The derivative of the stress at a gradient, a linear map of 3×3 matrices that are read column by column.
+pub type Tangent = SMatrix<f64, 9, 9>;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kept {
@@ -94,9 +94,23 @@ impl Material {
         }
     }
 
-    /// ∂S/∂P at P, det P > 0.
+    /// S = ∂φ/∂P alone.
+    pub fn stress(&self, p: &Mat3) -> Mat3 {
+        match self {
+            Self::MooneyRivlin(material) => invariants::stress(p, |i| material.derivatives(i)),
+            Self::Fung(material) => invariants::stress(p, |i| material.derivatives(i)),
+            Self::NeoHookeanLog(material) => invariants::stress(p, |i| material.derivatives(i)),
+            Self::StVenantKirchhoff(material) => invariants::stress(p, |i| material.derivatives(i)),
+            Self::Ogden(_) | Self::Hencky(_) => self.response(p).stress,
+        }
+    }
+
+    /// ∂S_iA/∂P_jB at (3A + i, 3B + j), det P > 0.
     pub fn tangent(&self, p: &Mat3) -> Tangent {
-        Tangent(self.kept(p))
+        match self.kept(p) {
+            Kept::Invariants(kept) => kept.tangent(),
+            Kept::Principal(kept) => kept.tangent(),
+        }
     }
 
     /// Whether det P = 1 is a constraint.
@@ -137,16 +151,6 @@ impl Material {
             Self::StVenantKirchhoff(material) => by_invariants(&|i| material.derivatives(i)),
             Self::Ogden(material) => by_principal(&|c| material.principal(c)),
             Self::Hencky(material) => by_principal(&|c| material.principal(c)),
-        }
-    }
-}
-
-impl Tangent {
-    /// The change of the stress with that of the gradient, dS = (∂S/∂P) : dP [Pa].
-    pub fn apply(&self, dp: &Mat3) -> Mat3 {
-        match &self.0 {
-            Kept::Invariants(kept) => kept.tangent(dp),
-            Kept::Principal(kept) => kept.tangent(dp),
         }
     }
 }

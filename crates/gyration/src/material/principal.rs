@@ -8,6 +8,7 @@
 //! The quotients are divided differences, which the materials give in closed form without dividing by c_i − c_j: equal
 //! and nearly equal stretches are no special case. Source: Ogden, *Non-linear elastic deformations*, §6.1.
 
+use super::Tangent;
 use crate::tensor::Mat3;
 
 /// φ and its derivatives with the principal values.
@@ -54,8 +55,19 @@ impl ByPrincipal {
         self.p * self.second_piola
     }
 
+    /// ∂S/∂P.
+    pub fn tangent(&self) -> Tangent {
+        let mut tangent = Tangent::zeros();
+        for place in 0..9 {
+            let mut dp = Mat3::zeros();
+            dp[(place % 3, place / 3)] = 1.0;
+            tangent.column_mut(place).copy_from_slice(self.change(&dp).as_slice());
+        }
+        tangent
+    }
+
     /// dS.
-    pub fn tangent(&self, dp: &Mat3) -> Mat3 {
+    fn change(&self, dp: &Mat3) -> Mat3 {
         let Self { p, axes, principal, second_piola } = self;
         let half = axes.tr_mul(&(p.tr_mul(dp) * axes));
         let d = half + half.transpose();

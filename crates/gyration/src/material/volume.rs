@@ -3,6 +3,7 @@
 use super::invariants::{Derivatives, Invariants};
 
 /// ῑ₁ − 3 and ῑ₂ − 3; without a bulk modulus ι₁ − 3 and ι₂ − 3.
+#[inline]
 pub(super) fn isochoric_excess(full: &Invariants, bulk: Option<f64>) -> [f64; 2] {
     if bulk.is_none() {
         return full.excess;
@@ -21,6 +22,7 @@ pub(super) struct Distortion {
 }
 
 /// φ = w(ῑ₁, ῑ₂) + K/2 (J − 1)², by the chain rule; φ = w(ι₁, ι₂) without K.
+#[inline]
 pub(super) fn with_volume(w: &Distortion, bulk: Option<f64>, full: &Invariants) -> Derivatives {
     let Distortion { energy, first: [w1, w2], second: [w11, w12, w22] } = *w;
     let Some(bulk) = bulk else {

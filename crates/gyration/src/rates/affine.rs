@@ -3,22 +3,22 @@
 //!   m p̈₀ = m g + f,   P̈ J = M − V S;   pinned at r: P̈ J_p = M − (f + m g) ⊗ r − V S
 
 use super::{Powers, Workspace, for_each_contact, spring_loads};
-use crate::affine::AffineBalance;
-use crate::body::{Affine, Body};
+use crate::affine::{AffineBalance, Gyration};
+use crate::body::Affine;
 use crate::contact::{ContactLoads, LawKind};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
 use crate::model::Model;
 use crate::state::BodyMotion;
-use crate::tensor::{Mat3, Vec3};
+use crate::tensor::Mat3;
 
-/// An affine body at one instant: its motion, and P⁻¹.
+/// An affine body at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AffineMotion<'a> {
     pub index: usize,
     pub affine: &'a Affine,
-    pub motion: BodyMotion,
-    pub inverse: Mat3,
+    pub motion: &'a BodyMotion,
+    pub gyration: Gyration,
 }
 
 /// What acts on an affine body.
@@ -32,22 +32,32 @@ pub(crate) struct AffineLoads {
 }
 
 impl<'a> AffineMotion<'a> {
-    /// The motion of the body of this index.
+    /// The body of this index in this motion.
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0.
-    pub fn new(index: usize, affine: &'a Affine, motion: &BodyMotion) -> Result<Self, Inadmissible> {
-        let volume = motion.placement.gradient.determinant();
-        let inverse = motion.placement.gradient.try_inverse().filter(|_| volume > 0.0);
-        let inverse = inverse.ok_or(Inadmissible { body: index, quantity: Quantity::Volume, value: volume })?;
-        Ok(Self { index, affine, motion: *motion, inverse })
+    #[inline]
+    pub fn new(index: usize, affine: &'a Affine, motion: &'a BodyMotion) -> Result<Self, Inadmissible> {
+        let gyration = Gyration::of(&motion.placement.gradient, &motion.velocity.gradient_rate);
+        let gyration = gyration.map_err(|value| Inadmissible { body: index, quantity: Quantity::Volume, value })?;
+        Ok(Self { index, affine, motion, gyration })
+    }
+
+    /// Whether anything but gravity acts on the body.
+    pub fn is_loaded(&self, model: &Model) -> bool {
+        let body = &model.bodies[self.index];
+        let touched = !body.contacts.is_empty() || !body.springs.is_empty();
+        touched || self.affine.couple.is_some() || !self.affine.resistances.is_empty()
     }
 
     /// f and M of contacts, springs, couple and resistances, and the powers of their works.
     pub fn loads(&self, model: &Model, workspace: &mut Workspace, time: f64) -> Result<AffineLoads, Inadmissible> {
+        if !self.is_loaded(model) {
+            return Ok(AffineLoads::default());
+        }
         let (placement, velocity) = (&self.motion.placement, &self.motion.velocity);
         let (mut loads, mut powers) = (Loads::default(), Powers::default());
-        for_each_contact(model, time, self.index, &self.motion, |contact, meeting| {
+        for_each_contact(model, time, self.index, self.motion, |contact, meeting| {
             let contacts = ContactLoads::integrate(contact, meeting, &mut workspace.contact)?;
             let total = contacts.total();
             loads += total;
@@ -59,17 +69,17 @@ impl<'a> AffineMotion<'a> {
             Ok(())
         })?;
         let contact = loads;
-        spring_loads(self.index, &model.bodies[self.index], &self.motion, |spring| {
+        spring_loads(self.index, &model.bodies[self.index], self.motion, |spring| {
             powers.load += spring.dashpot_power;
             loads += spring.total();
         })?;
         if let Some(couple) = &self.affine.couple {
-            let moment = couple.moment(time, &self.inverse);
+            let moment = couple.moment(time, &self.gyration.inverse);
             powers.load += moment.dot(&velocity.gradient_rate);
             loads.moment += moment;
         }
         for resistance in &self.affine.resistances {
-            let resisting = resistance.loads(&placement.gradient, &self.inverse, velocity);
+            let resisting = resistance.loads(&placement.gradient, &self.gyration.inverse, velocity);
             if resistance.dissipates() {
                 powers.viscosity += resisting.power(&velocity.velocity, &velocity.gradient_rate);
             }
@@ -87,38 +97,30 @@ impl<'a> AffineMotion<'a> {
         }
     }
 
-    /// P̈, stress, pressure; there is one, since P can be inverted.
-    pub fn balance(&self, model: &Model, loads: &Loads) -> Option<AffineBalance> {
-        let (gradient, rate) = (&self.motion.placement.gradient, &self.motion.velocity.gradient_rate);
-        self.affine.interior.balance(gradient, rate, &self.moment(model, loads))
+    /// P̈, stress, pressure.
+    pub fn balance(&self, model: &Model, loads: &Loads) -> AffineBalance {
+        self.affine.interior.balance(&self.gyration, &self.moment(model, loads))
     }
 
     /// Solves the balance for the rates of the block, and adds the powers of friction and constraint.
     pub fn fill(&self, model: &Model, loads: &mut AffineLoads, rates: &mut [f64]) {
         let body = &model.bodies[self.index];
         let velocity = &self.motion.velocity;
-        let interior = &self.affine.interior;
-        let Some(balance) = self.balance(model, &loads.total) else {
-            return rates.fill(f64::NAN);
-        };
+        let balance = self.balance(model, &loads.total);
         loads.powers.viscosity -= balance.dissipation;
         if let Some(pressure) = balance.pressure {
-            loads.powers.constraint +=
-                pressure * interior.volume * velocity.gradient_rate.dot(&self.inverse.transpose());
+            let growth = self.gyration.velocity_gradient.trace();
+            loads.powers.constraint += pressure * self.affine.interior.volume * growth;
         }
-        let linear = center_acceleration(body, &loads.total.force, &model.gravity);
-        let parts = [
-            linear.map(|_| velocity.velocity.as_slice()),
-            Some(velocity.gradient_rate.as_slice()),
-            linear.as_ref().map(|linear| linear.as_slice()),
-            Some(balance.acceleration.as_slice()),
-        ];
-        let numbers = parts.into_iter().flatten().flatten();
-        rates.iter_mut().zip(numbers).for_each(|(rate, number)| *rate = *number);
+        if body.pin.is_some() {
+            rates[..9].copy_from_slice(velocity.gradient_rate.as_slice());
+            rates[9..18].copy_from_slice(balance.acceleration.as_slice());
+            return;
+        }
+        let linear = model.gravity + loads.total.force / body.mass.mass;
+        rates[..3].copy_from_slice(velocity.velocity.as_slice());
+        rates[3..12].copy_from_slice(velocity.gradient_rate.as_slice());
+        rates[12..15].copy_from_slice(linear.as_slice());
+        rates[15..24].copy_from_slice(balance.acceleration.as_slice());
     }
-}
-
-/// p̈₀ = g + f/m; none of a pinned body, whose centre has no coordinates of its own.
-fn center_acceleration(body: &Body, force: &Vec3, gravity: &Vec3) -> Option<Vec3> {
-    body.pin.is_none().then(|| gravity + force / body.mass.mass)
 }

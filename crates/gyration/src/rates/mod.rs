@@ -54,7 +54,8 @@ pub fn rates(
                 done
             }
             BodyKind::Affine(affine) => {
-                let moving = AffineMotion::new(index, affine, &BodyMotion::unpack(body, state))?;
+                let motion = BodyMotion::unpack(body, state);
+                let moving = AffineMotion::new(index, affine, &motion)?;
                 let mut loads = moving.loads(model, workspace, time)?;
                 moving.fill(model, &mut loads, rates);
                 loads.powers
@@ -107,6 +108,9 @@ pub(crate) fn for_each_contact(
     let Some(surface) = &body.surface else {
         return Ok(());
     };
+    if body.contacts.is_empty() {
+        return Ok(());
+    }
     let deformation = deformation(body, motion);
     for contact in &body.contacts {
         let (field, relative) = meet(model, contact.support, time, motion);
