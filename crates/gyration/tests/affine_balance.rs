@@ -91,7 +91,7 @@ proptest! {
             let inverse = p.try_inverse().unwrap();
             let l = rate * inverse;
             prop_assert!(l.trace().abs() < 1e-13 * l.norm());
-            let balance = balance(&body, &p, &rate, &moment);
+            let balance = balance(body, &p, &rate, &moment);
             let (there, asked) = ((balance.acceleration * inverse).trace(), (l * l).trace());
             prop_assert!((there - asked).abs() < 1e-12 * (asked.abs() + balance.acceleration.norm()));
         }
