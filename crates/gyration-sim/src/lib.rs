@@ -11,6 +11,7 @@ pub mod adapter;
 pub mod ensemble;
 pub mod events;
 mod horizon;
+pub mod modes;
 mod outcome;
 mod plan;
 mod ports;
