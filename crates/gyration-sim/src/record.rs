@@ -59,7 +59,7 @@ pub struct Provenance {
 impl<'a> Job<'a> {
     /// A scene ready to run.
     pub fn of(scene: &'a Scene, provenance: &Provenance) -> Self {
-        let Built { model, state, plan } = scene.built();
+        let Built { model, state, plan, .. } = scene.built();
         let attributes = json!({
             "title": scene.file().title,
             "scene_name": scene.name(),
