@@ -21,12 +21,13 @@ mod read;
 mod scene;
 mod schema;
 mod suggest;
+mod table;
 mod tree;
 pub mod units;
 
-pub use build::{Built, Plan, StopAtRest};
+pub use build::{Built, Plan, Record, StopAtRest};
 pub use error::{LoadError, ReadError, SceneError, SceneErrors};
-pub use file::Method;
+pub use file::{Method, Recorded};
 pub use gallery::gallery;
 pub use scene::Scene;
 pub use schema::schema;

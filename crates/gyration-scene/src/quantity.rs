@@ -72,10 +72,16 @@ quantities! {
     Density "kg/m^3" "1.2 g/cm^3";
     /// Euler tensor \[kg m²\].
     EulerMoment "kg m^2" "40 g cm^2";
-    /// Pressure \[Pa\]: strength of repulsion and adhesion.
+    /// Rate of a gradient \[1/s\].
+    GradientRate "1/s" "3 1/s";
+    /// Pressure \[Pa\]: strength of repulsion and adhesion, moduli of materials.
     Pressure "Pa" "30 kPa";
     /// Damping traction per velocity \[Pa s/m\]: strength of damping and friction.
     SurfaceDamping "Pa s/m" "2 Pa s/m";
+    /// Dynamic viscosity \[Pa s\].
+    Viscosity "Pa s" "20 mPa s";
+    /// Torque, affine moment \[N m\].
+    Torque "N m" "3 mN m";
     /// Stiffness of a spring \[N/m\].
     Stiffness "N/m" "2 kN/m";
     /// Damping of a spring \[N s/m\].

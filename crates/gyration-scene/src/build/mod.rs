@@ -2,23 +2,29 @@
 //!
 //! Everything is in SI units from here on. What is wrong with a body is noted at its keys, and the others go on.
 
+mod affine;
 mod body;
+mod constraint;
 mod contact;
 mod mass;
+mod material;
 mod orientation;
 mod overlap;
+mod resolve;
 mod salvage;
 mod shape;
+mod start;
 mod support;
 
 pub(crate) use salvage::salvage;
 
 use crate::check::{Draft, Judge};
-use crate::file::{Method, Solver, Time};
+use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
 use body::Solid;
 use gyration::model::Model;
 use gyration::state::{Start, State};
+use gyration::tensor::Vec3;
 use std::path::Path;
 
 /// A scene ready to run.
@@ -30,6 +36,23 @@ pub struct Built {
     pub state: State,
     /// How long to run, what to record, how to integrate.
     pub plan: Plan,
+    /// What else to record.
+    pub record: Record,
+}
+
+/// Quantities that are recorded on request.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Record {
+    /// Which, each once, in the order of the file.
+    pub quantities: Vec<Recorded>,
+    /// The point about which total affine momentum is taken \[m\].
+    pub origin: Vec3,
+}
+
+impl Record {
+    fn new(written: &file::Record) -> Self {
+        Self { quantities: written.quantities.clone(), origin: si(&written.origin) }
+    }
 }
 
 /// How long to run, what to record, how to integrate.
@@ -80,7 +103,7 @@ impl Plan {
 
 /// Builds what a draft describes; none if anything about it, or before it, was found wrong.
 ///
-/// Fills in what the file leaves to be derived: the velocity of a pinned body. Files of meshes are relative to `base`.
+/// Fills in what the file leaves to be derived (`resolve`). Files of meshes are relative to `base`.
 pub(crate) fn build(draft: &mut Draft, base: &Path, judge: &mut Judge<'_>) -> Option<Built> {
     let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, base, judge)).collect();
     let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
@@ -88,16 +111,16 @@ pub(crate) fn build(draft: &mut Draft, base: &Path, judge: &mut Judge<'_>) -> Op
     for (body, solid) in draft.bodies.iter_mut().zip(&solids) {
         if let Some(solid) = solid {
             overlap::check(body, solid, &supports, judge);
-            body.value.velocity = solid.start.velocity.map(crate::quantity::Velocity).into();
+            resolve::resolve(&mut body.value, &solid.start);
         }
     }
     if !judge.findings.is_empty() {
         return None;
     }
     let plan = Plan::new(draft.time.as_ref()?, &draft.solver);
-    let (bodies, starts): (Vec<_>, Vec<Start>) =
-        solids.into_iter().flatten().map(|s| (s.body, Start::Rigid(s.start))).unzip();
+    let (bodies, starts): (Vec<_>, Vec<Start>) = solids.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
     let model = Model::new(si(&draft.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
     let state = State::start(&model, &starts);
-    Some(Built { model, state, plan })
+    let record = draft.record.as_ref().map(Record::new).unwrap_or_default();
+    Some(Built { model, state, plan, record })
 }

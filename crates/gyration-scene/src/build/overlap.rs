@@ -1,6 +1,7 @@
 //! The first gaps: a body must not touch a support that it is in contact with.
 
 use super::body::Solid;
+use super::start::placement;
 use crate::check::{Judge, Placed};
 use crate::file::Body;
 use gyration::support::Support;
@@ -11,11 +12,10 @@ use std::collections::BTreeSet;
 pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Support>], judge: &mut Judge<'_>) {
     let Some(surface) = &solid.body.surface else { return };
     let met: BTreeSet<usize> = solid.body.contacts.iter().map(|contact| contact.support).collect();
+    let start = placement(&solid.start);
     for support in met.into_iter().filter_map(|index| supports.get(index)?.as_ref()) {
-        let field = GapField {
-            height: support.gap(&solid.start.position, 0.0),
-            direction: solid.start.orientation.rotation().tr_mul(&support.normal),
-        };
+        let field =
+            GapField { height: support.gap(&start.position, 0.0), direction: start.gradient.tr_mul(&support.normal) };
         let (gap, _) = surface.smallest_gap(&field);
         if solid.body.is_apart(gap, &field) {
             continue;

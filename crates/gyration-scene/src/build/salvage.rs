@@ -15,6 +15,8 @@ use std::path::Path;
 
 /// Keys whose values are judged by themselves.
 const ALONE: [&str; 3] = ["orientation", "mass_properties", "spring"];
+/// What a body is made of needs to know whether it has a volume, which these say.
+const VOLUME: [&str; 2] = ["shape", "mass_properties"];
 /// The shape is judged together with these: parts of a union may take the body's density.
 const WEIGHTS: [&str; 3] = ["density", "mass", "mass_properties"];
 
@@ -39,6 +41,9 @@ pub(crate) fn salvage(document: &Document, base: &Path, findings: &mut Findings)
         let mut judged: Vec<&str> = ALONE.into_iter().filter(|name| written.contains_key(*name)).collect();
         if written.contains_key("shape") && !WEIGHTS.iter().any(|name| is_dirty(name)) {
             judged.push("shape");
+        }
+        if written.contains_key("affine") && !VOLUME.iter().any(|name| is_dirty(name)) {
+            judged.push("affine");
         }
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Findings::default();

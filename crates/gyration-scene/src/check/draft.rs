@@ -1,7 +1,7 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
 use crate::document::{Document, Findings};
-use crate::file::{Body, Contact, SceneFile, Solver, Support, Time, World};
+use crate::file::{Body, Contact, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
 use crate::tree::Node;
 use serde::de::DeserializeOwned;
@@ -21,6 +21,7 @@ pub(crate) struct Draft {
     pub(crate) world: World,
     pub(crate) time: Option<Time>,
     pub(crate) solver: Solver,
+    pub(crate) record: Option<Record>,
     pub(crate) supports: Vec<Placed<Support>>,
     pub(crate) contacts: Vec<Placed<Contact>>,
     pub(crate) bodies: Vec<Placed<Body>>,
@@ -36,6 +37,7 @@ impl Draft {
             world: taker.section("world").unwrap_or_default(),
             time: taker.section("time"),
             solver: taker.section("solver").unwrap_or_default(),
+            record: taker.section("record"),
             supports: taker.items("support"),
             contacts: taker.items("contact"),
             bodies: taker.items("body"),
@@ -49,6 +51,7 @@ impl Draft {
             world: self.world,
             time: self.time?,
             solver: self.solver,
+            record: self.record,
             support: self.supports.into_iter().map(|placed| placed.value).collect(),
             contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
             body: self.bodies.into_iter().map(|placed| placed.value).collect(),

@@ -3,12 +3,12 @@
 //! Bodies are checked where they are built.
 
 use super::{Draft, Judge, Placed};
-use crate::file::{Contact, Motion, Support, Time};
+use crate::file::{Contact, Motion, Record, Support, Time};
 use crate::key::{Key, is_name};
 use crate::suggest;
 use crate::tree::Node;
 use gyration::tensor::Vec3;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// The most samples of a recording.
 const MOST_SAMPLES: f64 = 1e8;
@@ -19,6 +19,9 @@ pub(crate) fn values(draft: &Draft, judge: &mut Judge<'_>) {
     let bodies = names("body", judge);
     if let Some(time) = &draft.time {
         samples(time, judge);
+    }
+    if let Some(record) = &draft.record {
+        once(record, judge);
     }
     draft.supports.iter().for_each(|support| directions(support, judge));
     references("support", &supports, judge);
@@ -71,6 +74,17 @@ fn samples(time: &Time, judge: &mut Judge<'_>) {
         let message = format!("{count:.3e} samples are more than {MOST_SAMPLES:e}");
         let help = format!("write a spacing of at least {:e} s", time.end.value() / MOST_SAMPLES);
         judge.note(&Key::root().key("time").key("sample"), message, help);
+    }
+}
+
+/// Notes quantities that are asked for twice.
+fn once(record: &Record, judge: &mut Judge<'_>) {
+    let key = Key::root().key("record").key("quantities");
+    let mut seen = HashSet::new();
+    for (index, quantity) in record.quantities.iter().enumerate() {
+        if !seen.insert(quantity) {
+            judge.note(&key.index(index), "the quantity is already recorded", "write each quantity once");
+        }
     }
 }
 

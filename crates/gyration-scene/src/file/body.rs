@@ -1,8 +1,9 @@
 //! `[[body]]`: what moves.
 
-use super::{Later, Orientation, Shape};
+use super::{Affine, Later, Orientation, Shape};
 use crate::quantity::{
-    AngularVelocity, Density, EulerMoment, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness, Velocity,
+    AngularVelocity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness,
+    Velocity,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,12 +27,11 @@ pub struct Body {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_properties: Option<MassProperties>,
     /// It moves as a rigid body, as it does if no kind is given.
-    #[serde(default)]
-    pub rigid: Rigid,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<Rigid>,
     /// It deforms homogeneously.
-    #[serde(default, skip_serializing)]
-    #[schemars(extend("later" = "affine bodies"))]
-    pub affine: Option<Later>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub affine: Option<Affine>,
     /// It deforms homogeneously and contracts by itself.
     #[serde(default, skip_serializing)]
     #[schemars(extend("later" = "contractile bodies"))]
@@ -43,21 +43,21 @@ pub struct Body {
     /// Initial position of the centre of mass (m).
     #[serde(default)]
     pub position: [Length; 3],
-    /// Initial orientation.
-    #[serde(default)]
-    pub orientation: Orientation,
+    /// Initial orientation; of a deformable body, instead of its gradient.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
     /// Initial velocity of the centre of mass (m/s).
     #[serde(default)]
     pub velocity: [Velocity; 3],
-    /// Initial angular velocity in spatial axes (rad/s).
-    #[serde(default)]
-    pub angular_velocity: [AngularVelocity; 3],
+    /// Initial angular velocity in spatial axes (rad/s); of a deformable body, instead of its gradient_rate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angular_velocity: Option<[AngularVelocity; 3]>,
     /// Initial placement gradient P of a deformable body.
-    #[serde(default, skip_serializing)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gradient: Option<[[f64; 3]; 3]>,
     /// Initial rate of the placement gradient of a deformable body (1/s).
-    #[serde(default, skip_serializing)]
-    pub gradient_rate: Option<[[f64; 3]; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gradient_rate: Option<[[GradientRate; 3]; 3]>,
     /// A point of the body, relative to the centre of mass in the body's axes, that stays where it starts (m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pin: Option<[Length; 3]>,

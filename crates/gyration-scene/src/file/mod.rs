@@ -4,20 +4,28 @@
 //! `build` makes those. Enumerations are externally tagged: `shape = { sphere = { radius = 0.1 } }`. Written back to
 //! JSON, with every default in its place, they are the resolved form of a scene, which is again a scene.
 
+mod affine;
 mod body;
 mod contact;
 mod later;
+mod material;
 mod orientation;
+mod record;
 mod shape;
 mod solver;
 mod support;
 mod time;
 mod world;
 
+pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
 pub use later::Later;
+pub use material::{
+    Fung, Hencky, Material, MooneyRivlin, NeoHookean, NeoHookeanLog, Ogden, Orthogonality, StVenantKirchhoff,
+};
 pub use orientation::{AxisAngle, Orientation};
+pub use record::{Record, Recorded};
 pub use shape::{
     Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Part, PointMass, Polyhedron, Shape, Sphere, Torus, Union,
 };
@@ -49,6 +57,9 @@ pub struct SceneFile {
     /// Tolerances and method of the solver.
     #[serde(default)]
     pub solver: Solver,
+    /// Further quantities that a recording shall hold; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub record: Option<Record>,
     /// The supports that bodies can touch.
     #[serde(default)]
     pub support: Vec<Support>,

@@ -1,0 +1,182 @@
+//! What a deformable body is made of and what resists it: material, internal friction, linear friction, couple.
+
+use super::material::material;
+use super::start::matrix;
+use crate::check::Judge;
+use crate::file::{self, Frame as WrittenFrame};
+use crate::key::Key;
+use crate::table::read_couple;
+use gyration::affine::{AffineBody, AnisotropicFriction, Viscosity};
+use gyration::body::Affine;
+use gyration::load::{Couple, Frame, LinearResistance, ResistanceError};
+use gyration::mass::MassProperties;
+use gyration::material::Material;
+use gyration::tensor::{Mat3, Vec3};
+use nalgebra::SMatrix;
+use std::path::Path;
+
+/// All of it that does not depend on the body's mass.
+#[derive(Debug, Clone)]
+pub(super) struct Parts {
+    material: Option<Material>,
+    viscosity: Viscosity,
+    anisotropic: Option<AnisotropicFriction>,
+    couple: Option<Couple>,
+    resistances: Vec<LinearResistance>,
+}
+
+impl Parts {
+    /// Reads them at a key; notes what is wrong with any. Tables are relative to `base`.
+    pub(super) fn of(written: &file::Affine, key: &Key, base: &Path, judge: &mut Judge<'_>) -> Option<Self> {
+        let material = written.material.as_ref().map(|it| material(it, &key.key("material"), judge));
+        let internal = internal_friction(written, &key.key("internal_friction"), judge);
+        let friction = written.linear_friction.as_ref().map(|it| {
+            let made = LinearResistance::friction(&square(&it.matrix), frame(it.frame));
+            accepted(made, &key.key("linear_friction").key("matrix"), judge)
+        });
+        let gyroscopic = written.gyroscopic.as_ref().map(|it| {
+            let made = LinearResistance::gyroscopic(&square(&it.matrix), frame(it.frame));
+            accepted(made, &key.key("gyroscopic").key("matrix"), judge)
+        });
+        let couple = written.couple.as_ref().map(|it| couple(it, &key.key("couple"), base, judge));
+        let (viscosity, anisotropic) = internal?;
+        Some(Self {
+            material: all(material)?,
+            viscosity,
+            anisotropic,
+            couple: all(couple)?,
+            resistances: [all(friction)?, all(gyroscopic)?].into_iter().flatten().collect(),
+        })
+    }
+
+    /// The body of this mass, about its centre or a pin at `arm`; notes a mass that does not allow it.
+    pub(super) fn with_mass(
+        self,
+        mass: &MassProperties,
+        arm: Option<&Vec3>,
+        places: &Places,
+        judge: &mut Judge<'_>,
+    ) -> Option<Affine> {
+        let fills = self.fills_a_volume(mass, places, judge);
+        let interior = match AffineBody::new(mass, arm, self.material, self.viscosity) {
+            Ok(body) if inverts(&body.euler_tensor, &body.inverse) => Some(body),
+            Ok(body) => {
+                let message =
+                    format!("the Euler tensor, {:e} kg m², leaves the range of numbers", body.euler_tensor.amax());
+                judge.note(&places.mass, message, "change the size or the mass");
+                None
+            }
+            Err(error) => {
+                let help = "add mass off the plane, or a `pin` off the plane, or leave `affine` out";
+                judge.note(&places.mass, error.to_string(), help);
+                None
+            }
+        };
+        let interior = AffineBody { anisotropic: self.anisotropic, ..interior? };
+        fills.then_some(Affine { interior, couple: self.couple, resistances: self.resistances })
+    }
+
+    /// Whether there is a volume where stresses need one; notes what would be without effect.
+    fn fills_a_volume(&self, mass: &MassProperties, places: &Places, judge: &mut Judge<'_>) -> bool {
+        let stressed = [
+            ("material", self.material.is_some()),
+            ("viscosity", self.viscosity.kirchhoff > 0.0),
+            ("internal_friction", self.is_internal_friction_given()),
+        ];
+        let without: Vec<&str> =
+            stressed.iter().filter(|(_, given)| mass.volume == 0.0 && *given).map(|it| it.0).collect();
+        for name in &without {
+            let help = format!("give the body a `shape` with a volume, or leave `{name}` out");
+            let message = "the body has no volume, so that a stress has nothing to act on";
+            judge.note(&places.affine.key(name), message, help);
+        }
+        without.is_empty()
+    }
+
+    fn is_internal_friction_given(&self) -> bool {
+        self.anisotropic.is_some() || self.viscosity.shear > 0.0 || self.viscosity.bulk > 0.0
+    }
+}
+
+/// Where complaints go.
+pub(super) struct Places {
+    /// The table `affine`.
+    pub(super) affine: Key,
+    /// What gives the body its mass.
+    pub(super) mass: Key,
+}
+
+/// Whether the inverse is one: far from one kilogram and metre its entries leave the range of numbers.
+pub(super) fn inverts(tensor: &Mat3, inverse: &Mat3) -> bool {
+    // Of all entries: the largest of a matrix passes over what is not a number.
+    let residual = tensor * inverse - Mat3::identity();
+    inverse.iter().all(|entry| entry.is_finite()) && residual.iter().all(|entry| entry.abs() < 0.5)
+}
+
+/// None if there is something and it failed; none inside if there is nothing.
+fn all<T>(part: Option<Option<T>>) -> Option<Option<T>> {
+    match part {
+        None => Some(None),
+        Some(made) => made.map(Some),
+    }
+}
+
+fn internal_friction(
+    written: &file::Affine,
+    key: &Key,
+    judge: &mut Judge<'_>,
+) -> Option<(Viscosity, Option<AnisotropicFriction>)> {
+    let kirchhoff = written.viscosity.value();
+    let Some(given) = &written.internal_friction else {
+        return Some((Viscosity { kirchhoff, ..Viscosity::default() }, None));
+    };
+    let value =
+        |part: Option<crate::quantity::NonNegative<crate::quantity::Viscosity>>| part.map_or(0.0, |it| it.value());
+    let viscosity = Viscosity { kirchhoff, shear: value(given.shear), bulk: value(given.bulk) };
+    let Some(rows) = &given.matrix else { return Some((viscosity, None)) };
+    if given.shear.is_some() || given.bulk.is_some() {
+        let help = "keep one: the matrix of isotropic friction has bulk + 4/3 shear, bulk − 2/3 shear and shear";
+        judge.note(&key.key("matrix"), "`shear` and `bulk` stand beside it", help);
+        return None;
+    }
+    let made = accepted(AnisotropicFriction::new(&square(rows)), &key.key("matrix"), judge);
+    made.map(|friction| (viscosity, Some(friction)))
+}
+
+fn couple(written: &file::Couple, key: &Key, base: &Path, judge: &mut Judge<'_>) -> Option<Couple> {
+    match written {
+        file::Couple::Value(rows) => Some(Couple::Constant(matrix(rows))),
+        file::Couple::Table(path) => match read_couple(&base.join(path)) {
+            Ok(table) => Some(Couple::Table(table)),
+            Err(error) => {
+                judge.note(&key.key("table"), error.to_string(), error.help());
+                None
+            }
+        },
+    }
+}
+
+/// What a matrix gives, if it is one of its kind.
+fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, judge: &mut Judge<'_>) -> Option<T> {
+    made.map_err(|error| {
+        let help = match error {
+            ResistanceError::NotSemiDefinite { .. } => "write a matrix whose eigenvalues are all at least 0",
+            ResistanceError::NotSkew { .. } => "write Hᵀ = −H; what is symmetric belongs to `linear_friction`",
+            ResistanceError::NotSymmetric { .. } => "write Hᵀ = H; what is skew belongs to `gyroscopic`",
+            ResistanceError::NotFinite { .. } => "write finite numbers",
+        };
+        judge.note(key, error.to_string(), help);
+    })
+    .ok()
+}
+
+fn frame(written: WrittenFrame) -> Frame {
+    match written {
+        WrittenFrame::Space => Frame::Space,
+        WrittenFrame::Body => Frame::Body,
+    }
+}
+
+fn square<const N: usize>(rows: &[[f64; N]; N]) -> SMatrix<f64, N, N> {
+    SMatrix::from_fn(|row, column| rows[row][column])
+}

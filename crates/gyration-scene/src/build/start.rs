@@ -1,0 +1,145 @@
+//! How a body starts: p₀, P, ṗ₀ and Ṗ, from what of them the file gives.
+//!
+//!   P = R of an `orientation`, or a `gradient`;   Ṗ = [ω]× P of an `angular_velocity`, or a `gradient_rate`
+//!
+//! The centre of a pinned body moves at ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible
+//! body starts on its constraint (`constraint`).
+
+use super::constraint;
+use super::orientation::orientation;
+use crate::check::{Judge, Placed};
+use crate::file::Body;
+use crate::key::Key;
+use crate::quantity::si;
+use gyration::body::BodyKind;
+use gyration::kinematics::{Placement, Quaternion, Velocity};
+use gyration::state::{RigidStart, Start};
+use gyration::tensor::{Mat3, Vec3, cross_matrix};
+
+/// P and Ṗ as the file has them, before any constraint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Attitude {
+    orientation: Quaternion,
+    angular_velocity: Vec3,
+    gradient: Mat3,
+    gradient_rate: Mat3,
+}
+
+impl Attitude {
+    /// Reads P and Ṗ; notes what cannot be, what is said twice, and what only another kind of body has.
+    pub(super) fn of(placed: &Placed<Body>, judge: &mut Judge<'_>) -> Option<Self> {
+        let Placed { key, value } = placed;
+        match value.affine {
+            None => deformable_keys(value, key, judge),
+            Some(_) => said_twice(value, key, judge),
+        }
+        let turned = value.orientation.as_ref().map(|written| orientation(written, &key.key("orientation"), judge));
+        let gradient = value.gradient.map(|rows| {
+            let gradient = matrix(&rows);
+            invertible(&gradient, &key.key("gradient"), judge).then_some(gradient)
+        });
+        let orientation = turned.unwrap_or(Some(Quaternion::IDENTITY))?;
+        let gradient = gradient.unwrap_or_else(|| Some(orientation.rotation()))?;
+        let angular_velocity = si(&value.angular_velocity.unwrap_or_default());
+        let spin = || cross_matrix(&angular_velocity) * gradient;
+        let gradient_rate = value.gradient_rate.as_ref().map_or_else(spin, matrix);
+        Some(Self { orientation, angular_velocity, gradient, gradient_rate })
+    }
+
+    /// The whole start of a body of this kind; notes one that its constraint or its pin does not allow.
+    pub(super) fn start(&self, placed: &Placed<Body>, kind: &BodyKind, judge: &mut Judge<'_>) -> Option<Start> {
+        let position = si(&placed.value.position);
+        let pin = placed.value.pin.as_ref().map(si);
+        match kind {
+            BodyKind::Rigid(_) => {
+                let Self { orientation, angular_velocity, .. } = *self;
+                let follows = pin.map(|pin| (orientation.rotation() * pin).cross(&angular_velocity));
+                let velocity = center_velocity(placed, follows, judge)?;
+                Some(Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }))
+            }
+            BodyKind::Affine(affine) => {
+                let given = (self.gradient, self.gradient_rate);
+                let (gradient, gradient_rate) = constraint::hold(&affine.interior, given, &placed.key, judge)?;
+                let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), judge)?;
+                Some(Start::Affine(Placement { position, gradient }, Velocity { velocity, gradient_rate }))
+            }
+        }
+    }
+}
+
+/// Where a body starts.
+pub(super) fn placement(start: &Start) -> Placement {
+    match start {
+        Start::Rigid(start) => Placement { position: start.position, gradient: start.orientation.rotation() },
+        Start::Affine(placement, _) => *placement,
+    }
+}
+
+/// A matrix from its rows, in SI units.
+pub(super) fn matrix<T: Into<f64> + Copy>(rows: &[[T; 3]; 3]) -> Mat3 {
+    Mat3::from_rows(&[si(&rows[0]).transpose(), si(&rows[1]).transpose(), si(&rows[2]).transpose()])
+}
+
+/// Refuses what only a deformable body has.
+fn deformable_keys(body: &Body, key: &Key, judge: &mut Judge<'_>) {
+    if body.gradient.is_some() {
+        let help = "a rigid body starts with an `orientation`; add `affine = {}` for one that deforms";
+        judge.note(&key.key("gradient"), "a rigid body has no placement gradient of its own", help);
+    }
+    if body.gradient_rate.is_some() {
+        let help = "a rigid body starts with an `angular_velocity`; add `affine = {}` for one that deforms";
+        judge.note(&key.key("gradient_rate"), "a rigid body has no gradient rate of its own", help);
+    }
+}
+
+/// Refuses two answers to one question.
+fn said_twice(body: &Body, key: &Key, judge: &mut Judge<'_>) {
+    if body.gradient.is_some() && body.orientation.is_some() {
+        let help = "keep one: with `gradient` = R U leave `orientation` out";
+        judge.note(&key.key("orientation"), "`gradient` already says how the body is turned at the start", help);
+    }
+    if body.gradient_rate.is_some() && body.angular_velocity.is_some() {
+        let help = "keep one: with `gradient_rate` leave `angular_velocity` out, which would give [ω]× P";
+        judge.note(&key.key("angular_velocity"), "`gradient_rate` already says how the body spins at the start", help);
+    }
+}
+
+/// Whether det P > 0 beyond rounding, and P⁻¹ can be held in numbers; notes it otherwise.
+fn invertible(gradient: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
+    let determinant = gradient.determinant();
+    let help = "write a matrix of positive determinant; [[1, 0, 0], [0, 1, 0], [0, 0, 1]] leaves the body as it is";
+    if determinant <= 0.0 {
+        let what = if determinant < 0.0 { "turned inside out" } else { "pressed flat" };
+        judge.note(key, format!("its determinant is {determinant:?}: the body would be {what}"), help);
+        return false;
+    }
+    let residual = gradient.try_inverse().map(|inverse| gradient * inverse - Mat3::identity());
+    // Of all entries: the largest of a matrix passes over what is not a number.
+    let inverts = residual.is_some_and(|residual| residual.iter().all(|entry| entry.abs() < 0.5));
+    if !inverts {
+        judge.note(key, "it cannot be told from a matrix that has no inverse", help);
+    }
+    inverts
+}
+
+/// ṗ₀ as given, or as it follows from the pin; notes a given one that does not agree with the pin.
+fn center_velocity(placed: &Placed<Body>, follows: Option<Vec3>, judge: &mut Judge<'_>) -> Option<Vec3> {
+    let velocity: Vec3 = si(&placed.value.velocity);
+    let Some(follows) = follows else { return Some(velocity) };
+    let given = placed.key.key("velocity");
+    let written = given.is_written(&judge.document.root);
+    // Numbers written with ten digits agree.
+    const AGREEMENT: f64 = 1e-9;
+    if written && (velocity - follows).norm() > AGREEMENT * follows.norm().max(velocity.norm()) {
+        let [x, y, z] = follows.into();
+        let (what, keys) = match placed.value.affine {
+            None => ("spin", "`angular_velocity`"),
+            Some(_) => ("rate", "`gradient_rate` or `angular_velocity`"),
+        };
+        let message =
+            format!("the pin does not allow it: with this {what} the centre of mass moves at [{x:e}, {y:e}, {z:e}]");
+        judge.note(&given, message, format!("leave `velocity` out: it follows from {keys}"));
+        return None;
+    }
+    Some(follows)
+}

@@ -1,0 +1,119 @@
+//! `affine.material`: what a deformable body is made of, an energy of its placement gradient.
+//!
+//! With `bulk` a material that has one is compressible, without it is incompressible: det P = 1.
+
+use crate::quantity::{NonNegative, Positive, Pressure};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An elastic energy of the placement gradient P, per unit reference volume.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Material {
+    /// c1 (ι₁ − 3) + c2 (ι₂ − 3).
+    MooneyRivlin(MooneyRivlin),
+    /// μ/2 (ι₁ − 3).
+    NeoHookean(NeoHookean),
+    /// Σ μ_p/α_p (Σ λ_i^α_p − 3), of the principal stretches λ_i.
+    Ogden(Ogden),
+    /// μ/(2b) (e^{b(ι₁ − 3)} − 1).
+    Fung(Fung),
+    /// μ/2 (ι₁ − 3) − μ ln J + λ/2 ln²J; compressible.
+    NeoHookeanLog(NeoHookeanLog),
+    /// λ/2 tr²E + μ E·E, E = (PᵀP − I)/2; compressible.
+    StVenantKirchhoff(StVenantKirchhoff),
+    /// μ |dev ln U|² + K/2 ln²J; compressible.
+    Hencky(Hencky),
+    /// κ |PᵀP − I|²; compressible.
+    Orthogonality(Orthogonality),
+}
+
+/// Mooney–Rivlin; shear modulus 2(c1 + c2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MooneyRivlin {
+    /// c₁ (Pa).
+    pub c1: NonNegative<Pressure>,
+    /// c₂ (Pa).
+    pub c2: NonNegative<Pressure>,
+    /// Bulk modulus K (Pa); incompressible without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulk: Option<Positive<Pressure>>,
+}
+
+/// Neo-Hookean: Mooney–Rivlin with c1 = shear/2, c2 = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NeoHookean {
+    /// Shear modulus μ (Pa).
+    pub shear: NonNegative<Pressure>,
+    /// Bulk modulus K (Pa); incompressible without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulk: Option<Positive<Pressure>>,
+}
+
+/// Ogden; shear modulus ½ Σ mu·alpha.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ogden {
+    /// μ_p of each term (Pa), of the sign of its α_p.
+    #[schemars(length(min = 1))]
+    pub mu: Vec<Pressure>,
+    /// α_p of each term, not 0; as many as there are in mu.
+    #[schemars(length(min = 1))]
+    pub alpha: Vec<f64>,
+    /// Bulk modulus K (Pa); incompressible without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulk: Option<Positive<Pressure>>,
+}
+
+/// Fung: stiffens exponentially.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fung {
+    /// Shear modulus at rest μ (Pa).
+    pub shear: NonNegative<Pressure>,
+    /// b > 0.
+    pub exponent: Positive<f64>,
+    /// Bulk modulus K (Pa); incompressible without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulk: Option<Positive<Pressure>>,
+}
+
+/// Neo-Hookean with ln J.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NeoHookeanLog {
+    /// Lamé's μ, the shear modulus (Pa).
+    pub mu: NonNegative<Pressure>,
+    /// Lamé's λ (Pa).
+    pub lambda: NonNegative<Pressure>,
+}
+
+/// St Venant–Kirchhoff: soft, in the end unstable, under strong compression.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StVenantKirchhoff {
+    /// Lamé's λ (Pa), at least −2/3 mu.
+    pub lambda: Pressure,
+    /// Lamé's μ, the shear modulus (Pa).
+    pub mu: NonNegative<Pressure>,
+}
+
+/// Hencky: quadratic in the logarithmic strain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Hencky {
+    /// Shear modulus μ (Pa).
+    pub shear: NonNegative<Pressure>,
+    /// Bulk modulus K (Pa).
+    pub bulk: NonNegative<Pressure>,
+}
+
+/// The orthogonality energy of affine body dynamics: St Venant–Kirchhoff with λ = 0, μ = 4κ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Orthogonality {
+    /// κ (Pa).
+    pub kappa: NonNegative<Pressure>,
+}

@@ -1,0 +1,129 @@
+//! Tables of numbers beside a scene: CSV files, with or without a line of names.
+
+use crate::error::ReadError;
+use crate::read;
+use gyration::load::{CoupleTable, TableError};
+use gyration::tensor::Mat3;
+use std::path::{Path, PathBuf};
+
+/// A table that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum TableFault {
+    /// The file cannot be read.
+    #[error("cannot read the table: {0}")]
+    Unreadable(#[from] ReadError),
+    /// Not comma-separated text.
+    #[error("table {}, line {line}: {reason}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Not a table of a couple.
+    #[error("table {}, line {line}: {source}", path.display())]
+    Rows {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1; the first, if there are none.
+        line: u64,
+        /// What is wrong; it counts rows without the line of names.
+        source: TableError,
+    },
+}
+
+impl TableFault {
+    /// What to do.
+    pub(crate) fn help(&self) -> &'static str {
+        match self {
+            Self::Unreadable(_) => "the path is relative to the folder of the scene",
+            Self::Malformed { .. } => "write rows of `t, N_xx, N_xy, N_xz, N_yx, N_yy, N_yz, N_zx, N_zy, N_zz`",
+            Self::Rows { source: TableError::NotSorted { .. }, .. } => "sort the rows by time, each time once",
+            Self::Rows { source: TableError::NotFinite { .. }, .. } => "write finite numbers",
+            Self::Rows { source: TableError::Empty, .. } => "write at least one row",
+        }
+    }
+}
+
+/// What begins a line that is a remark.
+const COMMENT: u8 = b'#';
+/// t and nine entries.
+const COLUMNS: usize = 10;
+
+/// Reads the table of a couple: rows of t [s] and N [N m] row by row.
+///
+/// # Errors
+/// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that do
+/// not increase.
+pub(crate) fn read_couple(path: &Path) -> Result<CoupleTable, TableFault> {
+    let bytes = read::bytes(path)?;
+    let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    let rows = rows(content).map_err(|(start, reason)| {
+        let line = line(content, start);
+        TableFault::Malformed { path: path.to_owned(), line, reason }
+    })?;
+    CoupleTable::new(rows.iter().map(|row| (row.time, row.value)).collect()).map_err(|source| {
+        let row = match source {
+            TableError::Empty => 1,
+            TableError::NotFinite { row } | TableError::NotSorted { row, .. } => row,
+        };
+        let line = rows.get(row - 1).map_or(1, |row| line(content, row.start));
+        TableFault::Rows { path: path.to_owned(), line, source }
+    })
+}
+
+/// A row of a table.
+struct Row {
+    /// The byte behind the row before it.
+    start: usize,
+    /// t \[s\].
+    time: f64,
+    /// N \[N m\].
+    value: Mat3,
+}
+
+/// The rows; or what is wrong with the one that begins behind a byte.
+fn rows(content: &[u8]) -> Result<Vec<Row>, (usize, String)> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(COMMENT))
+        .trim(csv::Trim::All)
+        .from_reader(content);
+    let mut rows = Vec::new();
+    let start = |position: Option<&csv::Position>| position.map_or(0, |position| position.byte() as usize);
+    for (index, record) in reader.records().enumerate() {
+        // Of a text in memory nothing else can be wrong.
+        let record = record.map_err(|error| (start(error.position()), "it is not valid UTF-8 text".to_owned()))?;
+        // A line of names has no number.
+        if index == 0 && record.len() == COLUMNS && record.iter().all(|field| field.parse::<f64>().is_err()) {
+            continue;
+        }
+        let start = start(record.position());
+        let (time, value) = row(&record).map_err(|reason| (start, reason))?;
+        rows.push(Row { start, time, value });
+    }
+    Ok(rows)
+}
+
+/// The line, from 1, of the first row behind a byte: blank lines and comments are passed over.
+fn line(content: &[u8], start: usize) -> u64 {
+    let (before, behind) = content.split_at(start.min(content.len()));
+    let skipped = |line: &&[u8]| line.trim_ascii().is_empty() || line.first() == Some(&COMMENT);
+    let blank = behind.split(|byte| *byte == b'\n').take_while(skipped).count();
+    (1 + before.iter().filter(|byte| **byte == b'\n').count() + blank) as u64
+}
+
+/// A row, or what is wrong with it.
+fn row(record: &csv::StringRecord) -> Result<(f64, Mat3), String> {
+    if record.len() != COLUMNS {
+        return Err(format!("expected {COLUMNS} columns, found {}", record.len()));
+    }
+    let mut numbers = [0.0; COLUMNS];
+    for (column, (number, field)) in numbers.iter_mut().zip(record).enumerate() {
+        *number = field.parse().map_err(|_| format!("column {} holds \"{field}\", which is no number", column + 1))?;
+    }
+    Ok((numbers[0], Mat3::from_row_slice(&numbers[1..])))
+}
