@@ -9,7 +9,7 @@
 //! The gap field is that of the deformed body, its direction Pᵀn; X stays the material point. Facets need no quadrature: k
 //! and m are constant on each. Smooth patches are integrated once for each weight (`curved::weight`).
 
-use super::curved::{Area, GROUP, Product};
+use super::curved::{AREA, GROUP, Weights};
 use super::facets_plan::BATCH;
 use super::{GapClosed, GapField, MomentPlan, MomentRequest, Moments, Surface};
 use crate::tensor::Mat3;
@@ -68,7 +68,12 @@ impl Surface {
         }
         for patch in &self.patches {
             patch.check_gap(field)?;
-            patch.add_weighted(field, cofactor, &Area, &plan.requests, out);
+            for (requests, out) in plan.requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
+                let [sums] = patch.weighted(field, cofactor, AREA, requests);
+                for ((out, sum), request) in out.iter_mut().zip(&sums).zip(requests) {
+                    out.add(sum, request.order);
+                }
+            }
         }
         Ok(())
     }
@@ -106,10 +111,8 @@ impl Surface {
 impl super::patch::Patch {
     /// Adds the oriented moments of at most [`GROUP`] requests.
     fn add_oriented(&self, field: &GapField, cofactor: &Mat3, requests: &[MomentRequest], out: &mut [OrientedMoments]) {
-        for (pair, factors) in PAIRS.into_iter().enumerate() {
-            let mut sums = [Moments::default(); GROUP];
-            self.add_weighted(field, cofactor, &Product { factors }, requests, &mut sums[..requests.len()]);
-            for ((out, sum), request) in out.iter_mut().zip(&sums).zip(requests) {
+        for (pair, sums) in self.weighted(field, cofactor, Weights { factors: PAIRS }, requests).iter().enumerate() {
+            for ((out, sum), request) in out.iter_mut().zip(sums).zip(requests) {
                 out.pairs[pair].add(sum, request.order);
             }
         }
@@ -123,11 +126,10 @@ impl super::patch::Patch {
         if count == 0 {
             return;
         }
-        for (place, factors) in FOURTH.into_iter().enumerate() {
-            let mut sums = [Moments::default(); GROUP];
-            self.add_weighted(field, cofactor, &Product { factors }, &scalars[..count], &mut sums[..count]);
+        let weights = Weights { factors: FOURTH };
+        for (place, sums) in self.weighted(field, cofactor, weights, &scalars[..count]).iter().enumerate() {
             let places = out.iter_mut().zip(requests).filter(|(_, request)| request.order == 0);
-            for ((out, _), sum) in places.zip(&sums) {
+            for ((out, _), sum) in places.zip(sums) {
                 out.fourth[place] += sum.zeroth;
             }
         }

@@ -6,7 +6,7 @@
 //! support point along its gradient Aᵀ(v + A X) never lowers it.
 
 use super::curved::{
-    Chart, ConeWall, CylinderWall, Deformed, Disk, Ellipsoid, GROUP, Hemisphere, Product, Sphere, Torus,
+    Chart, ConeWall, CylinderWall, Deformed, Disk, Ellipsoid, GROUP, Hemisphere, Sphere, Torus, Weighted, Weights,
 };
 use super::{GapClosed, GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
@@ -104,45 +104,46 @@ impl Patch {
                 Primitive::ConeWall(p) => p.moments(&own, requests, sums),
                 Primitive::Torus(p) => p.moments(&own, requests, sums),
             };
-            self.collect(&chart, sums, requests, out);
+            let (linear, offset) = self.chart_in_body(&chart);
+            for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
+                moments.add(&sum.carried(&linear, &offset, request.order), request.order);
+            }
         }
     }
 
-    /// Adds the moments weighted by the current area vectors cof(P) N; every gap on the patch must be positive.
-    pub(crate) fn add_weighted<const N: usize>(
+    /// The moments of at most [`GROUP`] requests with each of the weights, about the origin of X; every gap on the patch must be
+    /// positive.
+    pub(crate) fn weighted<const N: usize, const W: usize>(
         &self,
         field: &GapField,
         cofactor: &Mat3,
-        weight: &Product<N>,
+        weights: Weights<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
-    ) {
+    ) -> Weighted<W> {
         let height = field.gap(&self.offset);
         let own = GapField { height, direction: self.rotation.tr_mul(&field.direction) };
         // Takes the reference normal in the own frame to the current area vector.
-        let deformed = Deformed { field: own, cofactor: cofactor * self.rotation, weight: *weight };
-        for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
-            let mut sums = [Moments::default(); GROUP];
-            let sums = &mut sums[..requests.len()];
-            let chart = match &self.primitive {
-                Primitive::Sphere(p) => p.deformed_moments(&deformed, requests, sums),
-                Primitive::Hemisphere(p) => p.deformed_moments(&deformed, requests, sums),
-                Primitive::Ellipsoid(p) => p.deformed_moments(&deformed, requests, sums),
-                Primitive::CylinderWall(p) => p.deformed_moments(&deformed, requests, sums),
-                Primitive::Disk(p) => p.deformed_moments(&deformed, requests, sums),
-                Primitive::ConeWall(p) => p.deformed_moments(&deformed, requests, sums),
-                Primitive::Torus(p) => p.deformed_moments(&deformed, requests, sums),
-            };
-            self.collect(&chart, sums, requests, out);
+        let deformed = Deformed { field: own, cofactor: cofactor * self.rotation, weights };
+        let mut sums = [[Moments::default(); GROUP]; W];
+        let chart = match &self.primitive {
+            Primitive::Sphere(p) => p.deformed_moments(&deformed, requests, &mut sums),
+            Primitive::Hemisphere(p) => p.deformed_moments(&deformed, requests, &mut sums),
+            Primitive::Ellipsoid(p) => p.deformed_moments(&deformed, requests, &mut sums),
+            Primitive::CylinderWall(p) => p.deformed_moments(&deformed, requests, &mut sums),
+            Primitive::Disk(p) => p.deformed_moments(&deformed, requests, &mut sums),
+            Primitive::ConeWall(p) => p.deformed_moments(&deformed, requests, &mut sums),
+            Primitive::Torus(p) => p.deformed_moments(&deformed, requests, &mut sums),
+        };
+        let (linear, offset) = self.chart_in_body(&chart);
+        for (sum, request) in sums.iter_mut().flat_map(|sums| sums.iter_mut().zip(requests)) {
+            *sum = sum.carried(&linear, &offset, request.order);
         }
+        sums
     }
 
-    /// Carries moments summed in a chart to the body's frame.
-    fn collect(&self, chart: &Chart, sums: &[Moments], requests: &[MomentRequest], out: &mut [Moments]) {
-        let (linear, offset) = (self.rotation * chart.linear, self.offset + self.rotation * chart.offset);
-        for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
-            moments.add(&sum.carried(&linear, &offset, request.order), request.order);
-        }
+    /// The linear map and the offset that lead from a chart to the body's frame.
+    fn chart_in_body(&self, chart: &Chart) -> (Mat3, Vec3) {
+        (self.rotation * chart.linear, self.offset + self.rotation * chart.offset)
     }
 
     /// Refuses a field whose smallest gap on the patch is not a positive finite number beyond rounding.

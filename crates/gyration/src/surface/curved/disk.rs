@@ -16,7 +16,7 @@ use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
 use super::integrand::{GROUP, Integrand, LANES, Lane};
 use super::ring::{Demand, RingChunk, Rings};
-use super::weight::Deformed;
+use super::weight::{Deformed, Weighted};
 use crate::tensor::Vec3;
 
 /// A disk about the z axis in the plane z = 0, one side of it.
@@ -53,15 +53,19 @@ impl Disk {
     }
 
     /// The same for a deformed disk, whose weight is the same everywhere.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
-        let chart = self.moments(&deformed.field, requests, out);
-        let weight = deformed.weight.of(&deformed.cofactor.column(2).into());
-        out.iter_mut().for_each(|moments| moments.scale(weight));
+        let mut sums = [Moments::default(); GROUP];
+        let chart = self.moments(&deformed.field, requests, &mut sums);
+        let weights = deformed.weights.of(&deformed.cofactor.column(2).into());
+        for (out, weight) in out.iter_mut().zip(weights) {
+            *out = sums;
+            out.iter_mut().for_each(|moments| moments.scale(weight));
+        }
         chart
     }
 

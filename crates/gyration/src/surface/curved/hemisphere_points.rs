@@ -9,9 +9,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use pulp::{Simd, WithSimd};
 
+use super::super::MomentRequest;
 use super::super::lanes::dispatch;
 use super::super::rule::{GradedInterval, Singularity, gauss_legendre};
-use super::super::{MomentRequest, Moments};
 use super::Hemisphere;
 use super::features::{Dip, dips};
 use super::half_plane::{Chart, TiltedGap};
@@ -19,7 +19,7 @@ use super::image::principal_axes;
 use super::integrand::Integrand;
 use super::parallels::{AreaElement, Sums};
 use super::points::PointSums;
-use super::weight::{Deformed, Product};
+use super::weight::{Deformed, Weighted, Weights, extra_digits};
 use crate::tensor::{Mat3, Vec3};
 
 /// Digits of the weight, as a natural logarithm.
@@ -27,11 +27,11 @@ const DIGITS: f64 = 24.0;
 
 impl Hemisphere {
     /// Sums the moments in the frame (e₁, e₂, c); every gap must be positive.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
         let gap = TiltedGap::new(&deformed.field);
         let slope = gap.along.hypot(gap.across);
@@ -49,16 +49,18 @@ impl Hemisphere {
             vectors,
             element: AreaElement::deformed(&vectors, &squares),
             dips: dips(&squares.map(|x| x.max(0.0).sqrt()), &axes.row(2).transpose()),
-            weight: &deformed.weight,
+            weights: &deformed.weights,
             integrand: &integrand,
         };
-        dispatch(sweep).collect_all(requests, out);
+        for (sums, out) in dispatch(sweep).iter().zip(out) {
+            sums.collect_all(requests, out);
+        }
         Chart::frame(frame)
     }
 }
 
 /// The pass over whole parallels and arcs.
-struct Sweep<'a, const N: usize> {
+struct Sweep<'a, const N: usize, const W: usize> {
     radius: f64,
     /// g₀ and R|m| [m].
     height: f64,
@@ -70,15 +72,15 @@ struct Sweep<'a, const N: usize> {
     vectors: Mat3,
     element: AreaElement,
     dips: [Dip; 2],
-    weight: &'a Product<N>,
+    weights: &'a Weights<N, W>,
     integrand: &'a Integrand,
 }
 
-impl<const N: usize> WithSimd for Sweep<'_, N> {
-    type Output = Sums;
+impl<const N: usize, const W: usize> WithSimd for Sweep<'_, N, W> {
+    type Output = [Sums; W];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Sums {
+    fn with_simd<S: Simd>(self, _: S) -> [Sums; W] {
         let mut sums = PointSums::new(self.integrand);
         self.whole_parallels(&mut sums);
         self.arcs(&mut sums);
@@ -86,20 +88,21 @@ impl<const N: usize> WithSimd for Sweep<'_, N> {
     }
 }
 
-impl<const N: usize> Sweep<'_, N> {
-    const DIGITS: f64 = DIGITS + Product::<N>::EXTRA_DIGITS;
+impl<const N: usize, const W: usize> Sweep<'_, N, W> {
+    const DIGITS: f64 = DIGITS + extra_digits::<N>();
 
     /// Adds the point of the unit sphere at the height u along c and the azimuth φ.
     #[inline(always)]
-    fn add(&self, u: f64, gap: f64, (x, y): (f64, f64), weight: f64, sums: &mut PointSums) {
+    fn add(&self, u: f64, gap: f64, (x, y): (f64, f64), weight: f64, sums: &mut PointSums<W>) {
         let s = Vec3::new(x, y, u);
-        let weight = weight * self.radius * self.radius * self.weight.of(&(self.vectors * s));
-        sums.add(gap, weight, &(self.radius * s));
+        let area = weight * self.radius * self.radius;
+        let weights = self.weights.of(&(self.vectors * s)).map(|weight| area * weight);
+        sums.add(gap, &weights, &(self.radius * s));
     }
 
     /// The zone around the pole: θ from the lowest point, or from the highest one.
     #[inline(always)]
-    fn whole_parallels(&self, sums: &mut PointSums) {
+    fn whole_parallels(&self, sums: &mut PointSums<W>) {
         let last = FRAC_PI_2.min(self.sine.min(1.0).acos());
         let low = self.cosine < 0.0;
         // From the pole at hand the gap is nearest + rise (1 − cos θ); it vanishes at i·distance, or at π + i·distance.
@@ -129,7 +132,7 @@ impl<const N: usize> Sweep<'_, N> {
 
     /// The part where parallels cross the equator, −σ < u < σ.
     #[inline(always)]
-    fn arcs(&self, sums: &mut PointSums) {
+    fn arcs(&self, sums: &mut PointSums<W>) {
         /// Arcs that grow over less than this angle ψ change no moment by more than its square.
         const FINEST: f64 = 1e-6;
         if self.sine <= 0.0 {
@@ -155,7 +158,7 @@ impl<const N: usize> Sweep<'_, N> {
 
     /// One arc, at (sin ψ, cos ψ).
     #[inline(always)]
-    fn arc(&self, (sin, cos): (f64, f64), gap: f64, weight: f64, sums: &mut PointSums) {
+    fn arc(&self, (sin, cos): (f64, f64), gap: f64, weight: f64, sums: &mut PointSums<W>) {
         let u = -self.sine * cos;
         let (x, y) = (self.cosine * cos, sin);
         let (radius, half) = (x.hypot(y), y.atan2(x));

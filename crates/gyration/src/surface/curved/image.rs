@@ -7,24 +7,23 @@
 //! sums as ever.
 
 use super::super::MomentRequest;
-use super::super::Moments;
 use super::super::lanes::dispatch;
 use super::features::Features;
 use super::half_plane::Chart;
 use super::integrand::Integrand;
 use super::parallels::{AreaElement, Sums, Sweep};
 use super::sphere::frame_along;
-use super::weight::{Deformed, Product};
+use super::weight::{Deformed, Weighted, extra_digits};
 use super::{Ellipsoid, Sphere};
 use crate::tensor::{Mat3, Vec3};
 
 impl Ellipsoid {
     /// Sums the moments of s in the frame (e₁, e₂, f); every gap must be positive.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
         let a = &self.semi_axes;
         let image = a.component_mul(&deformed.field.direction);
@@ -38,13 +37,13 @@ impl Ellipsoid {
         let cofactor = squares.map(|x| x.max(0.0).sqrt());
         // The lowest direction is the third of the frame.
         let lowest = axes.row(2).transpose();
-        let features = Features::new(near, reach, &cofactor, &lowest, &integrand).sharpened(Product::<N>::EXTRA_DIGITS);
-        let factors = deformed.weight.factors.map(|row| vectors.row(row).transpose());
-        let mut sums = Sums::ZERO;
-        let (gap, element, integrand, factors) = ((near, reach), &element, &integrand, &factors);
-        dispatch(Sweep { nodes: features.nodes(), element, gap, integrand, factors, sums: &mut sums });
-        for (place, (request, moments)) in requests.iter().zip(out).enumerate() {
-            sums.collect(place, request.order, moments);
+        let features = Features::new(near, reach, &cofactor, &lowest, &integrand).sharpened(extra_digits::<N>());
+        let (gap, element, integrand) = ((near, reach), &element, &integrand);
+        for (out, factors) in out.iter_mut().zip(deformed.weights.factors) {
+            let factors = &factors.map(|row| vectors.row(row).transpose());
+            let mut sums = Sums::ZERO;
+            dispatch(Sweep { nodes: features.nodes(), element, gap, integrand, factors, sums: &mut sums });
+            sums.collect_all(requests, out);
         }
         Chart::frame(Mat3::from_diagonal(a) * frame)
     }
@@ -52,11 +51,11 @@ impl Ellipsoid {
 
 impl Sphere {
     /// The same for the ellipsoid with equal axes.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
         Ellipsoid { semi_axes: Vec3::repeat(self.radius) }.deformed_moments(deformed, requests, out)
     }

@@ -36,4 +36,4 @@ pub use hemisphere::Hemisphere;
 pub(crate) use integrand::GROUP;
 pub use sphere::Sphere;
 pub use torus::Torus;
-pub(crate) use weight::{Area, Deformed, Product};
+pub(crate) use weight::{AREA, Deformed, Weighted, Weights};

@@ -15,7 +15,7 @@ use pulp::{Simd, WithSimd};
 use super::super::Moments;
 use super::features::PolarNode;
 use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
-use super::weight::Product;
+use super::weight::{base, extra_digits};
 use crate::tensor::{Mat3, Vec3};
 
 /// The e-folds of e^(−Nη) asked for; the zeros of |B s|² are branch points, whose error is 1e-3 of that.
@@ -123,7 +123,7 @@ impl Parallels {
         // Parallels that count less need fewer digits; the nearest zero is that of the largest circle.
         let z = self.cos.iter().fold(1.0, |least: f64, z| least.min(*z));
         let decay = element.decay(z * z, 1.0 - z * z).min(10.0);
-        let digits = AZIMUTH_DIGITS + Product::<N>::EXTRA_DIGITS - self.spared;
+        let digits = AZIMUTH_DIGITS + extra_digits::<N>() - self.spared;
         let points = digits.max(3.0) / decay + (order + N) as f64 + 1.0;
         (0.5 * points).ceil().clamp(FEWEST_PAIRS, MOST_PAIRS)
     }
@@ -181,7 +181,7 @@ impl Parallels {
             for lane in 0..LANES {
                 let even = constant[lane] + square[lane] * cc + mixed[lane] * cs;
                 let odd = along_c[lane] * c + along_s[lane] * s;
-                let (mut here, mut opposite) = (Product::<N>::base(even + odd), Product::<N>::base(even - odd));
+                let (mut here, mut opposite) = (base::<N>(even + odd), base::<N>(even - odd));
                 for factor in of.factors {
                     let (along, across) = (self.cos[lane] * factor.z, self.sin[lane] * (c * factor.x + s * factor.y));
                     (here, opposite) = (here * (along + across), opposite * (along - across));

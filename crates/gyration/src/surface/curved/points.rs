@@ -4,31 +4,35 @@
 //! lane by lane in a fixed order.
 
 use super::super::Moments;
-use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
+use super::integrand::{Integrand, LANES, Lane, accumulate};
 use super::parallels::Sums;
 use crate::tensor::Vec3;
 
-/// Moments of all kernels over points that are added one by one.
-pub(super) struct PointSums<'a> {
+/// Moments of all kernels over points that are added one by one, each with several weights.
+pub(super) struct PointSums<'a, const W: usize> {
     integrand: &'a Integrand,
-    sums: Sums,
+    sums: [Sums; W],
     gaps: Lane,
-    weights: Lane,
+    weights: [Lane; W],
     at: [Lane; 3],
     count: usize,
 }
 
-impl<'a> PointSums<'a> {
+impl<'a, const W: usize> PointSums<'a, W> {
     pub(super) fn new(integrand: &'a Integrand) -> Self {
         let unused = [0.0; LANES];
-        Self { integrand, sums: Sums::ZERO, gaps: [1.0; LANES], weights: unused, at: [unused; 3], count: 0 }
+        let (gaps, weights, at) = ([1.0; LANES], [unused; W], [unused; 3]);
+        Self { integrand, sums: [Sums::ZERO; W], gaps, weights, at, count: 0 }
     }
 
-    /// Adds a point with its weight and gap.
+    /// Adds a point with its weights and gap.
     #[inline(always)]
-    pub(super) fn add(&mut self, gap: f64, weight: f64, at: &Vec3) {
+    pub(super) fn add(&mut self, gap: f64, weights: &[f64; W], at: &Vec3) {
         let lane = self.count;
-        (self.gaps[lane], self.weights[lane]) = (gap, weight);
+        self.gaps[lane] = gap;
+        for (lanes, weight) in self.weights.iter_mut().zip(weights) {
+            lanes[lane] = *weight;
+        }
         for (lanes, x) in self.at.iter_mut().zip(at) {
             lanes[lane] = *x;
         }
@@ -41,34 +45,38 @@ impl<'a> PointSums<'a> {
     /// Works on the points gathered.
     #[inline(always)]
     fn flush(&mut self) {
-        let mut components = [[0.0; LANES]; 20];
-        for lane in 0..LANES {
-            let (w, [x, y, z]) = (self.weights[lane], self.at.map(|lanes| lanes[lane]));
-            let (wx, wy, wz) = (w * x, w * y, w * z);
-            let second = [wx * x, wx * y, wx * z, wy * y, wy * z, wz * z];
-            let [xx, xy, xz, yy, yz, zz] = second;
-            let third = [xx * x, xx * y, xx * z, xy * y, xy * z, xz * z, yy * y, yy * z, yz * z, zz * z];
-            let all = [w, wx, wy, wz].into_iter().chain(second).chain(third);
-            for (component, value) in components.iter_mut().zip(all) {
-                component[lane] = value;
-            }
-        }
+        let powers = powers(&self.at);
         let used = [1, 4, 10, 20][self.integrand.order.min(3)];
         let values = self.integrand.at_each(&self.gaps);
-        for (value, sums) in values.iter().zip(&mut self.sums.lanes).take(self.integrand.count().min(GROUP)) {
-            accumulate(value, &components[..used], &mut sums[..used]);
+        for (weights, sums) in self.weights.iter_mut().zip(&mut self.sums) {
+            for (value, sums) in values.iter().zip(&mut sums.lanes).take(self.integrand.count()) {
+                let weighted = std::array::from_fn(|lane| value[lane] * weights[lane]);
+                accumulate(&weighted, &powers[..used], &mut sums[..used]);
+            }
+            *weights = [0.0; LANES];
         }
-        (self.count, self.weights) = (0, [0.0; LANES]);
+        self.count = 0;
     }
 
     /// The sums, once all points have been added.
     #[inline(always)]
-    pub(super) fn finish(mut self) -> Sums {
+    pub(super) fn finish(mut self) -> [Sums; W] {
         if self.count > 0 {
             self.flush();
         }
         self.sums
     }
+}
+
+/// 1, x … z, xx … zz, xxx … zzz.
+#[inline(always)]
+fn powers([x, y, z]: &[Lane; 3]) -> [Lane; 20] {
+    let times = |a: &Lane, b: &Lane| -> Lane { std::array::from_fn(|lane| a[lane] * b[lane]) };
+    let (xx, xy, xz, yy, yz, zz) = (times(x, x), times(x, y), times(x, z), times(y, y), times(y, z), times(z, z));
+    let (xxx, xxy, xxz, xyy) = (times(&xx, x), times(&xx, y), times(&xx, z), times(&yy, x));
+    let (xyz, xzz, yyy, yyz) = (times(&xy, z), times(&zz, x), times(&yy, y), times(&yy, z));
+    let (yzz, zzz) = (times(&zz, y), times(&zz, z));
+    [[1.0; LANES], *x, *y, *z, xx, xy, xz, yy, yz, zz, xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz]
 }
 
 impl Sums {

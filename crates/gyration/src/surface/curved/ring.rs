@@ -103,70 +103,40 @@ impl Rings {
 
 /// The rule with k'² = `squared`.
 fn row(squared: f64, frequency: f64, degree: f64) -> Vec<RingChunk> {
-    let map = SlitMap::new(squared);
+    let (p, modulus) = (squared.sqrt(), 1.0 - squared);
+    let (quarter, height) = (FRAC_PI_2 / mean(p), FRAC_PI_2 / mean(modulus.sqrt()));
     // The singularities lie at the height K' ≥ π/2; powers of cos θ shift harmonics by their degree where the gap hardly varies.
-    let wanted = frequency * FRAC_PI_2 / map.height + 2.0 * degree * map.p;
-    let intervals = map.intervals(wanted);
+    let wanted = frequency * FRAC_PI_2 / height + 2.0 * degree * p;
+    let intervals = (quarter * wanted / TAU).ceil().max(1.0) as usize + 1;
+    let step = quarter / intervals as f64;
+    let (s1, c1) = sine_and_cosine(step, p);
+    let d1 = (c1 * c1 + squared * s1 * s1).sqrt();
+    let (mut s, mut c) = (0.0, 1.0);
     let mut chunks = vec![RingChunk::default(); (intervals + 1).div_ceil(LANES)];
-    map.fill(intervals, &mut chunks);
-    chunks
-}
-
-/// The substitution with one p.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct SlitMap {
-    /// p² = k'².
-    pub(super) squared: f64,
-    pub(super) p: f64,
-    /// K.
-    quarter: f64,
-    /// K'.
-    pub(super) height: f64,
-}
-
-impl SlitMap {
-    pub(super) fn new(squared: f64) -> Self {
-        let (p, modulus) = (squared.sqrt(), 1.0 - squared);
-        Self { squared, p, quarter: FRAC_PI_2 / mean(p), height: FRAC_PI_2 / mean(modulus.sqrt()) }
-    }
-
-    /// Steps from θ = 0 to π that make the frequency 2π/step.
-    pub(super) fn intervals(&self, frequency: f64) -> usize {
-        (self.quarter * frequency / TAU).ceil().max(1.0) as usize + 1
-    }
-
-    /// The rule with so many steps.
-    pub(super) fn fill(&self, intervals: usize, chunks: &mut [RingChunk]) {
-        let (p, squared) = (self.p, self.squared);
-        let modulus = 1.0 - squared;
-        let step = self.quarter / intervals as f64;
-        let (s1, c1) = sine_and_cosine(step, p);
-        let d1 = (c1 * c1 + squared * s1 * s1).sqrt();
-        let (mut s, mut c) = (0.0, 1.0);
-        for j in 0..chunks.len() * LANES {
-            let (chunk, lane) = (&mut chunks[j / LANES], j % LANES);
-            let dn_squared = c * c + squared * s * s;
-            let d = f64::sqrt(dn_squared);
-            let half_sine = squared * s * s / dn_squared;
-            let half_cosine = c * c / dn_squared;
-            let share = if j > intervals {
-                0.0
-            } else if j == 0 || j == intervals {
-                1.0
-            } else {
-                2.0
-            };
-            chunk.weight[lane] = share * step * 2.0 * p / d;
-            chunk.cos[lane] = half_cosine - half_sine;
-            chunk.versine[lane] = 2.0 * half_sine;
-            chunk.sin_squared[lane] = 4.0 * half_sine * half_cosine;
-            if j < intervals {
-                // Addition theorem for one more step.
-                let inverse = 1.0 / (1.0 - modulus * s * s * s1 * s1);
-                (s, c) = ((s * c1 * d1 + s1 * c * d) * inverse, (c * c1 - s * d * s1 * d1) * inverse);
-            }
+    for j in 0..chunks.len() * LANES {
+        let (chunk, lane) = (&mut chunks[j / LANES], j % LANES);
+        let dn_squared = c * c + squared * s * s;
+        let d = f64::sqrt(dn_squared);
+        let half_sine = squared * s * s / dn_squared;
+        let half_cosine = c * c / dn_squared;
+        let share = if j > intervals {
+            0.0
+        } else if j == 0 || j == intervals {
+            1.0
+        } else {
+            2.0
+        };
+        chunk.weight[lane] = share * step * 2.0 * p / d;
+        chunk.cos[lane] = half_cosine - half_sine;
+        chunk.versine[lane] = 2.0 * half_sine;
+        chunk.sin_squared[lane] = 4.0 * half_sine * half_cosine;
+        if j < intervals {
+            // Addition theorem for one more step.
+            let inverse = 1.0 / (1.0 - modulus * s * s * s1 * s1);
+            (s, c) = ((s * c1 * d1 + s1 * c * d) * inverse, (c * c1 - s * d * s1 * d1) * inverse);
         }
     }
+    chunks
 }
 
 /// The frequency 2π/step that brings the rule's relative error down to some 1e-11, for K' = π/2.
@@ -180,7 +150,7 @@ pub(super) fn frequency(demand: &Demand) -> f64 {
 }
 
 /// The arithmetic–geometric mean of 1 and x in (0, 1]; K(k) = π/(2 mean(k')).
-fn mean(x: f64) -> f64 {
+pub(super) fn mean(x: f64) -> f64 {
     let (mut a, mut g) = (1.0, x);
     while a - g > 1e-8 * a {
         (a, g) = (0.5 * (a + g), (a * g).sqrt());
@@ -190,7 +160,7 @@ fn mean(x: f64) -> f64 {
 }
 
 /// sn and cn of w, from the series at w/2⁷ doubled seven times.
-fn sine_and_cosine(w: f64, complement: f64) -> (f64, f64) {
+pub(super) fn sine_and_cosine(w: f64, complement: f64) -> (f64, f64) {
     const DOUBLINGS: i32 = 7;
     let squared = complement * complement;
     let m = 1.0 - squared;

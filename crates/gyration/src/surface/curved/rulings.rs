@@ -18,6 +18,8 @@ use super::super::power_lanes::{End, line_moments};
 use super::super::{Kernel, MomentRequest};
 use super::integrand::LANES;
 use super::ring::RingChunk;
+use super::weight::Weights;
+use crate::tensor::Vec3;
 
 /// The rulings of one wall: gaps base = near + reach · versine at one end.
 #[derive(Debug, Clone, Copy)]
@@ -55,17 +57,32 @@ pub(super) struct RulingSums {
 impl Rulings<'_> {
     /// The sums for one kernel.
     pub(super) fn sums(&self, request: &MomentRequest) -> RulingSums {
-        // Degree 1 is the least that a kernel is prepared for.
-        let order = request.order.clamp(1, 3);
-        let exponent = match request.kernel {
-            Kernel::Power(exponent) => exponent,
-            Kernel::Log => 1.0,
-        };
-        let beyond = usize::from(matches!(self.other_end, OtherEnd::Common(_)));
-        let line = LineKernel::up_to(request.kernel, order + beyond);
-        let needs_log = line.needs_log() || line.integer.is_none();
-        dispatch(Sweep { rulings: self, line: &line, exponent: SplitExponent::new(exponent), needs_log, order })
+        let line = self.line(request);
+        dispatch(Sweep::new(self, &line, request))
     }
+
+    /// For each weight w the sums with w₊ and those with w₋ sin φ, w± = ½ (w(φ) ± w(−φ)).
+    pub(super) fn weighted_sums<const N: usize, const W: usize>(
+        &self,
+        request: &MomentRequest,
+        weights: &WallWeights<N, W>,
+    ) -> [[RulingSums; 2]; W] {
+        let line = self.line(request);
+        dispatch(WeightedSweep { sweep: Sweep::new(self, &line, request), weights })
+    }
+
+    /// The kernel along a ruling.
+    fn line(&self, request: &MomentRequest) -> LineKernel {
+        let beyond = usize::from(matches!(self.other_end, OtherEnd::Common(_)));
+        LineKernel::up_to(request.kernel, request.order.clamp(1, 3) + beyond)
+    }
+}
+
+/// Weights that depend on the azimuth only.
+pub(super) struct WallWeights<'a, const N: usize, const W: usize> {
+    /// x, y, z of the current area vector v = z + cos φ x + sin φ y.
+    pub(super) vectors: [Vec3; 3],
+    pub(super) weights: &'a Weights<N, W>,
 }
 
 /// The pass over the rulings for one kernel: compiled for each instruction set.
@@ -75,6 +92,18 @@ struct Sweep<'a> {
     exponent: SplitExponent,
     needs_log: bool,
     order: usize,
+}
+
+impl<'a> Sweep<'a> {
+    fn new(rulings: &'a Rulings<'a>, line: &'a LineKernel, request: &MomentRequest) -> Self {
+        let exponent = match request.kernel {
+            Kernel::Power(exponent) => exponent,
+            Kernel::Log => 1.0,
+        };
+        let needs_log = line.needs_log() || line.integer.is_none();
+        // Degree 1 is the least that a kernel is prepared for.
+        Self { rulings, line, exponent: SplitExponent::new(exponent), needs_log, order: request.order.clamp(1, 3) }
+    }
 }
 
 impl WithSimd for Sweep<'_> {
@@ -87,8 +116,15 @@ impl WithSimd for Sweep<'_> {
             2 => self.rows::<S, 2>(simd),
             _ => self.rows::<S, 3>(simd),
         };
+        RulingSums::folded(&rows)
+    }
+}
+
+impl RulingSums {
+    #[inline(always)]
+    fn folded(rows: &[Row; 13]) -> Self {
         let s = rows.map(|row| fold(&row));
-        RulingSums {
+        Self {
             one: [s[0], s[1], s[2], s[3]],
             cos: [s[4], s[5], s[6], 0.0],
             cos_squared: [s[7], s[8], 0.0, 0.0],
@@ -99,6 +135,90 @@ impl WithSimd for Sweep<'_> {
     }
 }
 
+/// The pass with several weights.
+struct WeightedSweep<'a, const N: usize, const W: usize> {
+    sweep: Sweep<'a>,
+    weights: &'a WallWeights<'a, N, W>,
+}
+
+impl<const N: usize, const W: usize> WithSimd for WeightedSweep<'_, N, W> {
+    type Output = [[RulingSums; 2]; W];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        match self.sweep.order {
+            1 => self.sums::<S, 1>(simd),
+            2 => self.sums::<S, 2>(simd),
+            _ => self.sums::<S, 3>(simd),
+        }
+    }
+}
+
+impl<const N: usize, const W: usize> WeightedSweep<'_, N, W> {
+    #[inline(always)]
+    fn sums<S: Simd, const ORDER: usize>(&self, simd: S) -> [[RulingSums; 2]; W] {
+        let Rulings { ring, near, reach, cut, .. } = *self.sweep.rulings;
+        let mut sums = [[[[0.0; WIDTH]; 13]; 2]; W];
+        for pair in ring.chunks(WIDTH / LANES) {
+            if near + reach * pair[0].versine[0] > cut {
+                break;
+            }
+            let [weight, cos, versine, sin_squared] = rows_of(pair);
+            for register in 0..WIDTH / S::F64_LANES {
+                let load = |row: &Row| Lanes::<S>::load(simd, row, register);
+                let line = self.sweep.line::<S, ORDER>(load(&versine) * reach + near);
+                let (weight, cos, sin_squared) = (load(&weight), load(&cos), load(&sin_squared));
+                let sin = sin_squared.sqrt();
+                let [plus, minus] = self.weights.at(cos, sin);
+                for (place, [even, odd]) in sums.iter_mut().enumerate() {
+                    let half = weight * 0.5;
+                    let (w, v) = (half * (plus[place] + minus[place]), half * (plus[place] - minus[place]) * sin);
+                    self.sweep.add::<S, ORDER>(&line, (w, cos, sin_squared), register, even);
+                    self.sweep.add::<S, ORDER>(&line, (v, cos, sin_squared), register, odd);
+                }
+            }
+        }
+        sums.map(|parities| parities.map(|rows| RulingSums::folded(&rows)))
+    }
+}
+
+impl<const N: usize, const W: usize> WallWeights<'_, N, W> {
+    /// The weights at φ and at −φ.
+    #[inline(always)]
+    fn at<S: Simd>(&self, cos: Lanes<S>, sin: Lanes<S>) -> [[Lanes<S>; W]; 2] {
+        let [x, y, z] = &self.vectors;
+        let even = [0, 1, 2].map(|k| cos * x[k] + z[k]);
+        let odd = [0, 1, 2].map(|k| sin * y[k]);
+        let vectors = [[0, 1, 2].map(|k| even[k] + odd[k]), [0, 1, 2].map(|k| even[k] - odd[k])];
+        vectors.map(|v| {
+            let zero = Lanes::splat(cos.simd, 0.0);
+            let squared = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
+            let base = match N {
+                0 => squared.sqrt(),
+                2 => 1.0 / squared.sqrt(),
+                _ => 1.0 / (squared * squared.sqrt()),
+            };
+            // What is not a number stays so.
+            let base = squared.less_than(Lanes::splat(cos.simd, f64::MIN_POSITIVE)).select(zero, base);
+            self.weights.factors.map(|factors| factors.iter().fold(base, |product, &factor| product * v[factor]))
+        })
+    }
+}
+
+/// Weights, cosines, versines and squared sines of up to two chunks; those of a missing one are zero.
+#[inline(always)]
+fn rows_of(pair: &[RingChunk]) -> [Row; 4] {
+    let mut rows = [[0.0; WIDTH]; 4];
+    let [weight, cos, versine, sin_squared] = &mut rows;
+    for (k, chunk) in pair.iter().enumerate() {
+        weight[k * LANES..][..LANES].copy_from_slice(&chunk.weight);
+        cos[k * LANES..][..LANES].copy_from_slice(&chunk.cos);
+        versine[k * LANES..][..LANES].copy_from_slice(&chunk.versine);
+        sin_squared[k * LANES..][..LANES].copy_from_slice(&chunk.sin_squared);
+    }
+    rows
+}
+
 impl Sweep<'_> {
     #[inline(always)]
     fn rows<S: Simd, const ORDER: usize>(&self, simd: S) -> [Row; 13] {
@@ -107,13 +227,7 @@ impl Sweep<'_> {
             if self.rulings.near + self.rulings.reach * pair[0].versine[0] > self.rulings.cut {
                 break;
             }
-            let [mut weight, mut cos, mut versine, mut sin_squared] = [[0.0; WIDTH]; 4];
-            for (k, chunk) in pair.iter().enumerate() {
-                weight[k * LANES..][..LANES].copy_from_slice(&chunk.weight);
-                cos[k * LANES..][..LANES].copy_from_slice(&chunk.cos);
-                versine[k * LANES..][..LANES].copy_from_slice(&chunk.versine);
-                sin_squared[k * LANES..][..LANES].copy_from_slice(&chunk.sin_squared);
-            }
+            let [weight, cos, versine, sin_squared] = rows_of(pair);
             for register in 0..WIDTH / S::F64_LANES {
                 let load = |row: &Row| Lanes::<S>::load(simd, row, register);
                 let base = load(&versine) * self.rulings.reach + self.rulings.near;

@@ -8,8 +8,8 @@
 
 use pulp::{Simd, WithSimd};
 
+use super::super::MomentRequest;
 use super::super::lanes::dispatch;
-use super::super::{MomentRequest, Moments};
 use super::Torus;
 use super::half_plane::{Chart, TiltedGap};
 use super::image::principal_axes;
@@ -18,23 +18,25 @@ use super::own_ring::{Dips, OwnRing, WEIGHT_DIGITS};
 use super::parallels::Sums;
 use super::points::PointSums;
 use super::ring::Demand;
-use super::weight::{Deformed, Product};
+use super::weight::{Deformed, Weighted, Weights, extra_digits};
 use crate::tensor::{Mat3, Vec3};
 
 impl Torus {
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
         let gap = TiltedGap::new(&deformed.field);
         let integrand = Integrand::new(requests);
-        let (vectors, weight) = (deformed.cofactor * gap.frame, &deformed.weight);
-        let dips = dips(&vectors, &integrand, Product::<N>::EXTRA_DIGITS);
-        dispatch(Sweep { torus: self, gap: &gap, vectors, weight, integrand: &integrand, dips })
-            .collect_all(requests, out);
+        let vectors = deformed.cofactor * gap.frame;
+        let dips = dips(&vectors, &integrand, extra_digits::<N>());
+        let sweep = Sweep { torus: self, gap: &gap, vectors, weights: &deformed.weights, integrand: &integrand, dips };
+        for (sums, out) in dispatch(sweep).iter().zip(out) {
+            sums.collect_all(requests, out);
+        }
         Chart::frame(gap.frame)
     }
 }
@@ -48,26 +50,27 @@ pub(super) fn dips(vectors: &Mat3, integrand: &Integrand, extra: f64) -> Dips {
 }
 
 /// The pass over half-planes and around the tube in each.
-struct Sweep<'a, const N: usize> {
+struct Sweep<'a, const N: usize, const W: usize> {
     torus: &'a Torus,
     gap: &'a TiltedGap,
     vectors: Mat3,
-    weight: &'a Product<N>,
+    weights: &'a Weights<N, W>,
     integrand: &'a Integrand,
     dips: Dips,
 }
 
-impl<const N: usize> WithSimd for Sweep<'_, N> {
-    type Output = Sums;
+impl<const N: usize, const W: usize> WithSimd for Sweep<'_, N, W> {
+    type Output = [Sums; W];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Sums {
+    fn with_simd<S: Simd>(self, _: S) -> [Sums; W] {
         let (torus, gap, integrand) = (self.torus, self.gap, self.integrand);
         let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
         let smallest = gap.height - torus.major_radius * gap.across - torus.minor_radius * gap.along.hypot(gap.across);
         let cut = integrand.cut(smallest, 1.0);
-        let outer = Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order + N };
-        let outer = OwnRing::new(torus.outer_gaps(gap), &outer, &Dips { mildness: 0.0, ..self.dips });
+        let outer = Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order + 1 };
+        let dips = Dips { mildness: (mildest - 1.5).max(0.0), ..self.dips };
+        let outer = OwnRing::new(torus.outer_gaps(gap), &outer, &dips);
         let mut sums = PointSums::new(integrand);
         for node in outer.nodes() {
             let lateral = gap.across * node.cos;
@@ -84,13 +87,12 @@ impl<const N: usize> WithSimd for Sweep<'_, N> {
     }
 }
 
-impl<const N: usize> Sweep<'_, N> {
+impl<const N: usize, const W: usize> Sweep<'_, N, W> {
     /// Adds the circles of the tube in the half-planes at ±φ, given (cos φ, sin φ).
     #[inline(always)]
-    fn around_tube(&self, (near, reach): (f64, f64), (cos, sin): (f64, f64), weight: f64, sums: &mut PointSums) {
+    fn around_tube(&self, (near, reach): (f64, f64), (cos, sin): (f64, f64), weight: f64, sums: &mut PointSums<W>) {
         let (torus, gap, integrand) = (self.torus, self.gap, self.integrand);
-        let demand =
-            Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + 1 + N };
+        let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + 2 };
         let ring = OwnRing::new((near, near + 2.0 * reach), &demand, &self.dips);
         let cut = near * integrand.cut_ratio(0.5);
         let (lateral, steepness) = (gap.across * cos, gap.along.hypot(gap.across * cos));
@@ -108,7 +110,8 @@ impl<const N: usize> Sweep<'_, N> {
                 for sin in [sin, -sin] {
                     let normal = Vec3::new(radial * cos, radial * sin, axial);
                     let at = Vec3::new(rho * cos, rho * sin, torus.minor_radius * axial);
-                    sums.add(distance, area * self.weight.of(&(self.vectors * normal)), &at);
+                    let weights = self.weights.of(&(self.vectors * normal)).map(|weight| area * weight);
+                    sums.add(distance, &weights, &at);
                 }
             }
         }

@@ -6,21 +6,20 @@
 //!
 //!   ∫ κ w y x^i z^j … ← Σ w₋ sin φ · T L_j,   T = 1, cos φ, cos²φ, sin²φ.
 
-use super::super::{MomentRequest, Moments};
+use super::super::MomentRequest;
 use super::half_plane::{Chart, TiltedGap};
 use super::image::principal_axes;
 use super::integrand::Integrand;
 use super::own_ring::{Dips, OwnRing, WEIGHT_DIGITS};
 use super::parallels::AreaElement;
-use super::ring::{Demand, RingChunk};
-use super::rulings::{OtherEnd, Rulings};
-use super::weight::{Deformed, Product};
+use super::ring::Demand;
+use super::rulings::{OtherEnd, Rulings, WallWeights};
+use super::weight::{Deformed, Weighted, extra_digits};
 use super::{ConeWall, CylinderWall};
 use crate::tensor::{Mat3, Vec3};
 
 /// A wall about e_z above a plane.
-struct Wall<'a, const N: usize> {
-    weight: &'a Product<N>,
+struct Wall {
     /// C in the frame of [`TiltedGap`].
     vectors: Mat3,
     /// n_r and n_z.
@@ -31,66 +30,56 @@ struct Wall<'a, const N: usize> {
     cut: f64,
 }
 
-impl<const N: usize> Wall<'_, N> {
-    /// The rules of what is even and what is odd in the azimuth.
-    fn rings(&self, integrand: &Integrand) -> [OwnRing; 2] {
+impl Wall {
+    /// The rule around the axis for weights with N factors.
+    fn ring<const N: usize>(&self, integrand: &Integrand) -> OwnRing {
         let (radial, axial) = self.normal;
-        let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + N };
+        let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + 1 };
         let (squares, _) = principal_axes(&self.vectors.tr_mul(&self.vectors));
         let element = AreaElement::deformed(&self.vectors, &squares);
         let dips = Dips {
             distance: element.decay(axial * axial, radial * radial),
             mildness: if self.cut.is_finite() { (integrand.mildest - 1.5).max(0.0) } else { 0.0 },
-            digits: WEIGHT_DIGITS + Product::<N>::EXTRA_DIGITS,
+            digits: WEIGHT_DIGITS + extra_digits::<N>(),
         };
-        let ring = OwnRing::new((self.near, self.near + 2.0 * self.reach), &demand, &dips);
-        let [x, y, z] = [radial, radial, axial];
-        let (x, y, z): (Vec3, Vec3, Vec3) =
-            (x * self.vectors.column(0), y * self.vectors.column(1), z * self.vectors.column(2));
-        let both = |cos: f64, sin: f64| {
-            let (even, odd) = (z + cos * x, sin * y);
-            (self.weight.of(&(even + odd)), self.weight.of(&(even - odd)))
-        };
-        let even = ring.weighted(|cos, sin| {
-            let (plus, minus) = both(cos, sin);
-            0.5 * (plus + minus)
-        });
-        let odd = ring.weighted(|cos, sin| {
-            let (plus, minus) = both(cos, sin);
-            0.5 * sin * (plus - minus)
-        });
-        [even, odd]
+        OwnRing::new((self.near, self.near + 2.0 * self.reach), &demand, &dips)
     }
 
-    fn rulings<'a>(&self, ring: &'a [RingChunk], other_end: OtherEnd) -> Rulings<'a> {
-        Rulings { ring, near: self.near, reach: self.reach, cut: self.cut, other_end }
+    /// The sums over the rulings in this ring.
+    fn rulings<'a>(&self, ring: &'a OwnRing, other_end: OtherEnd) -> Rulings<'a> {
+        Rulings { ring: ring.chunks(), near: self.near, reach: self.reach, cut: self.cut, other_end }
+    }
+
+    /// v = z + cos φ x + sin φ y.
+    fn area_vectors(&self) -> [Vec3; 3] {
+        let (radial, axial) = self.normal;
+        let column = |k: usize, scale: f64| scale * self.vectors.column(k);
+        [column(0, radial), column(1, radial), column(2, axial)]
     }
 }
 
 impl CylinderWall {
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
         let gap = TiltedGap::new(&deformed.field);
         let integrand = Integrand::new(requests);
         let near_z = -0.5f64.copysign(gap.along) * self.height;
-        let other_end = OtherEnd::Above(gap.along.abs() * self.height);
         let reach = self.radius * gap.across;
         let near = gap.height + gap.along * near_z - reach;
         let cut = integrand.cut(near, 1.5);
-        let (vectors, weight) = (deformed.cofactor * gap.frame, &deformed.weight);
-        let wall = Wall { weight, vectors, normal: (1.0, 0.0), near, reach, cut };
-        let [even, odd] = wall.rings(&integrand);
-        let (even, odd) = (wall.rulings(even.chunks(), other_end), wall.rulings(odd.chunks(), other_end));
-        for (request, moments) in requests.iter().zip(out) {
-            self.collect(&even.sums(request), near_z, moments);
-            if request.order > 0 {
-                let lower = MomentRequest { order: request.order - 1, ..*request };
-                self.collect_odd(&odd.sums(&lower), near_z, moments);
+        let wall = Wall { vectors: deformed.cofactor * gap.frame, normal: (1.0, 0.0), near, reach, cut };
+        let ring = wall.ring::<N>(&integrand);
+        let rulings = wall.rulings(&ring, OtherEnd::Above(gap.along.abs() * self.height));
+        let weights = WallWeights { vectors: wall.area_vectors(), weights: &deformed.weights };
+        for (place, request) in requests.iter().enumerate() {
+            for (out, [even, odd]) in out.iter_mut().zip(&rulings.weighted_sums(request, &weights)) {
+                self.collect(even, near_z, &mut out[place]);
+                self.collect_odd(odd, near_z, &mut out[place]);
             }
         }
         Chart::frame(gap.frame)
@@ -99,11 +88,11 @@ impl CylinderWall {
 
 impl ConeWall {
     /// Sums the moments about the apex in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn deformed_moments<const N: usize>(
+    pub(crate) fn deformed_moments<const N: usize, const W: usize>(
         &self,
-        deformed: &Deformed<N>,
+        deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
-        out: &mut [Moments],
+        out: &mut Weighted<W>,
     ) -> Chart {
         let gap = TiltedGap::new(&deformed.field);
         let integrand = Integrand::new(requests);
@@ -114,15 +103,14 @@ impl ConeWall {
         let cut = if cut < apex { cut } else { f64::INFINITY };
         let slant = self.radius.hypot(self.height);
         let normal = (self.height / slant, self.radius / slant);
-        let (vectors, weight) = (deformed.cofactor * gap.frame, &deformed.weight);
-        let wall = Wall { weight, vectors, normal, near, reach, cut };
-        let [even, odd] = wall.rings(&integrand);
-        let other_end = OtherEnd::Common(apex);
-        let (even, odd) = (wall.rulings(even.chunks(), other_end), wall.rulings(odd.chunks(), other_end));
-        for (request, moments) in requests.iter().zip(out) {
-            self.collect(&even.sums(request), moments);
-            if request.order > 0 {
-                self.collect_odd(&odd.sums(request), moments);
+        let wall = Wall { vectors: deformed.cofactor * gap.frame, normal, near, reach, cut };
+        let ring = wall.ring::<N>(&integrand);
+        let rulings = wall.rulings(&ring, OtherEnd::Common(apex));
+        let weights = WallWeights { vectors: wall.area_vectors(), weights: &deformed.weights };
+        for (place, request) in requests.iter().enumerate() {
+            for (out, [even, odd]) in out.iter_mut().zip(&rulings.weighted_sums(request, &weights)) {
+                self.collect(even, &mut out[place]);
+                self.collect_odd(odd, &mut out[place]);
             }
         }
         Chart { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }

@@ -7,51 +7,57 @@
 //!
 //! All of them are analytic but for the zeros of v·v at complex places, which is all that the rules have to know.
 
-use super::super::GapField;
+use super::super::{GapField, Moments};
+use super::integrand::GROUP;
 use crate::tensor::{Mat3, Vec3};
 
 /// What a primitive has to know of a deformed body, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Deformed<const N: usize> {
+pub(crate) struct Deformed<const N: usize, const W: usize> {
     pub(crate) field: GapField,
     /// C, which takes the reference normal N to the current area vector v = C N.
     pub(crate) cofactor: Mat3,
-    pub(crate) weight: Product<N>,
+    /// The weights that are wanted together.
+    pub(crate) weights: Weights<N, W>,
 }
 
-/// k times a product of components of the current normal.
+/// Moments of the requests of a group for each weight.
+pub(crate) type Weighted<const W: usize> = [[Moments; GROUP]; W];
+
+/// Weights of the same kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Product<const N: usize> {
-    /// Which components; none for the area factor itself.
-    pub(crate) factors: [usize; N],
+pub(crate) struct Weights<const N: usize, const W: usize> {
+    /// Which components are multiplied, for each of them; none for the area factor itself.
+    pub(crate) factors: [[usize; N]; W],
 }
 
 /// The area factor alone.
-#[allow(non_upper_case_globals, reason = "it is the value of a weight and stands beside `Product`")]
-pub(crate) const Area: Product<0> = Product { factors: [] };
+pub(crate) const AREA: Weights<0, 1> = Weights { factors: [[]] };
 
-impl<const N: usize> Product<N> {
-    /// w(v); 0 for an element without area.
+impl<const N: usize, const W: usize> Weights<N, W> {
+    /// w(v) for each of them; 0 for an element without area.
     #[inline(always)]
-    pub(crate) fn of(&self, v: &Vec3) -> f64 {
-        let squared = v.norm_squared();
-        self.factors.iter().fold(Self::base(squared), |product, &factor| product * v[factor])
+    pub(crate) fn of(&self, v: &Vec3) -> [f64; W] {
+        let base = base::<N>(v.norm_squared());
+        self.factors.map(|factors| factors.iter().fold(base, |product, &factor| product * v[factor]))
     }
+}
 
-    /// |v|^(1−N) from |v|², 0 where that is not positive.
-    #[inline(always)]
-    pub(crate) fn base(squared: f64) -> f64 {
-        if squared > 0.0 {
-            match N {
-                0 => squared.sqrt(),
-                2 => 1.0 / squared.sqrt(),
-                _ => 1.0 / (squared * squared.sqrt()),
-            }
-        } else {
-            0.0
-        }
+/// |v|^(1−N) from |v|², 0 where that is not positive.
+#[inline(always)]
+pub(crate) fn base<const N: usize>(squared: f64) -> f64 {
+    // What is not a number stays so.
+    if squared <= 0.0 {
+        return 0.0;
     }
+    match N {
+        0 => squared.sqrt(),
+        2 => 1.0 / squared.sqrt(),
+        _ => 1.0 / (squared * squared.sqrt()),
+    }
+}
 
-    /// Digits, as a natural logarithm, by which the weight is harder to resolve than |v|: its singularities are stronger.
-    pub(crate) const EXTRA_DIGITS: f64 = 2.5 * N as f64;
+/// Digits, as a natural logarithm, by which a weight is harder to resolve than |v|: its singularities are stronger.
+pub(crate) const fn extra_digits<const N: usize>() -> f64 {
+    2.5 * N as f64
 }
