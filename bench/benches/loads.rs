@@ -1,5 +1,5 @@
-//! Loads of one body near a table under three laws, with and without their derivatives, and the rates and the Jacobian
-//! of the whole body around them.
+//! Loads of one body near a table under three laws, with and without their derivatives, the moments of a stretched body,
+//! and the rates and the Jacobian of the whole body around them.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
@@ -7,7 +7,8 @@ use gyration::contact::{Contact, ContactScratch, ContactWrench, RigidLoads, Rigi
 use gyration::jacobian::jacobian;
 use gyration::rates::{Workspace, meet, rates};
 use gyration::state::Turn;
-use gyration::surface::{GapClosed, GapField, Surface};
+use gyration::surface::{GapClosed, GapField, Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments, Surface};
+use gyration::tensor::Mat3;
 use gyration_bench::{SHAPES, near_table};
 use nalgebra::DMatrix;
 
@@ -62,6 +63,62 @@ fn loads_real(bencher: Bencher, name: &str) {
 #[divan::bench(args = NAMES)]
 fn loads_with_jacobian_real(bencher: Bencher, name: &str) {
     bench_contact(bencher, (name, (6.3, 3.2)), ContactWrench::integrate);
+}
+
+/// A stretch and shear of a few tenths, and the cofactor of its gradient.
+fn stretched() -> (Mat3, Mat3) {
+    let gradient = Mat3::new(1.2, 0.1, -0.2, 0.0, 0.9, 0.15, 0.1, -0.1, 0.8);
+    let cofactor = gradient.try_inverse().expect("the gradient is regular").transpose() * gradient.determinant();
+    (gradient, cofactor)
+}
+
+/// The surface of the body and the gap that it has when it is stretched and raised by a tenth of its height.
+fn stretched_meeting(name: &str) -> (Surface, GapField, Mat3) {
+    let (model, state) = set_up(name, (6.0, 3.0));
+    let (field, _) = meeting(&model, &state);
+    let surface = model.bodies[0].surface.clone().expect("every shape here has a surface");
+    let (gradient, cofactor) = stretched();
+    let direction = gradient.tr_mul(&field.direction);
+    let (gap, _) = surface.smallest_gap(&field);
+    let (lowest, _) = surface.smallest_gap(&GapField { height: 0.0, direction });
+    (surface, GapField { height: gap - lowest, direction }, cofactor)
+}
+
+fn plan(requests: &[(f64, usize)]) -> MomentPlan {
+    let request = |&(exponent, order)| MomentRequest { kernel: Kernel::Power(exponent), order };
+    MomentPlan::new(requests.iter().map(request).collect())
+}
+
+#[divan::bench(args = NAMES)]
+fn deformed_moments(bencher: Bencher, name: &str) {
+    let (surface, field, cofactor) = stretched_meeting(name);
+    let plan = plan(&[(6.0, 1), (3.0, 2)]);
+    let mut out = [Moments::default(); 2];
+    bencher.bench_local(|| surface.deformed_moments(divan::black_box(&field), &cofactor, &plan, &mut out));
+}
+
+#[divan::bench(args = NAMES)]
+fn undeformed_moments(bencher: Bencher, name: &str) {
+    let (surface, field, _) = stretched_meeting(name);
+    let plan = plan(&[(6.0, 1), (3.0, 2)]);
+    let mut out = [Moments::default(); 2];
+    bencher.bench_local(|| surface.planned_moments(divan::black_box(&field), &plan, &mut out));
+}
+
+#[divan::bench(args = NAMES)]
+fn oriented_moments(bencher: Bencher, name: &str) {
+    let (surface, field, cofactor) = stretched_meeting(name);
+    let plan = plan(&[(6.0, 1), (3.0, 2)]);
+    let mut out = [OrientedMoments::default(); 2];
+    bencher.bench_local(|| surface.oriented_moments(divan::black_box(&field), &cofactor, &plan, &mut out));
+}
+
+#[divan::bench(args = NAMES)]
+fn oriented_moments_with_fourth(bencher: Bencher, name: &str) {
+    let (surface, field, cofactor) = stretched_meeting(name);
+    let plan = plan(&[(6.0, 1), (3.0, 2), (5.0, 0)]);
+    let mut out = [OrientedMoments::default(); 3];
+    bencher.bench_local(|| surface.oriented_moments(divan::black_box(&field), &cofactor, &plan, &mut out));
 }
 
 fn bench_rates(bencher: Bencher, name: &str, exponents: (f64, f64)) {
