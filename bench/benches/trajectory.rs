@@ -14,6 +14,7 @@ use gyration_ode::{Integrator, Method, Options};
 use gyration_record::RecordError;
 use gyration_sim::adapter::ModelSystem;
 use gyration_sim::events::Event;
+use gyration_sim::rows::Extras;
 use gyration_sim::{RunPlan, Simulation, Sink, Tolerance, Unwatched};
 
 const END: f64 = 10.0;
@@ -60,7 +61,14 @@ impl Sink for Nowhere {
 /// By a whole run: horizon, events, ledger, a row at the end.
 fn by_simulation(model: &Model, start: &State, method: Method, rtol: f64) -> Reached {
     let options = Options { method, ..Options::default() };
-    let plan = RunPlan { end: END, sample: END, stop_at_rest: None, tolerance: tolerance(rtol), options };
+    let plan = RunPlan {
+        end: END,
+        sample: END,
+        stop_at_rest: None,
+        tolerance: tolerance(rtol),
+        options,
+        extras: Extras::default(),
+    };
     let mut simulation = Simulation::new(model, start, plan).expect("the start is admissible");
     simulation.begin(&mut Nowhere).expect("nothing is stored");
     simulation.run(&mut Nowhere, &mut Unwatched).expect("nothing is stored");

@@ -11,7 +11,8 @@ use gyration::tensor::Vec3;
 use gyration_ode::Options;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
-use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched, rows};
+use gyration_sim::rows::{Extras, Fields};
+use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched};
 use std::path::Path;
 
 /// A model, its start, and how to run it.
@@ -72,7 +73,8 @@ impl Experiment {
 
     /// An experiment with a model made by hand, the method chosen by the program.
     pub fn of_model(model: Model, start: State, tolerance: Tolerance) -> Self {
-        let plan = RunPlan { end: 1.0, sample: 1.0, stop_at_rest: None, tolerance, options: Options::default() };
+        let (options, extras) = (Options::default(), Extras::default());
+        let plan = RunPlan { end: 1.0, sample: 1.0, stop_at_rest: None, tolerance, options, extras };
         Self { model, start, plan }
     }
 
@@ -102,7 +104,7 @@ impl Experiment {
             largest_residual: simulation.tally().largest_residual,
             energy_in_play: simulation.tally().energy_in_play,
             steps: simulation.statistics().accepted(),
-            columns: columns(&self.model),
+            columns: columns(&self.model, &self.plan.extras),
         }
     }
 
@@ -161,9 +163,9 @@ impl Experiment {
 }
 
 /// The name of every number of a row, in its order.
-fn columns(model: &Model) -> Vec<String> {
+fn columns(model: &Model, extras: &Extras) -> Vec<String> {
     let mut names = Vec::new();
-    for array in rows::arrays(model).0 {
+    for array in Fields::new(model, extras).arrays(model).0 {
         // An array without columns in the CSV still takes its place in the row.
         let len = array.row_len();
         names.extend(array.columns.into_iter().chain(std::iter::repeat(String::new())).take(len));

@@ -1,6 +1,7 @@
 //! What a run is asked for: the plan of a scene in the terms of the run loop and the stepper.
 
 use crate::adapter::Tolerance;
+use crate::rows::Extras;
 use gyration_ode::{Method, Options};
 use gyration_scene::Plan;
 
@@ -17,6 +18,8 @@ pub struct RunPlan {
     pub tolerance: Tolerance,
     /// Stepper and longest step.
     pub options: Options,
+    /// What is recorded beyond the usual.
+    pub extras: Extras,
 }
 
 /// Rest: every body's fastest material point slower than `speed` for `hold`.
@@ -42,6 +45,7 @@ impl From<&Plan> for RunPlan {
             stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
             options: Options { method, max_step, initial_step: None },
+            extras: Extras::default(),
         }
     }
 }

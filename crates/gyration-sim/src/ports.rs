@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// Where rows, events and checkpoints go.
 pub trait Sink {
-    /// One sample, flattened in the order of `rows::arrays`.
+    /// One sample, flattened in the order of `rows::Fields::arrays`.
     ///
     /// # Errors
     /// Whatever keeps it from being stored.

@@ -9,7 +9,7 @@ use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
-use crate::rows;
+use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
 use gyration::model::Model;
@@ -135,7 +135,7 @@ impl<'a> Job<'a> {
     }
 
     fn layout(&self) -> Layout {
-        let (arrays, csv_order) = rows::arrays(self.model);
+        let (arrays, csv_order) = Fields::new(self.model, &self.plan.extras).arrays(self.model);
         let row_len = arrays.iter().map(gyration_record::ArraySpec::row_len).sum();
         let expected = (self.plan.end / self.plan.sample).ceil() as usize + 1;
         Layout {

@@ -10,10 +10,10 @@ use crate::horizon::horizon;
 use crate::outcome::{Outcome, Stop};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
-use crate::rows;
+use crate::rows::{Fields, RowScratch};
 use crate::tally::Tally;
 use crate::views::{self, View};
-use gyration::balance::{BodyObservation, fastest_speed};
+use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{Integrator, Statistics, StepReport, System as _};
@@ -28,12 +28,13 @@ pub struct Simulation<'a> {
     pub(crate) views: Vec<View>,
     /// A state within the last step; scratch between samples.
     pub(crate) sampled: State,
-    /// Scratch: the events of a step, the bodies of a row, the row.
+    /// Scratch: the events of a step.
     pub(crate) found: Vec<Event>,
     /// Since when each signal of each body is known within the step [s].
     pub(crate) since: Vec<[f64; 3]>,
-    observed: Vec<BodyObservation>,
-    row: Vec<f64>,
+    /// What the rows hold, and scratch for them.
+    fields: Fields,
+    rows: RowScratch,
     /// The time of the last row [s].
     recorded: f64,
 }
@@ -56,8 +57,8 @@ impl<'a> Simulation<'a> {
             sampled: start.clone(),
             found: Vec::new(),
             since: Vec::new(),
-            observed: Vec::new(),
-            row: Vec::new(),
+            fields: Fields::new(model, &plan.extras),
+            rows: RowScratch::default(),
             recorded: f64::NEG_INFINITY,
         };
         this.look();
@@ -240,15 +241,15 @@ impl<'a> Simulation<'a> {
         let (model, time) = (self.system.model(), self.sampled.time);
         let first = self.tally.next_sample == 0;
         let initial = (!first).then_some(self.tally.initial_energy);
-        let scratch = (&mut self.observed, &mut self.row);
-        let audit = match rows::fill(model, self.system.workspace(), &self.sampled, initial, scratch) {
+        let workspace = self.system.workspace();
+        let audit = match self.fields.fill(model, workspace, &self.sampled, initial, &mut self.rows) {
             Ok(audit) => audit,
             Err(left) => return Ok(Err(Stop::by_inadmissible(model, time, &left))),
         };
         if !audit.energy.is_finite() {
             return Ok(Err(Stop::by_infinite_energy(time)));
         }
-        sink.row(time, &self.row)?;
+        sink.row(time, &self.rows.row)?;
         self.recorded = time;
         let tally = &mut self.tally;
         if first {

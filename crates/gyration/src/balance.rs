@@ -73,7 +73,7 @@ pub fn observe(
 }
 
 /// f and M of the contacts of a body.
-fn contact_loads(
+pub(crate) fn contact_loads(
     model: &Model,
     workspace: &mut Workspace,
     time: f64,

@@ -5,12 +5,13 @@
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
 //! random numbers, no threads. Each module imports only what stands to its left:
 //! `tensor → surface → shape, mass → kinematics → material, contact, load → affine, support, body, ledger → model, state → rates,
-//! jacobian, balance`. Read [`rates`] first.
+//! jacobian, balance, homogeneous`. Read [`rates`] first.
 
 pub mod affine;
 pub mod balance;
 pub mod body;
 pub mod contact;
+pub mod homogeneous;
 mod inadmissible;
 pub mod jacobian;
 pub mod kinematics;

@@ -1,0 +1,164 @@
+//! The quantities that are recorded of every body: names, units, columns, values.
+//!
+//! One list serves the layout and the filling of a row, so that the two cannot disagree. The order is that of the CSV.
+
+use gyration::balance::BodyObservation;
+use gyration::homogeneous::HomogeneousObservation;
+use gyration::tensor::{Mat3, Vec3};
+
+/// A quantity recorded for every body.
+pub(super) struct BodyField {
+    pub name: &'static str,
+    pub units: &'static str,
+    pub description: &'static str,
+    pub rank: Rank,
+    /// Suffixes of the CSV columns, in row-major order; none: not in the CSV.
+    pub suffixes: &'static [&'static str],
+    pub value: fn(&Seen) -> Value,
+}
+
+/// How many numbers a quantity has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rank {
+    Scalar,
+    Vector,
+    Matrix,
+}
+
+/// What is known of a body.
+pub(super) struct Seen<'a> {
+    pub body: &'a BodyObservation,
+    /// Where it was asked for.
+    pub homogeneous: Option<&'a HomogeneousObservation>,
+}
+
+pub(super) enum Value {
+    Scalar(f64),
+    Vector(Vec3),
+    Matrix(Mat3),
+}
+
+const PLACEMENT: [&str; 9] = ["P_xx", "P_xy", "P_xz", "P_yx", "P_yy", "P_yz", "P_zx", "P_zy", "P_zz"];
+const RATE: [&str; 9] =
+    ["Pdot_xx", "Pdot_xy", "Pdot_xz", "Pdot_yx", "Pdot_yy", "Pdot_yz", "Pdot_zx", "Pdot_zy", "Pdot_zz"];
+
+/// The fields of every recording, in the order of the CSV.
+pub(super) static BODY_FIELDS: [BodyField; 10] = [
+    BodyField {
+        name: "position",
+        units: "m",
+        description: "position of the centre of mass",
+        rank: Rank::Vector,
+        suffixes: &["x", "y", "z"],
+        value: |seen| Value::Vector(seen.body.motion.placement.position),
+    },
+    BodyField {
+        name: "placement_gradient",
+        units: "1",
+        description: "placement gradient P; a rotation for a rigid body",
+        rank: Rank::Matrix,
+        suffixes: &PLACEMENT,
+        value: |seen| Value::Matrix(seen.body.motion.placement.gradient),
+    },
+    BodyField {
+        name: "velocity",
+        units: "m/s",
+        description: "velocity of the centre of mass",
+        rank: Rank::Vector,
+        suffixes: &["vx", "vy", "vz"],
+        value: |seen| Value::Vector(seen.body.motion.velocity.velocity),
+    },
+    BodyField {
+        name: "gradient_rate",
+        units: "1/s",
+        description: "rate of the placement gradient",
+        rank: Rank::Matrix,
+        suffixes: &RATE,
+        value: |seen| Value::Matrix(seen.body.motion.velocity.gradient_rate),
+    },
+    BodyField {
+        name: PRESSURE,
+        units: "Pa",
+        description: "pressure of an incompressible body; NaN for any other",
+        rank: Rank::Scalar,
+        suffixes: &["pressure"],
+        value: |seen| Value::Scalar(seen.body.pressure.unwrap_or(f64::NAN)),
+    },
+    BodyField {
+        name: GAP,
+        units: "m",
+        description: "smallest distance to a support",
+        rank: Rank::Scalar,
+        suffixes: &["gap"],
+        value: |seen| Value::Scalar(seen.body.gap),
+    },
+    BodyField {
+        name: CONTACT_FORCE,
+        units: "N",
+        description: "force of all contacts",
+        rank: Rank::Vector,
+        suffixes: &["fx", "fy", "fz"],
+        value: |seen| Value::Vector(seen.body.contact_force),
+    },
+    BodyField {
+        name: "linear_momentum",
+        units: "kg m/s",
+        description: "linear momentum",
+        rank: Rank::Vector,
+        suffixes: &[],
+        value: |seen| Value::Vector(seen.body.linear_momentum),
+    },
+    BodyField {
+        name: "angular_momentum",
+        units: "kg m2/s",
+        description: "angular momentum about the origin",
+        rank: Rank::Vector,
+        suffixes: &[],
+        value: |seen| Value::Vector(seen.body.angular_momentum),
+    },
+    BodyField {
+        name: "affine_momentum",
+        units: "kg m2/s",
+        description: "affine momentum K = P J Pdot^T about the centre of mass",
+        rank: Rank::Matrix,
+        suffixes: &[],
+        value: |seen| Value::Matrix(seen.body.affine_momentum),
+    },
+];
+
+/// The fields that apply to some bodies only.
+pub(super) const PRESSURE: &str = "pressure";
+pub(super) const GAP: &str = "gap";
+pub(super) const CONTACT_FORCE: &str = "contact_force";
+
+/// A field that is recorded on request: NaN where it was not observed.
+macro_rules! extra {
+    ($name:literal, $units:literal, $description:literal, $rank:ident, $field:ident, $nothing:expr) => {
+        BodyField {
+            name: $name,
+            units: $units,
+            description: $description,
+            rank: Rank::$rank,
+            suffixes: &[],
+            value: |seen| Value::$rank(seen.homogeneous.map_or($nothing, |seen| seen.$field)),
+        }
+    };
+}
+
+/// The fields that are recorded on request, in the order of [`super::Extra`].
+#[rustfmt::skip]
+pub(super) static EXTRA_FIELDS: [BodyField; 10] = [
+    extra!("velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),
+    extra!("affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, total_affine_momentum, NO_MATRIX),
+    extra!("affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, affine_moment, NO_MATRIX),
+    extra!("moment_power", "W", "power tr(N L) of the affine moment", Scalar, moment_power, f64::NAN),
+    extra!("comoving_momentum", "kg m2/s", "co-moving affine momentum P^-1 K P^-T", Matrix, comoving_affine_momentum, NO_MATRIX),
+    extra!("momentum_residual", "N m", "residual of the balance of affine momentum", Matrix, momentum_residual, NO_MATRIX),
+    extra!("principal_stretches", "1", "principal stretches, descending", Vector, principal_stretches, NO_VECTOR),
+    extra!("rotation", "1", "rotation R of P = R U", Matrix, rotation, NO_MATRIX),
+    extra!("cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
+    extra!("stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
+];
+
+const NO_VECTOR: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
+const NO_MATRIX: Mat3 = Mat3::from_array_storage(nalgebra::ArrayStorage([[f64::NAN; 3]; 3]));

@@ -1,0 +1,212 @@
+//! What a recording of a model holds: the arrays of a row, their units, and the columns of the CSV.
+//!
+//! Columns stand in the order of the contract: for each body x, P, v, Ṗ, pressure, gap, force; then energies, works,
+//! residual.
+
+mod extras;
+mod fields;
+
+pub use extras::{Extra, Extras};
+
+use fields::{BODY_FIELDS, BodyField, CONTACT_FORCE, GAP, PRESSURE, Rank, Seen, Value};
+use gyration::Inadmissible;
+use gyration::balance::{BodyObservation, energies, observe};
+use gyration::body::Body;
+use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
+use gyration::model::Model;
+use gyration::rates::Workspace;
+use gyration::state::State;
+use gyration::tensor::Vec3;
+use gyration_record::{ArraySpec, Dimension};
+
+/// What the rows of a run hold.
+#[derive(Clone)]
+pub struct Fields {
+    fields: Vec<&'static BodyField>,
+    /// The origin of total affine momentum, where quantities are recorded on request.
+    origin: Option<Vec3>,
+}
+
+/// Scratch for rows.
+#[derive(Debug, Clone, Default)]
+pub struct RowScratch {
+    bodies: Vec<BodyObservation>,
+    homogeneous: Vec<HomogeneousObservation>,
+    /// The row last filled, flattened in the order of [`Fields::arrays`].
+    pub row: Vec<f64>,
+}
+
+impl Fields {
+    /// The fields of a model, with those asked for.
+    pub fn new(model: &Model, extras: &Extras) -> Self {
+        let incompressible = model.bodies.iter().any(is_incompressible);
+        let usual = BODY_FIELDS.iter().filter(|field| field.name != PRESSURE || incompressible);
+        let fields = usual.chain(extras.fields()).collect();
+        Self { fields, origin: (!extras.is_empty()).then_some(extras.origin) }
+    }
+
+    /// The arrays of a recording of this model, and the order of its CSV columns.
+    pub fn arrays(&self, model: &Model) -> (Vec<ArraySpec>, Vec<String>) {
+        let mut arrays: Vec<ArraySpec> = self.fields.iter().map(|field| body_array(model, field)).collect();
+        let mut order: Vec<String> = Vec::new();
+        for index in 0..model.bodies.len() {
+            for field in &self.fields {
+                order.extend(columns(model, field, index).into_iter().filter(|column| !column.is_empty()));
+            }
+        }
+        for (name, column, description) in ledger_entries(model) {
+            order.push(column.clone());
+            arrays.push(ArraySpec { name, dims: Vec::new(), units: "J".into(), description, columns: vec![column] });
+        }
+        (arrays, order)
+    }
+
+    /// Fills the row of a state; `initial` is Σ energies at t = 0.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where the state is outside the model.
+    pub fn fill(
+        &self,
+        model: &Model,
+        workspace: &mut Workspace,
+        state: &State,
+        initial: Option<f64>,
+        scratch: &mut RowScratch,
+    ) -> Result<Audit, Inadmissible> {
+        let RowScratch { bodies, homogeneous, row } = scratch;
+        bodies.clear();
+        homogeneous.clear();
+        row.clear();
+        for index in 0..model.bodies.len() {
+            bodies.push(observe(model, workspace, state, index)?);
+            if let Some(origin) = &self.origin {
+                homogeneous.push(observe_homogeneous(model, workspace, state, index, origin)?);
+            }
+        }
+        for field in &self.fields {
+            for (index, body) in bodies.iter().enumerate() {
+                match (field.value)(&Seen { body, homogeneous: homogeneous.get(index) }) {
+                    Value::Scalar(value) => row.push(value),
+                    Value::Vector(value) => row.extend(value.iter()),
+                    // nalgebra stores columns; rows are recorded.
+                    Value::Matrix(value) => row.extend(value.transpose().iter()),
+                }
+            }
+        }
+        let ledger = row.len();
+        row.resize(ledger + model.energies().len(), 0.0);
+        energies(model, workspace, state, &mut row[ledger..])?;
+        let (energy, kinetic) = (row[ledger..].iter().sum(), row[ledger]);
+        let residual = residual(energy, initial, &state.works);
+        row.extend(&state.works);
+        row.push(residual);
+        Ok(Audit {
+            energy,
+            kinetic,
+            exchanged: state.works.iter().map(|work| work.abs()).sum(),
+            residual,
+            smallest_gap: bodies.iter().map(|body| body.gap).fold(f64::INFINITY, f64::min),
+        })
+    }
+}
+
+fn is_incompressible(body: &Body) -> bool {
+    body.affine().is_some_and(|affine| affine.interior.is_incompressible())
+}
+
+fn body_array(model: &Model, field: &BodyField) -> ArraySpec {
+    let mut dims = vec![Dimension::new("body", model.bodies.len())];
+    match field.rank {
+        Rank::Scalar => {}
+        Rank::Vector => dims.push(Dimension::new("row", 3)),
+        Rank::Matrix => dims.extend([Dimension::new("row", 3), Dimension::new("col", 3)]),
+    }
+    let columns = if field.suffixes.is_empty() {
+        Vec::new()
+    } else {
+        (0..model.bodies.len()).flat_map(|body| columns(model, field, body)).collect()
+    };
+    ArraySpec {
+        name: field.name.into(),
+        dims,
+        units: field.units.into(),
+        description: field.description.into(),
+        columns,
+    }
+}
+
+/// The CSV columns of a field for one body; empty where the field does not apply to it.
+fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
+    let body = &model.bodies[index];
+    let applies = match field.name {
+        PRESSURE => is_incompressible(body),
+        GAP => body.surface.is_some() && !model.supports.is_empty(),
+        CONTACT_FORCE => !body.contacts.is_empty(),
+        _ => true,
+    };
+    let name = |suffix: &&str| if applies { format!("{}.{suffix}", body.name) } else { String::new() };
+    field.suffixes.iter().map(name).collect()
+}
+
+/// Array name, column and description of every entry of the ledger, in order.
+fn ledger_entries(model: &Model) -> Vec<(String, String, String)> {
+    let entry =
+        |kind: &str, name: &str, description: String| (format!("{kind}_{name}"), format!("{kind}.{name}"), description);
+    let energies = model.energies().iter().map(|e| entry("energy", e.name(), format!("{} energy", e.name())));
+    let works = model.works().iter().map(|w| entry("work", w.name(), format!("work of {} since t = 0", w.name())));
+    let residual = entry("energy", "residual", "sum of energies, less their sum at 0, less all works".into());
+    energies.chain(works).chain([residual]).collect()
+}
+
+/// The ledger of one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ledger {
+    /// Energies [J], in the order of `Model::energies`.
+    pub energies: Vec<f64>,
+    /// Works since t = 0 [J], in the order of `Model::works`.
+    pub works: Vec<f64>,
+    /// (Σ energies) − (Σ energies at 0) − Σ works [J].
+    pub residual: f64,
+}
+
+impl Ledger {
+    /// The ledger of a state; `initial` is the sum of the energies at t = 0.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where the state is outside the model.
+    pub fn of(
+        model: &Model,
+        workspace: &mut Workspace,
+        state: &State,
+        initial: Option<f64>,
+    ) -> Result<Self, Inadmissible> {
+        let mut values = vec![0.0; model.energies().len()];
+        energies(model, workspace, state, &mut values)?;
+        let residual = residual(values.iter().sum(), initial, &state.works);
+        Ok(Self { energies: values, works: state.works.clone(), residual })
+    }
+
+    /// Σ energies [J].
+    pub fn total(&self) -> f64 {
+        self.energies.iter().sum()
+    }
+}
+
+/// What a row tells of the ledger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Audit {
+    /// Σ energies [J].
+    pub energy: f64,
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+    /// Σ |works| [J].
+    pub exchanged: f64,
+    /// (Σ energies) − (Σ energies at 0) − Σ works [J].
+    pub residual: f64,
+    /// Smallest gap of all bodies [m]; infinite where none applies.
+    pub smallest_gap: f64,
+}
+
+fn residual(energy: f64, initial: Option<f64>, works: &[f64]) -> f64 {
+    energy - initial.unwrap_or(energy) - works.iter().sum::<f64>()
+}
