@@ -1,6 +1,7 @@
 //! Whatever a file holds, reading it ends with a scene or with errors that have a place; it never panics.
 
 use gyration::body::BodyKind;
+use gyration::tensor::Mat3;
 use gyration_scene::geometry::{MeshError, parse_mesh};
 use gyration_scene::{Scene, SceneErrors, gallery};
 use proptest::prelude::*;
@@ -126,6 +127,72 @@ proptest! {
             prop_assert!(state.bodies.iter().all(|number| number.is_finite()), "{state:?}");
             let BodyKind::Rigid(inertia) = &model.bodies[0].kind else { panic!("the body is rigid") };
             prop_assert!(inertia.tensor.iter().chain(&inertia.inverse).all(|number| number.is_finite()), "{inertia:?}");
+        }
+    }
+}
+
+/// A gradient of determinant 1 + excess from any nine numbers, and a rate of tr L = growth.
+fn isochoric(p: Mat3, rate: Mat3, excess: f64, growth: f64) -> (Mat3, Mat3) {
+    let p = p * ((1.0 + excess) / p.determinant()).cbrt();
+    let l = rate - Mat3::from_diagonal_element((rate.trace() - growth) / 3.0);
+    (p, l * p)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// The projection of a start must not move it again: a resolved scene resolves to itself, however strained.
+    #[test]
+    fn incompressible_starts_within_the_tolerance_are_taken_and_stay(
+        p in prop::array::uniform9(-3.0..3.0_f64),
+        rate in prop::array::uniform9(-30.0..30.0_f64),
+        excess in prop_oneof![Just(0.0), -9e-10..9e-10_f64],
+        growth in prop_oneof![Just(0.0), -9e-10..9e-10_f64],
+        size in prop::array::uniform3(0.01..10.0_f64),
+    ) {
+        let p = Mat3::from_row_slice(&p);
+        prop_assume!(p.determinant().abs() > 1e-3);
+        let (p, rate) = isochoric(p * p.determinant().signum(), Mat3::from_row_slice(&rate), excess, growth);
+        let rows = |a: &Mat3| format!("{:?}", [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[(i, j)])));
+        let text = format!(
+            "[time]\nend = 1\nsample = 1\n[[body]]\nname = \"b\"\nshape = {{ box = {{ size = {size:?} }} }}\ndensity = 1\n\
+             affine = {{ material = {{ neo_hookean = {{ shear = 1 }} }} }}\ngradient = {}\ngradient_rate = {}\n",
+            rows(&p),
+            rows(&rate),
+        );
+        let scene = read("scene.toml", &text, &[]).map_err(|errors| TestCaseError::fail(errors.to_string()))?;
+        let motion = scene.built().state.motion(&scene.built().model, 0);
+        let (held, held_rate) = (motion.placement.gradient, motion.velocity.gradient_rate);
+        let inverse = held.try_inverse().ok_or_else(|| TestCaseError::fail("P cannot be inverted"))?;
+        // Sixteen roundings of the terms of the determinant, and nine times as many of tr L, at most.
+        let cube = held.amax().powi(3);
+        prop_assert!((held.determinant() - 1.0).abs() <= 6.0 * 16.0 * f64::EPSILON * cube);
+        let growth = (held_rate * inverse).trace();
+        prop_assert!(growth.abs() <= 9.0 * 16.0 * f64::EPSILON * held_rate.amax() * inverse.amax());
+        let again = read("again.json", &scene.resolved().to_string(), &[]);
+        let again = again.map_err(|errors| TestCaseError::fail(errors.to_string()))?;
+        prop_assert_eq!(again.resolved(), scene.resolved());
+        prop_assert_eq!(&again.built().state, &scene.built().state);
+    }
+
+    #[test]
+    fn strains_and_moduli_of_any_size_never_panic(numbers in prop::array::uniform9(number()), incompressible in any::<bool>()) {
+        let [a, b, c, d, e, f, g, h, i] = numbers;
+        let bulk = if incompressible { String::new() } else { format!(", bulk = {i}") };
+        let text = format!(
+            "[time]\nend = 1\nsample = 1\n[[body]]\nname = \"b\"\nshape = {{ box = {{ size = [{a}, {b}, {c}] }} }}\ndensity = {d}\n\
+             affine = {{ material = {{ ogden = {{ mu = [{e}], alpha = [{f}]{bulk} }} }}, viscosity = {g}, internal_friction = {{ bulk = {h} }} }}\n\
+             gradient = [[{a}, {h}, 0], [0, {b}, {i}], [0, 0, {g}]]\ngradient_rate = [[{g}, {c}, 0], [{a}, {f}, 0], [{d}, 0, {e}]]\n\
+             pin = [{e}, {f}, {g}]\n"
+        );
+        if let Ok(scene) = read("scene.toml", &text, &[]) {
+            let (model, state) = (&scene.built().model, &scene.built().state);
+            prop_assert!(state.bodies.iter().all(|number| number.is_finite()), "{state:?}");
+            let BodyKind::Affine(affine) = &model.bodies[0].kind else { panic!("the body is affine") };
+            let tensors = [&affine.interior.euler_tensor, &affine.interior.inverse];
+            prop_assert!(tensors.into_iter().flatten().all(|number| number.is_finite()), "{tensors:?}");
+            let again = read("again.json", &scene.resolved().to_string(), &[]);
+            prop_assert_eq!(again.map(|again| again.resolved()).ok(), Some(scene.resolved()));
         }
     }
 }
