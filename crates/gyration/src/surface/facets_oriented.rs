@@ -131,6 +131,6 @@ const fn pair(a: usize, b: usize) -> usize {
 fn products<S: Simd>(vector: &Vector<S>, length: Lanes<S>) -> [Lanes<S>; PAIRS.len()] {
     let zero = Lanes::splat(length.simd, 0.0);
     let inverse = zero.less_than(length).select(1.0 / length, zero);
-    let m = vector.map(|x| x * inverse);
-    PAIRS.map(|[a, b]| m[a] * m[b])
+    let [x, y, z] = [vector[0] * inverse, vector[1] * inverse, vector[2] * inverse];
+    [x * x, x * y, x * z, y * y, y * z, z * z]
 }

@@ -142,22 +142,34 @@ impl<S: Simd> Gaps<S> {
 pub(super) struct MatrixLanes<S: Simd>([Vector<S>; 3]);
 
 impl<S: Simd> MatrixLanes<S> {
+    // Written out: what `map` calls is not compiled for the instruction set.
     #[inline(always)]
-    pub fn new(simd: S, matrix: &Mat3) -> Self {
-        Self([0, 1, 2].map(|i| [0, 1, 2].map(|j| Lanes::splat(simd, matrix[(i, j)]))))
+    pub fn new(simd: S, a: &Mat3) -> Self {
+        let splat = |x| Lanes::splat(simd, x);
+        Self([
+            [splat(a.m11), splat(a.m12), splat(a.m13)],
+            [splat(a.m21), splat(a.m22), splat(a.m23)],
+            [splat(a.m31), splat(a.m32), splat(a.m33)],
+        ])
     }
 
     /// The product with vectors.
     #[inline(always)]
     pub fn image(&self, v: &Vector<S>) -> Vector<S> {
-        self.0.map(|row| (row[0] * v[0] + row[1] * v[1]) + row[2] * v[2])
+        let [x, y, z] = &self.0;
+        [dot(x, v), dot(y, v), dot(z, v)]
     }
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> Lanes<S> {
+    (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
 }
 
 /// The lengths of vectors.
 #[inline(always)]
 pub(super) fn length<S: Simd>(v: &Vector<S>) -> Lanes<S> {
-    ((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]).sqrt()
+    dot(v, v).sqrt()
 }
 
 /// The smallest gap and the place of the vertex where it is, the first of several; none if one is not finite.

@@ -49,6 +49,8 @@ impl Hemisphere {
             vectors,
             element: AreaElement::deformed(&vectors, &squares),
             dips: dips(&squares.map(|x| x.max(0.0).sqrt()), &axes.row(2).transpose()),
+            nearest: gap.height + self.radius * if cosine < 0.0 { -slope } else { -gap.across },
+            mildness: (integrand.mildest - 1.0).max(0.0),
             weights: &deformed.weights,
             integrand: &integrand,
         };
@@ -72,6 +74,9 @@ struct Sweep<'a, const N: usize, const W: usize> {
     vectors: Mat3,
     element: AreaElement,
     dips: [Dip; 2],
+    /// The smallest gap on the patch; parallels count like gap^−mildness.
+    nearest: f64,
+    mildness: f64,
     weights: &'a Weights<N, W>,
     integrand: &'a Integrand,
 }
@@ -96,8 +101,7 @@ impl<const N: usize, const W: usize> Sweep<'_, N, W> {
     fn add(&self, u: f64, gap: f64, (x, y): (f64, f64), weight: f64, sums: &mut PointSums<W>) {
         let s = Vec3::new(x, y, u);
         let area = weight * self.radius * self.radius;
-        let weights = self.weights.of(&(self.vectors * s)).map(|weight| area * weight);
-        sums.add(gap, &weights, &(self.radius * s));
+        sums.add((gap, area), &self.weights.of(&(self.vectors * s)), &(self.radius * s));
     }
 
     /// The zone around the pole: θ from the lowest point, or from the highest one.
@@ -121,11 +125,14 @@ impl<const N: usize, const W: usize> Sweep<'_, N, W> {
             let half = (0.5 * node.at).sin();
             let (distance, u) = (pole + rise * 2.0 * half * half, if low { -cos } else { cos });
             let decay = self.element.decay(cos * cos, sin * sin).min(10.0);
-            let points = (Self::DIGITS / decay).ceil().clamp(1.0, 2048.0) + (self.integrand.order + N) as f64 + 1.0;
+            let points =
+                (self.digits(distance) / decay).ceil().clamp(1.0, 2048.0) + (self.integrand.order + N) as f64 + 1.0;
             let weight = node.weight * sin * TAU / points;
-            for point in 0..points as usize {
-                let (y, x) = (TAU * point as f64 / points).sin_cos();
-                self.add(u, distance, (sin * x, sin * y), weight, sums);
+            let (step_y, step_x) = (TAU / points).sin_cos();
+            let (mut x, mut y) = (sin, 0.0);
+            for _ in 0..points as usize {
+                self.add(u, distance, (x, y), weight, sums);
+                (x, y) = (x * step_x - y * step_y, y * step_x + x * step_y);
             }
         }
     }
@@ -163,11 +170,18 @@ impl<const N: usize, const W: usize> Sweep<'_, N, W> {
         let (x, y) = (self.cosine * cos, sin);
         let (radius, half) = (x.hypot(y), y.atan2(x));
         let decay = self.element.decay(u * u, radius * radius).min(10.0);
-        let points = 0.5 * Self::DIGITS / (decay / half).asinh() + 4.0 + 1.5 * half * (self.integrand.order + N) as f64;
-        for node in gauss_legendre(points.ceil() as usize) {
-            let (sin_phi, cos_phi) = (half * node.at).sin_cos();
-            let weight = weight * self.sine * sin * half * node.weight;
-            self.add(u, gap, (radius * cos_phi, radius * sin_phi), weight, sums);
+        let points =
+            0.5 * self.digits(gap) / (decay / half).asinh() + 4.0 + 1.5 * half * (self.integrand.order + N) as f64;
+        let nodes = gauss_legendre(points.ceil() as usize);
+        let weight = weight * self.sine * sin * half;
+        // The rule is symmetric: one sine serves φ and −φ.
+        for node in &nodes[..nodes.len() / 2] {
+            let (y, x) = (half * node.at).sin_cos();
+            self.add(u, gap, (radius * x, radius * y), weight * node.weight, sums);
+            self.add(u, gap, (radius * x, -radius * y), weight * node.weight, sums);
+        }
+        if nodes.len() % 2 == 1 {
+            self.add(u, gap, (radius, 0.0), weight * nodes[nodes.len() / 2].weight, sums);
         }
     }
 
@@ -192,6 +206,13 @@ impl<const N: usize, const W: usize> Sweep<'_, N, W> {
     fn grazing(&self, ratio: f64) -> f64 {
         let distance = ratio.max(1.0).acosh();
         if distance.is_finite() { distance.clamp(1e-7, 20.0) } else { 20.0 }
+    }
+
+    /// Digits that a parallel at this gap needs: those above the lowest one count less.
+    #[inline(always)]
+    fn digits(&self, gap: f64) -> f64 {
+        let spared = if self.mildness > 0.0 { self.mildness * (gap / self.nearest).max(1.0).ln() } else { 0.0 };
+        (Self::DIGITS - spared).max(3.0)
     }
 
     fn gap_digits(&self) -> f64 {

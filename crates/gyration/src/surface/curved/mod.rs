@@ -21,6 +21,7 @@ mod parallels;
 mod points;
 mod ring;
 mod rulings;
+mod rulings_weighted;
 mod sphere;
 mod torus;
 mod torus_points;

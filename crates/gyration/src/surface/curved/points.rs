@@ -25,13 +25,13 @@ impl<'a, const W: usize> PointSums<'a, W> {
         Self { integrand, sums: [Sums::ZERO; W], gaps, weights, at, count: 0 }
     }
 
-    /// Adds a point with its weights and gap.
+    /// Adds a point with its gap, its area and its weights per area.
     #[inline(always)]
-    pub(super) fn add(&mut self, gap: f64, weights: &[f64; W], at: &Vec3) {
+    pub(super) fn add(&mut self, (gap, area): (f64, f64), weights: &[f64; W], at: &Vec3) {
         let lane = self.count;
         self.gaps[lane] = gap;
         for (lanes, weight) in self.weights.iter_mut().zip(weights) {
-            lanes[lane] = *weight;
+            lanes[lane] = area * *weight;
         }
         for (lanes, x) in self.at.iter_mut().zip(at) {
             lanes[lane] = *x;
@@ -50,7 +50,7 @@ impl<'a, const W: usize> PointSums<'a, W> {
         let values = self.integrand.at_each(&self.gaps);
         for (weights, sums) in self.weights.iter_mut().zip(&mut self.sums) {
             for (value, sums) in values.iter().zip(&mut sums.lanes).take(self.integrand.count()) {
-                let weighted = std::array::from_fn(|lane| value[lane] * weights[lane]);
+                let weighted = times(value, weights);
                 accumulate(&weighted, &powers[..used], &mut sums[..used]);
             }
             *weights = [0.0; LANES];
@@ -68,10 +68,18 @@ impl<'a, const W: usize> PointSums<'a, W> {
     }
 }
 
+#[inline(always)]
+fn times(a: &Lane, b: &Lane) -> Lane {
+    let mut product = *a;
+    for (product, b) in product.iter_mut().zip(b) {
+        *product *= b;
+    }
+    product
+}
+
 /// 1, x … z, xx … zz, xxx … zzz.
 #[inline(always)]
 fn powers([x, y, z]: &[Lane; 3]) -> [Lane; 20] {
-    let times = |a: &Lane, b: &Lane| -> Lane { std::array::from_fn(|lane| a[lane] * b[lane]) };
     let (xx, xy, xz, yy, yz, zz) = (times(x, x), times(x, y), times(x, z), times(y, y), times(y, z), times(z, z));
     let (xxx, xxy, xxz, xyy) = (times(&xx, x), times(&xx, y), times(&xx, z), times(&yy, x));
     let (xyz, xzz, yyy, yyz) = (times(&xy, z), times(&zz, x), times(&yy, y), times(&yy, z));

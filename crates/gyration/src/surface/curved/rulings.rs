@@ -18,8 +18,6 @@ use super::super::power_lanes::{End, line_moments};
 use super::super::{Kernel, MomentRequest};
 use super::integrand::LANES;
 use super::ring::RingChunk;
-use super::weight::Weights;
-use crate::tensor::Vec3;
 
 /// The rulings of one wall: gaps base = near + reach · versine at one end.
 #[derive(Debug, Clone, Copy)]
@@ -61,41 +59,24 @@ impl Rulings<'_> {
         dispatch(Sweep::new(self, &line, request))
     }
 
-    /// For each weight w the sums with w₊ and those with w₋ sin φ, w± = ½ (w(φ) ± w(−φ)).
-    pub(super) fn weighted_sums<const N: usize, const W: usize>(
-        &self,
-        request: &MomentRequest,
-        weights: &WallWeights<N, W>,
-    ) -> [[RulingSums; 2]; W] {
-        let line = self.line(request);
-        dispatch(WeightedSweep { sweep: Sweep::new(self, &line, request), weights })
-    }
-
     /// The kernel along a ruling.
-    fn line(&self, request: &MomentRequest) -> LineKernel {
+    pub(super) fn line(&self, request: &MomentRequest) -> LineKernel {
         let beyond = usize::from(matches!(self.other_end, OtherEnd::Common(_)));
         LineKernel::up_to(request.kernel, request.order.clamp(1, 3) + beyond)
     }
 }
 
-/// Weights that depend on the azimuth only.
-pub(super) struct WallWeights<'a, const N: usize, const W: usize> {
-    /// x, y, z of the current area vector v = z + cos φ x + sin φ y.
-    pub(super) vectors: [Vec3; 3],
-    pub(super) weights: &'a Weights<N, W>,
-}
-
 /// The pass over the rulings for one kernel: compiled for each instruction set.
-struct Sweep<'a> {
-    rulings: &'a Rulings<'a>,
+pub(super) struct Sweep<'a> {
+    pub(super) rulings: &'a Rulings<'a>,
     line: &'a LineKernel,
     exponent: SplitExponent,
     needs_log: bool,
-    order: usize,
+    pub(super) order: usize,
 }
 
 impl<'a> Sweep<'a> {
-    fn new(rulings: &'a Rulings<'a>, line: &'a LineKernel, request: &MomentRequest) -> Self {
+    pub(super) fn new(rulings: &'a Rulings<'a>, line: &'a LineKernel, request: &MomentRequest) -> Self {
         let exponent = match request.kernel {
             Kernel::Power(exponent) => exponent,
             Kernel::Log => 1.0,
@@ -122,92 +103,22 @@ impl WithSimd for Sweep<'_> {
 
 impl RulingSums {
     #[inline(always)]
-    fn folded(rows: &[Row; 13]) -> Self {
-        let s = rows.map(|row| fold(&row));
+    pub(super) fn folded(rows: &[Row; 13]) -> Self {
+        let sum = |place: usize| fold(&rows[place]);
         Self {
-            one: [s[0], s[1], s[2], s[3]],
-            cos: [s[4], s[5], s[6], 0.0],
-            cos_squared: [s[7], s[8], 0.0, 0.0],
-            sin_squared: [s[9], s[10], 0.0, 0.0],
-            cos_cubed: s[11],
-            cos_sin_squared: s[12],
+            one: [sum(0), sum(1), sum(2), sum(3)],
+            cos: [sum(4), sum(5), sum(6), 0.0],
+            cos_squared: [sum(7), sum(8), 0.0, 0.0],
+            sin_squared: [sum(9), sum(10), 0.0, 0.0],
+            cos_cubed: sum(11),
+            cos_sin_squared: sum(12),
         }
-    }
-}
-
-/// The pass with several weights.
-struct WeightedSweep<'a, const N: usize, const W: usize> {
-    sweep: Sweep<'a>,
-    weights: &'a WallWeights<'a, N, W>,
-}
-
-impl<const N: usize, const W: usize> WithSimd for WeightedSweep<'_, N, W> {
-    type Output = [[RulingSums; 2]; W];
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        match self.sweep.order {
-            1 => self.sums::<S, 1>(simd),
-            2 => self.sums::<S, 2>(simd),
-            _ => self.sums::<S, 3>(simd),
-        }
-    }
-}
-
-impl<const N: usize, const W: usize> WeightedSweep<'_, N, W> {
-    #[inline(always)]
-    fn sums<S: Simd, const ORDER: usize>(&self, simd: S) -> [[RulingSums; 2]; W] {
-        let Rulings { ring, near, reach, cut, .. } = *self.sweep.rulings;
-        let mut sums = [[[[0.0; WIDTH]; 13]; 2]; W];
-        for pair in ring.chunks(WIDTH / LANES) {
-            if near + reach * pair[0].versine[0] > cut {
-                break;
-            }
-            let [weight, cos, versine, sin_squared] = rows_of(pair);
-            for register in 0..WIDTH / S::F64_LANES {
-                let load = |row: &Row| Lanes::<S>::load(simd, row, register);
-                let line = self.sweep.line::<S, ORDER>(load(&versine) * reach + near);
-                let (weight, cos, sin_squared) = (load(&weight), load(&cos), load(&sin_squared));
-                let sin = sin_squared.sqrt();
-                let [plus, minus] = self.weights.at(cos, sin);
-                for (place, [even, odd]) in sums.iter_mut().enumerate() {
-                    let half = weight * 0.5;
-                    let (w, v) = (half * (plus[place] + minus[place]), half * (plus[place] - minus[place]) * sin);
-                    self.sweep.add::<S, ORDER>(&line, (w, cos, sin_squared), register, even);
-                    self.sweep.add::<S, ORDER>(&line, (v, cos, sin_squared), register, odd);
-                }
-            }
-        }
-        sums.map(|parities| parities.map(|rows| RulingSums::folded(&rows)))
-    }
-}
-
-impl<const N: usize, const W: usize> WallWeights<'_, N, W> {
-    /// The weights at φ and at −φ.
-    #[inline(always)]
-    fn at<S: Simd>(&self, cos: Lanes<S>, sin: Lanes<S>) -> [[Lanes<S>; W]; 2] {
-        let [x, y, z] = &self.vectors;
-        let even = [0, 1, 2].map(|k| cos * x[k] + z[k]);
-        let odd = [0, 1, 2].map(|k| sin * y[k]);
-        let vectors = [[0, 1, 2].map(|k| even[k] + odd[k]), [0, 1, 2].map(|k| even[k] - odd[k])];
-        vectors.map(|v| {
-            let zero = Lanes::splat(cos.simd, 0.0);
-            let squared = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
-            let base = match N {
-                0 => squared.sqrt(),
-                2 => 1.0 / squared.sqrt(),
-                _ => 1.0 / (squared * squared.sqrt()),
-            };
-            // What is not a number stays so.
-            let base = squared.less_than(Lanes::splat(cos.simd, f64::MIN_POSITIVE)).select(zero, base);
-            self.weights.factors.map(|factors| factors.iter().fold(base, |product, &factor| product * v[factor]))
-        })
     }
 }
 
 /// Weights, cosines, versines and squared sines of up to two chunks; those of a missing one are zero.
 #[inline(always)]
-fn rows_of(pair: &[RingChunk]) -> [Row; 4] {
+pub(super) fn rows_of(pair: &[RingChunk]) -> [Row; 4] {
     let mut rows = [[0.0; WIDTH]; 4];
     let [weight, cos, versine, sin_squared] = &mut rows;
     for (k, chunk) in pair.iter().enumerate() {
@@ -241,7 +152,7 @@ impl Sweep<'_> {
 
     /// L_j of a cylinder, or ∫ κ t^(j+1) dt of a cone.
     #[inline(always)]
-    fn line<S: Simd, const ORDER: usize>(&self, base: Lanes<S>) -> [Lanes<S>; 4] {
+    pub(super) fn line<S: Simd, const ORDER: usize>(&self, base: Lanes<S>) -> [Lanes<S>; 4] {
         match self.rulings.other_end {
             OtherEnd::Above(rise) => {
                 let m = line_moments(self.line, &self.end(base), &self.end(base + rise), ORDER);
@@ -277,7 +188,7 @@ impl Sweep<'_> {
 
     /// Adds w T L_j of one register.
     #[inline(always)]
-    fn add<S: Simd, const ORDER: usize>(
+    pub(super) fn add<S: Simd, const ORDER: usize>(
         &self,
         line: &[Lanes<S>; 4],
         (weight, cos, sin_squared): (Lanes<S>, Lanes<S>, Lanes<S>),

@@ -110,8 +110,8 @@ impl<const N: usize, const W: usize> Sweep<'_, N, W> {
                 for sin in [sin, -sin] {
                     let normal = Vec3::new(radial * cos, radial * sin, axial);
                     let at = Vec3::new(rho * cos, rho * sin, torus.minor_radius * axial);
-                    let weights = self.weights.of(&(self.vectors * normal)).map(|weight| area * weight);
-                    sums.add(distance, &weights, &at);
+                    let weights = self.weights.of(&(self.vectors * normal));
+                    sums.add((distance, area), &weights, &at);
                 }
             }
         }

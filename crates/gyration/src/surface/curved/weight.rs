@@ -38,8 +38,13 @@ impl<const N: usize, const W: usize> Weights<N, W> {
     /// w(v) for each of them; 0 for an element without area.
     #[inline(always)]
     pub(crate) fn of(&self, v: &Vec3) -> [f64; W] {
-        let base = base::<N>(v.norm_squared());
-        self.factors.map(|factors| factors.iter().fold(base, |product, &factor| product * v[factor]))
+        let mut weights = [base::<N>(v.norm_squared()); W];
+        for (weight, factors) in weights.iter_mut().zip(&self.factors) {
+            for &factor in factors {
+                *weight *= v[factor];
+            }
+        }
+        weights
     }
 }
 
