@@ -1,7 +1,7 @@
 //! What a deformable body in a scene becomes: materials, friction, loads, start, resolved form.
 #![allow(clippy::unwrap_used)]
 
-use gyration::affine::Viscosity;
+use gyration::affine::{Gyration, Viscosity};
 use gyration::body::{Affine, BodyKind};
 use gyration::load::Couple;
 use gyration::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm, StVenantKirchhoff};
@@ -130,10 +130,10 @@ fn friction_and_loads_are_those_that_the_file_gives() {
     assert_eq!(resolved.pointer("/body/0/affine/internal_friction/bulk").unwrap(), 0.0);
     assert_resolves_to_itself(&newtonian);
     let anisotropic = parse(&format!("affine = {{ internal_friction = {{ matrix = {} }} }}", unit(6, 1.0)));
-    let friction = affine(&anisotropic).interior.anisotropic.unwrap();
-    // L = e_x ⊗ e_x at rest: τ = 2 e_x ⊗ e_x + 1 e_y ⊗ e_y.
+    // L = e_x ⊗ e_x at rest: τ = 2 e_x ⊗ e_x + 1 e_y ⊗ e_y, and S = τ.
     let stretching = Mat3::from_diagonal(&Vec3::x());
-    let stress = friction.kirchhoff_stress(&Mat3::identity(), &stretching);
+    let gyration = Gyration::of(&Mat3::identity(), &stretching).unwrap();
+    let stress = affine(&anisotropic).interior.balance(&gyration, &Mat3::zeros()).stress;
     assert!((stress - Mat3::from_diagonal(&Vec3::new(2.0, 1.0, 0.0))).amax() < 1e-14, "{stress}");
     assert_resolves_to_itself(&anisotropic);
     let resisted = parse(&format!(
