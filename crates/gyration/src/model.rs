@@ -47,6 +47,11 @@ impl Model {
         &self.works
     }
 
+    /// Whether repulsion and adhesion stand among the works, also those of rigid bodies: some body has no potential.
+    pub(crate) fn central_laws_work(&self) -> bool {
+        self.works.iter().any(|work| matches!(work, Work::Repulsion | Work::Adhesion))
+    }
+
     /// The energies that the ledger has, in the order of its columns.
     pub fn energies(&self) -> &[Energy] {
         &self.energies

@@ -3,17 +3,17 @@
 
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::{energies, observe};
-use gyration::body::{Affine, Body, BodyKind, Pin};
+use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
 use gyration::jacobian::jacobian;
-use gyration::kinematics::{Placement, Velocity};
+use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::ledger::{Energy, Work};
 use gyration::load::{Couple, Frame, LinearResistance, Mat12, Spring};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
-use gyration::state::{Start, State};
+use gyration::state::{RigidStart, Start, State};
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
@@ -285,4 +285,38 @@ fn pressure_is_told_of_incompressible_bodies_alone() {
         let incompressible = model.bodies[index].affine().unwrap().interior.is_incompressible();
         assert_eq!(seen.pressure.is_some_and(f64::is_finite), incompressible);
     }
+}
+
+#[test]
+fn the_ledger_closes_for_a_rigid_body_beside_a_soft_one() {
+    let [cuboid, ..] = shapes();
+    let variant =
+        Variant { measure: AreaMeasure::DeformedArea, incompressible: true, pinned: false, frame: Frame::Space };
+    let soft = body(cuboid, [6.0, 3.0, 3.0, 2.0], variant);
+    let inertia = RigidInertia::new(&soft.mass, None).unwrap();
+    let hard = Body { name: "hard".into(), kind: BodyKind::Rigid(inertia), ..soft.clone() };
+    let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), vec![soft, hard]);
+    let position = Vec3::new(0.1, -0.2, 1.4);
+    let velocity = Vec3::new(0.3, 0.5, -0.7);
+    let (orientation, angular_velocity) = (Quaternion::IDENTITY, Vec3::new(0.4, -0.8, 0.3));
+    let starts = [
+        Start::Affine(
+            Placement { position, gradient: Mat3::identity() },
+            Velocity { velocity, gradient_rate: Mat3::new(0.3, 0.1, 0.0, -0.2, 0.4, 0.5, 0.1, 0.0, -0.7) },
+        ),
+        Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }),
+    ];
+    let state = State::start(&model, &starts);
+    let (slopes, powers) = evaluate(&model, 0.0, &state.bodies);
+    let energy = |step: f64| {
+        let bodies = state.bodies.iter().zip(&slopes).map(|(y, dy)| y + step * dy).collect();
+        let mut values = vec![0.0; model.energies().len()];
+        let ahead = State { time: step, bodies, works: state.works.clone() };
+        energies(&model, &mut Workspace::default(), &ahead, &mut values).unwrap();
+        values.iter().sum::<f64>()
+    };
+    let rate = (energy(1e-5) - energy(-1e-5)) / 2e-5;
+    let power: f64 = powers.iter().sum();
+    // Central differences and the rounding of the energies, as above.
+    assert!((rate - power).abs() < 1e-6 * powers.iter().map(|power| power.abs()).sum::<f64>(), "{rate} {power}");
 }

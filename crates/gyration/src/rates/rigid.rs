@@ -2,7 +2,7 @@
 
 use super::{Powers, Workspace, for_each_contact, spring_loads};
 use crate::body::{Body, RigidInertia};
-use crate::contact::{Meeting, RigidLoads, RigidMotion};
+use crate::contact::{ContactLoads, LawKind, Meeting, RigidLoads, RigidMotion};
 use crate::inadmissible::Inadmissible;
 use crate::load::Wrench;
 use crate::model::Model;
@@ -23,6 +23,11 @@ pub(super) fn wrench(
         let Meeting { surface, field, .. } = meeting;
         let loads = RigidLoads::integrate(contact, surface, field, &relative, &mut workspace.contact)?;
         wrench += loads.wrench;
+        if model.central_laws_work() {
+            let contacts = ContactLoads::integrate(contact, meeting, &mut workspace.contact)?;
+            powers.repulsion += contacts.relative_power(LawKind::Repulsion);
+            powers.adhesion += contacts.relative_power(LawKind::Adhesion);
+        }
         powers.damping += loads.damping_power;
         powers.friction += loads.friction_power;
         let carried = model.supports[contact.support].motion.velocity(time);
