@@ -110,6 +110,36 @@ fn traces_of_oriented_moments_are_those_of_lower_rank() {
     println!("traces: worst difference {worst:.1e}");
 }
 
+/// Plans are cut into groups, requests of order 0 have a fourth power wherever they stand, and rules serve all kernels of a call.
+#[test]
+fn requests_do_not_depend_on_their_company() {
+    let kernels = [6.0, 3.0, 5.0, 2.5, 13.0, 0.5, 7.0, 1.0, 4.0].map(Kernel::Power);
+    let orders = [1, 2, 0, 0, 2, 1, 0, 2, 0];
+    let requests: Vec<_> =
+        kernels.into_iter().zip(orders).map(|(kernel, order)| MomentRequest { kernel, order }).collect();
+    let together = MomentPlan::new(requests.clone());
+    for (shape, surface, gradient, field, _) in samples(2) {
+        let cofactor = cofactor(&gradient);
+        let (mut sums, mut dyads) = ([Moments::default(); 9], [OrientedMoments::default(); 9]);
+        surface.deformed_moments(&field, &cofactor, &together, &mut sums).unwrap();
+        surface.oriented_moments(&field, &cofactor, &together, &mut dyads).unwrap();
+        for ((request, sum), dyad) in requests.iter().zip(&sums).zip(&dyads) {
+            let alone = deformed(&surface, &field, &cofactor, request.kernel, request.order);
+            let mut error = difference(sum, &alone, 1.0);
+            let alone = oriented(&surface, &field, &cofactor, request.kernel, request.order);
+            for (pair, alone) in dyad.pairs.iter().zip(&alone.pairs) {
+                error = error.max(difference(pair, alone, 1.0) * (alone.zeroth / sum.zeroth).abs());
+            }
+            for (fourth, alone) in dyad.fourth.iter().zip(alone.fourth) {
+                error = error.max((fourth - alone).abs() / sum.zeroth);
+            }
+            // Twice the rules' accuracy.
+            assert!(error < 2e-10, "{shape}, {request:?}: {error:e}");
+            assert_eq!(dyad.fourth == [0.0; 15], request.order > 0, "{shape}, {request:?}");
+        }
+    }
+}
+
 /// With H = δP P⁻¹: δk = k (tr H − m·H m), and v = k m changes by (tr H − Hᵀ) v.
 #[test]
 fn slopes_in_the_gradient_are_oriented_moments() {

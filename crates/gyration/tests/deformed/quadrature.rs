@@ -73,8 +73,8 @@ pub fn integrate(case: &Case) -> Reference {
     let scale: f64 = panels.iter().flatten().map(|(_, part)| part[95]).sum();
     for ((function, _), panels) in functions.iter().zip(&panels) {
         for (panel, part) in panels {
-            // Quarters are a million times better than the whole that they are compared with.
-            refine(function, panel, part, 1e-10 * scale, 40, &mut total);
+            // Quarters are better than the whole that they are compared with by several digits.
+            refine(function, panel, part, 1e-11 * scale, 40, &mut total);
         }
     }
     total
@@ -168,7 +168,7 @@ fn refine(
     total: &mut Reference,
 ) {
     // A part this small may be as wrong as it likes.
-    if whole[95] < 1e-4 * tolerance {
+    if whole[95] < 1e-3 * tolerance {
         *total += whole;
         return;
     }
