@@ -108,7 +108,7 @@ fn said_twice(body: &Body, key: &Key, judge: &mut Judge<'_>) {
 fn invertible(gradient: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
     let determinant = gradient.determinant();
     let help = "write a matrix of positive determinant; [[1, 0, 0], [0, 1, 0], [0, 0, 1]] leaves the body as it is";
-    if determinant <= 0.0 {
+    if determinant < f64::MIN_POSITIVE {
         let what = if determinant < 0.0 { "turned inside out" } else { "pressed flat" };
         judge.note(key, format!("its determinant is {determinant:?}: the body would be {what}"), help);
         return false;

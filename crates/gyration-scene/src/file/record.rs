@@ -26,7 +26,7 @@ pub enum Recorded {
     AffineMoment,
     /// tr(N L), the power of the affine moment (W).
     MomentPower,
-    /// Affine momentum in the body's own axes (kg m²/s).
+    /// Co-moving affine momentum P⁻¹ K P⁻ᵀ, K = P J Ṗᵀ (kg m²/s).
     ComovingMomentum,
     /// What dK/dt = Ṗ J Ṗᵀ + N − V (S Pᵀ)ᵀ leaves over (N m).
     MomentumResidual,
