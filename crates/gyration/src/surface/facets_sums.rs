@@ -227,11 +227,13 @@ mod tests {
     use super::*;
     use pulp::Arch;
 
-    /// The rows of a plan, folded, and the smallest gap, with one instruction set.
+    /// The rows of a plan, undeformed and deformed added and folded, and the smallest gap, with one instruction set.
     fn evaluate(arch: Arch, facets: &Facets, field: &GapField, plan: &Plan) -> (Vec<f64>, Option<(f64, usize)>) {
         let mut rows = [[0.0; WIDTH]; MOST_ROWS];
-        let request = Request { packs: facets.packs(), field, plan, cofactor: &Mat3::identity() };
+        let cofactor = Mat3::new(1.2, 0.1, -0.2, 0.0, 0.9, 0.15, 0.1, -0.1, 0.8);
+        let request = Request { packs: facets.packs(), field, plan, cofactor: &cofactor };
         assert!(arch.dispatch(Integrate::<false> { request: &request, rows: &mut rows }));
+        assert!(arch.dispatch(Integrate::<true> { request: &request, rows: &mut rows }));
         (rows.iter().map(fold).collect(), arch.dispatch(Smallest { points: facets.points(), field }))
     }
 
