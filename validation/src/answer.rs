@@ -79,6 +79,39 @@ impl fmt::Display for Answer {
     }
 }
 
+/// A problem of which several quantities are known.
+///
+/// ```no_run
+/// use gyration_validation::Case;
+/// let case = Case { row: Some(13), name: "bounce of one face, ν = 3", source: "d_min² = αA/(m v²)" };
+/// case.check("smallest gap [m]", 0.01, 0.01 * (1.0 + 1e-12), 1e-9);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Case {
+    /// The row in the list of known answers; none for a further case.
+    pub row: Option<u32>,
+    /// The problem, with the numbers that tell it from others.
+    pub name: &'static str,
+    /// Where the references come from.
+    pub source: &'static str,
+}
+
+impl Case {
+    /// The same problem with a reference from elsewhere.
+    pub fn by(self, source: &'static str) -> Self {
+        Self { source, ..self }
+    }
+
+    /// Prints the line of one quantity and returns its error.
+    ///
+    /// # Panics
+    /// As [`Answer::check`].
+    pub fn check(&self, quantity: &'static str, reference: f64, measured: f64, tolerance: f64) -> f64 {
+        let Self { row, name: case, source } = *self;
+        Answer { row, case, quantity, reference, measured, tolerance, source }.check()
+    }
+}
+
 /// The largest magnitude; NaN if there is one, which `f64::max` would lose.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |largest: f64, value| match value.is_nan() || largest.is_nan() {

@@ -7,12 +7,13 @@ use gyration::body::BodyKind;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::state::{BodyMotion, State, Turn};
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 use gyration_ode::Options;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
-use gyration_sim::rows::{Extras, Fields};
+use gyration_sim::rows::{Extra, Extras, Fields};
 use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched};
+use std::ops::Range;
 use std::path::Path;
 
 /// A model, its start, and how to run it.
@@ -43,8 +44,18 @@ pub struct Run {
     pub energy_in_play: f64,
     /// Accepted steps of both methods.
     pub steps: u64,
-    columns: Vec<String>,
+    arrays: Vec<Array>,
     rows: Vec<Vec<f64>>,
+}
+
+/// Numbers of one name in a row.
+#[derive(Debug, Clone)]
+struct Array {
+    name: String,
+    /// Names of the columns of the CSV; none for numbers that are not in it.
+    columns: Vec<String>,
+    /// Where they stand in the row.
+    range: Range<usize>,
 }
 
 impl Experiment {
@@ -83,17 +94,37 @@ impl Experiment {
         Self { plan: RunPlan { end, sample: end, ..self.plan }, ..self.clone() }
     }
 
+    /// The same with samples at this spacing [s].
+    pub fn sampled(&self, sample: f64) -> Self {
+        Self { plan: RunPlan { sample, ..self.plan }, ..self.clone() }
+    }
+
+    /// The same with further quantities in each row; total affine momentum about the origin.
+    pub fn recording(&self, quantities: impl IntoIterator<Item = Extra>) -> Self {
+        let extras = Extras::new(quantities, Vec3::zeros());
+        Self { plan: RunPlan { extras, ..self.plan }, ..self.clone() }
+    }
+
     /// Runs it.
     ///
     /// # Panics
     /// If the run cannot begin, or stops early.
     pub fn run(&self) -> Run {
+        let run = self.attempt();
+        assert!(!matches!(run.outcome, Outcome::Stopped(_)), "{}", run.outcome.in_words());
+        run
+    }
+
+    /// Runs it to whatever end.
+    ///
+    /// # Panics
+    /// If the run cannot begin.
+    pub fn attempt(&self) -> Run {
         let fail = |error| -> ! { panic!("{error}") };
         let mut sink = MemorySink::default();
         let mut simulation = Simulation::new(&self.model, &self.start, self.plan).unwrap_or_else(|e| fail(e));
         simulation.begin(&mut sink).unwrap_or_else(|e| fail(e));
         let outcome = simulation.run(&mut sink, &mut Unwatched).unwrap_or_else(|e| fail(e));
-        assert!(!matches!(outcome, Outcome::Stopped(_)), "{}", outcome.in_words());
         let (times, rows) = sink.rows.into_iter().unzip();
         Run {
             times,
@@ -104,7 +135,7 @@ impl Experiment {
             largest_residual: simulation.tally().largest_residual,
             energy_in_play: simulation.tally().energy_in_play,
             steps: simulation.statistics().accepted(),
-            columns: columns(&self.model, &self.plan.extras),
+            arrays: arrays(&self.model, &self.plan.extras),
         }
     }
 
@@ -162,15 +193,17 @@ impl Experiment {
     }
 }
 
-/// The name of every number of a row, in its order.
-fn columns(model: &Model, extras: &Extras) -> Vec<String> {
-    let mut names = Vec::new();
-    for array in Fields::new(model, extras).arrays(model).0 {
-        // An array without columns in the CSV still takes its place in the row.
-        let len = array.row_len();
-        names.extend(array.columns.into_iter().chain(std::iter::repeat(String::new())).take(len));
-    }
-    names
+/// What a row holds, in its order.
+fn arrays(model: &Model, extras: &Extras) -> Vec<Array> {
+    let mut start = 0;
+    let specifications = Fields::new(model, extras).arrays(model).0.into_iter();
+    specifications
+        .map(|array| {
+            let range = start..start + array.row_len();
+            start = range.end;
+            Array { name: array.name, columns: array.columns, range }
+        })
+        .collect()
 }
 
 impl Run {
@@ -179,9 +212,24 @@ impl Run {
     /// # Panics
     /// If there is no such column.
     pub fn column(&self, name: &str) -> Vec<f64> {
-        let found = self.columns.iter().position(|column| column == name);
-        let index = found.unwrap_or_else(|| panic!("no column {name}; there are {:?}", self.columns));
+        let place = |array: &Array| {
+            array.columns.iter().position(|column| column == name).map(|offset| array.range.start + offset)
+        };
+        let index = self.arrays.iter().find_map(place).unwrap_or_else(|| {
+            let columns: Vec<&String> = self.arrays.iter().flat_map(|array| &array.columns).collect();
+            panic!("no column {name}; there are {columns:?}")
+        });
         self.rows.iter().map(|row| row[index]).collect()
+    }
+
+    /// The samples of an array of matrices (`gradient_rate`, `stress`), of the first body.
+    ///
+    /// # Panics
+    /// If there is no such array.
+    pub fn matrices(&self, name: &str) -> Vec<Mat3> {
+        let found = self.arrays.iter().find(|array| array.name == name);
+        let start = found.unwrap_or_else(|| panic!("no array {name}: {:?}", self.arrays)).range.start;
+        self.rows.iter().map(|row| Mat3::from_row_slice(&row[start..start + 9])).collect()
     }
 
     /// The times [s] of the events of a kind (`apex`, `closest_approach`, `lift_off`).

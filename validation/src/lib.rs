@@ -12,6 +12,6 @@ mod answer;
 mod experiment;
 mod facet;
 
-pub use answer::{Answer, largest};
+pub use answer::{Answer, Case, largest};
 pub use experiment::{Experiment, Run};
 pub use facet::FacetBody;

@@ -6,7 +6,7 @@
 
 use gyration::contact::{ContactLaw, Repulsion};
 use gyration_sim::Tolerance;
-use gyration_validation::{Answer, Experiment, FacetBody, largest};
+use gyration_validation::{Answer, Case, Experiment, FacetBody, largest};
 
 const ROW: Option<u32> = Some(13);
 const AREA: f64 = 0.01;
@@ -119,17 +119,9 @@ fn ball_keeps_its_apex_over_a_hundred_bounces() {
         let run = experiment.run();
         let apexes = run.times_of("apex");
         assert!(apexes.len() >= BOUNCES, "{} apexes", apexes.len());
-        let answer = |quantity, reference, measured| Answer {
-            row: ROW,
-            case,
-            quantity,
-            reference,
-            measured,
-            tolerance,
-            source: "conservation of energy",
-        };
+        let case = Case { row: ROW, name: case, source: "conservation of energy" };
         let apex = experiment.motion_at(apexes[BOUNCES - 1]).placement.position.z;
-        answer("height of the centre at the apex after 100 bounces [m]", 0.55, apex).check();
-        answer("largest residual of the ledger over the energy in play", 0.0, run.relative_residual()).check();
+        case.check("height of the centre at the apex after 100 bounces [m]", 0.55, apex, tolerance);
+        case.check("largest residual of the ledger over the energy in play", 0.0, run.relative_residual(), tolerance);
     }
 }

@@ -11,15 +11,13 @@ use gyration::jacobian::jacobian;
 use gyration::rates::Workspace;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::Tolerance;
-use gyration_validation::{Answer, Experiment, FacetBody};
+use gyration_validation::{Case as Known, Experiment, FacetBody};
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
-const ROW: Option<u32> = Some(19);
 const BASE: f64 = 0.1;
 const MASS: f64 = 2.0;
 const GRAVITY: f64 = 9.81;
-const SOURCE: &str = "ω² = mg(νL²/(12d) − h/2)/I";
 
 struct Case {
     name: &'static str,
@@ -33,6 +31,10 @@ impl Case {
     /// α [Pa] that carries the box at its gap, d₀ = 1 m.
     fn alpha(&self) -> f64 {
         MASS * GRAVITY * self.gap.powf(self.nu) / (BASE * BASE)
+    }
+
+    fn known(&self) -> Known {
+        Known { row: Some(19), name: self.name, source: "ω² = mg(νL²/(12d) − h/2)/I" }
     }
 
     fn inertia(&self) -> f64 {
@@ -83,10 +85,6 @@ const STIFF: Case =
         name: "box 0.1×0.1×0.3 m of 2 kg on its bottom face, d = 2 mm, ν = 12", height: 0.3, nu: 12.0, gap: 2e-3
     };
 
-fn answer(case: &'static str, quantity: &'static str, reference: f64, measured: f64, tolerance: f64) {
-    Answer { row: ROW, case, quantity, reference, measured, tolerance, source: SOURCE }.check();
-}
-
 /// ω² from the Jacobian: the rate of Ω_y by the tilt, which is twice the y component of the quaternion.
 fn square_of_the_jacobian(experiment: &Experiment) -> f64 {
     let mut blocks = [DMatrix::zeros(13, 13)];
@@ -104,14 +102,14 @@ fn box_on_the_field_rocks_at_the_frequency_of_the_closed_form() {
     for case in [listed, STIFF] {
         let omega = case.square().sqrt();
         let of_the_jacobian = square_of_the_jacobian(&case.standing(0.0)).sqrt();
-        answer(case.name, "rocking frequency of the exact Jacobian [rad/s]", omega, of_the_jacobian, 1e-12);
+        case.known().check("rocking frequency of the exact Jacobian [rad/s]", omega, of_the_jacobian, 1e-12);
         // Some 1e-4 of the gap at the edge: the square of that is what the linear mode leaves out.
         let tilt = 1e-4 * case.gap / (0.5 * BASE);
         // θ = θ₀ cos ωt, five quarters of a period later: ωt = 5π/2 + ε with sin ε = −θ/θ₀.
         let time = 2.5 * PI / omega;
         let later = case.tilt_after(tilt, time);
         let measured = (2.5 * PI - (later / tilt).asin()) / time;
-        answer(case.name, "rocking frequency of the motion [rad/s]", omega, measured, 1e-7);
+        case.known().check("rocking frequency of the motion [rad/s]", omega, measured, 1e-7);
     }
 }
 
@@ -121,8 +119,7 @@ fn box_too_high_for_its_field_falls_over() {
     let case =
         Case { name: "box 0.1×0.1×0.2 m of 2 kg on its bottom face, d = 0.06 m, ν = 6", gap: 0.06, ..listed() };
     assert!(case.square() < 0.0);
-    answer(
-        case.name,
+    case.known().check(
         "ω² of the exact Jacobian [1/s²]",
         case.square(),
         square_of_the_jacobian(&case.standing(0.0)),
@@ -132,7 +129,7 @@ fn box_too_high_for_its_field_falls_over() {
     let time = 3.0 / growth;
     let later = case.tilt_after(tilt, time);
     // The tilt has grown to 1e-5; the tolerances of rotation leave 1e-14 of one.
-    answer(case.name, "rate at which a tilt grows [1/s]", growth, (later / tilt).acosh() / time, 1e-7);
+    case.known().check("rate at which a tilt grows [1/s]", growth, (later / tilt).acosh() / time, 1e-7);
     let stable = Case { gap: 0.0499, ..case };
     assert!(stable.square() > 0.0 && square_of_the_jacobian(&stable.standing(0.0)) > 0.0);
 }
