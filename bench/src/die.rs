@@ -70,7 +70,7 @@ position = [0, 0, 0.2]
         match Scene::parse("die.toml", &text, Path::new(""), &[]) {
             Ok(scene) => {
                 let built = scene.built();
-                Self { model: built.model.clone(), start: built.state.clone(), plan: (&built.plan).into() }
+                Self { model: built.model.clone(), start: built.state.clone(), plan: built.into() }
             }
             Err(errors) => panic!("{errors}"),
         }

@@ -79,7 +79,7 @@ impl Experiment {
 
     fn of(scene: &Scene) -> Self {
         let built = scene.built();
-        Self { model: built.model.clone(), start: built.state.clone(), plan: RunPlan::from(&built.plan) }
+        Self { model: built.model.clone(), start: built.state.clone(), plan: RunPlan::from(built) }
     }
 
     /// An experiment with a model made by hand, the method chosen by the program.

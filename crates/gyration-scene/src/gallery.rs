@@ -18,6 +18,16 @@ static SCENES: &[(&str, &str)] = &[
     ("tippe-top", include_str!("../../../scenes/tippe-top.toml")),
     ("euler-disk", include_str!("../../../scenes/euler-disk.toml")),
     ("rocking-block", include_str!("../../../scenes/rocking-block.toml")),
+    ("elastic-bounce", include_str!("../../../scenes/elastic-bounce.toml")),
+    ("elastic-bounce-tilted", include_str!("../../../scenes/elastic-bounce-tilted.toml")),
+    ("elastic-bounce-spinning", include_str!("../../../scenes/elastic-bounce-spinning.toml")),
+    ("elastic-roll", include_str!("../../../scenes/elastic-roll.toml")),
+    ("elastic-oscillate", include_str!("../../../scenes/elastic-oscillate.toml")),
+    ("spin-flatten", include_str!("../../../scenes/spin-flatten.toml")),
+    ("drop-skew", include_str!("../../../scenes/drop-skew.toml")),
+    ("pinned-strain", include_str!("../../../scenes/pinned-strain.toml")),
+    ("stiff-limit", include_str!("../../../scenes/stiff-limit.toml")),
+    ("kick", include_str!("../../../scenes/kick.toml")),
 ];
 
 /// Name and text of each scene of the gallery.

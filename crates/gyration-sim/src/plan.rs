@@ -1,9 +1,9 @@
 //! What a run is asked for: the plan of a scene in the terms of the run loop and the stepper.
 
 use crate::adapter::Tolerance;
-use crate::rows::Extras;
+use crate::rows::{Extra, Extras};
 use gyration_ode::{Method, Options};
-use gyration_scene::Plan;
+use gyration_scene::{Built, Recorded};
 
 /// How long to run, how finely to sample, how precisely to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,8 +31,9 @@ pub struct RestCriterion {
     pub hold: f64,
 }
 
-impl From<&Plan> for RunPlan {
-    fn from(plan: &Plan) -> Self {
+impl From<&Built> for RunPlan {
+    fn from(built: &Built) -> Self {
+        let plan = &built.plan;
         let method = match plan.method {
             gyration_scene::Method::Auto => Method::Auto,
             gyration_scene::Method::Explicit => Method::Explicit,
@@ -45,7 +46,23 @@ impl From<&Plan> for RunPlan {
             stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
             options: Options { method, max_step, initial_step: None },
-            extras: Extras::default(),
+            extras: Extras::new(built.record.quantities.iter().map(|asked| extra(*asked)), built.record.origin),
         }
+    }
+}
+
+/// The quantity that a scene asks for.
+fn extra(asked: Recorded) -> Extra {
+    match asked {
+        Recorded::VelocityGradient => Extra::VelocityGradient,
+        Recorded::AffineMomentumTotal => Extra::AffineMomentumTotal,
+        Recorded::AffineMoment => Extra::AffineMoment,
+        Recorded::MomentPower => Extra::MomentPower,
+        Recorded::ComovingMomentum => Extra::ComovingMomentum,
+        Recorded::MomentumResidual => Extra::MomentumResidual,
+        Recorded::PrincipalStretches => Extra::PrincipalStretches,
+        Recorded::Rotation => Extra::Rotation,
+        Recorded::CauchyStress => Extra::CauchyStress,
+        Recorded::Stress => Extra::Stress,
     }
 }

@@ -73,7 +73,7 @@ impl<'a> Job<'a> {
         Self {
             model,
             start: state,
-            plan: plan.into(),
+            plan: scene.built().into(),
             max_wall_time: plan.max_wall_time.and_then(|limit| Duration::try_from_secs_f64(limit).ok()),
             attributes: attributes.as_object().cloned().unwrap_or_default(),
         }
