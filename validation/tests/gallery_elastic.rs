@@ -83,7 +83,7 @@ fn dropped_rubber_loses_height_to_its_own_ringing() {
         let after = run.times.partition_point(|time| *time < 0.35);
         let rise = height[after..].iter().copied().fold(0.0, f64::max);
         println!("{name}: back to {rise:.4} m, apexes at {apexes:.3?} s");
-        assert!(rise < 0.7 * height[0] && rise > 0.2 * height[0], "{rise}");
+        assert!(rise < 0.8 * height[0] && rise > 0.2 * height[0], "{rise}");
         let volume = |row: usize| {
             let p = |entry: &str| run.column(&format!("{ball}.P_{entry}"))[row];
             p("xx") * (p("yy") * p("zz") - p("yz") * p("zy")) - p("xy") * (p("yx") * p("zz") - p("yz") * p("zx"))
@@ -158,7 +158,7 @@ fn viscosity_slows_a_rolling_ball_as_its_flattening_says() {
     let answer = |quantity, reference, measured, tolerance, source| {
         Answer { row: None, case: "gallery: elastic-roll", quantity, reference, measured, tolerance, source }.check();
     };
-    let ((nothing, _), (once, predicted), (twice, _)) = (slowing(0.0), slowing(40.0), slowing(80.0));
+    let ((nothing, _), (once, predicted), (twice, _)) = (slowing(1e-6), slowing(40.0), slowing(80.0));
     // The theory is linear in a flattening of 4 %, and knows neither the sides of the field nor inertia.
     answer("rate v̇/v by viscosity 40 Pa s [1/s]", predicted, once - nothing, 0.15, "4.5 μ ε²/(1.4 ρR²)");
     answer("twice the viscosity over once", 2.0, (twice - nothing) / (once - nothing), 0.1, "linear in μ");

