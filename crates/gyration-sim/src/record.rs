@@ -12,6 +12,7 @@ use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
+use gyration::body::BodyKind;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_record::{Attributes, Layout, RecordError, Recording, Writer, chunk_rows_for};
@@ -175,7 +176,10 @@ fn describe_body(body: &gyration::body::Body) -> Value {
         |points: &[gyration::tensor::Vec3]| points.iter().map(|p| json!((p - center).as_slice())).collect::<Value>();
     json!({
         "name": body.name,
-        "kind": "rigid",
+        "kind": match body.kind {
+            BodyKind::Rigid(_) => "rigid",
+            BodyKind::Affine(_) => "affine",
+        },
         "mass": body.mass.mass,
         "center": center.as_slice(),
         "euler_tensor": body.mass.euler_tensor.as_slice(),
