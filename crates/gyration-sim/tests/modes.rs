@@ -395,3 +395,22 @@ fn supports_that_move_are_held_where_they_are_at_the_start() {
     assert!((raised.placement.position.z - still.placement.position.z - 0.01).abs() < 1e-13);
     assert_close("gap", raised.gap, still.gap, 1e-12);
 }
+
+#[test]
+fn brick_that_falls_on_its_edge_is_not_turned_about_the_vertical() {
+    // Far above the table all stiffnesses vanish but the material's; the free turn about the vertical must not be mixed with the fall.
+    let material = Some(Material::NeoHookeanLog(NeoHookeanLog { mu: 8000.0, lambda: 20000.0 }));
+    let mut body = soft(Shape::Box(Cuboid { size: Vec3::new(0.2, 0.1, 0.06) }), 1000.0, material, 0.0);
+    let law = Repulsion { alpha: 40e3, exponent: 6.0, reference_gap: 2e-3 };
+    body.contacts = vec![Contact::new(0, AreaMeasure::DeformedAreaPotential, vec![ContactLaw::Repulsion(law)])];
+    let (model, _) = model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::zeros());
+    let gradient = Quaternion::from_axis_angle(&Vec3::y(), 0.5).rotation();
+    let still = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
+    let start = State::start(&model, &[Start::Affine(Placement { position: 0.4 * Vec3::z(), gradient }, still)]);
+    let (rest, _) = survey(&(model, start));
+    let gradient = rest.placement.gradient;
+    let aside = [gradient.m12, gradient.m21, gradient.m23, gradient.m32].map(f64::abs).into_iter().fold(0.0, f64::max);
+    println!("aside {aside:.1e}, lying to {:.1e}", gradient.m13);
+    // It lies on its largest face; noise of the search does not grow.
+    assert!(aside < 1e-6 && gradient.m13.abs() < 1e-9 && rest.stretches[2] > 0.95);
+}

@@ -3,7 +3,7 @@
 //!   (|sym K| + skw K) z = r,   r the forces along z
 //!
 //! With |sym K| every step does positive work, so that the body ends in a valley, not on a hill; near the end it is Newton's step. Where K is
-//! smaller than r over the longest step allowed, that quotient stands in its place: a body far above its support comes down in
+//! smaller than r over the longest step allowed, the largest such quotient stands in its place: a body far above its support comes down in
 //! growing steps, and directions without force that are free (sliding, turning about the vertical) or unstable are left alone. A step is halved until
 //! gaps and det P keep a part of their values, and the work over it by the trapezoidal rule is not negative.
 
@@ -162,11 +162,15 @@ impl Search {
         let scale = scale.fold(held.gravity().norm() * held.body().mass.mass.sqrt(), f64::max);
         // Nor does rounding choose the side to which a body would fall.
         let free = |k: usize| values[k] <= zero && along[k].abs() <= NO_FORCE * scale;
+        let per_step = |shape: &ModeShape| (shape.translation.norm() / self.reach).max(strain(shape) / LARGEST_STRAIN);
+        // What has to be cut is cut alike, so that it goes the way of its force.
+        let needed = shapes.iter().enumerate().map(|(k, shape)| along[k].abs() * per_step(shape));
+        let cut = needed.enumerate().filter(|(k, least)| values[*k].abs() < *least && !free(*k));
+        let least = cut.map(|(_, least)| least).fold(0.0, f64::max);
         let mut matrix = vectors.transpose() * (0.5 * (stiffness - stiffness.transpose())) * &vectors;
         let mut right = along.clone();
-        for (k, shape) in shapes.iter().enumerate() {
-            let per_step = (shape.translation.norm() / self.reach).max(strain(shape) / LARGEST_STRAIN);
-            matrix[(k, k)] = values[k].abs().max(along[k].abs() * per_step);
+        for k in 0..shapes.len() {
+            matrix[(k, k)] = values[k].abs().max(least);
             if free(k) {
                 matrix.row_mut(k).fill(0.0);
                 matrix.column_mut(k).fill(0.0);

@@ -167,7 +167,10 @@ pub fn modes(model: &Model, start: &State, body: usize, rest: &Rest) -> Result<V
     let mut modes: Vec<Mode> = found
         .iter()
         .map(|pair| {
-            let (real, imaginary) = shape::in_step(&pair.shape);
+            let (real, mut imaginary) = shape::in_step(&pair.shape);
+            if pair.eigenvalues[0].im == 0.0 {
+                imaginary.fill(0.0);
+            }
             let (shape, quadrature) = shape::scaled(&coordinates, held.body(), &real, &imaginary);
             let in_words = words::of(&shape, held.body(), &rest.placement);
             Mode { eigenvalues: pair.eigenvalues, motion: pair.motion, shape, quadrature, in_words }
