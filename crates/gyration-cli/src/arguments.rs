@@ -6,7 +6,7 @@ use clap_complete::Shell;
 use std::path::PathBuf;
 
 /// Commands that are planned but not in this version.
-pub const LATER: [&str; 6] = ["report", "view", "modes", "resistance", "study", "calibrate"];
+pub const LATER: [&str; 5] = ["report", "view", "resistance", "study", "calibrate"];
 
 const STYLES: Styles =
     Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
@@ -33,6 +33,8 @@ pub enum Command {
     Run(Run),
     /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching, resolved form
     Check(Check),
+    /// Print the rest state of each body, and frequencies, decay rates and shapes of the small motions about it
+    Modes(Check),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
     /// Turn a recording into a table or a file for other programs
@@ -82,7 +84,7 @@ pub struct Run {
     pub json: bool,
 }
 
-/// `gyration check`
+/// `gyration check`, `gyration modes`
 #[derive(Debug, Args)]
 pub struct Check {
     /// The scene.
@@ -157,6 +159,8 @@ pub enum What {
     Height,
     /// Smallest distances to a support
     Gap,
+    /// Principal stretches of bodies that deform
+    Stretch,
     /// Forces of contact
     Forces,
     /// Energies, works and the residual of their balance

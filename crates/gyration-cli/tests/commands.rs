@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{BALL, Sandbox};
+use common::{BALL, Sandbox, soft_ball};
 use serde_json::Value;
 
 #[test]
@@ -58,7 +58,7 @@ fn bad_arguments_are_refused() {
     ] {
         sandbox.refused(2, arguments);
     }
-    for later in ["report", "view", "modes", "resistance", "study", "calibrate"] {
+    for later in ["report", "view", "resistance", "study", "calibrate"] {
         let said = sandbox.refused(2, &[later, "ball.toml"]);
         assert!(said.stderr.contains("not in this version yet"), "{}", said.stderr);
     }
@@ -203,4 +203,66 @@ fn adhesion_may_hold_a_body_from_below() {
     let rests = found["bodies"][0]["supports"][0]["rests"].as_array().unwrap();
     // Near the support the ball comes back, farther off it falls.
     assert_eq!(rests.iter().map(|rest| rest["stable"].as_bool().unwrap()).collect::<Vec<_>>(), [true, false]);
+}
+
+#[test]
+fn modes_of_a_soft_ball_ring_as_in_the_closed_form() {
+    let sandbox = Sandbox::new();
+    sandbox.write("soft.toml", &soft_ball());
+    let weightless = ["modes", "soft.toml", "--set", "contact=[]", "--set", "world.gravity=[0, 0, 0]"];
+    let json = sandbox.done(&[&weightless[..], &["--json"]].concat()).stdout;
+    let found: Value = serde_json::from_str(&json).unwrap();
+    let state = &found["bodies"][0]["rest_state"];
+    let modes = state["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 11);
+    // ω₀² = 20 (c₁ + c₂)/(ρR²), δ = 5μ/(2ρR²), ω² = ω₀² − δ²; rounding of a few hundred operations.
+    let (square, decay) = (20.0 * 4000.0 / 2.5, 20.0);
+    let ringing: Vec<&Value> = modes.iter().filter(|mode| mode["motion"] == "oscillates").collect();
+    assert_eq!(ringing.len(), 5);
+    for mode in ringing {
+        let number = |key: &str| mode[key].as_f64().unwrap();
+        assert!((number("frequency") / f64::sqrt(square - decay * decay) - 1.0).abs() < 1e-12);
+        assert!((mode["decay_rates"][0].as_f64().unwrap() / decay - 1.0).abs() < 1e-12);
+        assert!((number("frequency_hz") * std::f64::consts::TAU / number("frequency") - 1.0).abs() < 1e-14);
+        assert_eq!(mode["shape"]["translation"], serde_json::json!([0.0, 0.0, 0.0]));
+    }
+    let words = sandbox.done(&weightless).stdout;
+    assert!(words.contains("shear in the plane xy") && words.contains("Mooney–Rivlin, c1 3000 Pa"), "{words}");
+    assert!(words.lines().all(|line| line.chars().count() <= 100), "{words}");
+}
+
+#[test]
+fn modes_say_why_there_is_no_rest_state() {
+    let sandbox = Sandbox::with_ball();
+    let falling = ["modes", "ball.toml", "--set", "contact=[]"];
+    let words = sandbox.done(&falling).stdout;
+    assert!(words.contains("no rest state: nothing holds the body against gravity"), "{words}");
+    let found: Value = serde_json::from_str(&sandbox.done(&[&falling[..], &["--json"]].concat()).stdout).unwrap();
+    assert!(found["bodies"][0]["rest_state"].is_null() && found["bodies"][0]["no_rest_state_because"].is_string());
+    let slope = ["modes", "ball.toml", "--set", "support.table.plane.normal=[0.1, 0, 1]"];
+    assert!(sandbox.done(&slope).stdout.contains("the body slides on"));
+    let found: Value = serde_json::from_str(&sandbox.done(&["modes", "ball.toml", "--json"]).stdout).unwrap();
+    assert_eq!(found["bodies"][0]["rest_state"]["modes"].as_array().unwrap().len(), 6);
+}
+
+#[test]
+fn check_tells_the_rest_state_of_a_body_that_deforms() {
+    let sandbox = Sandbox::new();
+    sandbox.write("soft.toml", &soft_ball());
+    let found: Value = serde_json::from_str(&sandbox.done(&["check", "soft.toml", "--json"]).stdout).unwrap();
+    let body = &found["bodies"][0];
+    assert_eq!((&body["kind"]["kind"], &body["kind"]["incompressible"]), (&"affine".into(), &true.into()));
+    let rest = &body["rest_state"];
+    let stretch = |k: usize| rest["stretches"][k].as_f64().unwrap();
+    // Flattened by its weight, its volume kept.
+    assert!(stretch(0) > 1.001 && stretch(2) < 0.999 && (stretch(0) * stretch(1) * stretch(2) - 1.0).abs() < 1e-13);
+    assert!(rest["pressure"].as_f64().unwrap() > 0.0 && rest["gap"].as_f64().unwrap() > 0.0);
+    let words = sandbox.done(&["check", "soft.toml"]).stdout;
+    for part in
+        ["affine, incompressible: Mooney–Rivlin", "viscosity 20 Pa s", "if it kept the shape", "stretches", "Hz"]
+    {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    let rigid: Value = serde_json::from_str(&sandbox.done(&["check", "dice", "--json"]).stdout).unwrap();
+    assert!(rigid["bodies"][0]["rest_state"].is_null() && rigid["bodies"][0]["kind"]["kind"] == "rigid");
 }

@@ -139,7 +139,7 @@ fn malformed_scenes_leave_no_files() {
         ("support", BALL.replace("support = \"table\"", "support = \"floor\"")),
         ("mesh", BALL.replace("{ sphere = { radius = \"5 cm\" } }", "{ mesh = { file = \"none.stl\", scale = 1 } }")),
         ("overlap", BALL.replace("[0, 0, 0.2]", "[0, 0, 0.01]")),
-        ("kind", BALL.replace("density = 1000", "density = 1000\naffine = {}")),
+        ("kind", BALL.replace("density = 1000", "density = 1000\ncontractile = {}")),
     ];
     for (name, text) in &cases {
         let file = format!("{name}.toml");

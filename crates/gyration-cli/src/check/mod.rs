@@ -2,16 +2,20 @@
 //!
 //! Everything here is computed, nothing printed.
 
+mod kind;
 mod laws;
 mod mass;
+mod modes;
 mod rest;
 
 use gyration::model::Model;
 use gyration::state::State;
 use serde::Serialize;
 
+pub use kind::KindCheck;
 pub use laws::LawCheck;
 pub use mass::MassCheck;
+pub use modes::{ModeCheck, RestState, ShapeCheck};
 pub use rest::{Approach, Rest};
 
 /// What can be said of a scene.
@@ -28,8 +32,14 @@ pub struct BodyCheck {
     pub name: String,
     /// The largest side of its bounding box [m].
     pub size: f64,
+    /// How it may deform, and what it is made of.
+    pub kind: KindCheck,
     /// Mass properties.
     pub mass: MassCheck,
+    /// Where a body that deforms rests, how much it is deformed there, and how it moves about that state.
+    pub rest_state: Option<RestState>,
+    /// Why a body that deforms has no rest state, in words.
+    pub no_rest_state_because: Option<String>,
     /// What it has to do with each support; empty for mass points.
     pub supports: Vec<PairCheck>,
 }
@@ -47,7 +57,8 @@ pub struct PairCheck {
     pub laws: Vec<LawCheck>,
     /// Whether one of the laws forbids touching.
     pub forbids_touching: bool,
-    /// Gaps at which the central laws carry the weight, in the orientation of the start, ascending.
+    /// Gaps at which the central laws carry the weight, ascending: with the orientation of the start, and with its P if the body
+    /// deforms.
     pub rests: Vec<Rest>,
     /// Why no such gap is given, in words: something else holds the body too.
     pub no_rest_because: Option<&'static str>,
@@ -75,9 +86,17 @@ fn check_body(model: &Model, start: &State, index: usize) -> BodyCheck {
             no_rest_because: approach.no_rest_because,
         })
     };
+    let (rest_state, no_rest_state_because) = match body.affine().map(|_| RestState::of(model, start, index)) {
+        None => (None, None),
+        Some(Ok(state)) => (Some(state), None),
+        Some(Err(reason)) => (None, Some(reason)),
+    };
     BodyCheck {
         name: body.name.clone(),
         size: body.size,
+        kind: KindCheck::of(body),
+        rest_state,
+        no_rest_state_because,
         mass: MassCheck::of(&body.mass),
         supports: (0..model.supports.len()).filter_map(pair).collect(),
     }

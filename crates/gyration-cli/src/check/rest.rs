@@ -7,17 +7,20 @@
 //!   period 2π/ω, ω² = k/m;   damping ratio ζ = c/(2 m ω);   decay time 1/(ζω) for ζ < 1, of the slower of two
 //!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
 //!
-//! All of them are sums over the powers c d^−ν of the laws: F = Σ c A₀(ν), k = Σ ν c A₀(ν+1) for the central ones,
-//! c, c_t = Σ c A₀(ν) for the viscous ones, with A₀(ν) = ∫ d^−ν dA over the surface. With adhesion there may be several
+//! F comes from the loads of the contacts without velocity, k, c and c_t from their derivatives. With adhesion there may be several
 //! such gaps, or none. A body that something else holds too, a pin, a spring, another support, rests elsewhere: no
-//! such gap is then given, but the reason why not.
+//! such gap is then given, but the reason why not. A body that deforms keeps the P of its start here; where it really
+//! rests, deformed by its weight, is its rest state (`modes`).
 
 use gyration::body::Body;
-use gyration::contact::{Action, Contact, Term};
+use gyration::contact::{
+    Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
+};
+use gyration::load::{LoadSlopes, Loads};
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::surface::{GapField, Kernel, MomentRequest, Moments, Surface};
-use gyration::tensor::Vec3;
+use gyration::surface::{GapField, Surface};
+use gyration::tensor::{Mat3, Vec3};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -51,9 +54,13 @@ pub struct Rest {
 #[derive(Debug, Clone)]
 pub struct Approach<'a> {
     surface: &'a Surface,
-    terms: Vec<Term>,
-    /// Rᵀn.
+    contacts: Vec<&'a Contact>,
+    /// n.
+    normal: Vec3,
+    /// Pᵀn.
     direction: Vec3,
+    /// How the surface is deformed, if the body may be.
+    deformation: Option<Deformation>,
     /// Height of the centre of mass less the gap [m].
     depth: f64,
     mass: f64,
@@ -75,12 +82,12 @@ impl<'a> Approach<'a> {
         let direction = motion.placement.gradient.tr_mul(&plane.normal);
         let height = plane.gap(&motion.placement.position, start.time);
         let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
-        let acting = |contact: &&Contact| contact.support == support;
-        let laws = body.contacts.iter().filter(acting).flat_map(|contact| contact.laws());
         Some(Self {
             surface,
-            terms: laws.flat_map(|law| law.terms()).flatten().collect(),
+            contacts: body.contacts.iter().filter(|contact| contact.support == support).collect(),
+            normal: plane.normal,
             direction,
+            deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
             depth: height - initial_gap,
             mass: body.mass.mass,
             size: body.size,
@@ -92,7 +99,7 @@ impl<'a> Approach<'a> {
 
     /// Whether any law acts.
     pub fn acts(&self) -> bool {
-        !self.terms.is_empty()
+        self.contacts.iter().any(|contact| !contact.laws().is_empty())
     }
 
     /// The largest side of the body [m].
@@ -102,20 +109,33 @@ impl<'a> Approach<'a> {
 
     /// F(d) of the central laws [N]; none where it cannot be computed.
     pub fn force(&self, gap: f64) -> Option<f64> {
-        self.sum(gap, Action::Central, 0.0, |_| 1.0)
+        let mut scratch = ContactScratch::default();
+        let meeting = self.meeting(gap);
+        let loads = self.contacts.iter().map(|contact| ContactLoads::integrate(contact, &meeting, &mut scratch));
+        let total = loads.map(|loads| loads.ok().map(|loads| loads.total())).sum::<Option<Loads>>()?;
+        Some(total.force.dot(&self.normal)).filter(|force| force.is_finite())
     }
 
-    /// Σ weight · c A₀(ν + raised) over the terms of one action; none where it is not a number.
-    fn sum(&self, gap: f64, action: Action, raised: f64, weight: impl Fn(&Term) -> f64) -> Option<f64> {
-        let field = GapField { height: self.depth + gap, direction: self.direction };
-        let terms = self.terms.iter().filter(|term| term.action == action);
-        let parts = terms.map(|term| {
-            let mut moments = [Moments::default()];
-            let request = MomentRequest { kernel: Kernel::Power(term.exponent + raised), order: 0 };
-            self.surface.moments(&field, &[request], &mut moments).ok()?;
-            Some(weight(term) * term.coefficient * moments[0].zeroth)
-        });
-        parts.sum::<Option<f64>>().filter(|sum| sum.is_finite())
+    /// The body at a gap, without velocity.
+    fn meeting(&self, gap: f64) -> Meeting<'a> {
+        Meeting {
+            surface: self.surface,
+            field: GapField { height: self.depth + gap, direction: self.direction },
+            motion: RelativeMotion { normal: self.normal, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() },
+            deformation: self.deformation,
+        }
+    }
+
+    /// ∂f/∂p₀ [N/m] and ∂f/∂ṗ₀ [N s/m] of all laws; none where they are not numbers.
+    fn slopes(&self, gap: f64) -> Option<(Mat3, Mat3)> {
+        let (mut scratch, meeting) = (ContactScratch::default(), self.meeting(gap));
+        let mut slopes = LoadSlopes::default();
+        for contact in &self.contacts {
+            ContactSlopes::integrate(contact, &meeting, &mut scratch).ok()?.add_to(&mut slopes);
+        }
+        let force = |by: &gyration::load::Mat12| -> Mat3 { by.fixed_view::<3, 3>(0, 0).into_owned() };
+        let (by_place, by_rate) = (force(&slopes.by_place), force(&slopes.by_rate));
+        (by_place.iter().chain(by_rate.iter()).all(|entry| entry.is_finite())).then_some((by_place, by_rate))
     }
 
     /// All gaps at which the weight is carried, ascending; none for a body that is held otherwise as well.
@@ -143,9 +163,13 @@ impl<'a> Approach<'a> {
     }
 
     fn rest_at(&self, gap: f64) -> Option<Rest> {
-        let stiffness = self.sum(gap, Action::Central, 1.0, |term| term.exponent)?;
-        let normal_resistance = self.sum(gap, Action::Normal, 0.0, |_| 1.0)?;
-        let tangential_resistance = self.sum(gap, Action::Tangential, 0.0, |_| 1.0)?;
+        let (by_place, by_rate) = self.slopes(gap)?;
+        // Any direction across the normal.
+        let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
+        let along = |matrix: &Mat3, direction: &Vec3| 0.0 - direction.dot(&(matrix * direction));
+        let stiffness = along(&by_place, &self.normal);
+        let normal_resistance = along(&by_rate, &self.normal);
+        let tangential_resistance = along(&by_rate, &across);
         let stable = stiffness > 0.0;
         let frequency = stable.then(|| (stiffness / self.mass).sqrt());
         let damped = frequency.filter(|_| normal_resistance > 0.0);

@@ -1,8 +1,9 @@
 //! `gyration check`: what a scene says before it runs.
 
+use super::modes::write_rest;
 use super::open;
 use crate::arguments::Check;
-use crate::check::{self, BodyCheck, LawCheck, PairCheck, Rest, SceneCheck};
+use crate::check::{self, BodyCheck, KindCheck, LawCheck, ModeCheck, PairCheck, Rest, SceneCheck};
 use crate::error::{CliError, code};
 use crate::output;
 use crate::summary::{plain, vector};
@@ -61,16 +62,59 @@ fn write_body(text: &mut String, body: &BodyCheck) {
     let mass = &body.mass;
     let volume = if mass.volume > 0.0 { format!(", volume {} m³", short(mass.volume)) } else { String::new() };
     let _ = writeln!(text, "body {}", body.name);
+    let _ = writeln!(text, "  kind            {}", kind(&body.kind));
+    for load in &body.kind.loads {
+        let _ = writeln!(text, "                  {load}");
+    }
     let _ = writeln!(text, "  mass            {} kg{volume}, size {} m", short(mass.mass), short(body.size));
     let _ = writeln!(text, "  centre of mass  {} m in the shape's frame", vector(&mass.center));
     let _ = writeln!(text, "  inertia         {} kg m² about the principal axes", vector(&mass.inertia_principal));
     let _ = writeln!(text, "  Euler tensor    {} kg m² along them", vector(&mass.euler_principal));
     for pair in &body.supports {
-        write_pair(text, pair);
+        write_pair(text, pair, body.kind.material.is_some());
+    }
+    if let Some(reason) = &body.no_rest_state_because {
+        let _ = writeln!(text, "  no rest state: {reason}");
+    }
+    if let Some(rest) = &body.rest_state {
+        let _ = write_rest(text, rest);
+        rest.modes.chunk_by(alike).for_each(|modes| write_modes(text, modes));
     }
 }
 
-fn write_pair(text: &mut String, pair: &PairCheck) {
+fn kind(kind: &KindCheck) -> String {
+    let words = kind.material.as_ref().map(|material| format!(": {material}")).unwrap_or_default();
+    let incompressible = if kind.incompressible { ", incompressible" } else { "" };
+    format!("{}{incompressible}{words}", kind.kind)
+}
+
+/// Whether two motions have the same frequency and decay to the digits that are printed.
+fn alike(a: &ModeCheck, b: &ModeCheck) -> bool {
+    a.motion == b.motion && short(a.frequency_hz) == short(b.frequency_hz) && decay(a) == decay(b)
+}
+
+fn decay(mode: &ModeCheck) -> String {
+    let rates: Vec<String> = mode.decay_rates.iter().filter(|rate| **rate != 0.0).map(|rate| short(*rate)).collect();
+    match (mode.motion, rates.first()) {
+        (_, None) => "does not decay".to_owned(),
+        ("oscillates", Some(rate)) => format!("decays with {rate} 1/s"),
+        _ => format!("decays with {} 1/s", rates.join(" and ")),
+    }
+}
+
+/// Motions of one frequency.
+fn write_modes(text: &mut String, modes: &[ModeCheck]) {
+    let Some(first) = modes.first() else { return };
+    let head = match first.motion {
+        "oscillates" => format!("{} Hz", short(first.frequency_hz)),
+        motion => motion.to_owned(),
+    };
+    let times = if modes.len() > 1 { format!(" (×{})", modes.len()) } else { String::new() };
+    let words: Vec<&str> = modes.iter().map(|mode| mode.in_words.as_str()).collect();
+    let _ = writeln!(text, "    {head}{times}, {}: {}", decay(first), words.join("; "));
+}
+
+fn write_pair(text: &mut String, pair: &PairCheck, deforms: bool) {
     let _ = writeln!(text, "  on {}: gap {} m at the start", pair.support, short(pair.initial_gap));
     if pair.laws.is_empty() {
         let _ = writeln!(text, "    no law acts between the two");
@@ -93,7 +137,7 @@ fn write_pair(text: &mut String, pair: &PairCheck) {
         );
     }
     for rest in &pair.rests {
-        write_rest(text, rest);
+        write_gap(text, rest, deforms);
     }
 }
 
@@ -111,12 +155,13 @@ fn verdict(law: &LawCheck) -> String {
     }
 }
 
-fn write_rest(text: &mut String, rest: &Rest) {
+fn write_gap(text: &mut String, rest: &Rest, deforms: bool) {
     if !rest.stable {
         let _ = writeln!(text, "    balance at a gap of {} m, unstable", short(rest.gap));
         return;
     }
-    let _ = writeln!(text, "    rests at a gap of {} m in this orientation", short(rest.gap));
+    let if_so = if deforms { "if it kept the shape of its start" } else { "in this orientation" };
+    let _ = writeln!(text, "    rests at a gap of {} m {if_so}", short(rest.gap));
     let period = rest.period.map_or_else(String::new, |period| format!(", period {} s", short(period)));
     let _ = writeln!(text, "      stiffness {} N/m{period}", short(rest.stiffness));
     if let (Some(ratio), Some(time)) = (rest.damping_ratio, rest.damping_time) {

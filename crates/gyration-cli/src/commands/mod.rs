@@ -3,6 +3,7 @@
 mod check;
 mod completions;
 mod export;
+mod modes;
 mod plot;
 mod run;
 mod scenes;
@@ -21,6 +22,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
     match command {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
+        Command::Modes(arguments) => modes::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Export(arguments) => export::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),

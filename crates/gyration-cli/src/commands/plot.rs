@@ -126,6 +126,7 @@ fn has_recorded_bodies(scene: &Scene, recorded: &Recorded) -> bool {
 fn quantity(what: What) -> Option<Quantity> {
     match what {
         What::Strip => Some(Quantity::Strip),
+        What::Stretch => Some(Quantity::Stretch),
         What::Height => Some(Quantity::Height),
         What::Gap => Some(Quantity::Gap),
         What::Forces => Some(Quantity::Forces),
@@ -138,6 +139,7 @@ fn name(what: What) -> &'static str {
     match what {
         What::Overview => "overview",
         What::Strip => "strip",
+        What::Stretch => "stretch",
         What::Height => "height",
         What::Gap => "gap",
         What::Forces => "forces",

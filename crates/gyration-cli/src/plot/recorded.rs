@@ -28,6 +28,8 @@ pub struct Recorded<'a> {
 pub struct BodyPicture {
     /// Its name.
     pub name: String,
+    /// The word of the scene for how it may deform.
+    pub kind: String,
     /// Its mass [kg].
     pub mass: f64,
     /// The largest side of its bounding box [m].
@@ -37,6 +39,13 @@ pub struct BodyPicture {
     /// Points whose projected hull is the projected body, relative to the centre of mass [m].
     #[serde(deserialize_with = "vectors")]
     pub silhouette: Vec<Vec3>,
+}
+
+impl BodyPicture {
+    /// Whether P may be more than a rotation.
+    pub fn deforms(&self) -> bool {
+        self.kind != "rigid"
+    }
 }
 
 /// Lines of a body.

@@ -38,6 +38,12 @@ position = [0, 0, 0.2]
 velocity = [0.3, 0, 0]
 "#;
 
+/// A soft ball on the same table.
+pub fn soft_ball() -> String {
+    let soft = "affine = { material = { mooney_rivlin = { c1 = 3000, c2 = 1000 } }, viscosity = 20 }";
+    BALL.replace("density = 1000", &format!("density = 1000\n{soft}"))
+}
+
 /// A temporary folder in which the program runs.
 pub struct Sandbox {
     folder: TempDir,

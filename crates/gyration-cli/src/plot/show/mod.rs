@@ -4,6 +4,7 @@ mod energy;
 mod forces;
 mod laws;
 mod motion;
+mod stretch;
 
 use super::PlotError;
 use super::chart::{Chart, Figure, Panel, Series};
@@ -26,6 +27,8 @@ pub enum Quantity {
     Forces,
     /// Outlines at successive times.
     Strip,
+    /// Principal stretches of bodies that deform.
+    Stretch,
 }
 
 /// Bodies with a line of their own in a chart.
@@ -46,6 +49,7 @@ pub fn panels(recorded: &Recorded, quantity: Quantity) -> Result<Vec<Panel>, Plo
         Quantity::Energy => energy::charts(recorded)?.into_iter().map(Panel::Chart).collect(),
         Quantity::Forces => vec![Panel::Chart(forces::chart(recorded)?)],
         Quantity::Strip => vec![Panel::Strip(Strip::of(recorded)?)],
+        Quantity::Stretch => stretch::charts(recorded)?.into_iter().map(Panel::Chart).collect(),
     })
 }
 
@@ -55,7 +59,9 @@ pub fn panels(recorded: &Recorded, quantity: Quantity) -> Result<Vec<Panel>, Plo
 /// [`PlotError`] where the recording cannot be read.
 pub fn overview(recorded: &Recorded) -> Result<Vec<Panel>, PlotError> {
     let mut all = Vec::new();
-    for quantity in [Quantity::Strip, Quantity::Height, Quantity::Gap, Quantity::Forces, Quantity::Energy] {
+    let order =
+        [Quantity::Strip, Quantity::Height, Quantity::Gap, Quantity::Stretch, Quantity::Forces, Quantity::Energy];
+    for quantity in order {
         match panels(recorded, quantity) {
             Ok(panels) => all.extend(panels),
             Err(PlotError::Nothing { .. }) => {}

@@ -13,7 +13,7 @@ use super::draw::{Drawing, Point, Rect};
 use super::recorded::{Pose, Recorded};
 use ground::{Ground, Site};
 use gyration::support::Support;
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 use silhouette::Silhouette;
 use view::{Motion, View};
 
@@ -77,7 +77,7 @@ impl Strip {
         let bodies = recorded.bodies.len().min(MOST_BODIES);
         let still = !supports_move(recorded, &probes);
         let strobe = STROBE_TIMES.into_iter().filter(|_| still).find_map(|count| {
-            let kept = without_overlaps(frames(count), recorded);
+            let kept = without_overlaps(frames(count));
             // Where a third of the times had to be left out, the rest does not tell the motion.
             (kept.len() * 3 >= 2 * count.min(moving + 1) && kept.len() > 3).then_some(kept)
         });
@@ -115,9 +115,15 @@ fn motion(recorded: &Recorded, probes: &[Probe]) -> Motion {
         let turn = |body: usize| view::turn(&pair[0].poses[body].gradient, &pair[1].poses[body].gradient);
         bodies.clone().map(turn).collect::<Vec<Vec3>>()
     });
+    let strains = |body: usize| {
+        let stretches: Vec<Mat3> = probes.iter().map(|probe| view::left_stretch(&probe.poses[body].gradient)).collect();
+        let mean = stretches.iter().sum::<Mat3>() / stretches.len().max(1) as f64;
+        stretches.into_iter().map(move |stretch| stretch - mean)
+    };
     Motion {
         paths: bodies.clone().map(path).collect(),
         turns: turns.collect(),
+        strains: bodies.clone().filter(|body| recorded.bodies[*body].deforms()).flat_map(strains).collect(),
         normals: recorded.supports.iter().map(|support| support.normal).collect(),
         size: recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max),
     }
@@ -159,13 +165,13 @@ fn frame(recorded: &Recorded, probe: &Probe, view: &View) -> Frame {
 }
 
 /// The frames in which no body covers much of itself at a time before; the first and the last are among them.
-fn without_overlaps(frames: Vec<Frame>, recorded: &Recorded) -> Vec<Frame> {
+fn without_overlaps(frames: Vec<Frame>) -> Vec<Frame> {
     /// Centres nearer than this fraction of the size cover each other.
     const ROOM: f64 = 0.55;
     let covers = |a: &Frame, b: &Frame| {
         a.bodies.iter().zip(&b.bodies).any(|(a, b)| {
             let distance = (a.center[0] - b.center[0]).hypot(a.center[1] - b.center[1]);
-            distance < ROOM * recorded.bodies[a.body].size
+            distance < ROOM * a.size.max(b.size)
         })
     };
     let mut kept: Vec<Frame> = Vec::new();

@@ -21,6 +21,8 @@ pub struct Silhouette {
     pub behind: Vec<Vec<Point>>,
     /// The centre of mass.
     pub center: Point,
+    /// The body's size times its largest stretch [m].
+    pub size: f64,
     /// Whether the centre of mass is not in the middle of the body, so that it is worth a mark.
     pub lopsided: bool,
 }
@@ -43,6 +45,7 @@ impl Silhouette {
             front: Vec::new(),
             behind: Vec::new(),
             center: view.project(&pose.position),
+            size: body.size * pose.gradient.singular_values().max(),
             lopsided: is_lopsided(body),
         };
         for line in &body.outline.polylines {
@@ -143,7 +146,7 @@ mod tests {
         let edges = (0..8).flat_map(|k| [1, 2, 4].map(|bit| (k, k ^ bit))).filter(|(a, b)| a < b);
         let polylines = edges.map(|(a, b)| vec![a, b]).collect();
         let outline = Wireframe { points: points.clone(), polylines };
-        BodyPicture { name: "cube".into(), mass: 1.0, size: 1.0, outline, silhouette: points }
+        BodyPicture { name: "cube".into(), kind: "rigid".into(), mass: 1.0, size: 1.0, outline, silhouette: points }
     }
 
     #[test]
@@ -156,6 +159,16 @@ mod tests {
         let seen = Silhouette::of(0, &cube(), &Pose { position: Vec3::zeros(), gradient }, &view);
         assert_eq!(seen.hull.len(), 6);
         assert_eq!((seen.front.len(), seen.behind.len()), (9, 3));
+    }
+
+    #[test]
+    fn a_cube_that_is_sheared_is_seen_as_a_parallelogram() {
+        let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y(), raised: false };
+        let gradient = Mat3::new(1.0, 0.0, 0.5, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0);
+        let seen = Silhouette::of(0, &cube(), &Pose { position: Vec3::zeros(), gradient }, &view);
+        let corners = [[-0.75, -1.0], [0.25, -1.0], [0.75, 1.0], [-0.25, 1.0]];
+        assert_eq!(seen.hull, corners);
+        assert!((seen.size - gradient.norm().min(seen.size)).abs() < 1e-15 && seen.size > 2.0);
     }
 
     #[test]

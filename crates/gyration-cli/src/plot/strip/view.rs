@@ -2,13 +2,13 @@
 //!
 //! The upward direction w is against gravity; the level direction u is, in this order, the one in which the centres
 //! travel most, that of the fall line of an inclined support, that in which turning is seen best (across the mean axis
-//! of rotation), or x. The view is level, unless the bodies stay on the spot and turn about no one level axis, as tops and
+//! of rotation), that in which the bodies stretch most, or x. The view is level, unless the bodies stay on the spot and turn about no one level axis, as tops and
 //! coins do, which nobody sees from the side: such a motion is looked at from above, by the angle e,
 //!
 //!   v' = v cos e + w sin e,   w' = w cos e − v sin e
 
 use crate::plot::draw::Point;
-use gyration::tensor::{Mat3, Vec3, axial};
+use gyration::tensor::{Mat3, Polar, Vec3, axial};
 
 /// A side view: drawn are (u·p, w·p); v = u × w points to the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +36,8 @@ pub struct Motion {
     pub paths: Vec<Vec<Vec3>>,
     /// The turn from each sample to the next, as an axis times the sine of the angle.
     pub turns: Vec<Vec3>,
+    /// How the left stretches of each body differ from their mean, sample by sample.
+    pub strains: Vec<Mat3>,
     /// Normals of the supports.
     pub normals: Vec<Vec3>,
     /// The largest size of a body [m].
@@ -58,6 +60,7 @@ impl View {
         let right = largest_axis(&spread, traveled)
             .or_else(|| largest_axis(&inclined, 1e-4))
             .or_else(|| largest_axis(&turning, 1e-4).map(|axis| up.cross(&axis)))
+            .or_else(|| strained_axis(&motion.strains, &up))
             .unwrap_or_else(|| {
                 let x = level(&Vec3::x());
                 if x.norm() > 0.5 { x } else { level(&Vec3::y()) }
@@ -90,9 +93,26 @@ impl View {
     }
 }
 
-/// The axis times the sine of the angle of the turn from one placement gradient to another.
+/// The axis times the sine of the angle of the turn from one placement gradient to another: of their rotations, P = R U.
 pub fn turn(from: &Mat3, to: &Mat3) -> Vec3 {
-    0.5 * axial(&(to * from.transpose()))
+    let rotation = |gradient: &Mat3| Polar::of(gradient).rotation;
+    0.5 * axial(&(rotation(to) * rotation(from).transpose()))
+}
+
+/// The left stretch R U Rᵀ of a placement gradient.
+pub fn left_stretch(gradient: &Mat3) -> Mat3 {
+    let Polar { rotation, stretch } = Polar::of(gradient);
+    rotation * stretch * rotation.transpose()
+}
+
+/// The level direction along which the bodies stretch more than across it, by a hundredth at least.
+fn strained_axis(strains: &[Mat3], up: &Vec3) -> Option<Vec3> {
+    let level = Mat3::identity() - square(up);
+    let squares = strains.iter().map(|strain| level * strain * level).map(|strain| strain * strain);
+    let mean = squares.sum::<Mat3>() / strains.len().max(1) as f64;
+    let other = 0.5 * mean.trace();
+    // Of the two level values the larger exceeds the half of their sum.
+    largest_axis(&mean, (1.1 * other).max(1e-4))
 }
 
 fn square(v: &Vec3) -> Mat3 {
@@ -136,6 +156,23 @@ mod tests {
         assert!(View::of(&rolling, Vec3::z()).raised);
         let traveling = Motion { paths: vec![vec![Vec3::zeros(), Vec3::x()]], ..spinning };
         assert!(!View::of(&traveling, Vec3::z()).raised);
+    }
+
+    #[test]
+    fn a_stretch_is_seen_from_its_side() {
+        let along_y = Mat3::from_diagonal(&Vec3::new(0.0, 0.2, -0.1));
+        let ringing = Motion { strains: vec![along_y, -along_y], size: 0.1, ..Motion::default() };
+        assert!((View::of(&ringing, Vec3::z()).right - Vec3::y()).norm() < 1e-12);
+        // Alike in all level directions: none is better than x.
+        let along_z = Mat3::from_diagonal(&Vec3::new(0.1, 0.1, -0.2));
+        let round = Motion { strains: vec![along_z, -along_z], size: 0.1, ..Motion::default() };
+        assert!((View::of(&round, Vec3::z()).right - Vec3::x()).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_stretch_is_no_turn() {
+        let stretched = Mat3::new(1.5, 0.2, 0.0, 0.2, 0.7, 0.0, 0.0, 0.0, 1.0);
+        assert!(turn(&Mat3::identity(), &stretched).norm() < 1e-14);
     }
 
     #[test]
