@@ -10,7 +10,7 @@
 //! | what a system must say | `system` |
 //! | one accepted step | `integrator`, `step` |
 //! | Prince's pair 9(7) | `explicit`, `prince` |
-//! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear` |
+//! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `shifted`, `linear` |
 //! | step sizes, norms | `control`, `norm` |
 //! | which of the two | `auto` |
 //!
@@ -30,6 +30,7 @@ mod norm;
 mod prince;
 mod radau;
 mod report;
+mod shifted;
 mod step;
 mod system;
 #[cfg(test)]

@@ -2,11 +2,8 @@
 //!
 //!   P A = L U
 //!
-//! Rows are contiguous and nothing is allocated after construction. The complex matrices are those of the pair of
-//! complex stages, (α + iβ)/h I − J; real and imaginary parts are kept apart so that a row operation runs over plain
-//! arrays. For blocks of a few dozens of unknowns; larger ones belong to a library.
-
-use nalgebra::DMatrix;
+//! Rows are contiguous and nothing is allocated after construction. Real and imaginary parts are kept apart so that a row
+//! operation runs over plain arrays. For blocks of a few dozens of unknowns; larger ones belong to a library.
 
 /// A matrix to be factorized is singular to working precision, or not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,13 +22,17 @@ impl RealLu {
         Self { size, rows: vec![0.0; size * size], pivots: vec![0; size] }
     }
 
-    /// Factorizes shift · I − J.
+    /// Factorizes the matrix of these entries, by row and column.
     ///
     /// # Errors
     /// `Singular`.
-    pub fn factorize_shifted(&mut self, shift: f64, jacobian: &DMatrix<f64>) -> Result<(), Singular> {
-        fill_shifted(&mut self.rows, self.size, shift, jacobian);
+    pub fn factorize(&mut self, entry: impl Fn(usize, usize) -> f64) -> Result<(), Singular> {
         let n = self.size;
+        for i in 0..n {
+            for j in 0..n {
+                self.rows[i * n + j] = entry(i, j);
+            }
+        }
         for k in 0..n {
             let pivot = largest(k..n, |i| self.rows[i * n + k].abs())?;
             self.pivots[k] = pivot;
@@ -79,16 +80,16 @@ impl ComplexLu {
         Self { size, real: zeros.clone(), imaginary: zeros, pivots: vec![0; size] }
     }
 
-    /// Factorizes (shift.0 + i shift.1) I − J.
+    /// Factorizes the matrix of these entries, real and imaginary parts, by row and column.
     ///
     /// # Errors
     /// `Singular`.
-    pub fn factorize_shifted(&mut self, shift: (f64, f64), jacobian: &DMatrix<f64>) -> Result<(), Singular> {
+    pub fn factorize(&mut self, entry: impl Fn(usize, usize) -> (f64, f64)) -> Result<(), Singular> {
         let n = self.size;
-        fill_shifted(&mut self.real, n, shift.0, jacobian);
-        self.imaginary.fill(0.0);
         for i in 0..n {
-            self.imaginary[i * n + i] = shift.1;
+            for j in 0..n {
+                (self.real[i * n + j], self.imaginary[i * n + j]) = entry(i, j);
+            }
         }
         for k in 0..n {
             // |re| + |im| chooses pivots as well as the modulus and cannot overflow earlier.
@@ -148,15 +149,6 @@ impl ComplexLu {
     }
 }
 
-fn fill_shifted(rows: &mut [f64], n: usize, shift: f64, jacobian: &DMatrix<f64>) {
-    for i in 0..n {
-        for j in 0..n {
-            rows[i * n + j] = -jacobian[(i, j)];
-        }
-        rows[i * n + i] += shift;
-    }
-}
-
 /// The index of the largest size; singular if that is zero or not finite.
 fn largest(mut rows: std::ops::Range<usize>, size: impl Fn(usize) -> f64) -> Result<usize, Singular> {
     let mut best = rows.next().ok_or(Singular)?;
@@ -195,6 +187,7 @@ fn divide((a, b): (f64, f64), (c, d): (f64, f64)) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DMatrix;
     use proptest::prelude::*;
 
     proptest! {
@@ -209,8 +202,11 @@ mod tests {
             let jacobian = DMatrix::from_fn(n, n, |i, j| entries[8 * i + j]);
             let mut real = RealLu::new(n);
             let mut complex = ComplexLu::new(n);
-            prop_assume!(real.factorize_shifted(shift.0, &jacobian).is_ok());
-            complex.factorize_shifted(shift, &jacobian).unwrap();
+            prop_assume!(real.factorize(|i, j| if i == j { shift.0 } else { 0.0 } - jacobian[(i, j)]).is_ok());
+            complex.factorize(|i, j| {
+                let shift = if i == j { shift } else { (0.0, 0.0) };
+                (shift.0 - jacobian[(i, j)], shift.1)
+            }).unwrap();
             let column = |k: usize, i: usize| x[8 * k + i];
             let apply = |k: usize, i: usize| -> f64 { (0..n).map(|j| jacobian[(i, j)] * column(k, j)).sum() };
             let mut b: Vec<f64> = (0..n).map(|i| shift.0 * column(0, i) - apply(0, i)).collect();
@@ -237,9 +233,9 @@ mod tests {
     #[test]
     fn singular_and_not_finite_matrices_are_refused() {
         let mut lu = RealLu::new(2);
-        assert_eq!(lu.factorize_shifted(1.0, &DMatrix::identity(2, 2)), Err(Singular));
-        assert_eq!(lu.factorize_shifted(1.0, &DMatrix::from_element(2, 2, f64::NAN)), Err(Singular));
+        assert_eq!(lu.factorize(|_, _| 1.0), Err(Singular));
+        assert_eq!(lu.factorize(|_, _| f64::NAN), Err(Singular));
         let mut lu = ComplexLu::new(2);
-        assert_eq!(lu.factorize_shifted((1.0, 0.0), &DMatrix::identity(2, 2)), Err(Singular));
+        assert_eq!(lu.factorize(|_, _| (1.0, 0.0)), Err(Singular));
     }
 }

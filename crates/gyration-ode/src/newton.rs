@@ -13,9 +13,9 @@
 use nalgebra::DMatrix;
 
 use crate::auto::spectral_radius;
-use crate::linear::{ComplexLu, RealLu};
 use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
 use crate::report::Cause;
+use crate::shifted::{ComplexShifted, RealShifted};
 use crate::system::{Context, Layout, Point, System};
 
 /// Newton iterations after which a shorter step is cheaper. Source: radau5.f.
@@ -64,8 +64,8 @@ pub(crate) struct Stages {
     correction: Vec<f64>,
     stage: Vec<f64>,
     jacobian: Vec<DMatrix<f64>>,
-    real: Vec<RealLu>,
-    complex: Vec<ComplexLu>,
+    real: Vec<RealShifted>,
+    complex: Vec<ComplexShifted>,
 }
 
 impl Stages {
@@ -91,8 +91,8 @@ impl Stages {
     pub fn set_blocks(&mut self, layout: &Layout) {
         let sizes = || layout.blocks().iter().map(|block| block.len());
         self.jacobian = sizes().map(|size| DMatrix::zeros(size, size)).collect();
-        self.real = sizes().map(RealLu::new).collect();
-        self.complex = sizes().map(ComplexLu::new).collect();
+        self.real = sizes().map(RealShifted::new).collect();
+        self.complex = sizes().map(ComplexShifted::new).collect();
     }
 
     /// Evaluates the Jacobian for a step from this point.
@@ -125,8 +125,8 @@ impl Stages {
         context.statistics.factorizations += 1;
         let (alpha, beta) = COMPLEX;
         for ((jacobian, real), complex) in self.jacobian.iter().zip(&mut self.real).zip(&mut self.complex) {
-            real.factorize_shifted(REAL / h, jacobian).map_err(|_| Cause::Newton)?;
-            complex.factorize_shifted((alpha / h, beta / h), jacobian).map_err(|_| Cause::Newton)?;
+            real.factorize(REAL / h, jacobian).map_err(|_| Cause::Newton)?;
+            complex.factorize((alpha / h, beta / h), jacobian).map_err(|_| Cause::Newton)?;
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::control::{Control, initial_step};
 use crate::dense::LastStep;
 use crate::explicit::{Explicit, Trial};
 use crate::integrator::Integrator;
-use crate::newton::{Convergence, Plan};
+use crate::newton::Plan;
 use crate::report::{Cause, Failure, Limit, Method, StepReport, Stepper};
 use crate::system::{Context, Layout, System};
 
@@ -231,9 +231,9 @@ impl Integrator {
         let before = progress.control;
         let factor = match trial.convergence {
             None => progress.control.after_explicit(trial.error.value, attempt.h, rejected),
-            Some(Convergence { iterations, contraction }) => {
-                progress.contraction = contraction;
-                progress.control.after_implicit(trial.error.value, attempt.h, iterations, rejected)
+            Some(convergence) => {
+                progress.contraction = convergence.contraction;
+                progress.control.after_implicit(trial.error.value, attempt.h, &convergence, rejected)
             }
         };
         let next = attempt.h * factor;
