@@ -40,7 +40,7 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
 fn assumptions(scene: &Scene) -> String {
     let model = &scene.built().model;
     let moves = model.supports.iter().any(|support| support.motion != gyration::support::SupportMotion::Fixed);
-    let moving = if moves { "; supports that move are held where they are at t = 0" } else { "" };
+    let moving = if moves { ";\nsupports that move are held where they are at t = 0" } else { "" };
     format!("Small motions about the rest state that each body gets to from its start{moving}\n")
 }
 
@@ -59,7 +59,10 @@ fn write_body(text: &mut String, body: &Body, state: &Result<RestState, String>)
     let material = kind.material.map(|material| format!(": {material}")).unwrap_or_default();
     writeln!(text, "\nbody {}, {}{pinned}{material}", body.name, kind.kind)?;
     match state {
-        Err(reason) => writeln!(text, "  no rest state: {reason}"),
+        Err(reason) => {
+            let lines = wrapped(&format!("no rest state: {reason}"), WIDTH - 2);
+            lines.iter().try_for_each(|line| writeln!(text, "  {line}"))
+        }
         Ok(rest) => {
             write_rest(text, rest)?;
             write_table(text, &rest.modes)?;
@@ -118,15 +121,19 @@ fn decay(mode: &ModeCheck) -> String {
     }
 }
 
-/// Words in lines of so many characters, broken after commas.
+/// Words in lines of so many characters at most, as far as single words allow.
 fn wrapped(words: &str, room: usize) -> Vec<String> {
-    if words.chars().count() <= room {
-        return vec![words.to_owned()];
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
     }
-    let parts: Vec<&str> = words.split(", ").collect();
-    let last = parts.len() - 1;
-    let with_comma = |(index, part): (usize, &&str)| format!("{part}{}", if index < last { "," } else { "" });
-    parts.iter().enumerate().map(with_comma).collect()
+    lines
 }
 
 impl ShapeCheck {
