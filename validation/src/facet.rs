@@ -4,13 +4,15 @@
 //! The centre of mass is the centre of the square: where that is level, the body moves without turning.
 
 use crate::Experiment;
-use gyration::body::{Body, BodyKind, RigidInertia};
+use gyration::affine::{AffineBody, Viscosity};
+use gyration::body::{Affine, Body, BodyKind, RigidInertia};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw};
 use gyration::kinematics::Quaternion;
 use gyration::mass::MassProperties;
+use gyration::material::Material;
 use gyration::model::Model;
 use gyration::shape::{Cuboid, Shape};
-use gyration::state::{RigidStart, State};
+use gyration::state::{RigidStart, Start, State};
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
@@ -70,6 +72,24 @@ impl FacetBody {
             angular_velocity: Vec3::zeros(),
         };
         let start = State::start(&model, &[start.into()]);
+        Experiment::of_model(model, start, tolerance)
+    }
+
+    /// The same with a body that deforms, of this material, under tractions in a measure of area.
+    ///
+    /// # Panics
+    /// As [`FacetBody::experiment`].
+    pub fn deformable(&self, material: Material, measure: AreaMeasure, tolerance: Tolerance) -> Experiment {
+        let Experiment { model, start, .. } = self.experiment(tolerance);
+        let motion = start.motion(&model, 0);
+        let bodies = model.bodies.into_iter().map(|body| {
+            let interior = AffineBody::new(&body.mass, None, Some(material.clone()), Viscosity::default());
+            let affine = Affine::from(interior.unwrap_or_else(|error| panic!("{error}")));
+            let contacts = vec![Contact::new(0, measure, self.laws.clone())];
+            Body { kind: BodyKind::Affine(Box::new(affine)), contacts, ..body }
+        });
+        let model = Model::new(model.gravity, model.supports, bodies.collect());
+        let start = State::start(&model, &[Start::Affine(motion.placement, motion.velocity)]);
         Experiment::of_model(model, start, tolerance)
     }
 }
