@@ -42,3 +42,44 @@ pub fn spread(found: &[Mat3], expected: impl IntoIterator<Item = Mat3>) -> (f64,
     let norms = found.iter().zip(expected).map(|(found, expected)| ((found - expected).amax(), expected.amax()));
     norms.fold((0.0, 0.0), |worst: (f64, f64), (difference, size)| (worst.0.max(difference), worst.1.max(size)))
 }
+
+/// A soft box thrown on a table: it tumbles, and strikes with corners, edges and faces within 0.3 s.
+pub fn thrown_box(measure: &str, affine: &str) -> Experiment {
+    Experiment::of_scene(&format!(
+        r#"
+        time = {{ end = 0.3, sample = 0.025 }}
+        solver = {{ rtol = 1e-10, atol = 1e-12 }}
+        [[support]]
+        name = "table"
+        plane = {{ origin = [0, 0, 0], normal = [0, 0, 1] }}
+        [[contact]]
+        support = "table"
+        measure = "{measure}"
+        repulsion = {{ alpha = 600, nu = 5, d0 = 0.01 }}
+        damping = {{ beta = 60, nu = 4, d0 = 0.01 }}
+        friction = {{ beta = 100, nu = 3, d0 = 0.01 }}
+        [[body]]
+        name = "body"
+        shape = {{ box = {{ size = [0.10, 0.08, 0.06] }} }}
+        density = 1000
+        affine = {{ {affine} }}
+        position = [0, 0, 0.12]
+        orientation = {{ axis_angle = {{ axis = [1, 2, 0.5], angle = 0.7 }} }}
+        velocity = [0.4, -0.2, 0]
+        angular_velocity = [5, -3, 8]
+        "#
+    ))
+}
+
+/// Differences of eighth order of values at a uniform spacing: the derivative at all but the four first and last.
+pub fn derivatives<T>(values: &[T], spacing: f64) -> Vec<T>
+where
+    T: Copy + std::ops::Sub<Output = T> + std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+{
+    const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let at = |w: &[T]| {
+        let term = |k: usize| (w[4 + k] - w[4 - k]) * (WEIGHTS[k - 1] / spacing);
+        ((term(4) + term(3)) + term(2)) + term(1)
+    };
+    values.windows(9).map(at).collect()
+}
