@@ -227,9 +227,19 @@ impl Run {
     /// # Panics
     /// If there is no such array.
     pub fn matrices(&self, name: &str) -> Vec<Mat3> {
+        self.matrices_of(0, name)
+    }
+
+    /// The samples of an array of matrices, of the body of this index.
+    ///
+    /// # Panics
+    /// If there is no such array or body.
+    pub fn matrices_of(&self, body: usize, name: &str) -> Vec<Mat3> {
         let found = self.arrays.iter().find(|array| array.name == name);
-        let start = found.unwrap_or_else(|| panic!("no array {name}: {:?}", self.arrays)).range.start;
-        self.rows.iter().map(|row| Mat3::from_row_slice(&row[start..start + 9])).collect()
+        let range = found.unwrap_or_else(|| panic!("no array {name}: {:?}", self.arrays)).range.clone();
+        let matrix = range.start + 9 * body..range.start + 9 * (body + 1);
+        assert!(matrix.end <= range.end, "{name} has no matrix of body {body}");
+        self.rows.iter().map(|row| Mat3::from_row_slice(&row[matrix.clone()])).collect()
     }
 
     /// The times [s] of the events of a kind (`apex`, `closest_approach`, `lift_off`).
