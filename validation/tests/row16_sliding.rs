@@ -4,7 +4,7 @@
 //! constant α/(βg cos θ), whatever the mass and the shape; on the level it decays as exp(−βgt/α). The body is kept from turning
 //! by moments of inertia that no such body has; it starts at the gap that carries it.
 
-use gyration_validation::{Answer, Experiment};
+use gyration_validation::{Answer, Case as Known, Experiment};
 
 const ROW: Option<u32> = Some(16);
 const ALPHA: f64 = 1e-6;
@@ -109,20 +109,14 @@ fn body_slides_down_a_slope_at_a_speed_without_mass_and_shape() {
         let experiment = scene(&case, carrying_gap(&case), 0.0);
         let terminal = ALPHA / BETA * case.slope.tan();
         let constant = ALPHA / (BETA * GRAVITY * case.slope.cos());
-        let answer = |quantity, reference, measured| Answer {
-            row: ROW,
-            case: case.name,
-            quantity,
-            reference,
-            measured,
-            // rtol = 1e-10; the torque of friction turns the body by less than 1e-9 meanwhile.
-            tolerance: 1e-8,
-            source: "v = (α/β) tan θ (1 − exp(−βg cos θ t/α))",
-        };
+        let source = "v = (α/β) tan θ (1 − exp(−βg cos θ t/α))";
+        let known = Known { row: ROW, name: case.name, source };
+        // rtol = 1e-10; the torque of friction turns the body by less than 1e-9 meanwhile.
+        let tolerance = 1e-8;
         let late = downhill_speed(&experiment, case.slope, 30.0 * constant);
-        answer("terminal speed [m/s]", terminal, late).check();
+        known.check("terminal speed [m/s]", terminal, late, tolerance);
         let early = downhill_speed(&experiment, case.slope, constant);
-        answer("time constant [s]", constant, -constant / (1.0 - early / terminal).ln()).check();
+        known.check("time constant [s]", constant, -constant / (1.0 - early / terminal).ln(), tolerance);
     }
 }
 

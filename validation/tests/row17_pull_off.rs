@@ -9,7 +9,7 @@ use gyration::contact::{Adhesion, ContactLaw, Damping};
 use gyration::jacobian::jacobian;
 use gyration::rates::Workspace;
 use gyration_sim::Tolerance;
-use gyration_validation::{Answer, Experiment, FacetBody};
+use gyration_validation::{Answer, Case as Known, Experiment, FacetBody};
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
@@ -113,17 +113,10 @@ fn face_is_held_most_strongly_at_the_gap_of_the_closed_form() {
         let at = |gap| face(case.exponents, gap, 0.0, 0.0);
         let (found, held) = strongest(at, (REFERENCE_GAP, 3.0 * REFERENCE_GAP));
         // The largest is flat: rounding in the two powers, times their number.
-        let answer = |quantity, reference, measured, tolerance| Answer {
-            row: ROW,
-            case: case.name,
-            quantity,
-            reference,
-            measured,
-            tolerance,
-            source: "s = (ν_r/ν_a)^(1/(ν_r−ν_a)), βA (s^−ν_a − s^−ν_r)",
-        };
-        answer("pull-off over βA", force, held / (BETA * AREA), 1e-13).check();
-        answer("gap of the pull-off over d₀", gap, found / REFERENCE_GAP, 1e-13).check();
+        let source = "s = (ν_r/ν_a)^(1/(ν_r−ν_a)), βA (s^−ν_a − s^−ν_r)";
+        let known = Known { row: ROW, name: case.name, source };
+        known.check("pull-off over βA", force, held / (BETA * AREA), 1e-13);
+        known.check("gap of the pull-off over d₀", gap, found / REFERENCE_GAP, 1e-13);
     }
 }
 
@@ -141,17 +134,10 @@ fn sphere_is_held_most_strongly_at_the_reference_gap() {
         let (gap, held) = strongest(|gap| sphere(exponents, radius, gap), (0.9 * REFERENCE_GAP, 1.1 * REFERENCE_GAP));
         // What the far side adds to the attraction, to the force and to its slope: some times (d₀/2R)^(ν_a−1).
         let far = (0.5 / ratio).powf(exponents.0 - 1.0);
-        let answer = |quantity, reference, measured, tolerance| Answer {
-            row: ROW,
-            case,
-            quantity,
-            reference,
-            measured,
-            tolerance,
-            source: "2πR d₀ β (1/(ν_a−1) − 1/(ν_r−1)) for R ≫ d₀",
-        };
-        answer("pull-off [N]", reference, held, 4.0 * far + 1e-12).check();
-        answer("gap of the pull-off over d₀", 1.0, gap / REFERENCE_GAP, 4.0 * far + 1e-12).check();
+        let known =
+            Known { row: ROW, name: case, source: "2πR d₀ β (1/(ν_a−1) − 1/(ν_r−1)) for R ≫ d₀" };
+        known.check("pull-off [N]", reference, held, 4.0 * far + 1e-12);
+        known.check("gap of the pull-off over d₀", 1.0, gap / REFERENCE_GAP, 4.0 * far + 1e-12);
     }
 }
 

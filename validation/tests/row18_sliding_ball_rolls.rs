@@ -8,7 +8,7 @@
 //! There is no damping here, which would resist the rolling (the field before the ball is pressed, that behind is released).
 
 use gyration::tensor::Vec3;
-use gyration_validation::{Answer, Experiment};
+use gyration_validation::{Answer, Case as Known, Experiment};
 use std::f64::consts::PI;
 
 const ROW: Option<u32> = Some(18);
@@ -123,28 +123,20 @@ fn end(case: &Case) -> Vec3 {
 fn sliding_ball_ends_rolling_at_five_sevenths_of_its_speed() {
     for case in &SLIDING {
         let velocity = end(case);
-        let answer = |quantity, reference, measured, tolerance, source| Answer {
-            row: ROW,
-            case: case.name,
-            quantity,
-            reference,
-            measured,
-            tolerance,
-            source,
-        };
+        let known = Known { row: ROW, name: case.name, source: "5/7, d ≪ R" };
         let speed = Vec3::from(case.velocity).norm();
         // The height of the friction, a quarter or a half of the gap, takes 4/7 of itself over R; the list allows 2 %.
         let share = velocity.norm() / speed;
-        answer("speed when it rolls, over speed before", 5.0 / 7.0, share, 0.4 * case.gap, "5/7, d ≪ R").check();
+        known.check("speed when it rolls, over speed before", 5.0 / 7.0, share, 0.4 * case.gap);
         let arm = RADIUS * (1.0 - case.gap / (case.exponents.1 - 2.0));
         let reference = rolling(case, arm).norm() / speed;
         // Left out is the spread of the heights, which resists the rolling: 30 times of slip, at most, of ⟨h²⟩/R² each.
         let spread = 2.0 / ((case.exponents.1 - 2.0) * (case.exponents.1 - 3.0)) * case.gap.powi(2);
-        let tolerance = 30.0 * spread;
-        answer("the same, with the height of the friction", reference, share, tolerance, "momentum about ⟨h⟩").check();
+        let raised = known.by("momentum about ⟨h⟩");
+        raised.check("the same, with the height of the friction", reference, share, 30.0 * spread);
         let across = velocity.cross(&Vec3::from(case.velocity)).norm() / speed;
         // rtol is 1e-9, of which a step may spend a tenth.
-        answer("speed across its line [m/s]", 0.0, across, 1e-10, "symmetry").check();
+        known.by("symmetry").check("speed across its line [m/s]", 0.0, across, 1e-10);
     }
 }
 
