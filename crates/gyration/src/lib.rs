@@ -10,6 +10,7 @@
 pub mod affine;
 pub mod balance;
 pub mod body;
+mod columns;
 pub mod contact;
 pub mod homogeneous;
 mod inadmissible;

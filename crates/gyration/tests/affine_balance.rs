@@ -116,7 +116,8 @@ proptest! {
     ) {
         for body in bodies() {
             let (p, rate) = admissible(&body, &h, &rate);
-            let slopes = body.slopes(&Gyration::of(&p, &rate).unwrap(), &moment);
+            let here = Gyration::of(&p, &rate).unwrap();
+            let slopes = body.slopes(&here, &moment);
             let at = |s: f64| balance(&body, &(p + s * dp), &(rate + s * drate), &(moment + s * dm));
             let (acceleration, pressure) = slopes.apply(&dp, &drate, &dm);
             let by_differences = difference(|s| at(s).acceleration);

@@ -8,7 +8,6 @@
 //! sign and the volume that dissipate.
 
 use super::Gyration;
-use super::slopes::{Mat9, Vec9, each_column};
 use crate::load::{ResistanceError, mirrored, semi_definite, unit};
 use crate::tensor::{Mat3, Polar, cross_matrix};
 use nalgebra::{Matrix6, Vector6};
@@ -33,35 +32,53 @@ impl AnisotropicFriction {
         at.volume_ratio * self.cauchy_stress(&Polar::of(&at.gradient).rotation, &at.velocity_gradient)
     }
 
-    /// Takes the derivatives of V τ P⁻ᵀ by P and Ṗ away.
-    pub(super) fn add_slopes(&self, volume: f64, at: &Gyration, by_gradient: &mut Mat9, by_rate: &mut Mat9) {
-        let polar = Polar::of(&at.gradient);
-        let (r, f, l) = (&polar.rotation, &at.inverse, &at.velocity_gradient);
-        let stress = self.cauchy_stress(r, l);
-        let volume = volume * at.volume_ratio;
-        each_column(|column, j, b| {
-            let along = |change: Mat3| Vec9::from_column_slice((change * f.transpose()).as_slice());
-            // δL = (δṖ − L δP) F for δP, δṖ = e_j ⊗ e_B.
-            let unit = unit(column);
-            let mut rate = by_rate.column_mut(column);
-            rate -= volume * along(self.cauchy_stress(r, &(unit * f)));
-            // The stress turns with the axes, and the rate seen from them turns back.
-            let turn = cross_matrix(&(r * polar.turn(&unit)));
-            let seen = turn * l - l * turn + l * (unit * f);
-            let turned = turn * stress - stress * turn - self.cauchy_stress(r, &seen);
-            // det P grows by det P F_Bj, and τ P⁻ᵀ loses τ (δP F)ᵀ P⁻ᵀ.
-            let grown = f[(b, j)] * stress - stress * (unit * f).transpose();
-            let mut gradient = by_gradient.column_mut(column);
-            gradient -= volume * along(turned + grown);
-        });
-    }
-
     /// R C[Rᵀ sym L R] Rᵀ.
     fn cauchy_stress(&self, r: &Mat3, l: &Mat3) -> Mat3 {
         let d = r.tr_mul(l) * r;
         let rates = [d.m11, d.m22, d.m33, d.m23 + d.m32, d.m13 + d.m31, d.m12 + d.m21];
         let s = self.0 * Vector6::from(rates);
         r * Mat3::new(s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2]) * r.transpose()
+    }
+}
+
+/// The friction at one instant, with all that its derivatives need.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FrictionSlopes<'a> {
+    friction: &'a AnisotropicFriction,
+    at: &'a Gyration,
+    polar: Polar,
+    /// τ/det P.
+    stress: Mat3,
+}
+
+impl<'a> FrictionSlopes<'a> {
+    pub fn new(friction: &'a AnisotropicFriction, at: &'a Gyration) -> Self {
+        let polar = Polar::of(&at.gradient);
+        let stress = friction.cauchy_stress(&polar.rotation, &at.velocity_gradient);
+        Self { friction, at, polar, stress }
+    }
+
+    /// The derivative of τ P⁻ᵀ by P_jB.
+    pub fn by_gradient(&self, j: usize, b: usize) -> Mat3 {
+        let Self { friction, at, polar, stress } = self;
+        let (r, f, l) = (&polar.rotation, &at.inverse, &at.velocity_gradient);
+        // δP = e_j ⊗ e_B, δL = −L δP F.
+        let unit = unit(3 * b + j);
+        // The stress turns with the axes, and the rate seen from them turns back.
+        let turn = cross_matrix(&(r * polar.turn(&unit)));
+        let seen = turn * l - l * turn + l * (unit * f);
+        let turned = turn * stress - stress * turn - friction.cauchy_stress(r, &seen);
+        // det P grows by det P F_Bj, and τ P⁻ᵀ loses τ (δP F)ᵀ P⁻ᵀ.
+        let grown = f[(b, j)] * stress - stress * (unit * f).transpose();
+        at.volume_ratio * (turned + grown) * f.transpose()
+    }
+
+    /// The derivative of τ P⁻ᵀ by Ṗ_jB.
+    pub fn by_rate(&self, j: usize, b: usize) -> Mat3 {
+        let f = &self.at.inverse;
+        // δL = δṖ F.
+        let stress = self.friction.cauchy_stress(&self.polar.rotation, &(unit(3 * b + j) * f));
+        self.at.volume_ratio * stress * f.transpose()
     }
 }
 

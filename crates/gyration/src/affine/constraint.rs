@@ -5,30 +5,31 @@
 //! with B = M − V(S_e + S_v). The corrections after a step go the same way, δP, δṖ ∝ Y: then δṖ J Pᵀ is a multiple of I,
 //! and the spin is left alone. Source: `physics.md` §4.
 
-use super::{AffineBody, Gyration};
+use super::AffineBody;
+use crate::columns::Columns;
 use crate::tensor::Mat3;
 
 /// The way in which a pressure pushes, and what it takes to do so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Constraint {
     /// Y.
-    pub way: Mat3,
-    /// P⁻ᵀ.
-    pub across: Mat3,
+    pub way: Columns,
     /// 1/a.
     pub compliance: f64,
 }
 
 impl Constraint {
-    pub fn new(body: &AffineBody, at: &Gyration) -> Self {
-        let across = at.inverse.transpose();
-        let way = across * body.inverse;
-        Self { way, across, compliance: 1.0 / way.dot(&across) }
+    /// Of a body where P⁻ᵀ is `across`.
+    #[inline(always)]
+    pub fn new(body: &AffineBody, across: &Columns) -> Self {
+        let way = body.per_inertia(across);
+        Self { way, compliance: 1.0 / way.dot(across) }
     }
 
-    /// π V that takes tr(P̈ P⁻¹) from that of `free` to the one asked for.
-    pub fn push(&self, free: &Mat3, asked: f64) -> f64 {
-        (asked - free.dot(&self.across)) * self.compliance
+    /// δ(π V) that takes tr(P̈ P⁻¹) = B·Y from that of a moment B to the one asked for.
+    #[inline(always)]
+    pub fn push(&self, moment: &Columns, asked: f64) -> f64 {
+        (asked - moment.dot(&self.way)) * self.compliance
     }
 }
 

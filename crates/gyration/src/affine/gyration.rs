@@ -29,12 +29,7 @@ impl Gyration {
         if volume_ratio.is_nan() || volume_ratio < f64::MIN_POSITIVE {
             return Err(volume_ratio);
         }
-        let inverse = cofactor.transpose() / volume_ratio;
+        let inverse = cofactor.transpose() * (1.0 / volume_ratio);
         Ok(Self { gradient: *gradient, rate: *rate, inverse, volume_ratio, velocity_gradient: rate * inverse })
-    }
-
-    /// tr(L²).
-    pub(super) fn squared_rate(&self) -> f64 {
-        self.velocity_gradient.dot(&self.velocity_gradient.transpose())
     }
 }

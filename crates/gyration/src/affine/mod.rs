@@ -10,18 +10,20 @@ mod anisotropic;
 mod constraint;
 mod gyration;
 mod slopes;
+mod solution;
 mod viscosity;
 
 pub use anisotropic::AnisotropicFriction;
 pub use constraint::Correction;
 pub use gyration::Gyration;
-pub use slopes::{AffineSlopes, Mat9, Vec9};
+pub use slopes::AffineSlopes;
 pub use viscosity::Viscosity;
 
+use crate::columns::Columns;
 use crate::mass::MassProperties;
 use crate::material::Material;
 use crate::tensor::Mat3;
-use constraint::Constraint;
+use solution::Solution;
 
 /// What makes a body affine: its inertia and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,35 +111,20 @@ impl AffineBody {
         self.volume * self.material.as_ref().map_or(0.0, |material| material.response(p).energy)
     }
 
-    /// τ \[Pa\], the viscous part of the Kirchhoff stress.
-    fn viscous_stress(&self, at: &Gyration) -> Mat3 {
-        let isotropic = self.viscosity.kirchhoff_stress(at);
-        match &self.anisotropic {
-            Some(friction) => isotropic + friction.kirchhoff_stress(at),
-            None => isotropic,
+    /// B J⁻¹.
+    #[inline(always)]
+    fn per_inertia(&self, moment: &Columns) -> Columns {
+        let inverse = Columns::of(&self.inverse);
+        if inverse.is_diagonal() {
+            return moment.scaled(&[inverse.at(0, 0), inverse.at(1, 1), inverse.at(2, 2)]);
         }
+        moment.times(&inverse)
     }
 
     /// Solves the balance for P̈ and, of an incompressible body, the pressure; `moment` is M [N m].
     pub fn balance(&self, at: &Gyration, moment: &Mat3) -> AffineBalance {
-        let kirchhoff = self.viscous_stress(at);
-        let mut stress = kirchhoff * at.inverse.transpose();
-        if let Some(material) = &self.material {
-            stress += material.stress(&at.gradient);
-        }
-        let free = (moment - self.volume * stress) * self.inverse;
-        let dissipation = self.volume * kirchhoff.dot(&at.velocity_gradient);
-        if !self.is_incompressible() {
-            return AffineBalance { acceleration: free, stress, pressure: None, dissipation };
-        }
-        let constraint = Constraint::new(self, at);
-        let push = constraint.push(&free, at.squared_rate());
-        AffineBalance {
-            acceleration: free + push * constraint.way,
-            stress,
-            pressure: Some(push / self.volume),
-            dissipation,
-        }
+        let elastic = self.material.as_ref().map(|material| material.stress_at(&Columns::of(&at.gradient)));
+        Solution::new(self, at, elastic, &Columns::of(moment)).balance(self)
     }
 
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.

@@ -10,188 +10,157 @@
 //!
 //!   tr(δP̈ F) = Σ 2(FL)_Bj δṖ_jB + Σ (F P̈ F − 2FLL)_Bj δP_jB
 
-use super::constraint::Constraint;
+use super::anisotropic::FrictionSlopes;
+use super::solution::Solution;
 use super::{AffineBody, Gyration};
+use crate::columns::{Columns, UNIT};
+use crate::material::Kept;
 use crate::tensor::Mat3;
-use nalgebra::{SMatrix, SVector};
 
-/// A linear map of 3×3 matrices, column by column.
-pub type Mat9 = SMatrix<f64, 9, 9>;
-/// A 3×3 matrix, column by column.
-pub type Vec9 = SVector<f64, 9>;
-
-/// The derivative of the balance at P, Ṗ, M.
+/// The derivative of the balance at P, Ṗ, M: what its columns are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AffineSlopes {
-    /// ∂B/∂P, M and the pressure kept, with the change of the reaction πV P⁻ᵀ.
-    by_gradient: Mat9,
-    /// ∂B/∂Ṗ.
-    by_rate: Mat9,
-    inverse: Mat3,
-    constraint: Option<Rows>,
+pub struct AffineSlopes<'a> {
+    body: &'a AffineBody,
+    solution: Solution,
+    material: Option<Kept>,
+    friction: Friction<'a>,
+    /// (F P̈ F − 2FLL)ᵀ.
+    asked_by_gradient: Columns,
 }
 
-/// The derivative of the constraint.
+/// What the friction adds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Rows {
-    constraint: Constraint,
-    /// Of tr(δP̈ F) by δP and by δṖ.
-    by_gradient: Vec9,
-    by_rate: Vec9,
-    volume: f64,
+struct Friction<'a> {
+    /// ½V a and V c.
+    half: f64,
+    cross: f64,
+    /// G.
+    metric: Columns,
+    /// (FL)ᵀ.
+    carried: Columns,
+    /// V τ P⁻ᵀ, the anisotropic part excepted.
+    turned: Columns,
+    /// V τ_N P⁻ᵀ.
+    grown: Option<Columns>,
+    anisotropic: Option<FrictionSlopes<'a>>,
 }
 
 impl AffineBody {
     /// The derivative of the balance; `moment` is M [N m].
-    pub fn slopes(&self, at: &Gyration, moment: &Mat3) -> AffineSlopes {
-        let mut by_gradient = self.material.as_ref().map_or(Mat9::zeros(), |material| material.tangent(&at.gradient));
-        by_gradient *= -self.volume;
-        let mut by_rate = Mat9::zeros();
-        if self.dissipates() {
-            self.add_friction(at, &mut by_gradient, &mut by_rate);
-        }
-        let mut slopes = AffineSlopes { by_gradient, by_rate, inverse: self.inverse, constraint: None };
-        if self.is_incompressible() {
-            slopes.constrain(self, at, moment);
-        }
-        slopes
+    #[inline]
+    pub fn slopes<'a>(&'a self, at: &'a Gyration, moment: &Mat3) -> AffineSlopes<'a> {
+        let material = self.material.as_ref().map(|material| material.at(&Columns::of(&at.gradient)));
+        let solution = Solution::new(self, at, material.as_ref().map(Kept::stress), &Columns::of(moment));
+        let friction = Friction::new(self, at, &solution);
+        let Solution { across, l, acceleration, .. } = &solution;
+        // Transposed: P⁻ᵀ P̈ᵀ P⁻ᵀ − 2 Lᵀ(FL)ᵀ.
+        let straight = across.times_transposed(acceleration).times(across);
+        let asked_by_gradient = straight - l.transpose().times(&friction.carried) * 2.0;
+        AffineSlopes { body: self, solution, material, friction, asked_by_gradient }
     }
+}
 
-    /// Takes the derivatives of V S_v away.
-    fn add_friction(&self, at: &Gyration, by_gradient: &mut Mat9, by_rate: &mut Mat9) {
-        let (a, c) = self.viscosity.coefficients(at.volume_ratio);
-        let (half, cross) = (0.5 * self.volume * a, self.volume * c);
-        let f = &at.inverse;
-        let l = &at.velocity_gradient;
-        let (g, fl) = (f * f.transpose(), f * l);
-        let turned = self.volume * self.viscosity.kirchhoff_stress(at) * f.transpose();
-        let grown = self.volume * self.viscosity.newtonian_stress(at) * f.transpose();
-        each_column(|column, j, b| {
-            each_row(|row, i, k| {
-                let delta = if i == j { g[(k, b)] } else { 0.0 };
-                by_rate[(row, column)] -= half * (delta + f[(b, i)] * f[(k, j)]) + cross * f[(k, i)] * f[(b, j)];
-                by_gradient[(row, column)] += half * (l[(i, j)] * g[(k, b)] + f[(b, i)] * fl[(k, j)])
-                    + cross * f[(k, i)] * fl[(b, j)]
-                    + turned[(i, b)] * f[(k, j)]
-                    - grown[(i, k)] * f[(b, j)];
-            });
-        });
-        if let Some(friction) = &self.anisotropic {
-            friction.add_slopes(self.volume, at, by_gradient, by_rate);
+impl<'a> Friction<'a> {
+    #[inline(always)]
+    fn new(body: &'a AffineBody, at: &'a Gyration, solution: &Solution) -> Self {
+        let Solution { across, l, .. } = solution;
+        let (a, c) = body.viscosity.coefficients(at.volume_ratio);
+        let stress = body.viscosity.stress_at(at.volume_ratio, l);
+        let newtonian = body.viscosity.newtonian();
+        Self {
+            half: 0.5 * body.volume * a,
+            cross: body.volume * c,
+            metric: across.transpose().times(across),
+            carried: l.transpose().times(across),
+            turned: stress.times(across) * body.volume,
+            grown: newtonian.map(|part| part.stress_at(at.volume_ratio, l).times(across) * body.volume),
+            anisotropic: body.anisotropic.as_ref().map(|friction| FrictionSlopes::new(friction, at)),
         }
     }
 }
 
-impl AffineSlopes {
-    /// Adds the constraint of an incompressible body.
-    fn constrain(&mut self, body: &AffineBody, at: &Gyration, moment: &Mat3) {
-        let balance = body.balance(at, moment);
-        let constraint = Constraint::new(body, at);
-        let (f, l) = (&at.inverse, &at.velocity_gradient);
-        let fl = f * l;
-        let by_gradient = f * (balance.acceleration * f) - 2.0 * fl * l;
-        let push = balance.pressure.unwrap_or(0.0) * body.volume;
-        each_column(|column, j, b| {
-            // The reaction turns with P: πV δ(P⁻ᵀ) = −πV (F δP F)ᵀ.
-            each_row(|row, i, k| self.by_gradient[(row, column)] -= push * f[(b, i)] * f[(k, j)]);
-        });
-        self.constraint = Some(Rows {
-            constraint,
-            // (j, B) of the transpose, column by column.
-            by_gradient: Vec9::from_column_slice(by_gradient.transpose().as_slice()),
-            by_rate: Vec9::from_column_slice((2.0 * fl).transpose().as_slice()),
-            volume: body.volume,
-        });
+impl AffineSlopes<'_> {
+    /// ∂B/∂P_jB, M and the pressure kept, with the change of the reaction πV P⁻ᵀ.
+    #[inline(always)]
+    fn by_gradient(&self, j: usize, b: usize) -> Columns {
+        let Solution { across, l, push, .. } = &self.solution;
+        let Friction { half, cross, metric, carried, turned, grown, anisotropic } = &self.friction;
+        // The reaction turns with P: πV δ(P⁻ᵀ) = −πV (F δP F)ᵀ.
+        let mut change = Columns::default();
+        for a in 0..3 {
+            let along = half * carried.at(j, a) - push * across.at(j, a);
+            change.0[a] = (across.0[b] * along + turned.0[b] * across.at(j, a)) + l.0[j] * (half * metric.at(a, b));
+        }
+        if let Some(grown) = grown {
+            change += *across * (cross * carried.at(j, b)) - *grown * across.at(j, b);
+        }
+        if let Some(material) = &self.material {
+            change = change - material.slope(j, b) * self.body.volume;
+        }
+        if let Some(friction) = anisotropic {
+            change = change - Columns::of(&friction.by_gradient(j, b)) * self.body.volume;
+        }
+        change
     }
 
-    /// Turns the changes δM along each δP_jB, at 3B + j, into those of P̈, in place; one column of nine each.
-    #[inline]
-    pub fn along_gradient(&self, columns: &mut [f64]) {
-        add(columns, self.by_gradient.as_slice());
-        self.accelerate(columns, self.constraint.as_ref().map(|rows| rows.by_gradient.as_slice()));
+    /// ∂B/∂Ṗ_jB.
+    #[inline(always)]
+    fn by_rate(&self, j: usize, b: usize) -> Columns {
+        let Solution { across, .. } = &self.solution;
+        let Friction { half, cross, metric, grown, anisotropic, .. } = &self.friction;
+        let mut change = Columns::default();
+        for a in 0..3 {
+            change.0[a] = across.0[b] * (-half * across.at(j, a)) - UNIT[j] * (half * metric.at(a, b));
+        }
+        if grown.is_some() {
+            change = change - *across * (cross * across.at(j, b));
+        }
+        if let Some(friction) = anisotropic {
+            change = change - Columns::of(&friction.by_rate(j, b)) * self.body.volume;
+        }
+        change
     }
 
-    /// Turns the changes δM along each δṖ_jB, at 3B + j, into those of P̈, in place.
-    #[inline]
-    pub fn along_rate(&self, columns: &mut [f64]) {
-        add(columns, self.by_rate.as_slice());
-        self.accelerate(columns, self.constraint.as_ref().map(|rows| rows.by_rate.as_slice()));
+    /// δP̈ along δP_jB, by which M changes by δM.
+    #[inline(always)]
+    pub(crate) fn along_gradient(&self, j: usize, b: usize, moment: &Columns) -> Columns {
+        self.accelerate(&(*moment + self.by_gradient(j, b)), self.asked_by_gradient.at(j, b)).0
     }
 
-    /// Turns changes δM alone into those of P̈, in place.
-    pub fn along_moment(&self, columns: &mut [f64]) {
-        self.accelerate(columns, None);
+    /// δP̈ along δṖ_jB, by which M changes by δM.
+    #[inline(always)]
+    pub(crate) fn along_rate(&self, j: usize, b: usize, moment: &Columns) -> Columns {
+        self.accelerate(&(*moment + self.by_rate(j, b)), 2.0 * self.friction.carried.at(j, b)).0
+    }
+
+    /// δP̈ where M alone changes.
+    #[inline(always)]
+    pub(crate) fn along_moment(&self, moment: &Columns) -> Columns {
+        self.accelerate(moment, 0.0).0
     }
 
     /// The changes of P̈ and of the pressure (0 without one) with those of P, Ṗ and M.
     pub fn apply(&self, dp: &Mat3, drate: &Mat3, dmoment: &Mat3) -> (Mat3, f64) {
-        let vector = |matrix: &Mat3| Vec9::from_column_slice(matrix.as_slice());
-        let (dp, drate) = (vector(dp), vector(drate));
-        let change = self.by_gradient * dp + self.by_rate * drate + vector(dmoment);
-        let asked = self.constraint.as_ref().map_or(0.0, |rows| rows.by_gradient.dot(&dp) + rows.by_rate.dot(&drate));
-        let mut acceleration = change;
-        let push = self.accelerate(acceleration.as_mut_slice(), Some(&[asked]));
-        let pressure = self.constraint.as_ref().map_or(0.0, |rows| push / rows.volume);
-        (Mat3::from_column_slice(acceleration.as_slice()), pressure)
-    }
-
-    /// Turns each column δB into δP̈, where tr(δP̈ F) has to be as asked (0 if nothing is said); returns the last δ(πV).
-    #[inline]
-    fn accelerate(&self, columns: &mut [f64], asked: Option<&[f64]>) -> f64 {
-        let j: &[f64] = self.inverse.as_slice();
-        let mut push = 0.0;
-        for (place, column) in columns.chunks_exact_mut(9).enumerate() {
-            let mut u = [0.0; 9];
-            for k in 0..3 {
-                for i in 0..3 {
-                    // J⁻¹ is symmetric.
-                    u[3 * k + i] = (column[i] * j[3 * k] + column[3 + i] * j[3 * k + 1]) + column[6 + i] * j[3 * k + 2];
-                }
-            }
-            if let Some(rows) = &self.constraint {
-                let Constraint { way, across, compliance } = &rows.constraint;
-                let met = dot(&u, across);
-                push = (asked.map_or(0.0, |asked| asked[place]) - met) * compliance;
-                for (u, way) in u.iter_mut().zip(way) {
-                    *u += push * way;
-                }
-            }
-            column.copy_from_slice(&u);
+        let (mut change, mut asked) = (Columns::of(dmoment), 0.0);
+        for (j, b) in (0..9).map(|place| (place % 3, place / 3)) {
+            let (dp, drate) = (dp[(j, b)], drate[(j, b)]);
+            change += self.by_gradient(j, b) * dp + self.by_rate(j, b) * drate;
+            asked += self.asked_by_gradient.at(j, b) * dp + 2.0 * self.friction.carried.at(j, b) * drate;
         }
-        push
+        let (acceleration, push) = self.accelerate(&change, asked);
+        (acceleration.matrix(), push / self.body.volume)
     }
-}
 
-fn add(columns: &mut [f64], others: &[f64]) {
-    for (entry, other) in columns.iter_mut().zip(others) {
-        *entry += other;
-    }
-}
-
-/// A·B of two 3×3 matrices, column by column; three partial sums, so that they can be added side by side.
-#[inline]
-fn dot(a: &[f64; 9], b: &Mat3) -> f64 {
-    let b = b.as_slice();
-    let part = |i: usize| (a[i] * b[i] + a[3 + i] * b[3 + i]) + a[6 + i] * b[6 + i];
-    (part(0) + part(1)) + part(2)
-}
-
-/// Calls with the place 3B + j of a column, j and B.
-#[inline(always)]
-pub(super) fn each_column(mut each: impl FnMut(usize, usize, usize)) {
-    for b in 0..3 {
-        for j in 0..3 {
-            each(3 * b + j, j, b);
-        }
-    }
-}
-
-/// Calls with the place 3A + i of a row, i and A.
-#[inline(always)]
-fn each_row(mut each: impl FnMut(usize, usize, usize)) {
-    for a in 0..3 {
-        for i in 0..3 {
-            each(3 * a + i, i, a);
+    /// δP̈ of δB, where tr(δP̈ F) has to be as asked, and δ(πV).
+    #[inline(always)]
+    fn accelerate(&self, change: &Columns, asked: f64) -> (Columns, f64) {
+        let acceleration = self.body.per_inertia(change);
+        match &self.solution.constraint {
+            Some(constraint) => {
+                let push = constraint.push(change, asked);
+                (acceleration + constraint.way * push, push)
+            }
+            None => (acceleration, 0.0),
         }
     }
 }

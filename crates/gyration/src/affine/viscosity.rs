@@ -6,6 +6,7 @@
 //! Newtonian, of the Cauchy stress (Sławianowski 4.13 with the sign and the volume that dissipate).
 
 use super::Gyration;
+use crate::columns::{Columns, UNIT};
 use crate::tensor::Mat3;
 
 /// Coefficients of internal friction.
@@ -21,24 +22,26 @@ pub struct Viscosity {
 
 impl Viscosity {
     /// a and c [Pa s].
+    #[inline(always)]
     pub(super) fn coefficients(&self, volume_ratio: f64) -> (f64, f64) {
         (self.kirchhoff + 2.0 * self.shear * volume_ratio, (self.bulk - 2.0 / 3.0 * self.shear) * volume_ratio)
     }
 
     /// τ [Pa].
     pub fn kirchhoff_stress(&self, at: &Gyration) -> Mat3 {
-        let (a, c) = self.coefficients(at.volume_ratio);
-        let l = &at.velocity_gradient;
-        let mut stress = (0.5 * a) * (l + l.transpose());
-        let isotropic = c * l.trace();
-        for axis in 0..3 {
-            stress[(axis, axis)] += isotropic;
-        }
-        stress
+        self.stress_at(at.volume_ratio, &Columns::of(&at.velocity_gradient)).matrix()
     }
 
-    /// det P ∂τ/∂(det P) [Pa]: the Newtonian part.
-    pub(super) fn newtonian_stress(&self, at: &Gyration) -> Mat3 {
-        Self { kirchhoff: 0.0, ..*self }.kirchhoff_stress(at)
+    /// τ at det P and L.
+    #[inline(always)]
+    pub(super) fn stress_at(&self, volume_ratio: f64, l: &Columns) -> Columns {
+        let (a, c) = self.coefficients(volume_ratio);
+        (*l + l.transpose()) * (0.5 * a) + Columns(UNIT) * (c * l.trace())
+    }
+
+    /// The Newtonian part alone, whose τ grows with det P; none if there is none.
+    #[inline(always)]
+    pub(super) fn newtonian(&self) -> Option<Self> {
+        (self.shear != 0.0 || self.bulk != 0.0).then_some(Self { kirchhoff: 0.0, ..*self })
     }
 }

@@ -54,7 +54,9 @@ pub struct Meeting<'a> {
 impl Deformation {
     /// Of the gradient P; none where it cannot be inverted.
     pub fn of(p: &Mat3) -> Option<Self> {
-        Some(Self { inverse: p.try_inverse()?, cofactor: cofactor(p) })
+        let cofactor = cofactor(p);
+        let volume_ratio = p.column(0).dot(&cofactor.column(0));
+        (volume_ratio != 0.0).then(|| Self { inverse: cofactor.transpose() * (1.0 / volume_ratio), cofactor })
     }
 }
 

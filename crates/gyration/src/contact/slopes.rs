@@ -13,7 +13,7 @@ use super::resultant::{Meeting, RelativeMotion};
 use super::sums::{SumSlopes, Sums};
 use super::tension::{PAIR, TensionSlopes};
 use super::{Action, AreaMeasure};
-use crate::load::{LoadSlopes, Loads};
+use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
 use crate::surface::{GapClosed, Moments, OrientedMoments};
 use crate::tensor::Mat3;
 
@@ -55,12 +55,18 @@ impl ContactSlopes {
         }
         let [_, damping, friction] = values;
         let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction] };
-        this.stretch(contact, meeting, scratch)?;
+        this.stretch(contact, meeting, &acts, scratch)?;
         Ok(this)
     }
 
     /// The derivatives through the area factor.
-    fn stretch(&mut self, contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<(), GapClosed> {
+    fn stretch(
+        &mut self,
+        contact: &Contact,
+        meeting: &Meeting,
+        acts: &[bool; Action::COUNT],
+        scratch: &mut ContactScratch,
+    ) -> Result<(), GapClosed> {
         let Some(deformation) = meeting.area_change(contact) else { return Ok(()) };
         let plan = contact.values();
         let moments = scratch.take_oriented(plan.requests().len());
@@ -69,7 +75,8 @@ impl ContactSlopes {
         // The loads with the weights m_a m_b; with (I − m⊗m)_jl they are δ_jl times their trace less those of jl.
         let pairs: [Loads; 6] = std::array::from_fn(|pair| {
             let sums = pair_sums(contact, moments, pair);
-            ACTIONS.iter().map(|action| sums[*action as usize].act(*action, normal, velocity, gradient_rate)).sum()
+            let acting = ACTIONS.into_iter().filter(|action| acts[*action as usize]);
+            acting.map(|action| sums[action as usize].act(action, normal, velocity, gradient_rate)).sum()
         });
         let trace: Loads = [pairs[0], pairs[3], pairs[5]].into_iter().sum();
         let mut by_stretch = PAIR.map(|pair| pairs[pair].scaled(-1.0));
@@ -104,17 +111,22 @@ impl ContactSlopes {
     pub fn add_to(&self, slopes: &mut LoadSlopes) {
         let normal = &self.motion.normal;
         slopes.loads += self.total;
-        for (column, slope) in self.by_gap.iter().enumerate() {
-            for axis in 0..3 {
-                slopes.add_by_place(3 * column + axis, &slope.scaled(normal[axis]));
+        let by_gap = self.by_gap.each_ref().map(numbers);
+        for (coordinate, column) in slopes.by_place.as_mut_slice().chunks_exact_mut(COORDINATES).enumerate() {
+            let (slope, along) = (&by_gap[coordinate / 3], normal[coordinate % 3]);
+            for (entry, slope) in column.iter_mut().zip(slope.iter()) {
+                *entry += along * slope;
             }
         }
         if let Some((by_stretch, inverse)) = &self.by_stretch {
-            for (place, slope) in by_stretch.iter().enumerate() {
-                let (j, l) = (place / 3, place % 3);
-                for material in 0..3 {
-                    // H_jl of δP = e_j ⊗ e_B.
-                    slopes.add_by_place(3 + 3 * material + j, &slope.scaled(inverse[(material, l)]));
+            let by_stretch = by_stretch.each_ref().map(numbers);
+            let by_gradient = slopes.by_place.as_mut_slice()[3 * COORDINATES..].chunks_exact_mut(COORDINATES);
+            for (place, column) in by_gradient.enumerate() {
+                // δP = e_j ⊗ e_B has H_jl = F_Bl.
+                let (j, b) = (place % 3, place / 3);
+                let [x, y, z] = [0, 1, 2].map(|l| (&by_stretch[3 * j + l], inverse[(b, l)]));
+                for (row, entry) in column.iter_mut().enumerate() {
+                    *entry += (x.1 * x.0[row] + y.1 * y.0[row]) + z.1 * z.0[row];
                 }
             }
         }

@@ -4,16 +4,15 @@
 //!
 //! A pinned body has P alone: p₀ = a − P r takes its columns of p₀ into those of P, and M is about the pin.
 
-use crate::affine::Vec9;
+use crate::affine::AffineSlopes;
+use crate::columns::Columns;
 use crate::contact::ContactSlopes;
 use crate::inadmissible::Inadmissible;
 use crate::load::LoadSlopes;
 use crate::model::Model;
 use crate::rates::{AffineMotion, Workspace, for_each_contact, spring_loads};
 use crate::tensor::Vec3;
-use nalgebra::{DMatrix, SMatrix};
-
-type Mat12 = SMatrix<f64, 12, 12>;
+use nalgebra::DMatrix;
 
 /// Fills the block; what is zero in it is taken to be zero already.
 pub(super) fn fill(
@@ -26,39 +25,51 @@ pub(super) fn fill(
     let body = &model.bodies[moving.index];
     let loads = load_slopes(model, workspace, time, moving)?;
     let moment = moving.moment(model, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
-    let balance = moving.affine.interior.slopes(&moving.gyration, &moment);
     let half = block.nrows() / 2;
-    // P begins behind p₀, if there is one.
-    let at = half - 9;
     for coordinate in 0..half {
         block[(coordinate, half + coordinate)] = 1.0;
     }
-    let arm = body.pin.as_ref().map(|pin| pin.point);
-    for (by_rate, first) in [(false, 0), (true, half)] {
-        let matrix = loads.as_ref().map(|slopes| if by_rate { &slopes.by_rate } else { &slopes.by_place });
-        let mut columns = [[0.0; 9]; 12];
-        if let Some(matrix) = matrix {
-            for (coordinate, column) in columns[..half].iter_mut().enumerate() {
-                let (df, dm) = along(matrix, coordinate, arm.as_ref());
-                column.copy_from_slice(dm.as_slice());
-                if at == 3 {
-                    let linear = df / body.mass.mass;
-                    block.view_mut((half, first + coordinate), (3, 1)).copy_from_slice(linear.as_slice());
-                }
-            }
-            balance.along_moment(columns[..at].as_flattened_mut());
+    let seen =
+        loads.as_ref().map(|slopes| Seen { slopes, arm: body.pin.as_ref().map(|pin| pin.point), mass: body.mass.mass });
+    let mut columns = [Columns::default(); 24];
+    let balance = moving.affine.interior.slopes(&moving.gyration, &moment);
+    accelerate(&mut columns, half, &balance, seen.as_ref());
+    let at = half - 9;
+    for (coordinate, (column, acceleration)) in
+        block.as_mut_slice().chunks_exact_mut(2 * half).zip(&columns).enumerate()
+    {
+        if let Some(seen) = &seen {
+            seen.linear(coordinate >= half, coordinate % half, &mut column[half..half + at]);
         }
-        let own = columns[at..half].as_flattened_mut();
-        if by_rate {
-            balance.along_rate(own)
-        } else {
-            balance.along_gradient(own)
-        }
-        for (coordinate, column) in columns[..half].iter().enumerate() {
-            block.view_mut((half + at, first + coordinate), (9, 1)).copy_from_slice(column);
+        if coordinate % half >= at || seen.is_some() {
+            acceleration.write(&mut column[half + at..]);
         }
     }
     Ok(())
+}
+
+/// δP̈ along each coordinate and each of its rates.
+#[inline(always)]
+fn accelerate(columns: &mut [Columns; 24], half: usize, balance: &AffineSlopes, loads: Option<&Seen>) {
+    // P begins behind p₀, if there is one.
+    let at = half - 9;
+    if let Some(loads) = loads {
+        for coordinate in 0..half {
+            columns[coordinate] = loads.along(false, coordinate);
+            columns[half + coordinate] = loads.along(true, coordinate);
+        }
+        for place in 0..at {
+            columns[place] = balance.along_moment(&columns[place]);
+            columns[half + place] = balance.along_moment(&columns[half + place]);
+        }
+    }
+    for b in 0..3 {
+        for j in 0..3 {
+            let place = at + 3 * b + j;
+            columns[place] = balance.along_gradient(j, b, &columns[place]);
+            columns[half + place] = balance.along_rate(j, b, &columns[half + place]);
+        }
+    }
 }
 
 /// The loads on an affine body and their derivatives; none if nothing but gravity acts on it.
@@ -88,20 +99,42 @@ fn load_slopes(
     Ok(Some(slopes))
 }
 
-/// δf and δM along one coordinate; of a pinned body, M about the pin and both with p₀ = a − P r.
-fn along(matrix: &Mat12, coordinate: usize, arm: Option<&Vec3>) -> (Vec3, Vec9) {
-    let column = |place: usize| {
-        let numbers = matrix.column(place);
-        (Vec3::from(numbers.fixed_rows::<3>(0)), Vec9::from(numbers.fixed_rows::<9>(3)))
-    };
-    let Some(arm) = arm else { return column(coordinate) };
-    let (mut df, mut dm) = column(3 + coordinate);
-    // δP = e_i ⊗ e_A moves p₀ by −r_A e_i.
-    let (by_center, moment_by_center) = column(coordinate % 3);
-    df -= arm[coordinate / 3] * by_center;
-    dm -= arm[coordinate / 3] * moment_by_center;
-    for (place, entry) in dm.iter_mut().enumerate() {
-        *entry -= df[place % 3] * arm[place / 3];
+/// The derivatives of the loads as a body sees them.
+struct Seen<'a> {
+    slopes: &'a LoadSlopes,
+    /// r, of a pinned body.
+    arm: Option<Vec3>,
+    mass: f64,
+}
+
+impl Seen<'_> {
+    /// δf/m along one coordinate of a free body.
+    fn linear(&self, by_rate: bool, coordinate: usize, linear: &mut [f64]) {
+        for (out, force) in linear.iter_mut().zip(self.column(by_rate, coordinate)) {
+            *out = force / self.mass;
+        }
     }
-    (df, dm)
+
+    /// The derivatives of (f | M) by one of the twelve coordinates.
+    #[inline(always)]
+    fn column(&self, by_rate: bool, place: usize) -> &[f64] {
+        let matrix = if by_rate { &self.slopes.by_rate } else { &self.slopes.by_place };
+        &matrix.as_slice()[12 * place..][..12]
+    }
+
+    /// δM along one coordinate; of a pinned body, M is about the pin and p₀ = a − P r.
+    #[inline(always)]
+    fn along(&self, by_rate: bool, coordinate: usize) -> Columns {
+        let Some(arm) = &self.arm else { return Columns::read(&self.column(by_rate, coordinate)[3..]) };
+        // δP = e_i ⊗ e_A moves p₀ by −r_A e_i.
+        let (own, center) = (self.column(by_rate, 3 + coordinate), self.column(by_rate, coordinate % 3));
+        let mut change = [0.0; 12];
+        for place in 0..12 {
+            change[place] = own[place] - arm[coordinate / 3] * center[place];
+        }
+        for place in 3..12 {
+            change[place] -= change[place % 3] * arm[place / 3 - 1];
+        }
+        Columns::read(&change[3..])
+    }
 }

@@ -14,7 +14,7 @@ pub use couple::{Couple, CoupleTable, TableError};
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;
-pub(crate) use slopes::unit;
+pub(crate) use slopes::{COORDINATES, numbers, unit};
 pub use spring::{Spring, SpringLoads};
 pub use wrench::{Wrench, WrenchSlope};
 

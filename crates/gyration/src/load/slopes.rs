@@ -33,9 +33,13 @@ fn coordinates(vector: &Vec3, matrix: &Mat3) -> SVector<f64, 12> {
     SVector::from_iterator(vector.iter().chain(matrix.iter()).copied())
 }
 
+/// How many coordinates a body has.
+pub(crate) const COORDINATES: usize = 12;
+
 /// The loads as a vector of twelve.
-fn numbers(loads: &Loads) -> SVector<f64, 12> {
-    coordinates(&loads.force, &loads.moment)
+pub(crate) fn numbers(loads: &Loads) -> SVector<f64, 12> {
+    let Loads { force: f, moment: m } = loads;
+    SVector::from([f[0], f[1], f[2], m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]])
 }
 
 /// The loads of a vector of twelve.
@@ -128,10 +132,12 @@ pub(crate) fn unit(place: usize) -> Mat3 {
 
 /// Adds weight(a, b) · block at the 3×3 block (a, b).
 fn add_blocks(matrix: &mut Mat12, block: &Mat3, weight: impl Fn(usize, usize) -> f64) {
-    for b in 0..4 {
-        for a in 0..4 {
-            let mut part = matrix.fixed_view_mut::<3, 3>(3 * a, 3 * b);
-            part += weight(a, b) * block;
+    for (coordinate, column) in matrix.as_mut_slice().chunks_exact_mut(COORDINATES).enumerate() {
+        for (a, part) in column.chunks_exact_mut(3).enumerate() {
+            let weight = weight(a, coordinate / 3);
+            for (entry, number) in part.iter_mut().zip(&block.as_slice()[3 * (coordinate % 3)..]) {
+                *entry += weight * number;
+            }
         }
     }
 }

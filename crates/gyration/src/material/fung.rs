@@ -16,7 +16,7 @@ pub struct Fung {
 }
 
 impl Fung {
-    #[inline]
+    #[inline(always)]
     pub(super) fn derivatives(&self, invariants: &Invariants) -> Derivatives {
         let [x, _] = isochoric_excess(invariants, self.bulk);
         let (b, half) = (self.exponent, 0.5 * self.shear);

@@ -17,7 +17,8 @@ pub struct Hencky {
 impl Hencky {
     pub(super) fn principal(&self, c: &[f64; 3]) -> Principal {
         let Self { shear, bulk } = *self;
-        let strain = c.map(|c| 0.5 * c.ln());
+        let logarithms = c.map(f64::ln);
+        let strain = logarithms.map(|log| 0.5 * log);
         let volume = strain.iter().sum::<f64>();
         let deviator = strain.map(|e| e - volume / 3.0);
         let mut sum = Principal {
@@ -35,10 +36,20 @@ impl Hencky {
         }
         for (quotient, (i, j)) in sum.quotients.iter_mut().zip(PAIRS) {
             // Of ln c / c by the product rule, and of 1/c.
-            let logarithm = log_quotient(c[i], c[j]) / c[i] - 2.0 * strain[j] / (c[i] * c[j]);
+            let quotient_of_logs = log_quotient([c[i], c[j]], [logarithms[i], logarithms[j]]);
+            let logarithm = quotient_of_logs / c[i] - logarithms[j] / (c[i] * c[j]);
             *quotient = shear * logarithm - common / (c[i] * c[j]);
         }
         sum
+    }
+
+    /// s_i alone.
+    pub(super) fn slopes(&self, c: &[f64; 3]) -> [f64; 3] {
+        let Self { shear, bulk } = *self;
+        let strain = c.map(|c| 0.5 * c.ln());
+        let volume = (strain[0] + strain[1]) + strain[2];
+        let common = (bulk - 2.0 / 3.0 * shear) * volume;
+        [0, 1, 2].map(|i| (2.0 * shear * strain[i] + common) / c[i])
     }
 
     pub(super) fn validate(&self) -> Result<(), MaterialError> {

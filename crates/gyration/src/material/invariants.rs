@@ -5,12 +5,11 @@
 //!
 //! f_k are the derivatives of the energy. cof P is quadratic in P: neither S nor its derivative needs an inverse.
 
-use super::Tangent;
-use crate::tensor::{Mat3, cofactor};
+use crate::columns::{Columns, UNIT};
 
 /// ι₁, ι₂ and J of a gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Invariants {
+pub(crate) struct Invariants {
     /// ι₁ = tr C.
     pub first: f64,
     /// ι₂ = ½(tr²C − tr C²).
@@ -20,26 +19,28 @@ pub(super) struct Invariants {
     /// ι₁ − 3 and ι₂ − 3, from C − I: near rest they are small, and nothing of them is lost.
     pub excess: [f64; 2],
     /// C = PᵀP.
-    right: Mat3,
+    right: Columns,
+    /// cof P.
+    cofactor: Columns,
 }
 
 impl Invariants {
     #[inline(always)]
-    pub fn of(p: &Mat3) -> Self {
-        let right = p.tr_mul(p);
-        let e = right - Mat3::identity();
-        let minors = e[(0, 0)] * e[(1, 1)] - e[(0, 1)] * e[(0, 1)] + e[(1, 1)] * e[(2, 2)] - e[(1, 2)] * e[(1, 2)]
-            + e[(2, 2)] * e[(0, 0)]
-            - e[(2, 0)] * e[(2, 0)];
-        let trace = e.trace();
+    pub fn of(p: &Columns) -> Self {
+        let (right, cofactor) = (p.transpose().times(p), p.cofactor());
+        let (x, y, z) = (right.at(0, 0) - 1.0, right.at(1, 1) - 1.0, right.at(2, 2) - 1.0);
+        let (xy, yz, zx) = (right.at(0, 1), right.at(1, 2), right.at(2, 0));
+        let minors = x * y - xy * xy + y * z - yz * yz + z * x - zx * zx;
+        let trace = (x + y) + z;
         let excess = [trace, 2.0 * trace + minors];
-        Self { first: 3.0 + excess[0], second: 3.0 + excess[1], volume: p.determinant(), excess, right }
+        let volume = p.0[0].dot(&cofactor.0[0]);
+        Self { first: 3.0 + excess[0], second: 3.0 + excess[1], volume, excess, right, cofactor }
     }
 }
 
 /// φ and its derivatives with ι₁, ι₂, J.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Derivatives {
+pub(crate) struct Derivatives {
     /// φ [J/m³].
     pub energy: f64,
     /// f₁, f₂, f₃.
@@ -49,84 +50,85 @@ pub(super) struct Derivatives {
 }
 
 /// An energy at a gradient, with all that stress and tangent need.
+///
+/// With G₁ = 2P, G₂ = 2(ι₁P − PC), G₃ = cof P, the derivatives of ι₁, ι₂, J, and the derivatives of these,
+///
+///   ∂S_iA/∂P_jB = δ_ij (2(f₁ + ι₁f₂) δ_AB − 2f₂ C_AB) − 2f₂ (P_iB P_jA + (PPᵀ)_ij δ_AB) + f₂ (G₁ ⊗ G₁)_iAjB
+///                 + f₃ ε_ijk ε_ABC P_kC + Σ f_kl (G_k ⊗ G_l)_iAjB
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ByInvariants {
-    p: Mat3,
-    invariants: Invariants,
+pub(crate) struct ByInvariants {
     derivatives: Derivatives,
-    /// PC.
-    pc: Mat3,
+    p: Columns,
+    /// G₂.
+    second: Columns,
     /// cof P.
-    cofactor: Mat3,
+    cofactor: Columns,
+    /// 2(f₁ + ι₁f₂) I − 2f₂ C.
+    own: Columns,
+    /// 2f₂ PPᵀ.
+    left: Columns,
 }
 
 impl ByInvariants {
-    pub fn new(p: &Mat3, invariants: Invariants, derivatives: Derivatives) -> Self {
-        Self { p: *p, invariants, derivatives, pc: p * invariants.right, cofactor: cofactor(p) }
+    #[inline(always)]
+    pub fn new(p: &Columns, invariants: &Invariants, derivatives: &Derivatives) -> Self {
+        let Invariants { first, right, cofactor, .. } = invariants;
+        let [f1, f2, _] = derivatives.first;
+        let own = Columns(UNIT) * (2.0 * (f1 + first * f2)) - *right * (2.0 * f2);
+        let second = (*p * *first - p.times(right)) * 2.0;
+        let left = p.times_transposed(p) * (2.0 * f2);
+        Self { derivatives: *derivatives, p: *p, second, cofactor: *cofactor, own, left }
     }
 
+    #[inline(always)]
     pub fn energy(&self) -> f64 {
         self.derivatives.energy
     }
 
     /// S.
-    pub fn stress(&self) -> Mat3 {
-        self.combination(&self.derivatives.first)
+    #[inline(always)]
+    pub fn stress(&self) -> Columns {
+        let [f1, f2, f3] = self.derivatives.first;
+        (self.p * (2.0 * f1) + self.second * f2) + self.cofactor * f3
     }
 
-    /// g₁ ∂ι₁/∂P + g₂ ∂ι₂/∂P + g₃ ∂J/∂P.
-    fn combination(&self, g: &[f64; 3]) -> Mat3 {
-        2.0 * (g[0] + self.invariants.first * g[1]) * self.p - 2.0 * g[1] * self.pc + g[2] * self.cofactor
-    }
-
-    /// ∂S/∂P. With G₁ = 2P, G₂ = 2(ι₁P − PC), G₃ = cof P, the derivatives of ι₁, ι₂, J, and the derivatives of these,
-    ///
-    ///   ∂S_iA/∂P_jB = 2(f₁ + ι₁f₂) δ_ij δ_AB − 2f₂ (δ_ij C_AB + P_iB P_jA + (PPᵀ)_ij δ_AB) + f₂ (G₁ ⊗ G₁)_iAjB
-    ///                 + f₃ ε_ijk ε_ABC P_kC + Σ f_kl (G_k ⊗ G_l)_iAjB
-    pub fn tangent(&self) -> Tangent {
-        let Self { p, invariants, derivatives, pc, cofactor } = self;
-        let [f1, f2, f3] = derivatives.first;
+    /// ∂S/∂P_jB.
+    #[inline(always)]
+    pub fn slope(&self, j: usize, b: usize) -> Columns {
+        let Self { derivatives, p, second, cofactor, own, left } = self;
+        let [_, f2, f3] = derivatives.first;
         let [f11, f12, f13, f22, f23, f33] = derivatives.second;
-        let own = 2.0 * (f1 + invariants.first * f2);
-        let (left, right) = (2.0 * f2 * p * p.transpose(), 2.0 * f2 * invariants.right);
-        let (g1, g2, twice) = (2.0 * p, 2.0 * (invariants.first * p - pc), 2.0 * f2 * p);
-        let mut tangent = Tangent::zeros();
-        for (place, column) in tangent.as_mut_slice().chunks_exact_mut(9).enumerate() {
-            let (j, b) = (place % 3, place / 3);
-            let (x, y, z) = (g1[(j, b)], g2[(j, b)], cofactor[(j, b)]);
-            let by = [(f11 + f2) * x + f12 * y + f13 * z, f12 * x + f22 * y + f23 * z, f13 * x + f23 * y + f33 * z];
-            for row in 0..9 {
-                let (i, a) = (row % 3, row / 3);
-                column[row] = (by[0] * g1[row] + by[1] * g2[row] + by[2] * cofactor[row]) - twice[(i, b)] * p[(j, a)];
-            }
-            for k in 0..3 {
-                column[3 * k + j] -= right[(k, b)];
-                column[3 * b + k] -= left[(k, j)];
-            }
-            column[place] += own;
-            // ε_ijk ε_ABC P_kC has four terms for each (j, B): those of the other indices.
-            for (s, t) in [(1, 2), (2, 1)] {
-                let (i, k) = ((j + s) % 3, (j + t) % 3);
-                let (a, c) = ((b + s) % 3, (b + t) % 3);
-                column[3 * a + i] += f3 * p[(k, c)];
-                column[3 * c + i] -= f3 * p[(k, a)];
-            }
+        let (x, y, z) = (2.0 * p.at(j, b), second.at(j, b), cofactor.at(j, b));
+        // Of G₁, G₂, G₃; that of G₁ = 2P stands before P.
+        let by_first = 2.0 * ((f11 + f2) * x + f12 * y + f13 * z);
+        let by_second = f12 * x + f22 * y + f23 * z;
+        let by_volume = f13 * x + f23 * y + f33 * z;
+        let mut slope = (*p * by_first + *second * by_second) + *cofactor * by_volume;
+        for a in 0..3 {
+            slope.0[a] += UNIT[j] * own.at(a, b) - p.0[b] * (2.0 * f2 * p.at(j, a));
         }
-        tangent
+        slope.0[b] = slope.0[b] - left.0[j];
+        if f3 != 0.0 {
+            // ε_ijk P_kC = (e_j × P_C)_i.
+            let (next, last) = ((b + 1) % 3, (b + 2) % 3);
+            slope.0[next] += UNIT[j].cross(&p.0[last]) * -f3;
+            slope.0[last] += UNIT[j].cross(&p.0[next]) * f3;
+        }
+        slope
     }
 }
 
 /// S for the derivatives of an energy: what [`ByInvariants::stress`] gives, without what only the tangent needs.
 #[inline(always)]
-pub(super) fn stress(p: &Mat3, derivatives: impl Fn(&Invariants) -> Derivatives) -> Mat3 {
+pub(super) fn stress(p: &Columns, derivatives: impl Fn(&Invariants) -> Derivatives) -> Columns {
     let invariants = Invariants::of(p);
     let [f1, f2, f3] = derivatives(&invariants).first;
-    let mut stress = 2.0 * (f1 + invariants.first * f2) * p;
+    let mut stress = *p * (2.0 * (f1 + invariants.first * f2));
     if f2 != 0.0 {
-        stress -= 2.0 * f2 * (p * invariants.right);
+        stress = stress - p.times(&invariants.right) * (2.0 * f2);
     }
     if f3 != 0.0 {
-        stress += f3 * cofactor(p);
+        stress += invariants.cofactor * f3;
     }
     stress
 }

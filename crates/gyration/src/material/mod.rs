@@ -23,6 +23,7 @@ mod mooney_rivlin;
 mod neo_hookean_log;
 mod ogden;
 mod principal;
+mod spectrum;
 mod st_venant_kirchhoff;
 mod volume;
 
@@ -33,10 +34,11 @@ pub use neo_hookean_log::NeoHookeanLog;
 pub use ogden::{Ogden, OgdenTerm};
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 
+use crate::columns::Columns;
 use crate::tensor::Mat3;
 use invariants::{ByInvariants, Invariants};
 use nalgebra::SMatrix;
-use principal::{ByPrincipal, Principal};
+use principal::ByPrincipal;
 
 /// The material of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,37 +81,97 @@ pub struct MaterialError {
 /// The derivative of the stress at a gradient, a linear map of 3×3 matrices that are read column by column.
 pub type Tangent = SMatrix<f64, 9, 9>;
 
+/// A material at a gradient, with all that stress and tangent need.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kept {
+pub(crate) enum Kept {
+    /// An energy of the invariants.
     Invariants(ByInvariants),
+    /// An energy of the principal values.
     Principal(ByPrincipal),
+}
+
+impl Kept {
+    #[inline(always)]
+    fn energy(&self) -> f64 {
+        match self {
+            Self::Invariants(kept) => kept.energy(),
+            Self::Principal(kept) => kept.energy(),
+        }
+    }
+
+    /// S.
+    #[inline(always)]
+    pub fn stress(&self) -> Columns {
+        match self {
+            Self::Invariants(kept) => kept.stress(),
+            Self::Principal(kept) => kept.stress(),
+        }
+    }
+
+    /// ∂S/∂P_jB.
+    #[inline(always)]
+    pub fn slope(&self, j: usize, b: usize) -> Columns {
+        match self {
+            Self::Invariants(kept) => kept.slope(j, b),
+            Self::Principal(kept) => kept.slope(j, b),
+        }
+    }
 }
 
 impl Material {
     /// φ(P) and S = ∂φ/∂P, det P > 0; not finite where the energy is not.
     pub fn response(&self, p: &Mat3) -> Response {
-        match self.kept(p) {
-            Kept::Invariants(kept) => Response { energy: kept.energy(), stress: kept.stress() },
-            Kept::Principal(kept) => Response { energy: kept.energy(), stress: kept.stress() },
-        }
+        let kept = self.at(&Columns::of(p));
+        Response { energy: kept.energy(), stress: kept.stress().matrix() }
     }
 
     /// S = ∂φ/∂P alone.
     pub fn stress(&self, p: &Mat3) -> Mat3 {
-        match self {
-            Self::MooneyRivlin(material) => invariants::stress(p, |i| material.derivatives(i)),
-            Self::Fung(material) => invariants::stress(p, |i| material.derivatives(i)),
-            Self::NeoHookeanLog(material) => invariants::stress(p, |i| material.derivatives(i)),
-            Self::StVenantKirchhoff(material) => invariants::stress(p, |i| material.derivatives(i)),
-            Self::Ogden(_) | Self::Hencky(_) => self.response(p).stress,
-        }
+        self.stress_at(&Columns::of(p)).matrix()
     }
 
     /// ∂S_iA/∂P_jB at (3A + i, 3B + j), det P > 0.
     pub fn tangent(&self, p: &Mat3) -> Tangent {
-        match self.kept(p) {
-            Kept::Invariants(kept) => kept.tangent(),
-            Kept::Principal(kept) => kept.tangent(),
+        let kept = self.at(&Columns::of(p));
+        let mut tangent = Tangent::zeros();
+        for place in 0..9 {
+            kept.slope(place % 3, place / 3).write(&mut tangent.as_mut_slice()[9 * place..]);
+        }
+        tangent
+    }
+
+    /// S.
+    #[inline(always)]
+    pub(crate) fn stress_at(&self, p: &Columns) -> Columns {
+        match self {
+            Self::Ogden(material) => principal::stress(p, |c| material.slopes(c)),
+            Self::Hencky(material) => principal::stress(p, |c| material.slopes(c)),
+            _ => invariants::stress(p, |invariants| self.derivatives(invariants)),
+        }
+    }
+
+    /// The material at a gradient.
+    #[inline(always)]
+    pub(crate) fn at(&self, p: &Columns) -> Kept {
+        match self {
+            Self::Ogden(material) => Kept::Principal(ByPrincipal::new(p, |c| material.principal(c))),
+            Self::Hencky(material) => Kept::Principal(ByPrincipal::new(p, |c| material.principal(c))),
+            _ => {
+                let invariants = Invariants::of(p);
+                Kept::Invariants(ByInvariants::new(p, &invariants, &self.derivatives(&invariants)))
+            }
+        }
+    }
+
+    /// Of an energy of the invariants; zero for others.
+    #[inline(always)]
+    fn derivatives(&self, at: &Invariants) -> invariants::Derivatives {
+        match self {
+            Self::MooneyRivlin(material) => material.derivatives(at),
+            Self::Fung(material) => material.derivatives(at),
+            Self::NeoHookeanLog(material) => material.derivatives(at),
+            Self::StVenantKirchhoff(material) => material.derivatives(at),
+            Self::Ogden(_) | Self::Hencky(_) => invariants::Derivatives::default(),
         }
     }
 
@@ -135,22 +197,6 @@ impl Material {
             Self::NeoHookeanLog(material) => material.validate(),
             Self::StVenantKirchhoff(material) => material.validate(),
             Self::Hencky(material) => material.validate(),
-        }
-    }
-
-    fn kept(&self, p: &Mat3) -> Kept {
-        let by_invariants = |derivatives: &dyn Fn(&Invariants) -> invariants::Derivatives| {
-            let invariants = Invariants::of(p);
-            Kept::Invariants(ByInvariants::new(p, invariants, derivatives(&invariants)))
-        };
-        let by_principal = |of: &dyn Fn(&[f64; 3]) -> Principal| Kept::Principal(ByPrincipal::new(p, of));
-        match self {
-            Self::MooneyRivlin(material) => by_invariants(&|i| material.derivatives(i)),
-            Self::Fung(material) => by_invariants(&|i| material.derivatives(i)),
-            Self::NeoHookeanLog(material) => by_invariants(&|i| material.derivatives(i)),
-            Self::StVenantKirchhoff(material) => by_invariants(&|i| material.derivatives(i)),
-            Self::Ogden(material) => by_principal(&|c| material.principal(c)),
-            Self::Hencky(material) => by_principal(&|c| material.principal(c)),
         }
     }
 }

@@ -21,7 +21,7 @@ impl MooneyRivlin {
         Self { c1: 0.5 * shear, c2: 0.0, bulk }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn derivatives(&self, invariants: &Invariants) -> Derivatives {
         let [x, y] = isochoric_excess(invariants, self.bulk);
         let energy = self.c1 * x + self.c2 * y;

@@ -14,7 +14,7 @@ pub struct NeoHookeanLog {
 }
 
 impl NeoHookeanLog {
-    #[inline]
+    #[inline(always)]
     pub(super) fn derivatives(&self, invariants: &Invariants) -> Derivatives {
         let (mu, lambda, j) = (self.mu, self.lambda, invariants.volume);
         let log = j.ln();

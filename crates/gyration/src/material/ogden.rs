@@ -40,6 +40,23 @@ impl Ogden {
         sum
     }
 
+    /// s_i alone.
+    pub(super) fn slopes(&self, c: &[f64; 3]) -> [f64; 3] {
+        let logarithms = c.map(f64::ln);
+        // J^α/3 is taken out of every power; 0 leaves it in.
+        let log_volume = 0.5 * ((logarithms[0] + logarithms[1]) + logarithms[2]);
+        let isochoric = if self.bulk.is_some() { log_volume / 3.0 } else { 0.0 };
+        let mut carried = [0.0; 3];
+        for OgdenTerm { mu, alpha } in &self.terms {
+            let q = logarithms.map(|log| (alpha * (0.5 * log - isochoric)).exp());
+            let third = if self.bulk.is_some() { (q[0] + q[1] + q[2]) / 3.0 } else { 0.0 };
+            carried = [0, 1, 2].map(|i| carried[i] + mu * (q[i] - third));
+        }
+        let grown = log_volume.exp_m1();
+        let pressure = self.bulk.map_or(0.0, |bulk| bulk * grown * (1.0 + grown));
+        [0, 1, 2].map(|i| (carried[i] + pressure) / c[i])
+    }
+
     pub(super) fn validate(&self) -> Result<(), MaterialError> {
         for OgdenTerm { mu, alpha } in &self.terms {
             require("alpha", *alpha, *alpha != 0.0, "not 0")?;
@@ -53,13 +70,17 @@ impl OgdenTerm {
     fn add_plain(&self, c: &[f64; 3], sum: &mut Principal) {
         let Self { mu, alpha } = *self;
         let n = 0.5 * alpha;
+        let mut powers = [0.0; 3];
         for (i, c) in c.iter().enumerate() {
-            sum.energy += mu / alpha * (n * c.ln()).exp_m1();
-            sum.slopes[i] += mu * c.powf(n - 1.0);
-            sum.curvature[i][i] += mu * (n - 1.0) * c.powf(n - 2.0);
+            let grown = (n * c.ln()).exp_m1();
+            // c^(n−1).
+            powers[i] = (1.0 + grown) / c;
+            sum.energy += mu / alpha * grown;
+            sum.slopes[i] += mu * powers[i];
+            sum.curvature[i][i] += mu * (n - 1.0) * powers[i] / c;
         }
         for (quotient, (i, j)) in sum.quotients.iter_mut().zip(PAIRS) {
-            *quotient += mu * power_quotient(n - 1.0, c[i], c[j]);
+            *quotient += mu * power_quotient(n - 1.0, [c[i], c[j]], [powers[i], powers[j]]);
         }
     }
 
@@ -77,9 +98,11 @@ impl OgdenTerm {
             }
             sum.curvature[i][i] += 0.5 * mu * alpha * q[i] / (c[i] * c[i]) - slope / c[i];
         }
-        let factor = (-alpha / 3.0 * log_volume).exp();
+        // J^−α/3 c^(α/2 − 1).
+        let powers: [f64; 3] = std::array::from_fn(|i| q[i] / c[i]);
         for (quotient, (i, j)) in sum.quotients.iter_mut().zip(PAIRS) {
-            *quotient += mu * (factor * power_quotient(0.5 * alpha - 1.0, c[i], c[j]) + third / (c[i] * c[j]));
+            let power = power_quotient(0.5 * alpha - 1.0, [c[i], c[j]], [powers[i], powers[j]]);
+            *quotient += mu * (power + third / (c[i] * c[j]));
         }
     }
 }

@@ -1,19 +1,20 @@
 //! Energies that are functions of the principal values c_i of C = PᵀP.
 //!
-//! With C = N diag(c) Nᵀ and s_i = 2 ∂φ/∂c_i,
+//! With C = N diag(c) Nᵀ, s_i = 2 ∂φ/∂c_i and Q = P N,
 //!
-//!   S = P N diag(s) Nᵀ,    dS = dP N diag(s) Nᵀ + P N M Nᵀ
-//!   M_ii = Σ_j (∂s_i/∂c_j) D_jj,   M_ij = (s_i − s_j)/(c_i − c_j) D_ij,   D = Nᵀ dC N
+//!   S = Q diag(s) Nᵀ,    dS = dP N diag(s) Nᵀ + Q M Nᵀ
+//!   M_ii = Σ_j (∂s_i/∂c_j) D_jj,   M_ij = (s_i − s_j)/(c_i − c_j) D_ij,   D = Nᵀ dC N = q ⊗ n + n ⊗ q
 //!
-//! The quotients are divided differences, which the materials give in closed form without dividing by c_i − c_j: equal
-//! and nearly equal stretches are no special case. Source: Ogden, *Non-linear elastic deformations*, §6.1.
+//! for dP = e_j ⊗ e_B, with q and n the rows j of Q and B of N. The quotients are divided differences, which the materials
+//! give without cancellation: equal and nearly equal stretches are no special case. Source: Ogden, *Non-linear elastic
+//! deformations*, §6.1.
 
-use super::Tangent;
-use crate::tensor::Mat3;
+use super::spectrum::Spectrum;
+use crate::columns::{Columns, UNIT};
 
 /// φ and its derivatives with the principal values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Principal {
+pub(crate) struct Principal {
     /// φ [J/m³].
     pub energy: f64,
     /// s_i = 2 ∂φ/∂c_i.
@@ -29,69 +30,89 @@ pub(super) const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// An energy at a gradient, with all that stress and tangent need.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ByPrincipal {
-    p: Mat3,
-    axes: Mat3,
+pub(crate) struct ByPrincipal {
     principal: Principal,
+    /// N.
+    axes: Columns,
+    /// Q.
+    carried: Columns,
     /// N diag(s) Nᵀ.
-    second_piola: Mat3,
+    second_piola: Columns,
 }
 
 impl ByPrincipal {
-    pub fn new(p: &Mat3, energy: &dyn Fn(&[f64; 3]) -> Principal) -> Self {
-        let eigen = p.tr_mul(p).symmetric_eigen();
-        let axes = eigen.eigenvectors;
-        let principal = energy(&eigen.eigenvalues.into());
-        let second_piola = axes * Mat3::from_diagonal(&principal.slopes.into()) * axes.transpose();
-        Self { p: *p, axes, principal, second_piola }
+    #[inline(always)]
+    pub fn new(p: &Columns, energy: impl Fn(&[f64; 3]) -> Principal) -> Self {
+        let Spectrum { values, axes, carried } = Spectrum::of(p);
+        let principal = energy(&values);
+        let second_piola = axes.scaled(&principal.slopes).times_transposed(&axes);
+        Self { principal, axes, carried, second_piola }
     }
 
+    #[inline(always)]
     pub fn energy(&self) -> f64 {
         self.principal.energy
     }
 
     /// S.
-    pub fn stress(&self) -> Mat3 {
-        self.p * self.second_piola
+    #[inline(always)]
+    pub fn stress(&self) -> Columns {
+        self.carried.scaled(&self.principal.slopes).times_transposed(&self.axes)
     }
 
-    /// ∂S/∂P.
-    pub fn tangent(&self) -> Tangent {
-        let mut tangent = Tangent::zeros();
-        for place in 0..9 {
-            let mut dp = Mat3::zeros();
-            dp[(place % 3, place / 3)] = 1.0;
-            tangent.column_mut(place).copy_from_slice(self.change(&dp).as_slice());
+    /// ∂S/∂P_jB.
+    #[inline(always)]
+    pub fn slope(&self, j: usize, b: usize) -> Columns {
+        let Self { principal: Principal { curvature, quotients, .. }, axes, carried, second_piola } = self;
+        let q = [carried.at(j, 0), carried.at(j, 1), carried.at(j, 2)];
+        let n = [axes.at(b, 0), axes.at(b, 1), axes.at(b, 2)];
+        let [x, y, z] = carried.0;
+        // Q M, column by column: first what the shears of D change, then what its stretches do.
+        let [xy, xz, yz] = [
+            quotients[0] * (q[0] * n[1] + n[0] * q[1]),
+            quotients[1] * (q[0] * n[2] + n[0] * q[2]),
+            quotients[2] * (q[1] * n[2] + n[1] * q[2]),
+        ];
+        let mut changed = Columns([y * xy + z * xz, x * xy + z * yz, x * xz + y * yz]);
+        for (a, row) in curvature.iter().enumerate() {
+            let stretched = (row[0] * (q[0] * n[0]) + row[1] * (q[1] * n[1])) + row[2] * (q[2] * n[2]);
+            changed.0[a] += carried.0[a] * (2.0 * stretched);
         }
-        tangent
-    }
-
-    /// dS.
-    fn change(&self, dp: &Mat3) -> Mat3 {
-        let Self { p, axes, principal, second_piola } = self;
-        let half = axes.tr_mul(&(p.tr_mul(dp) * axes));
-        let d = half + half.transpose();
-        let mut m = Mat3::zeros();
-        for (i, row) in principal.curvature.iter().enumerate() {
-            m[(i, i)] = row.iter().enumerate().map(|(j, slope)| slope * d[(j, j)]).sum();
+        let mut slope = changed.times_transposed(axes);
+        for a in 0..3 {
+            slope.0[a] += UNIT[j] * second_piola.at(a, b);
         }
-        for (quotient, (i, j)) in principal.quotients.iter().zip(PAIRS) {
-            m[(i, j)] = quotient * d[(i, j)];
-            m[(j, i)] = m[(i, j)];
-        }
-        dp * second_piola + p * (axes * m * axes.transpose())
+        slope
     }
 }
 
-/// (a^n − b^n)/(a − b) for a, b > 0: n b^(n−1) where they meet.
-pub(super) fn power_quotient(n: f64, a: f64, b: f64) -> f64 {
+/// S from the slopes s_i alone: what [`ByPrincipal::stress`] gives, without what only the tangent needs.
+#[inline(always)]
+pub(super) fn stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> Columns {
+    let Spectrum { values, axes, carried } = Spectrum::of(p);
+    carried.scaled(&slopes(&values)).times_transposed(&axes)
+}
+
+/// Where |a − b| exceeds this part of b, a difference quotient loses no more than a few roundings by being formed as it stands.
+const FAR: f64 = 0.25;
+
+/// (a^n − b^n)/(a − b) for a, b > 0 from a, b and their powers: n b^(n−1) where they meet.
+#[inline]
+pub(super) fn power_quotient(n: f64, [a, b]: [f64; 2], [to_a, to_b]: [f64; 2]) -> f64 {
     let r = (a - b) / b;
+    if r.abs() > FAR {
+        return (to_a - to_b) / (a - b);
+    }
     let slope = if r == 0.0 { n } else { (n * r.ln_1p()).exp_m1() / r };
-    b.powf(n - 1.0) * slope
+    to_b / b * slope
 }
 
-/// (ln a − ln b)/(a − b) for a, b > 0.
-pub(super) fn log_quotient(a: f64, b: f64) -> f64 {
+/// (ln a − ln b)/(a − b) for a, b > 0 from a, b and their logarithms.
+#[inline]
+pub(super) fn log_quotient([a, b]: [f64; 2], [ln_a, ln_b]: [f64; 2]) -> f64 {
     let r = (a - b) / b;
+    if r.abs() > FAR {
+        return (ln_a - ln_b) / (a - b);
+    }
     if r == 0.0 { 1.0 / b } else { r.ln_1p() / (r * b) }
 }

@@ -20,7 +20,7 @@ impl StVenantKirchhoff {
         Self { lambda: 0.0, mu: 4.0 * kappa }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn derivatives(&self, invariants: &Invariants) -> Derivatives {
         let (lambda, mu, [x, y]) = (self.lambda, self.mu, invariants.excess);
         let second = 0.25 * lambda + 0.5 * mu;

@@ -3,14 +3,14 @@
 use super::invariants::{Derivatives, Invariants};
 
 /// ῑ₁ − 3 and ῑ₂ − 3; without a bulk modulus ι₁ − 3 and ι₂ − 3.
-#[inline]
+#[inline(always)]
 pub(super) fn isochoric_excess(full: &Invariants, bulk: Option<f64>) -> [f64; 2] {
     if bulk.is_none() {
         return full.excess;
     }
     // J^p − 1 without loss near J = 1.
     let log = full.volume.ln();
-    let grown = [-2.0 / 3.0, -4.0 / 3.0].map(|power: f64| (power * log).exp_m1());
+    let grown = [(-2.0 / 3.0 * log).exp_m1(), (-4.0 / 3.0 * log).exp_m1()];
     [full.excess[0] + grown[0] * full.first, full.excess[1] + grown[1] * full.second]
 }
 
@@ -22,7 +22,7 @@ pub(super) struct Distortion {
 }
 
 /// φ = w(ῑ₁, ῑ₂) + K/2 (J − 1)², by the chain rule; φ = w(ι₁, ι₂) without K.
-#[inline]
+#[inline(always)]
 pub(super) fn with_volume(w: &Distortion, bulk: Option<f64>, full: &Invariants) -> Derivatives {
     let Distortion { energy, first: [w1, w2], second: [w11, w12, w22] } = *w;
     let Some(bulk) = bulk else {

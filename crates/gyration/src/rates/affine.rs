@@ -44,6 +44,7 @@ impl<'a> AffineMotion<'a> {
     }
 
     /// Whether anything but gravity acts on the body.
+    #[inline]
     pub fn is_loaded(&self, model: &Model) -> bool {
         let body = &model.bodies[self.index];
         let touched = !body.contacts.is_empty() || !body.springs.is_empty();
@@ -51,10 +52,12 @@ impl<'a> AffineMotion<'a> {
     }
 
     /// f and M of contacts, springs, couple and resistances, and the powers of their works.
+    #[inline]
     pub fn loads(&self, model: &Model, workspace: &mut Workspace, time: f64) -> Result<AffineLoads, Inadmissible> {
-        if !self.is_loaded(model) {
-            return Ok(AffineLoads::default());
-        }
+        if self.is_loaded(model) { self.summed(model, workspace, time) } else { Ok(AffineLoads::default()) }
+    }
+
+    fn summed(&self, model: &Model, workspace: &mut Workspace, time: f64) -> Result<AffineLoads, Inadmissible> {
         let (placement, velocity) = (&self.motion.placement, &self.motion.velocity);
         let (mut loads, mut powers) = (Loads::default(), Powers::default());
         for_each_contact(model, time, self.index, self.motion, |contact, meeting| {
@@ -89,6 +92,7 @@ impl<'a> AffineMotion<'a> {
     }
 
     /// The affine moment about the centre of mass, or about the pin.
+    #[inline]
     pub fn moment(&self, model: &Model, loads: &Loads) -> Mat3 {
         let body = &model.bodies[self.index];
         match &body.pin {
@@ -98,11 +102,13 @@ impl<'a> AffineMotion<'a> {
     }
 
     /// P̈, stress, pressure.
+    #[inline]
     pub fn balance(&self, model: &Model, loads: &Loads) -> AffineBalance {
         self.affine.interior.balance(&self.gyration, &self.moment(model, loads))
     }
 
     /// Solves the balance for the rates of the block, and adds the powers of friction and constraint.
+    #[inline]
     pub fn fill(&self, model: &Model, loads: &mut AffineLoads, rates: &mut [f64]) {
         let body = &model.bodies[self.index];
         let velocity = &self.motion.velocity;

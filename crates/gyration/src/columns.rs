@@ -1,0 +1,242 @@
+//! 3×3 matrices as three columns of four numbers, the fourth of which is idle: what the balance of a body that deforms
+//! and its derivative are computed in.
+//!
+//! A column is two registers of 128 bits, and all products of matrices are sums of columns times numbers:
+//!
+//!   (A B)_K = Σ_L A_L B_LK,   (A Bᵀ)_K = Σ_L A_L B_KL
+//!
+//! Everything is `inline(always)` and written out, without `map` or loops over slices, so that nothing goes through memory.
+
+use crate::tensor::Mat3;
+use std::ops::{Add, AddAssign, Mul, Sub};
+
+/// Three numbers and an idle one, which is zero or not a number.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Column(pub [f64; 4]);
+
+/// A matrix column by column.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Columns(pub [Column; 3]);
+
+/// The columns of the unit matrix.
+pub(crate) const UNIT: [Column; 3] =
+    [Column([1.0, 0.0, 0.0, 0.0]), Column([0.0, 1.0, 0.0, 0.0]), Column([0.0, 0.0, 1.0, 0.0])];
+
+impl Column {
+    /// a × b.
+    #[inline(always)]
+    pub fn cross(&self, other: &Self) -> Self {
+        let (Self([a0, a1, a2, _]), Self([b0, b1, b2, _])) = (*self, *other);
+        Self([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0, 0.0])
+    }
+
+    /// a_i b_i.
+    #[inline(always)]
+    fn product(&self, other: &Self) -> Self {
+        let (Self([a0, a1, a2, a3]), Self([b0, b1, b2, b3])) = (*self, *other);
+        Self([a0 * b0, a1 * b1, a2 * b2, a3 * b3])
+    }
+
+    /// (a₀b₀ + a₁b₁) + a₂b₂.
+    #[inline(always)]
+    pub fn dot(&self, other: &Self) -> f64 {
+        let (Self([a0, a1, a2, _]), Self([b0, b1, b2, _])) = (*self, *other);
+        (a0 * b0 + a1 * b1) + a2 * b2
+    }
+}
+
+impl Columns {
+    /// The numbers of a matrix.
+    #[inline(always)]
+    pub fn of(matrix: &Mat3) -> Self {
+        Self::read(matrix.as_slice())
+    }
+
+    /// Nine numbers, column by column.
+    #[inline(always)]
+    pub fn read(numbers: &[f64]) -> Self {
+        let n: &[f64] = &numbers[..9];
+        Self([Column([n[0], n[1], n[2], 0.0]), Column([n[3], n[4], n[5], 0.0]), Column([n[6], n[7], n[8], 0.0])])
+    }
+
+    /// Writes the nine numbers.
+    #[inline(always)]
+    pub fn write(&self, numbers: &mut [f64]) {
+        let (Self([Column(a), Column(b), Column(c)]), out) = (self, &mut numbers[..9]);
+        out[..3].copy_from_slice(&a[..3]);
+        out[3..6].copy_from_slice(&b[..3]);
+        out[6..].copy_from_slice(&c[..3]);
+    }
+
+    /// The matrix.
+    #[inline(always)]
+    pub fn matrix(&self) -> Mat3 {
+        let Self([Column(a), Column(b), Column(c)]) = self;
+        Mat3::new(a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2])
+    }
+
+    /// A_ik.
+    #[inline(always)]
+    pub fn at(&self, row: usize, column: usize) -> f64 {
+        self.0[column].0[row]
+    }
+
+    /// Aᵀ.
+    #[inline(always)]
+    pub fn transpose(&self) -> Self {
+        let Self([Column([a0, a1, a2, _]), Column([b0, b1, b2, _]), Column([c0, c1, c2, _])]) = *self;
+        Self([Column([a0, b0, c0, 0.0]), Column([a1, b1, c1, 0.0]), Column([a2, b2, c2, 0.0])])
+    }
+
+    /// A b.
+    #[inline(always)]
+    pub fn image(&self, b: &Column) -> Column {
+        let [x, y, z] = self.0;
+        (x * b.0[0] + y * b.0[1]) + z * b.0[2]
+    }
+
+    /// A B.
+    #[inline(always)]
+    pub fn times(&self, other: &Self) -> Self {
+        Self([self.image(&other.0[0]), self.image(&other.0[1]), self.image(&other.0[2])])
+    }
+
+    /// A Bᵀ.
+    #[inline(always)]
+    pub fn times_transposed(&self, other: &Self) -> Self {
+        self.times(&other.transpose())
+    }
+
+    /// Each column times a number of its own: A diag(d).
+    #[inline(always)]
+    pub fn scaled(&self, factors: &[f64; 3]) -> Self {
+        let [x, y, z] = self.0;
+        Self([x * factors[0], y * factors[1], z * factors[2]])
+    }
+
+    /// A·B = tr(AᵀB).
+    #[inline(always)]
+    pub fn dot(&self, other: &Self) -> f64 {
+        let (Self([a, b, c]), Self([x, y, z])) = (self, other);
+        let Column([one, two, three, _]) = (a.product(x) + b.product(y)) + c.product(z);
+        (one + two) + three
+    }
+
+    /// tr A.
+    #[inline(always)]
+    pub fn trace(&self) -> f64 {
+        (self.at(0, 0) + self.at(1, 1)) + self.at(2, 2)
+    }
+
+    /// Whether all but the diagonal is zero.
+    #[inline(always)]
+    pub fn is_diagonal(&self) -> bool {
+        let Self([Column([_, a1, a2, _]), Column([b0, _, b2, _]), Column([c0, c1, _, _])]) = *self;
+        a1 == 0.0 && a2 == 0.0 && b0 == 0.0 && b2 == 0.0 && c0 == 0.0 && c1 == 0.0
+    }
+
+    /// cof A = det A · A⁻ᵀ.
+    #[inline(always)]
+    pub fn cofactor(&self) -> Self {
+        let [x, y, z] = &self.0;
+        Self([y.cross(z), z.cross(x), x.cross(y)])
+    }
+}
+
+impl Mul<f64> for Column {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([a * factor, b * factor, c * factor, d * factor])
+    }
+}
+
+impl Add for Column {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let (a, b) = (self.0, other.0);
+        Self([a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]])
+    }
+}
+
+impl Sub for Column {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        let (a, b) = (self.0, other.0);
+        Self([a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]])
+    }
+}
+
+impl AddAssign for Column {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Mul<f64> for Columns {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        let [a, b, c] = self.0;
+        Self([a * factor, b * factor, c * factor])
+    }
+}
+
+impl Add for Columns {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a + x, b + y, c + z])
+    }
+}
+
+impl Sub for Columns {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a - x, b - y, c - z])
+    }
+}
+
+impl AddAssign for Columns {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_are_those_of_matrices() {
+        let a = Mat3::new(1.3, 0.4, -0.2, -0.1, 0.7, 0.3, 0.5, -0.6, 1.9);
+        let b = Mat3::new(0.2, -0.7, 0.1, 0.9, 0.3, -0.4, 0.5, 0.6, -0.8);
+        let (x, y) = (Columns::of(&a), Columns::of(&b));
+        // A few roundings of numbers of order one.
+        let near = |columns: Columns, matrix: Mat3| assert!((columns.matrix() - matrix).norm() < 1e-15);
+        near(x.times(&y), a * b);
+        near(x.times_transposed(&y), a * b.transpose());
+        near(x.transpose(), a.transpose());
+        near(x.cofactor(), crate::tensor::cofactor(&a));
+        near(x.scaled(&[1.0, 2.0, 3.0]), a * Mat3::from_diagonal(&[1.0, 2.0, 3.0].into()));
+        assert!((x.dot(&y) - a.dot(&b)).abs() < 1e-15 && (x.trace() - a.trace()).abs() < 1e-15);
+        assert!(!x.is_diagonal() && Columns(UNIT).is_diagonal());
+        let mut numbers = [0.0; 9];
+        x.write(&mut numbers);
+        assert_eq!(Columns::read(&numbers), x);
+    }
+}
