@@ -25,7 +25,9 @@ fn dissipation(run: &Run, index: usize, body: &Body) -> (f64, f64) {
     let (mut least, mut scale) = (f64::INFINITY, 0.0_f64);
     for ((stress, p), rate) in arrays[0].iter().zip(&arrays[1]).zip(&arrays[2]) {
         let elastic = affine.interior.material.as_ref().map_or(0.0, |material| material.stress(p).dot(rate));
-        least = least.min(affine.interior.volume * (stress.dot(rate) - elastic));
+        let dissipated = affine.interior.volume * (stress.dot(rate) - elastic);
+        assert!(dissipated.is_finite(), "{}: {dissipated}", body.name);
+        least = least.min(dissipated);
         scale = scale.max(affine.interior.volume * stress.norm() * rate.norm());
     }
     (least, scale)

@@ -10,7 +10,7 @@ mod soft;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::rows::Extra;
 use gyration_validation::{Case, Run, largest};
-use soft::{derivatives, thrown_box};
+use soft::{derivatives, size, thrown_box};
 
 const VOLUME: f64 = 0.10 * 0.08 * 0.06;
 const SPACING: f64 = 5e-5;
@@ -110,12 +110,12 @@ fn affine_momentum_balances(case: &Case, run: &Run) {
     let supplied = |k: usize| {
         rate[k] * euler * rate[k].transpose() + moment[k] - VOLUME * (stress[k] * p[k].transpose()).transpose()
     };
-    let error = largest(momentum.iter().enumerate().map(|(k, found)| (found - supplied(k)).amax()));
-    let scale = largest(stress.iter().zip(p).map(|(s, p)| VOLUME * (s * p.transpose()).amax()));
+    let error = largest(momentum.iter().enumerate().map(|(k, found)| size(&(found - supplied(k)))));
+    let scale = largest(stress.iter().zip(p).map(|(s, p)| VOLUME * size(&(s * p.transpose()))));
     let case = case.by("dK/dt = Ṗ J Ṗᵀ + N − V(SPᵀ)ᵀ");
     // A corner that strikes changes N within a millisecond: the eighth power of that over the spacing is left.
     case.check("largest error of the balance of K over the largest stress", 0.0, error / scale, 5e-7);
-    let skew = largest(stress.iter().zip(p).map(|(s, p)| VOLUME * (s * p.transpose() - p * s.transpose()).amax()));
+    let skew = largest(stress.iter().zip(p).map(|(s, p)| VOLUME * size(&(s * p.transpose() - p * s.transpose()))));
     case.by("S Pᵀ symmetric").check("largest skew part of S Pᵀ over its size", 0.0, skew / scale, 1e-12);
 }
 

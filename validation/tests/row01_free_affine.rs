@@ -7,6 +7,7 @@
 mod soft;
 
 use gyration::tensor::{Mat3, Vec3};
+use gyration_sim::rows::Extra;
 use gyration_sim::{Outcome, Reason};
 use gyration_validation::{Case, largest};
 use soft::{alone, body, spread};
@@ -22,7 +23,8 @@ fn free_body_moves_in_a_straight_line_of_matrices() {
     let start = Mat3::new(1.2, 0.3, -0.1, 0.2, 0.9, 0.4, 0.0, -0.5, 1.1);
     let rate = Mat3::new(0.5, -1.0, 0.2, 2.0, 0.3, 0.7, -0.4, 0.1, 0.6);
     let shape = "shape = { box = { size = [0.1, 0.2, 0.3] } }\nvelocity = [0.3, -0.2, 0.1]\nposition = [1, 2, 3]";
-    let run = alone(&body(shape, "", &start, &rate), TOLERANCES).until(10.0).sampled(1.0).run();
+    let run = alone(&body(shape, "", &start, &rate), TOLERANCES).until(10.0).sampled(1.0);
+    let run = run.recording([Extra::AffineMomentumTotal]).run();
     let times = &run.times;
 
     let (error, size) = spread(&run.matrices("placement_gradient"), times.iter().map(|t| start + *t * rate));
@@ -31,6 +33,11 @@ fn free_body_moves_in_a_straight_line_of_matrices() {
     let momentum = |t: &f64| (start + *t * rate) * euler * rate.transpose();
     let (error, size) = spread(&run.matrices("affine_momentum"), times.iter().map(momentum));
     case.check("largest error of K, over its size", 0.0, error / size, ROUNDING);
+    let velocity = Vec3::new(0.3, -0.2, 0.1);
+    let orbital = |t: &f64| 6.0 * (Vec3::new(1.0, 2.0, 3.0) + *t * velocity) * velocity.transpose();
+    let total = times.iter().map(|t| momentum(t) + orbital(t));
+    let (error, size) = spread(&run.matrices("affine_momentum_total"), total);
+    case.check("largest error of K about the origin, over its size", 0.0, error / size, ROUNDING);
     let height = run.column("body.z");
     case.check("height of the centre after 10 s [m]", 4.0, height[10], ROUNDING);
 

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test uses a part of this")]
 
 use gyration::tensor::Mat3;
-use gyration_validation::Experiment;
+use gyration_validation::{Experiment, largest};
 
 /// c₁ and c₂ [Pa] of the list of known answers.
 pub const RUBBER: &str = "material = { mooney_rivlin = { c1 = 3000, c2 = 1000 } }";
@@ -37,10 +37,16 @@ pub fn body(shape: &str, affine: &str, gradient: &Mat3, rate: &Mat3) -> String {
     format!("{shape}\naffine = {{ {affine} }}\n{}{}", entry("gradient", gradient), entry("gradient_rate", rate))
 }
 
-/// The largest entry of a difference of matrices over the samples, and of the first matrices.
+/// The largest entry; NaN if there is one.
+pub fn size(matrix: &Mat3) -> f64 {
+    largest(matrix.iter().copied())
+}
+
+/// The largest entry of a difference of matrices over the samples, and of the matrices expected.
 pub fn spread(found: &[Mat3], expected: impl IntoIterator<Item = Mat3>) -> (f64, f64) {
-    let norms = found.iter().zip(expected).map(|(found, expected)| ((found - expected).amax(), expected.amax()));
-    norms.fold((0.0, 0.0), |worst: (f64, f64), (difference, size)| (worst.0.max(difference), worst.1.max(size)))
+    let expected: Vec<Mat3> = expected.into_iter().collect();
+    let difference = largest(found.iter().zip(&expected).map(|(found, expected)| size(&(found - expected))));
+    (difference, largest(expected.iter().map(size)))
 }
 
 /// A soft box thrown on a table: it tumbles, and strikes with corners, edges and faces within 0.3 s.
