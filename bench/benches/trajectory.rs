@@ -1,6 +1,6 @@
-//! One trajectory against its error: the rigid cube of `bench/peers` to t = 10, with exact integrals.
+//! One trajectory against its error: the rigid or the soft cube of `bench/peers` to t = 10, with exact integrals.
 //!
-//!     cargo bench -p gyration-bench --bench trajectory [-- REFERENCE]
+//!     cargo bench -p gyration-bench --bench trajectory [-- rigid|affine [REFERENCE]]
 //!
 //! Prints a line a run, as the peers do: solver, rule, rtol, error, milliseconds, calls of the rates. The error is the
 //! largest difference of the state at the end from that at rtol 1e-13; with the file of references of the peers, also
@@ -9,6 +9,7 @@
 
 use gyration::model::Model;
 use gyration::state::State;
+use gyration_bench::soft::{cube_over_table, material};
 use gyration_bench::{near_table, seconds_each};
 use gyration_ode::{Integrator, Method, Options};
 use gyration_record::RecordError;
@@ -87,9 +88,13 @@ fn peers_reference(path: &str) -> Vec<f64> {
 }
 
 fn main() {
-    let (model, start) = near_table("{ box = { size = [1, 1, 1] } }", 2.0, (6.0, 3.0));
+    let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with('-'));
+    let (model, start) = match arguments.next().as_deref() {
+        Some("affine") => cube_over_table(material("neo_hookean_log"), 2.0),
+        _ => near_table("{ box = { size = [1, 1, 1] } }", 2.0, (6.0, 3.0)),
+    };
     let reference = by_integrator(&model, &start, Method::Explicit, 1e-13).state;
-    if let Some(path) = std::env::args().skip(1).find(|argument| !argument.starts_with('-')) {
+    if let Some(path) = arguments.next() {
         println!(
             "# {:.1e} from the reference of the peers' graded rule",
             distance(&reference, &peers_reference(&path))

@@ -1,15 +1,20 @@
-/* The rigid cube of the comparison: side 1, density 1, g = 1, one plane z = 0, three laws.
+/* The cube of the comparison, rigid or soft: side 1, density 1, g = 1, one plane z = 0, three laws.
  *
  *   m p'' = m g + f,   I W' = t - W x I W,   q' = q o (0, W)/2,   P = R(q/|q|)
  *   traction = alpha d^-6 n - beta d^-3 (n (x) n) w - beta d^-3 (1 - n (x) n) w,   d the gap, w the velocity
  *
- * State, as in the library: p (3), quaternion (4), p' (3), W in body axes (3). The integrals over the six faces are
+ * State, as in the library: p (3), quaternion (4), p' (3), W in body axes (3); with CUBE_AFFINE, of the soft cube of
+ * `cube_affine.c`, p (3), P (9, column by column), p' (3), P' (9). The integrals over the six faces are
  * sums over one of the rules below, whose points and weights are the only thing that differs between them.
  */
 #ifndef CUBE_H
 #define CUBE_H
 
+#ifdef CUBE_AFFINE
+#define CUBE_DIMENSION 24
+#else
 #define CUBE_DIMENSION 13
+#endif
 #define CUBE_END 10.0
 
 enum cube_rule {
@@ -23,6 +28,9 @@ extern const char *const cube_rule_names[CUBE_RULES];
 
 /* Chooses the rule of the calls that follow; not thread-safe. */
 void cube_choose(int rule);
+
+/* How many numbers the state has. */
+int cube_dimension(void);
 
 /* The state at t = 0. */
 void cube_start(double *y);

@@ -15,7 +15,6 @@ from scipy.integrate import solve_ivp
 
 RULES = ["gauss-8", "graded-16", "gauss-48"]
 END = 10.0
-SIZE = 13
 
 
 class Cube:
@@ -23,6 +22,7 @@ class Cube:
 
     def __init__(self, library):
         self.library = ctypes.CDLL(library)
+        self.size = self.library.cube_dimension()
         self.call = self.library.cube_rates
         self.call.argtypes = [ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p]
         self.library.cube_calls.restype = ctypes.c_long
@@ -32,13 +32,13 @@ class Cube:
         self.library.cube_choose(rule)
 
     def start(self):
-        y = np.empty(SIZE)
+        y = np.empty(self.size)
         self.library.cube_start(ctypes.c_void_p(y.ctypes.data))
         return y
 
     def rates(self, t, y):
         y = np.ascontiguousarray(y)
-        dy = np.empty(SIZE)
+        dy = np.empty(self.size)
         self.call(t, y.ctypes.data, dy.ctypes.data)
         return dy
 
@@ -80,7 +80,7 @@ def measure(cube, path):
                     try:
                         y = solve(cube, method, 10.0**-k)
                     except (RuntimeError, ValueError):
-                        y = np.full(SIZE, np.nan)
+                        y = np.full(cube.size, np.nan)
                     fastest = min(fastest, cube.seconds() - start)
                     calls = cube.calls()
                 error = np.abs(y - references[rule]).max()

@@ -9,7 +9,8 @@ use ode_solvers::{Dop853, SVector, System};
 use std::ffi::{CStr, c_char, c_int, c_long};
 
 const RULES: usize = 3;
-const SIZE: usize = 13;
+/// With the feature `affine` the soft cube, else the rigid one.
+const SIZE: usize = if cfg!(feature = "affine") { 24 } else { 13 };
 type State = SVector<f64, SIZE>;
 
 unsafe extern "C" {
@@ -25,7 +26,7 @@ struct Cube;
 
 impl System<f64, State> for Cube {
     fn system(&self, t: f64, y: &State, dy: &mut State) {
-        // SAFETY: both hold the thirteen numbers that the function reads and writes.
+        // SAFETY: both hold the SIZE numbers that the function reads and writes.
         unsafe { cube_rates(t, y.as_ptr(), dy.as_mut_ptr()) };
     }
 }
@@ -33,7 +34,7 @@ impl System<f64, State> for Cube {
 /// The state at t = 10; `None` where the solver gives up.
 fn solve(rtol: f64) -> Option<State> {
     let mut start = State::zeros();
-    // SAFETY: it writes thirteen numbers.
+    // SAFETY: it writes SIZE numbers.
     unsafe { cube_start(start.as_mut_ptr()) };
     let mut solver = Dop853::new(Cube, 0.0, 10.0, 10.0, start, rtol, rtol);
     solver.set_output(OutputType::Sparse);
