@@ -88,7 +88,7 @@ impl Control {
 /// (fθ)^(m−1) ≤ θⁿ, one iteration being kept in reserve. A stiff body that turns is held up by this and not by its error.
 fn solvable(convergence: &Convergence) -> f64 {
     let Convergence { iterations, contraction } = *convergence;
-    if iterations < 2 || !(contraction > 0.0) {
+    if iterations < 2 || contraction.is_nan() || contraction <= 0.0 {
         return f64::INFINITY;
     }
     let theta = contraction / (1.0 + contraction);
