@@ -65,7 +65,11 @@ pub fn check(steps: &mut Steps) {
 
 /// Runs a scene and draws its strip.
 fn draw(steps: &mut Steps, name: &str) {
-    let recording = crate::target_directory().join(format!("gallery/{name}.gyr"));
+    let folder = crate::target_directory().join("gallery");
+    if let Err(error) = std::fs::create_dir_all(&folder) {
+        return steps.complain(format!("{}: {error}", folder.display()));
+    }
+    let recording = folder.join(format!("{name}.gyr"));
     let mut run = program();
     run.args(["run", name, "--quiet", "--force", "-o"]).arg(&recording);
     let mut plot = program();

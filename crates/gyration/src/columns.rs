@@ -114,6 +114,12 @@ impl Columns {
         Self([x * factors[0], y * factors[1], z * factors[2]])
     }
 
+    /// ½(A + Aᵀ).
+    #[inline(always)]
+    pub fn symmetric(&self) -> Self {
+        (*self + self.transpose()) * 0.5
+    }
+
     /// A·B = tr(AᵀB).
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {

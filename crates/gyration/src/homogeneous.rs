@@ -107,12 +107,11 @@ fn interior(
             let moving = AffineMotion::new(index, affine, motion)?;
             let loads = moving.loads(model, workspace, state.time)?.total;
             let balance = moving.balance(model, &loads);
-            let pressure = balance.pressure.unwrap_or(0.0);
             Ok(Interior {
                 euler_tensor: affine.interior.euler_tensor,
                 moment: moving.moment(model, &loads),
                 acceleration: balance.acceleration,
-                stress: balance.stress - pressure * moving.gyration.inverse.transpose(),
+                stress: balance.stress,
             })
         }
         BodyKind::Rigid(_) => {

@@ -63,7 +63,7 @@ const SINGULAR_RATIO: f64 = 1e-13;
 pub struct AffineBalance {
     /// P̈ [1/s²].
     pub acceleration: Mat3,
-    /// S without the pressure [Pa].
+    /// S [Pa].
     pub stress: Mat3,
     /// π [Pa]; none if the volume may change.
     pub pressure: Option<f64>,

@@ -2,11 +2,13 @@
 //!
 //!   B = M − V(S_e + τ P⁻ᵀ),   P̈ = B J⁻¹ + π V Y
 //!
-//! Y and π V of an incompressible body as in `constraint`.
+//! Y and π V of an incompressible body as in `constraint`. S_e Pᵀ is symmetric, and made so to the last bit, and an
+//! incompressible body's is taken without its mean, which the pressure takes over: rounding of a large stress must not turn
+//! or swell a stiff body, since nothing would bring it back, and the steps would have to follow that noise.
 
 use super::constraint::Constraint;
 use super::{AffineBalance, AffineBody, Gyration};
-use crate::columns::Columns;
+use crate::columns::{Columns, UNIT as AXES};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Solution {
@@ -16,7 +18,7 @@ pub(super) struct Solution {
     pub l: Columns,
     /// τ.
     pub kirchhoff: Columns,
-    /// S without the pressure.
+    /// S.
     pub stress: Columns,
     /// P̈.
     pub acceleration: Columns,
@@ -35,17 +37,25 @@ impl Solution {
         if let Some(friction) = &body.anisotropic {
             kirchhoff += Columns::of(&friction.kirchhoff_stress(at));
         }
-        let mut stress = kirchhoff.times(&across);
+        let constraint = body.is_incompressible().then(|| Constraint::new(body, &across));
+        let mut straight = kirchhoff;
+        let mut mean = 0.0;
         if let Some(elastic) = elastic {
-            stress += elastic;
+            straight += elastic.times_transposed(&Columns::of(&at.gradient)).symmetric();
         }
+        if constraint.is_some() {
+            mean = straight.trace() / 3.0;
+            straight += Columns(AXES) * -mean;
+        }
+        let mut stress = straight.times(&across);
         let free = *moment - stress * body.volume;
         let mut acceleration = body.per_inertia(&free);
         let mut push = 0.0;
-        let constraint = body.is_incompressible().then(|| Constraint::new(body, &across));
         if let Some(constraint) = &constraint {
-            push = constraint.push(&free, l.dot(&l.transpose()));
-            acceleration += constraint.way * push;
+            let rest = constraint.push(&free, l.dot(&l.transpose()));
+            acceleration += constraint.way * rest;
+            stress += across * (-rest / body.volume);
+            push = rest + mean * body.volume;
         }
         Self { across, l, kirchhoff, stress, acceleration, constraint, push }
     }
