@@ -3,13 +3,13 @@
 //!   explicit, predictive:              h' = h · 0.9 ‖e‖^−⅛ · (h/h_old) (‖e_old‖/‖e‖)^⅛
 //!   implicit, predictive (Gustafsson): h' = h · min( φ ‖e‖^−¼, φ (h/h_old) (‖e_old‖/‖e‖²)^¼ )
 //!
-//! with φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations, and no step for which these would not do. Both go on with the trend: towards a contact
+//! with φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations, and not beyond a size for which these have just failed. Both go on with the trend: towards a contact
 //! the steps that the error allows shrink by a nearly constant factor from one to the next, and a law that looks at the
 //! last error only would be rejected every other time. Both are bounded, and a step that follows a rejection does not
 //! grow. Leaving the domain says nothing on accuracy and leaves the memory of errors alone.
 //! Source: Gustafsson, *ACM Trans. Math. Softw.* 20 (1994) 496; Hairer, Wanner II, §IV.2, IV.8; code radau5.f.
 
-use crate::newton::{Convergence, MAX_ITERATIONS};
+use crate::newton::MAX_ITERATIONS;
 use crate::norm::norm;
 use crate::report::{Cause, Stepper};
 use crate::system::{Context, Point, System};
@@ -27,6 +27,11 @@ const DOMAIN_FACTOR: f64 = 0.25;
 /// Shrinking after Newton's method failed.
 const NEWTON_FACTOR: f64 = 0.5;
 
+/// The part of a step that Newton's method could not solve to which steps are held.
+const HEED: f64 = 0.7;
+/// For so many steps: a stiff body that turns would else be refused every other step, an impact is over sooner.
+const HEEDED_STEPS: f64 = 16.0;
+
 /// What the next step size depends on, besides the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Control {
@@ -38,6 +43,10 @@ pub(crate) struct Control {
     pub implicit_error: f64,
     /// The size of the last implicit step; 0 if there is none.
     pub implicit_step: f64,
+    /// The size of the last step for which Newton's method failed.
+    pub refused: f64,
+    /// For how many steps it is still heeded.
+    pub heeded: f64,
 }
 
 impl Control {
@@ -66,10 +75,27 @@ impl Control {
         factor.clamp(least, if rejected { 1.0 } else { most })
     }
 
-    /// The factor on the step after an accepted implicit one of size h for which Newton's method converged like this.
-    pub fn after_implicit(&mut self, error: f64, h: f64, convergence: &Convergence, rejected: bool) -> f64 {
+    /// Remembers the size of a step for which Newton's method failed.
+    pub fn refuse(&mut self, h: f64) {
+        (self.refused, self.heeded) = (h, HEEDED_STEPS);
+    }
+
+    /// The largest factor on a step of size h in view of the one that was refused: below that for some steps, then by doubling.
+    fn heed(&mut self, h: f64) -> f64 {
+        if self.heeded > 0.0 {
+            self.heeded -= 1.0;
+            return (HEED * self.refused / h).max(1.0);
+        }
+        if h > self.refused {
+            self.refused = 0.0;
+        }
+        if self.refused > 0.0 { 1.0 / NEWTON_FACTOR } else { f64::INFINITY }
+    }
+
+    /// The factor on the step after an accepted implicit one of size h with so many Newton iterations.
+    pub fn after_implicit(&mut self, error: f64, h: f64, iterations: u32, rejected: bool) -> f64 {
         let most = f64::from(MAX_ITERATIONS);
-        let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + f64::from(convergence.iterations));
+        let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + f64::from(iterations));
         let error = error.max(1e-10);
         let mut factor = (safety * error.powf(-0.25)).clamp(1.0 / 5.0, 8.0);
         if self.implicit_step > 0.0 {
@@ -77,23 +103,9 @@ impl Control {
             factor = factor.min((SAFETY * trend).clamp(1.0 / 5.0, 8.0));
         }
         (self.implicit_error, self.implicit_step) = (error.max(1e-2), h);
-        factor = factor.min(solvable(convergence));
+        factor = factor.min(self.heed(h));
         if rejected { factor.min(1.0) } else { factor }
     }
-}
-
-/// The factor on the step up to which Newton's method can be expected to arrive in time.
-///
-/// Its contraction θ grows with the step as far as J changes along it: n iterations took θⁿ, and f has to leave
-/// (fθ)^(m−1) ≤ θⁿ, one iteration being kept in reserve. A stiff body that turns is held up by this and not by its error.
-fn solvable(convergence: &Convergence) -> f64 {
-    let Convergence { iterations, contraction } = *convergence;
-    if iterations < 2 || contraction.is_nan() || contraction <= 0.0 {
-        return f64::INFINITY;
-    }
-    let theta = contraction / (1.0 + contraction);
-    let exponent = f64::from(iterations) / f64::from(MAX_ITERATIONS - 1) - 1.0;
-    at_least(theta.powf(exponent), NEWTON_FACTOR)
 }
 
 /// The larger of a value and a bound; the bound if the value is not a number.

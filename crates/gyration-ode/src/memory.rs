@@ -10,11 +10,11 @@ use crate::control::Control;
 use crate::report::{Statistics, Stepper};
 
 /// The version of the layout of the numbers.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 /// The integers before and besides the vectors.
 const INTEGERS: usize = 18;
 /// The reals besides the vectors.
-const REALS: usize = 10;
+const REALS: usize = 12;
 
 /// A checkpoint as two vectors of plain numbers, to be stored without loss.
 ///
@@ -123,6 +123,8 @@ pub(crate) fn encode(progress: &Progress, t: f64, u: &[f64], rate: &[f64], collo
         progress.collocation_step,
         s.smallest_step,
         s.largest_step,
+        control.refused,
+        control.heeded,
     ]);
     Memory { reals, integers }
 }
@@ -163,6 +165,8 @@ pub(crate) fn decode(memory: &Memory) -> Result<(Progress, Vectors), MemoryError
             explicit_step: rest[2],
             implicit_error: rest[3],
             implicit_step: rest[4],
+            refused: rest[9],
+            heeded: rest[10],
         },
         contraction: rest[5],
         collocation_step: rest[6],

@@ -9,7 +9,7 @@ use crate::control::{Control, initial_step};
 use crate::dense::LastStep;
 use crate::explicit::{Explicit, Trial};
 use crate::integrator::Integrator;
-use crate::newton::Plan;
+use crate::newton::{Convergence, Plan};
 use crate::report::{Cause, Failure, Limit, Method, StepReport, Stepper};
 use crate::system::{Context, Layout, System};
 
@@ -58,6 +58,9 @@ impl Integrator {
             };
             rejections += 1;
             rejected_by = Some(self.count(&cause));
+            if matches!(cause, Cause::Newton) {
+                self.progress.control.refuse(attempt.h);
+            }
             h = attempt.h * Control::retreat(self.progress.stepper, &cause);
             if h < self.least_step() {
                 if self.options.method != Method::Auto || other_tried {
@@ -231,9 +234,9 @@ impl Integrator {
         let before = progress.control;
         let factor = match trial.convergence {
             None => progress.control.after_explicit(trial.error.value, attempt.h, rejected),
-            Some(convergence) => {
-                progress.contraction = convergence.contraction;
-                progress.control.after_implicit(trial.error.value, attempt.h, &convergence, rejected)
+            Some(Convergence { iterations, contraction }) => {
+                progress.contraction = contraction;
+                progress.control.after_implicit(trial.error.value, attempt.h, iterations, rejected)
             }
         };
         let next = attempt.h * factor;
