@@ -9,9 +9,9 @@ use gyration::rates::{Workspace, rates};
 use gyration::state::{BodyMotion, State, Turn};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_ode::Options;
-use gyration_scene::Scene;
+use gyration_scene::{Recorded, Scene};
 use gyration_sim::events::Event;
-use gyration_sim::rows::{Extra, Extras, Fields};
+use gyration_sim::rows::{Extras, Fields};
 use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched};
 use std::ops::Range;
 use std::path::Path;
@@ -100,7 +100,7 @@ impl Experiment {
     }
 
     /// The same with further quantities in each row; total affine momentum about the origin.
-    pub fn recording(&self, quantities: impl IntoIterator<Item = Extra>) -> Self {
+    pub fn recording(&self, quantities: impl IntoIterator<Item = Recorded>) -> Self {
         let extras = Extras::new(quantities, Vec3::zeros());
         Self { plan: RunPlan { extras, ..self.plan }, ..self.clone() }
     }

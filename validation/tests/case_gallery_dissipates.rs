@@ -5,7 +5,7 @@
 //! S is the recorded stress, with the pressure, which does no work where det P = 1.
 
 use gyration::body::Body;
-use gyration_sim::rows::Extra;
+use gyration_scene::Recorded;
 use gyration_validation::{Case, Experiment, Run, largest};
 
 /// The scenes with bodies that deform, over their first second.
@@ -38,7 +38,7 @@ fn bodies_of_the_gallery_dissipate_at_every_sample() {
     let scenes = scenes();
     assert!(scenes.len() >= 10, "{} scenes", scenes.len());
     for (name, experiment) in scenes {
-        let run = experiment.recording([Extra::Stress]).run();
+        let run = experiment.recording([Recorded::Stress]).run();
         let bodies = experiment.model.bodies.iter().enumerate();
         let negative = bodies.map(|(index, body)| {
             let (least, scale) = dissipation(&run, index, body);

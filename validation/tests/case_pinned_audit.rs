@@ -8,7 +8,7 @@
 mod soft;
 
 use gyration::tensor::{Mat3, Vec3};
-use gyration_sim::rows::Extra;
+use gyration_scene::Recorded;
 use gyration_validation::{Case, Experiment, largest};
 use soft::{derivatives, size};
 
@@ -57,7 +57,7 @@ fn affine_momentum_about_a_pin_balances_under_every_load() {
     let case = Case {
         row: None, name: "pinned soft box under every load", source: "dK/dt = Ṗ J Ṗᵀ + N − V(SPᵀ)ᵀ"
     };
-    let run = pinned(5e-3).recording([Extra::Stress, Extra::AffineMoment]).run();
+    let run = pinned(5e-3).recording([Recorded::Stress, Recorded::AffineMoment]).run();
     let volume: f64 = SIZE.iter().product();
     let mass = 1000.0 * volume;
     let pin = Vec3::new(0.03, 0.02, 0.01);

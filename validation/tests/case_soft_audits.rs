@@ -8,7 +8,7 @@
 mod soft;
 
 use gyration::tensor::{Mat3, Vec3};
-use gyration_sim::rows::Extra;
+use gyration_scene::Recorded;
 use gyration_validation::{Case, Run, largest};
 use soft::{derivatives, size, thrown_box};
 
@@ -64,7 +64,7 @@ const BODIES: [Soft; 3] = [
 ];
 
 fn run(body: &Soft) -> Run {
-    let quantities = [Extra::Stress, Extra::AffineMoment, Extra::VelocityGradient];
+    let quantities = [Recorded::Stress, Recorded::AffineMoment, Recorded::VelocityGradient];
     thrown_box(body.measure, body.affine).sampled(SPACING).recording(quantities).run()
 }
 

@@ -1,7 +1,7 @@
 //! The gallery's `elastic-bounce`, `elastic-roll` and `elastic-oscillate` with their variants: rubber on a table.
 //!
 //!   in flight     a sphere rings with ω₀² = 20(c₁ + c₂)/(ρR²) and decays at μV/(2j) = 5μ/(2ρR²)
-//!   rolling       a shape B = I + 2e that stays in space while the rubber turns through it: D = ½(eW − We)·2, so that
+//!   rolling       a shape B = I + 2e that stays in space while the rubber turns through it: D = eW − We, W the spin, so that
 //!                 viscosity takes V μ|D|² = 4.5 ε² Ω² V μ of ½(1 + ⅖)mv²:  v̇ = −(4.5/1.4) μ ε² v/(ρR²),  e_zz = −ε
 //!   at rest       frequencies of the exact Jacobian at the rest state
 //!

@@ -7,7 +7,7 @@
 mod soft;
 
 use gyration::tensor::{Mat3, Vec3};
-use gyration_sim::rows::Extra;
+use gyration_scene::Recorded;
 use gyration_sim::{Outcome, Reason};
 use gyration_validation::{Case, largest};
 use soft::{alone, body, spread};
@@ -24,7 +24,7 @@ fn free_body_moves_in_a_straight_line_of_matrices() {
     let rate = Mat3::new(0.5, -1.0, 0.2, 2.0, 0.3, 0.7, -0.4, 0.1, 0.6);
     let shape = "shape = { box = { size = [0.1, 0.2, 0.3] } }\nvelocity = [0.3, -0.2, 0.1]\nposition = [1, 2, 3]";
     let run = alone(&body(shape, "", &start, &rate), TOLERANCES).until(10.0).sampled(1.0);
-    let run = run.recording([Extra::AffineMomentumTotal]).run();
+    let run = run.recording([Recorded::AffineMomentumTotal]).run();
     let times = &run.times;
 
     let (error, size) = spread(&run.matrices("placement_gradient"), times.iter().map(|t| start + *t * rate));

@@ -1,9 +1,9 @@
 //! What a run is asked for: the plan of a scene in the terms of the run loop and the stepper.
 
 use crate::adapter::Tolerance;
-use crate::rows::{Extra, Extras};
+use crate::rows::Extras;
 use gyration_ode::{Method, Options};
-use gyration_scene::{Built, Recorded};
+use gyration_scene::Built;
 
 /// How long to run, how finely to sample, how precisely to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,23 +46,7 @@ impl From<&Built> for RunPlan {
             stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
             options: Options { method, max_step, initial_step: None },
-            extras: Extras::new(built.record.quantities.iter().map(|asked| extra(*asked)), built.record.origin),
+            extras: Extras::new(built.record.quantities.iter().copied(), built.record.origin),
         }
-    }
-}
-
-/// The quantity that a scene asks for.
-fn extra(asked: Recorded) -> Extra {
-    match asked {
-        Recorded::VelocityGradient => Extra::VelocityGradient,
-        Recorded::AffineMomentumTotal => Extra::AffineMomentumTotal,
-        Recorded::AffineMoment => Extra::AffineMoment,
-        Recorded::MomentPower => Extra::MomentPower,
-        Recorded::ComovingMomentum => Extra::ComovingMomentum,
-        Recorded::MomentumResidual => Extra::MomentumResidual,
-        Recorded::PrincipalStretches => Extra::PrincipalStretches,
-        Recorded::Rotation => Extra::Rotation,
-        Recorded::CauchyStress => Extra::CauchyStress,
-        Recorded::Stress => Extra::Stress,
     }
 }

@@ -2,33 +2,9 @@
 
 use super::fields::{BodyField, EXTRA_FIELDS};
 use gyration::tensor::Vec3;
+use gyration_scene::Recorded;
 
-/// A quantity recorded on request; the numbers are places in the list of fields.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extra {
-    /// L = Ṗ P⁻¹.
-    VelocityGradient,
-    /// K about an origin.
-    AffineMomentumTotal,
-    /// N = P Mᵀ.
-    AffineMoment,
-    /// tr(N L).
-    MomentPower,
-    /// P⁻¹ K P⁻ᵀ.
-    ComovingMomentum,
-    /// What the balance of K leaves over.
-    MomentumResidual,
-    /// The principal stretches.
-    PrincipalStretches,
-    /// R of P = R U.
-    Rotation,
-    /// S Pᵀ/det P.
-    CauchyStress,
-    /// S.
-    Stress,
-}
-
-/// A set of quantities recorded on request.
+/// A set of quantities recorded on request; the words of the scene stand in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Extras {
     asked: [bool; EXTRA_FIELDS.len()],
@@ -38,7 +14,7 @@ pub struct Extras {
 
 impl Extras {
     /// The set of some quantities.
-    pub fn new(quantities: impl IntoIterator<Item = Extra>, origin: Vec3) -> Self {
+    pub fn new(quantities: impl IntoIterator<Item = Recorded>, origin: Vec3) -> Self {
         let mut extras = Self { origin, ..Self::default() };
         for quantity in quantities {
             extras.asked[quantity as usize] = true;
@@ -53,5 +29,19 @@ impl Extras {
 
     pub(super) fn fields(&self) -> impl Iterator<Item = &'static BodyField> + use<> {
         EXTRA_FIELDS.iter().zip(self.asked).filter_map(|(field, asked)| asked.then_some(field))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_of_the_scene_asks_for_the_array_of_its_name() {
+        for field in &EXTRA_FIELDS {
+            let word: Recorded = serde_json::from_value(field.name.into()).unwrap();
+            let asked: Vec<_> = Extras::new([word], Vec3::zeros()).fields().map(|field| field.name).collect();
+            assert_eq!(asked, [field.name]);
+        }
     }
 }

@@ -145,7 +145,7 @@ macro_rules! extra {
     };
 }
 
-/// The fields that are recorded on request, in the order of [`super::Extra`].
+/// The fields that are recorded on request, in the order of `gyration_scene::Recorded`.
 #[rustfmt::skip]
 pub(super) static EXTRA_FIELDS: [BodyField; 10] = [
     extra!("velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),

@@ -6,7 +6,7 @@
 mod extras;
 mod fields;
 
-pub use extras::{Extra, Extras};
+pub use extras::Extras;
 
 use fields::{BODY_FIELDS, BodyField, CONTACT_FORCE, GAP, PRESSURE, Rank, Seen, Value};
 use gyration::Inadmissible;
