@@ -2,7 +2,7 @@
 
 use crate::error::ReadError;
 use crate::read;
-use gyration::load::{CoupleTable, TableError};
+use gyration::signal::{Interpolation, TableError, TensorTable};
 use gyration::tensor::Mat3;
 use std::path::{Path, PathBuf};
 
@@ -57,14 +57,14 @@ const COLUMNS: usize = 10;
 /// # Errors
 /// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that do
 /// not increase.
-pub(crate) fn read_couple(path: &Path) -> Result<CoupleTable, TableFault> {
+pub(crate) fn read_couple(path: &Path) -> Result<TensorTable, TableFault> {
     let bytes = read::bytes(path)?;
     let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
     let rows = rows(content).map_err(|(start, reason)| {
         let line = line(content, start);
         TableFault::Malformed { path: path.to_owned(), line, reason }
     })?;
-    CoupleTable::new(rows.iter().map(|row| (row.time, row.value)).collect()).map_err(|source| {
+    TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), Interpolation::Linear).map_err(|source| {
         let row = match source {
             TableError::Empty => 1,
             TableError::NotFinite { row } | TableError::NotSorted { row, .. } => row,

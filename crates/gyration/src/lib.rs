@@ -4,7 +4,7 @@
 //!
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
 //! random numbers, no threads. Each module imports only what stands to its left:
-//! `tensor → surface → shape, mass → kinematics → material, contact, load → affine, support, body, ledger → model, state → rates,
+//! `tensor → signal, surface → shape, mass → kinematics → material, contact, load → affine → contractile, support, body, ledger → model, state → rates,
 //! jacobian, balance, homogeneous`. Read [`rates`] first.
 
 pub mod affine;
@@ -12,6 +12,7 @@ pub mod balance;
 pub mod body;
 mod columns;
 pub mod contact;
+pub mod contractile;
 pub mod homogeneous;
 mod inadmissible;
 pub mod jacobian;
@@ -23,6 +24,7 @@ pub mod material;
 pub mod model;
 pub mod rates;
 pub mod shape;
+pub mod signal;
 pub mod state;
 pub mod support;
 pub mod surface;

@@ -10,7 +10,7 @@ mod slopes;
 mod spring;
 mod wrench;
 
-pub use couple::{Couple, CoupleTable, TableError};
+pub use couple::Couple;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;
