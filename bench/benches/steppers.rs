@@ -67,7 +67,7 @@ impl System for Ring {
         w_scale.fill(1.0);
     }
 
-    fn project(&mut self, _: &mut [f64], _: &mut [f64]) -> f64 {
+    fn project(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) -> f64 {
         0.0
     }
 }

@@ -47,10 +47,10 @@ pub trait System {
     /// Positive; +∞ frees a component from error control. Called at admissible states only.
     fn error_scales(&mut self, t: f64, y: &[f64], w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]);
 
-    /// Brings y back to its manifold (a unit quaternion, say) after a step; returns the size of the correction.
+    /// Brings y back to its manifold (a unit quaternion, say) after a step that ends at t; returns the size of the correction.
     ///
     /// What the correction changes of a balance that quadratures keep may be added to them.
-    fn project(&mut self, y: &mut [f64], w: &mut [f64]) -> f64;
+    fn project(&mut self, t: f64, y: &mut [f64], w: &mut [f64]) -> f64;
 }
 
 /// Sizes and blocks, copied from the system: u = (y, w) is one vector to the steppers.
@@ -143,7 +143,7 @@ impl<S: System> Context<'_, S> {
     /// As `evaluate`.
     pub fn land(&mut self, point: &mut Point) -> Result<f64, Cause<S::Inadmissible>> {
         let (y, w) = point.u.split_at_mut(self.layout.dimension);
-        let correction = self.system.project(y, w);
+        let correction = self.system.project(point.t, y, w);
         self.evaluate(point.t, &point.u, &mut point.rate)?;
         Ok(correction)
     }

@@ -2,12 +2,13 @@
 //!
 //! The errors allowed per step are scale-free. rtol is relative to what the forces depend on: lengths to the gap (or
 //! the size, if that is smaller), velocities to the speed of the fastest material point, works to the energy in play.
-//! atol is a fraction of the body's size, of 1 for a rotation and for P, and of the body's own speed scale. One step may spend a
+//! atol is a fraction of the body's size, of 1 for a rotation, for P and for G, and of the body's own speed scale. One step may spend a
 //! tenth of either.
 
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
-use gyration::body::{Body, BodyKind};
+use gyration::body::{Body, BodyKind, Contractile};
+use gyration::contractile::Contraction;
 use gyration::ledger::Work;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
@@ -150,25 +151,30 @@ impl System for ModelSystem<'_> {
             turn.fill((length + rounding) / body.size);
             center_rate.fill(velocity);
             turn_rate.fill(velocity / body.size);
+            if body.contraction().is_some_and(Contraction::is_driven) {
+                // G is a number of order one, on which forces depend as they do on P.
+                let contraction = &mut y_scale[block.end - 9..block.end];
+                let size = y[block.end - 9..block.end].iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+                contraction.fill(atol + (rtol + 4.0 * f64::EPSILON) * size);
+            }
         }
         w_scale.fill((atol + rtol) * energy);
     }
 
-    fn project(&mut self, y: &mut [f64], w: &mut [f64]) -> f64 {
+    fn project(&mut self, t: f64, y: &mut [f64], w: &mut [f64]) -> f64 {
         let work = self.model.works().iter().position(|work| *work == Work::Constraint);
         let mut correction: f64 = 0.0;
         for (body, block) in self.model.bodies.iter().zip(self.model.blocks()) {
             let block = &mut y[block.clone()];
-            correction = correction.max(match &body.kind {
-                BodyKind::Rigid(_) => normalize(body, block),
-                BodyKind::Affine(affine) => {
-                    let (size, energy) = restore_volume(body, &affine.interior, block);
-                    if let Some(work) = work {
-                        w[work] += energy;
-                    }
-                    size
-                }
-            });
+            let (size, energy) = match &body.kind {
+                BodyKind::Rigid(_) => (normalize(body, block), 0.0),
+                BodyKind::Affine(affine) => restore_volume(body, &affine.interior, block),
+                BodyKind::Contractile(contractile) => restore_contraction(body, contractile, t, block),
+            };
+            correction = correction.max(size);
+            if let Some(work) = work {
+                w[work] += energy;
+            }
         }
         correction
     }
@@ -179,7 +185,7 @@ fn parts(body: &Body) -> (usize, usize) {
     let turn = if body.pin.is_some() { 0 } else { 3 };
     match body.kind {
         BodyKind::Rigid(_) => (turn, turn + 4),
-        BodyKind::Affine(_) => (turn, turn + 9),
+        BodyKind::Affine(_) | BodyKind::Contractile(_) => (turn, turn + 9),
     }
 }
 
@@ -198,11 +204,32 @@ fn restore_volume(body: &Body, interior: &AffineBody, block: &mut [f64]) -> (f64
         return (0.0, 0.0);
     }
     let (at, rates) = parts(body);
-    let matrix = |block: &[f64], at: usize| Mat3::from_column_slice(&block[at..at + 9]);
     let energy = |p: &Mat3, rate: &Mat3| interior.energy(p) + 0.5 * (rate * interior.euler_tensor).dot(rate);
     let (p, rate) = (matrix(block, at), matrix(block, rates + at));
     let corrected = interior.project(&p, &rate);
     block[at..at + 9].copy_from_slice(corrected.gradient.as_slice());
     block[rates + at..rates + at + 9].copy_from_slice(corrected.rate.as_slice());
     (corrected.size, energy(&corrected.gradient, &corrected.rate) - energy(&p, &rate))
+}
+
+/// Puts det G, or P and Ṗ, of a contractile body back to where they have to be; returns the error before, and the energy
+/// that it took [J].
+fn restore_contraction(body: &Body, contractile: &Contractile, time: f64, block: &mut [f64]) -> (f64, f64) {
+    let (at, rates) = parts(body);
+    let (p, rate) = (matrix(block, at), matrix(block, rates + at));
+    let prescribed = !contractile.contraction.is_driven();
+    let end = block.len();
+    let contraction = if prescribed { contractile.contraction.signal().at(time) } else { matrix(block, end - 9) };
+    let restored = contractile.restore(time, (&p, &rate, &contraction));
+    block[at..at + 9].copy_from_slice(restored.gradient.as_slice());
+    block[rates + at..rates + at + 9].copy_from_slice(restored.rate.as_slice());
+    if !prescribed {
+        block[end - 9..].copy_from_slice(restored.contraction.as_slice());
+    }
+    let before = contractile.energy((&p, &rate, &contraction));
+    (restored.size, contractile.energy((&restored.gradient, &restored.rate, &restored.contraction)) - before)
+}
+
+fn matrix(block: &[f64], at: usize) -> Mat3 {
+    Mat3::from_column_slice(&block[at..at + 9])
 }

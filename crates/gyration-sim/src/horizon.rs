@@ -8,12 +8,13 @@
 //! for a body that turns by less than a radian, and for any turn as long as the sphere around the body stays clear. p̈₀
 //! is the acceleration at hand: g in free flight, none where a support carries the body, whose field the stepper then
 //! sees. Of a body that deforms, a has |P̈ᵀn| r besides, and the sphere grows with |P|. A step also ends where a couple
-//! given by a table has a kink. An oscillating support counts as its foremost place, and is followed in eighths of its period where it may
+//! or a drive has a kink, and takes a quarter of a drive's fastest period at most. An oscillating support counts as its foremost place, and is followed in eighths of its period where it may
 //! meet the body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
 
 use crate::views::View;
 use gyration::model::Model;
 use gyration::rates::meet;
+use gyration::signal::Signal;
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::Vec3;
@@ -24,6 +25,8 @@ const PART: f64 = 0.8;
 const TURN: f64 = 1.0;
 /// The part of an oscillating support's period that a step near it may take.
 const PERIOD_PART: f64 = 0.125;
+/// The part of a drive's fastest period that a step may take: no wave is jumped over.
+const DRIVE_PART: f64 = 0.25;
 /// The time to contact is found to this fraction of itself.
 const PRECISION: f64 = 0.05;
 
@@ -45,8 +48,13 @@ struct Approach<'a> {
 
 /// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
 pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], longest: f64) -> f64 {
-    let kinks = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
+    let couples = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
+    let signals = || model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
+    let kinks = couples.chain(signals().filter_map(|signal| signal.next_kink(time)));
     let mut step = kinks.fold(longest, |step, kink| step.min(kink - time));
+    for frequency in signals().map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
+        step = step.min(DRIVE_PART / frequency);
+    }
     for ((body, view), radius) in model.bodies.iter().zip(views).zip(radii) {
         let Some(surface) = &body.surface else { continue };
         for contact in &body.contacts {

@@ -43,6 +43,8 @@ pub enum Reason {
     GapClosed,
     /// A body that deforms was flattened: its volume vanished.
     Inverted,
+    /// A contractile body contracted to nothing: det G vanished.
+    Collapsed,
     /// A spring lost its direction.
     SpringCollapsed,
     /// The tolerance cannot be met with any step.
@@ -156,6 +158,13 @@ impl Stop {
                 format!("body {body:?} is flattened: det P has come down to {:e}", left.value),
                 "Only a material whose energy grows without bound under compression forbids that: one with a `bulk` or a \
                  logarithm of the volume, or an incompressible one; or start it with a smaller `gradient_rate`."
+                    .to_string(),
+            ),
+            Quantity::Contraction => (
+                Reason::Collapsed,
+                format!("body {body:?} has contracted to nothing: det G has come down to {:e}", left.value),
+                "The drive pulls it together without bound: give it a smaller or shorter drive, a larger \
+                 contraction_viscosity, `isochoric = true`, or a prescribed contraction that stays above zero."
                     .to_string(),
             ),
         };

@@ -179,6 +179,7 @@ fn describe_body(body: &gyration::body::Body) -> Value {
         "kind": match body.kind {
             BodyKind::Rigid(_) => "rigid",
             BodyKind::Affine(_) => "affine",
+            BodyKind::Contractile(_) => "contractile",
         },
         "mass": body.mass.mass,
         "center": center.as_slice(),

@@ -233,7 +233,7 @@ impl<'a> Simulation<'a> {
         let State { bodies, works, .. } = &mut self.sampled;
         self.integrator.interpolate(time, bodies, works);
         // Between the ends of a step the interpolant is off its manifold by its error.
-        self.system.project(bodies, works);
+        self.system.project(time, bodies, works);
     }
 
     /// Records `sampled` and audits it, unless it is outside the model.

@@ -35,8 +35,8 @@ impl View {
                 let (spin, arm) = (Turn::unpack(body, block).spin, &pin.point);
                 (-(motion.placement.gradient * (vector(4).cross(arm) + spin.cross(&spin.cross(arm)))), None)
             }
-            (BodyKind::Affine(_), None) => (vector(12), Some(matrix(15))),
-            (BodyKind::Affine(_), Some(pin)) => (-(matrix(9) * pin.point), Some(matrix(9))),
+            (BodyKind::Affine(_) | BodyKind::Contractile(_), None) => (vector(12), Some(matrix(15))),
+            (BodyKind::Affine(_) | BodyKind::Contractile(_), Some(pin)) => (-(matrix(9) * pin.point), Some(matrix(9))),
         };
         Self { motion, acceleration, stretching }
     }

@@ -67,7 +67,7 @@ fn model(gravity: f64, supports: Vec<Support>, body: Body, position: Vec3) -> (M
             velocity: Vec3::zeros(),
             angular_velocity: Vec3::zeros(),
         }),
-        BodyKind::Affine(_) => Start::Affine(
+        BodyKind::Affine(_) | BodyKind::Contractile(_) => Start::Affine(
             Placement { position, gradient: Mat3::identity() },
             Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() },
         ),

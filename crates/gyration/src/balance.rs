@@ -1,6 +1,6 @@
 //! What is conserved, exchanged and audited: energies, works, momenta.
 //!
-//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   elastic V φ,   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
+//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   elastic V φ (V det G φ of a contractile body),   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
 //!   K = P J Ṗᵀ (affine momentum; its antisymmetric part is angular momentum)
 //!
 //! U(d) = α d₀ (d/d₀)^(1−ν)/(ν−1); at ν = 1, −α d₀ ln(d/d₀). Works are done on the bodies since t = 0; the residual
@@ -8,12 +8,13 @@
 
 use crate::body::{Body, BodyKind};
 use crate::contact::{ContactLoads, contact_potential};
-use crate::inadmissible::Inadmissible;
+use crate::contractile::{self, Decomposition};
+use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::Velocity;
 use crate::ledger::Energy;
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{AffineMotion, Workspace, for_each_contact, meet};
+use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, meet};
 use crate::shape::{MassPoint, Points, Shape};
 use crate::state::{BodyMotion, State};
 use crate::tensor::{Mat3, Vec3};
@@ -35,6 +36,19 @@ pub struct BodyObservation {
     pub affine_momentum: Mat3,
     /// π [Pa] of an incompressible body.
     pub pressure: Option<f64>,
+    /// What a contractile body does by itself.
+    pub effort: Option<Effort>,
+}
+
+/// What a contractile body does by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// G.
+    pub contraction: Mat3,
+    /// V_G = Ġ G⁻¹ [1/s].
+    pub velocity: Mat3,
+    /// Q [Pa], given or what a prescribed G takes.
+    pub drive: Mat3,
 }
 
 /// What is recorded of one body in a state.
@@ -49,12 +63,24 @@ pub fn observe(
 ) -> Result<BodyObservation, Inadmissible> {
     let body = &model.bodies[index];
     let motion = state.motion(model, index);
-    let (contact, pressure) = match &body.kind {
-        BodyKind::Rigid(_) => (contact_loads(model, workspace, state.time, index, &motion)?, None),
+    let (contact, pressure, effort) = match &body.kind {
+        BodyKind::Rigid(_) => (contact_loads(model, workspace, state.time, index, &motion)?, None, None),
         BodyKind::Affine(affine) => {
             let moving = AffineMotion::new(index, affine, &motion)?;
             let loads = moving.loads(model, workspace, state.time)?;
-            (loads.contact, moving.balance(model, &loads.total).pressure)
+            (loads.contact, moving.balance(model, &loads.total).pressure, None)
+        }
+        BodyKind::Contractile(contractile) => {
+            let block = &state.bodies[model.blocks()[index].clone()];
+            let moving = ContractileMotion::new(index, contractile, (&motion, state.time, block))?;
+            let loads = moving.pulled.loads(model, workspace, state.time)?;
+            let balance = moving.balance(model, &loads.total);
+            let effort = Effort {
+                contraction: moving.decomposition.contraction,
+                velocity: balance.contraction_velocity,
+                drive: balance.drive,
+            };
+            (loads.contact, balance.pressure, Some(effort))
         }
     };
     let (placement, velocity) = (&motion.placement, &motion.velocity);
@@ -69,6 +95,7 @@ pub fn observe(
         angular_momentum: placement.position.cross(&linear_momentum) - crate::tensor::axial(&affine_momentum),
         affine_momentum,
         pressure,
+        effort,
     })
 }
 
@@ -136,15 +163,31 @@ pub fn energies(
             *value += match energy {
                 Energy::Kinetic => kinetic_energy(body, &motion),
                 Energy::Gravity => -body.mass.mass * model.gravity.dot(&motion.placement.position),
-                Energy::Elastic => {
-                    body.affine().map_or(0.0, |affine| affine.interior.energy(&motion.placement.gradient))
-                }
+                Energy::Elastic => elastic_energy(model, state, index, &motion)?,
                 Energy::Contact => contact_energy(model, workspace, state.time, index, &motion)?,
                 Energy::Load => body.springs.iter().map(|spring| spring.energy(&motion.placement)).sum(),
             };
         }
     }
     Ok(())
+}
+
+/// V φ(P), or V det G φ(P G⁻¹) [J].
+fn elastic_energy(model: &Model, state: &State, index: usize, motion: &BodyMotion) -> Result<f64, Inadmissible> {
+    let gradient = &motion.placement.gradient;
+    Ok(match &model.bodies[index].kind {
+        BodyKind::Rigid(_) => 0.0,
+        BodyKind::Affine(affine) => affine.interior.energy(gradient),
+        BodyKind::Contractile(contractile) => {
+            let contraction = state.contraction(model, index).unwrap_or_else(Mat3::identity);
+            let decomposition = Decomposition::of(gradient, &contraction).map_err(|value| Inadmissible {
+                body: index,
+                quantity: Quantity::Contraction,
+                value,
+            })?;
+            contractile::energy(&contractile.affine.interior, &decomposition)
+        }
+    })
 }
 
 /// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ) [J].

@@ -8,12 +8,13 @@
 //! | rigid, pinned | P = R | Ω        | quaternion (4), Ω (3)                     |
 //! | affine | p₀, P         | ṗ₀, Ṗ    | p₀ (3), P (9), ṗ₀ (3), Ṗ (9)              |
 //! | affine, pinned | P     | Ṗ        | P (9), Ṗ (9)                              |
+//! | contractile | p₀, P    | ṗ₀, Ṗ    | as an affine body's, then G (9) unless it is prescribed |
 //!
-//! with Ω in body axes, P and Ṗ column by column. A contractile body is a further variant of [`BodyKind`]: the compiler
-//! lists what it must answer.
+//! with Ω in body axes, P, Ṗ and G column by column.
 
 use crate::affine::AffineBody;
 use crate::contact::Contact;
+use crate::contractile::{self, Contraction, Decomposition, Restored};
 use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
 use crate::shape::Shape;
@@ -59,6 +60,8 @@ pub enum BodyKind {
     Rigid(RigidInertia),
     /// P is free, or of determinant one.
     Affine(Box<Affine>),
+    /// P = F G, and G does what the body does by itself.
+    Contractile(Box<Contractile>),
 }
 
 /// What an affine body has beside the loads that any body may have.
@@ -75,6 +78,37 @@ pub struct Affine {
 impl From<AffineBody> for Affine {
     fn from(interior: AffineBody) -> Self {
         Self { interior, couple: None, resistances: Vec::new() }
+    }
+}
+
+/// What makes a body contractile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contractile {
+    /// What it has in common with an affine body; the material is that of F, det F = 1 if it is incompressible.
+    pub affine: Affine,
+    /// How it contracts.
+    pub contraction: Contraction,
+    /// Internal friction that acts on L, as a body of its own.
+    pub(crate) medium: Option<AffineBody>,
+}
+
+impl Contractile {
+    /// A body that contracts.
+    pub fn new(affine: Affine, contraction: Contraction) -> Self {
+        let medium = affine.interior.medium();
+        Self { affine, contraction, medium }
+    }
+
+    /// P, Ṗ and G as they have to be at a time \[s\]: [`Contraction::restore`].
+    pub fn restore(&self, time: f64, parts: (&Mat3, &Mat3, &Mat3)) -> Restored {
+        self.contraction.restore(&self.affine.interior, time, parts)
+    }
+
+    /// V g φ(F) + ½ tr(Ṗ J Ṗᵀ) of P, Ṗ and G \[J\]; not a number where det G ≤ 0.
+    pub fn energy(&self, (p, rate, contraction): (&Mat3, &Mat3, &Mat3)) -> f64 {
+        let interior = &self.affine.interior;
+        let elastic = Decomposition::of(p, contraction).map_or(f64::NAN, |at| contractile::energy(interior, &at));
+        elastic + 0.5 * (rate * interior.euler_tensor).dot(rate)
     }
 }
 
@@ -132,11 +166,20 @@ impl Body {
         gap.is_finite() && gap > RESOLUTION * (self.size + field.height.abs())
     }
 
-    /// What an affine body has beside other kinds.
+    /// What a body that deforms has beside a rigid one.
     pub fn affine(&self) -> Option<&Affine> {
         match &self.kind {
             BodyKind::Affine(affine) => Some(affine),
+            BodyKind::Contractile(contractile) => Some(&contractile.affine),
             BodyKind::Rigid(_) => None,
+        }
+    }
+
+    /// How it contracts, if it does.
+    pub fn contraction(&self) -> Option<&Contraction> {
+        match &self.kind {
+            BodyKind::Contractile(contractile) => Some(&contractile.contraction),
+            BodyKind::Rigid(_) | BodyKind::Affine(_) => None,
         }
     }
 
@@ -147,6 +190,9 @@ impl Body {
             (BodyKind::Rigid(_), Some(_)) => 7,
             (BodyKind::Affine(_), None) => 24,
             (BodyKind::Affine(_), Some(_)) => 18,
+            (BodyKind::Contractile(it), pin) => {
+                (if pin.is_some() { 18 } else { 24 }) + if it.contraction.is_driven() { 9 } else { 0 }
+            }
         }
     }
 }

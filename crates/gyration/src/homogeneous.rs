@@ -12,7 +12,7 @@ use crate::body::{Body, BodyKind};
 use crate::inadmissible::Inadmissible;
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{AffineMotion, Workspace, rates, spring_loads};
+use crate::rates::{AffineMotion, ContractileMotion, Workspace, rates, spring_loads};
 use crate::state::{BodyMotion, State, Turn};
 use crate::tensor::{Mat3, Polar, Vec3, cross_matrix};
 
@@ -110,6 +110,18 @@ fn interior(
             Ok(Interior {
                 euler_tensor: affine.interior.euler_tensor,
                 moment: moving.moment(model, &loads),
+                acceleration: balance.acceleration,
+                stress: balance.stress,
+            })
+        }
+        BodyKind::Contractile(contractile) => {
+            let block = &state.bodies[model.blocks()[index].clone()];
+            let moving = ContractileMotion::new(index, contractile, (motion, state.time, block))?;
+            let loads = moving.pulled.loads(model, workspace, state.time)?.total;
+            let balance = moving.balance(model, &loads);
+            Ok(Interior {
+                euler_tensor: contractile.affine.interior.euler_tensor,
+                moment: moving.pulled.moment(model, &loads),
                 acceleration: balance.acceleration,
                 stress: balance.stress,
             })

@@ -15,6 +15,8 @@ pub enum Quantity {
     },
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
+    /// det G, which must be > 0: the relaxed body has a volume.
+    Contraction,
 }
 
 /// A state outside the model: which body, which quantity, its value.

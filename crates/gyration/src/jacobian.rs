@@ -8,13 +8,14 @@
 //! Columns of the quaternion come from those of δθ by δθ = 2 vec(q⁻¹ ∘ δq).
 
 mod affine_slopes;
+mod contractile_slopes;
 mod rigid_slopes;
 
 use crate::body::{Body, BodyKind, RigidInertia};
 use crate::contact::{ContactWrench, Meeting, RigidMotion};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
-use crate::rates::{AffineMotion, Workspace, for_each_contact, spring_loads};
+use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, spring_loads};
 use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, cross_matrix};
 use nalgebra::{DMatrix, SMatrix};
@@ -47,6 +48,11 @@ pub fn jacobian(
                 let motion = BodyMotion::unpack(body, block);
                 let moving = AffineMotion::new(index, affine, &motion)?;
                 affine_slopes::fill(matrix, model, workspace, time, &moving)?;
+            }
+            BodyKind::Contractile(contractile) => {
+                let motion = BodyMotion::unpack(body, block);
+                let moving = ContractileMotion::new(index, contractile, (&motion, time, block))?;
+                contractile_slopes::fill(matrix, model, workspace, &moving)?;
             }
         }
     }

@@ -44,6 +44,10 @@ pub enum Work {
     Adhesion,
     /// By internal friction, and friction that is linear in the velocity; ≤ 0.
     Viscosity,
+    /// By the drag μ_γ of contraction; ≤ 0.
+    Contraction,
+    /// By the drive: ∫V Q·V_G.
+    Drive,
     /// By dashpots and couples.
     Load,
     /// By the motion of the supports: ∫∫ q·(velocity of the support), all laws.
@@ -61,6 +65,8 @@ impl Work {
             Self::Friction => "friction",
             Self::Adhesion => "adhesion",
             Self::Viscosity => "viscosity",
+            Self::Contraction => "contraction",
+            Self::Drive => "drive",
             Self::Load => "load",
             Self::Support => "support",
             Self::Constraint => "constraint",

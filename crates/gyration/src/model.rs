@@ -80,6 +80,7 @@ fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
     let dashpots = bodies.iter().flat_map(|body| &body.springs).any(|spring| spring.damping > 0.0);
     let carried = bodies.iter().flat_map(|body| &body.contacts).any(|contact| moving(contact.support));
     let affine = || bodies.iter().filter_map(Body::affine);
+    let contracting = || bodies.iter().filter_map(Body::contraction);
     let resisted = affine().flat_map(|affine| &affine.resistances).any(|load| load.dissipates());
     let works_alone = !has_potential(bodies);
     [
@@ -88,6 +89,8 @@ fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
         (Work::Friction, has_law(bodies, &[LawKind::Friction])),
         (Work::Adhesion, works_alone && has_law(bodies, &[LawKind::Adhesion])),
         (Work::Viscosity, resisted || affine().any(|affine| affine.interior.dissipates())),
+        (Work::Contraction, contracting().any(|contraction| contraction.viscosity > 0.0)),
+        (Work::Drive, contracting().next().is_some()),
         (Work::Load, dashpots || affine().any(|affine| affine.couple.is_some())),
         (Work::Support, carried),
         (Work::Constraint, affine().any(|affine| affine.interior.is_incompressible())),

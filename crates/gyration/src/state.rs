@@ -1,6 +1,7 @@
 //! The state: time, the numbers of every body, and the works done so far. Minimal: the rest follows from the model.
 
 use crate::body::{Body, BodyKind, Pin};
+use crate::contractile::{Contraction, Source};
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
@@ -23,6 +24,8 @@ pub enum Start {
     Rigid(RigidStart),
     /// A body that deforms: any placement and velocity. Those of a pinned body's centre follow from P and Ṗ.
     Affine(Placement, Velocity),
+    /// A body that contracts: the same, and G, which is left aside where it is prescribed.
+    Contractile(Placement, Velocity, Mat3),
 }
 
 /// How a rigid body starts.
@@ -76,11 +79,14 @@ impl Start {
                 push(start.velocity.as_slice(), free);
                 push(spin.as_slice(), true);
             }
-            Self::Affine(placement, velocity) => {
+            Self::Affine(placement, velocity) | Self::Contractile(placement, velocity, _) => {
                 push(placement.position.as_slice(), free);
                 push(placement.gradient.as_slice(), true);
                 push(velocity.velocity.as_slice(), free);
                 push(velocity.gradient_rate.as_slice(), true);
+                if let Self::Contractile(_, _, contraction) = self {
+                    push(contraction.as_slice(), body.contraction().is_some_and(Contraction::is_driven));
+                }
             }
         }
     }
@@ -97,9 +103,23 @@ impl State {
         Self { time: 0.0, bodies, works: vec![0.0; model.works().len()] }
     }
 
+    /// G of a body that contracts.
+    pub fn contraction(&self, model: &Model, body: usize) -> Option<Mat3> {
+        let block = &self.bodies[model.blocks()[body].clone()];
+        Some(contraction(model.bodies[body].contraction()?, self.time, block))
+    }
+
     /// The motion of one body.
     pub fn motion(&self, model: &Model, body: usize) -> BodyMotion {
         BodyMotion::unpack(&model.bodies[body], &self.bodies[model.blocks()[body].clone()])
+    }
+}
+
+/// G from the block of a body that contracts, or as it is prescribed at a time [s].
+pub(crate) fn contraction(contraction: &Contraction, time: f64, block: &[f64]) -> Mat3 {
+    match &contraction.source {
+        Source::Driven { .. } => Mat3::from_column_slice(&block[block.len() - 9..]),
+        Source::Prescribed(signal) => signal.at(time),
     }
 }
 
@@ -128,7 +148,7 @@ impl BodyMotion {
     pub fn unpack(body: &Body, block: &[f64]) -> Self {
         match body.kind {
             BodyKind::Rigid(_) => Turn::unpack(body, block).motion(body, block),
-            BodyKind::Affine(_) => {
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
                 let (gradient, rate) = if body.pin.is_none() { (3, 15) } else { (0, 9) };
                 let matrix = |at: usize| Mat3::from_column_slice(&block[at..at + 9]);
                 let center = || (vector(block), vector(&block[12..]));

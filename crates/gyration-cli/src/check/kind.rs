@@ -22,12 +22,17 @@ pub struct KindCheck {
 impl KindCheck {
     /// The kind of a body.
     pub fn of(body: &Body) -> Self {
-        match &body.kind {
-            BodyKind::Rigid(_) => Self { kind: "rigid", incompressible: false, material: None, loads: Vec::new() },
-            BodyKind::Affine(affine) => {
+        let kind = match &body.kind {
+            BodyKind::Rigid(_) => "rigid",
+            BodyKind::Affine(_) => "affine",
+            BodyKind::Contractile(_) => "contractile",
+        };
+        match body.affine() {
+            None => Self { kind, incompressible: false, material: None, loads: Vec::new() },
+            Some(affine) => {
                 let material = affine.interior.material.as_ref();
                 Self {
-                    kind: "affine",
+                    kind,
                     incompressible: affine.interior.is_incompressible(),
                     material: Some(
                         material.map_or_else(|| "no material: deforms freely".to_owned(), material_in_words),

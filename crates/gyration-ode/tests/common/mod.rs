@@ -92,7 +92,7 @@ impl System for Problem {
         }
     }
 
-    fn project(&mut self, y: &mut [f64], _: &mut [f64]) -> f64 {
+    fn project(&mut self, _: f64, y: &mut [f64], _: &mut [f64]) -> f64 {
         (self.project)(y)
     }
 }

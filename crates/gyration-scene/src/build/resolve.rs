@@ -16,7 +16,7 @@ pub(super) fn resolve(body: &mut Body, start: &Start) {
             body.angular_velocity.get_or_insert_default();
             body.velocity = start.velocity.map(Speed).into();
         }
-        Start::Affine(placement, velocity) => {
+        Start::Affine(placement, velocity) | Start::Contractile(placement, velocity, _) => {
             body.orientation = None;
             body.angular_velocity = None;
             body.gradient = Some(rows(&placement.gradient));

@@ -57,6 +57,8 @@ impl Attitude {
                 let velocity = center_velocity(placed, follows, judge)?;
                 Some(Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }))
             }
+            // Scenes have no contractile bodies yet.
+            BodyKind::Contractile(_) => None,
             BodyKind::Affine(affine) => {
                 let given = (self.gradient, self.gradient_rate);
                 let (gradient, gradient_rate) = constraint::hold(&affine.interior, given, &placed.key, judge)?;
@@ -71,7 +73,7 @@ impl Attitude {
 pub(super) fn placement(start: &Start) -> Placement {
     match start {
         Start::Rigid(start) => Placement { position: start.position, gradient: start.orientation.rotation() },
-        Start::Affine(placement, _) => *placement,
+        Start::Affine(placement, _) | Start::Contractile(placement, _, _) => *placement,
     }
 }
 

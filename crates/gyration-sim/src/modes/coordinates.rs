@@ -44,7 +44,7 @@ impl Coordinates {
             (rates, weights) = (rates * &plane, plane.transpose() * weights);
         }
         let places = match &body.kind {
-            BodyKind::Affine(_) => rates.clone(),
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => rates.clone(),
             BodyKind::Rigid(_) => quaternion_by_turn(body, block) * &rates,
         };
         Self { places, rates, weights, gradient }
@@ -79,7 +79,7 @@ impl Coordinates {
         let numbers = numbers.as_slice();
         let (center, own) = numbers.split_at(if body.pin.is_some() { 0 } else { 3 });
         let gradient = match &body.kind {
-            BodyKind::Affine(_) => Mat3::from_column_slice(own),
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => Mat3::from_column_slice(own),
             BodyKind::Rigid(_) => self.gradient * cross_matrix(&Vec3::from_column_slice(own)),
         };
         let translation = match &body.pin {
@@ -111,7 +111,7 @@ impl Coordinates {
             numbers.extend_from_slice(translation.as_slice());
         }
         match &body.kind {
-            BodyKind::Affine(_) => numbers.extend_from_slice(change.as_slice()),
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => numbers.extend_from_slice(change.as_slice()),
             BodyKind::Rigid(_) => {
                 // What a rigid body can take of it: δP = R [δθ]×.
                 let turn = 0.5 * axial(&self.gradient.tr_mul(change));
@@ -129,6 +129,7 @@ fn mass(body: &Body) -> DMatrix<f64> {
     let (own, repeat) = match &body.kind {
         BodyKind::Rigid(inertia) => (inertia.tensor, 1),
         BodyKind::Affine(affine) => (affine.interior.euler_tensor, 3),
+        BodyKind::Contractile(contractile) => (contractile.affine.interior.euler_tensor, 3),
     };
     let own = DMatrix::from_column_slice(3, 3, own.as_slice()).kronecker(&DMatrix::identity(repeat, repeat));
     let center = if body.pin.is_some() { 0 } else { 3 };

@@ -93,7 +93,7 @@ fn rest_at(held: &mut Held, block: Vec<f64>) -> Rest {
     let placement = held.motion(&block).placement;
     let stretches = match held.body().kind {
         BodyKind::Rigid(_) => Vec3::repeat(1.0),
-        BodyKind::Affine(_) => {
+        BodyKind::Affine(_) | BodyKind::Contractile(_) => {
             let mut values: [f64; 3] = placement.gradient.singular_values().into();
             values.sort_by(|a, b| b.total_cmp(a));
             values.into()

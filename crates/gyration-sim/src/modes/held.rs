@@ -1,12 +1,14 @@
-//! One body alone, with supports and loads held as they are at the start.
+//! One body alone, with supports, loads and contraction held as they are at the start.
 
 use gyration::Inadmissible;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind};
 use gyration::contact::{Action, Term};
+use gyration::contractile::Source;
 use gyration::jacobian::jacobian;
 use gyration::model::Model;
 use gyration::rates::{Workspace, meet, rates};
+use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
@@ -31,10 +33,16 @@ impl Held {
             support.origin += support.motion.displacement(start.time);
             support.motion = SupportMotion::Fixed;
         }
-        let body = model.bodies[index].clone();
+        let mut body = model.bodies[index].clone();
         let at_rates = places(&body);
         let mut block = start.bodies[model.blocks()[index].clone()].to_vec();
         block[at_rates..].fill(0.0);
+        if let (BodyKind::Contractile(contractile), Some(contraction)) =
+            (&mut body.kind, start.contraction(model, index))
+        {
+            contractile.contraction.source = Source::Prescribed(Signal::Constant(contraction));
+        }
+        block.truncate(body.dimension());
         let model = Model::new(model.gravity, supports, vec![body]);
         Self { model, workspace: Workspace::default(), time: start.time, index, start: block }
     }
@@ -114,6 +122,11 @@ impl Held {
                 let corrected = affine.interior.project(&gradient, &Mat3::zeros());
                 block[at..at + 9].copy_from_slice(corrected.gradient.as_slice());
             }
+            BodyKind::Contractile(contractile) => {
+                let gradient = Mat3::from_column_slice(&block[at..at + 9]);
+                let restored = contractile.restore(self.time, (&gradient, &Mat3::zeros(), &Mat3::identity()));
+                block[at..at + 9].copy_from_slice(restored.gradient.as_slice());
+            }
         }
     }
 }
@@ -123,7 +136,7 @@ pub(super) fn places(body: &Body) -> usize {
     match (&body.kind, &body.pin) {
         (BodyKind::Rigid(_), None) => 7,
         (BodyKind::Rigid(_), Some(_)) => 4,
-        (BodyKind::Affine(_), None) => 12,
-        (BodyKind::Affine(_), Some(_)) => 9,
+        (BodyKind::Affine(_) | BodyKind::Contractile(_), None) => 12,
+        (BodyKind::Affine(_) | BodyKind::Contractile(_), Some(_)) => 9,
     }
 }

@@ -26,6 +26,7 @@ pub(super) fn of(shape: &ModeShape, body: &Body, placement: &Placement) -> Strin
     let strain = 0.5 * (spread + spread.transpose()) - round;
     let euler = match &body.kind {
         BodyKind::Affine(affine) => affine.interior.euler_tensor,
+        BodyKind::Contractile(contractile) => contractile.affine.interior.euler_tensor,
         BodyKind::Rigid(_) => body.mass.about(&(body.mass.center + body.pin.map_or(Vec3::zeros(), |pin| pin.point))),
     };
     let current = placement.gradient * euler * placement.gradient.transpose();

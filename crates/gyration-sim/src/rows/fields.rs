@@ -43,7 +43,7 @@ const RATE: [&str; 9] =
     ["Pdot_xx", "Pdot_xy", "Pdot_xz", "Pdot_yx", "Pdot_yy", "Pdot_yz", "Pdot_zx", "Pdot_zy", "Pdot_zz"];
 
 /// The fields of every recording, in the order of the CSV.
-pub(super) static BODY_FIELDS: [BodyField; 10] = [
+pub(super) static BODY_FIELDS: [BodyField; 13] = [
     BodyField {
         name: "position",
         units: "m",
@@ -75,6 +75,14 @@ pub(super) static BODY_FIELDS: [BodyField; 10] = [
         rank: Rank::Matrix,
         suffixes: &RATE,
         value: |seen| Value::Matrix(seen.body.motion.velocity.gradient_rate),
+    },
+    BodyField {
+        name: CONTRACTION,
+        units: "1",
+        description: "contraction G of a contractile body; NaN for any other",
+        rank: Rank::Matrix,
+        suffixes: &["G_xx", "G_xy", "G_xz", "G_yx", "G_yy", "G_yz", "G_zx", "G_zy", "G_zz"],
+        value: |seen| Value::Matrix(seen.body.effort.map_or(NO_MATRIX, |effort| effort.contraction)),
     },
     BodyField {
         name: PRESSURE,
@@ -124,9 +132,28 @@ pub(super) static BODY_FIELDS: [BodyField; 10] = [
         suffixes: &[],
         value: |seen| Value::Matrix(seen.body.affine_momentum),
     },
+    BodyField {
+        name: CONTRACTION_VELOCITY,
+        units: "1/s",
+        description: "contraction velocity V_G = Gdot G^-1",
+        rank: Rank::Matrix,
+        suffixes: &[],
+        value: |seen| Value::Matrix(seen.body.effort.map_or(NO_MATRIX, |effort| effort.velocity)),
+    },
+    BodyField {
+        name: DRIVE,
+        units: "Pa",
+        description: "drive Q; what it takes, where the contraction is prescribed",
+        rank: Rank::Matrix,
+        suffixes: &[],
+        value: |seen| Value::Matrix(seen.body.effort.map_or(NO_MATRIX, |effort| effort.drive)),
+    },
 ];
 
 /// The fields that apply to some bodies only.
+pub(super) const CONTRACTION: &str = "contraction";
+pub(super) const CONTRACTION_VELOCITY: &str = "contraction_velocity";
+pub(super) const DRIVE: &str = "drive";
 pub(super) const PRESSURE: &str = "pressure";
 pub(super) const GAP: &str = "gap";
 pub(super) const CONTACT_FORCE: &str = "contact_force";

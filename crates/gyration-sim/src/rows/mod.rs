@@ -1,6 +1,6 @@
 //! What a recording of a model holds: the arrays of a row, their units, and the columns of the CSV.
 //!
-//! Columns stand in the order of the contract: for each body x, P, v, Ṗ, pressure, gap, force; then energies, works,
+//! Columns stand in the order of the contract: for each body x, P, v, Ṗ, G, pressure, gap, force; then energies, works,
 //! residual.
 
 mod extras;
@@ -8,7 +8,9 @@ mod fields;
 
 pub use extras::Extras;
 
-use fields::{BODY_FIELDS, BodyField, CONTACT_FORCE, GAP, PRESSURE, Rank, Seen, Value};
+use fields::{
+    BODY_FIELDS, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, GAP, PRESSURE, Rank, Seen, Value,
+};
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, observe};
 use gyration::body::Body;
@@ -39,8 +41,8 @@ pub struct RowScratch {
 impl Fields {
     /// The fields of a model, with those asked for.
     pub fn new(model: &Model, extras: &Extras) -> Self {
-        let incompressible = model.bodies.iter().any(is_incompressible);
-        let usual = BODY_FIELDS.iter().filter(|field| field.name != PRESSURE || incompressible);
+        let any = |field: &&BodyField| model.bodies.iter().any(|body| applies(field.name, body));
+        let usual = BODY_FIELDS.iter().filter(any);
         let fields = usual.chain(extras.fields()).collect();
         Self { fields, origin: (!extras.is_empty()).then_some(extras.origin) }
     }
@@ -110,8 +112,13 @@ impl Fields {
     }
 }
 
-fn is_incompressible(body: &Body) -> bool {
-    body.affine().is_some_and(|affine| affine.interior.is_incompressible())
+/// Whether a field is of a kind that the body has.
+fn applies(field: &str, body: &Body) -> bool {
+    match field {
+        PRESSURE => body.affine().is_some_and(|affine| affine.interior.is_incompressible()),
+        CONTRACTION | CONTRACTION_VELOCITY | DRIVE => body.contraction().is_some(),
+        _ => true,
+    }
 }
 
 fn body_array(model: &Model, field: &BodyField) -> ArraySpec {
@@ -139,10 +146,9 @@ fn body_array(model: &Model, field: &BodyField) -> ArraySpec {
 fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
     let body = &model.bodies[index];
     let applies = match field.name {
-        PRESSURE => is_incompressible(body),
         GAP => body.surface.is_some() && !model.supports.is_empty(),
         CONTACT_FORCE => !body.contacts.is_empty(),
-        _ => true,
+        name => applies(name, body),
     };
     let name = |suffix: &&str| if applies { format!("{}.{suffix}", body.name) } else { String::new() };
     field.suffixes.iter().map(name).collect()

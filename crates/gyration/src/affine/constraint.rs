@@ -11,7 +11,7 @@ use crate::tensor::Mat3;
 
 /// The way in which a pressure pushes, and what it takes to do so.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Constraint {
+pub(crate) struct Constraint {
     /// Y.
     pub way: Columns,
     /// 1/a.
@@ -55,6 +55,15 @@ impl Correction {
 const ITERATIONS: usize = 20;
 /// The rounding of a determinant of order one.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// Puts P and Ṗ back to det P = `volume` and tr L = `growth`, in which P differs from one on the constraint by a factor.
+pub(super) fn project_to(body: &AffineBody, (p, rate): (&Mat3, &Mat3), volume: f64, growth: f64) -> Correction {
+    let scale = volume.cbrt();
+    let still = rate - p * (growth / 3.0);
+    let correction = project(body, &(p / scale), &(still / scale));
+    let gradient = correction.gradient * scale;
+    Correction { gradient, rate: correction.rate * scale + gradient * (growth / 3.0), size: correction.size }
+}
 
 /// Puts P and Ṗ back on the constraint.
 pub(super) fn project(body: &AffineBody, p: &Mat3, rate: &Mat3) -> Correction {

@@ -14,6 +14,7 @@ mod solution;
 mod viscosity;
 
 pub use anisotropic::AnisotropicFriction;
+pub(crate) use constraint::Constraint;
 pub use constraint::Correction;
 pub use gyration::Gyration;
 pub use slopes::AffineSlopes;
@@ -113,7 +114,7 @@ impl AffineBody {
 
     /// B J⁻¹.
     #[inline(always)]
-    fn per_inertia(&self, moment: &Columns) -> Columns {
+    pub(crate) fn per_inertia(&self, moment: &Columns) -> Columns {
         let inverse = Columns::of(&self.inverse);
         if inverse.is_diagonal() {
             return moment.scaled(&[inverse.at(0, 0), inverse.at(1, 1), inverse.at(2, 2)]);
@@ -130,5 +131,32 @@ impl AffineBody {
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.
     pub fn project(&self, p: &Mat3, rate: &Mat3) -> Correction {
         if self.is_incompressible() { constraint::project(self, p, rate) } else { Correction::none(p, rate) }
+    }
+
+    /// Puts P and Ṗ to det P = `volume` and tr L = `growth` [1/s], whatever the material.
+    pub(crate) fn project_to(&self, p: &Mat3, rate: &Mat3, volume: f64, growth: f64) -> Correction {
+        constraint::project_to(self, (p, rate), volume, growth)
+    }
+
+    /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa].
+    #[inline(always)]
+    pub(crate) fn medium_stress(&self, at: &Gyration) -> Columns {
+        let newtonian = self.viscosity.newtonian();
+        let l = Columns::of(&at.velocity_gradient);
+        let mut stress = newtonian.map_or_else(Columns::default, |part| part.stress_at(at.volume_ratio, &l));
+        if let Some(friction) = &self.anisotropic {
+            stress += Columns::of(&friction.kirchhoff_stress(at));
+        }
+        stress
+    }
+
+    /// A body of the same inertia with that friction alone; none without it.
+    pub(crate) fn medium(&self) -> Option<Self> {
+        let viscosity = self.viscosity.newtonian();
+        (viscosity.is_some() || self.anisotropic.is_some()).then(|| Self {
+            material: None,
+            viscosity: viscosity.unwrap_or_default(),
+            ..self.clone()
+        })
     }
 }

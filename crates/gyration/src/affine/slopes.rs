@@ -82,7 +82,7 @@ impl<'a> Friction<'a> {
 impl AffineSlopes<'_> {
     /// ∂B/∂P_jB, M and the pressure kept, with the change of the reaction πV P⁻ᵀ.
     #[inline(always)]
-    fn by_gradient(&self, j: usize, b: usize) -> Columns {
+    pub(crate) fn by_gradient(&self, j: usize, b: usize) -> Columns {
         let Solution { across, l, push, .. } = &self.solution;
         let Friction { half, cross, metric, carried, turned, grown, anisotropic } = &self.friction;
         // The reaction turns with P: πV δ(P⁻ᵀ) = −πV (F δP F)ᵀ.
@@ -105,7 +105,7 @@ impl AffineSlopes<'_> {
 
     /// ∂B/∂Ṗ_jB.
     #[inline(always)]
-    fn by_rate(&self, j: usize, b: usize) -> Columns {
+    pub(crate) fn by_rate(&self, j: usize, b: usize) -> Columns {
         let Solution { across, .. } = &self.solution;
         let Friction { half, cross, metric, grown, anisotropic, .. } = &self.friction;
         let mut change = Columns::default();

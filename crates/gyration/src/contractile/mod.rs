@@ -8,11 +8,24 @@
 //! algebraic, since it acts on V_G. Internal friction after Sławianowski acts on L, as that of the medium in which the
 //! body moves, and takes no part in the second line. Source: Tatone, *Soft and rigid impact*; `physics.md` §5 and §10.
 
+mod decomposition;
 mod feedback;
+mod mobility;
+mod restore;
+mod slopes;
+mod solution;
 
+pub use decomposition::Decomposition;
 pub use feedback::{Feedback, Felt, Measure, Nearest};
+pub use restore::Restored;
+pub use slopes::ContractileSlopes;
+pub use solution::{Command, ContractileBalance};
 
-use crate::signal::Signal;
+use crate::affine::{AffineBody, Gyration};
+use crate::columns::Columns;
+use crate::signal::{Jet, Signal};
+use crate::tensor::Mat3;
+use solution::Solution;
 
 /// How a body contracts, and what makes it do so.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,4 +62,57 @@ pub enum Source {
     },
     /// G is given in time, and Q is what it takes.
     Prescribed(Signal),
+}
+
+/// A contractile body at P, Ṗ and G.
+#[derive(Debug, Clone, Copy)]
+pub struct Pull<'a> {
+    /// Inertia, material (of F), internal friction.
+    pub body: &'a AffineBody,
+    /// How it contracts.
+    pub contraction: &'a Contraction,
+    /// P, Ṗ.
+    pub at: &'a Gyration,
+    /// P = F G.
+    pub decomposition: &'a Decomposition,
+}
+
+impl Contraction {
+    /// Whether G is part of the state.
+    pub fn is_driven(&self) -> bool {
+        matches!(self.source, Source::Driven { .. })
+    }
+
+    /// The signal of the drive, or of G.
+    pub fn signal(&self) -> &Signal {
+        match &self.source {
+            Source::Driven { drive, .. } => drive,
+            Source::Prescribed(signal) => signal,
+        }
+    }
+}
+
+/// V_G and d(tr V_G)/dt where G is prescribed: V_G = Ġ G⁻¹, d(tr V_G)/dt = tr(G̈ G⁻¹) − tr V_G².
+pub fn velocity_of(jet: &Jet, decomposition: &Decomposition) -> Command {
+    let velocity = jet.rate * decomposition.inverse;
+    let growing = (jet.acceleration * decomposition.inverse).trace() - (velocity * velocity).trace();
+    Command::Velocity(velocity, growing)
+}
+
+impl<'a> Pull<'a> {
+    /// Solves the balance and the law of contraction; `moment` is M [N m].
+    pub fn balance(&self, command: &Command, moment: &Mat3) -> ContractileBalance {
+        Solution::new(self, command, &Columns::of(moment)).balance(self, command)
+    }
+
+    /// V g φ(F) \[J\].
+    pub fn energy(&self) -> f64 {
+        energy(self.body, self.decomposition)
+    }
+}
+
+/// V g φ(F) \[J\].
+pub fn energy(body: &AffineBody, at: &Decomposition) -> f64 {
+    let density = body.material.as_ref().map_or(0.0, |material| material.response(&at.elastic).energy);
+    body.volume * at.volume_ratio * density
 }

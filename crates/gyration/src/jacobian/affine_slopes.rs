@@ -73,7 +73,7 @@ fn accelerate(columns: &mut [Columns; 24], half: usize, balance: &AffineSlopes, 
 }
 
 /// The loads on an affine body and their derivatives; none if nothing but gravity acts on it.
-fn load_slopes(
+pub(super) fn load_slopes(
     model: &Model,
     workspace: &mut Workspace,
     time: f64,
@@ -100,16 +100,16 @@ fn load_slopes(
 }
 
 /// The derivatives of the loads as a body sees them.
-struct Seen<'a> {
-    slopes: &'a LoadSlopes,
+pub(super) struct Seen<'a> {
+    pub slopes: &'a LoadSlopes,
     /// r, of a pinned body.
-    arm: Option<Vec3>,
-    mass: f64,
+    pub arm: Option<Vec3>,
+    pub mass: f64,
 }
 
 impl Seen<'_> {
     /// δf/m along one coordinate of a free body.
-    fn linear(&self, by_rate: bool, coordinate: usize, linear: &mut [f64]) {
+    pub fn linear(&self, by_rate: bool, coordinate: usize, linear: &mut [f64]) {
         for (out, force) in linear.iter_mut().zip(self.column(by_rate, coordinate)) {
             *out = force / self.mass;
         }
@@ -124,7 +124,7 @@ impl Seen<'_> {
 
     /// δM along one coordinate; of a pinned body, M is about the pin and p₀ = a − P r.
     #[inline(always)]
-    fn along(&self, by_rate: bool, coordinate: usize) -> Columns {
+    pub fn along(&self, by_rate: bool, coordinate: usize) -> Columns {
         let Some(arm) = &self.arm else { return Columns::read(&self.column(by_rate, coordinate)[3..]) };
         // δP = e_i ⊗ e_A moves p₀ by −r_A e_i.
         let (own, center) = (self.column(by_rate, 3 + coordinate), self.column(by_rate, coordinate % 3));

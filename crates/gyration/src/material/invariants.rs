@@ -121,8 +121,14 @@ impl ByInvariants {
 /// S for the derivatives of an energy: what [`ByInvariants::stress`] gives, without what only the tangent needs.
 #[inline(always)]
 pub(super) fn stress(p: &Columns, derivatives: impl Fn(&Invariants) -> Derivatives) -> Columns {
+    energy_and_stress(p, derivatives).1
+}
+
+/// φ and S.
+#[inline(always)]
+pub(super) fn energy_and_stress(p: &Columns, derivatives: impl Fn(&Invariants) -> Derivatives) -> (f64, Columns) {
     let invariants = Invariants::of(p);
-    let [f1, f2, f3] = derivatives(&invariants).first;
+    let Derivatives { energy, first: [f1, f2, f3], .. } = derivatives(&invariants);
     let mut stress = *p * (2.0 * (f1 + invariants.first * f2));
     if f2 != 0.0 {
         stress = stress - p.times(&invariants.right) * (2.0 * f2);
@@ -130,5 +136,5 @@ pub(super) fn stress(p: &Columns, derivatives: impl Fn(&Invariants) -> Derivativ
     if f3 != 0.0 {
         stress += invariants.cofactor * f3;
     }
-    stress
+    (energy, stress)
 }

@@ -34,6 +34,8 @@ pub use neo_hookean_log::NeoHookeanLog;
 pub use ogden::{Ogden, OgdenTerm};
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 
+pub(crate) use spectrum::Spectrum;
+
 use crate::columns::Columns;
 use crate::tensor::Mat3;
 use invariants::{ByInvariants, Invariants};
@@ -138,6 +140,20 @@ impl Material {
             kept.slope(place % 3, place / 3).write(&mut tangent.as_mut_slice()[9 * place..]);
         }
         tangent
+    }
+
+    /// φ and S.
+    #[inline(always)]
+    pub(crate) fn energy_and_stress(&self, p: &Columns) -> (f64, Columns) {
+        match self {
+            Self::MooneyRivlin(_) | Self::Fung(_) | Self::NeoHookeanLog(_) | Self::StVenantKirchhoff(_) => {
+                invariants::energy_and_stress(p, |invariants| self.derivatives(invariants))
+            }
+            Self::Ogden(_) | Self::Hencky(_) => {
+                let kept = self.at(p);
+                (kept.energy(), kept.stress())
+            }
+        }
     }
 
     /// S.

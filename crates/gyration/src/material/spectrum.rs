@@ -10,7 +10,7 @@ use crate::columns::{Column, Columns, UNIT};
 
 /// Principal values and axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Spectrum {
+pub(crate) struct Spectrum {
     /// c_i, in no order.
     pub values: [f64; 3],
     /// N, an axis a column.

@@ -110,23 +110,28 @@ impl<'a> AffineMotion<'a> {
     /// Solves the balance for the rates of the block, and adds the powers of friction and constraint.
     #[inline]
     pub fn fill(&self, model: &Model, loads: &mut AffineLoads, rates: &mut [f64]) {
-        let body = &model.bodies[self.index];
-        let velocity = &self.motion.velocity;
         let balance = self.balance(model, &loads.total);
         loads.powers.viscosity -= balance.dissipation;
         if let Some(pressure) = balance.pressure {
             let growth = self.gyration.velocity_gradient.trace();
             loads.powers.constraint += pressure * self.affine.interior.volume * growth;
         }
-        if body.pin.is_some() {
-            rates[..9].copy_from_slice(velocity.gradient_rate.as_slice());
-            rates[9..18].copy_from_slice(balance.acceleration.as_slice());
-            return;
-        }
-        let linear = model.gravity + loads.total.force / body.mass.mass;
-        rates[..3].copy_from_slice(velocity.velocity.as_slice());
-        rates[3..12].copy_from_slice(velocity.gradient_rate.as_slice());
-        rates[12..15].copy_from_slice(linear.as_slice());
-        rates[15..24].copy_from_slice(balance.acceleration.as_slice());
+        write(model, self, loads, &balance.acceleration, rates);
     }
+}
+
+/// Writes the rates of p₀, P, ṗ₀ and Ṗ, those of the velocities from the force and P̈.
+#[inline]
+pub(super) fn write(model: &Model, moving: &AffineMotion, loads: &AffineLoads, acceleration: &Mat3, rates: &mut [f64]) {
+    let (body, velocity) = (&model.bodies[moving.index], &moving.motion.velocity);
+    if body.pin.is_some() {
+        rates[..9].copy_from_slice(velocity.gradient_rate.as_slice());
+        rates[9..18].copy_from_slice(acceleration.as_slice());
+        return;
+    }
+    let linear = model.gravity + loads.total.force / body.mass.mass;
+    rates[..3].copy_from_slice(velocity.velocity.as_slice());
+    rates[3..12].copy_from_slice(velocity.gradient_rate.as_slice());
+    rates[12..15].copy_from_slice(linear.as_slice());
+    rates[15..24].copy_from_slice(acceleration.as_slice());
 }

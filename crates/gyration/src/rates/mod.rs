@@ -2,6 +2,7 @@
 //!
 //!   m p̈₀ = m g + f                        f = ∫_∂D q dA
 //!   P̈ J = M − V S                         M = ∫_∂D q ⊗ X dA            (affine)
+//!   μ_γ Ġ G⁻¹ = Fᵀ S Gᵀ − det G φ I + Q   P = F G                       (contractile)
 //!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA          (rigid, body axes)
 //!
 //! per body: kinematics → contact → loads → balance solved for the rates, and the powers whose integrals are the
@@ -9,6 +10,7 @@
 //! M_p = M − (f + m g) ⊗ r. Source: `physics.md` §2.
 
 mod affine;
+mod contractile;
 mod rigid;
 
 use crate::body::{Body, BodyKind};
@@ -20,7 +22,8 @@ use crate::model::Model;
 use crate::state::{BodyMotion, Turn};
 use crate::surface::{GapClosed, GapField};
 
-pub(crate) use affine::AffineMotion;
+pub(crate) use affine::{AffineLoads, AffineMotion};
+pub(crate) use contractile::ContractileMotion;
 
 /// Scratch of the mechanics, reused from call to call.
 #[derive(Debug, Clone, Default)]
@@ -60,6 +63,13 @@ pub fn rates(
                 moving.fill(model, &mut loads, rates);
                 loads.powers
             }
+            BodyKind::Contractile(contractile) => {
+                let motion = BodyMotion::unpack(body, state);
+                let moving = ContractileMotion::new(index, contractile, (&motion, time, state))?;
+                let mut loads = moving.pulled.loads(model, workspace, time)?;
+                moving.fill(model, &mut loads, rates);
+                loads.powers
+            }
         };
         for (work, power) in model.works().iter().zip(powers.iter_mut()) {
             *power += done.of(*work);
@@ -76,6 +86,8 @@ struct Powers {
     friction: f64,
     adhesion: f64,
     viscosity: f64,
+    contraction: f64,
+    drive: f64,
     load: f64,
     support: f64,
     constraint: f64,
@@ -89,6 +101,8 @@ impl Powers {
             Work::Friction => self.friction,
             Work::Adhesion => self.adhesion,
             Work::Viscosity => self.viscosity,
+            Work::Contraction => self.contraction,
+            Work::Drive => self.drive,
             Work::Load => self.load,
             Work::Support => self.support,
             Work::Constraint => self.constraint,

@@ -1,0 +1,140 @@
+//! Relations that the rates of contractile bodies obey: exact Jacobian, power balance, dissipation, known limits.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod moving;
+
+use gyration::body::{Affine, Body, BodyKind, Contractile};
+use gyration::contact::AreaMeasure;
+use gyration::contractile::{Contraction, Feedback, Measure, Source, Spin};
+use gyration::kinematics::{Placement, Velocity};
+use gyration::ledger::Work;
+use gyration::load::Frame;
+use gyration::model::Model;
+use gyration::signal::{Signal, Wave};
+use gyration::state::{Start, State};
+use gyration::tensor::{Mat3, Vec3};
+use moving::*;
+use proptest::prelude::*;
+
+/// A tensor without any symmetry.
+fn tensor(seed: f64) -> Mat3 {
+    Mat3::from_fn(|i, j| (1.3 * seed + 2.1 * i as f64 + 0.8 * (j * j) as f64).sin())
+}
+
+fn wave(seed: f64) -> Signal {
+    Signal::Sine(Wave { amplitude: tensor(seed), frequency: 0.8, phase: 0.3 })
+}
+
+/// A drive, with parts that answer to all that a body feels.
+fn driven() -> Source {
+    let feedback = |measure, seed| Feedback { measure, gain: tensor(seed), bias: tensor(2.0 * seed), limits: None };
+    let along = Vec3::new(0.6, 0.0, 0.8);
+    let feedback = vec![
+        feedback(Measure::Gap, 0.4),
+        feedback(Measure::Stretch(along), 0.7),
+        feedback(Measure::Rate(along), 1.1),
+        Feedback { limits: Some([0.0, 0.1]), ..feedback(Measure::Stretch(along), 1.9) },
+    ];
+    Source::Driven { drive: Signal::Sum(vec![wave(0.2), Signal::Constant(tensor(0.9))]), feedback }
+}
+
+/// G = I + a small wave.
+fn prescribed() -> Source {
+    let Signal::Sine(wave) = wave(0.6) else { unreachable!("a wave is a sine") };
+    let small = Signal::Sine(Wave { amplitude: 0.1 * wave.amplitude, ..wave });
+    Source::Prescribed(Signal::Sum(vec![Signal::Constant(Mat3::identity()), small]))
+}
+
+/// A body of every kind of contraction, compressible or not, viscous or not, free or pinned.
+fn model(exponents: [f64; 4], incompressible: bool, viscous: bool) -> Model {
+    let sources = [
+        (driven(), None, Spin::Full),
+        (driven(), None, Spin::Symmetric),
+        (driven(), Some(1.3), Spin::Full),
+        (driven(), Some(1.3), Spin::Symmetric),
+        (prescribed(), None, Spin::Full),
+    ];
+    let [cuboid, ..] = shapes();
+    let bodies = [false, true].into_iter().flat_map(|pinned| {
+        sources.clone().map(|(source, kept_volume, spin)| {
+            let measure = AreaMeasure::DeformedArea;
+            let variant = Variant { measure, incompressible, pinned, frame: Frame::Space };
+            let body = body(cuboid.clone(), exponents, variant);
+            let mut affine = body.affine().unwrap().clone();
+            if !viscous {
+                affine.interior.viscosity = Default::default();
+            }
+            let contraction = Contraction { viscosity: 0.8, kept_volume, spin, source };
+            Body { kind: contractile(affine, contraction), ..body }
+        })
+    });
+    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies.collect())
+}
+
+fn contractile(affine: Affine, contraction: Contraction) -> BodyKind {
+    BodyKind::Contractile(Box::new(Contractile::new(affine, contraction)))
+}
+
+/// A state above both supports for any 33 numbers in [−1, 1], with every det F and det G as it has to be.
+fn state(model: &Model, numbers: &[f64]) -> State {
+    let time = 0.37;
+    let position = Vec3::new(numbers[0], numbers[1], 1.5 + 0.2 * numbers[2]);
+    let rotation = *nalgebra::Rotation3::new(Vec3::new(numbers[3], numbers[7], numbers[11])).matrix();
+    let gradient = rotation * (Mat3::identity() + 0.15 * Mat3::from_column_slice(&numbers[3..12]));
+    let gradient_rate = Mat3::from_column_slice(&numbers[15..24]);
+    let contraction = Mat3::identity() + 0.15 * Mat3::from_column_slice(&numbers[24..33]);
+    let start = |body: &Body| {
+        let (affine, how) = (body.affine().unwrap(), body.contraction().unwrap());
+        let restored = how.restore(&affine.interior, time, (&gradient, &gradient_rate, &contraction));
+        Start::Contractile(
+            Placement { position, gradient: restored.gradient },
+            Velocity { velocity: Vec3::new(numbers[12], numbers[13], numbers[14]), gradient_rate: restored.rate },
+            restored.contraction,
+        )
+    };
+    let starts: Vec<Start> = model.bodies.iter().map(start).collect();
+    State { time, ..State::start(model, &starts) }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn jacobian_is_the_derivative_of_the_rates(numbers in numbers(33), exponents in exponents()) {
+        for (incompressible, viscous) in [(false, false), (false, true), (true, false), (true, true)] {
+            let model = model(exponents, incompressible, viscous);
+            assert_jacobian_is_the_derivative(&model, &state(&model, &numbers));
+        }
+    }
+
+    #[test]
+    fn jacobian_of_a_body_alone_is_the_derivative_of_the_rates(numbers in numbers(33)) {
+        // Without contacts, whose steep powers would hide errors of what is inside the body.
+        for (incompressible, viscous) in [(false, false), (false, true), (true, false), (true, true)] {
+            let Model { bodies, gravity, supports, .. } = model([3.0; 4], incompressible, viscous);
+            let alone = |body: Body| Body { contacts: Vec::new(), springs: Vec::new(), ..body };
+            let model = Model::new(gravity, supports, bodies.into_iter().map(alone).collect());
+            assert_jacobian_is_the_derivative(&model, &state(&model, &numbers));
+        }
+    }
+
+    #[test]
+    fn friction_and_contraction_dissipate(numbers in numbers(33)) {
+        let model = model([3.0; 4], true, true);
+        let (_, powers) = evaluate(&model, 0.37, &state(&model, &numbers).bodies);
+        prop_assert!(model.works().contains(&Work::Drive));
+        for (work, power) in model.works().iter().zip(powers) {
+            if [Work::Viscosity, Work::Contraction].contains(work) {
+                prop_assert!(power <= 0.0, "{} does {power} W", work.name());
+            }
+        }
+    }
+
+    #[test]
+    fn power_of_works_is_the_rate_of_energy(numbers in numbers(33), exponents in exponents()) {
+        for (incompressible, viscous) in [(false, false), (false, true), (true, false), (true, true)] {
+            let model = model(exponents, incompressible, viscous);
+            assert_power_is_the_rate_of_energy(&model, &state(&model, &numbers));
+        }
+    }
+}
