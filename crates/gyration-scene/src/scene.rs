@@ -1,6 +1,6 @@
 //! A scene: read → check → build, all errors at once.
 
-use crate::build::{Built, build, salvage};
+use crate::build::{Built, Setting, build, salvage};
 use crate::check::{Draft, Judge, structure, values};
 use crate::document::{Document, Findings};
 use crate::error::{LoadError, ReadError, SceneErrors};
@@ -77,8 +77,9 @@ impl Scene {
         let mut draft = Draft::new(&document, &mut findings);
         let mut judge = Judge { document: &document, findings: &mut findings };
         values(&draft, &mut judge);
-        let built = build(&mut draft, base, &mut judge);
-        salvage(&document, base, &mut findings);
+        let setting = Setting::new(&draft, &document, base);
+        let built = build(&mut draft, &setting, &mut judge);
+        salvage(&document, &setting, &mut findings);
         match (draft.complete(), built) {
             (Some(file), Some(built)) if findings.is_empty() => {
                 Ok(Self { name: stem(name), text: text.to_owned(), overrides: overrides.to_vec(), file, built })

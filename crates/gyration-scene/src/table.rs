@@ -12,9 +12,11 @@ pub(crate) enum TableFault {
     /// The file cannot be read.
     #[error("cannot read the table: {0}")]
     Unreadable(#[from] ReadError),
-    /// Not comma-separated text.
+    /// Not rows of numbers.
     #[error("table {}, line {line}: {reason}", path.display())]
     Malformed {
+        /// What its tensors are called.
+        symbol: char,
         /// The file.
         path: PathBuf,
         /// The line, from 1.
@@ -22,7 +24,7 @@ pub(crate) enum TableFault {
         /// What is wrong.
         reason: String,
     },
-    /// Not a table of a couple.
+    /// Not a table of tensors in time.
     #[error("table {}, line {line}: {source}", path.display())]
     Rows {
         /// The file.
@@ -36,14 +38,18 @@ pub(crate) enum TableFault {
 
 impl TableFault {
     /// What to do.
-    pub(crate) fn help(&self) -> &'static str {
-        match self {
+    pub(crate) fn help(&self) -> String {
+        let help = match self {
             Self::Unreadable(_) => "the path is relative to the folder of the scene",
-            Self::Malformed { .. } => "write rows of `t, N_xx, N_xy, N_xz, N_yx, N_yy, N_yz, N_zx, N_zy, N_zz`",
+            Self::Malformed { symbol, .. } => {
+                let names = ENTRIES.map(|entry| format!(", {symbol}_{entry}"));
+                return format!("write rows of `t{}`", names.concat());
+            }
             Self::Rows { source: TableError::NotSorted { .. }, .. } => "sort the rows by time, each time once",
             Self::Rows { source: TableError::NotFinite { .. }, .. } => "write finite numbers",
             Self::Rows { source: TableError::Empty, .. } => "write at least one row",
-        }
+        };
+        help.to_owned()
     }
 }
 
@@ -52,19 +58,23 @@ const COMMENT: u8 = b'#';
 /// t and nine entries.
 const COLUMNS: usize = 10;
 
-/// Reads the table of a couple: rows of t [s] and N [N m] row by row.
+/// The entries of a tensor, row by row.
+const ENTRIES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+
+/// Reads a table of tensors in time: rows of t \[s\] and the entries in SI units, row by row. Messages call them by
+/// `symbol`.
 ///
 /// # Errors
 /// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that do
 /// not increase.
-pub(crate) fn read_couple(path: &Path) -> Result<TensorTable, TableFault> {
+pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
     let bytes = read::bytes(path)?;
     let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
     let rows = rows(content).map_err(|(start, reason)| {
         let line = line(content, start);
-        TableFault::Malformed { path: path.to_owned(), line, reason }
+        TableFault::Malformed { symbol, path: path.to_owned(), line, reason }
     })?;
-    TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), Interpolation::Linear).map_err(|source| {
+    TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {
         let row = match source {
             TableError::Empty => 1,
             TableError::NotFinite { row } | TableError::NotSorted { row, .. } => row,
@@ -80,7 +90,7 @@ struct Row {
     start: usize,
     /// t \[s\].
     time: f64,
-    /// N \[N m\].
+    /// The tensor, in SI units.
     value: Mat3,
 }
 

@@ -1,41 +1,23 @@
 //! What a deformable body in a scene becomes: materials, friction, loads, start, resolved form.
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{BLOCK, assert_resolves_to_itself, block, start};
 use gyration::affine::{Gyration, Viscosity};
 use gyration::body::{Affine, BodyKind};
 use gyration::load::Couple;
 use gyration::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm, StVenantKirchhoff};
-use gyration::state::BodyMotion;
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
 use gyration_scene::{Record, Recorded, Scene};
 use std::fs;
 use std::path::Path;
 
-const HEAD: &str =
-    "[time]\nend = 1\nsample = 0.1\n[[body]]\nname = \"b\"\nshape = { box = { size = [1, 2, 3] } }\nmass = 12\n";
 const RUBBER: &str = "affine = { material = { mooney_rivlin = { c1 = 3000.0, c2 = 1000.0 } }, viscosity = 20.0 }\n";
-
-fn parse(lines: &str) -> Scene {
-    let text = format!("{HEAD}{lines}\n");
-    Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
-}
 
 fn affine(scene: &Scene) -> &Affine {
     let BodyKind::Affine(affine) = &scene.built().model.bodies[0].kind else { panic!("the body is affine") };
     affine
-}
-
-fn start(scene: &Scene) -> BodyMotion {
-    scene.built().state.motion(&scene.built().model, 0)
-}
-
-/// The resolved form is a scene that resolves to itself and starts alike.
-fn assert_resolves_to_itself(scene: &Scene) {
-    let resolved = scene.resolved();
-    let again = Scene::parse("again.json", &resolved.to_string(), Path::new(""), &[]);
-    let again = again.unwrap_or_else(|errors| panic!("{errors}"));
-    assert_eq!(again.resolved(), resolved);
-    assert_eq!(again.built().state, scene.built().state);
 }
 
 #[test]
@@ -69,7 +51,7 @@ fn materials_have_the_moduli_that_the_file_gives() {
         ("orthogonality = { kappa = 2 }", Material::StVenantKirchhoff(StVenantKirchhoff { lambda: 0.0, mu: 8.0 })),
     ];
     for (written, material) in rows {
-        let scene = parse(&format!("affine = {{ material = {{ {written} }} }}"));
+        let scene = block(&format!("affine = {{ material = {{ {written} }} }}"));
         assert_eq!(affine(&scene).interior.material.as_ref(), Some(material), "{written}");
         assert_resolves_to_itself(&scene);
     }
@@ -77,7 +59,7 @@ fn materials_have_the_moduli_that_the_file_gives() {
 
 #[test]
 fn an_affine_body_without_parameters_is_free_and_compressible() {
-    let scene = parse("affine = {}");
+    let scene = block("affine = {}");
     let Affine { interior, couple, resistances } = affine(&scene);
     assert!(interior.material.is_none() && !interior.dissipates() && couple.is_none() && resistances.is_empty());
     // V = 6, J = m/12 diag(1, 4, 9).
@@ -123,20 +105,20 @@ fn friction_and_loads_are_those_that_the_file_gives() {
         };
         format!("[{}]", (0..size).map(row).collect::<Vec<_>>().join(", "))
     };
-    let newtonian = parse("affine = { viscosity = \"2 Pa s\", internal_friction = { shear = \"30 mPa s\" } }");
+    let newtonian = block("affine = { viscosity = \"2 Pa s\", internal_friction = { shear = \"30 mPa s\" } }");
     let expected = Viscosity { kirchhoff: 2.0, shear: 0.03, bulk: 0.0 };
     assert_eq!(affine(&newtonian).interior.viscosity, expected);
     let resolved = newtonian.resolved();
     assert_eq!(resolved.pointer("/body/0/affine/internal_friction/bulk").unwrap(), 0.0);
     assert_resolves_to_itself(&newtonian);
-    let anisotropic = parse(&format!("affine = {{ internal_friction = {{ matrix = {} }} }}", unit(6, 1.0)));
+    let anisotropic = block(&format!("affine = {{ internal_friction = {{ matrix = {} }} }}", unit(6, 1.0)));
     // L = e_x ⊗ e_x at rest: τ = 2 e_x ⊗ e_x + 1 e_y ⊗ e_y, and S = τ.
     let stretching = Mat3::from_diagonal(&Vec3::x());
     let gyration = Gyration::of(&Mat3::identity(), &stretching).unwrap();
     let stress = affine(&anisotropic).interior.balance(&gyration, &Mat3::zeros()).stress;
     assert!((stress - Mat3::from_diagonal(&Vec3::new(2.0, 1.0, 0.0))).amax() < 1e-14, "{stress}");
     assert_resolves_to_itself(&anisotropic);
-    let resisted = parse(&format!(
+    let resisted = block(&format!(
         "affine = {{ linear_friction = {{ matrix = {}, frame = \"body\" }}, gyroscopic = {{ matrix = {} }},\n\
          couple = {{ value = [[0, \"1 N m\", 0], [0, 0, 2], [0, 0, 0]] }} }}",
         unit(12, 1.0),
@@ -157,7 +139,7 @@ fn friction_and_loads_are_those_that_the_file_gives() {
 #[test]
 fn the_table_of_a_couple_is_read_relative_to_the_scene() {
     let folder = tempfile::tempdir().unwrap();
-    let text = format!("{HEAD}affine = {{ couple = {{ table = \"loads/n.csv\" }} }}\n");
+    let text = format!("{BLOCK}affine = {{ couple = {{ table = \"loads/n.csv\" }} }}\n");
     fs::create_dir(folder.path().join("loads")).unwrap();
     let rows = "0, 1,2,3, 4,5,6, 7,8,9\r\n# a remark\r\n\r\n2, 3,2,3, 4,5,6, 7,8,\"9.5\"\r\n";
     for names in
@@ -193,7 +175,7 @@ fn a_deformable_body_starts_turned_or_strained() {
         ("", spin, Mat3::identity(), turning),
     ];
     for (first, second, p, pdot) in rows {
-        let scene = parse(&format!("affine = {{}}\n{first}\n{second}"));
+        let scene = block(&format!("affine = {{}}\n{first}\n{second}"));
         let motion = start(&scene);
         // A quarter turn is one to a few roundings.
         assert!((motion.placement.gradient - p).amax() < 1e-15, "{first} {second}");
@@ -204,7 +186,7 @@ fn a_deformable_body_starts_turned_or_strained() {
 
 #[test]
 fn the_centre_of_a_pinned_deformable_body_follows_its_pin() {
-    let scene = parse(
+    let scene = block(
         "affine = {}\nposition = [1, 2, 3]\npin = [0, 0, 1]\ngradient = [[1, 0, 0.5], [0, 1, 0], [0, 0, 2]]\n\
          gradient_rate = [[0, 0, 3], [0, 0, 0], [0, 0, -1]]",
     );
@@ -231,7 +213,7 @@ fn an_incompressible_body_starts_on_its_constraint() {
     };
     // Rounding of the file's numbers, and what is still taken to be meant.
     for (excess, growth) in [(0.0, 0.0), (1e-15, 1e-14), (3e-10, -4e-10), (-9e-10, 9e-10)] {
-        let scene = parse(&strained(excess, growth));
+        let scene = block(&strained(excess, growth));
         let motion = start(&scene);
         let p = motion.placement.gradient;
         let l = motion.velocity.gradient_rate * p.try_inverse().unwrap();
@@ -242,7 +224,7 @@ fn an_incompressible_body_starts_on_its_constraint() {
         assert_resolves_to_itself(&scene);
     }
     for (excess, growth, key) in [(1.1e-9, 0.0, "gradient"), (0.0, 1.2e-9, "gradient_rate")] {
-        let text = format!("{HEAD}{}\n", strained(excess, growth));
+        let text = format!("{BLOCK}{}\n", strained(excess, growth));
         let found = Scene::parse("scene.toml", &text, Path::new(""), &[]).err().unwrap();
         assert_eq!((found.count(), found.as_slice()[0].key.as_str()), (1, format!("body.b.{key}").as_str()), "{found}");
     }
@@ -251,7 +233,7 @@ fn an_incompressible_body_starts_on_its_constraint() {
 #[test]
 fn the_offered_start_of_an_incompressible_body_is_accepted() {
     let text = format!(
-        "{HEAD}{RUBBER}gradient = [[1.5, 0.3, 0], [0.1, 3, -0.2], [0, 0.4, 0.9]]\n\
+        "{BLOCK}{RUBBER}gradient = [[1.5, 0.3, 0], [0.1, 3, -0.2], [0, 0.4, 0.9]]\n\
          gradient_rate = [[1.5, 2, 0], [0, 4, 5], [7, 0, 1]]\n"
     );
     let found = Scene::parse("scene.toml", &text, Path::new(""), &[]).err().unwrap();
@@ -260,14 +242,14 @@ fn the_offered_start_of_an_incompressible_body_is_accepted() {
         .map(|error| error.help.trim_start_matches("write ").split(", or give").next().unwrap())
         .collect();
     assert_eq!(offered.len(), 2, "{found}");
-    let scene = parse(&format!("{RUBBER}{}\n{}", offered[0], offered[1]));
+    let scene = block(&format!("{RUBBER}{}\n{}", offered[0], offered[1]));
     assert!((start(&scene).placement.gradient.determinant() - 1.0).abs() < 1e-14);
 }
 
 #[test]
 fn a_fast_spin_is_no_change_of_volume() {
     // Rounding of tr L grows with ω: 1e8 rad/s of a body of micrometres leave more than 1e-9 1/s.
-    let scene = parse(&format!(
+    let scene = block(&format!(
         "{RUBBER}orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\nangular_velocity = [1e8, -2e8, 3e8]"
     ));
     assert_resolves_to_itself(&scene);
@@ -276,7 +258,7 @@ fn a_fast_spin_is_no_change_of_volume() {
 #[test]
 fn what_is_recorded_on_request_stands_beside_the_plan() {
     let scene = |record: &str| {
-        let text = format!("{record}\n{HEAD}affine = {{}}\n");
+        let text = format!("{record}\n{BLOCK}affine = {{}}\n");
         Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
     };
     assert_eq!(scene("").built().record, Record::default());

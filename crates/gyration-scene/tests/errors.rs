@@ -43,7 +43,6 @@ fn structure_errors_stand_at_their_place() {
             "Angle (rad)",
         ),
         ("rigid = { §stiffness = 3 }", "body.ball.rigid.stiffness", "unknown key", ""),
-        ("§contractile = {}", "body.ball.contractile", "contractile bodies are not in this version yet", "leave"),
         ("§inclusion = { inertia = true }", "body.ball.inclusion", "not in this version yet", "leave"),
         (
             "spring = [{ anchor = [0, 0, 1], stiffness = §-1 }]",

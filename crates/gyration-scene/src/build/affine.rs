@@ -5,12 +5,13 @@ use super::start::matrix;
 use crate::check::Judge;
 use crate::file::{self, Frame as WrittenFrame};
 use crate::key::Key;
-use crate::table::read_couple;
+use crate::table::read_tensors;
 use gyration::affine::{AffineBody, AnisotropicFriction, Viscosity};
 use gyration::body::Affine;
 use gyration::load::{Couple, Frame, LinearResistance, ResistanceError};
 use gyration::mass::MassProperties;
 use gyration::material::Material;
+use gyration::signal::Interpolation;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::SMatrix;
 use std::path::Path;
@@ -67,13 +68,18 @@ impl Parts {
                 None
             }
             Err(error) => {
-                let help = "add mass off the plane, or a `pin` off the plane, or leave `affine` out";
+                let help = "add mass off the plane, or a `pin` off the plane, or make the body rigid";
                 judge.note(&places.mass, error.to_string(), help);
                 None
             }
         };
         let interior = AffineBody { anisotropic: self.anisotropic, ..interior? };
         fills.then_some(Affine { interior, couple: self.couple, resistances: self.resistances })
+    }
+
+    /// Whether the elastic deformation keeps its volume.
+    pub(super) fn is_incompressible(&self) -> bool {
+        self.material.as_ref().is_some_and(Material::is_incompressible)
     }
 
     /// Whether there is a volume where stresses need one; notes what would be without effect.
@@ -88,7 +94,7 @@ impl Parts {
         for name in &without {
             let help = format!("give the body a `shape` with a volume, or leave `{name}` out");
             let message = "the body has no volume, so that a stress has nothing to act on";
-            judge.note(&places.affine.key(name), message, help);
+            judge.note(&places.interior.key(name), message, help);
         }
         without.is_empty()
     }
@@ -100,8 +106,8 @@ impl Parts {
 
 /// Where complaints go.
 pub(super) struct Places {
-    /// The table `affine`.
-    pub(super) affine: Key,
+    /// The table `affine` or `contractile`.
+    pub(super) interior: Key,
     /// What gives the body its mass.
     pub(super) mass: Key,
 }
@@ -146,7 +152,7 @@ fn internal_friction(
 fn couple(written: &file::Couple, key: &Key, base: &Path, judge: &mut Judge<'_>) -> Option<Couple> {
     match written {
         file::Couple::Value(rows) => Some(Couple::Constant(matrix(rows))),
-        file::Couple::Table(path) => match read_couple(&base.join(path)) {
+        file::Couple::Table(path) => match read_tensors(&base.join(path), 'N', Interpolation::Linear) {
             Ok(table) => Some(Couple::Table(table)),
             Err(error) => {
                 judge.note(&key.key("table"), error.to_string(), error.help());

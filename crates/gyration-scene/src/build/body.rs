@@ -1,21 +1,20 @@
 //! A body: shape, mass, surface about the centre of mass, kind, springs, pin, and how it starts.
 
-use super::affine::{Parts, Places, inverts};
+use super::kind::Deforming;
 use super::mass::{Source, lone_point, size};
+use super::setting::Setting;
 use super::shape::Maker;
 use super::start::{Attitude, placement};
 use crate::check::{Judge, Placed};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
-use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia};
+use gyration::body::{Body as Moving, Pin};
 use gyration::kinematics::Placement;
 use gyration::load::Spring;
-use gyration::mass::MassProperties;
 use gyration::shape::Shape;
 use gyration::state::Start;
 use gyration::tensor::Vec3;
-use std::path::Path;
 
 /// A body of the model and how it starts.
 #[derive(Debug, Clone)]
@@ -26,15 +25,14 @@ pub(super) struct Solid {
 
 impl Solid {
     /// Builds a body, without its contacts; notes what is wrong with it.
-    pub(super) fn new(placed: &Placed<Body>, base: &Path, judge: &mut Judge<'_>) -> Option<Self> {
+    pub(super) fn new(placed: &Placed<Body>, setting: &Setting, judge: &mut Judge<'_>) -> Option<Self> {
         let Placed { key, value } = placed;
-        one_kind(value, key, judge);
-        let attitude = Attitude::of(placed, judge);
-        let parts = value.affine.as_ref().map(|affine| Parts::of(affine, &key.key("affine"), base, judge));
+        let deforming = Deforming::of(placed, setting, judge);
+        let attitude = Attitude::of(placed, deforming.start(), judge);
         let source = Source::of(placed, judge);
         let shape = value.shape.as_ref().map(|written| {
             let density = source.map_or(Some(1.0), |source| source.density(written));
-            Maker { base, judge }.shape(written, &key.key("shape"), density)
+            Maker { base: setting.base, judge }.shape(written, &key.key("shape"), density)
         });
         let source = source?;
         let shape = match (shape, source) {
@@ -43,7 +41,7 @@ impl Solid {
             (None, _) => return None,
         };
         let mass = source.weigh(&shape, key, judge)?;
-        let kind = kind(placed, parts, &mass, judge);
+        let kind = deforming.kind(placed, &mass, shape.surface().is_some(), judge);
         let arm = value.pin.as_ref().map(si);
         near(arm.as_ref(), &shape, key, judge);
         let kind = kind?;
@@ -61,49 +59,6 @@ impl Solid {
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
         };
         Some(Self { body, start })
-    }
-}
-
-/// Notes a body of two kinds.
-fn one_kind(body: &Body, key: &Key, judge: &mut Judge<'_>) {
-    if body.rigid.is_some() && body.affine.is_some() {
-        judge.note(&key.key("affine"), "the body is also `rigid`", "keep one of `rigid` and `affine`");
-    }
-}
-
-/// The kind of a body, with its inertia; notes a mass that the kind does not allow.
-fn kind(
-    placed: &Placed<Body>,
-    parts: Option<Option<Parts>>,
-    mass: &MassProperties,
-    judge: &mut Judge<'_>,
-) -> Option<BodyKind> {
-    let name = if placed.value.mass_properties.is_some() { "mass_properties" } else { "shape" };
-    let arm = placed.value.pin.as_ref().map(si);
-    let places = Places { affine: placed.key.key("affine"), mass: placed.key.key(name) };
-    match parts {
-        None => inertia(mass, arm, &places.mass, judge).map(BodyKind::Rigid),
-        Some(parts) => {
-            let affine = parts?.with_mass(mass, arm.as_ref(), &places, judge)?;
-            Some(BodyKind::Affine(Box::new(affine)))
-        }
-    }
-}
-
-/// The inertia about the centre of mass or the pin; notes one that cannot be inverted.
-fn inertia(mass: &MassProperties, arm: Option<Vec3>, key: &Key, judge: &mut Judge<'_>) -> Option<RigidInertia> {
-    let pin = arm.map(|point| Pin { point, anchor: Vec3::zeros() });
-    match RigidInertia::new(mass, pin.as_ref()) {
-        Ok(inertia) if inverts(&inertia.tensor, &inertia.inverse) => Some(inertia),
-        Ok(inertia) => {
-            let message = format!("the inertia, {:e} kg m², leaves the range of numbers", inertia.tensor.amax());
-            judge.note(key, message, "change the size or the mass");
-            None
-        }
-        Err(error) => {
-            judge.note(key, error.to_string(), "add mass off the line, or a `pin` off the line");
-            None
-        }
     }
 }
 

@@ -1,11 +1,17 @@
 //! The start of an incompressible body: |det P − 1| and |tr L| · 1 s within 1e-9 are projected, more is refused.
 //!
+//! A contractile body keeps det F, F = P G⁻¹, so that det P is to be det G. Its tr L is free while it is driven; it is 0 if its
+//! contraction is isochoric, and tr Ġ G⁻¹ if that is prescribed. With g = det G and r = tr L asked for, P g^−⅓ and
+//! (Ṗ − r/3 P) g^−⅓ are those of a body of determinant one.
+//!
 //! What differs from the constraint by rounding only is left as it is, so that a projected start is its own projection
 //! and a resolved scene resolves to itself.
 
 use crate::check::Judge;
 use crate::key::Key;
 use gyration::affine::AffineBody;
+use gyration::contractile::{Contraction, Source};
+use gyration::signal::Jet;
 use gyration::tensor::Mat3;
 
 /// The distance from det P = 1, and from tr L = 0 \[1/s\], up to which a start is taken to be meant on the constraint.
@@ -13,66 +19,132 @@ const ALLOWED: f64 = 1e-9;
 /// The rounding of a sum of products, in units of its terms: their number, and as much again for their factors.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// What an incompressible material asks of the start of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Kept {
+    /// det P, by the contraction.
+    volume: f64,
+    /// tr L \[1/s\] and its rounding; none if it is free.
+    growth: Option<(f64, f64)>,
+    /// What messages call what is kept at one.
+    kept: &'static str,
+}
+
+impl Kept {
+    /// Of a body that does not contract: det P = 1, tr L = 0.
+    pub(super) const VOLUME: Self = Self { volume: 1.0, growth: Some((0.0, 0.0)), kept: "its determinant" };
+
+    /// Of a body that starts with this contraction.
+    pub(super) fn beside(contraction: &Contraction, start: &Jet) -> Self {
+        let growth = match (&contraction.source, contraction.kept_volume) {
+            (Source::Prescribed(_), _) => growth(&start.value, &start.rate),
+            (Source::Driven { .. }, Some(_)) => Some((0.0, 0.0)),
+            (Source::Driven { .. }, None) => None,
+        };
+        Self { volume: start.value.determinant(), growth, kept: "det P/det G" }
+    }
+
+    /// What is to be one: det P/g, with the sum of the sizes of its terms.
+    fn determinant(&self, gradient: &Mat3) -> (f64, f64) {
+        (gradient.determinant() / self.volume, terms(gradient) / self.volume)
+    }
+
+    /// Ṗ with the tr L asked for, the way that a pressure would push.
+    fn nearest_rate(&self, body: &AffineBody, gradient: &Mat3, rate: &Mat3) -> Mat3 {
+        let (size, (asked, _)) = (self.volume.cbrt(), self.growth.unwrap_or_default());
+        let swelling = gradient * (asked / 3.0);
+        body.project(&(gradient / size), &((rate - swelling) / size)).rate * size + swelling
+    }
+
+    /// The nearest P of the volume asked for, the way that a pressure would push; else P with its volume scaled.
+    fn nearest(&self, body: &AffineBody, gradient: &Mat3) -> Option<Mat3> {
+        let size = self.volume.cbrt();
+        let scaled = gradient / self.determinant(gradient).0.cbrt();
+        let pushed = body.project(&(gradient / size), &Mat3::zeros()).gradient * size;
+        [pushed, scaled].into_iter().find(|near| (self.determinant(near).0 - 1.0).abs() <= ALLOWED)
+    }
+}
+
 /// P and Ṗ on the constraint of the body, if it has one; notes those too far from it, with the nearest that are on it.
-pub(super) fn hold(body: &AffineBody, given: (Mat3, Mat3), key: &Key, judge: &mut Judge<'_>) -> Option<(Mat3, Mat3)> {
+pub(super) fn hold(
+    body: &AffineBody,
+    kept: &Kept,
+    given: (Mat3, Mat3),
+    key: &Key,
+    judge: &mut Judge<'_>,
+) -> Option<(Mat3, Mat3)> {
     let (gradient, rate) = given;
     if !body.is_incompressible() {
         return in_range(&gradient, &rate, key, judge).then_some(given);
     }
-    let held = gradient_held(body, &gradient, &key.key("gradient"), judge);
+    let held = gradient_held(body, kept, &gradient, &key.key("gradient"), judge);
     // Beside a gradient that is refused the rate is judged with the one that is offered, so that both are mended at once.
-    let judged = if held.is_some() { gradient } else { nearest(body, &gradient).unwrap_or(gradient) };
+    let judged = if held.is_some() { gradient } else { kept.nearest(body, &gradient).unwrap_or(gradient) };
     let rate = in_range(&judged, &rate, key, judge).then_some(rate)?;
-    let rate = rate_held(body, [&judged, &held.unwrap_or(judged)], &rate, key, judge);
-    Some((held?, rate?))
+    let (rate, fault) = rate_held(body, kept, [&judged, &held.unwrap_or(judged)], &rate)?;
+    if let Some(Fault { message, help }) = &fault {
+        judge.note(&key.key("gradient_rate"), message, help);
+    }
+    fault.is_none().then_some((held?, rate))
 }
 
-fn gradient_held(body: &AffineBody, gradient: &Mat3, key: &Key, judge: &mut Judge<'_>) -> Option<Mat3> {
-    let determinant = gradient.determinant();
+fn gradient_held(body: &AffineBody, kept: &Kept, gradient: &Mat3, key: &Key, judge: &mut Judge<'_>) -> Option<Mat3> {
+    let (determinant, terms) = kept.determinant(gradient);
     let excess = (determinant - 1.0).abs();
-    if excess <= (ROUNDING * terms(gradient)).min(ALLOWED) {
+    if excess <= (ROUNDING * terms).min(ALLOWED) {
         return Some(*gradient);
     }
-    let nearest = nearest(body, gradient);
+    let nearest = kept.nearest(body, gradient);
     if excess <= ALLOWED {
         return nearest;
     }
-    let message = format!("its determinant is {determinant:?}, which an incompressible body keeps at 1");
+    let message = format!("{} is {determinant:?}, which an incompressible body keeps at 1", kept.kept);
     let help = match nearest {
         Some(nearest) => format!("write gradient = {}, or give the material a `bulk` modulus", rows(&nearest)),
-        None => "write a matrix of determinant 1, or give the material a `bulk` modulus".to_owned(),
+        None if kept.volume == 1.0 => {
+            "write a matrix of determinant 1, or give the material a `bulk` modulus".to_owned()
+        }
+        None => format!("write a matrix of determinant {:?}, or give the material a `bulk` modulus", kept.volume),
     };
     judge.note(key, message, help);
     None
 }
 
-/// Ṗ with tr L = 0 at the gradient `held`, if that was so, nearly, at the gradient `judged`.
-fn rate_held(
-    body: &AffineBody,
-    [judged, held]: [&Mat3; 2],
-    rate: &Mat3,
-    key: &Key,
-    judge: &mut Judge<'_>,
-) -> Option<Mat3> {
-    let (given, _) = growth(judged, rate)?;
-    let (left, rounding) = growth(held, rate)?;
-    if left.abs() <= rounding {
-        return Some(*rate);
-    }
-    let nearest = body.project(held, rate).rate;
-    if given.abs() <= ALLOWED {
-        return Some(nearest);
-    }
-    let message = format!("its volume would change at tr L = {given:?} 1/s, L = Ṗ P⁻¹, and the body is incompressible");
-    let help = match nearest.iter().all(|entry| entry.is_finite()) {
-        true => format!("write gradient_rate = {}, or give the material a `bulk` modulus", rows(&nearest)),
-        false => "write a rate with tr L = 0, or give the material a `bulk` modulus".to_owned(),
-    };
-    judge.note(&key.key("gradient_rate"), message, help);
-    None
+/// Message and fix.
+struct Fault {
+    message: String,
+    help: String,
 }
 
-/// tr L \[1/s\] and its rounding: nine products of entries, whose cancellation a fast spin makes visible.
+/// Ṗ with the tr L asked for at the gradient `held`, if it had that, nearly, at the gradient `judged`; else also the fault.
+fn rate_held(body: &AffineBody, kept: &Kept, [judged, held]: [&Mat3; 2], rate: &Mat3) -> Option<(Mat3, Option<Fault>)> {
+    let Some((asked, allowance)) = kept.growth else { return Some((*rate, None)) };
+    let (given, _) = growth(judged, rate)?;
+    let (left, rounding) = growth(held, rate)?;
+    if (left - asked).abs() <= rounding + allowance {
+        return Some((*rate, None));
+    }
+    let nearest = kept.nearest_rate(body, held, rate);
+    if (given - asked).abs() <= ALLOWED {
+        return Some((nearest, None));
+    }
+    let wanted = match asked {
+        0.0 => "tr L = 0".to_owned(),
+        _ => format!("tr L = {asked:?} 1/s"),
+    };
+    let why = match asked {
+        0.0 => "the body is incompressible".to_owned(),
+        _ => format!("the contraction of the incompressible body at {asked:?} 1/s"),
+    };
+    let message = format!("its volume would change at tr L = {given:?} 1/s, L = Ṗ P⁻¹, and {why}");
+    let help = match nearest.iter().all(|entry| entry.is_finite()) {
+        true => format!("write gradient_rate = {}, or give the material a `bulk` modulus", rows(&nearest)),
+        false => format!("write a rate with {wanted}, or give the material a `bulk` modulus"),
+    };
+    Some((nearest, Some(Fault { message, help })))
+}
+
+/// tr Ṗ P⁻¹ \[1/s\] and its rounding: nine products of entries, whose cancellation a fast spin makes visible.
 fn growth(gradient: &Mat3, rate: &Mat3) -> Option<(f64, f64)> {
     let inverse = gradient.try_inverse()?;
     Some(((rate * inverse).trace(), 9.0 * ROUNDING * rate.amax() * inverse.amax()))
@@ -92,13 +164,6 @@ fn in_range(gradient: &Mat3, rate: &Mat3, key: &Key, judge: &mut Judge<'_>) -> b
         judge.note(&key.key(name), "the velocity gradient leaves the range of numbers", "write smaller rates");
     }
     held
-}
-
-/// The nearest P of determinant one, the way that a pressure would push; else P with its volume scaled away.
-fn nearest(body: &AffineBody, gradient: &Mat3) -> Option<Mat3> {
-    let scaled = gradient / gradient.determinant().cbrt();
-    let pushed = body.project(gradient, &Mat3::zeros()).gradient;
-    [pushed, scaled].into_iter().find(|near| (near.determinant() - 1.0).abs() <= ALLOWED)
 }
 
 /// The sum of the sizes of the terms of det P.

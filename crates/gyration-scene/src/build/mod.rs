@@ -6,17 +6,22 @@ mod affine;
 mod body;
 mod constraint;
 mod contact;
+mod contractile;
+mod kind;
 mod mass;
 mod material;
 mod orientation;
 mod overlap;
 mod resolve;
 mod salvage;
+mod setting;
 mod shape;
+mod signal;
 mod start;
 mod support;
 
 pub(crate) use salvage::salvage;
+pub(crate) use setting::Setting;
 
 use crate::check::{Draft, Judge};
 use crate::file::{self, Method, Recorded, Solver, Time};
@@ -25,7 +30,6 @@ use body::Solid;
 use gyration::model::Model;
 use gyration::state::{Start, State};
 use gyration::tensor::Vec3;
-use std::path::Path;
 
 /// A scene ready to run.
 #[derive(Debug, Clone)]
@@ -103,9 +107,9 @@ impl Plan {
 
 /// Builds what a draft describes; none if anything about it, or before it, was found wrong.
 ///
-/// Fills in what the file leaves to be derived (`resolve`). Files of meshes are relative to `base`.
-pub(crate) fn build(draft: &mut Draft, base: &Path, judge: &mut Judge<'_>) -> Option<Built> {
-    let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, base, judge)).collect();
+/// Fills in what the file leaves to be derived (`resolve`).
+pub(crate) fn build(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'_>) -> Option<Built> {
+    let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, setting, judge)).collect();
     let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
     contact::attach(draft, &mut solids, judge);
     for (body, solid) in draft.bodies.iter_mut().zip(&solids) {

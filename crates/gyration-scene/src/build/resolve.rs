@@ -2,8 +2,9 @@
 //!
 //! A scene resolves to itself: what is written here is read again as it stands.
 
-use crate::file::{Body, InternalFriction, Rigid};
-use crate::quantity::{GradientRate, Velocity as Speed};
+use crate::file::{Affine, Body, Contractile, Rigid, Signal};
+use crate::quantity::{GradientRate, Pressure, Velocity as Speed};
+use gyration::kinematics::{Placement, Velocity};
 use gyration::state::Start;
 use gyration::tensor::Mat3;
 
@@ -16,22 +17,59 @@ pub(super) fn resolve(body: &mut Body, start: &Start) {
             body.angular_velocity.get_or_insert_default();
             body.velocity = start.velocity.map(Speed).into();
         }
-        Start::Affine(placement, velocity) | Start::Contractile(placement, velocity, _) => {
-            body.orientation = None;
-            body.angular_velocity = None;
-            body.gradient = Some(rows(&placement.gradient));
-            body.gradient_rate = Some(rows(&velocity.gradient_rate).map(|row| row.map(GradientRate)));
-            body.velocity = velocity.velocity.map(Speed).into();
+        Start::Affine(placement, velocity) => {
+            moves(body, placement, velocity);
+            if let Some(affine) = &mut body.affine {
+                complete(affine);
+            }
         }
-    }
-    if let Some(friction) = body.affine.as_mut().and_then(|affine| affine.internal_friction.as_mut()) {
-        complete(friction);
+        Start::Contractile(placement, velocity, contraction) => {
+            moves(body, placement, velocity);
+            if let Some(contractile) = &mut body.contractile {
+                complete(&mut contractile.affine);
+                contracts(contractile, contraction);
+            }
+        }
     }
 }
 
-/// Of the two coefficients the one not given is zero.
-fn complete(friction: &mut InternalFriction) {
-    if friction.matrix.is_none() {
+/// Placement and velocity of a body that deforms.
+fn moves(body: &mut Body, placement: &Placement, velocity: &Velocity) {
+    body.orientation = None;
+    body.angular_velocity = None;
+    body.gradient = Some(rows(&placement.gradient));
+    body.gradient_rate = Some(rows(&velocity.gradient_rate).map(|row| row.map(GradientRate)));
+    body.velocity = velocity.velocity.map(Speed).into();
+}
+
+/// How a body contracts, and where its ramps start.
+fn contracts(written: &mut Contractile, contraction: &Mat3) {
+    if let Some(drive) = &mut written.drive {
+        start_ramps(drive, [[Pressure(0.0); 3]; 3]);
+    }
+    match &mut written.prescribed {
+        Some(prescribed) => start_ramps(prescribed, rows(&Mat3::identity())),
+        None => {
+            written.contraction = Some(rows(contraction));
+            written.isochoric.get_or_insert_default();
+            written.spin.get_or_insert_default();
+        }
+    }
+}
+
+fn start_ramps<T: Copy>(signal: &mut Signal<T>, rest: [[T; 3]; 3]) {
+    match signal {
+        Signal::Ramp(ramp) => {
+            ramp.from.get_or_insert(rest);
+        }
+        Signal::Sum(parts) => parts.iter_mut().for_each(|part| start_ramps(part, rest)),
+        Signal::Constant(_) | Signal::Sine(_) | Signal::Square(_) | Signal::Table(_) => {}
+    }
+}
+
+/// Of the two coefficients of internal friction the one not given is zero.
+fn complete(affine: &mut Affine) {
+    if let Some(friction) = affine.internal_friction.as_mut().filter(|friction| friction.matrix.is_none()) {
         friction.shear.get_or_insert_default();
         friction.bulk.get_or_insert_default();
     }

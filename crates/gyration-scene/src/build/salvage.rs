@@ -5,13 +5,13 @@
 //! missing key can have caused.
 
 use super::body::Solid;
+use super::setting::Setting;
 use crate::check::{Judge, Placed};
 use crate::document::{Document, Findings};
 use crate::file::Body;
 use crate::key::Key;
 use crate::tree::Node;
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Keys whose values are judged by themselves.
 const ALONE: [&str; 3] = ["orientation", "mass_properties", "spring"];
@@ -21,7 +21,7 @@ const VOLUME: [&str; 2] = ["shape", "mass_properties"];
 const WEIGHTS: [&str; 3] = ["density", "mass", "mass_properties"];
 
 /// Notes what is wrong in the well-formed keys of bodies that are not well formed.
-pub(crate) fn salvage(document: &Document, base: &Path, findings: &mut Findings) {
+pub(crate) fn salvage(document: &Document, setting: &Setting, findings: &mut Findings) {
     let section = Key::root().key("body");
     let dirty: BTreeSet<Key> = findings.iter().map(|finding| finding.key.clone()).collect();
     for (index, node) in document.root.get("body").map(Node::items).unwrap_or_default().iter().enumerate() {
@@ -42,12 +42,12 @@ pub(crate) fn salvage(document: &Document, base: &Path, findings: &mut Findings)
         if written.contains_key("shape") && !WEIGHTS.iter().any(|name| is_dirty(name)) {
             judged.push("shape");
         }
-        if written.contains_key("affine") && !VOLUME.iter().any(|name| is_dirty(name)) {
-            judged.push("affine");
+        if !VOLUME.iter().any(|name| is_dirty(name)) {
+            judged.extend(["affine", "contractile"].into_iter().filter(|name| written.contains_key(*name)));
         }
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Findings::default();
-        Solid::new(&Placed { key: key.clone(), value }, base, &mut Judge { document, findings: &mut found });
+        Solid::new(&Placed { key: key.clone(), value }, setting, &mut Judge { document, findings: &mut found });
         let counts = |place: &Key| judged.iter().any(|name| key.key(name).holds(place));
         findings.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
     }

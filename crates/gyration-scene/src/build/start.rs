@@ -2,17 +2,20 @@
 //!
 //!   P = R of an `orientation`, or a `gradient`;   Ṗ = [ω]× P of an `angular_velocity`, or a `gradient_rate`
 //!
-//! The centre of a pinned body moves at ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible
+//! A contractile body starts relaxed, P = R G, unless it has a `gradient`, and follows a contraction that is prescribed,
+//! Ṗ = [ω]× P + F Ġ with F = P G⁻¹, unless it has a `gradient_rate`. The centre of a pinned body moves at ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible
 //! body starts on its constraint (`constraint`).
 
-use super::constraint;
+use super::constraint::{self, Kept};
 use super::orientation::orientation;
 use crate::check::{Judge, Placed};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
+use gyration::affine::AffineBody;
 use gyration::body::BodyKind;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
+use gyration::signal::Jet;
 use gyration::state::{RigidStart, Start};
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
 
@@ -23,13 +26,16 @@ pub(super) struct Attitude {
     angular_velocity: Vec3,
     gradient: Mat3,
     gradient_rate: Mat3,
+    /// G and its rate; I of a body that does not contract.
+    contraction: Jet,
 }
 
 impl Attitude {
-    /// Reads P and Ṗ; notes what cannot be, what is said twice, and what only another kind of body has.
-    pub(super) fn of(placed: &Placed<Body>, judge: &mut Judge<'_>) -> Option<Self> {
+    /// Reads P and Ṗ of a body that starts with a contraction, if it has one; notes what cannot be, what is said twice,
+    /// and what only another kind of body has.
+    pub(super) fn of(placed: &Placed<Body>, contraction: Option<Jet>, judge: &mut Judge<'_>) -> Option<Self> {
         let Placed { key, value } = placed;
-        match value.affine {
+        match value.deformable() {
             None => deformable_keys(value, key, judge),
             Some(_) => said_twice(value, key, judge),
         }
@@ -39,41 +45,68 @@ impl Attitude {
             invertible(&gradient, &key.key("gradient"), judge).then_some(gradient)
         });
         let orientation = turned.unwrap_or(Some(Quaternion::IDENTITY))?;
-        let gradient = gradient.unwrap_or_else(|| Some(orientation.rotation()))?;
+        let relaxed = || contraction.map_or(orientation.rotation(), |jet| orientation.rotation() * jet.value);
+        let gradient = gradient.unwrap_or_else(|| Some(relaxed()))?;
         let angular_velocity = si(&value.angular_velocity.unwrap_or_default());
-        let spin = || cross_matrix(&angular_velocity) * gradient;
-        let gradient_rate = value.gradient_rate.as_ref().map_or_else(spin, matrix);
-        Some(Self { orientation, angular_velocity, gradient, gradient_rate })
+        let contraction = contraction.unwrap_or(Jet { value: Mat3::identity(), ..Jet::default() });
+        let moves = || cross_matrix(&angular_velocity) * gradient + following(&gradient, &contraction);
+        let gradient_rate = value.gradient_rate.as_ref().map_or_else(moves, matrix);
+        Some(Self { orientation, angular_velocity, gradient, gradient_rate, contraction })
     }
 
     /// The whole start of a body of this kind; notes one that its constraint or its pin does not allow.
     pub(super) fn start(&self, placed: &Placed<Body>, kind: &BodyKind, judge: &mut Judge<'_>) -> Option<Start> {
-        let position = si(&placed.value.position);
-        let pin = placed.value.pin.as_ref().map(si);
         match kind {
             BodyKind::Rigid(_) => {
                 let Self { orientation, angular_velocity, .. } = *self;
+                let (position, pin) = (si(&placed.value.position), placed.value.pin.as_ref().map(si));
                 let follows = pin.map(|pin| (orientation.rotation() * pin).cross(&angular_velocity));
                 let velocity = center_velocity(placed, follows, judge)?;
                 Some(Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }))
             }
-            // Scenes have no contractile bodies yet.
-            BodyKind::Contractile(_) => None,
             BodyKind::Affine(affine) => {
-                let given = (self.gradient, self.gradient_rate);
-                let (gradient, gradient_rate) = constraint::hold(&affine.interior, given, &placed.key, judge)?;
-                let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), judge)?;
-                Some(Start::Affine(Placement { position, gradient }, Velocity { velocity, gradient_rate }))
+                let (place, velocity) = self.deformable_start(placed, &affine.interior, &Kept::VOLUME, judge)?;
+                Some(Start::Affine(place, velocity))
+            }
+            BodyKind::Contractile(contractile) => {
+                let kept = Kept::beside(&contractile.contraction, &self.contraction);
+                let (place, velocity) = self.deformable_start(placed, &contractile.affine.interior, &kept, judge)?;
+                Some(Start::Contractile(place, velocity, self.contraction.value))
             }
         }
     }
+
+    fn deformable_start(
+        &self,
+        placed: &Placed<Body>,
+        body: &AffineBody,
+        kept: &Kept,
+        judge: &mut Judge<'_>,
+    ) -> Option<(Placement, Velocity)> {
+        let given = (self.gradient, self.gradient_rate);
+        let (gradient, gradient_rate) = constraint::hold(body, kept, given, &placed.key, judge)?;
+        let pin: Option<Vec3> = placed.value.pin.as_ref().map(si);
+        let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), judge)?;
+        let place = Placement { position: si(&placed.value.position), gradient };
+        Some((place, Velocity { velocity, gradient_rate }))
+    }
+}
+
+/// F Ġ, F = P G⁻¹: the rate of a body that follows its contraction and keeps its elastic strain.
+fn following(gradient: &Mat3, contraction: &Jet) -> Mat3 {
+    if contraction.rate == Mat3::zeros() {
+        return Mat3::zeros();
+    }
+    // G has been found to have an inverse.
+    let inverse = contraction.value.try_inverse().unwrap_or_else(Mat3::identity);
+    gradient * inverse * contraction.rate
 }
 
 /// Where a body starts.
 pub(super) fn placement(start: &Start) -> Placement {
     match start {
         Start::Rigid(start) => Placement { position: start.position, gradient: start.orientation.rotation() },
-        Start::Affine(placement, _) | Start::Contractile(placement, _, _) => *placement,
+        Start::Affine(placement, _) | Start::Contractile(placement, ..) => *placement,
     }
 }
 
@@ -106,22 +139,27 @@ fn said_twice(body: &Body, key: &Key, judge: &mut Judge<'_>) {
     }
 }
 
-/// Whether det P > 0 beyond rounding, and P⁻¹ can be held in numbers; notes it otherwise.
-fn invertible(gradient: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
-    let determinant = gradient.determinant();
-    let help = "write a matrix of positive determinant; [[1, 0, 0], [0, 1, 0], [0, 0, 1]] leaves the body as it is";
+/// Whether a matrix has a positive determinant beyond rounding, and an inverse that numbers can hold; notes it otherwise.
+pub(super) fn invertible(matrix: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
+    let flaw = flaw(matrix);
+    if let Some(message) = &flaw {
+        let help = "write a matrix of positive determinant; [[1, 0, 0], [0, 1, 0], [0, 0, 1]] leaves the body as it is";
+        judge.note(key, message, help);
+    }
+    flaw.is_none()
+}
+
+/// Why a matrix cannot be a gradient or a contraction.
+pub(super) fn flaw(matrix: &Mat3) -> Option<String> {
+    let determinant = matrix.determinant();
     if determinant < f64::MIN_POSITIVE {
         let what = if determinant < 0.0 { "turned inside out" } else { "pressed flat" };
-        judge.note(key, format!("its determinant is {determinant:?}: the body would be {what}"), help);
-        return false;
+        return Some(format!("its determinant is {determinant:?}: the body would be {what}"));
     }
-    let residual = gradient.try_inverse().map(|inverse| gradient * inverse - Mat3::identity());
+    let residual = matrix.try_inverse().map(|inverse| matrix * inverse - Mat3::identity());
     // Of all entries: the largest of a matrix passes over what is not a number.
     let inverts = residual.is_some_and(|residual| residual.iter().all(|entry| entry.abs() < 0.5));
-    if !inverts {
-        judge.note(key, "it cannot be told from a matrix that has no inverse", help);
-    }
-    inverts
+    (!inverts).then(|| "it cannot be told from a matrix that has no inverse".to_owned())
 }
 
 /// ṗ₀ as given, or as it follows from the pin; notes a given one that does not agree with the pin.
@@ -134,7 +172,7 @@ fn center_velocity(placed: &Placed<Body>, follows: Option<Vec3>, judge: &mut Jud
     const AGREEMENT: f64 = 1e-9;
     if written && (velocity - follows).norm() > AGREEMENT * follows.norm().max(velocity.norm()) {
         let [x, y, z] = follows.into();
-        let (what, keys) = match placed.value.affine {
+        let (what, keys) = match placed.value.deformable() {
             None => ("spin", "`angular_velocity`"),
             Some(_) => ("rate", "`gradient_rate` or `angular_velocity`"),
         };

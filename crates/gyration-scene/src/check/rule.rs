@@ -1,8 +1,9 @@
 //! The JSON Schema of the file's types as rules that are quick to walk.
 //!
 //! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
-//! `minItems`, `maxItems`, `oneOf` (words, or tables with one key of several), `minimum`, `maximum`, `exclusiveMinimum`,
-//! and the format's own `unit` and `later`. A test makes sure that nothing else occurs.
+//! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them),
+//! `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit` and `later`. A test makes sure that nothing else
+//! occurs.
 
 use crate::file::LATER;
 use crate::quantity::UNIT;
@@ -40,16 +41,18 @@ pub(super) enum Rule {
     Table { fields: BTreeMap<String, Field>, required: Vec<String> },
     /// An array of so many items.
     Array { item: Box<Field>, least: usize, most: usize },
+    /// One table of this kind, or an array of them.
+    Several(Box<Field>),
+    /// True or false.
+    Boolean,
     /// A pure number.
     Number,
     /// A number in SI units or a string with a unit.
     Quantity { symbol: String, unit: Unit, example: String },
     /// Any string.
     Text,
-    /// One of these strings.
-    Words(Vec<String>),
-    /// A table with one of these keys.
-    Tagged(BTreeMap<String, Field>),
+    /// One of these strings, or a table with one of these keys; there may be none of either.
+    Choice { words: Vec<String>, tags: BTreeMap<String, Field> },
     /// A schema that is not understood: nothing is checked.
     Unknown,
 }
@@ -92,11 +95,15 @@ fn field(schema: &Json) -> Field {
 }
 
 fn rule(schema: &Json) -> Rule {
-    if let Some(reference) = text(schema, "$ref") {
-        return Rule::Shared(reference.rsplit('/').next().unwrap_or_default().to_owned());
+    if let Some(name) = rule_name(schema) {
+        return Rule::Shared(name.to_owned());
     }
     if let Some(choices) = schema.get("oneOf").and_then(Json::as_array) {
         return choice(choices);
+    }
+    if let Some([one, many]) = schema.get("anyOf").and_then(Json::as_array).map(Vec::as_slice) {
+        let matches = many.get("items").is_some_and(|items| rule_name(items) == rule_name(one));
+        return if matches { Rule::Several(Box::new(field(one))) } else { Rule::Unknown };
     }
     if let Some(symbol) = text(schema, UNIT) {
         return quantity(symbol, schema);
@@ -104,16 +111,22 @@ fn rule(schema: &Json) -> Rule {
     match text(schema, "type") {
         Some("object") => table(schema),
         Some("array") => array(schema),
+        Some("boolean") => Rule::Boolean,
         Some("number") => Rule::Number,
         Some("string") => Rule::Text,
         _ => Rule::Unknown,
     }
 }
 
-/// Words, if every choice is a constant; else tables of one key each.
+/// The name of a shared rule.
+fn rule_name(schema: &Json) -> Option<&str> {
+    text(schema, "$ref")?.rsplit('/').next()
+}
+
+/// Choices that are constants are words, the others tables of one key each.
 fn choice(choices: &[Json]) -> Rule {
-    let words: Option<Vec<String>> = choices.iter().map(|choice| text(choice, "const").map(str::to_owned)).collect();
-    words.map_or_else(|| Rule::Tagged(choices.iter().flat_map(fields).collect()), Rule::Words)
+    let words = choices.iter().filter_map(|choice| text(choice, "const").map(str::to_owned)).collect();
+    Rule::Choice { words, tags: choices.iter().flat_map(fields).collect() }
 }
 
 fn quantity(symbol: &str, schema: &Json) -> Rule {
@@ -150,11 +163,11 @@ mod tests {
         match &field.rule {
             Rule::Unknown => assert!(field.later.is_some(), "{place} is not understood"),
             Rule::Shared(name) => assert!(RULES.shared.contains_key(name), "{place}: {name} is not defined"),
-            Rule::Table { fields, .. } | Rule::Tagged(fields) => {
+            Rule::Table { fields, .. } | Rule::Choice { tags: fields, .. } => {
                 fields.iter().for_each(|(name, field)| assert_understood(field, &format!("{place}.{name}")));
             }
-            Rule::Array { item, .. } => assert_understood(item, place),
-            Rule::Number | Rule::Quantity { .. } | Rule::Text | Rule::Words(_) => {}
+            Rule::Array { item, .. } | Rule::Several(item) => assert_understood(item, place),
+            Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::Text => {}
         }
     }
 

@@ -27,7 +27,11 @@ impl Walker<'_> {
         }
         match (&node.value, self.rules.resolve(&field.rule)) {
             (Value::Table(table), Rule::Table { fields, required }) => self.table(table, node, key, fields, required),
-            (Value::Table(table), Rule::Tagged(tags)) => self.tagged(table, node, key, tags),
+            (Value::Table(table), Rule::Choice { words, tags }) if !tags.is_empty() => {
+                self.tagged(table, node, key, (words, tags));
+            }
+            (Value::Array(items), Rule::Several(item)) => self.items(items, key, item),
+            (Value::Table(_), Rule::Several(item)) => self.visit(node, key, item),
             (Value::Array(items), Rule::Array { item, least, most }) => {
                 let count = items.len();
                 if !(*least..=*most).contains(&count) {
@@ -35,7 +39,7 @@ impl Walker<'_> {
                     let message = format!("expected {expected} items, found {count}");
                     self.findings.at(node.span, key, message, format!("write {}", self.expected(&field.rule)));
                 }
-                items.iter().enumerate().for_each(|(index, node)| self.visit(node, &key.index(index), item));
+                self.items(items, key, item);
             }
             (Value::Number(number), Rule::Number) => self.limits(*number, node, key, field.limits, ""),
             (Value::Number(number), Rule::Quantity { symbol, .. }) => {
@@ -47,11 +51,12 @@ impl Walker<'_> {
                     Err((message, help)) => self.findings.at(node.span, key, message, help),
                 }
             }
-            (Value::Text(text), Rule::Words(words)) if !words.contains(text) => {
+            (Value::Text(text), Rule::Choice { words, .. }) if words.contains(text) => {}
+            (Value::Text(text), Rule::Choice { words, tags }) if !words.is_empty() && !tags.contains_key(text) => {
                 let help = suggest::fix(text, words.iter().map(String::as_str), "one of");
                 self.findings.at(node.span, key, format!("\"{text}\" is not known here"), help);
             }
-            (Value::Text(_), Rule::Text | Rule::Words(_)) | (_, Rule::Unknown) => {}
+            (Value::Text(_), Rule::Text) | (Value::Boolean(_), Rule::Boolean) | (_, Rule::Unknown) => {}
             (_, rule) => {
                 let expected = self.expected(rule);
                 let help = mismatch_help(&node.value, rule, &expected);
@@ -75,10 +80,14 @@ impl Walker<'_> {
         }
     }
 
-    fn tagged(&mut self, table: &Table, node: &Node, key: &Key, tags: &BTreeMap<String, Field>) {
+    fn items(&mut self, items: &[Node], key: &Key, item: &Field) {
+        items.iter().enumerate().for_each(|(index, node)| self.visit(node, &key.index(index), item));
+    }
+
+    fn tagged(&mut self, table: &Table, node: &Node, key: &Key, (words, tags): (&[String], &BTreeMap<String, Field>)) {
         self.keys(table, key, tags, "one of");
         if table.len() != 1 {
-            let expected = self.expected(&Rule::Tagged(tags.clone()));
+            let expected = choices(words, tags);
             let message = format!("expected exactly one key, found {}", table.len());
             self.findings.at(node.span, key, message, format!("write {expected}"));
         }
@@ -132,11 +141,9 @@ impl Walker<'_> {
             Rule::Number => "a number".to_owned(),
             Rule::Quantity { symbol, example, .. } => format!("a number in {symbol} or a string such as \"{example}\""),
             Rule::Text => "a string".to_owned(),
-            Rule::Words(words) => format!("one of \"{}\"", words.join("\", \"")),
-            Rule::Tagged(tags) => {
-                let tags: Vec<&str> = tags.keys().map(String::as_str).collect();
-                format!("a table with one key of {}", tags.join(", "))
-            }
+            Rule::Boolean => "true or false".to_owned(),
+            Rule::Choice { words, tags } => choices(words, tags),
+            Rule::Several(item) => format!("{}, or an array of such", self.expected(&item.rule)),
             Rule::Array { item, least, most } => {
                 let count = if least == most { format!("{least} items") } else { "items".to_owned() };
                 format!("an array of {count}, each {}", self.expected(&item.rule))
@@ -154,6 +161,21 @@ impl Walker<'_> {
     }
 }
 
+/// One of some words, or a table with one of some keys.
+fn choices(words: &[String], tags: &BTreeMap<String, Field>) -> String {
+    let keys: Vec<&str> = tags.keys().map(String::as_str).collect();
+    let words = match words {
+        [] => String::new(),
+        [only] => format!("\"{only}\""),
+        _ => format!("one of \"{}\"", words.join("\", \"")),
+    };
+    match (words.is_empty(), keys.is_empty()) {
+        (_, true) => words,
+        (true, false) => format!("a table with one key of {}", keys.join(", ")),
+        (false, false) => format!("{words} or a table with one key of {}", keys.join(", ")),
+    }
+}
+
 /// A number as people write it: `0` and `0.01`, but `1e-14`.
 fn short(number: f64) -> String {
     if number == number.trunc() && number.abs() < 1e6 { format!("{number}") } else { format!("{number:?}") }
@@ -164,7 +186,9 @@ fn mismatch_help(value: &Value, rule: &Rule, expected: &str) -> String {
         (Value::Null, _) => "leave the key out".to_owned(),
         (Value::Text(text), Rule::Number) if text.trim().parse::<f64>().is_ok() => "write it without quotes".to_owned(),
         (Value::Text(_), Rule::Number) => "write a pure number: it has no unit".to_owned(),
-        (Value::Text(text), Rule::Tagged(tags)) if tags.contains_key(text) => format!("write {{ {text} = {{ … }} }}"),
+        (Value::Text(text), Rule::Choice { tags, .. }) if tags.contains_key(text) => {
+            format!("write {{ {text} = {{ … }} }}")
+        }
         _ => format!("write {expected}"),
     }
 }

@@ -1,6 +1,6 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Later, Orientation, Shape};
+use super::{Affine, Contractile, Later, Orientation, Shape};
 use crate::quantity::{
     AngularVelocity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness,
     Velocity,
@@ -33,9 +33,8 @@ pub struct Body {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub affine: Option<Affine>,
     /// It deforms homogeneously and contracts by itself.
-    #[serde(default, skip_serializing)]
-    #[schemars(extend("later" = "contractile bodies"))]
-    pub contractile: Option<Later>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contractile: Option<Contractile>,
     /// It is immersed in the fluid.
     #[serde(default, skip_serializing)]
     #[schemars(extend("later" = "inclusions in a fluid"))]
@@ -64,6 +63,14 @@ pub struct Body {
     /// Springs between points of the body and points of space.
     #[serde(default)]
     pub spring: Vec<Spring>,
+}
+
+impl Body {
+    /// What a body that deforms has beside a contraction, and the key of the table where it stands.
+    pub(crate) fn deformable(&self) -> Option<(&'static str, &Affine)> {
+        let contractile = || self.contractile.as_ref().map(|it| ("contractile", &it.affine));
+        self.affine.as_ref().map(|affine| ("affine", affine)).or_else(contractile)
+    }
 }
 
 /// A rigid body has no parameters of its own.

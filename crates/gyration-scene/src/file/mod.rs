@@ -7,11 +7,13 @@
 mod affine;
 mod body;
 mod contact;
+mod contractile;
 mod later;
 mod material;
 mod orientation;
 mod record;
 mod shape;
+mod signal;
 mod solver;
 mod support;
 mod time;
@@ -20,6 +22,7 @@ mod world;
 pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
+pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use later::Later;
 pub use material::{
     Fung, Hencky, Material, MooneyRivlin, NeoHookean, NeoHookeanLog, Ogden, Orthogonality, StVenantKirchhoff,
@@ -29,6 +32,7 @@ pub use record::{Record, Recorded};
 pub use shape::{
     Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Part, PointMass, Polyhedron, Shape, Sphere, Torus, Union,
 };
+pub use signal::{Constant, Interpolation, Ramp, Signal, Table, Wave};
 pub use solver::{Method, Solver};
 pub use support::{Motion, Oscillation, Plane, Support};
 pub use time::{StopAtRest, Time};

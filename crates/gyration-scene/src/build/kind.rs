@@ -1,0 +1,109 @@
+//! How a body may deform: rigid, affine or contractile, with what each needs of its mass.
+
+use super::affine::{Parts, Places, inverts};
+use super::contractile::{Contracting, feels_no_gap};
+use super::setting::Setting;
+use crate::check::{Judge, Placed};
+use crate::file::Body;
+use crate::key::Key;
+use crate::quantity::si;
+use gyration::body::{BodyKind, Contractile, Pin, RigidInertia};
+use gyration::mass::MassProperties;
+use gyration::signal::Jet;
+use gyration::tensor::Vec3;
+
+/// What the file says of the deformation of a body. Outside whether it says so, inside whether without error.
+#[derive(Debug, Clone)]
+pub(super) struct Deforming {
+    parts: Option<Option<Parts>>,
+    contracting: Option<Option<Contracting>>,
+}
+
+impl Deforming {
+    /// Reads it; notes what is wrong with it, and a body of two kinds.
+    pub(super) fn of(placed: &Placed<Body>, setting: &Setting, judge: &mut Judge<'_>) -> Self {
+        let Placed { key, value } = placed;
+        one_kind(value, key, judge);
+        let parts = value.deformable().map(|(name, it)| Parts::of(it, &key.key(name), setting.base, judge));
+        let contracting = value.contractile.as_ref();
+        let contracting = contracting.map(|it| Contracting::of(it, &key.key("contractile"), setting, judge));
+        Self { parts, contracting }
+    }
+
+    /// The contraction at the start, if there is one without error.
+    pub(super) fn start(&self) -> Option<Jet> {
+        Some(self.contracting.as_ref()?.as_ref()?.start)
+    }
+
+    /// The kind of a body of this mass; notes what the kind does not allow.
+    pub(super) fn kind(
+        self,
+        placed: &Placed<Body>,
+        mass: &MassProperties,
+        has_surface: bool,
+        judge: &mut Judge<'_>,
+    ) -> Option<BodyKind> {
+        let Placed { key, value } = placed;
+        let name = if value.mass_properties.is_some() { "mass_properties" } else { "shape" };
+        let arm = value.pin.as_ref().map(si);
+        let interior = key.key(value.deformable().map_or("affine", |(name, _)| name));
+        let places = Places { interior, mass: key.key(name) };
+        let Some(parts) = self.parts else { return inertia(mass, arm, &places.mass, judge).map(BodyKind::Rigid) };
+        let (Some(contracting), Some(written)) = (self.contracting, &value.contractile) else {
+            let affine = parts?.with_mass(mass, arm.as_ref(), &places, judge)?;
+            return Some(BodyKind::Affine(Box::new(affine)));
+        };
+        let fills = fills_a_volume(mass, &places.interior, judge);
+        let feels = has_surface || feels_no_gap(written, &places.interior, judge);
+        let (parts, contracting) = (parts?, contracting?);
+        let suits = contracting.suits(parts.is_incompressible(), &places.interior, judge);
+        if !fills {
+            return None;
+        }
+        let affine = parts.with_mass(mass, arm.as_ref(), &places, judge)?;
+        let contraction = contracting.contraction;
+        (feels && suits).then(|| BodyKind::Contractile(Box::new(Contractile::new(affine, contraction))))
+    }
+}
+
+/// Notes a body of two kinds.
+fn one_kind(body: &Body, key: &Key, judge: &mut Judge<'_>) {
+    let kinds = [
+        ("rigid", body.rigid.is_some()),
+        ("affine", body.affine.is_some()),
+        ("contractile", body.contractile.is_some()),
+    ];
+    let mut given = kinds.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name);
+    let Some(first) = given.next() else { return };
+    for name in given {
+        let help = format!("keep one of `{first}` and `{name}`");
+        judge.note(&key.key(name), format!("the body is also `{first}`"), help);
+    }
+}
+
+/// Whether there is a volume for the drive to act on.
+fn fills_a_volume(mass: &MassProperties, key: &Key, judge: &mut Judge<'_>) -> bool {
+    let fills = mass.volume > 0.0;
+    if !fills {
+        let message = "the body has no volume, so that a drive, which is a stress, has nothing to act on";
+        judge.note(key, message, "give the body a `shape` with a volume, or make it `affine`");
+    }
+    fills
+}
+
+/// The inertia about the centre of mass or the pin; notes one that cannot be inverted.
+fn inertia(mass: &MassProperties, arm: Option<Vec3>, key: &Key, judge: &mut Judge<'_>) -> Option<RigidInertia> {
+    let pin = arm.map(|point| Pin { point, anchor: Vec3::zeros() });
+    match RigidInertia::new(mass, pin.as_ref()) {
+        Ok(inertia) if inverts(&inertia.tensor, &inertia.inverse) => Some(inertia),
+        Ok(inertia) => {
+            let message = format!("the inertia, {:e} kg m², leaves the range of numbers", inertia.tensor.amax());
+            judge.note(key, message, "change the size or the mass");
+            None
+        }
+        Err(error) => {
+            judge.note(key, error.to_string(), "add mass off the line, or a `pin` off the line");
+            None
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! What a body is built among: the folder of the scene, the length of the run, the supports.
+
+use crate::check::Draft;
+use crate::document::Document;
+use crate::tree::Node;
+use std::path::Path;
+
+/// What the rest of a scene says to a body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Setting<'a> {
+    /// The folder that paths are relative to.
+    pub(super) base: &'a Path,
+    /// When the run ends \[s\], if the file says so without error.
+    pub(super) end: Option<f64>,
+    /// Whether there is a support, well formed or not.
+    pub(super) has_support: bool,
+}
+
+impl<'a> Setting<'a> {
+    /// The setting of a scene whose paths are relative to `base`.
+    pub(crate) fn new(draft: &Draft, document: &Document, base: &'a Path) -> Self {
+        let supports = document.root.get("support").map(Node::items).unwrap_or_default();
+        Self { base, end: draft.time.as_ref().map(|time| time.end.value()), has_support: !supports.is_empty() }
+    }
+}
