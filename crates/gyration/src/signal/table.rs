@@ -84,9 +84,14 @@ impl TensorTable {
         if self.bends.is_some() { Interpolation::Cubic } else { Interpolation::Linear }
     }
 
-    /// The value at a time [s] with its derivatives; at a time of the table those behind it.
+    /// The value at a time [s] with its derivatives: at a time of the table those behind it, at its last those before it,
+    /// since a run that the table is made for ends there.
     pub fn jet(&self, time: f64) -> Jet {
-        let after = self.times.partition_point(|knot| *knot <= time);
+        let last = self.times.len() - 1;
+        let after = match self.times.partition_point(|knot| *knot <= time) {
+            after if after > last && time == self.times[last] => last,
+            after => after,
+        };
         let constant = |value: Mat3| Jet { value, ..Jet::default() };
         if after == 0 {
             return constant(self.values[0]);
@@ -146,6 +151,20 @@ mod tests {
         }
         assert_eq!([0.0, 1.0, 3.9, 4.0].map(|time| table.next_knot(time)), [Some(1.0), Some(2.0), Some(4.0), None]);
         assert_eq!(table.span(), [1.0, 4.0]);
+    }
+
+    #[test]
+    fn a_run_that_ends_with_its_table_ends_at_the_rate_of_the_table() {
+        let rows = [(0.0, 2.0), (0.1, 4.0), (0.4, 0.7)].map(|(time, value)| row(time, value));
+        for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
+            let table = TensorTable::new(rows.to_vec(), interpolation).unwrap();
+            let [before, last, behind] = [0.4 - 1e-9, 0.4, 0.4 + 1e-9].map(|time| table.jet(time));
+            assert!((last.rate - before.rate).amax() < 1e-6 && last.rate.amax() > 1.0, "{interpolation:?}");
+            // A rounding of the rise of 3.3.
+            assert!((last.value - behind.value).amax() < 1e-15 && behind.rate == Mat3::zeros(), "{interpolation:?}");
+        }
+        let alone = TensorTable::new(rows[..1].to_vec(), Interpolation::Cubic).unwrap();
+        assert_eq!(alone.jet(0.0), Jet { value: rows[0].1, ..Jet::default() });
     }
 
     #[test]
