@@ -78,3 +78,20 @@ fn a_length_of_the_run_that_is_wrong_is_not_held_against_a_table() {
     let keys: Vec<&str> = found.into_iter().map(|error| error.key.as_str()).collect();
     assert_eq!(keys, ["time.end"], "{found}");
 }
+
+/// A block of the scene reference between fences of this kind.
+fn example(fence: &str) -> &'static str {
+    let reference = include_str!("../../../docs/scene-reference.md");
+    let section = reference.split("## `contractile`").nth(1).unwrap_or_else(|| panic!("no section"));
+    let (_, block) = section.split_once(fence).unwrap_or_else(|| panic!("no block {fence:?}"));
+    block.split("```").next().unwrap_or_default()
+}
+
+#[test]
+fn the_examples_of_the_scene_reference_are_taken() {
+    let scene = Scene::parse("a.toml", &format!("{TIME}{BALL}{}", example("```toml\n")), "".as_ref(), &[]);
+    assert!(scene.is_ok(), "{:?}", scene.err().map(|errors| errors.to_string()));
+    let table = "contraction_viscosity = 1, drive = { table = { file = \"q.csv\" } }";
+    let scene = beside_table(example("```csv\n"), table);
+    assert!(scene.is_ok(), "{:?}", scene.err().map(|errors| errors.to_string()));
+}
