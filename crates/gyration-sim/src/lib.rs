@@ -13,6 +13,7 @@ pub mod events;
 mod horizon;
 pub mod modes;
 mod outcome;
+mod period;
 mod plan;
 mod ports;
 mod record;

@@ -7,6 +7,7 @@
 
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
+use crate::period::period;
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows::Fields;
@@ -168,13 +169,14 @@ fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     Some((resolved, attributes.get("bodies")?.clone()))
 }
 
-/// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass.
+/// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass; of one that contracts also
+/// volume [m³] and period of what drives it [s].
 fn describe_body(body: &gyration::body::Body) -> Value {
     let center = body.mass.center;
     let outline = body.shape.outline();
     let relative =
         |points: &[gyration::tensor::Vec3]| points.iter().map(|p| json!((p - center).as_slice())).collect::<Value>();
-    json!({
+    let mut described = json!({
         "name": body.name,
         "kind": match body.kind {
             BodyKind::Rigid(_) => "rigid",
@@ -187,7 +189,12 @@ fn describe_body(body: &gyration::body::Body) -> Value {
         "size": body.size,
         "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
         "silhouette": relative(&body.shape.silhouette_points()),
-    })
+    });
+    if let BodyKind::Contractile(contractile) = &body.kind {
+        described["volume"] = json!(contractile.affine.interior.volume);
+        described["period"] = json!(period(contractile.contraction.signal()));
+    }
+    described
 }
 
 fn describe_support(support: &gyration::support::Support) -> Value {

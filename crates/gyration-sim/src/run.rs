@@ -11,7 +11,7 @@ use crate::outcome::{Outcome, Stop};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows::{Fields, RowScratch};
-use crate::tally::Tally;
+use crate::tally::{DISSIPATION, Tally};
 use crate::views::{self, View};
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
@@ -71,8 +71,9 @@ impl<'a> Simulation<'a> {
     /// [`RunError::Checkpoint`] if the bytes are not a checkpoint of this scene.
     pub fn resume(model: &'a Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
         let mut this = Self::new(model, start, plan)?;
-        let (tally, memory) =
-            Tally::restore(checkpoint).ok_or_else(|| RunError::Checkpoint("its bytes are damaged".into()))?;
+        let (tally, memory) = Tally::restore(checkpoint).ok_or_else(|| {
+            RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into())
+        })?;
         this.integrator = Integrator::resume(&memory, plan.options)?;
         this.tally = tally;
         this.recorded = this.sample_time(this.tally.next_sample.saturating_sub(1));
@@ -131,12 +132,14 @@ impl<'a> Simulation<'a> {
         let model = self.system.model();
         while self.integrator.time() < self.plan.end {
             let target = self.target();
+            let before = self.dissipation();
             let report = match self.integrator.step(&mut self.system, target) {
                 Ok(report) => report,
                 Err(failure) => return self.stop(Stop::by_failure(model, &failure), sink),
             };
             self.look();
             self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
+            self.tally.note_dissipation(before, self.dissipation());
             self.find_events(&report, sink)?;
             if let Err(stop) = self.sample_step(&report, sink)? {
                 return self.stop(stop, sink);
@@ -215,6 +218,12 @@ impl<'a> Simulation<'a> {
         let started = self.integrator.statistics().accepted() > 0;
         let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
         views::renew(&mut self.views, self.system.model(), self.integrator.state(), rates);
+    }
+
+    /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
+    fn dissipation(&self) -> [f64; 2] {
+        let entries = self.system.model().works().iter().zip(self.integrator.quadratures());
+        DISSIPATION.map(|work| entries.clone().find(|(entry, _)| **entry == work).map_or(0.0, |(_, value)| *value))
     }
 
     /// Samples the state after the last step.

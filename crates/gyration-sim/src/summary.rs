@@ -4,6 +4,7 @@ use crate::events::EVENT_KINDS;
 use crate::outcome::Outcome;
 use crate::rows::Ledger;
 use crate::run::Simulation;
+use crate::tally::{DISSIPATION, Tally};
 use gyration::balance::observe;
 use gyration::model::Model;
 use gyration::rates::Workspace;
@@ -36,7 +37,7 @@ pub struct RunSummary {
 }
 
 /// The ledger of a run.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LedgerSummary {
     /// Σ energies at t = 0 [J].
     pub initial_energy: f64,
@@ -52,6 +53,17 @@ pub struct LedgerSummary {
     pub largest_residual: f64,
     /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
     pub energy_in_play: f64,
+    /// What contraction and viscosity took in the step in which they took least [J], by name; a negative one is the error
+    /// of a step. Without those that the model does not have.
+    #[serde(serialize_with = "as_map")]
+    pub least_dissipation: Vec<(&'static str, f64)>,
+}
+
+impl LedgerSummary {
+    /// A work [J] by its name, if the ledger has it.
+    pub fn work(&self, name: &str) -> Option<f64> {
+        self.works.iter().find(|(work, _)| *work == name).map(|(_, value)| *value)
+    }
 }
 
 /// Pairs as an object, in their order.
@@ -113,6 +125,7 @@ impl RunSummary {
                 residual: ledger.residual,
                 largest_residual: tally.largest_residual,
                 energy_in_play: tally.energy_in_play,
+                least_dissipation: least_dissipation(model, tally),
             },
             bodies,
             smallest_gap: Some(tally.smallest_gap).filter(|gap| gap.is_finite()),
@@ -128,9 +141,21 @@ impl RunSummary {
         attributes.insert("statistics".into(), self.statistics.clone());
         attributes.insert("largest_residual".into(), json!(self.ledger.largest_residual));
         attributes.insert("energy_in_play".into(), json!(self.ledger.energy_in_play));
+        if !self.ledger.least_dissipation.is_empty() {
+            let entries = self.ledger.least_dissipation.iter().map(|(name, value)| ((*name).to_owned(), json!(value)));
+            attributes.insert("least_dissipation".into(), Value::Object(entries.collect()));
+        }
         attributes.insert("events".into(), self.events.clone());
         attributes
     }
+}
+
+/// Of the works that only take and that the model has, once there was a step.
+fn least_dissipation(model: &Model, tally: &Tally) -> Vec<(&'static str, f64)> {
+    let entries = DISSIPATION.iter().zip(tally.largest_gains);
+    let present = entries.filter(|(work, gain)| model.works().contains(work) && gain.is_finite());
+    // Adding zero turns −0 into 0.
+    present.map(|(work, gain)| (work.name(), -gain + 0.0)).collect()
 }
 
 fn statistics(simulation: &Simulation) -> Value {

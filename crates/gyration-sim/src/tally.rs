@@ -3,7 +3,11 @@
 //! A checkpoint is the tally and the stepper's memory as plain little-endian numbers, each list with its length before
 //! it, so that a resumed run goes on to the same bytes.
 
+use gyration::ledger::Work;
 use gyration_ode::Memory;
+
+/// The works that only take: within a body each is a quadratic form of the velocities, with a minus sign.
+pub(crate) const DISSIPATION: [Work; 2] = [Work::Contraction, Work::Viscosity];
 
 /// Beside the state, all that the rest of a run depends on.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,6 +26,8 @@ pub struct Tally {
     pub smallest_gap: f64,
     /// Largest correction by projection after a step.
     pub largest_projection: f64,
+    /// Largest increment over a step of each work of [`DISSIPATION`] [J]: at most the error of a step; −∞ before the first.
+    pub largest_gains: [f64; 2],
     /// How many events of each kind.
     pub events: [u64; 3],
     /// The last significant signal of each kind for each body; NaN before there is one.
@@ -32,7 +38,15 @@ impl Tally {
     /// At the start of a run.
     pub fn new(bodies: usize) -> Self {
         let signals = vec![[f64::NAN; 3]; bodies];
-        Self { slow_since: f64::NAN, smallest_gap: f64::INFINITY, signals, ..Self::default() }
+        let (slow_since, smallest_gap) = (f64::NAN, f64::INFINITY);
+        Self { slow_since, smallest_gap, largest_gains: [f64::NEG_INFINITY; 2], signals, ..Self::default() }
+    }
+
+    /// Notes what a step has added to the works of [`DISSIPATION`] [J].
+    pub(crate) fn note_dissipation(&mut self, before: [f64; 2], after: [f64; 2]) {
+        for (largest, (before, after)) in self.largest_gains.iter_mut().zip(before.into_iter().zip(after)) {
+            *largest = largest.max(after - before);
+        }
     }
 
     /// Tally and memory as bytes.
@@ -45,6 +59,8 @@ impl Tally {
             self.energy_in_play,
             self.smallest_gap,
             self.largest_projection,
+            self.largest_gains[0],
+            self.largest_gains[1],
         ];
         let mut bytes = Vec::new();
         let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| {
@@ -70,15 +86,22 @@ impl Tally {
             (0..count).map(|_| take(&mut rest)).collect::<Option<Vec<u64>>>()
         };
         let integers: [u64; 4] = list()?.try_into().ok()?;
-        let reals: [u64; 6] = list()?.try_into().ok()?;
+        let reals: [u64; 8] = list()?.try_into().ok()?;
         let signals = list()?.into_iter().map(f64::from_bits).collect::<Vec<_>>();
         let (signals, rest_of_signals) = signals.as_chunks::<3>();
         if !rest_of_signals.is_empty() {
             return None;
         }
         let memory = Memory { integers: list()?, reals: list()?.into_iter().map(f64::from_bits).collect() };
-        let [initial_energy, slow_since, largest_residual, energy_in_play, smallest_gap, largest_projection] =
-            reals.map(f64::from_bits);
+        let [
+            initial_energy,
+            slow_since,
+            largest_residual,
+            energy_in_play,
+            smallest_gap,
+            largest_projection,
+            gains @ ..,
+        ] = reals.map(f64::from_bits);
         let tally = Self {
             next_sample: integers[0],
             initial_energy,
@@ -87,6 +110,7 @@ impl Tally {
             energy_in_play,
             smallest_gap,
             largest_projection,
+            largest_gains: gains,
             events: [integers[1], integers[2], integers[3]],
             signals: signals.to_vec(),
         };
@@ -106,13 +130,23 @@ mod tests {
 
     #[test]
     fn a_checkpoint_restores_every_bit() {
-        let tally = Tally { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..Tally::new(2) };
+        let mut tally = Tally { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..Tally::new(2) };
+        tally.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
         let memory = Memory { integers: vec![1, 2, 3], reals: vec![0.1, f64::INFINITY, -0.0] };
         let bytes = tally.checkpoint(&memory);
         let (read, read_memory) = Tally::restore(&bytes).unwrap();
         assert_eq!(read.checkpoint(&read_memory), bytes);
         assert_eq!(read_memory, memory);
         assert!(read.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
+        assert_eq!(read.largest_gains, [-0.5, -0.25]);
+    }
+
+    #[test]
+    fn the_step_that_takes_least_is_kept() {
+        let mut tally = Tally::new(1);
+        let works = [[0.0, 0.0], [-1.0, -3.0], [-1.5, -3.0], [-4.0, -2.0]];
+        works.windows(2).for_each(|pair| tally.note_dissipation(pair[0], pair[1]));
+        assert_eq!(tally.largest_gains, [-0.5, 1.0]);
     }
 
     #[test]
