@@ -143,6 +143,10 @@ pub struct Plot {
     /// File to write: .svg, .png or .pdf; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
+    /// The two measures of `stroke`, to the right and upwards, as columns of the CSV without the body, V_xx and Q_xx besides:
+    /// G_xz,G_zz or G_zz,P_zz [default: entries of G that enclose most]
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    pub measures: Vec<String>,
     /// Change a value of the scene before its laws are drawn
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
@@ -165,6 +169,14 @@ pub enum What {
     Forces,
     /// Energies, works and the residual of their balance
     Energy,
+    /// Two measures of bodies that contract against each other, and the area that the last cycle encloses
+    Stroke,
+    /// Level distances of the centres of mass from their starts, and lengths of their paths
+    Distance,
+    /// Cost of transport of bodies that contract: work of the drive by weight and distance
+    Cost,
+    /// Where the work of the drive goes, and its power
+    Drive,
     /// Tractions and resistances against distance, forces on bodies, gaps of rest
     Laws,
 }

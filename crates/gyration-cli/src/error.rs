@@ -76,7 +76,7 @@ impl CliError {
         match self {
             Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } | Self::Resolved(_) => code::BAD_INPUT,
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
-            Self::Plot(PlotError::Nothing { .. }) => code::BAD_INPUT,
+            Self::Plot(PlotError::Nothing { .. } | PlotError::Measure { .. }) => code::BAD_INPUT,
             Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,
             Self::Scene(LoadError::Read(_))
             | Self::Record(_)

@@ -16,6 +16,7 @@ pub fn in_words(scene: &Scene, summary: &RunSummary, start: &[f64]) -> String {
     // Writing to a string does not fail.
     let _ = writeln!(text, "{}", steps(summary));
     text += &ledger(&summary.ledger, start);
+    text += &dissipation(&summary.ledger);
     text += &bodies(&summary.bodies);
     text += &events(&summary.events);
     text.trim_end().to_owned()
@@ -63,6 +64,37 @@ fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
     };
     let _ = writeln!(text, "  the balance closes to {:.1e} J{relative}", ledger.largest_residual);
     text
+}
+
+/// What the drive did and what was lost within the bodies, and whether each loss is one at every step.
+fn dissipation(ledger: &LedgerSummary) -> String {
+    let drive = ledger.work("drive");
+    let losses: Vec<(&str, f64, f64)> =
+        ledger.least_dissipation.iter().filter_map(|(name, least)| Some((*name, ledger.work(name)?, *least))).collect();
+    if losses.is_empty() && drive.is_none() {
+        return String::new();
+    }
+    let did = drive.map(|work| format!("did {} J", plain(work, 5)));
+    let lost = losses.iter().map(|(name, work, _)| format!("{name} lost {} J", plain(-work + 0.0, 5)));
+    let works: Vec<String> = did.into_iter().chain(lost).collect();
+    let head = if drive.is_some() { "drive" } else { "within" };
+    format!("{head:<10} {}{}\n", works.join(", "), check(&losses, ledger.energy_in_play))
+}
+
+/// Whether losses are losses at every step; a gain is told beside the energy in play \[J\].
+fn check(losses: &[(&str, f64, f64)], in_play: f64) -> String {
+    let least = losses.iter().map(|(_, _, least)| *least).fold(f64::INFINITY, f64::min);
+    let subject = match losses {
+        [] => return String::new(),
+        [(name, _, _)] => format!("{name} dissipates"),
+        _ => "both dissipate".to_owned(),
+    };
+    if least >= 0.0 {
+        return format!("; {subject} at every step (least {least:.1e} J)");
+    }
+    let relative = -least / in_play;
+    let relative = if relative.is_finite() { format!(", {relative:.1e} of the energy in play") } else { String::new() };
+    format!("; {subject} but for the error of a step (most gained in one: {:.1e} J{relative})", -least)
 }
 
 fn bodies(bodies: &[BodySummary]) -> String {
@@ -127,6 +159,16 @@ mod tests {
         let words = [0.0, 1.5, -0.000123456, 123456.7, 1e-9, 4.0].map(|value| plain(value, 5));
         assert_eq!(words, ["0", "1.5", "-0.00012346", "123457", "1.0000e-9", "4"]);
         assert_eq!(plain(0.75649, 3), "0.756");
+    }
+
+    #[test]
+    fn losses_are_told_with_whether_they_are_losses_at_every_step() {
+        let losses = [("contraction", -2.0, 1e-9), ("viscosity", -1.0, 0.0)];
+        assert_eq!(check(&losses, 4.0), "; both dissipate at every step (least 0.0e0 J)");
+        assert_eq!(check(&losses[..1], 4.0), "; contraction dissipates at every step (least 1.0e-9 J)");
+        let gained = check(&[("viscosity", -1.0, -2e-9)], 4.0);
+        assert!(gained.contains("gained in one: 2.0e-9 J, 5.0e-10 of the energy in play"), "{gained}");
+        assert_eq!(check(&[], 4.0), "");
     }
 
     #[test]

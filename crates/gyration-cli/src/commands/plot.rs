@@ -18,6 +18,12 @@ use std::path::{Path, PathBuf};
 pub fn execute(arguments: &Plot) -> Result<u8, CliError> {
     let output = arguments.output.as_deref();
     let format = format(output)?;
+    if !arguments.measures.is_empty() && !arguments.what.contains(&What::Stroke) {
+        return Err(CliError::arguments(
+            "--measures names those of `stroke`",
+            "ask for it: `gyration plot DIR stroke --measures A,B`",
+        ));
+    }
     let is_recording = Path::new(&arguments.source).is_dir();
     let (what, figure, stem) = if is_recording { of_recording(arguments)? } else { of_scene(arguments)? };
     let bytes = figure.draw().render(format);
@@ -76,6 +82,7 @@ fn of_recording(arguments: &Plot) -> Result<Drawn, CliError> {
     let mut panels = Vec::new();
     for what in &what {
         panels.extend(match quantity(*what) {
+            Some(Quantity::Stroke) => show::strokes(&recorded, &arguments.measures)?,
             Some(quantity) => show::panels(&recorded, quantity)?,
             None if *what == What::Overview => show::overview(&recorded)?,
             None => {
@@ -131,6 +138,10 @@ fn quantity(what: What) -> Option<Quantity> {
         What::Gap => Some(Quantity::Gap),
         What::Forces => Some(Quantity::Forces),
         What::Energy => Some(Quantity::Energy),
+        What::Stroke => Some(Quantity::Stroke),
+        What::Distance => Some(Quantity::Distance),
+        What::Cost => Some(Quantity::Cost),
+        What::Drive => Some(Quantity::Drive),
         What::Overview | What::Laws => None,
     }
 }
@@ -144,6 +155,10 @@ fn name(what: What) -> &'static str {
         What::Gap => "gap",
         What::Forces => "forces",
         What::Energy => "energy",
+        What::Stroke => "stroke",
+        What::Distance => "distance",
+        What::Cost => "cost",
+        What::Drive => "drive",
         What::Laws => "laws",
     }
 }

@@ -7,6 +7,7 @@
 //! The same recording gives the same bytes: there are neither dates nor names of machines in a picture.
 
 pub mod chart;
+mod cycle;
 pub mod draw;
 pub mod recorded;
 pub mod show;
@@ -45,5 +46,15 @@ pub enum PlotError {
         what: &'static str,
         /// Why not.
         reason: &'static str,
+    },
+    /// A measure that no body of the recording has.
+    #[error(
+        "the recording has no measure `{name}` of a body that contracts\n  fix: two measures with a comma between them, named as \
+         columns of the CSV without the body: `--measures G_xz,G_zz`, P_xx, Pdot_xx, x, vx, fx, gap, pressure; V_xx and \
+         Q_xx are contraction velocity and drive"
+    )]
+    Measure {
+        /// What was asked for.
+        name: String,
     },
 }

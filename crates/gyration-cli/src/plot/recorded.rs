@@ -39,12 +39,23 @@ pub struct BodyPicture {
     /// Points whose projected hull is the projected body, relative to the centre of mass [m].
     #[serde(deserialize_with = "vectors")]
     pub silhouette: Vec<Vec3>,
+    /// V of a body that contracts [m³].
+    #[serde(default)]
+    pub volume: Option<f64>,
+    /// The period of what drives it [s], if that repeats itself.
+    #[serde(default)]
+    pub period: Option<f64>,
 }
 
 impl BodyPicture {
     /// Whether P may be more than a rotation.
     pub fn deforms(&self) -> bool {
         self.kind != "rigid"
+    }
+
+    /// Whether it drives itself.
+    pub fn contracts(&self) -> bool {
+        self.kind == "contractile"
     }
 }
 
@@ -153,7 +164,23 @@ impl<'a> Recorded<'a> {
         count: usize,
         value: impl Fn(&[&[f64]], usize) -> f64,
     ) -> Result<Vec<Vec<Point>>, PlotError> {
-        let mut thinners = vec![Thinner::new(self.recording.rows()); count];
+        let mut thinners = self.thinners(count);
+        self.each_row(arrays, |time, row| {
+            thinners.iter_mut().enumerate().for_each(|(k, thinner)| thinner.push(time, value(row, k)));
+        })?;
+        Ok(thinners.into_iter().map(Thinner::finish).collect())
+    }
+
+    /// So many lines to be filled, sample by sample.
+    pub fn thinners(&self, count: usize) -> Vec<Thinner> {
+        vec![Thinner::new(self.recording.rows()); count]
+    }
+
+    /// Goes once through the samples: the time [s] and the rows of the named arrays.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn each_row(&self, arrays: &[&str], mut each: impl FnMut(f64, &[&[f64]])) -> Result<(), PlotError> {
         for rows in self.recording.chunks() {
             let times = self.recording.read_rows("time", rows.clone())?.data;
             let read = |name: &&str| self.recording.read_rows(name, rows.clone());
@@ -164,10 +191,10 @@ impl<'a> Recorded<'a> {
                     index * stride..(index + 1) * stride
                 };
                 let row: Vec<&[f64]> = chunk.iter().map(|array| &array.data[row_of(&array.data)]).collect();
-                thinners.iter_mut().enumerate().for_each(|(k, thinner)| thinner.push(*time, value(&row, k)));
+                each(*time, &row);
             }
         }
-        Ok(thinners.into_iter().map(Thinner::finish).collect())
+        Ok(())
     }
 
     /// The time of a sample and where every body is then.

@@ -119,6 +119,10 @@ fn draw_series(series: &Series, chart: &Chart, drawing: &mut Drawing, frame: Rec
             drawing.dot(place(*alone), 1.5 * margin, series.stroke.color, Some(clip));
             continue;
         }
+        if series.arrows {
+            let points: Vec<Point> = run.iter().map(|point| place(*point)).collect();
+            draw_arrows(&points, series.stroke, drawing, clip);
+        }
         let mut start = 0;
         while start + 1 < run.len() {
             let end = (start + LONGEST_LINE).min(run.len());
@@ -127,4 +131,46 @@ fn draw_series(series: &Series, chart: &Chart, drawing: &mut Drawing, frame: Rec
             start = end - 1;
         }
     }
+}
+
+/// Length and half the width of the head of an arrow [pt].
+const HEAD: [f64; 2] = [9.0, 3.6];
+/// Heads along a line, evenly spread.
+const HEADS: usize = 3;
+
+/// Heads along a line of the page, each as its chord over the head's length runs.
+fn draw_arrows(line: &[Point], stroke: Stroke, drawing: &mut Drawing, clip: Rect) {
+    let lengths: Vec<f64> = line.windows(2).map(|pair| distance(pair[0], pair[1])).collect();
+    let whole: f64 = lengths.iter().sum();
+    let at = |along: f64| {
+        let mut rest = along;
+        for (pair, length) in line.windows(2).zip(&lengths) {
+            if rest <= *length && *length > 0.0 {
+                return [0, 1].map(|k| pair[0][k] + rest / length * (pair[1][k] - pair[0][k]));
+            }
+            rest -= length;
+        }
+        line[line.len() - 1]
+    };
+    // A line shorter than its heads has none.
+    if whole < 2.0 * HEADS as f64 * HEAD[0] {
+        return;
+    }
+    for k in 0..HEADS {
+        let middle = (k as f64 + 0.5) / HEADS as f64 * whole;
+        let [tail, tip] = [middle - 0.5 * HEAD[0], middle + 0.5 * HEAD[0]].map(at);
+        let chord = distance(tail, tip);
+        if chord > 0.5 * HEAD[0] {
+            let along = [0, 1].map(|k| (tip[k] - tail[k]) / chord);
+            let wing = |side: f64| {
+                let across = side * HEAD[1];
+                [tip[0] - HEAD[0] * along[0] - across * along[1], tip[1] - HEAD[0] * along[1] + across * along[0]]
+            };
+            drawing.area(vec![tip, wing(1.0), wing(-1.0)], Some(stroke.color), None, Some(clip));
+        }
+    }
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    (b[0] - a[0]).hypot(b[1] - a[1])
 }

@@ -24,6 +24,8 @@ pub struct Series {
     pub points: Vec<Point>,
     /// How it is drawn.
     pub stroke: Stroke,
+    /// Whether heads of arrows tell in which sense it runs.
+    pub arrows: bool,
 }
 
 /// Widths of lines of data [pt].
@@ -32,11 +34,13 @@ pub const LINE: f64 = 1.3;
 pub const DASHED: &[f64] = &[5.0, 2.5];
 /// Dashes of the third style of lines [pt].
 pub const DOTTED: &[f64] = &[1.5, 2.0];
+/// Dashes of the fourth style of lines [pt].
+pub const DASH_DOTTED: &[f64] = &[6.0, 2.0, 1.5, 2.0];
 
 impl Series {
     /// A solid line in the colour of this index.
     pub fn solid(name: impl Into<String>, points: Vec<Point>, index: usize) -> Self {
-        Self { name: name.into(), points, stroke: Stroke::solid(color::series(index), LINE) }
+        Self { name: name.into(), points, stroke: Stroke::solid(color::series(index), LINE), arrows: false }
     }
 
     /// The same in another style.
@@ -47,7 +51,7 @@ impl Series {
     /// A level line from one end of the axis to the other.
     pub fn level(name: impl Into<String>, y: f64, axis: &Axis) -> Self {
         let stroke = Stroke { color: color::GREY, width: 0.9, dash: DASHED };
-        Self { name: name.into(), points: vec![[axis.low, y], [axis.high, y]], stroke }
+        Self { name: name.into(), points: vec![[axis.low, y], [axis.high, y]], stroke, arrows: false }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{time_axis, values};
 use crate::plot::PlotError;
-use crate::plot::chart::{Axis, Chart, DASHED, DOTTED, LINE, Series};
+use crate::plot::chart::{Axis, Chart, DASH_DOTTED, DASHED, DOTTED, LINE, Series};
 use crate::plot::draw::{Stroke, color};
 use crate::plot::recorded::Recorded;
 
@@ -18,6 +18,9 @@ const ENERGIES: [(&str, &str, usize); 5] = [
     ("energy_load", "springs", 3),
 ];
 
+/// The work that stands out.
+const DRIVE: &str = "work_drive";
+
 /// Works in the order of the ledger, their names in the legend, and their colours.
 const WORKS: [(&str, &str, usize); 11] = [
     ("work_repulsion", "work of repulsion", 4),
@@ -26,11 +29,11 @@ const WORKS: [(&str, &str, usize); 11] = [
     ("work_adhesion", "work of adhesion", 5),
     ("work_viscosity", "work of viscosity", 0),
     ("work_contraction", "work of contraction", 2),
-    ("work_drive", "work of the drive", 2),
+    (DRIVE, "work of the drive", 6),
     ("work_load", "work of loads", 4),
     ("work_support", "work of supports", 0),
     ("work_fluid", "work of the fluid", 5),
-    ("work_constraint", "work of constraints", 6),
+    ("work_constraint", "work of constraints", 5),
 ];
 
 /// Energies and works over time, and below them the residual.
@@ -52,13 +55,15 @@ pub fn charts(recorded: &Recorded) -> Result<Vec<Chart>, PlotError> {
     let sum = lines.pop().unwrap_or_default();
     let entries = energies.iter().chain(&works).zip(lines).enumerate();
     let mut series: Vec<Series> = entries
-        .map(|(k, ((_, name, hue), points))| {
+        .map(|(k, ((array, name, hue), points))| {
             let line = Series::solid(*name, points, *hue);
-            if k < stores { line } else { line.dashed(DASHED) }
+            // Among a dozen works that of the drive stands out: all others follow from it.
+            let dash = if *array == DRIVE { DASH_DOTTED } else { DASHED };
+            if k < stores { line } else { line.dashed(dash) }
         })
         .collect();
     let total = Stroke { color: color::INK, width: LINE, dash: DOTTED };
-    series.insert(stores, Series { name: "sum of energies".into(), points: sum, stroke: total });
+    series.insert(stores, Series { name: "sum of energies".into(), points: sum, stroke: total, arrows: false });
     let y = Axis::linear("energy, work", "J", values(&series));
     let x = time_axis(recorded)?;
     let title = "Energies, and works since the start".to_owned();
@@ -66,7 +71,8 @@ pub fn charts(recorded: &Recorded) -> Result<Vec<Chart>, PlotError> {
     let mut charts = vec![main];
     if recorded.has("energy_residual") {
         let points = recorded.lines(&["energy_residual"], 1, |row, _| row[0][0])?.concat();
-        let series = vec![Series { name: String::new(), points, stroke: Stroke::solid(color::INK, 0.9) }];
+        let series =
+            vec![Series { name: String::new(), points, stroke: Stroke::solid(color::INK, 0.9), arrows: false }];
         let y = Axis::linear("residual", "J", values(&series));
         let title = "Residual of the balance: energies gained less works done".to_owned();
         charts.push(Chart { title, x, y, series, remarks: Vec::new(), height: RESIDUAL_HEIGHT });

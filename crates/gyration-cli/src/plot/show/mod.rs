@@ -1,10 +1,17 @@
 //! What a figure shows: the quantities that a user may ask for, and the figure of several of them.
 
+mod cost;
+mod distance;
+mod drive;
+mod effort;
 mod energy;
 mod forces;
 mod laws;
+mod measure;
 mod motion;
 mod stretch;
+mod stroke;
+mod trace;
 
 use super::PlotError;
 use super::chart::{Chart, Figure, Panel, Series};
@@ -29,12 +36,22 @@ pub enum Quantity {
     Strip,
     /// Principal stretches of bodies that deform.
     Stretch,
+    /// Two measures of bodies that contract against each other.
+    Stroke,
+    /// Level distance of the centres from their starts over time.
+    Distance,
+    /// Work of the drive by weight and distance.
+    Cost,
+    /// Where the work of the drive goes, and its power.
+    Drive,
 }
 
 /// Bodies with a line of their own in a chart.
 const MOST_LINES: usize = 40;
 /// Bodies with a name in the legend.
 const MOST_NAMES: usize = 7;
+/// Bodies with a chart of their own.
+const MOST_CHARTS: usize = 6;
 /// Width of lines where there are many [pt].
 const THIN: f64 = 0.7;
 
@@ -50,18 +67,49 @@ pub fn panels(recorded: &Recorded, quantity: Quantity) -> Result<Vec<Panel>, Plo
         Quantity::Forces => vec![Panel::Chart(forces::chart(recorded)?)],
         Quantity::Strip => vec![Panel::Strip(Strip::of(recorded)?)],
         Quantity::Stretch => stretch::charts(recorded)?.into_iter().map(Panel::Chart).collect(),
+        Quantity::Stroke => strokes(recorded, &[])?,
+        Quantity::Distance => vec![Panel::Chart(distance::chart(recorded)?)],
+        Quantity::Cost => vec![Panel::Chart(cost::chart(recorded)?)],
+        Quantity::Drive => drive::charts(recorded)?.into_iter().map(Panel::Chart).collect(),
     })
 }
 
-/// Everything that the recording has, in one figure.
+/// The strokes of bodies that contract in the plane of two measures, or of those between which they enclose most.
+///
+/// # Errors
+/// [`PlotError`] where the recording cannot be read, has no such body, or not these measures.
+pub fn strokes(recorded: &Recorded, measures: &[String]) -> Result<Vec<Panel>, PlotError> {
+    Ok(stroke::charts(recorded, measures)?.into_iter().map(Panel::Chart).collect())
+}
+
+/// Indices of the bodies that contract, for a quantity that only they have.
+fn contracting_bodies(recorded: &Recorded, what: &'static str) -> Result<Vec<usize>, PlotError> {
+    let all = recorded.bodies.iter().enumerate();
+    let bodies: Vec<usize> = all.filter(|(_, body)| body.contracts()).map(|(index, _)| index).collect();
+    if bodies.is_empty() {
+        return Err(PlotError::Nothing { what, reason: "no body of the recording contracts" });
+    }
+    Ok(bodies)
+}
+
+/// Everything that the recording has, in one figure; how far bodies get where some drive themselves.
 ///
 /// # Errors
 /// [`PlotError`] where the recording cannot be read.
 pub fn overview(recorded: &Recorded) -> Result<Vec<Panel>, PlotError> {
     let mut all = Vec::new();
-    let order =
-        [Quantity::Strip, Quantity::Height, Quantity::Gap, Quantity::Stretch, Quantity::Forces, Quantity::Energy];
-    for quantity in order {
+    let order = [
+        Quantity::Strip,
+        Quantity::Height,
+        Quantity::Distance,
+        Quantity::Gap,
+        Quantity::Stretch,
+        Quantity::Forces,
+        Quantity::Energy,
+        Quantity::Stroke,
+    ];
+    let contracts = recorded.bodies.iter().any(|body| body.contracts());
+    for quantity in order.into_iter().filter(|quantity| contracts || *quantity != Quantity::Distance) {
         match panels(recorded, quantity) {
             Ok(panels) => all.extend(panels),
             Err(PlotError::Nothing { .. }) => {}

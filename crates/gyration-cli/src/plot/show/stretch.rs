@@ -3,7 +3,7 @@
 //! They are the singular values of P: the lengths, in units of those of the reference shape, of the axes of the ellipsoid that a sphere
 //! becomes. Their product is the ratio of the volumes, drawn where it changes.
 
-use super::{time_axis, values};
+use super::{MOST_CHARTS, time_axis, values};
 use crate::plot::PlotError;
 use crate::plot::chart::{Axis, Chart, DOTTED, LINE, Series};
 use crate::plot::draw::{Point, Stroke, color};
@@ -11,8 +11,6 @@ use crate::plot::recorded::{BodyPicture, Recorded};
 use gyration::tensor::Mat3;
 
 const HEIGHT: f64 = 95.0;
-/// Bodies with a chart of their own.
-const MOST_CHARTS: usize = 6;
 /// A volume that changes by less than this is kept: incompressible bodies keep theirs to 1e-10.
 const KEPT: f64 = 1e-6;
 /// The fourth line of a body: its volume.
@@ -60,7 +58,7 @@ fn chart(name: &str, lines: &[Vec<Point>], x: &Axis) -> Chart {
     let first = volume.first().map_or(1.0, |point| point[1]);
     if volume.iter().any(|point| (point[1] - first).abs() > KEPT * first.abs()) {
         let stroke = Stroke { color: color::INK, width: LINE, dash: DOTTED };
-        series.push(Series { name: "volume".into(), points: volume.clone(), stroke });
+        series.push(Series { name: "volume".into(), points: volume.clone(), stroke, arrows: false });
     }
     let y = Axis::linear("stretch", "", values(&series).chain([1.0]));
     let title = format!("Principal stretches of {name}");

@@ -146,7 +146,8 @@ mod tests {
         let edges = (0..8).flat_map(|k| [1, 2, 4].map(|bit| (k, k ^ bit))).filter(|(a, b)| a < b);
         let polylines = edges.map(|(a, b)| vec![a, b]).collect();
         let outline = Wireframe { points: points.clone(), polylines };
-        BodyPicture { name: "cube".into(), kind: "rigid".into(), mass: 1.0, size: 1.0, outline, silhouette: points }
+        let (name, kind) = ("cube".into(), "rigid".into());
+        BodyPicture { name, kind, mass: 1.0, size: 1.0, outline, silhouette: points, volume: None, period: None }
     }
 
     #[test]
