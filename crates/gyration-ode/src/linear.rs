@@ -22,6 +22,11 @@ impl RealLu {
         Self { size, rows: vec![0.0; size * size], pivots: vec![0; size] }
     }
 
+    /// Has a smaller matrix from now on than it was made for, or again one of that size.
+    pub fn resize(&mut self, size: usize) {
+        self.size = size.min(self.pivots.len());
+    }
+
     /// Factorizes the matrix of these entries, by row and column.
     ///
     /// # Errors
@@ -37,7 +42,7 @@ impl RealLu {
             let pivot = largest(k..n, |i| self.rows[i * n + k].abs())?;
             self.pivots[k] = pivot;
             swap_rows(&mut self.rows, n, k, pivot);
-            let (above, below) = self.rows.split_at_mut((k + 1) * n);
+            let (above, below) = self.rows[..n * n].split_at_mut((k + 1) * n);
             let pivot_row = &above[k * n..];
             for row in below.chunks_exact_mut(n) {
                 let factor = row[k] / pivot_row[k];
@@ -56,10 +61,10 @@ impl RealLu {
         for k in 0..n {
             b.swap(k, self.pivots[k]);
         }
-        for (i, row) in self.rows.chunks_exact(n.max(1)).enumerate() {
+        for (i, row) in self.rows[..n * n].chunks_exact(n.max(1)).enumerate() {
             b[i] -= dot(&row[..i], &b[..i]);
         }
-        for (i, row) in self.rows.chunks_exact(n.max(1)).enumerate().rev() {
+        for (i, row) in self.rows[..n * n].chunks_exact(n.max(1)).enumerate().rev() {
             b[i] = (b[i] - dot(&row[i + 1..], &b[i + 1..n])) / row[i];
         }
     }
@@ -78,6 +83,11 @@ impl ComplexLu {
     pub fn new(size: usize) -> Self {
         let zeros = vec![0.0; size * size];
         Self { size, real: zeros.clone(), imaginary: zeros, pivots: vec![0; size] }
+    }
+
+    /// Has a smaller matrix from now on than it was made for, or again one of that size.
+    pub fn resize(&mut self, size: usize) {
+        self.size = size.min(self.pivots.len());
     }
 
     /// Factorizes the matrix of these entries, real and imaginary parts, by row and column.
@@ -104,8 +114,8 @@ impl ComplexLu {
 
     fn eliminate(&mut self, k: usize) {
         let n = self.size;
-        let (real_above, real_below) = self.real.split_at_mut((k + 1) * n);
-        let (imaginary_above, imaginary_below) = self.imaginary.split_at_mut((k + 1) * n);
+        let (real_above, real_below) = self.real[..n * n].split_at_mut((k + 1) * n);
+        let (imaginary_above, imaginary_below) = self.imaginary[..n * n].split_at_mut((k + 1) * n);
         let (p_re, p_im) = (&real_above[k * n..], &imaginary_above[k * n..]);
         let pivot = (p_re[k], p_im[k]);
         for (re, im) in real_below.chunks_exact_mut(n).zip(imaginary_below.chunks_exact_mut(n)) {

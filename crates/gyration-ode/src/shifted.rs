@@ -1,28 +1,31 @@
-//! The matrices s I − J of implicit steps, with half the unknowns where J is that of a system of second order.
+//! The matrices s I − J of implicit steps, with fewer unknowns where some of the rates are unknowns themselves: x₁' = x₂.
 //!
-//!   J = [0 I; K C]:   s x₁ − x₂ = r₁,   −K x₁ + (s I − C) x₂ = r₂
-//!   (s² I − s C − K) x₁ = r₂ + (s I − C) r₁,   x₂ = s x₁ − r₁
+//!   J = [0 I 0; K C D; E H M]:   s x₁ − x₂ = r₁,   −K x₁ + (s I − C) x₂ − D x₃ = r₂,   −E x₁ − H x₂ + (s I − M) x₃ = r₃
 //!
-//! s is γ/h or (α + iβ)/h. Bodies that deform are of this form; it costs an eighth. The form is read off the matrix itself,
-//! exactly, in every factorization: other blocks are factorized as they stand.
+//!   (s² I − s C − K) x₁ − D x₃ = r₂ + (s I − C) r₁,   −(s H + E) x₁ + (s I − M) x₃ = r₃ − H r₁,   x₂ = s x₁ − r₁
+//!
+//! s is γ/h or (α + iβ)/h. Bodies that deform are of this form, without x₃ or with a contraction there: a factorization
+//! costs an eighth, or a quarter. The form is read off the matrix itself, exactly, in every factorization: other blocks are factorized as they
+//! stand.
 
 use nalgebra::DMatrix;
 
 use crate::linear::{ComplexLu, RealLu, Singular};
 
-/// Whether the upper half of J is (0 I).
-fn is_second_order(jacobian: &DMatrix<f64>) -> bool {
-    let (n, half) = (jacobian.nrows(), jacobian.nrows() / 2);
+/// How many rates are unknowns themselves: the number of rows (0 I 0) at the top of J.
+fn second_order(jacobian: &DMatrix<f64>) -> Option<usize> {
+    let n = jacobian.nrows();
+    let half = (1..=n / 2).find(|column| jacobian[(0, *column)] != 0.0)?;
     let unit = |i: usize, j: usize| if j == i + half { 1.0 } else { 0.0 };
-    n > 0 && n.is_multiple_of(2) && (0..n).all(|j| (0..half).all(|i| jacobian[(i, j)] == unit(i, j)))
+    let is_unit = (0..n).all(|j| (0..half).all(|i| jacobian[(i, j)] == unit(i, j)));
+    is_unit.then_some(half)
 }
 
-/// C of J = [0 I; K C], row by row.
-fn copy_resistance(resistance: &mut [f64], jacobian: &DMatrix<f64>) {
-    let half = jacobian.nrows() / 2;
-    for i in 0..half {
-        for j in 0..half {
-            resistance[i * half + j] = jacobian[(half + i, half + j)];
+/// C and H, row by row.
+fn copy_resistance(resistance: &mut [f64], jacobian: &DMatrix<f64>, half: usize) {
+    for (i, row) in resistance.chunks_exact_mut(half).take(jacobian.nrows() - half).enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = jacobian[(half + i, half + j)];
         }
     }
 }
@@ -34,15 +37,15 @@ pub(crate) struct RealShifted {
     reduced: RealLu,
     resistance: Vec<f64>,
     shift: f64,
-    /// The number of coordinates, if the system is of second order.
+    /// The number of x₁, if there are any.
     half: Option<usize>,
 }
 
 impl RealShifted {
     pub fn new(size: usize) -> Self {
-        let half = size / 2;
-        let (whole, reduced) = (RealLu::new(size), RealLu::new(half));
-        Self { whole, reduced, resistance: vec![0.0; half * half], shift: 0.0, half: None }
+        // Half of the square is the largest (n − half) × half.
+        let (whole, reduced, resistance) = (RealLu::new(size), RealLu::new(size), vec![0.0; size * size / 2]);
+        Self { whole, reduced, resistance, shift: 0.0, half: None }
     }
 
     /// Factorizes shift · I − J.
@@ -50,16 +53,20 @@ impl RealShifted {
     /// # Errors
     /// `Singular`.
     pub fn factorize(&mut self, shift: f64, jacobian: &DMatrix<f64>) -> Result<(), Singular> {
-        let half = jacobian.nrows() / 2;
-        self.half = is_second_order(jacobian).then_some(half);
-        if self.half.is_none() {
+        self.half = second_order(jacobian);
+        let Some(half) = self.half else {
             return self.whole.factorize(|i, j| if i == j { shift - jacobian[(i, j)] } else { -jacobian[(i, j)] });
-        }
+        };
         self.shift = shift;
-        copy_resistance(&mut self.resistance, jacobian);
+        copy_resistance(&mut self.resistance, jacobian, half);
+        self.reduced.resize(jacobian.nrows() - half);
         self.reduced.factorize(|i, j| {
-            let diagonal = if i == j { shift * shift } else { 0.0 };
-            diagonal - shift * jacobian[(half + i, half + j)] - jacobian[(half + i, j)]
+            let one = if i == j { shift } else { 0.0 };
+            if j < half {
+                shift * (one - jacobian[(half + i, half + j)]) - jacobian[(half + i, j)]
+            } else {
+                one - jacobian[(half + i, half + j)]
+            }
         })
     }
 
@@ -67,9 +74,11 @@ impl RealShifted {
     pub fn solve(&self, b: &mut [f64]) {
         let Some(half) = self.half else { return self.whole.solve(b) };
         let (first, second) = b.split_at_mut(half);
-        for (i, row) in self.resistance.chunks_exact(half).enumerate() {
-            let drag: f64 = row.iter().zip(first.iter()).map(|(c, r)| c * r).sum();
-            second[i] += self.shift * first[i] - drag;
+        for (value, row) in second.iter_mut().zip(self.resistance.chunks_exact(half)) {
+            *value -= row.iter().zip(first.iter()).map(|(c, r)| c * r).sum::<f64>();
+        }
+        for (value, r) in second.iter_mut().zip(first.iter()) {
+            *value += self.shift * r;
         }
         self.reduced.solve(second);
         for (x, r) in second.iter_mut().zip(first) {
@@ -90,9 +99,8 @@ pub(crate) struct ComplexShifted {
 
 impl ComplexShifted {
     pub fn new(size: usize) -> Self {
-        let half = size / 2;
-        let (whole, reduced) = (ComplexLu::new(size), ComplexLu::new(half));
-        Self { whole, reduced, resistance: vec![0.0; half * half], shift: (0.0, 0.0), half: None }
+        let (whole, reduced, resistance) = (ComplexLu::new(size), ComplexLu::new(size), vec![0.0; size * size / 2]);
+        Self { whole, reduced, resistance, shift: (0.0, 0.0), half: None }
     }
 
     /// Factorizes (shift.0 + i shift.1) I − J.
@@ -100,22 +108,25 @@ impl ComplexShifted {
     /// # Errors
     /// `Singular`.
     pub fn factorize(&mut self, shift: (f64, f64), jacobian: &DMatrix<f64>) -> Result<(), Singular> {
-        let half = jacobian.nrows() / 2;
-        self.half = is_second_order(jacobian).then_some(half);
+        self.half = second_order(jacobian);
         let (re, im) = shift;
-        if self.half.is_none() {
+        let Some(half) = self.half else {
             return self.whole.factorize(|i, j| {
                 let entry = -jacobian[(i, j)];
                 if i == j { (re + entry, im) } else { (entry, 0.0) }
             });
-        }
+        };
         self.shift = shift;
-        copy_resistance(&mut self.resistance, jacobian);
+        copy_resistance(&mut self.resistance, jacobian, half);
+        self.reduced.resize(jacobian.nrows() - half);
         let square = ((re - im) * (re + im), 2.0 * re * im);
         self.reduced.factorize(|i, j| {
-            let (stiffness, resistance) = (jacobian[(half + i, j)], jacobian[(half + i, half + j)]);
-            let diagonal = if i == j { square } else { (0.0, 0.0) };
-            (diagonal.0 - re * resistance - stiffness, diagonal.1 - im * resistance)
+            let (own, resistance) = (i == j, jacobian[(half + i, half + j)]);
+            if j >= half {
+                return if own { (re - resistance, im) } else { (-resistance, 0.0) };
+            }
+            let diagonal = if own { square } else { (0.0, 0.0) };
+            (diagonal.0 - re * resistance - jacobian[(half + i, j)], diagonal.1 - im * resistance)
         })
     }
 
@@ -125,10 +136,14 @@ impl ComplexShifted {
         let (re, im) = self.shift;
         let (first_re, second_re) = real.split_at_mut(half);
         let (first_im, second_im) = imaginary.split_at_mut(half);
-        for (i, row) in self.resistance.chunks_exact(half).enumerate() {
+        for (i, row) in self.resistance.chunks_exact(half).take(second_re.len()).enumerate() {
             let drag = |r: &[f64]| row.iter().zip(r).map(|(c, r)| c * r).sum::<f64>();
-            second_re[i] += re * first_re[i] - im * first_im[i] - drag(first_re);
-            second_im[i] += re * first_im[i] + im * first_re[i] - drag(first_im);
+            second_re[i] -= drag(first_re);
+            second_im[i] -= drag(first_im);
+        }
+        for i in 0..half {
+            second_re[i] += re * first_re[i] - im * first_im[i];
+            second_im[i] += re * first_im[i] + im * first_re[i];
         }
         self.reduced.solve(second_re, second_im);
         for i in 0..half {
@@ -149,29 +164,31 @@ mod tests {
         /// Residuals within rounding of the entries, s² of them included.
         #[test]
         fn systems_of_second_order_are_solved_like_any_other(
-            entries in proptest::collection::vec(-1.0_f64..1.0, 18),
-            x in proptest::collection::vec(-1.0_f64..1.0, 12),
+            entries in proptest::collection::vec(-1.0_f64..1.0, 64),
+            x in proptest::collection::vec(-1.0_f64..1.0, 16),
+            more in 0_usize..3,
             shift in (0.5_f64..3.0, 0.5_f64..3.0),
         ) {
-            let jacobian = DMatrix::from_fn(6, 6, |i, j| match i {
+            let n = 6 + more;
+            let jacobian = DMatrix::from_fn(n, n, |i, j| match i {
                 0..3 => if j == i + 3 { 1.0 } else { 0.0 },
-                _ => entries[6 * (i - 3) + j],
+                _ => entries[8 * i + j],
             });
-            prop_assert!(is_second_order(&jacobian));
-            let mut real = RealShifted::new(6);
-            let mut complex = ComplexShifted::new(6);
+            prop_assert_eq!(second_order(&jacobian), Some(3));
+            let mut real = RealShifted::new(n);
+            let mut complex = ComplexShifted::new(n);
             prop_assume!(real.factorize(shift.0, &jacobian).is_ok());
             prop_assume!(complex.factorize(shift, &jacobian).is_ok());
-            let apply = |v: &[f64], i: usize| (0..6).map(|j| jacobian[(i, j)] * v[j]).sum::<f64>();
-            let (re, im) = x.split_at(6);
-            let mut b: Vec<f64> = (0..6).map(|i| shift.0 * re[i] - apply(re, i)).collect();
+            let apply = |v: &[f64], i: usize| (0..n).map(|j| jacobian[(i, j)] * v[j]).sum::<f64>();
+            let (re, im) = x.split_at(8);
+            let mut b: Vec<f64> = (0..n).map(|i| shift.0 * re[i] - apply(re, i)).collect();
             real.solve(&mut b);
-            let mut c: Vec<f64> = (0..6).map(|i| shift.0 * re[i] - shift.1 * im[i] - apply(re, i)).collect();
-            let mut d: Vec<f64> = (0..6).map(|i| shift.0 * im[i] + shift.1 * re[i] - apply(im, i)).collect();
+            let mut c: Vec<f64> = (0..n).map(|i| shift.0 * re[i] - shift.1 * im[i] - apply(re, i)).collect();
+            let mut d: Vec<f64> = (0..n).map(|i| shift.0 * im[i] + shift.1 * re[i] - apply(im, i)).collect();
             complex.solve(&mut c, &mut d);
             // A matrix may be close to singular: the residual tells, the solution need not.
             let largest = b.iter().chain(&c).chain(&d).fold(1.0, |m: f64, v| m.max(v.abs()));
-            for i in 0..6 {
+            for i in 0..n {
                 let residual = shift.0 * b[i] - apply(&b, i) - (shift.0 * re[i] - apply(re, i));
                 prop_assert!(residual.abs() < 1e-12 * largest, "{residual:e}");
                 let residual = shift.0 * c[i] - shift.1 * d[i] - apply(&c, i) - (shift.0 * re[i] - shift.1 * im[i] - apply(re, i));
@@ -183,9 +200,9 @@ mod tests {
     #[test]
     fn other_systems_are_not_taken_for_second_order() {
         let mut jacobian = DMatrix::from_fn(4, 4, |i, j| if j == i + 2 { 1.0 } else { 0.0 });
-        assert!(is_second_order(&jacobian));
+        assert_eq!(second_order(&jacobian), Some(2));
         jacobian[(0, 1)] = 1e-300;
-        assert!(!is_second_order(&jacobian));
-        assert!(!is_second_order(&DMatrix::zeros(3, 3)) && !is_second_order(&DMatrix::zeros(0, 0)));
+        assert_eq!(second_order(&jacobian), None);
+        assert_eq!([0, 1, 3].map(|n| second_order(&DMatrix::zeros(n, n))), [None; 3]);
     }
 }
