@@ -1,4 +1,4 @@
-//! Rates and Jacobian of bodies that deform: free, of each material, and near a table.
+//! Rates and Jacobian of bodies that deform: free, of each material, contracting or not, and near a table.
 //!
 //! `cargo bench -p gyration-bench --bench affine`
 
@@ -7,7 +7,7 @@ use gyration::jacobian::jacobian;
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::state::State;
-use gyration_bench::soft::{MATERIALS, cube_over_table, free_cube, material};
+use gyration_bench::soft::{MATERIALS, contracting_cube, cube_over_table, free_cube, material};
 use nalgebra::DMatrix;
 
 fn main() {
@@ -40,6 +40,16 @@ fn free_rates(bencher: Bencher, name: &str) {
 #[divan::bench(args = MATERIALS)]
 fn free_jacobian(bencher: Bencher, name: &str) {
     bench_jacobian(bencher, free_cube(material(name)));
+}
+
+#[divan::bench(args = MATERIALS)]
+fn contracting_rates(bencher: Bencher, name: &str) {
+    bench_rates(bencher, contracting_cube(material(name)));
+}
+
+#[divan::bench(args = MATERIALS)]
+fn contracting_jacobian(bencher: Bencher, name: &str) {
+    bench_jacobian(bencher, contracting_cube(material(name)));
 }
 
 #[divan::bench(args = ["neo_hookean_log"])]

@@ -1,12 +1,14 @@
 //! Bodies that deform, free and near a table.
 
 use gyration::affine::{AffineBody, Viscosity};
-use gyration::body::{Affine, Body, BodyKind};
+use gyration::body::{Affine, Body, BodyKind, Contractile};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
+use gyration::contractile::{Contraction, Source, Spin};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::material::{Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm};
 use gyration::model::Model;
 use gyration::shape::{Cuboid, Shape};
+use gyration::signal::{Signal, Wave};
 use gyration::state::{Start, State};
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
@@ -57,6 +59,30 @@ pub fn cube_over_table(material: Material, height: f64) -> (Model, State) {
         ContactLaw::Friction(Friction { beta: 5e-5, exponent: 3.0, reference_gap: 1.0 }),
     ];
     cube(material, laws, height, -Vec3::z())
+}
+
+/// The free cube, contracting: driven, μ_γ = 0.8, G apart from I; compared with [`free_cube`].
+///
+/// # Panics
+/// As [`free_cube`].
+pub fn contracting_cube(material: Material) -> (Model, State) {
+    let (model, state) = free_cube(material);
+    let Model { gravity, supports, bodies, .. } = model;
+    let motion = state.bodies.clone();
+    let bodies = bodies.into_iter().map(|body| {
+        let affine = body.affine().cloned().unwrap_or_else(|| panic!("the cube deforms"));
+        let wave =
+            Wave { amplitude: Mat3::new(3.0, 0.5, 0.0, 0.0, -1.0, 0.0, 0.3, 0.0, 2.0), frequency: 2.0, phase: 0.3 };
+        let source = Source::Driven { drive: Signal::Sine(wave), feedback: Vec::new() };
+        let contraction = Contraction { viscosity: 0.8, kept_volume: None, spin: Spin::Full, source };
+        Body { kind: BodyKind::Contractile(Box::new(Contractile::new(affine, contraction))), ..body }
+    });
+    let model = Model::new(gravity, supports, bodies.collect());
+    let contraction = Mat3::new(1.1, 0.05, 0.0, 0.0, 0.9, 0.1, -0.05, 0.0, 1.0);
+    let contraction = contraction / contraction.determinant().cbrt();
+    let mut state = State { works: vec![0.0; model.works().len()], ..state };
+    state.bodies = motion.into_iter().chain(contraction.iter().copied()).collect();
+    (model, state)
 }
 
 fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -> (Model, State) {

@@ -3,29 +3,26 @@
 //! A step of h is made with n = 2, 4, 6, … midpoint steps; the results, polynomials in (h/n)², are extrapolated to 0. The
 //! step ends when two neighbours in the table agree; it shrinks where none do, or where it leaves the model.
 
-use super::{NUMBERS, Numbers, SoftBox};
+use super::Equations;
 
 const STAGES: usize = 10;
 
-/// The sizes that errors are measured by: lengths of 0.1 m, P of 1, velocities of 1 m/s, Ṗ of 10 /s.
-fn scale(index: usize) -> f64 {
-    match index {
-        0..3 => 0.1,
-        3..15 => 1.0,
-        _ => 10.0,
-    }
-}
-
-fn combine(a: &Numbers, b: &Numbers, factor: f64) -> Numbers {
+fn combine<const N: usize>(a: &[f64; N], b: &[f64; N], factor: f64) -> [f64; N] {
     std::array::from_fn(|k| a[k] + factor * b[k])
 }
 
-fn difference(a: &Numbers, b: &Numbers) -> f64 {
-    (0..NUMBERS).map(|k| (a[k] - b[k]).abs() / scale(k)).fold(0.0, f64::max)
+fn difference<const N: usize>(system: &impl Equations<N>, a: &[f64; N], b: &[f64; N]) -> f64 {
+    (0..N).map(|k| (a[k] - b[k]).abs() / system.scale(k)).fold(0.0, f64::max)
 }
 
 /// The value after n midpoint steps of h/n, smoothed at the end.
-fn midpoint(system: &SoftBox, y: &Numbers, first: &Numbers, h: f64, n: u32) -> Option<Numbers> {
+fn midpoint<const N: usize>(
+    system: &impl Equations<N>,
+    y: &[f64; N],
+    first: &[f64; N],
+    h: f64,
+    n: u32,
+) -> Option<[f64; N]> {
     let small = h / f64::from(n);
     let (mut before, mut now) = (*y, combine(y, first, small));
     for _ in 1..n {
@@ -37,9 +34,14 @@ fn midpoint(system: &SoftBox, y: &Numbers, first: &Numbers, h: f64, n: u32) -> O
 }
 
 /// One step, and how many stages it took.
-fn step(system: &SoftBox, y: &Numbers, h: f64, tolerance: f64) -> Option<(Numbers, usize)> {
+fn step<const N: usize>(
+    system: &impl Equations<N>,
+    y: &[f64; N],
+    h: f64,
+    tolerance: f64,
+) -> Option<([f64; N], usize)> {
     let first = system.rates(y)?;
-    let mut table: Vec<Numbers> = Vec::new();
+    let mut table: Vec<[f64; N]> = Vec::new();
     for stage in 0..STAGES {
         let count = |stage: usize| 2.0 * (stage as f64 + 1.0);
         let mut row = vec![midpoint(system, y, &first, h, 2 * (stage as u32 + 1))?];
@@ -48,7 +50,7 @@ fn step(system: &SoftBox, y: &Numbers, h: f64, tolerance: f64) -> Option<(Number
             let change = combine(&row[k], &table[k], -1.0);
             row.push(combine(&row[k], &change, 1.0 / (ratio - 1.0)));
         }
-        if stage > 2 && difference(&row[stage], &row[stage - 1]) < tolerance {
+        if stage > 2 && difference(system, &row[stage], &row[stage - 1]) < tolerance {
             return Some((row[stage], stage));
         }
         table = row;
@@ -57,7 +59,12 @@ fn step(system: &SoftBox, y: &Numbers, h: f64, tolerance: f64) -> Option<(Number
 }
 
 /// The numbers at the times, the first of which is that of the start.
-pub fn integrate(system: &SoftBox, start: &Numbers, times: &[f64], tolerance: f64) -> Vec<Numbers> {
+pub fn integrate<const N: usize>(
+    system: &impl Equations<N>,
+    start: &[f64; N],
+    times: &[f64],
+    tolerance: f64,
+) -> Vec<[f64; N]> {
     let (mut y, mut time, mut h) = (*start, times[0], 1e-3);
     let mut found = vec![y];
     for target in &times[1..] {
