@@ -222,6 +222,11 @@ impl Run {
         self.rows.iter().map(|row| row[index]).collect()
     }
 
+    /// Whether there is such a column of the CSV.
+    pub fn has(&self, name: &str) -> bool {
+        self.arrays.iter().any(|array| array.columns.iter().any(|column| column == name))
+    }
+
     /// The samples of an array of matrices (`gradient_rate`, `stress`), of the first body.
     ///
     /// # Panics

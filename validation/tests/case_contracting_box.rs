@@ -91,6 +91,10 @@ fn driven_box_on_a_floor_agrees_with_an_independent_integration() {
     case.check("largest error of a coordinate of the centre over 0.4 s [m]", 0.0, apart(0..3), 1e-7);
     case.check("largest error of an entry of P over 0.4 s", 0.0, apart(3..12), 1e-6);
     case.check("largest error of an entry of G over 0.4 s", 0.0, apart(24..33), 1e-6);
-    case.by("energies and works integrated apart")
-        .check("residual of the ledger over the energy in play", 0.0, run.relative_residual(), 1e-8);
+    case.by("energies and works integrated apart").check(
+        "residual of the ledger over the energy in play",
+        0.0,
+        run.relative_residual(),
+        1e-8,
+    );
 }

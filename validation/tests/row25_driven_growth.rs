@@ -61,7 +61,8 @@ fn contraction_without_stress_is_the_exponential_of_the_drive() {
 
 #[test]
 fn light_rubber_follows_its_contraction() {
-    let case = Case { row: Some(25), name: "driven rubber cube, ρ → 0", source: "G = exp(Qt/μ_γ), first order in ρ" };
+    let case =
+        Case { row: Some(25), name: "driven rubber cube, ρ → 0", source: "G = exp(Qt/μ_γ), first order in ρ" };
     let known = exponential(&(drive() * (END / DRAG)));
     let error = |density: f64| {
         let run = cube("material = { neo_hookean = { shear = 2000, bulk = 6000 } }, viscosity = 20, ", density).run();

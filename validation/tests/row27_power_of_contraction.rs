@@ -39,7 +39,11 @@ fn symmetric(matrix: Mat3) -> Mat3 {
 
 #[test]
 fn power_of_the_drive_goes_where_the_balance_says() {
-    let case = Case { row: Some(27), name: "driven spinning ball", source: "d/dt(T + V det G φ) = V(Q·V_G − μ_γ|V_G|² − μ|sym ḞF⁻¹|²)" };
+    let case = Case {
+        row: Some(27),
+        name: "driven spinning ball",
+        source: "d/dt(T + V det G φ) = V(Q·V_G − μ_γ V_G² − μ (sym ḞF⁻¹)²)",
+    };
     let run = driven();
     let volumes: Vec<f64> = run.matrices("contraction").iter().map(Mat3::determinant).collect();
     let (least, most) = (volumes.iter().copied().fold(f64::MAX, f64::min), volumes.iter().copied().fold(0.0, f64::max));
@@ -62,7 +66,17 @@ fn power_of_the_drive_goes_where_the_balance_says() {
     let scale = largest(powers.iter().copied());
     let apart = largest(rates.iter().zip(&powers).map(|(rate, power)| rate - power));
     // Differences: rounding of the energies, 1e-16/h, and the ninth derivative of what rings at some 90 rad/s.
-    case.by("differences of eighth order").check("largest difference of the two sides, relative", 0.0, apart / scale, 1e-8);
+    case.by("differences of eighth order").check(
+        "largest difference of the two sides, relative",
+        0.0,
+        apart / scale,
+        1e-8,
+    );
     let trend = largest(run.column("work.contraction").windows(2).map(|pair| (pair[1] - pair[0]).max(0.0)));
-    case.by("the reduced dissipation inequality").check("largest gain by contraction between samples [J]", 0.0, trend, 0.0);
+    case.by("the reduced dissipation inequality").check(
+        "largest gain by contraction between samples [J]",
+        0.0,
+        trend,
+        0.0,
+    );
 }

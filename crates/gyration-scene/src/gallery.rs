@@ -28,6 +28,14 @@ static SCENES: &[(&str, &str)] = &[
     ("pinned-strain", include_str!("../../../scenes/pinned-strain.toml")),
     ("stiff-limit", include_str!("../../../scenes/stiff-limit.toml")),
     ("kick", include_str!("../../../scenes/kick.toml")),
+    ("contract-1", include_str!("../../../scenes/contract-1.toml")),
+    ("contract-2", include_str!("../../../scenes/contract-2.toml")),
+    ("contract-3", include_str!("../../../scenes/contract-3.toml")),
+    ("hop", include_str!("../../../scenes/hop.toml")),
+    ("crawl", include_str!("../../../scenes/crawl.toml")),
+    ("roll-over", include_str!("../../../scenes/roll-over.toml")),
+    ("breathe", include_str!("../../../scenes/breathe.toml")),
+    ("scallop", include_str!("../../../scenes/scallop.toml")),
 ];
 
 /// Name and text of each scene of the gallery.

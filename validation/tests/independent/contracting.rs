@@ -5,7 +5,9 @@
 //!
 //! The operator on the left is found by applying it to nine matrices with a single one. The time is a number of the state.
 
-use super::{Equations, Matrix, NUMBERS, Numbers, SoftBox, Stuff, matrix, of, product, solve, trace, transpose, usual_scale};
+use super::{
+    Equations, Matrix, NUMBERS, Numbers, SoftBox, Stuff, matrix, of, product, solve, trace, transpose, usual_scale,
+};
 
 /// p₀, P, ṗ₀, Ṗ, G (rows), t.
 pub const MORE: usize = NUMBERS + 10;

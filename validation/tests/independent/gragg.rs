@@ -34,12 +34,7 @@ fn midpoint<const N: usize>(
 }
 
 /// One step, and how many stages it took.
-fn step<const N: usize>(
-    system: &impl Equations<N>,
-    y: &[f64; N],
-    h: f64,
-    tolerance: f64,
-) -> Option<([f64; N], usize)> {
+fn step<const N: usize>(system: &impl Equations<N>, y: &[f64; N], h: f64, tolerance: f64) -> Option<([f64; N], usize)> {
     let first = system.rates(y)?;
     let mut table: Vec<[f64; N]> = Vec::new();
     for stage in 0..STAGES {

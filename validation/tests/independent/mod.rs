@@ -210,7 +210,6 @@ impl SoftBox {
             }
         }
     }
-
 }
 
 impl Equations<NUMBERS> for SoftBox {
