@@ -66,35 +66,48 @@ fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
     text
 }
 
-/// What the drive did and what was lost within the bodies, and whether each loss is one at every step.
-fn dissipation(ledger: &LedgerSummary) -> String {
-    let drive = ledger.work("drive");
-    let losses: Vec<(&str, f64, f64)> =
-        ledger.least_dissipation.iter().filter_map(|(name, least)| Some((*name, ledger.work(name)?, *least))).collect();
-    if losses.is_empty() && drive.is_none() {
-        return String::new();
-    }
-    let did = drive.map(|work| format!("did {} J", plain(work, 5)));
-    let lost = losses.iter().map(|(name, work, _)| format!("{name} lost {} J", plain(-work + 0.0, 5)));
-    let works: Vec<String> = did.into_iter().chain(lost).collect();
-    let head = if drive.is_some() { "drive" } else { "within" };
-    format!("{head:<10} {}{}\n", works.join(", "), check(&losses, ledger.energy_in_play))
+/// What a body's own losses took, and the least that one of them took in a step [J].
+struct Loss {
+    name: &'static str,
+    taken: f64,
+    least: f64,
 }
 
-/// Whether losses are losses at every step; a gain is told beside the energy in play \[J\].
-fn check(losses: &[(&str, f64, f64)], in_play: f64) -> String {
-    let least = losses.iter().map(|(_, _, least)| *least).fold(f64::INFINITY, f64::min);
+/// What the drive did and what was lost within the bodies, and whether each loss is one at every step.
+fn dissipation(ledger: &LedgerSummary) -> String {
+    let loss = |(name, least): &(&'static str, f64)| {
+        ledger.work(name).map(|work| Loss { name, taken: -work + 0.0, least: *least })
+    };
+    let losses: Vec<Loss> = ledger.least_dissipation.iter().filter_map(loss).collect();
+    let lost = |loss: &Loss| format!("lost {} J", plain(loss.taken, 5));
+    let words = match (ledger.work("drive"), &losses[..]) {
+        (None, []) => return String::new(),
+        (None, [only]) => format!("{:<10} {}", only.name, lost(only)),
+        (drive, losses) => {
+            let did = drive.map(|work| format!("did {} J", plain(work, 5)));
+            let lost = losses.iter().map(|loss| format!("{} {}", loss.name, lost(loss)));
+            format!("{:<10} {}", "drive", did.into_iter().chain(lost).collect::<Vec<_>>().join(", "))
+        }
+    };
+    format!("{words}{}\n", verdict(&losses, ledger.energy_in_play))
+}
+
+/// Whether losses are losses at every step; a gain is told beside the energy in play [J].
+fn verdict(losses: &[Loss], in_play: f64) -> String {
+    let least = losses.iter().map(|loss| loss.least).fold(f64::INFINITY, f64::min);
     let subject = match losses {
         [] => return String::new(),
-        [(name, _, _)] => format!("{name} dissipates"),
-        _ => "both dissipate".to_owned(),
+        [_] => "it dissipates",
+        _ => "both dissipate",
     };
     if least >= 0.0 {
         return format!("; {subject} at every step (least {least:.1e} J)");
     }
+    if -least <= ROUNDING * in_play {
+        return format!("; {subject} at every step up to rounding (least {least:.1e} J)");
+    }
     let relative = -least / in_play;
-    let relative = if relative.is_finite() { format!(", {relative:.1e} of the energy in play") } else { String::new() };
-    format!("; {subject} but for the error of a step (most gained in one: {:.1e} J{relative})", -least)
+    format!("; {subject} but for the error of a step (least {least:.1e} J, {relative:.1e} of the energy in play)")
 }
 
 fn bodies(bodies: &[BodySummary]) -> String {
@@ -163,12 +176,18 @@ mod tests {
 
     #[test]
     fn losses_are_told_with_whether_they_are_losses_at_every_step() {
-        let losses = [("contraction", -2.0, 1e-9), ("viscosity", -1.0, 0.0)];
-        assert_eq!(check(&losses, 4.0), "; both dissipate at every step (least 0.0e0 J)");
-        assert_eq!(check(&losses[..1], 4.0), "; contraction dissipates at every step (least 1.0e-9 J)");
-        let gained = check(&[("viscosity", -1.0, -2e-9)], 4.0);
-        assert!(gained.contains("gained in one: 2.0e-9 J, 5.0e-10 of the energy in play"), "{gained}");
-        assert_eq!(check(&[], 4.0), "");
+        let loss = |name, least| Loss { name, taken: 1.0, least };
+        let both = [loss("contraction", 1e-9), loss("viscosity", 0.0)];
+        assert_eq!(verdict(&both, 4.0), "; both dissipate at every step (least 0.0e0 J)");
+        assert_eq!(verdict(&both[..1], 4.0), "; it dissipates at every step (least 1.0e-9 J)");
+        let rounding = verdict(&[loss("viscosity", -1e-16)], 4.0);
+        assert_eq!(rounding, "; it dissipates at every step up to rounding (least -1.0e-16 J)");
+        let gained = verdict(&[loss("viscosity", -2e-9)], 4.0);
+        assert!(
+            gained.ends_with("but for the error of a step (least -2.0e-9 J, 5.0e-10 of the energy in play)"),
+            "{gained}"
+        );
+        assert_eq!(verdict(&[], 4.0), "");
     }
 
     #[test]

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{BALL, Sandbox};
+use common::{BALL, Sandbox, soft_ball};
 use serde_json::Value;
 
 /// A box that stretches and shears itself out of phase: it gets somewhere.
@@ -75,6 +75,36 @@ fn drives_of_contractile_bodies_are_drawn() {
 }
 
 #[test]
+fn prescribed_circle_has_its_area_and_its_mirror_image_the_opposite() {
+    let scene = |side: f64| {
+        let start = CRAWLER.find("contraction_viscosity").unwrap();
+        let end = CRAWLER.find("position").unwrap();
+        let circle = format!(
+            "prescribed = {{ sum = [ {{ constant = {{ value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }} }}, \
+             {{ sine = {{ amplitude = [[0.1, 0, 0], [0, 0, 0], [0, 0, 0]], frequency = 4 }} }}, \
+             {{ sine = {{ amplitude = [[0, 0, {}], [0, 0, 0], [0, 0, 0]], frequency = 4, phase = \"90 deg\" }} }} ] }} }}\n",
+            0.1 * side
+        );
+        format!("{}{circle}{}", &CRAWLER[..start], &CRAWLER[end..])
+    };
+    let drawn = |side: f64| {
+        let sandbox = recorded(&scene(side));
+        words(&sandbox.done(&["plot", "crawler.gyr", "stroke", "distance", "-o", "-"]).stdout)
+    };
+    // 50 samples of a circle of radius 0.1 enclose π/100 sin(2π/50)/(2π/50) = 0.03133; x goes by the sine, y by the cosine.
+    let (clockwise, mirrored) = (drawn(1.0), drawn(-1.0));
+    assert!(clockwise.contains("area −0.0313") && clockwise.contains("50 samples a cycle"), "{clockwise}");
+    assert!(mirrored.contains("area 0.0313") && mirrored.contains("counterclockwise"), "{mirrored}");
+    // Both get equally far, to three digits, to opposite sides.
+    let gained = |words: &str| {
+        let rest = words.split("last cycle: ").nth(1).unwrap().split(" along x").next().unwrap().to_owned();
+        (rest.starts_with('−'), rest.trim_start_matches('−').to_owned())
+    };
+    let (there, back) = (gained(&clockwise), gained(&mirrored));
+    assert!(there.1 == back.1 && there.0 != back.0, "{there:?}, {back:?}");
+}
+
+#[test]
 fn reversing_the_measures_reverses_the_sense() {
     let sandbox = recorded(CRAWLER);
     let drawn = |measures: &str| {
@@ -138,6 +168,10 @@ fn summary_tells_what_the_drive_did_and_that_losses_are_losses() {
     let json = sandbox.done(&["run", "crawler.toml", "--force", "--json"]).stdout;
     let summary: Value = serde_json::from_str(&json).unwrap();
     assert!(summary["ledger"]["least_dissipation"]["contraction"].is_f64(), "{json}");
+    // Without a drive the losses are told alone, and without losses nothing is.
+    sandbox.write("soft.toml", &soft_ball().replace("end = 0.6", "end = 0.25"));
+    let said = sandbox.done(&["run", "soft.toml"]).stderr;
+    assert!(said.contains("\nviscosity  lost ") && said.contains("; it dissipates "), "{said}");
     sandbox.write("ball.toml", &BALL.replace("end = 0.6", "end = 0.05"));
     let said = sandbox.done(&["run", "ball.toml"]).stderr;
     assert!(!said.contains("dissipate"), "{said}");

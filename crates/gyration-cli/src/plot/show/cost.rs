@@ -6,7 +6,7 @@
 //! R. Tedrake, M. Wisse, *Efficient bipedal robots based on passive-dynamic walkers*, Science 307 (2005). The net work in its place is drawn
 //! dashed. Both grow without bound where d vanishes: they begin where the body has got some way.
 
-use super::distance::Level;
+use super::distance::{Level, NOWHERE};
 use super::effort::{self, ARRAYS, Driven, Works};
 use super::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
 use crate::plot::PlotError;
@@ -17,8 +17,6 @@ use crate::plot::thin::Thinner;
 use gyration::tensor::Vec3;
 
 const HEIGHT: f64 = 130.0;
-/// A body that gets no farther than this part of its size travels nowhere.
-const NOWHERE: f64 = 1e-6;
 /// The cost is drawn where the distance is above this part of the farthest.
 const SOME_WAY: f64 = 0.02;
 /// A cost that spans more than this factor is drawn over a logarithmic axis.

@@ -19,6 +19,9 @@ const HEIGHT: f64 = 120.0;
 /// An axis along which bodies move by less than this part of the other is left out.
 const ASIDE: f64 = 1e-3;
 
+/// A body that gets no farther than this part of its size travels nowhere: what is left is rounding, and errors of steps.
+pub const NOWHERE: f64 = 1e-6;
+
 /// Two level directions with their names.
 pub struct Level([(String, Vec3); 2]);
 
@@ -110,7 +113,8 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
     let level = Level::to(&recorded.up());
     let travels = Travels::read(recorded, &level)?;
     let reach = [0, 1].map(|direction| travels.reach(recorded, direction));
-    let (main, aside) = if reach[1] > reach[0] { (1, 0) } else { (0, 1) };
+    let nowhere = NOWHERE * travels.bodies.iter().map(|body| recorded.bodies[*body].size).fold(0.0, f64::max);
+    let (main, aside) = if reach[1] > reach[0].max(nowhere) { (1, 0) } else { (0, 1) };
     let names = [0, 1].map(|k| format!("along {}", level.0[k].0));
     let (mut series, mut remarks) = body_series(recorded, &travels.bodies, travels.lines[main].clone());
     let alone = series.len() == 1;
@@ -121,7 +125,7 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
     }
     let others = [(names[aside].as_str(), DASHED, aside), ("length of the path", DOTTED, 2)];
     for (name, dash, which) in others {
-        let goes = |line: &[Point]| which == 2 || farthest(line) > ASIDE * reach[main];
+        let goes = |line: &[Point]| which == 2 || farthest(line) > nowhere.max(ASIDE * reach[main]);
         let lines = travels.bodies.iter().zip(&travels.lines[which]).filter(|(_, line)| goes(line));
         for (k, (body, points)) in lines.enumerate() {
             let name = match (alone, k) {
@@ -133,7 +137,8 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
         }
     }
     remarks.extend(cycles_in_words(recorded, &travels, &names));
-    let y = Axis::linear("distance", "m", values(&series));
+    // Rounding is not blown up to the height of the chart.
+    let y = Axis::linear("distance", "m", values(&series).chain([-nowhere, nowhere]));
     let title = "Level distance of the centre of mass from its start".to_owned();
     Ok(Chart { title, x: time_axis(recorded)?, y, series, remarks, height: HEIGHT })
 }
