@@ -1,5 +1,6 @@
 //! How a body may deform, and what it is made of, in words.
 
+use super::contraction::contraction;
 use crate::summary::plain;
 use gyration::affine::Viscosity;
 use gyration::body::{Affine, Body, BodyKind};
@@ -15,7 +16,7 @@ pub struct KindCheck {
     pub incompressible: bool,
     /// Its material and moduli; none of a rigid body.
     pub material: Option<String>,
-    /// What resists its deformation and motion, or acts on it besides contacts and springs; one entry each.
+    /// What resists its deformation and motion, acts on it besides contacts and springs, or makes it contract; one entry each.
     pub loads: Vec<String>,
 }
 
@@ -37,7 +38,7 @@ impl KindCheck {
                     material: Some(
                         material.map_or_else(|| "no material: deforms freely".to_owned(), material_in_words),
                     ),
-                    loads: loads(affine),
+                    loads: [loads(affine), body.contraction().map(contraction).unwrap_or_default()].concat(),
                 }
             }
         }

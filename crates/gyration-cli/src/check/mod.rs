@@ -2,6 +2,7 @@
 //!
 //! Everything here is computed, nothing printed.
 
+mod contraction;
 mod kind;
 mod laws;
 mod mass;
