@@ -101,7 +101,7 @@ pub(super) fn first_fault(signal: &Signal, end: f64, fault: impl Fn(&Mat3) -> Op
 const PER_PERIOD: f64 = 64.0;
 /// Between two knots.
 const PER_KNOT: f64 = 8.0;
-/// A signal of more periods than this many instants tell is looked at more sparsely: they fall on ever other phases.
+/// At most so many in the whole, beside those between knots: of a wave of more periods each shows another phase.
 const MOST: f64 = 1e5;
 
 /// Times at which a signal is looked at, from 0 to `end`.
