@@ -1,47 +1,50 @@
 //! 3×3 matrices as three columns of four numbers, the fourth of which is idle: what the balance of a body that deforms
 //! and its derivative are computed in.
 //!
-//! A column is two registers of 128 bits, and all products of matrices are sums of columns times numbers:
+//! All products of matrices are sums of columns times numbers,
 //!
 //!   (A B)_K = Σ_L A_L B_LK,   (A Bᵀ)_K = Σ_L A_L B_KL
 //!
-//! Everything is `inline(always)` and written out, without `map` or loops over slices, so that nothing goes through memory.
+//! and a column is worked on as a whole, in whatever registers the processor has for four numbers (`four`): `Columns` is a matrix in
+//! memory, `Columns<F>` one in registers. Everything is `inline(always)` and written out, without `map` or loops over slices.
+
+mod four;
 
 use crate::tensor::Mat3;
+pub(crate) use four::{Four, Work, dispatch};
 use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// Three numbers and an idle one, which is zero or not a number.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Column(pub [f64; 4]);
+pub(crate) struct Column<F = [f64; 4]>(pub F);
 
 /// A matrix column by column.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Columns(pub [Column; 3]);
+pub(crate) struct Columns<F = [f64; 4]>(pub [Column<F>; 3]);
 
 /// The columns of the unit matrix.
 pub(crate) const UNIT: [Column; 3] =
     [Column([1.0, 0.0, 0.0, 0.0]), Column([0.0, 1.0, 0.0, 0.0]), Column([0.0, 0.0, 1.0, 0.0])];
 
-impl Column {
-    /// a × b.
+impl<F: Four> Column<F> {
+    /// a_i.
     #[inline(always)]
-    pub fn cross(&self, other: &Self) -> Self {
-        let (Self([a0, a1, a2, _]), Self([b0, b1, b2, _])) = (*self, *other);
-        Self([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0, 0.0])
+    pub fn at(&self, row: usize) -> f64 {
+        self.0.at(row)
     }
 
-    /// a_i b_i.
+    /// a × b = (a b′ − a′ b)′, where ′ takes (a₀, a₁, a₂) to (a₁, a₂, a₀).
     #[inline(always)]
-    fn product(&self, other: &Self) -> Self {
-        let (Self([a0, a1, a2, a3]), Self([b0, b1, b2, b3])) = (*self, *other);
-        Self([a0 * b0, a1 * b1, a2 * b2, a3 * b3])
+    pub fn cross(&self, other: &Self) -> Self {
+        let (a, b) = (self.0, other.0);
+        Self(a.product(b.turned()).minus(a.turned().product(b)).turned())
     }
 
     /// (a₀b₀ + a₁b₁) + a₂b₂.
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {
-        let (Self([a0, a1, a2, _]), Self([b0, b1, b2, _])) = (*self, *other);
-        (a0 * b0 + a1 * b1) + a2 * b2
+        let [one, two, three, _] = self.0.product(other.0).numbers();
+        (one + two) + three
     }
 }
 
@@ -59,40 +62,59 @@ impl Columns {
         Self([Column([n[0], n[1], n[2], 0.0]), Column([n[3], n[4], n[5], 0.0]), Column([n[6], n[7], n[8], 0.0])])
     }
 
+    /// In registers of this kind.
+    #[inline(always)]
+    pub fn with<F: Four>(&self, registers: F) -> Columns<F> {
+        let Self([Column(a), Column(b), Column(c)]) = *self;
+        Columns([Column(registers.like(a)), Column(registers.like(b)), Column(registers.like(c))])
+    }
+}
+
+impl<F: Four> Columns<F> {
+    /// In memory.
+    #[inline(always)]
+    pub fn kept(&self) -> Columns {
+        let Self([Column(a), Column(b), Column(c)]) = self;
+        Columns([Column(a.numbers()), Column(b.numbers()), Column(c.numbers())])
+    }
+
     /// Writes the nine numbers.
     #[inline(always)]
     pub fn write(&self, numbers: &mut [f64]) {
-        let (Self([Column(a), Column(b), Column(c)]), out) = (self, &mut numbers[..9]);
-        out[..3].copy_from_slice(&a[..3]);
-        out[3..6].copy_from_slice(&b[..3]);
+        let (Columns([Column(a), Column(b), Column(c)]), out) = (self.kept(), &mut numbers[..9]);
+        // Idle numbers are written as well, each then overwritten by the next column.
+        out[..4].copy_from_slice(&a);
+        out[3..7].copy_from_slice(&b);
         out[6..].copy_from_slice(&c[..3]);
     }
 
     /// The matrix.
     #[inline(always)]
     pub fn matrix(&self) -> Mat3 {
-        let Self([Column(a), Column(b), Column(c)]) = self;
+        let Columns([Column(a), Column(b), Column(c)]) = self.kept();
         Mat3::new(a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2])
     }
 
     /// A_ik.
     #[inline(always)]
     pub fn at(&self, row: usize, column: usize) -> f64 {
-        self.0[column].0[row]
+        self.0[column].at(row)
     }
 
     /// Aᵀ.
     #[inline(always)]
     pub fn transpose(&self) -> Self {
-        let Self([Column([a0, a1, a2, _]), Column([b0, b1, b2, _]), Column([c0, c1, c2, _])]) = *self;
-        Self([Column([a0, b0, c0, 0.0]), Column([a1, b1, c1, 0.0]), Column([a2, b2, c2, 0.0])])
+        let Columns([Column([a0, a1, a2, _]), Column([b0, b1, b2, _]), Column([c0, c1, c2, _])]) = self.kept();
+        Columns([Column([a0, b0, c0, 0.0]), Column([a1, b1, c1, 0.0]), Column([a2, b2, c2, 0.0])]).with(self.0[0].0)
     }
 
     /// A b.
     #[inline(always)]
-    pub fn image(&self, b: &Column) -> Column {
-        let [x, y, z] = self.0;
-        (x * b.0[0] + y * b.0[1]) + z * b.0[2]
+    pub fn image(&self, b: &Column<F>) -> Column<F> {
+        let [Column(x), Column(y), Column(z)] = self.0;
+        let Column(b) = *b;
+        let sum = x.product(b.spread::<0>()).plus(y.product(b.spread::<1>()));
+        Column(sum.plus(z.product(b.spread::<2>())))
     }
 
     /// A B.
@@ -114,6 +136,15 @@ impl Columns {
         Self([x * factors[0], y * factors[1], z * factors[2]])
     }
 
+    /// A + s I; what stands outside the diagonal is left alone.
+    #[inline(always)]
+    pub fn plus_unit(&self, s: f64) -> Self {
+        let like = |numbers| Column(self.0[0].0.like(numbers));
+        // x + (−0) is x, whatever x is.
+        let unit = [like([s, -0.0, -0.0, -0.0]), like([-0.0, s, -0.0, -0.0]), like([-0.0, -0.0, s, -0.0])];
+        *self + Self(unit)
+    }
+
     /// ½(A + Aᵀ).
     #[inline(always)]
     pub fn symmetric(&self) -> Self {
@@ -123,8 +154,8 @@ impl Columns {
     /// A·B = tr(AᵀB).
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {
-        let (Self([a, b, c]), Self([x, y, z])) = (self, other);
-        let Column([one, two, three, _]) = (a.product(x) + b.product(y)) + c.product(z);
+        let ([Column(a), Column(b), Column(c)], [Column(x), Column(y), Column(z)]) = (self.0, other.0);
+        let [one, two, three, _] = a.product(x).plus(b.product(y)).plus(c.product(z)).numbers();
         (one + two) + three
     }
 
@@ -137,7 +168,7 @@ impl Columns {
     /// Whether all but the diagonal is zero.
     #[inline(always)]
     pub fn is_diagonal(&self) -> bool {
-        let Self([Column([_, a1, a2, _]), Column([b0, _, b2, _]), Column([c0, c1, _, _])]) = *self;
+        let Columns([Column([_, a1, a2, _]), Column([b0, _, b2, _]), Column([c0, c1, _, _])]) = self.kept();
         a1 == 0.0 && a2 == 0.0 && b0 == 0.0 && b2 == 0.0 && c0 == 0.0 && c1 == 0.0
     }
 
@@ -149,44 +180,41 @@ impl Columns {
     }
 }
 
-impl Mul<f64> for Column {
+impl<F: Four> Mul<f64> for Column<F> {
     type Output = Self;
 
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        let [a, b, c, d] = self.0;
-        Self([a * factor, b * factor, c * factor, d * factor])
+        Self(self.0.times(factor))
     }
 }
 
-impl Add for Column {
+impl<F: Four> Add for Column<F> {
     type Output = Self;
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let (a, b) = (self.0, other.0);
-        Self([a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]])
+        Self(self.0.plus(other.0))
     }
 }
 
-impl Sub for Column {
+impl<F: Four> Sub for Column<F> {
     type Output = Self;
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        let (a, b) = (self.0, other.0);
-        Self([a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]])
+        Self(self.0.minus(other.0))
     }
 }
 
-impl AddAssign for Column {
+impl<F: Four> AddAssign for Column<F> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl Mul<f64> for Columns {
+impl<F: Four> Mul<f64> for Columns<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -196,7 +224,7 @@ impl Mul<f64> for Columns {
     }
 }
 
-impl Add for Columns {
+impl<F: Four> Add for Columns<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -206,7 +234,7 @@ impl Add for Columns {
     }
 }
 
-impl Sub for Columns {
+impl<F: Four> Sub for Columns<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -216,7 +244,7 @@ impl Sub for Columns {
     }
 }
 
-impl AddAssign for Columns {
+impl<F: Four> AddAssign for Columns<F> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;

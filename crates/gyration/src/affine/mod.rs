@@ -8,9 +8,13 @@
 
 mod anisotropic;
 mod constraint;
+mod elastic;
 mod gyration;
+mod mobility;
+mod reaction;
 mod slopes;
 mod solution;
+mod terms;
 mod viscosity;
 
 pub use anisotropic::AnisotropicFriction;
@@ -18,12 +22,14 @@ pub(crate) use constraint::Constraint;
 pub use constraint::Correction;
 pub use gyration::Gyration;
 pub use slopes::AffineSlopes;
+pub(crate) use terms::Entry;
 pub use viscosity::Viscosity;
 
-use crate::columns::Columns;
+use crate::columns::{Columns, Four, Work, dispatch};
 use crate::mass::MassProperties;
 use crate::material::Material;
 use crate::tensor::Mat3;
+use mobility::Mobility;
 use solution::Solution;
 
 /// What makes a body affine: its inertia and what it is made of.
@@ -114,18 +120,20 @@ impl AffineBody {
 
     /// B J⁻¹.
     #[inline(always)]
-    pub(crate) fn per_inertia(&self, moment: &Columns) -> Columns {
-        let inverse = Columns::of(&self.inverse);
-        if inverse.is_diagonal() {
-            return moment.scaled(&[inverse.at(0, 0), inverse.at(1, 1), inverse.at(2, 2)]);
-        }
-        moment.times(&inverse)
+    pub(crate) fn per_inertia<F: Four>(&self, moment: &Columns<F>) -> Columns<F> {
+        Mobility::of(&self.inverse).of_moment(moment)
+    }
+
+    /// S_e Pᵀ.
+    #[inline(always)]
+    fn elastic_stress<F: Four>(&self, at: &Gyration, registers: F) -> Option<Columns<F>> {
+        let p = || Columns::of(&at.gradient).with(registers);
+        self.material.as_ref().map(|material| material.kirchhoff_stress_at(&p(), at.volume_ratio))
     }
 
     /// Solves the balance for P̈ and, of an incompressible body, the pressure; `moment` is M [N m].
     pub fn balance(&self, at: &Gyration, moment: &Mat3) -> AffineBalance {
-        let elastic = self.material.as_ref().map(|material| material.stress_at(&Columns::of(&at.gradient)));
-        Solution::new(self, at, elastic, &Columns::of(moment)).balance(self)
+        dispatch(Balance { body: self, at, moment })
     }
 
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.
@@ -158,5 +166,23 @@ impl AffineBody {
             viscosity: viscosity.unwrap_or_default(),
             ..self.clone()
         })
+    }
+}
+
+/// The balance to be solved.
+struct Balance<'a> {
+    body: &'a AffineBody,
+    at: &'a Gyration,
+    moment: &'a Mat3,
+}
+
+impl Work for Balance<'_> {
+    type Output = AffineBalance;
+
+    #[inline(always)]
+    fn run<F: Four>(self, zeros: F) -> AffineBalance {
+        let Self { body, at, moment } = self;
+        let elastic = body.elastic_stress(at, zeros);
+        Solution::new(body, at, elastic, &Columns::of(moment).with(zeros)).balance(body)
     }
 }

@@ -1,166 +1,239 @@
 //! The derivative of the balance of an affine body, in closed form.
 //!
-//! With F = P⁻¹, G = F Fᵀ, rows of F as F_A, places (i, A) of a matrix and increments δP = e_j ⊗ e_B:
-//!
-//!   ∂(V S_v)/∂Ṗ = V [½a (δ_ij G_AB + F_Bi F_Aj) + c F_Ai F_Bj]
-//!   ∂(V S_v)/∂P = −V [½a (L_ij G_AB + F_Bi (FL)_Aj) + c F_Ai (FL)_Bj + (τ F_B)_i F_Aj − (τ_N P⁻ᵀ)_iA F_Bj]
-//!
-//! a, c and the Newtonian part τ_N as in `viscosity`; the elastic part is the tangent of the material. The constraint
-//! tr(P̈ F) = tr(L²) is differentiated as it stands: δP̈ = u + s Y, u = (δB + πV δ(P⁻ᵀ)) J⁻¹, and s from
+//! With F = P⁻¹ and B = M − V(S_e + τ P⁻ᵀ) the change of P̈ = B J⁻¹ + πV Y is that of B J⁻¹ at a fixed reaction πV P⁻ᵀ, which
+//! turns with P (`elastic`, `reaction`), and a multiple s of Y. The constraint tr(P̈ F) = tr(L²) is differentiated as it stands,
+//! and gives s from
 //!
 //!   tr(δP̈ F) = Σ 2(FL)_Bj δṖ_jB + Σ (F P̈ F − 2FLL)_Bj δP_jB
+//!
+//! All terms are products of δP with fixed matrices (`terms`), the last of which is divided by J once.
 
 use super::anisotropic::FrictionSlopes;
+use super::elastic::Elastic;
+use super::mobility::Mobility;
+use super::reaction::Reaction;
 use super::solution::Solution;
+use super::terms::Entry;
 use super::{AffineBody, Gyration};
-use crate::columns::{Columns, UNIT};
-use crate::material::Kept;
+use crate::columns::{Columns, Four};
+use crate::material::{ByInvariants, ByPrincipal};
 use crate::tensor::Mat3;
 
 /// The derivative of the balance at P, Ṗ, M: what its columns are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AffineSlopes<'a> {
     body: &'a AffineBody,
-    solution: Solution,
-    material: Option<Kept>,
-    friction: Friction<'a>,
+    mobility: Mobility,
+    reaction: Reaction,
+    elastic: Elastic,
+    principal: Option<ByPrincipal>,
+    anisotropic: Option<FrictionSlopes<'a>>,
+    /// 1/a, of an incompressible body.
+    compliance: Option<f64>,
     /// (F P̈ F − 2FLL)ᵀ.
     asked_by_gradient: Columns,
-}
-
-/// What the friction adds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Friction<'a> {
-    /// ½V a and V c.
-    half: f64,
-    cross: f64,
-    /// G.
-    metric: Columns,
-    /// (FL)ᵀ.
-    carried: Columns,
-    /// V τ P⁻ᵀ, the anisotropic part excepted.
-    turned: Columns,
-    /// V τ_N P⁻ᵀ.
-    grown: Option<Columns>,
-    anisotropic: Option<FrictionSlopes<'a>>,
+    /// 2(FL)ᵀ.
+    asked_by_rate: Columns,
 }
 
 impl AffineBody {
     /// The derivative of the balance; `moment` is M [N m].
-    #[inline]
     pub fn slopes<'a>(&'a self, at: &'a Gyration, moment: &Mat3) -> AffineSlopes<'a> {
-        let material = self.material.as_ref().map(|material| material.at(&Columns::of(&at.gradient)));
-        let solution = Solution::new(self, at, material.as_ref().map(Kept::stress), &Columns::of(moment));
-        let friction = Friction::new(self, at, &solution);
+        self.slopes_in([0.0; 4], at, moment)
+    }
+
+    /// The same, computed in registers of this kind.
+    #[inline(always)]
+    pub(crate) fn slopes_in<'a, F: Four>(&'a self, zeros: F, at: &'a Gyration, moment: &Mat3) -> AffineSlopes<'a> {
+        // The matrices are written where they stay, one after the other: built of parts, they would be moved about.
+        let mut slopes = AffineSlopes {
+            body: self,
+            mobility: Mobility::of(&self.inverse),
+            reaction: Reaction::default(),
+            elastic: Elastic::default(),
+            principal: None,
+            anisotropic: self.anisotropic.as_ref().map(|friction| FrictionSlopes::new(friction, at)),
+            compliance: None,
+            asked_by_gradient: Columns::default(),
+            asked_by_rate: Columns::default(),
+        };
+        let solution = Solution::new(self, at, self.elastic_stress(at, zeros), &Columns::of(moment).with(zeros));
         let Solution { across, l, acceleration, .. } = &solution;
+        let lt = l.transpose();
+        let carried = lt.times(across);
         // Transposed: P⁻ᵀ P̈ᵀ P⁻ᵀ − 2 Lᵀ(FL)ᵀ.
         let straight = across.times_transposed(acceleration).times(across);
-        let asked_by_gradient = straight - l.transpose().times(&friction.carried) * 2.0;
-        AffineSlopes { body: self, solution, material, friction, asked_by_gradient }
-    }
-}
-
-impl<'a> Friction<'a> {
-    #[inline(always)]
-    fn new(body: &'a AffineBody, at: &'a Gyration, solution: &Solution) -> Self {
-        let Solution { across, l, .. } = solution;
-        let (a, c) = body.viscosity.coefficients(at.volume_ratio);
-        let stress = body.viscosity.stress_at(at.volume_ratio, l);
-        let newtonian = body.viscosity.newtonian();
-        Self {
-            half: 0.5 * body.volume * a,
-            cross: body.volume * c,
-            metric: across.transpose().times(across),
-            carried: l.transpose().times(across),
-            turned: stress.times(across) * body.volume,
-            grown: newtonian.map(|part| part.stress_at(at.volume_ratio, l).times(across) * body.volume),
-            anisotropic: body.anisotropic.as_ref().map(|friction| FrictionSlopes::new(friction, at)),
-        }
+        slopes.asked_by_gradient = (straight - lt.times(&carried) * 2.0).kept();
+        slopes.asked_by_rate = (carried * 2.0).kept();
+        slopes.compliance = solution.constraint.as_ref().map(|constraint| constraint.compliance);
+        let pressed = slopes.fill_elastic(at, zeros);
+        slopes.reaction.fill(self, at, (&slopes.mobility, &solution), solution.push - pressed, &carried);
+        slopes
     }
 }
 
 impl AffineSlopes<'_> {
-    /// ∂B/∂P_jB, M and the pressure kept, with the change of the reaction πV P⁻ᵀ.
+    /// Fills the elastic part, and gives what of V S_e Pᵀ acts as a pressure.
     #[inline(always)]
+    fn fill_elastic<F: Four>(&mut self, at: &Gyration, zeros: F) -> f64 {
+        let Some(material) = &self.body.material else { return 0.0 };
+        let p = Columns::of(&at.gradient);
+        self.principal = material.by_principal(&p);
+        if self.principal.is_some() {
+            return 0.0;
+        }
+        let kept = ByInvariants::new(&p.with(zeros), material);
+        let volume = self.body.volume;
+        self.elastic.fill(volume, (&self.mobility, &Columns::of(&self.body.inverse)), &kept);
+        volume * at.volume_ratio * kept.derivatives.first[2]
+    }
+
+    /// ∂B/∂P_jB, M and the pressure kept, with the change of the reaction πV P⁻ᵀ.
     pub(crate) fn by_gradient(&self, j: usize, b: usize) -> Columns {
-        let Solution { across, l, push, .. } = &self.solution;
-        let Friction { half, cross, metric, carried, turned, grown, anisotropic } = &self.friction;
-        // The reaction turns with P: πV δ(P⁻ᵀ) = −πV (F δP F)ᵀ.
-        let mut change = Columns::default();
-        for a in 0..3 {
-            let along = half * carried.at(j, a) - push * across.at(j, a);
-            change.0[a] = (across.0[b] * along + turned.0[b] * across.at(j, a)) + l.0[j] * (half * metric.at(a, b));
-        }
-        if let Some(grown) = grown {
-            change += *across * (cross * carried.at(j, b)) - *grown * across.at(j, b);
-        }
-        if let Some(material) = &self.material {
-            change = change - material.slope(j, b) * self.body.volume;
-        }
-        if let Some(friction) = anisotropic {
-            change = change - Columns::of(&friction.by_gradient(j, b)) * self.body.volume;
-        }
-        change
+        self.along_places(Entry { j, b }, [0.0; 4]).times(&Columns::of(&self.body.euler_tensor))
     }
 
     /// ∂B/∂Ṗ_jB.
-    #[inline(always)]
     pub(crate) fn by_rate(&self, j: usize, b: usize) -> Columns {
-        let Solution { across, .. } = &self.solution;
-        let Friction { half, cross, metric, grown, anisotropic, .. } = &self.friction;
-        let mut change = Columns::default();
-        for a in 0..3 {
-            change.0[a] = across.0[b] * (-half * across.at(j, a)) - UNIT[j] * (half * metric.at(a, b));
-        }
-        if grown.is_some() {
-            change = change - *across * (cross * across.at(j, b));
-        }
-        if let Some(friction) = anisotropic {
-            change = change - Columns::of(&friction.by_rate(j, b)) * self.body.volume;
-        }
-        change
+        self.along_rates(Entry { j, b }, [0.0; 4]).times(&Columns::of(&self.body.euler_tensor))
     }
 
-    /// δP̈ along δP_jB, by which M changes by δM.
+    /// ∂B/∂P_jB J⁻¹.
     #[inline(always)]
-    pub(crate) fn along_gradient(&self, j: usize, b: usize, moment: &Columns) -> Columns {
-        self.accelerate(&(*moment + self.by_gradient(j, b)), self.asked_by_gradient.at(j, b)).0
+    fn along_places<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+        let Entry { j, b } = entry;
+        let mut image = self.reaction.by_gradient(entry, registers) + self.elastic.image(entry, registers);
+        if let Some(principal) = &self.principal {
+            image = image - self.stressed(&principal.slope(j, b)).with(registers);
+        }
+        if let Some(friction) = &self.anisotropic {
+            image = image - self.stressed(&Columns::of(&friction.by_gradient(j, b))).with(registers);
+        }
+        image
     }
 
-    /// δP̈ along δṖ_jB, by which M changes by δM.
+    /// ∂B/∂Ṗ_jB J⁻¹.
     #[inline(always)]
-    pub(crate) fn along_rate(&self, j: usize, b: usize, moment: &Columns) -> Columns {
-        self.accelerate(&(*moment + self.by_rate(j, b)), 2.0 * self.friction.carried.at(j, b)).0
+    fn along_rates<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+        let image = self.reaction.by_rate(entry, registers);
+        let Some(friction) = &self.anisotropic else { return image };
+        image - self.stressed(&Columns::of(&friction.by_rate(entry.j, entry.b))).with(registers)
+    }
+
+    /// V S J⁻¹.
+    #[inline(always)]
+    fn stressed(&self, stress: &Columns) -> Columns {
+        self.mobility.of_moment(&(*stress * self.body.volume))
+    }
+
+    /// δP̈ along δP_jB, by which M changes by δM, if it does.
+    #[inline(always)]
+    pub(crate) fn along_gradient<F: Four>(&self, entry: Entry, moment: Option<&Columns>, registers: F) -> Columns<F> {
+        let free = self.moved(self.along_places(entry, registers), moment);
+        self.constrained(free, self.asked_by_gradient.at(entry.j, entry.b)).0
+    }
+
+    /// δP̈ along δṖ_jB, by which M changes by δM, if it does.
+    #[inline(always)]
+    pub(crate) fn along_rate<F: Four>(&self, entry: Entry, moment: Option<&Columns>, registers: F) -> Columns<F> {
+        let free = self.moved(self.along_rates(entry, registers), moment);
+        self.constrained(free, self.asked_by_rate.at(entry.j, entry.b)).0
     }
 
     /// δP̈ where M alone changes.
     #[inline(always)]
-    pub(crate) fn along_moment(&self, moment: &Columns) -> Columns {
-        self.accelerate(moment, 0.0).0
+    pub(crate) fn along_moment<F: Four>(&self, moment: &Columns, registers: F) -> Columns<F> {
+        self.constrained(self.mobility.of_moment(&moment.with(registers)), 0.0).0
+    }
+
+    /// With δM J⁻¹.
+    #[inline(always)]
+    fn moved<F: Four>(&self, change: Columns<F>, moment: Option<&Columns>) -> Columns<F> {
+        match moment {
+            Some(moment) => change + self.mobility.of_moment(&moment.with(change.0[0].0)),
+            None => change,
+        }
     }
 
     /// The changes of P̈ and of the pressure (0 without one) with those of P, Ṗ and M.
     pub fn apply(&self, dp: &Mat3, drate: &Mat3, dmoment: &Mat3) -> (Mat3, f64) {
-        let (mut change, mut asked) = (Columns::of(dmoment), 0.0);
+        let zeros = [0.0; 4];
+        let (mut change, mut asked) = (self.mobility.of_moment(&Columns::of(dmoment)), 0.0);
         for (j, b) in (0..9).map(|place| (place % 3, place / 3)) {
-            let (dp, drate) = (dp[(j, b)], drate[(j, b)]);
-            change += self.by_gradient(j, b) * dp + self.by_rate(j, b) * drate;
-            asked += self.asked_by_gradient.at(j, b) * dp + 2.0 * self.friction.carried.at(j, b) * drate;
+            let (entry, dp, drate) = (Entry { j, b }, dp[(j, b)], drate[(j, b)]);
+            change += self.along_places(entry, zeros) * dp + self.along_rates(entry, zeros) * drate;
+            asked += self.asked_by_gradient.at(j, b) * dp + self.asked_by_rate.at(j, b) * drate;
         }
-        let (acceleration, push) = self.accelerate(&change, asked);
+        let (acceleration, push) = self.constrained(change, asked);
         (acceleration.matrix(), push / self.body.volume)
     }
 
-    /// δP̈ of δB, where tr(δP̈ F) has to be as asked, and δ(πV).
+    /// δP̈ of δB J⁻¹, where tr(δP̈ F) has to be as asked, and δ(πV).
     #[inline(always)]
-    fn accelerate(&self, change: &Columns, asked: f64) -> (Columns, f64) {
-        let acceleration = self.body.per_inertia(change);
-        match &self.solution.constraint {
-            Some(constraint) => {
-                let push = constraint.push(change, asked);
-                (acceleration + constraint.way * push, push)
+    fn constrained<F: Four>(&self, free: Columns<F>, asked: f64) -> (Columns<F>, f64) {
+        let Some(compliance) = self.compliance else { return (free, 0.0) };
+        let registers = free.0[0].0;
+        let push = (asked - free.dot(&self.reaction.across.with(registers))) * compliance;
+        (free + self.reaction.way.with(registers) * push, push)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::{Work, dispatch};
+    use crate::mass::MassProperties;
+    use crate::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog};
+    use crate::tensor::Vec3;
+
+    /// P̈ and its derivatives by all entries of P, Ṗ and M, bit by bit.
+    struct Bits<'a>(&'a AffineBody, &'a Gyration, &'a Mat3);
+
+    impl Work for Bits<'_> {
+        type Output = Vec<[u64; 9]>;
+
+        fn run<F: Four>(self, zeros: F) -> Self::Output {
+            let Self(body, at, moment) = self;
+            let elastic = body.elastic_stress(at, zeros);
+            let solution = Solution::new(body, at, elastic, &Columns::of(moment).with(zeros));
+            let (slopes, moment) = (body.slopes_in(zeros, at, moment), Columns::of(moment));
+            let mut columns = vec![solution.acceleration, solution.stress, slopes.along_moment(&moment, zeros)];
+            for entry in (0..9).map(|place| Entry { j: place % 3, b: place / 3 }) {
+                columns.push(slopes.along_gradient(entry, None, zeros));
+                columns.push(slopes.along_rate(entry, Some(&moment), zeros));
             }
-            None => (acceleration, 0.0),
+            let bits = |column: &Columns<F>| {
+                let mut numbers = [0.0; 9];
+                column.write(&mut numbers);
+                numbers.map(f64::to_bits)
+            };
+            columns.iter().map(bits).collect()
+        }
+    }
+
+    #[test]
+    fn every_width_of_registers_gives_the_same_bytes() {
+        let euler_tensor = Mat3::new(0.5, 0.1, 0.0, 0.1, 0.3, 0.05, 0.0, 0.05, 0.9);
+        let rubber = |bulk| Material::MooneyRivlin(MooneyRivlin { c1: 3.0, c2: 1.0, bulk });
+        let p = Mat3::new(1.3, 0.4, -0.2, -0.1, 0.7, 0.3, 0.5, -0.6, 1.9);
+        let rate = Mat3::new(0.2, -0.7, 0.1, 0.9, 0.3, -0.4, 0.5, 0.6, -0.8);
+        let moment = Mat3::new(0.3, 0.1, -0.6, 0.2, -0.9, 0.4, 0.7, -0.5, 0.8);
+        let materials = [
+            rubber(None),
+            rubber(Some(20.0)),
+            Material::Fung(Fung { shear: 2.0, exponent: 0.5, bulk: None }),
+            Material::NeoHookeanLog(NeoHookeanLog { mu: 2.0, lambda: 5.0 }),
+            Material::Hencky(Hencky { shear: 2.0, bulk: 5.0 }),
+        ];
+        let viscosity = crate::affine::Viscosity { kirchhoff: 0.4, shear: 0.3, bulk: 0.2 };
+        for material in materials {
+            for euler_tensor in [euler_tensor, Mat3::from_diagonal(&Vec3::new(0.5, 0.3, 0.9))] {
+                let mass = MassProperties { mass: 2.0, center: Vec3::zeros(), euler_tensor, volume: 0.7 };
+                let body = AffineBody::new(&mass, None, Some(material.clone()), viscosity).unwrap();
+                let at = Gyration::of(&p, &rate).unwrap();
+                let plain = Bits(&body, &at, &moment).run([0.0; 4]);
+                assert_eq!(dispatch(Bits(&body, &at, &moment)), plain, "{material:?}");
+            }
         }
     }
 }

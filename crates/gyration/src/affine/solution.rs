@@ -7,49 +7,53 @@
 //! or swell a stiff body, since nothing would bring it back, and the steps would have to follow that noise.
 
 use super::constraint::Constraint;
+use super::mobility::Mobility;
 use super::{AffineBalance, AffineBody, Gyration};
-use crate::columns::{Columns, UNIT as AXES};
+use crate::columns::{Columns, Four};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Solution {
+pub(super) struct Solution<F> {
+    pub mobility: Mobility,
     /// P⁻ᵀ.
-    pub across: Columns,
+    pub across: Columns<F>,
     /// L.
-    pub l: Columns,
+    pub l: Columns<F>,
     /// τ.
-    pub kirchhoff: Columns,
+    pub kirchhoff: Columns<F>,
     /// S.
-    pub stress: Columns,
+    pub stress: Columns<F>,
     /// P̈.
-    pub acceleration: Columns,
-    pub constraint: Option<Constraint>,
+    pub acceleration: Columns<F>,
+    pub constraint: Option<Constraint<F>>,
     /// π V, zero without a constraint.
     pub push: f64,
 }
 
-impl Solution {
-    /// Of a body whose elastic stress is S_e.
+impl<F: Four> Solution<F> {
+    /// Of a body whose elastic Kirchhoff stress is S_e Pᵀ.
     #[inline(always)]
-    pub fn new(body: &AffineBody, at: &Gyration, elastic: Option<Columns>, moment: &Columns) -> Self {
-        let across = Columns::of(&at.inverse).transpose();
-        let l = Columns::of(&at.velocity_gradient);
+    pub fn new(body: &AffineBody, at: &Gyration, elastic: Option<Columns<F>>, moment: &Columns<F>) -> Self {
+        let registers = moment.0[0].0;
+        let across = Columns::of(&at.inverse).transpose().with(registers);
+        let l = Columns::of(&at.velocity_gradient).with(registers);
         let mut kirchhoff = body.viscosity.stress_at(at.volume_ratio, &l);
         if let Some(friction) = &body.anisotropic {
-            kirchhoff += Columns::of(&friction.kirchhoff_stress(at));
+            kirchhoff += Columns::of(&friction.kirchhoff_stress(at)).with(registers);
         }
+        let mobility = Mobility::of(&body.inverse);
         let constraint = body.is_incompressible().then(|| Constraint::new(body, &across));
         let mut straight = kirchhoff;
         let mut mean = 0.0;
         if let Some(elastic) = elastic {
-            straight += elastic.times_transposed(&Columns::of(&at.gradient)).symmetric();
+            straight += elastic;
         }
         if constraint.is_some() {
             mean = straight.trace() / 3.0;
-            straight += Columns(AXES) * -mean;
+            straight = straight.plus_unit(-mean);
         }
         let mut stress = straight.times(&across);
         let free = *moment - stress * body.volume;
-        let mut acceleration = body.per_inertia(&free);
+        let mut acceleration = mobility.of_moment(&free);
         let mut push = 0.0;
         if let Some(constraint) = &constraint {
             let rest = constraint.push(&free, l.dot(&l.transpose()));
@@ -57,7 +61,7 @@ impl Solution {
             stress += across * (-rest / body.volume);
             push = rest + mean * body.volume;
         }
-        Self { across, l, kirchhoff, stress, acceleration, constraint, push }
+        Self { mobility, across, l, kirchhoff, stress, acceleration, constraint, push }
     }
 
     /// What is told of it.

@@ -6,7 +6,7 @@
 //! Newtonian, of the Cauchy stress (Sławianowski 4.13 with the sign and the volume that dissipate).
 
 use super::Gyration;
-use crate::columns::{Columns, UNIT};
+use crate::columns::{Columns, Four};
 use crate::tensor::Mat3;
 
 /// Coefficients of internal friction.
@@ -34,9 +34,9 @@ impl Viscosity {
 
     /// τ at det P and L.
     #[inline(always)]
-    pub(super) fn stress_at(&self, volume_ratio: f64, l: &Columns) -> Columns {
+    pub(super) fn stress_at<F: Four>(&self, volume_ratio: f64, l: &Columns<F>) -> Columns<F> {
         let (a, c) = self.coefficients(volume_ratio);
-        (*l + l.transpose()) * (0.5 * a) + Columns(UNIT) * (c * l.trace())
+        ((*l + l.transpose()) * (0.5 * a)).plus_unit(c * l.trace())
     }
 
     /// The Newtonian part alone, whose τ grows with det P; none if there is none.

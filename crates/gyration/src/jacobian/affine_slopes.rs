@@ -4,14 +4,14 @@
 //!
 //! A pinned body has P alone: p₀ = a − P r takes its columns of p₀ into those of P, and M is about the pin.
 
-use crate::affine::AffineSlopes;
-use crate::columns::Columns;
+use crate::affine::Entry;
+use crate::columns::{Columns, Four, Work, dispatch};
 use crate::contact::ContactSlopes;
 use crate::inadmissible::Inadmissible;
 use crate::load::LoadSlopes;
 use crate::model::Model;
 use crate::rates::{AffineMotion, Workspace, for_each_contact, spring_loads};
-use crate::tensor::Vec3;
+use crate::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
 
 /// Fills the block; what is zero in it is taken to be zero already.
@@ -29,45 +29,52 @@ pub(super) fn fill(
     for coordinate in 0..half {
         block[(coordinate, half + coordinate)] = 1.0;
     }
-    let seen =
+    let loads =
         loads.as_ref().map(|slopes| Seen { slopes, arm: body.pin.as_ref().map(|pin| pin.point), mass: body.mass.mass });
-    let mut columns = [Columns::default(); 24];
-    let balance = moving.affine.interior.slopes(&moving.gyration, &moment);
-    accelerate(&mut columns, half, &balance, seen.as_ref());
-    let at = half - 9;
-    for (coordinate, (column, acceleration)) in
-        block.as_mut_slice().chunks_exact_mut(2 * half).zip(&columns).enumerate()
-    {
-        if let Some(seen) = &seen {
-            seen.linear(coordinate >= half, coordinate % half, &mut column[half..half + at]);
-        }
-        if coordinate % half >= at || seen.is_some() {
-            acceleration.write(&mut column[half + at..]);
+    if let Some(seen) = &loads {
+        for (coordinate, column) in block.as_mut_slice().chunks_exact_mut(2 * half).enumerate() {
+            seen.linear(coordinate >= half, coordinate % half, &mut column[half..2 * half - 9]);
         }
     }
+    dispatch(Acceleration { moving, moment: &moment, loads: loads.as_ref(), half, block: block.as_mut_slice() });
     Ok(())
 }
 
-/// δP̈ along each coordinate and each of its rates.
-#[inline(always)]
-fn accelerate(columns: &mut [Columns; 24], half: usize, balance: &AffineSlopes, loads: Option<&Seen>) {
-    // P begins behind p₀, if there is one.
-    let at = half - 9;
-    if let Some(loads) = loads {
-        for coordinate in 0..half {
-            columns[coordinate] = loads.along(false, coordinate);
-            columns[half + coordinate] = loads.along(true, coordinate);
+/// δP̈ along each coordinate and each of its rates, to be written into the block.
+struct Acceleration<'a> {
+    moving: &'a AffineMotion<'a>,
+    moment: &'a Mat3,
+    /// The derivatives of the loads, if there are any.
+    loads: Option<&'a Seen<'a>>,
+    /// How many coordinates there are; those of P are the last nine.
+    half: usize,
+    block: &'a mut [f64],
+}
+
+impl Work for Acceleration<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<F: Four>(self, zeros: F) {
+        let Self { moving, moment, loads, half, block } = self;
+        let balance = moving.affine.interior.slopes_in(zeros, &moving.gyration, moment);
+        let (places, rates) = block.split_at_mut(2 * half * half);
+        let column = |coordinate: usize| 2 * half * (coordinate + 1) - 9..2 * half * (coordinate + 1);
+        let at = half - 9;
+        if let Some(loads) = loads {
+            for coordinate in 0..at {
+                let along = |by_rate| balance.along_moment(&loads.along(by_rate, coordinate), zeros);
+                along(false).write(&mut places[column(coordinate)]);
+                along(true).write(&mut rates[column(coordinate)]);
+            }
         }
-        for place in 0..at {
-            columns[place] = balance.along_moment(&columns[place]);
-            columns[half + place] = balance.along_moment(&columns[half + place]);
-        }
-    }
-    for b in 0..3 {
-        for j in 0..3 {
-            let place = at + 3 * b + j;
-            columns[place] = balance.along_gradient(j, b, &columns[place]);
-            columns[half + place] = balance.along_rate(j, b, &columns[half + place]);
+        for b in 0..3 {
+            for j in 0..3 {
+                let (entry, coordinate) = (Entry { j, b }, at + 3 * b + j);
+                let [by_place, by_rate] = [false, true].map(|rate| loads.map(|loads| loads.along(rate, coordinate)));
+                balance.along_gradient(entry, by_place.as_ref(), zeros).write(&mut places[column(coordinate)]);
+                balance.along_rate(entry, by_rate.as_ref(), zeros).write(&mut rates[column(coordinate)]);
+            }
         }
     }
 }

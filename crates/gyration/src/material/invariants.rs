@@ -5,7 +5,8 @@
 //!
 //! f_k are the derivatives of the energy. cof P is quadratic in P: neither S nor its derivative needs an inverse.
 
-use crate::columns::{Columns, UNIT};
+use super::Material;
+use crate::columns::{Columns, Four, UNIT};
 
 /// ι₁, ι₂ and J of a gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,23 +19,18 @@ pub(crate) struct Invariants {
     pub volume: f64,
     /// ι₁ − 3 and ι₂ − 3, from C − I: near rest they are small, and nothing of them is lost.
     pub excess: [f64; 2],
-    /// C = PᵀP.
-    right: Columns,
-    /// cof P.
-    cofactor: Columns,
 }
 
 impl Invariants {
+    /// Those of C, or of B = PPᵀ, which has the same, and of det P.
     #[inline(always)]
-    pub fn of(p: &Columns) -> Self {
-        let (right, cofactor) = (p.transpose().times(p), p.cofactor());
-        let (x, y, z) = (right.at(0, 0) - 1.0, right.at(1, 1) - 1.0, right.at(2, 2) - 1.0);
-        let (xy, yz, zx) = (right.at(0, 1), right.at(1, 2), right.at(2, 0));
+    pub fn of<F: Four>(squares: &Columns<F>, volume: f64) -> Self {
+        let (x, y, z) = (squares.at(0, 0) - 1.0, squares.at(1, 1) - 1.0, squares.at(2, 2) - 1.0);
+        let (xy, yz, zx) = (squares.at(0, 1), squares.at(1, 2), squares.at(2, 0));
         let minors = x * y - xy * xy + y * z - yz * yz + z * x - zx * zx;
         let trace = (x + y) + z;
         let excess = [trace, 2.0 * trace + minors];
-        let volume = p.0[0].dot(&cofactor.0[0]);
-        Self { first: 3.0 + excess[0], second: 3.0 + excess[1], volume, excess, right, cofactor }
+        Self { first: 3.0 + excess[0], second: 3.0 + excess[1], volume, excess }
     }
 }
 
@@ -56,28 +52,30 @@ pub(crate) struct Derivatives {
 ///   ∂S_iA/∂P_jB = δ_ij (2(f₁ + ι₁f₂) δ_AB − 2f₂ C_AB) − 2f₂ (P_iB P_jA + (PPᵀ)_ij δ_AB) + f₂ (G₁ ⊗ G₁)_iAjB
 ///                 + f₃ ε_ijk ε_ABC P_kC + Σ f_kl (G_k ⊗ G_l)_iAjB
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ByInvariants {
-    derivatives: Derivatives,
-    p: Columns,
+pub(crate) struct ByInvariants<F = [f64; 4]> {
+    pub derivatives: Derivatives,
+    pub p: Columns<F>,
     /// G₂.
-    second: Columns,
+    pub second: Columns<F>,
     /// cof P.
-    cofactor: Columns,
+    pub cofactor: Columns<F>,
     /// 2(f₁ + ι₁f₂) I − 2f₂ C.
-    own: Columns,
+    pub own: Columns<F>,
     /// 2f₂ PPᵀ.
-    left: Columns,
+    pub left: Columns<F>,
 }
 
-impl ByInvariants {
+impl<F: Four> ByInvariants<F> {
     #[inline(always)]
-    pub fn new(p: &Columns, invariants: &Invariants, derivatives: &Derivatives) -> Self {
-        let Invariants { first, right, cofactor, .. } = invariants;
+    pub fn new(p: &Columns<F>, material: &Material) -> Self {
+        let (right, cofactor) = (p.transpose().times(p), p.cofactor());
+        let invariants = Invariants::of(&right, p.0[0].dot(&cofactor.0[0]));
+        let derivatives = material.derivatives(&invariants);
         let [f1, f2, _] = derivatives.first;
-        let own = Columns(UNIT) * (2.0 * (f1 + first * f2)) - *right * (2.0 * f2);
-        let second = (*p * *first - p.times(right)) * 2.0;
+        let own = (right * (-2.0 * f2)).plus_unit(2.0 * (f1 + invariants.first * f2));
+        let second = (*p * invariants.first - p.times(&right)) * 2.0;
         let left = p.times_transposed(p) * (2.0 * f2);
-        Self { derivatives: *derivatives, p: *p, second, cofactor: *cofactor, own, left }
+        Self { derivatives, p: *p, second, cofactor, own, left }
     }
 
     #[inline(always)]
@@ -87,11 +85,13 @@ impl ByInvariants {
 
     /// S.
     #[inline(always)]
-    pub fn stress(&self) -> Columns {
+    pub fn stress(&self) -> Columns<F> {
         let [f1, f2, f3] = self.derivatives.first;
         (self.p * (2.0 * f1) + self.second * f2) + self.cofactor * f3
     }
+}
 
+impl ByInvariants {
     /// ∂S/∂P_jB.
     #[inline(always)]
     pub fn slope(&self, j: usize, b: usize) -> Columns {
@@ -118,23 +118,31 @@ impl ByInvariants {
     }
 }
 
-/// S for the derivatives of an energy: what [`ByInvariants::stress`] gives, without what only the tangent needs.
+/// φ and S: what [`ByInvariants`] gives, without what only the tangent needs.
 #[inline(always)]
-pub(super) fn stress(p: &Columns, derivatives: impl Fn(&Invariants) -> Derivatives) -> Columns {
-    energy_and_stress(p, derivatives).1
-}
-
-/// φ and S.
-#[inline(always)]
-pub(super) fn energy_and_stress(p: &Columns, derivatives: impl Fn(&Invariants) -> Derivatives) -> (f64, Columns) {
-    let invariants = Invariants::of(p);
-    let Derivatives { energy, first: [f1, f2, f3], .. } = derivatives(&invariants);
+pub(super) fn energy_and_stress(p: &Columns, material: &Material) -> (f64, Columns) {
+    let (right, cofactor) = (p.transpose().times(p), p.cofactor());
+    let invariants = Invariants::of(&right, p.0[0].dot(&cofactor.0[0]));
+    let Derivatives { energy, first: [f1, f2, f3], .. } = material.derivatives(&invariants);
     let mut stress = *p * (2.0 * (f1 + invariants.first * f2));
     if f2 != 0.0 {
-        stress = stress - p.times(&invariants.right) * (2.0 * f2);
+        stress = stress - p.times(&right) * (2.0 * f2);
     }
     if f3 != 0.0 {
-        stress += invariants.cofactor * f3;
+        stress += cofactor * f3;
     }
     (energy, stress)
+}
+
+/// S Pᵀ = 2(f₁ + ι₁f₂) B − 2f₂ B² + J f₃ I, B = PPᵀ: symmetric to the last bit, since all of it is.
+#[inline(always)]
+pub(super) fn kirchhoff_stress<F: Four>(p: &Columns<F>, volume: f64, material: &Material) -> Columns<F> {
+    let left = p.times_transposed(p);
+    let invariants = Invariants::of(&left, volume);
+    let [f1, f2, f3] = material.derivatives(&invariants).first;
+    let mut stress = (left * (2.0 * (f1 + invariants.first * f2))).plus_unit(volume * f3);
+    if f2 != 0.0 {
+        stress = stress - left.times(&left) * (2.0 * f2);
+    }
+    stress
 }

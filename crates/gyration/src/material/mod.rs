@@ -34,13 +34,13 @@ pub use neo_hookean_log::NeoHookeanLog;
 pub use ogden::{Ogden, OgdenTerm};
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 
-pub(crate) use spectrum::Spectrum;
-
-use crate::columns::Columns;
+use crate::columns::{Columns, Four};
 use crate::tensor::Mat3;
-use invariants::{ByInvariants, Invariants};
+pub(crate) use invariants::ByInvariants;
+use invariants::Invariants;
 use nalgebra::SMatrix;
-use principal::ByPrincipal;
+pub(crate) use principal::ByPrincipal;
+pub(crate) use spectrum::Spectrum;
 
 /// The material of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,7 +147,7 @@ impl Material {
     pub(crate) fn energy_and_stress(&self, p: &Columns) -> (f64, Columns) {
         match self {
             Self::MooneyRivlin(_) | Self::Fung(_) | Self::NeoHookeanLog(_) | Self::StVenantKirchhoff(_) => {
-                invariants::energy_and_stress(p, |invariants| self.derivatives(invariants))
+                invariants::energy_and_stress(p, self)
             }
             Self::Ogden(_) | Self::Hencky(_) => {
                 let kept = self.at(p);
@@ -162,26 +162,42 @@ impl Material {
         match self {
             Self::Ogden(material) => principal::stress(p, |c| material.slopes(c)),
             Self::Hencky(material) => principal::stress(p, |c| material.slopes(c)),
-            _ => invariants::stress(p, |invariants| self.derivatives(invariants)),
+            _ => invariants::energy_and_stress(p, self).1,
+        }
+    }
+
+    /// S Pᵀ at P and det P, symmetric to the last bit.
+    #[inline(always)]
+    pub(crate) fn kirchhoff_stress_at<F: Four>(&self, p: &Columns<F>, volume: f64) -> Columns<F> {
+        match self {
+            Self::Ogden(material) => principal::kirchhoff_stress(&p.kept(), |c| material.slopes(c)).with(p.0[0].0),
+            Self::Hencky(material) => principal::kirchhoff_stress(&p.kept(), |c| material.slopes(c)).with(p.0[0].0),
+            _ => invariants::kirchhoff_stress(p, volume, self),
         }
     }
 
     /// The material at a gradient.
     #[inline(always)]
     pub(crate) fn at(&self, p: &Columns) -> Kept {
+        match self.by_principal(p) {
+            Some(kept) => Kept::Principal(kept),
+            None => Kept::Invariants(ByInvariants::new(p, self)),
+        }
+    }
+
+    /// An energy of the principal values at a gradient; none for others.
+    #[inline(always)]
+    pub(crate) fn by_principal(&self, p: &Columns) -> Option<ByPrincipal> {
         match self {
-            Self::Ogden(material) => Kept::Principal(ByPrincipal::new(p, |c| material.principal(c))),
-            Self::Hencky(material) => Kept::Principal(ByPrincipal::new(p, |c| material.principal(c))),
-            _ => {
-                let invariants = Invariants::of(p);
-                Kept::Invariants(ByInvariants::new(p, &invariants, &self.derivatives(&invariants)))
-            }
+            Self::Ogden(material) => Some(ByPrincipal::new(p, |c| material.principal(c))),
+            Self::Hencky(material) => Some(ByPrincipal::new(p, |c| material.principal(c))),
+            _ => None,
         }
     }
 
     /// Of an energy of the invariants; zero for others.
     #[inline(always)]
-    fn derivatives(&self, at: &Invariants) -> invariants::Derivatives {
+    pub(crate) fn derivatives(&self, at: &Invariants) -> invariants::Derivatives {
         match self {
             Self::MooneyRivlin(material) => material.derivatives(at),
             Self::Fung(material) => material.derivatives(at),

@@ -93,6 +93,13 @@ pub(super) fn stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> Col
     carried.scaled(&slopes(&values)).times_transposed(&axes)
 }
 
+/// S Pᵀ = Q diag(s) Qᵀ.
+#[inline(always)]
+pub(super) fn kirchhoff_stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> Columns {
+    let Spectrum { values, carried, .. } = Spectrum::of(p);
+    carried.scaled(&slopes(&values)).times_transposed(&carried).symmetric()
+}
+
 /// Where |a − b| exceeds this part of b, a difference quotient loses no more than a few roundings by being formed as it stands.
 const FAR: f64 = 0.25;
 

@@ -1,0 +1,32 @@
+//! Division by the Euler tensor, which is diagonal for most bodies.
+
+use crate::columns::{Columns, Four};
+use crate::tensor::Mat3;
+
+/// J⁻¹.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Mobility {
+    Diagonal([f64; 3]),
+    Full(Columns),
+}
+
+impl Mobility {
+    /// Of J⁻¹.
+    #[inline(always)]
+    pub fn of(inverse: &Mat3) -> Self {
+        let inverse = Columns::of(inverse);
+        if inverse.is_diagonal() {
+            return Self::Diagonal([inverse.at(0, 0), inverse.at(1, 1), inverse.at(2, 2)]);
+        }
+        Self::Full(inverse)
+    }
+
+    /// B J⁻¹.
+    #[inline(always)]
+    pub fn of_moment<F: Four>(&self, moment: &Columns<F>) -> Columns<F> {
+        match self {
+            Self::Diagonal(factors) => moment.scaled(factors),
+            Self::Full(inverse) => moment.times(&inverse.with(moment.0[0].0)),
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Four numbers that are worked on at once: what a column of a 3×3 matrix is kept in.
+//!
+//! `[f64; 4]` is four numbers in memory, or in whatever registers the plain build has; where the processor has registers of
+//! 256 bits, [`dispatch`] finds it at run time and calls the work with them. Products and sums are rounded one by one, never fused,
+//! and in the same order, so that both give the same bytes.
+//!
+//! Every function that takes them is `inline(always)`: it has to become part of the one that was compiled for the registers.
+
+/// Four numbers side by side.
+pub trait Four: Copy {
+    /// These numbers, in registers of the same kind.
+    fn like(self, numbers: [f64; 4]) -> Self;
+    /// The numbers.
+    fn numbers(self) -> [f64; 4];
+    /// One of them; where the place is not a constant, it is fetched from memory.
+    fn at(&self, place: usize) -> f64;
+    /// a_i + b_i.
+    fn plus(self, other: Self) -> Self;
+    /// a_i − b_i.
+    fn minus(self, other: Self) -> Self;
+    /// a_i b_i.
+    fn product(self, other: Self) -> Self;
+    /// a_i f.
+    fn times(self, factor: f64) -> Self;
+    /// One of them in all places.
+    fn spread<const PLACE: usize>(self) -> Self;
+    /// (a₁, a₂, a₀, a₃).
+    fn turned(self) -> Self;
+}
+
+/// What is done with four numbers at once.
+pub trait Work {
+    /// What it gives.
+    type Output;
+
+    /// Does it in registers of the kind of these, which hold zeros.
+    fn run<F: Four>(self, zeros: F) -> Self::Output;
+}
+
+/// Does the work in the widest registers for four numbers that this processor has.
+#[inline]
+pub(crate) fn dispatch<W: Work>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return simd.vectorize(wide::Wide { simd, work });
+    }
+    work.run([0.0; 4])
+}
+
+impl Four for [f64; 4] {
+    #[inline(always)]
+    fn like(self, numbers: [f64; 4]) -> Self {
+        numbers
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; 4] {
+        self
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize) -> f64 {
+        self[place]
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        let ([a, b, c, d], [x, y, z, w]) = (self, other);
+        [a + x, b + y, c + z, d + w]
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        let ([a, b, c, d], [x, y, z, w]) = (self, other);
+        [a - x, b - y, c - z, d - w]
+    }
+
+    #[inline(always)]
+    fn product(self, other: Self) -> Self {
+        let ([a, b, c, d], [x, y, z, w]) = (self, other);
+        [a * x, b * y, c * z, d * w]
+    }
+
+    #[inline(always)]
+    fn times(self, factor: f64) -> Self {
+        self.product([factor; 4])
+    }
+
+    #[inline(always)]
+    fn spread<const PLACE: usize>(self) -> Self {
+        [self[PLACE]; 4]
+    }
+
+    #[inline(always)]
+    fn turned(self) -> Self {
+        let [a, b, c, d] = self;
+        [b, c, a, d]
+    }
+}
+
+/// Registers of 256 bits.
+#[cfg(target_arch = "x86_64")]
+mod wide {
+    use super::{Four, Work};
+    use pulp::x86::V3;
+    use pulp::{NullaryFnOnce, Simd, cast, f64x4};
+
+    /// Four numbers in one register.
+    #[derive(Clone, Copy)]
+    struct Register {
+        simd: V3,
+        numbers: f64x4,
+    }
+
+    /// The work in such registers.
+    pub struct Wide<W> {
+        pub simd: V3,
+        pub work: W,
+    }
+
+    impl<W: Work> NullaryFnOnce for Wide<W> {
+        type Output = W::Output;
+
+        #[inline(always)]
+        fn call(self) -> W::Output {
+            let Self { simd, work } = self;
+            work.run(Register { simd, numbers: simd.splat_f64s(0.0) })
+        }
+    }
+
+    impl Register {
+        #[inline(always)]
+        fn with(self, numbers: f64x4) -> Self {
+            Self { numbers, ..self }
+        }
+    }
+
+    impl Four for Register {
+        #[inline(always)]
+        fn like(self, numbers: [f64; 4]) -> Self {
+            self.with(cast(numbers))
+        }
+
+        #[inline(always)]
+        fn numbers(self) -> [f64; 4] {
+            cast(self.numbers)
+        }
+
+        #[inline(always)]
+        fn at(&self, place: usize) -> f64 {
+            self.numbers()[place]
+        }
+
+        #[inline(always)]
+        fn plus(self, other: Self) -> Self {
+            self.with(self.simd.add_f64s(self.numbers, other.numbers))
+        }
+
+        #[inline(always)]
+        fn minus(self, other: Self) -> Self {
+            self.with(self.simd.sub_f64s(self.numbers, other.numbers))
+        }
+
+        #[inline(always)]
+        fn product(self, other: Self) -> Self {
+            self.with(self.simd.mul_f64s(self.numbers, other.numbers))
+        }
+
+        #[inline(always)]
+        fn times(self, factor: f64) -> Self {
+            self.with(self.simd.mul_f64s(self.numbers, self.simd.splat_f64s(factor)))
+        }
+
+        #[inline(always)]
+        fn spread<const PLACE: usize>(self) -> Self {
+            let [a, b, c, d] = self.numbers();
+            self.with(self.simd.splat_f64s([a, b, c, d][PLACE]))
+        }
+
+        #[inline(always)]
+        fn turned(self) -> Self {
+            const ORDER: i32 = 0b11_00_10_01;
+            self.with(cast(self.simd.avx2._mm256_permute4x64_pd::<ORDER>(cast(self.numbers))))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All that is done with four numbers.
+    struct All([f64; 4], [f64; 4]);
+
+    impl Work for All {
+        type Output = Vec<[u64; 4]>;
+
+        fn run<F: Four>(self, zeros: F) -> Self::Output {
+            let (a, b) = (zeros.like(self.0), zeros.like(self.1));
+            let spread = [a.spread::<0>(), a.spread::<1>(), a.spread::<2>(), a.spread::<3>()];
+            let rest = [zeros, a.plus(b), a.minus(b), a.product(b), a.times(0.7), a.turned()];
+            let places = [a.at(0), a.at(1), a.at(2), a.at(3)].map(f64::to_bits);
+            spread.iter().chain(&rest).map(|four| four.numbers().map(f64::to_bits)).chain([places]).collect()
+        }
+    }
+
+    #[test]
+    fn registers_do_what_four_numbers_in_memory_do() {
+        let (a, b) = ([1.1, -0.3, -0.0, f64::INFINITY], [0.7, 3.3e-310, 5.0, 2.0]);
+        assert_eq!(dispatch(All(a, b)), All(a, b).run([0.0; 4]));
+        assert_eq!(a.turned(), [-0.3, -0.0, 1.1, f64::INFINITY]);
+    }
+}
