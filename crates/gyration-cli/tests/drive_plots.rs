@@ -142,6 +142,11 @@ fn cost_of_transport_without_weight_or_way_is_refused() {
         recorded(&short.replace("[[0, 0, 600], [0, 0, 0], [0, 0, 0]]", "[[0, 0, 0], [0, 600, 0], [0, 0, 0]]"));
     let said = straight.refused(2, &["plot", "crawler.gyr", "cost"]);
     assert!(said.stderr.contains("gets anywhere"), "{}", said.stderr);
+    // Nor does a shear to and fro, though the body sways by more than the tolerance.
+    let scallop = Sandbox::new();
+    scallop.done(&["run", "scallop", "--quiet", "-o", "crawler.gyr"]);
+    let said = scallop.refused(2, &["plot", "crawler.gyr", "cost"]);
+    assert!(said.stderr.contains("in its last cycle"), "{}", said.stderr);
 }
 
 #[test]

@@ -33,15 +33,16 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
         );
     }
     let level = Level::to(&recorded.up());
-    let farthest = farthest(recorded, &level, &driven)?;
-    let (driven, farthest): (Vec<Driven>, Vec<f64>) = driven
+    let (driven, farthest): (Vec<Driven>, Vec<f64>) = Way::all(recorded, &level, &driven)?
         .into_iter()
-        .zip(farthest)
-        .filter(|(it, farthest)| *farthest > NOWHERE * recorded.bodies[it.body].size)
+        .zip(&driven)
+        .filter(|(way, it)| way.gained > NOWHERE * recorded.bodies[it.body].size)
+        .map(|(way, it)| (*it, way.farthest))
         .unzip();
     if driven.is_empty() {
         return nothing(
-            "no body that contracts gets anywhere (a millionth of its size), and the cost of transport is work/(weight × distance)",
+            "no body that contracts gets anywhere (a millionth of its size, in its last cycle), and the cost of transport is \
+             work/(weight × distance)",
         );
     }
     let spent = Spent::read(recorded, &level, &driven, &farthest)?;
@@ -54,17 +55,35 @@ fn starts(recorded: &Recorded, driven: &[Driven]) -> Result<Vec<Vec3>, PlotError
     Ok(driven.iter().map(|it| poses[it.body].position).collect())
 }
 
-/// The largest level distance of each body from its start [m].
-fn farthest(recorded: &Recorded, level: &Level, driven: &[Driven]) -> Result<Vec<f64>, PlotError> {
-    let starts = starts(recorded, driven)?;
-    let mut farthest = vec![0.0; driven.len()];
-    recorded.each_row(&["position"], |_, row| {
-        for ((far, it), start) in farthest.iter_mut().zip(driven).zip(&starts) {
-            let [a, b] = level.parts(&(Vec3::from_column_slice(&row[0][3 * it.body..][..3]) - start));
-            *far = f64::max(*far, a.hypot(b));
-        }
-    })?;
-    Ok(farthest)
+/// The way of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Way {
+    /// The largest level distance from the start [m].
+    farthest: f64,
+    /// The level distance gained in the last cycle; without a cycle the farthest [m].
+    gained: f64,
+}
+
+impl Way {
+    fn all(recorded: &Recorded, level: &Level, driven: &[Driven]) -> Result<Vec<Self>, PlotError> {
+        let (starts, span) = (starts(recorded, driven)?, recorded.span()?);
+        let mut farthest = vec![0.0; driven.len()];
+        let mark =
+            |it: &Driven| Cycle::last(recorded.bodies[it.body].period, span).map(|cycle| Mark::<2>::at(cycle.start));
+        let mut marks: Vec<Option<Mark<2>>> = driven.iter().map(mark).collect();
+        recorded.each_row(&["position"], |time, row| {
+            for (k, it) in driven.iter().enumerate() {
+                let parts = level.parts(&(Vec3::from_column_slice(&row[0][3 * it.body..][..3]) - starts[k]));
+                farthest[k] = f64::max(farthest[k], parts[0].hypot(parts[1]));
+                if let Some(mark) = &mut marks[k] {
+                    mark.push(time, parts);
+                }
+            }
+        })?;
+        let gained = |mark: &Option<Mark<2>>| mark.as_ref().and_then(Mark::since).map(|[a, b]| a.hypot(b));
+        let ways = farthest.into_iter().zip(&marks);
+        Ok(ways.map(|(farthest, mark)| Self { farthest, gained: gained(mark).unwrap_or(farthest) }).collect())
+    }
 }
 
 /// The costs of each body.

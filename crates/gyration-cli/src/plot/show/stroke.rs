@@ -18,8 +18,6 @@ const HEIGHT: f64 = 210.0;
 const MOST_CYCLES: f64 = 20.0;
 /// A second entry of G that varies by less than this part of the first is not worth an axis.
 const VARIES: f64 = 1e-6;
-/// A smaller part of the rectangle around a stroke counts as no area.
-const ENCLOSES: f64 = 1e-6;
 /// A stroke that misses its beginning by more than this part of its ranges shows the chord that closes it.
 const OPEN: f64 = 0.01;
 
@@ -73,6 +71,7 @@ struct Entries {
     ranges: [f64; 18],
     /// Twice the area between two entries of G.
     areas: [[f64; 9]; 9],
+    samples: usize,
 }
 
 impl Entries {
@@ -80,7 +79,7 @@ impl Entries {
         let (first, last) = recorded.span()?;
         let start = Cycle::last(recorded.bodies[body].period, (first, last)).map_or(first, |cycle| cycle.start);
         let mut limits = [(f64::INFINITY, f64::NEG_INFINITY); 18];
-        let mut areas = [[0.0; 9]; 9];
+        let (mut areas, mut samples) = ([[0.0; 9]; 9], 0);
         // G at the beginning of the cycle, and at the sample before.
         let mut known: Option<([f64; 9], [f64; 9])> = None;
         recorded.each_row(&["contraction", "placement_gradient"], |time, row| {
@@ -100,17 +99,26 @@ impl Entries {
                 }
             }
             known = Some((begin, now));
+            samples += 1;
         })?;
-        Ok(Self { ranges: limits.map(|(low, high)| high - low), areas })
+        Ok(Self { ranges: limits.map(|(low, high)| high - low), areas, samples })
     }
 
     /// The pair of entries of G with the largest area, if one encloses any.
     fn largest_loop(&self) -> Option<(usize, usize)> {
         let area = |(i, j): (usize, usize)| 0.5 * self.areas[i][j].abs();
         let pairs = (0..9).flat_map(|i| (i + 1..9).map(move |j| (i, j)));
-        let encloses = |pair: &(usize, usize)| area(*pair) > ENCLOSES * self.ranges[pair.0] * self.ranges[pair.1];
+        let ranges = |(i, j): (usize, usize)| [self.ranges[i], self.ranges[j]];
+        let encloses = |pair: &(usize, usize)| encloses(area(*pair), ranges(*pair), self.samples);
         pairs.filter(encloses).reduce(|best, pair| if area(best) >= area(pair) { best } else { pair })
     }
+}
+
+/// Whether an area is more than what samples of a bent stroke to and fro leave: its passes cut the bend at different points.
+///
+/// Over a parabola of length a and height b, passed twice in n samples, they leave ⅔ ab/n² at most.
+fn encloses(area: f64, ranges: [f64; 2], samples: usize) -> bool {
+    area.abs() > ranges[0] * ranges[1] / (samples as f64).powi(2)
 }
 
 /// A body in the plane of two measures.
@@ -214,11 +222,10 @@ impl Plane<'_> {
         let area = format!("{} {units}", rounded(last.area()));
         let points = last.clone().finish();
         let range = |k: usize| extremes(points.iter().map(|point| point[k])).map_or(0.0, |(low, high)| high - low);
-        let share = last.area() / (range(0) * range(1));
-        let sense = match share {
-            share if share > ENCLOSES => "counterclockwise",
-            share if share < -ENCLOSES => "clockwise",
-            _ => "to and fro",
+        let sense = match encloses(last.area(), [range(0), range(1)], last.taken()) {
+            false => "to and fro",
+            true if last.area() > 0.0 => "counterclockwise",
+            true => "clockwise",
         };
         let mut remarks = vec![format!("area {}", area.trim_end()), sense.to_owned()];
         if cycle.is_some() {
@@ -226,5 +233,31 @@ impl Plane<'_> {
             remarks.push(format!("{} samples a cycle", last.taken().saturating_sub(1)));
         }
         remarks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stroke of n samples a cycle in the plane, its phase shifted within a sample.
+    fn stroke(samples: usize, shift: f64, place: impl Fn(f64) -> [f64; 2]) -> Trace {
+        let mut trace = Trace::new([2.0, 1.0]);
+        (0..=samples).for_each(|k| trace.push(place((k as f64 + shift) / samples as f64 * std::f64::consts::TAU)));
+        trace
+    }
+
+    #[test]
+    fn bent_strokes_to_and_fro_enclose_nothing() {
+        for samples in [20, 41, 100] {
+            for shift in [0.0, 0.1, 0.3, 0.5] {
+                let bent = |phase: f64| [phase.sin(), phase.sin().powi(2)];
+                let area = stroke(samples, shift, bent).area();
+                assert!(!encloses(area, [2.0, 1.0], samples + 1), "{samples}, {shift}: {area}");
+                let open = |phase: f64| [phase.sin(), phase.sin().powi(2) + 0.02 * phase.cos()];
+                let area = stroke(samples, shift, open).area();
+                assert!(encloses(area, [2.0, 1.04], samples + 1), "{samples}, {shift}: {area}");
+            }
+        }
     }
 }
