@@ -25,13 +25,16 @@ pub fn round_step(span: f64, count: usize) -> f64 {
 pub fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let step = round_step(high - low, count);
     let decimals = decimals(step);
+    // A dozen zeros are no words; what has a unit was given a prefix before.
+    let tiny = low.abs().max(high.abs()) < 1e-4;
     let tolerance = 1e-9 * (high - low);
     let (first, last) = (((low - tolerance) / step).ceil(), ((high + tolerance) / step).floor());
     (0..=(last - first).max(0.0) as usize)
         .map(|k| {
             // Multiplied, not accumulated; adding zero turns −0 into 0.
             let value = (first + k as f64) * step + 0.0;
-            Tick { value, label: Some(format!("{value:.decimals$}")) }
+            let label = if tiny { short(value) } else { format!("{value:.decimals$}") };
+            Tick { value, label: Some(label) }
         })
         .collect()
 }
@@ -88,7 +91,11 @@ pub fn short(value: f64) -> String {
     }
     let power = magnitude.log10().floor() as i32;
     let digits = trimmed(value / 10f64.powi(power), 4);
-    if digits == "1" { format!("10^{{{power}}}") } else { format!("{digits}×10^{{{power}}}") }
+    match digits.as_str() {
+        "1" => format!("10^{{{power}}}"),
+        "-1" => format!("-10^{{{power}}}"),
+        _ => format!("{digits}×10^{{{power}}}"),
+    }
 }
 
 fn trimmed(value: f64, decimals: usize) -> String {
@@ -138,6 +145,7 @@ mod tests {
         assert_eq!(labels(&linear(-0.13, 0.27, 4)), ["-0.1", "0.0", "0.1", "0.2"]);
         assert_eq!(labels(&linear(3.0, 47.0, 6)), ["10", "20", "30", "40"]);
         assert_eq!(labels(&linear(0.0, 0.3, 3)), ["0.0", "0.1", "0.2", "0.3"]);
+        assert_eq!(labels(&linear(-1e-17, 1.1e-17, 3)), ["-10^{-17}", "0", "10^{-17}"]);
     }
 
     #[test]

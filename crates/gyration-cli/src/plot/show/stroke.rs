@@ -16,7 +16,7 @@ use crate::plot::recorded::Recorded;
 const HEIGHT: f64 = 210.0;
 /// Cycles drawn before the last.
 const MOST_CYCLES: f64 = 20.0;
-/// A second entry of G that varies by less than this part of the first is not worth an axis.
+/// An entry of G that varies by less than this part of the one that varies most is not worth an axis.
 const VARIES: f64 = 1e-6;
 /// A stroke that misses its beginning by more than this part of its ranges shows the chord that closes it.
 const OPEN: f64 = 0.01;
@@ -109,7 +109,10 @@ impl Entries {
         let area = |(i, j): (usize, usize)| 0.5 * self.areas[i][j].abs();
         let pairs = (0..9).flat_map(|i| (i + 1..9).map(move |j| (i, j)));
         let ranges = |(i, j): (usize, usize)| [self.ranges[i], self.ranges[j]];
-        let encloses = |pair: &(usize, usize)| encloses(area(*pair), ranges(*pair), self.samples);
+        let least = VARIES * self.ranges[..9].iter().copied().fold(0.0, f64::max);
+        let encloses = |pair: &(usize, usize)| {
+            ranges(*pair).iter().all(|range| *range > least) && encloses(area(*pair), ranges(*pair), self.samples)
+        };
         pairs.filter(encloses).reduce(|best, pair| if area(best) >= area(pair) { best } else { pair })
     }
 }
@@ -245,6 +248,16 @@ mod tests {
         let mut trace = Trace::new([2.0, 1.0]);
         (0..=samples).for_each(|k| trace.push(place((k as f64 + shift) / samples as f64 * std::f64::consts::TAU)));
         trace
+    }
+
+    #[test]
+    fn entries_that_are_but_rounding_have_no_axis() {
+        let mut entries = Entries { ranges: [0.0; 18], areas: [[0.0; 9]; 9], samples: 40 };
+        (entries.ranges[1], entries.ranges[8]) = (1e-17, 0.2);
+        entries.areas[1][8] = 1e-18;
+        assert_eq!(entries.largest_loop(), None);
+        (entries.ranges[2], entries.areas[2][8]) = (0.1, -0.01);
+        assert_eq!(entries.largest_loop(), Some((2, 8)));
     }
 
     #[test]
