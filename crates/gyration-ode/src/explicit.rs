@@ -7,9 +7,10 @@
 //! h⁸. Stiffness: λ is seen at no cost from f(u₁) − f(Y₁₇) against u₁ − Y₁₇, both being approximations at t₁.
 //! Source: as of `prince`; Hairer, Wanner II, §IV.2 (stiffness).
 
+use crate::combination::Rates;
 use crate::newton::Convergence;
 use crate::norm::{Norm, norm};
-use crate::prince::{ERROR, NODES, ROWS, Row, STAGES, WEIGHTS, interpolation_weights};
+use crate::prince::{ERROR, NODES, ROWS, STAGES, WEIGHTS, interpolation_weights};
 use crate::report::Cause;
 use crate::system::{Context, Layout, Point, System};
 
@@ -19,9 +20,6 @@ const STABLE_MODULUS: f64 = 3.7;
 /// −h Re λ from which on it does so where the direction decays: the error estimate of a solution that only follows its
 /// forcing grows well before the boundary, and an oscillation resolved for accuracy has no decay to show.
 const STABLE_DECAY: f64 = 1.5;
-/// So many components are summed side by side; rows of rates are padded with zeros to whole groups of them.
-const LANES: usize = 4;
-type Group = [f64; LANES];
 
 /// A step that has met its tolerance.
 pub(crate) struct Trial {
@@ -39,19 +37,18 @@ pub(crate) struct Trial {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Explicit {
     /// Rates of the stages and at the new state, one after the other.
-    rates: Vec<Group>,
-    /// The groups of one of them.
-    groups: usize,
+    rates: Rates,
     stage: Vec<f64>,
     error: Vec<f64>,
+    /// The origin, from which the error is measured.
+    zeros: Vec<f64>,
 }
 
 impl Explicit {
     /// Scratch for vectors of the given width.
     pub fn new(width: usize) -> Self {
-        let groups = width.div_ceil(LANES);
         let vector = vec![0.0; width];
-        Self { rates: vec![[0.0; LANES]; (STAGES + 1) * groups], groups, stage: vector.clone(), error: vector }
+        Self { rates: Rates::new(STAGES + 1, width), stage: vector.clone(), error: vector.clone(), zeros: vector }
     }
 
     /// Attempts a step from one point to `to`, whose time is set; `to` receives state, rate and scales.
@@ -65,17 +62,15 @@ impl Explicit {
         h: f64,
         to: &mut Point,
     ) -> Result<Trial, Cause<S::Inadmissible>> {
-        self.rate_mut(0).copy_from_slice(&from.rate);
+        self.rates.row_mut(0).copy_from_slice(&from.rate);
         for (index, row) in ROWS.iter().enumerate() {
             let s = index + 1;
-            combine(&mut self.stage, &from.u, h, row, &self.rates);
+            self.rates.combine(&mut self.stage, &from.u, h, row);
             let time = if s + 1 == STAGES { to.t } else { from.t + NODES[s] * h };
-            let rate = &mut self.rates[s * self.groups..].as_flattened_mut()[..self.stage.len()];
-            context.evaluate(time, &self.stage, rate)?;
+            context.evaluate(time, &self.stage, self.rates.row_mut(s))?;
         }
-        combine(&mut to.u, &from.u, h, WEIGHTS, &self.rates);
-        self.error.fill(0.0);
-        accumulate(&mut self.error, h, ERROR, &self.rates);
+        self.rates.combine(&mut to.u, &from.u, h, WEIGHTS);
+        self.rates.combine(&mut self.error, &self.zeros, h, ERROR);
 
         // Judged first by the scales of the start: a step far too long need not even be evaluated at its end.
         let layout = context.layout;
@@ -93,7 +88,7 @@ impl Explicit {
     ///
     /// Differences at the level of rounding say nothing and give 0.
     fn stability_used(&self, layout: &Layout, from: &Point, to: &Point, h: f64) -> f64 {
-        let last = self.rates[(STAGES - 1) * self.groups..].as_flattened();
+        let last = self.rates.row(STAGES - 1);
         let mut largest: f64 = 0.0;
         for block in layout.blocks() {
             let (mut rates, mut products, mut states, mut size) = (0.0, 0.0, 0.0, 0.0);
@@ -115,43 +110,15 @@ impl Explicit {
 
     /// Completes the rates of an accepted step by the one at its end, for the interpolant.
     pub fn accept(&mut self, to: &Point) {
-        self.rate_mut(STAGES).copy_from_slice(&to.rate);
-    }
-
-    /// One row of rates.
-    fn rate_mut(&mut self, stage: usize) -> &mut [f64] {
-        &mut self.rates[stage * self.groups..].as_flattened_mut()[..self.stage.len()]
+        self.rates.row_mut(STAGES).copy_from_slice(&to.rate);
     }
 
     /// Hands u(θ) of the last step to `put`, component by component.
     pub fn interpolate(&self, from: &Point, to: &Point, h: f64, theta: f64, mut put: impl FnMut(usize, f64)) {
         let weights = interpolation_weights(theta);
-        let rates = self.rates.as_flattened();
         for (i, (start, end)) in from.u.iter().zip(&to.u).enumerate() {
-            let sum: f64 = weights.iter().map(|(stage, weight)| weight * rates[stage * self.groups * LANES + i]).sum();
+            let sum: f64 = weights.iter().map(|(stage, weight)| weight * self.rates.row(*stage)[i]).sum();
             put(i, start + theta * (end - start) + h * sum);
-        }
-    }
-}
-
-/// out = base + h Σ a_j k_j.
-fn combine(out: &mut [f64], base: &[f64], h: f64, row: Row, rates: &[Group]) {
-    out.copy_from_slice(base);
-    accumulate(out, h, row, rates);
-}
-
-/// out += h Σ a_j k_j, a group at a time, whose sums stay in registers.
-fn accumulate(out: &mut [f64], h: f64, row: Row, rates: &[Group]) {
-    let groups = out.len().div_ceil(LANES);
-    for (group, out) in out.chunks_mut(LANES).enumerate() {
-        let mut sums = [0.0; LANES];
-        for &(stage, coefficient) in row {
-            for (sum, rate) in sums.iter_mut().zip(&rates[stage * groups + group]) {
-                *sum += coefficient * rate;
-            }
-        }
-        for (value, sum) in out.iter_mut().zip(sums) {
-            *value += h * sum;
         }
     }
 }

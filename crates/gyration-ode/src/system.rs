@@ -157,6 +157,16 @@ impl<S: System> Context<'_, S> {
 }
 
 fn all_finite<I>(values: &[f64]) -> Result<(), Cause<I>> {
+    // Without a branch for each, since all of them nearly always are: 0·x is zero unless x is infinite or not a number.
+    let mut products = [0.0; 4];
+    for values in values.chunks(products.len()) {
+        for (product, value) in products.iter_mut().zip(values) {
+            *product += 0.0 * value;
+        }
+    }
+    if products.iter().sum::<f64>() == 0.0 {
+        return Ok(());
+    }
     match values.iter().position(|value| !value.is_finite()) {
         Some(index) => Err(Cause::NotFinite { index }),
         None => Ok(()),
