@@ -53,6 +53,7 @@ pub(super) struct Plan {
     places: [(usize, usize); BATCH],
     row_count: usize,
     splits: bool,
+    needs_logs: bool,
 }
 
 impl Plan {
@@ -60,7 +61,14 @@ impl Plan {
     pub fn new(requests: &[MomentRequest]) -> Self {
         let requests = &requests[..requests.len().min(BATCH)];
         let unused = Step { method: Method::Lowered, order: 0, row: 0 };
-        let mut plan = Self { steps: [unused; BATCH], count: 0, places: [(0, 0); BATCH], row_count: 0, splits: false };
+        let mut plan = Self {
+            steps: [unused; BATCH],
+            count: 0,
+            places: [(0, 0); BATCH],
+            row_count: 0,
+            splits: false,
+            needs_logs: false,
+        };
         let mut planned = [false; BATCH];
         // Each request that is not lowered from another starts a chain of those that are lowered one from the other.
         let starts = (0..requests.len()).filter(|&to| !requests.iter().any(|from| lowers(from, &requests[to])));
@@ -79,7 +87,10 @@ impl Plan {
 
     /// Appends the step of a request.
     fn push(&mut self, request: usize, method: Method, order: usize) {
-        self.splits |= matches!(method, Method::Split(_));
+        if let Method::Split(split) = &method {
+            self.splits = true;
+            self.needs_logs |= split.needs_logs();
+        }
         self.places[request] = (order, self.row_count);
         self.steps[self.count] = Step { method, order, row: self.row_count };
         self.row_count += COMPONENTS[order];
@@ -105,7 +116,7 @@ impl Plan {
     #[inline(always)]
     pub fn add<S: Simd>(&self, triangle: &Triangle<S>, register: usize, sums: &mut [Row]) {
         let mut weights = [Lanes::splat(triangle.twice_area.simd, 0.0); 10];
-        let levels = if self.splits { Some(triangle.levels()) } else { None };
+        let levels = if self.splits { Some(triangle.levels(self.needs_logs)) } else { None };
         for step in &self.steps[..self.count] {
             let Some(sums) = sums.get_mut(step.row..) else { return };
             let at = Place { triangle, levels: levels.as_ref(), register };

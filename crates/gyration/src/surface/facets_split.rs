@@ -14,7 +14,7 @@ use pulp::Simd;
 use super::facets_triangle::{Levels, Triangle, Weights};
 use super::lanes::Lanes;
 use super::lanes_power::{SplitExponent, whole_power};
-use super::power::LineKernel;
+use super::power::{HIGHEST_DEGREE, LineKernel};
 use super::power_lanes::{End, LineMoments, line_moments};
 use super::{Kernel, MomentRequest};
 
@@ -36,6 +36,11 @@ impl SplitKernel {
         Self { line, exponent: SplitExponent::new(exponent) }
     }
 
+    /// Whether it reads the logarithms of the gaps.
+    pub fn needs_logs(&self) -> bool {
+        self.line.needs_log_in_lanes()
+    }
+
     /// The weights J_ab for a + b ≤ ORDER.
     #[inline(always)]
     pub fn weights<S: Simd, const ORDER: usize>(
@@ -44,13 +49,16 @@ impl SplitKernel {
         levels: &Levels<S>,
         weights: &mut Weights<S>,
     ) {
-        let (low, middle, high) =
-            (self.end(triangle, levels, 0), self.end(triangle, levels, 1), self.end(triangle, levels, 2));
+        let ends = [self.end(triangle, levels, 0), self.end(triangle, levels, 1), self.end(triangle, levels, 2)];
+        let mut moments = [[Lanes::splat(triangle.twice_area.simd, 0.0); HIGHEST_DEGREE + 1]; 2];
+        // A loop, since the formulas are long and the code of one pass of it is enough.
+        for (part, moments) in moments.iter_mut().enumerate() {
+            *moments = line_moments(&self.line, &ends[part], &ends[part + 1], ORDER + 1);
+        }
+        let [lower, upper] = &moments;
         let [tau, rest] = levels.shares;
-        let lower = line_moments(&self.line, &low, &middle, ORDER + 1);
-        set_lower::<S, ORDER>(weights, &lower, triangle.twice_area * tau, tau);
-        let upper = line_moments(&self.line, &middle, &high, ORDER + 1);
-        add_upper::<S, ORDER>(weights, &upper, triangle.twice_area * rest, tau);
+        set_lower::<S, ORDER>(weights, lower, triangle.twice_area * tau, tau);
+        add_upper::<S, ORDER>(weights, upper, triangle.twice_area * rest, tau);
     }
 
     #[inline(always)]

@@ -61,9 +61,9 @@ impl<S: Simd> Triangle<S> {
         }
     }
 
-    /// Shares and logarithms of the gaps.
+    /// Shares and, if they are read, logarithms of the gaps.
     #[inline(always)]
-    pub fn levels(&self) -> Levels<S> {
+    pub fn levels(&self, needs_logs: bool) -> Levels<S> {
         let [low, middle, high] = self.gaps;
         let simd = low.simd;
         let range = high - low;
@@ -71,7 +71,11 @@ impl<S: Simd> Triangle<S> {
         let proper = flat.less_than(range);
         Levels {
             shares: [proper.select((middle - low) / range, half), proper.select((high - middle) / range, half)],
-            logs: [Log2::new(low), Log2::new(middle), Log2::new(high)],
+            logs: if needs_logs {
+                [Log2::new(low), Log2::new(middle), Log2::new(high)]
+            } else {
+                [Log2::unread(simd); 3]
+            },
         }
     }
 }

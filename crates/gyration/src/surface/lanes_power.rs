@@ -73,22 +73,16 @@ impl<S: Simd> Log2<S> {
     /// log₂ d; d must be a normal positive number.
     #[inline(always)]
     pub fn new(d: Lanes<S>) -> Self {
-        let simd = d.simd;
-        let bits = simd.transmute_u64s_f64s(d.values);
-        // Moved so that the exponent steps at √½ · 2^k instead of at 2^k.
-        let offset = (BIAS << FRACTION_BITS) - std::f64::consts::FRAC_1_SQRT_2.to_bits();
-        let moved = simd.add_u64s(bits, simd.splat_u64s(offset));
-        let mut exponent = moved;
-        for number in cast_slice_mut::<S::u64s, u64>(std::slice::from_mut(&mut exponent)) {
-            *number >>= FRACTION_BITS;
-        }
-        let in_low_bits = simd.or_u64s(exponent, simd.splat_u64s(MAGIC.to_bits()));
-        let whole = Lanes { simd, values: simd.transmute_f64s_u64s(in_low_bits) } - (MAGIC + BIAS as f64);
-        let exponent_only = simd.and_u64s(moved, simd.splat_u64s(!((1 << FRACTION_BITS) - 1)));
-        let mantissa = simd.add_u64s(simd.sub_u64s(bits, exponent_only), simd.splat_u64s(BIAS << FRACTION_BITS));
-        let m = Lanes { simd, values: simd.transmute_f64s_u64s(mantissa) };
+        let (whole, m) = whole_and_mantissa(d, std::f64::consts::FRAC_1_SQRT_2);
         let s = (m - 1.0) / (m + 1.0);
         Self { whole, fraction: s * polynomial(&LOG_SERIES, s * s) }
+    }
+
+    /// log₂ 1 in every lane, where none is read.
+    #[inline(always)]
+    pub fn unread(simd: S) -> Self {
+        let zero = Lanes::splat(simd, 0.0);
+        Self { whole: zero, fraction: zero }
     }
 
     /// ln d.
@@ -124,6 +118,25 @@ impl<S: Simd> Log2<S> {
         }
         mantissa * Lanes { simd, values: simd.transmute_f64s_u64s(bits) }
     }
+}
+
+/// k and m of d = 2^k m, least ≤ m < 2 least; d must be a normal positive number, ½ < least ≤ 1.
+#[inline(always)]
+pub(super) fn whole_and_mantissa<S: Simd>(d: Lanes<S>, least: f64) -> (Lanes<S>, Lanes<S>) {
+    let simd = d.simd;
+    let bits = simd.transmute_u64s_f64s(d.values);
+    // Moved so that the exponent steps at least · 2^k instead of at 2^k.
+    let offset = (BIAS << FRACTION_BITS) - least.to_bits();
+    let moved = simd.add_u64s(bits, simd.splat_u64s(offset));
+    let mut exponent = moved;
+    for number in cast_slice_mut::<S::u64s, u64>(std::slice::from_mut(&mut exponent)) {
+        *number >>= FRACTION_BITS;
+    }
+    let in_low_bits = simd.or_u64s(exponent, simd.splat_u64s(MAGIC.to_bits()));
+    let whole = Lanes { simd, values: simd.transmute_f64s_u64s(in_low_bits) } - (MAGIC + BIAS as f64);
+    let exponent_only = simd.and_u64s(moved, simd.splat_u64s(!((1 << FRACTION_BITS) - 1)));
+    let mantissa = simd.add_u64s(simd.sub_u64s(bits, exponent_only), simd.splat_u64s(BIAS << FRACTION_BITS));
+    (whole, Lanes { simd, values: simd.transmute_f64s_u64s(mantissa) })
 }
 
 /// Σ c_n x^n by Horner in x², the odd terms beside the even ones.

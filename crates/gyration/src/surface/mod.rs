@@ -27,6 +27,7 @@ mod lanes;
 mod lanes_power;
 mod power_lanes;
 mod rule;
+mod whole_lanes;
 
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
 pub use deformed::OrientedMoments;

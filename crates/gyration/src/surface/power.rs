@@ -18,6 +18,7 @@
 //! along the segment. The relative error is below 1e-12 (4e-12 for m_5) for −1 ≤ ν ≤ 17 and any ratio e/c.
 
 use super::Kernel;
+use super::whole_lanes::whole_exponent;
 
 /// The highest degree of a moment along a segment.
 pub const HIGHEST_DEGREE: usize = 5;
@@ -75,6 +76,8 @@ pub struct LineKernel {
     exponent: f64,
     /// ν as an integer, where it is a small one.
     pub(super) integer: Option<i32>,
+    /// ν, where lanes take the way of `whole_lanes`.
+    pub(super) whole: Option<usize>,
     /// The highest degree of the power's moments: one above the wanted for the logarithmic kernel.
     degree: usize,
     /// k + 1 − ν and, except at `log_degree`, its reciprocal.
@@ -93,6 +96,7 @@ impl LineKernel {
         kernel: Kernel::Power(0.0),
         exponent: 0.0,
         integer: Some(0),
+        whole: None,
         degree: 0,
         steps: [(1.0, 1.0); HIGHEST_DEGREE + 1],
         log_degree: usize::MAX,
@@ -117,6 +121,7 @@ impl LineKernel {
         if exponent.fract() == 0.0 && exponent.abs() <= 64.0 {
             line.integer = Some(exponent as i32);
         }
+        line.whole = whole_exponent(kernel, degree);
         for (k, step) in line.steps.iter_mut().enumerate().take(degree + 1) {
             let value = (k + 1) as f64 - exponent;
             if value.abs() < LOGARITHMIC {
@@ -140,6 +145,11 @@ impl LineKernel {
     #[inline]
     pub fn needs_log(&self) -> bool {
         self.log_degree <= HIGHEST_DEGREE || self.kernel == Kernel::Log
+    }
+
+    /// Whether the moments in lanes read logarithms, or powers that are found from them.
+    pub(super) fn needs_log_in_lanes(&self) -> bool {
+        self.integer.is_none() || (self.needs_log() && self.whole.is_none())
     }
 
     /// The sample at the gap d > 0.

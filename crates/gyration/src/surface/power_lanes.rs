@@ -10,6 +10,7 @@ use super::Kernel;
 use super::lanes::Lanes;
 use super::lanes_power::{Log2, polynomial};
 use super::power::{BINOMIAL, HIGHEST_DEGREE, LineKernel, RECIPROCAL, SERIES_LANES};
+use super::whole_lanes::whole_powers;
 
 /// Terms of φ(z) = Σ z^n/(n + 1)! for |z| ≤ 1: the next is below 1e-17.
 const GROWTH_TERMS: usize = 18;
@@ -67,6 +68,9 @@ fn logarithms<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, degree: u
 /// Moments of d^−ν.
 #[inline(always)]
 fn powers<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, degree: usize) -> LineMoments<S> {
+    if let Some(whole) = line.whole {
+        return whole_powers(whole, near, far, degree);
+    }
     let zero = Lanes::splat(far.gap.simd, 0.0);
     let margin = (far.gap - near.gap) * line.limits[2] - far.gap;
     if margin.smallest() > 0.0 {
@@ -155,6 +159,6 @@ fn series<S: Simd, const ROWS: usize>(coefficients: &[[f64; SERIES_LANES]; ROWS]
 }
 
 #[inline(always)]
-fn zeros<S: Simd>(end: &End<S>) -> LineMoments<S> {
+pub(super) fn zeros<S: Simd>(end: &End<S>) -> LineMoments<S> {
     [Lanes::splat(end.gap.simd, 0.0); HIGHEST_DEGREE + 1]
 }

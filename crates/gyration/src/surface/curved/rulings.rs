@@ -81,7 +81,7 @@ impl<'a> Sweep<'a> {
             Kernel::Power(exponent) => exponent,
             Kernel::Log => 1.0,
         };
-        let needs_log = line.needs_log() || line.integer.is_none();
+        let needs_log = line.needs_log_in_lanes();
         // Degree 1 is the least that a kernel is prepared for.
         Self { rulings, line, exponent: SplitExponent::new(exponent), needs_log, order: request.order.clamp(1, 3) }
     }
@@ -178,7 +178,7 @@ impl Sweep<'_> {
     #[inline(always)]
     fn end<S: Simd>(&self, gap: Lanes<S>) -> End<S> {
         let inverse = 1.0 / gap;
-        let log = Log2::new(if self.needs_log { gap } else { Lanes::splat(gap.simd, 1.0) });
+        let log = if self.needs_log { Log2::new(gap) } else { Log2::unread(gap.simd) };
         let power = match self.line.integer {
             Some(exponent) => whole_power(gap, inverse, exponent),
             None => log.negative_power(&self.exponent),
