@@ -163,7 +163,12 @@ const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 impl Body {
     /// Whether a smallest gap [m] to a support is above zero by more than its own rounding.
     pub fn is_apart(&self, gap: f64, field: &GapField) -> bool {
-        gap.is_finite() && gap > RESOLUTION * (self.size + field.height.abs())
+        gap.is_finite() && gap > self.least_gap(field)
+    }
+
+    /// The gap [m] that cannot be told from zero.
+    pub(crate) fn least_gap(&self, field: &GapField) -> f64 {
+        RESOLUTION * (self.size + field.height.abs())
     }
 
     /// What a body that deforms has beside a rigid one.

@@ -96,6 +96,8 @@ pub enum Action {
 impl Action {
     /// How many actions there are.
     pub const COUNT: usize = 3;
+    /// All of them.
+    pub const ALL: [Self; Self::COUNT] = [Self::Central, Self::Normal, Self::Tangential];
 }
 
 /// One power of the gap: traction = c d^−ν × (what the action says), c = coefficient × d₀^ν.

@@ -16,6 +16,7 @@ pub struct Contact {
     pub measure: AreaMeasure,
     laws: Vec<ContactLaw>,
     terms: Vec<PlannedTerm>,
+    acts: [bool; Action::COUNT],
     values: MomentPlan,
     derivatives: MomentPlan,
     potentials: MomentPlan,
@@ -64,7 +65,7 @@ impl Contact {
     pub fn new(support: usize, measure: AreaMeasure, laws: Vec<ContactLaw>) -> Self {
         let mut value_requests = Vec::new();
         let mut derivative_requests = Vec::new();
-        let terms = laws
+        let terms: Vec<PlannedTerm> = laws
             .iter()
             .flat_map(ContactLaw::terms)
             .flatten()
@@ -82,7 +83,8 @@ impl Contact {
         let (values, derivatives) = (MomentPlan::new(value_requests), MomentPlan::new(derivative_requests));
         let (requests, potential_terms) = tension::plan(laws.iter().flat_map(ContactLaw::terms).flatten());
         let potentials = MomentPlan::new(requests);
-        Self { support, measure, laws, terms, values, derivatives, potentials, potential_terms }
+        let acts = Action::ALL.map(|action| terms.iter().any(|planned| planned.term.action == action));
+        Self { support, measure, laws, terms, acts, values, derivatives, potentials, potential_terms }
     }
 
     /// The laws.
@@ -92,6 +94,11 @@ impl Contact {
 
     pub(super) fn terms(&self) -> &[PlannedTerm] {
         &self.terms
+    }
+
+    /// Whether any of the terms acts like this.
+    pub(super) fn acts(&self, action: Action) -> bool {
+        self.acts[action as usize]
     }
 
     /// The moments that the loads need.

@@ -6,7 +6,7 @@
 //!   normal      f = −n (c₀A₀ + c·A₁)          M = −n ⊗ (c₀A₁ + A₂c),      c₀ = n·w₀, c = Wᵀn
 //!   tangential  f = −(w₀A₀ + W A₁) − normal   M = −(w₀⊗A₁ + W A₂) − normal
 //!
-//! f [N], M = ∫ q ⊗ X dA [N m]. On a body that deforms the moments are those per deformed or per reference area, as the
+//! Tangential loads follow likewise from what of (w₀, W) is not along n. f [N], M = ∫ q ⊗ X dA [N m]. On a body that deforms the moments are those per deformed or per reference area, as the
 //! measure of the contact says; `tension` adds what makes tractions per deformed area derive from a potential. These are
 //! linear in the moments and in (w₀, W), from which `slopes` takes the derivatives. Source: `physics.md` §2–3.
 
@@ -104,11 +104,11 @@ impl Sums {
     }
 }
 
-/// The loads of one contact, law by law.
+/// The loads of one contact, and what each law does.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactLoads {
-    motion: RelativeMotion,
-    loads: [Loads; LawKind::COUNT],
+    total: Loads,
+    powers: [f64; LawKind::COUNT],
 }
 
 impl ContactLoads {
@@ -120,27 +120,76 @@ impl ContactLoads {
         let plan = contact.values();
         let moments = scratch.take(plan.requests().len());
         meeting.moments(contact, plan, moments)?;
-        let motion = meeting.motion;
-        let mut loads = [Loads::default(); LawKind::COUNT];
-        for planned in contact.terms() {
-            let term = &planned.term;
-            let mut sums = Sums::default();
-            sums.add(term.coefficient, term.action, &moments[planned.value]);
-            loads[term.kind as usize] += sums.act(term.action, &motion.normal, &motion.velocity, &motion.gradient_rate);
+        let split = SplitMotion::new(&meeting.motion);
+        let mut this = split.loads(contact, &Sums::by_action(contact, moments));
+        for planned in contact.terms().iter().filter(|planned| planned.term.action == Action::Central) {
+            let power = split.central_power(&moments[planned.value]);
+            this.powers[planned.term.kind as usize] += planned.term.coefficient * power;
         }
         if let Some(tension) = Tension::integrate(contact, meeting, scratch)? {
-            tension.add_to(&mut loads);
+            for kind in LawKind::ALL {
+                let moment = tension.moment(kind);
+                this.total.moment += moment;
+                this.powers[kind as usize] += moment.dot(&meeting.motion.gradient_rate);
+            }
         }
-        Ok(Self { motion, loads })
+        Ok(this)
     }
 
     /// f and M of all laws together.
     pub fn total(&self) -> Loads {
-        self.loads.iter().copied().sum()
+        self.total
     }
 
     /// The power f·w₀ + M·W [W] of one law on the relative motion.
     pub fn relative_power(&self, kind: LawKind) -> f64 {
-        self.loads[kind as usize].power(&self.motion.velocity, &self.motion.gradient_rate)
+        self.powers[kind as usize]
+    }
+}
+
+/// The relative motion split into what is along the normal, n·w = c₀ + c·X, and the rest, w − (n·w) n = v + V X.
+struct SplitMotion<'a> {
+    motion: &'a RelativeMotion,
+    /// c₀ [m/s].
+    speed: f64,
+    /// c [1/s].
+    slope: Vec3,
+}
+
+impl<'a> SplitMotion<'a> {
+    #[inline]
+    fn new(motion: &'a RelativeMotion) -> Self {
+        let RelativeMotion { normal, velocity, gradient_rate } = motion;
+        Self { motion, speed: normal.dot(velocity), slope: gradient_rate.tr_mul(normal) }
+    }
+
+    /// The power of a central law with these moments, c₀A₀ + c·A₁.
+    #[inline]
+    fn central_power(&self, moments: &Moments) -> f64 {
+        self.speed * moments.zeroth + self.slope.dot(&moments.first)
+    }
+
+    /// The loads of these sums, and the powers of the viscous laws.
+    #[inline]
+    fn loads(&self, contact: &Contact, [central, damping, friction]: &[Sums; Action::COUNT]) -> ContactLoads {
+        let Self { motion: RelativeMotion { normal, velocity, gradient_rate }, speed, slope } = self;
+        let mut powers = [0.0; LawKind::COUNT];
+        let (mut along, mut lever) = (central.zeroth, central.first);
+        if contact.acts(Action::Normal) {
+            let push = -(speed * damping.zeroth + slope.dot(&damping.first));
+            let pull = -(*speed * damping.first + damping.second * slope);
+            along += push;
+            lever += pull;
+            powers[LawKind::Damping as usize] = speed * push + slope.dot(&pull);
+        }
+        let mut total = Loads { force: along * normal, moment: normal * lever.transpose() };
+        if contact.acts(Action::Tangential) {
+            let (across, rate) = (velocity - *speed * normal, gradient_rate - normal * slope.transpose());
+            let drag = -(across * friction.zeroth + rate * friction.first);
+            let moment = -(across * friction.first.transpose() + rate * friction.second);
+            powers[LawKind::Friction as usize] = drag.dot(&across) + moment.dot(&rate);
+            total += Loads { force: drag, moment };
+        }
+        ContactLoads { total, powers }
     }
 }

@@ -17,8 +17,6 @@ use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
 use crate::surface::{GapClosed, Moments, OrientedMoments};
 use crate::tensor::Mat3;
 
-const ACTIONS: [Action; 3] = [Action::Central, Action::Normal, Action::Tangential];
-
 /// The loads of one contact and their derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactSlopes {
@@ -42,12 +40,12 @@ impl ContactSlopes {
         let plan = contact.derivatives();
         let moments = scratch.take(plan.requests().len());
         meeting.moments(contact, plan, moments)?;
-        let SumSlopes { values, by_gap: slopes, acts } = SumSlopes::new(contact, moments);
+        let SumSlopes { values, by_gap: slopes } = SumSlopes::new(contact, moments);
         let motion = meeting.motion;
         let RelativeMotion { normal, velocity, gradient_rate } = &motion;
         let mut total = Loads::default();
         let mut by_gap = [Loads::default(); 4];
-        for action in ACTIONS.into_iter().filter(|action| acts[*action as usize]) {
+        for action in Action::ALL.into_iter().filter(|action| contact.acts(*action)) {
             total += values[action as usize].act(action, normal, velocity, gradient_rate);
             for (sum, slope) in by_gap.iter_mut().zip(&slopes[action as usize]) {
                 *sum += slope.act(action, normal, velocity, gradient_rate);
@@ -55,18 +53,12 @@ impl ContactSlopes {
         }
         let [_, damping, friction] = values;
         let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction] };
-        this.stretch(contact, meeting, &acts, scratch)?;
+        this.stretch(contact, meeting, scratch)?;
         Ok(this)
     }
 
     /// The derivatives through the area factor.
-    fn stretch(
-        &mut self,
-        contact: &Contact,
-        meeting: &Meeting,
-        acts: &[bool; Action::COUNT],
-        scratch: &mut ContactScratch,
-    ) -> Result<(), GapClosed> {
+    fn stretch(&mut self, contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<(), GapClosed> {
         let Some(deformation) = meeting.area_change(contact) else { return Ok(()) };
         let plan = contact.values();
         let moments = scratch.take_oriented(plan.requests().len());
@@ -75,7 +67,7 @@ impl ContactSlopes {
         // The loads with the weights m_a m_b; with (I − m⊗m)_jl they are δ_jl times their trace less those of jl.
         let pairs: [Loads; 6] = std::array::from_fn(|pair| {
             let sums = pair_sums(contact, moments, pair);
-            let acting = ACTIONS.into_iter().filter(|action| acts[*action as usize]);
+            let acting = Action::ALL.into_iter().filter(|action| contact.acts(*action));
             acting.map(|action| sums[action as usize].act(action, normal, velocity, gradient_rate)).sum()
         });
         let trace: Loads = [pairs[0], pairs[3], pairs[5]].into_iter().sum();

@@ -25,8 +25,6 @@ pub(super) struct SumSlopes {
     pub values: [Sums; Action::COUNT],
     /// By [`Action`]: the derivatives by g₀ and the three components of m.
     pub by_gap: [[Sums; 4]; Action::COUNT],
-    /// Which actions occur.
-    pub acts: [bool; Action::COUNT],
 }
 
 impl Sums {
@@ -67,7 +65,6 @@ impl SumSlopes {
         for planned in contact.terms() {
             let term = &planned.term;
             let action = term.action as usize;
-            sums.acts[action] = true;
             sums.values[action].add(term.coefficient, term.action, &moments[planned.value_with_derivative]);
             let (slope, moments) = (-term.exponent * term.coefficient, &moments[planned.derivative]);
             let [by_height, by_direction @ ..] = &mut sums.by_gap[action];

@@ -13,7 +13,6 @@
 use super::plan::{Contact, ContactScratch};
 use super::resultant::{Deformation, Meeting};
 use super::{Action, AreaMeasure, LawKind, Term};
-use crate::load::Loads;
 use crate::surface::{GapClosed, Kernel, MomentRequest, OrientedMoments};
 use crate::tensor::Mat3;
 
@@ -100,11 +99,9 @@ impl<'a> Tension<'a> {
         Ok(Some(Self { deformation, by_law }))
     }
 
-    /// Adds −T P⁻ᵀ to the moments.
-    pub fn add_to(&self, loads: &mut [Loads; LawKind::COUNT]) {
-        for (loads, tension) in loads.iter_mut().zip(&self.by_law) {
-            loads.moment -= tension * self.deformation.inverse.transpose();
-        }
+    /// −T P⁻ᵀ, what it adds to the moment of a law.
+    pub fn moment(&self, kind: LawKind) -> Mat3 {
+        -(self.by_law[kind as usize] * self.deformation.inverse.transpose())
     }
 }
 

@@ -2,10 +2,10 @@
 //!
 //!   m p̈₀ = m g + f,   P̈ J = M − V S;   pinned at r: P̈ J_p = M − (f + m g) ⊗ r − V S
 
-use super::{Powers, Workspace, for_each_contact, spring_loads};
+use super::{Encounter, Powers, Workspace, spring_loads};
 use crate::affine::{AffineBalance, Gyration};
 use crate::body::Affine;
-use crate::contact::{ContactLoads, LawKind};
+use crate::contact::{ContactLoads, Deformation, LawKind};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
 use crate::model::Model;
@@ -57,10 +57,18 @@ impl<'a> AffineMotion<'a> {
         if self.is_loaded(model) { self.summed(model, workspace, time) } else { Ok(AffineLoads::default()) }
     }
 
+    /// The body about to meet its supports.
+    #[inline]
+    fn encounter<'b>(&'b self, model: &'b Model, time: f64) -> Encounter<'b> {
+        let Gyration { inverse, volume_ratio, .. } = &self.gyration;
+        let deformation = Deformation { inverse: *inverse, cofactor: *volume_ratio * inverse.transpose() };
+        Encounter { model, time, index: self.index, motion: self.motion, deformation: Some(deformation) }
+    }
+
     fn summed(&self, model: &Model, workspace: &mut Workspace, time: f64) -> Result<AffineLoads, Inadmissible> {
         let (placement, velocity) = (&self.motion.placement, &self.motion.velocity);
         let (mut loads, mut powers) = (Loads::default(), Powers::default());
-        for_each_contact(model, time, self.index, self.motion, |contact, meeting| {
+        self.encounter(model, time).for_each_contact(|contact, meeting| {
             let contacts = ContactLoads::integrate(contact, meeting, &mut workspace.contact)?;
             let total = contacts.total();
             loads += total;

@@ -116,32 +116,52 @@ pub(crate) fn for_each_contact(
     time: f64,
     index: usize,
     motion: &BodyMotion,
-    mut each: impl FnMut(&Contact, &Meeting) -> Result<(), GapClosed>,
+    each: impl FnMut(&Contact, &Meeting) -> Result<(), GapClosed>,
 ) -> Result<(), Inadmissible> {
     let body = &model.bodies[index];
-    let Some(surface) = &body.surface else {
-        return Ok(());
-    };
     if body.contacts.is_empty() {
         return Ok(());
     }
-    let deformation = deformation(body, motion);
-    for contact in &body.contacts {
-        let (field, relative) = meet(model, contact.support, time, motion);
-        let (gap, _) = surface.smallest_gap(&field);
-        let meeting = Meeting { surface, field, motion: relative, deformation };
-        let result = if body.is_apart(gap, &field) { each(contact, &meeting) } else { Err(GapClosed { gap }) };
-        result.map_err(|closed| {
-            let quantity = Quantity::Gap { support: contact.support };
-            Inadmissible { body: index, quantity, value: closed.gap }
-        })?;
-    }
-    Ok(())
+    let deformation = body.affine().and_then(|_| Deformation::of(&motion.placement.gradient));
+    Encounter { model, time, index, motion, deformation }.for_each_contact(each)
 }
 
-/// How a body takes its surface along, if it deforms.
-pub(crate) fn deformation(body: &Body, motion: &BodyMotion) -> Option<Deformation> {
-    body.affine().and_then(|_| Deformation::of(&motion.placement.gradient))
+/// A body in its motion, about to meet its supports.
+struct Encounter<'a> {
+    model: &'a Model,
+    time: f64,
+    index: usize,
+    motion: &'a BodyMotion,
+    /// None for a rigid body.
+    deformation: Option<Deformation>,
+}
+
+impl Encounter<'_> {
+    /// Hands each contact to `each`, and says which support a closed gap belongs to.
+    #[inline]
+    fn for_each_contact(
+        &self,
+        mut each: impl FnMut(&Contact, &Meeting) -> Result<(), GapClosed>,
+    ) -> Result<(), Inadmissible> {
+        let body = &self.model.bodies[self.index];
+        let Some(surface) = &body.surface else {
+            return Ok(());
+        };
+        for contact in &body.contacts {
+            let (field, relative) = meet(self.model, contact.support, self.time, self.motion);
+            let meeting = Meeting { surface, field, motion: relative, deformation: self.deformation };
+            let result = if surface.is_above(&field, body.least_gap(&field)) {
+                each(contact, &meeting)
+            } else {
+                Err(GapClosed { gap: surface.smallest_gap(&field).0 })
+            };
+            result.map_err(|closed| {
+                let quantity = Quantity::Gap { support: contact.support };
+                Inadmissible { body: self.index, quantity, value: closed.gap }
+            })?;
+        }
+        Ok(())
+    }
 }
 
 /// The gap field of a support over a body, d(X) = (p₀ − o)·n + (Pᵀn)·X, and the body's motion relative to it.

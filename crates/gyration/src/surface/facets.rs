@@ -152,6 +152,18 @@ impl Facets {
         }
     }
 
+    /// Whether the gaps of all vertices are finite and above a floor [m].
+    pub(super) fn are_above(&self, field: &GapField, floor: f64) -> bool {
+        /// Vertices from which on lanes pay.
+        const MANY: usize = 32;
+        let fits = |gap: f64| gap > floor && gap < f64::INFINITY;
+        if self.vertices.len() < MANY {
+            self.vertices.iter().all(|vertex| fits(field.gap(vertex)))
+        } else {
+            fits(self.smallest_gap(field).0)
+        }
+    }
+
     /// The largest speed |v + A X| [m/s] on the facets; it is convex in X, hence reached at a vertex.
     ///
     /// v velocity at the origin of X (3) [m/s], A = Ṗ (3×3) [1/s].

@@ -265,6 +265,13 @@ impl Surface {
         smallest
     }
 
+    /// Whether all gaps are finite and above a floor [m].
+    pub(crate) fn is_above(&self, field: &GapField, floor: f64) -> bool {
+        let fits = |gap: f64| gap > floor && gap < f64::INFINITY;
+        let patches = || self.patches.iter().all(|patch| fits(field.gap(&patch.support(&-field.direction))));
+        self.facets.are_above(field, floor) && patches()
+    }
+
     /// The largest speed |v + A X| [m/s] on the surface.
     ///
     /// v velocity at the origin of X (3) [m/s], A = Ṗ (3×3) [1/s].
