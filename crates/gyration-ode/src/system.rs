@@ -158,13 +158,12 @@ impl<S: System> Context<'_, S> {
 
 fn all_finite<I>(values: &[f64]) -> Result<(), Cause<I>> {
     // Without a branch for each, since all of them nearly always are: 0·x is zero unless x is infinite or not a number.
+    let (chunks, rest) = values.as_chunks::<4>();
     let mut products = [0.0; 4];
-    for values in values.chunks(products.len()) {
-        for (product, value) in products.iter_mut().zip(values) {
-            *product += 0.0 * value;
-        }
+    for chunk in chunks {
+        products = std::array::from_fn(|i| products[i] + 0.0 * chunk[i]);
     }
-    if products.iter().sum::<f64>() == 0.0 {
+    if products.iter().sum::<f64>() + rest.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0 {
         return Ok(());
     }
     match values.iter().position(|value| !value.is_finite()) {
