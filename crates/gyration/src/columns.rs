@@ -151,6 +151,13 @@ impl<F: Four> Columns<F> {
         (*self + self.transpose()) * 0.5
     }
 
+    /// A_ik B_ik.
+    #[inline(always)]
+    pub fn entrywise(&self, other: &Self) -> Self {
+        let ([Column(a), Column(b), Column(c)], [Column(x), Column(y), Column(z)]) = (self.0, other.0);
+        Self([Column(a.product(x)), Column(b.product(y)), Column(c.product(z))])
+    }
+
     /// A·B = tr(AᵀB).
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {

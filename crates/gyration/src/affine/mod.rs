@@ -146,16 +146,16 @@ impl AffineBody {
         constraint::project_to(self, (p, rate), volume, growth)
     }
 
-    /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa].
+    /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa]; none without it.
     #[inline(always)]
-    pub(crate) fn medium_stress(&self, at: &Gyration) -> Columns {
-        let newtonian = self.viscosity.newtonian();
-        let l = Columns::of(&at.velocity_gradient);
-        let mut stress = newtonian.map_or_else(Columns::default, |part| part.stress_at(at.volume_ratio, &l));
-        if let Some(friction) = &self.anisotropic {
-            stress += Columns::of(&friction.kirchhoff_stress(at));
+    pub(crate) fn medium_stress<F: Four>(&self, at: &Gyration, l: &Columns<F>) -> Option<Columns<F>> {
+        let newtonian = self.viscosity.newtonian().map(|part| part.stress_at(at.volume_ratio, l));
+        let friction =
+            || self.anisotropic.as_ref().map(|friction| Columns::of(&friction.kirchhoff_stress(at)).with(l.0[0].0));
+        match (newtonian, friction()) {
+            (Some(one), Some(other)) => Some(one + other),
+            (one, other) => one.or(other),
         }
-        stress
     }
 
     /// A body of the same inertia with that friction alone; none without it.

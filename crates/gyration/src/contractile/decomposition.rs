@@ -1,9 +1,7 @@
-//! P = F G at one instant: the elastic gradient F, and the velocity gradient seen from the relaxed body.
+//! P = F G at one instant.
 //!
 //!   F = P G⁻¹,   F⁻¹ = G P⁻¹,   Λ = F⁻¹ L F
 
-use crate::affine::Gyration;
-use crate::columns::Columns;
 use crate::tensor::{Mat3, cofactor};
 
 /// A contraction and what follows from it.
@@ -17,21 +15,6 @@ pub struct Decomposition {
     pub volume_ratio: f64,
     /// F.
     pub elastic: Mat3,
-}
-
-/// The same in columns, with what the balance needs besides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Split {
-    /// F.
-    pub elastic: Columns,
-    /// F⁻¹.
-    pub back: Columns,
-    /// Λ.
-    pub pulled: Columns,
-    /// L.
-    pub l: Columns,
-    /// P⁻ᵀ.
-    pub across: Columns,
 }
 
 impl Decomposition {
@@ -48,13 +31,5 @@ impl Decomposition {
         }
         let inverse = cofactor.transpose() * (1.0 / volume_ratio);
         Ok(Self { contraction: *contraction, inverse, volume_ratio, elastic: gradient * inverse })
-    }
-
-    #[inline(always)]
-    pub(super) fn split(&self, at: &Gyration) -> Split {
-        let (elastic, across) = (Columns::of(&self.elastic), Columns::of(&at.inverse).transpose());
-        let back = Columns::of(&self.contraction).times_transposed(&across);
-        let l = Columns::of(&at.velocity_gradient);
-        Split { elastic, back, pulled: back.times(&l).times(&elastic), l, across }
     }
 }

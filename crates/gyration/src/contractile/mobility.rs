@@ -10,17 +10,16 @@
 //! of half the dissipation. tr A(V) = (μ_γ + μ) tr V, so that a pressure changes tr V alone.
 
 use super::Spin;
-use crate::columns::{Column, Columns};
+use crate::columns::{Column, Columns, Four};
 use crate::material::Spectrum;
 
-/// A⁻¹ at an elastic gradient, in its axes.
+/// A⁻¹ at an elastic gradient, in its axes: V = X ∘ R + Y ∘ Rᵀ, entry by entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mobility {
-    /// 1/(μ_γ + μ).
-    stretching: f64,
-    /// The factors of R_ij and R_ji in V_ij, (i, j) = (0, 1), (0, 2), (1, 2) and (1, 0), (2, 0), (2, 1).
-    own: [f64; 6],
-    other: [f64; 3],
+    /// X, with 1/(μ_γ + μ) on its diagonal.
+    own: Columns,
+    /// Y, symmetric and zero on its diagonal.
+    other: Columns,
 }
 
 /// The principal axes and values of C = FᵀF.
@@ -28,27 +27,39 @@ pub(super) struct Mobility {
 pub(super) struct Axes {
     /// N.
     pub axes: Columns,
-    /// c.
+    /// F N = F⁻ᵀ N diag(c).
+    pub carried: Columns,
+    /// c and 1/c.
     pub values: [f64; 3],
+    pub inverses: [f64; 3],
 }
-
-/// The pairs of `own`; those of the second half are turned round.
-const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Axes {
     /// Of an elastic gradient, where a viscosity needs them.
     #[inline(always)]
     pub fn of(elastic: &Columns, viscosity: f64) -> Option<Self> {
         (viscosity > 0.0).then(|| {
-            let Spectrum { values, axes, .. } = Spectrum::of(elastic);
-            Self { axes, values }
+            let Spectrum { values, axes, carried } = Spectrum::of(elastic);
+            Self { axes, carried, values, inverses: values.map(|value| 1.0 / value) }
         })
     }
 
-    /// Nᵀ A N.
+    /// c_i/c_j.
     #[inline(always)]
-    pub fn turned(&self, matrix: &Columns) -> Columns {
-        self.axes.transpose().times(matrix).times(&self.axes)
+    pub fn ratio(&self, i: usize, j: usize) -> f64 {
+        self.values[i] * self.inverses[j]
+    }
+}
+
+/// X of the entries off its diagonal and Y, for a pair with the ratios ρ and 1/ρ: those of (i, j), of (j, i), of both.
+#[inline(always)]
+fn pair([gamma, half]: [f64; 2], spin: Spin, [ratio, inverse]: [f64; 2]) -> [f64; 3] {
+    match spin {
+        Spin::Full => {
+            let per = 1.0 / (gamma * (gamma + half * (ratio + inverse)));
+            [(gamma + half * inverse) * per, (gamma + half * ratio) * per, -half * per]
+        }
+        Spin::Symmetric => [0.5 / (gamma + 0.5 * half * (ratio + inverse + 2.0)); 3],
     }
 }
 
@@ -56,46 +67,24 @@ impl Mobility {
     /// Of μ_γ and μ [Pa s]; without axes, μ = 0 and all axes will do.
     #[inline(always)]
     pub fn new([gamma, viscosity]: [f64; 2], spin: Spin, axes: Option<&Axes>) -> Self {
-        let stretching = 1.0 / (gamma + viscosity);
-        let Some(Axes { values, .. }) = axes else {
-            let (own, other) = match spin {
-                Spin::Full => (stretching, 0.0),
-                Spin::Symmetric => (0.5 * stretching, 0.5 * stretching),
-            };
-            return Self { stretching, own: [own; 6], other: [other; 3] };
+        let s = 1.0 / (gamma + viscosity);
+        let solve = |i: usize, j: usize| {
+            let ratios = axes.map_or([1.0; 2], |axes| [axes.ratio(i, j), axes.ratio(j, i)]);
+            pair([gamma, 0.5 * viscosity], spin, ratios)
         };
-        let (mut own, mut other) = ([0.0; 6], [0.0; 3]);
-        let half = 0.5 * viscosity;
-        for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
-            let (ratio, inverse) = (values[i] / values[j], values[j] / values[i]);
-            match spin {
-                Spin::Full => {
-                    let per = 1.0 / (gamma * (gamma + half * (ratio + inverse)));
-                    own[pair] = (gamma + half * inverse) * per;
-                    own[3 + pair] = (gamma + half * ratio) * per;
-                    other[pair] = -half * per;
-                }
-                Spin::Symmetric => {
-                    let both = 0.5 / (gamma + 0.5 * half * (ratio + inverse + 2.0));
-                    (own[pair], own[3 + pair], other[pair]) = (both, both, both);
-                }
-            }
+        let ([a, b, x], [c, d, y], [e, f, z]) = (solve(0, 1), solve(0, 2), solve(1, 2));
+        Self {
+            own: Columns([Column([s, b, d, 0.0]), Column([a, s, f, 0.0]), Column([c, e, s, 0.0])]),
+            other: Columns([Column([0.0, x, y, 0.0]), Column([x, 0.0, z, 0.0]), Column([y, z, 0.0, 0.0])]),
         }
-        Self { stretching, own, other }
     }
 
     /// A⁻¹(R), or its symmetric kin; R and the result are in the axes N.
     #[inline(always)]
-    pub fn velocity(&self, stress: &Columns) -> Columns {
-        let Self { own, other, stretching } = self;
-        let r = |i: usize, j: usize| stress.at(i, j);
-        let upper = |pair: usize, i: usize, j: usize| own[pair] * r(i, j) + other[pair] * r(j, i);
-        let lower = |pair: usize, i: usize, j: usize| own[3 + pair] * r(j, i) + other[pair] * r(i, j);
-        Columns([
-            Column([stretching * r(0, 0), lower(0, 0, 1), lower(1, 0, 2), 0.0]),
-            Column([upper(0, 0, 1), stretching * r(1, 1), lower(2, 1, 2), 0.0]),
-            Column([upper(1, 0, 2), upper(2, 1, 2), stretching * r(2, 2), 0.0]),
-        ])
+    pub fn velocity<F: Four>(&self, stress: &Columns<F>) -> Columns<F> {
+        let registers = stress.0[0].0;
+        let (own, other) = (self.own.with(registers), self.other.with(registers));
+        own.entrywise(stress) + other.entrywise(&stress.transpose())
     }
 }
 

@@ -19,10 +19,9 @@ pub use decomposition::Decomposition;
 pub use feedback::{Feedback, Felt, Measure, Nearest};
 pub use restore::Restored;
 pub use slopes::ContractileSlopes;
-pub use solution::{Command, ContractileBalance};
 
 use crate::affine::{AffineBody, Gyration};
-use crate::columns::Columns;
+use crate::columns::{Columns, Four, Work, dispatch};
 use crate::signal::{Jet, Signal};
 use crate::tensor::Mat3;
 use solution::Solution;
@@ -92,6 +91,38 @@ impl Contraction {
     }
 }
 
+/// What drives or prescribes the contraction at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Command {
+    /// Q \[Pa\].
+    Drive(Mat3),
+    /// V_G \[1/s\] and d(tr V_G)/dt \[1/s²\].
+    Velocity(Mat3, f64),
+}
+
+/// The balance of a contractile body and its law of contraction, solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContractileBalance {
+    /// P̈ [1/s²].
+    pub acceleration: Mat3,
+    /// V_G = Ġ G⁻¹ [1/s].
+    pub contraction_velocity: Mat3,
+    /// Ġ [1/s].
+    pub contraction_rate: Mat3,
+    /// Q, given or taken \[Pa\].
+    pub drive: Mat3,
+    /// S, internal friction that acts on L included [Pa].
+    pub stress: Mat3,
+    /// π [Pa]; none of a compressible material.
+    pub pressure: Option<f64>,
+    /// V (μ |sym Ḟ F⁻¹|² + τ_L·L) ≥ 0 [W], τ_L being internal friction that acts on L.
+    pub friction: f64,
+    /// V μ_γ |V_G|² ≥ 0 [W].
+    pub drag: f64,
+    /// V Q·V_G [W].
+    pub drive_power: f64,
+}
+
 /// V_G and d(tr V_G)/dt where G is prescribed: V_G = Ġ G⁻¹, d(tr V_G)/dt = tr(G̈ G⁻¹) − tr V_G².
 pub fn velocity_of(jet: &Jet, decomposition: &Decomposition) -> Command {
     let velocity = jet.rate * decomposition.inverse;
@@ -99,10 +130,27 @@ pub fn velocity_of(jet: &Jet, decomposition: &Decomposition) -> Command {
     Command::Velocity(velocity, growing)
 }
 
-impl<'a> Pull<'a> {
+/// A balance to be solved.
+struct Balance<'a, 'b> {
+    pull: &'b Pull<'a>,
+    command: &'b Command,
+    moment: &'b Mat3,
+}
+
+impl Work for Balance<'_, '_> {
+    type Output = ContractileBalance;
+
+    #[inline(always)]
+    fn run<F: Four>(self, zeros: F) -> ContractileBalance {
+        let Self { pull, command, moment } = self;
+        Solution::new(pull, command, &Columns::of(moment).with(zeros)).balance(pull, command)
+    }
+}
+
+impl Pull<'_> {
     /// Solves the balance and the law of contraction; `moment` is M [N m].
     pub fn balance(&self, command: &Command, moment: &Mat3) -> ContractileBalance {
-        Solution::new(self, command, &Columns::of(moment)).balance(self, command)
+        dispatch(Balance { pull: self, command, moment })
     }
 
     /// V g φ(F) \[J\].

@@ -1,6 +1,6 @@
 //! The derivative of the balance of a contractile body and of its law of contraction, in closed form.
 //!
-//! In the axes N of C = FᵀF (F and G are turned: F N, NᵀG), with increments ξ = F⁻¹ δF, γ = δG G⁻¹, E = V_G − Λ,
+//! In the axes N of C = FᵀF (F and G are turned: F N, NᵀG), with increments ξ = F⁻¹ δF, γ = δG G⁻¹, Λ = F⁻¹ L F, E = V_G − Λ,
 //! 𝓜(A) = (μ/2)(C A C⁻¹ + Aᵀ), K = (μ/2) C E C⁻¹, X = δC C⁻¹ = C ξ C⁻¹ + ξᵀ and Z = Fᵀ(τ − πI)F⁻ᵀ,
 //!
 //!   δZ = δ(gΣ) − X K + K X − 𝓜(δV_G − δΛ) − δπ I,         δ(gΣ) = tr γ gΣ + ξᵀ gΣ + Fᵀ g 𝔸[Fξ]
@@ -10,39 +10,56 @@
 //! 𝔸 is the tangent of the material. All increments are of rank one: with w_B the row B of G⁻¹,
 //!
 //!   δP = e_j ⊗ e_B:  ξ = F⁻¹e_j ⊗ w_B,  δΛ = −ξ Λ;      δṖ:  δΛ = F⁻¹e_j ⊗ w_B;      δG:  γ = e_j ⊗ w_B = −ξ,  δΛ = γ Λ − Λ γ
+//!
+//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`Side`, `Row`).
 
 use super::mobility::{Axes, Mobility};
 use super::solution::Solution;
-use super::{Command, Pull};
+use super::{Command, Decomposition, Pull};
 use crate::affine::AffineBody;
-use crate::columns::{Column, Columns, UNIT};
+use crate::columns::{Column, Columns, Four, UNIT};
 use crate::tensor::Mat3;
 
 /// The derivative at P, Ṗ, G, M and Q: what its columns are made of.
 #[derive(Debug, Clone, Copy)]
 pub struct ContractileSlopes<'a> {
     body: &'a AffineBody,
-    solution: Solution,
-    /// N, or the unit matrix.
-    axes: Columns,
-    /// c, or ones where there is no viscosity.
-    values: [f64; 3],
     /// How V_G answers; none if it is prescribed.
     law: Option<Law>,
-    half_viscosity: f64,
-    /// Of F N and NᵀG: F⁻ᵀ, G⁻ᵀ, G.
+    /// μ/2 c_i/c_j and μ/2; none without viscosity.
+    viscous: Option<(Columns, f64)>,
+    /// N, F⁻ᵀ N, NᵀG, NᵀG⁻ᵀ and −V NᵀG⁻ᵀ J⁻¹.
+    axes: Columns,
     back: Columns,
-    inverse: Columns,
     contraction: Columns,
-    /// gΣ, K, Λ, V_G and Z in the axes.
+    inverse: Columns,
+    outward: Columns,
+    /// gΣ and Z in the axes, gφ.
     mandel: Columns,
-    kept: Columns,
-    pulled: Columns,
     total: Columns,
-    /// Nᵀ Fᵀ g 𝔸[e_j ⊗ w_B] N at 3B + j.
+    energy: f64,
+    /// V_G, outside the axes.
+    velocity: Columns,
+    /// Of e_j as seen through F⁻¹, for δP and δṖ, and as it is, for δG.
+    spatial: [Side; 3],
+    relaxed: [Side; 3],
+    rows: [Row; 3],
+    /// Nᵀ Fᵀ g 𝔸[e_j ⊗ w_B] N, and of −F e_j ⊗ w_B, at 3B + j.
     tangent: [Columns; 9],
-    /// (F P̈ F − 2FLL)ᵀ and (FL)ᵀ with F = P⁻¹, where the pressure is that of the second derivative of det P.
-    asked: Option<[Columns; 2]>,
+    tangent_back: [Columns; 9],
+    reaction: Option<Reaction>,
+}
+
+/// What a pressure adds that is that of the second derivative of det P.
+#[derive(Debug, Clone, Copy)]
+struct Reaction {
+    /// P⁻ᵀ, P⁻ᵀ J⁻¹ and 1/tr(P⁻ᵀ J⁻¹ P⁻¹).
+    across: Columns,
+    way: Columns,
+    compliance: f64,
+    /// (F P̈ F − 2FLL)ᵀ and (FL)ᵀ with F = P⁻¹.
+    by_gradient: Columns,
+    by_rate: Columns,
 }
 
 /// How the contraction velocity answers to stress.
@@ -65,279 +82,319 @@ enum Volume {
     Kept,
 }
 
-/// A direction: vectors u (F⁻¹e_j or e_j) and w with what is made of them.
-#[derive(Debug, Clone, Copy)]
-struct Left {
+/// The dyads of one j: w ⊗ a + b ⊗ C⁻¹w + c ⊗ w₁ + w₂ ⊗ d, and what else is needed of u.
+#[derive(Debug, Clone, Copy, Default)]
+struct Side {
     u: Column,
-    /// C u, Kᵀ u, K C u.
+    /// C u.
     carried: Column,
-    turned: Column,
-    both: Column,
+    dyads: [Column; 4],
+    /// gΣ u, Zᵀu.
+    heavy: Column,
+    total: Column,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Right {
+/// What depends on B alone.
+#[derive(Debug, Clone, Copy, Default)]
+struct Row {
     w: Column,
-    /// C⁻¹ w, Kᵀ C⁻¹ w, K w, Λᵀ w.
+    /// C⁻¹ w, w₁ = −(Kᵀ C⁻¹ w + (μ/2) C⁻¹ Λᵀ w), w₂ = K w − (μ/2) Λᵀ w, Λᵀ w.
     back: Column,
-    turned: Column,
-    kept: Column,
+    first: Column,
+    second: Column,
     pulled: Column,
 }
 
-/// What changes along a direction: V_G, and F⁻ᵀ(…)G⁻ᵀ of the stress, all in the axes.
-#[derive(Debug, Clone, Copy)]
-struct Change {
-    velocity: Columns,
+/// What the sides and rows are made of.
+struct Vectors {
+    values: [f64; 3],
+    half: f64,
+    kept: Columns,
+    pulled: Columns,
+    mandel: Columns,
     total: Columns,
 }
 
 #[inline(always)]
-fn outer(left: &Column, right: &Column) -> Columns {
-    Columns([*left * right.0[0], *left * right.0[1], *left * right.0[2]])
+fn times(column: &Column, [x, y, z]: [f64; 3]) -> Column {
+    let Column([a, b, c, _]) = *column;
+    Column([a * x, b * y, c * z, 0.0])
+}
+
+impl Vectors {
+    /// For ξ = u ⊗ w, δΛ = −ξ Λ.
+    #[inline(always)]
+    fn spatial(&self, u: Column) -> Side {
+        let carried = times(&u, self.values);
+        let heavy = self.mandel.image(&u);
+        let dyads = [heavy - self.kept.transpose().image(&u), self.kept.image(&carried), carried, u];
+        Side { u, carried, dyads, heavy, total: self.total.transpose().image(&u) }
+    }
+
+    /// For γ = u ⊗ w = −ξ, δΛ = γ Λ − Λ γ.
+    #[inline(always)]
+    fn relaxed(&self, u: Column) -> Side {
+        let forth = self.spatial(u);
+        let seen = self.pulled.image(&u) * self.half;
+        let [a, b, c, d] = forth.dyads.map(|vector| vector * -1.0);
+        Side { dyads: [a - seen, b - times(&seen, self.values), c, d], ..forth }
+    }
+
+    #[inline(always)]
+    fn row(&self, w: Column) -> Row {
+        let inverses = self.values.map(|value| 1.0 / value);
+        let (back, pulled) = (times(&w, inverses), self.pulled.transpose().image(&w));
+        let first = self.kept.transpose().image(&back) + times(&pulled, inverses) * self.half;
+        Row { w, back, first: first * -1.0, second: self.kept.image(&w) - pulled * self.half, pulled }
+    }
+}
+
+/// a ⊗ b.
+#[inline(always)]
+fn dyad<F: Four>(a: &Column, b: &Column, registers: F) -> Columns<F> {
+    let (a, [x, y, z, _]) = (Column(registers.like(a.0)), b.0);
+    Columns([a * x, a * y, a * z])
 }
 
 impl<'a> Pull<'a> {
     /// The derivative of the balance and of the law of contraction; `moment` is M [N m].
-    pub fn slopes(&self, command: &Command, moment: &Mat3) -> ContractileSlopes<'a> {
-        let Pull { body, contraction, decomposition, .. } = *self;
-        let solution = Solution::new(self, command, &Columns::of(moment));
+    #[inline(always)]
+    pub(crate) fn slopes_in<F: Four>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'a> {
+        let Pull { body, decomposition, .. } = *self;
+        let solution = Solution::new(self, command, &Columns::of(moment).with(registers));
         let viscosity = body.viscosity.kirchhoff;
-        let axes = solution.axes.or_else(|| Axes::of(&solution.split.elastic, viscosity));
-        let (n, values) = axes.map_or((Columns(UNIT), [1.0; 3]), |axes| (axes.axes, axes.values));
-        let across = n.transpose();
-        let turn = |matrix: &Columns| across.times(matrix).times(&n);
-        let law = contraction.is_driven().then(|| Law {
-            mobility: Mobility::new([contraction.viscosity, viscosity], contraction.spin, axes.as_ref()),
-            stretching: contraction.viscosity + viscosity,
-            volume: match (contraction.kept_volume, body.is_incompressible()) {
-                (Some(_), _) => Volume::Kept,
-                (None, true) => Volume::Follows,
-                (None, false) => Volume::Free,
-            },
-        });
-        let split = &solution.split;
-        let elastic = split.elastic.times(&n);
-        let inverse = across.times_transposed(&Columns::of(&decomposition.inverse));
-        let (pulled, velocity) = (turn(&split.pulled), turn(&solution.velocity));
-        let mut tangent = [Columns::default(); 9];
-        if let Some(material) = &body.material {
-            let kept = material.at(&split.elastic);
-            let right = Columns::of(&decomposition.inverse);
-            for (place, tangent) in tangent.iter_mut().enumerate() {
-                let (j, b) = (place % 3, place / 3);
-                let change = (kept.slope(j, 0) * right.at(b, 0) + kept.slope(j, 1) * right.at(b, 1))
-                    + kept.slope(j, 2) * right.at(b, 2);
-                *tangent = elastic.transpose().times(&change).times(&n) * decomposition.volume_ratio;
-            }
-        }
-        let mandel = elastic.transpose().times(&solution.elastic_stress).times(&n).symmetric();
-        let back = split.back.transpose().times(&n);
-        let total = elastic.transpose().times(&solution.kirchhoff).times(&back);
-        let mut kept = velocity - pulled;
-        for (b, column) in kept.0.iter_mut().enumerate() {
-            let Column([x, y, z, _]) = *column * (0.5 * viscosity / values[b]);
-            *column = Column([x * values[0], y * values[1], z * values[2], 0.0]);
-        }
-        let asked = solution.constraint.is_some().then(|| {
-            let carried = split.l.transpose().times(&split.across);
-            let straight = split.across.times_transposed(&solution.acceleration).times(&split.across);
-            [straight - split.l.transpose().times(&carried) * 2.0, carried]
-        });
-        ContractileSlopes {
+        let load = |matrix: &Mat3| Columns::of(matrix).with(registers);
+        let (n, values) = solution.axes.map_or((Columns(UNIT), [1.0; 3]), |axes| (axes.axes, axes.values));
+        let n_in = n.with(registers);
+        let turned = n_in.transpose();
+        let own = load(&decomposition.contraction);
+        let back = own.times_transposed(&solution.across).transpose().times(&n_in);
+        let forth = solution.elastic.times(&n_in).transpose();
+        let inverse = turned.times_transposed(&load(&decomposition.inverse));
+        // Λ = F⁻¹ L F; Fᵀ X F⁻ᵀ of symmetric stresses.
+        let pulled = back.transpose().times(&solution.l).times_transposed(&forth);
+        let mandel = forth.times(&solution.elastic_stress).times(&back).symmetric();
+        let total = forth.times(&solution.kirchhoff).times(&back);
+        let velocity = turned.times(&solution.velocity).times(&n_in);
+        let half = 0.5 * viscosity;
+        let ratios = solution.axes.map(|axes| ratios(&axes, half));
+        let kept = ratios.map_or_else(Columns::default, |ratios| (velocity - pulled).kept().entrywise(&ratios));
+        let (mandel, total, pulled) = (mandel.kept(), total.kept(), pulled.kept());
+        let vectors = Vectors { values, half, kept, pulled, mandel, total };
+
+        let mut slopes = ContractileSlopes {
             body,
+            law: law(self, solution.axes.as_ref()),
+            viscous: ratios.map(|ratios| (ratios, half)),
             axes: n,
-            values,
-            law,
-            half_viscosity: 0.5 * viscosity,
-            back,
-            inverse,
-            contraction: across.times(&Columns::of(&decomposition.contraction)),
+            back: back.kept(),
+            contraction: turned.times(&own).kept(),
+            inverse: inverse.kept(),
+            outward: (body.per_inertia(&inverse) * -body.volume).kept(),
             mandel,
-            kept,
-            pulled,
             total,
-            tangent,
-            asked,
-            solution,
+            energy: solution.energy,
+            velocity: solution.velocity.kept(),
+            spatial: [Side::default(); 3],
+            relaxed: [Side::default(); 3],
+            rows: [Row::default(); 3],
+            tangent: [Columns::default(); 9],
+            tangent_back: [Columns::default(); 9],
+            reaction: reaction(&solution),
+        };
+        for j in 0..3 {
+            let row_of = |matrix: &Columns| Column([matrix.at(j, 0), matrix.at(j, 1), matrix.at(j, 2), 0.0]);
+            slopes.spatial[j] = vectors.spatial(row_of(&slopes.back));
+            slopes.relaxed[j] = vectors.relaxed(row_of(&n));
+            slopes.rows[j] = vectors.row(slopes.inverse.0[j]);
         }
+        slopes.fill_tangents(self, (&forth, &n_in));
+        slopes
     }
+}
+
+/// μ/2 c_i/c_j.
+#[inline(always)]
+fn ratios(axes: &Axes, half: f64) -> Columns {
+    let column = |j: usize| Column([0, 1, 2, 2].map(|i| half * axes.ratio(i, j)));
+    Columns([column(0), column(1), column(2)])
+}
+
+#[inline(always)]
+fn law(pull: &Pull<'_>, axes: Option<&Axes>) -> Option<Law> {
+    let Pull { body, contraction, .. } = *pull;
+    let viscosity = body.viscosity.kirchhoff;
+    contraction.is_driven().then(|| Law {
+        mobility: Mobility::new([contraction.viscosity, viscosity], contraction.spin, axes),
+        stretching: contraction.viscosity + viscosity,
+        volume: match (contraction.kept_volume, body.is_incompressible()) {
+            (Some(_), _) => Volume::Kept,
+            (None, true) => Volume::Follows,
+            (None, false) => Volume::Free,
+        },
+    })
+}
+
+#[inline(always)]
+fn reaction<F: Four>(solution: &Solution<F>) -> Option<Reaction> {
+    let constraint = solution.constraint.as_ref()?;
+    let Solution { l, across, acceleration, .. } = solution;
+    let carried = l.transpose().times(across);
+    let straight = across.times_transposed(acceleration).times(across);
+    Some(Reaction {
+        across: across.kept(),
+        way: constraint.way.kept(),
+        compliance: constraint.compliance,
+        by_gradient: (straight - l.transpose().times(&carried) * 2.0).kept(),
+        by_rate: carried.kept(),
+    })
+}
+
+/// What changes along a direction: V_G, and the bracket of δS, both in the axes.
+struct Change<F> {
+    velocity: Columns<F>,
+    total: Columns<F>,
 }
 
 impl ContractileSlopes<'_> {
     #[inline(always)]
-    fn left(&self, u: Column) -> Left {
-        let Column([x, y, z, _]) = u;
-        let carried = Column([x * self.values[0], y * self.values[1], z * self.values[2], 0.0]);
-        Left { u, carried, turned: self.kept.transpose().image(&u), both: self.kept.image(&carried) }
-    }
-
-    #[inline(always)]
-    fn right(&self, b: usize) -> Right {
-        let w = self.inverse.0[b];
-        let Column([x, y, z, _]) = w;
-        let back = Column([x / self.values[0], y / self.values[1], z / self.values[2], 0.0]);
-        Right {
-            w,
-            back,
-            turned: self.kept.transpose().image(&back),
-            kept: self.kept.image(&w),
-            pulled: self.pulled.transpose().image(&w),
+    fn fill_tangents<F: Four>(&mut self, pull: &Pull<'_>, (forth, n): (&Columns<F>, &Columns<F>)) {
+        let Some(material) = &pull.body.material else { return };
+        let Decomposition { elastic, inverse, volume_ratio, .. } = pull.decomposition;
+        let (kept, registers) = (material.at(&Columns::of(elastic)), n.0[0].0);
+        for j in 0..3 {
+            let turned = [0, 1, 2].map(|b| forth.times(&kept.slope(j, b).with(registers)).times(n) * *volume_ratio);
+            for b in 0..3 {
+                let [x, y, z] = [0, 1, 2].map(|k| turned[k] * inverse[(b, k)]);
+                self.tangent[3 * b + j] = ((x + y) + z).kept();
+            }
+        }
+        for place in 0..9 {
+            // −F e_j = −Σ_i F_ij e_i.
+            let (j, b) = (place % 3, place / 3);
+            let [x, y, z] = [0, 1, 2].map(|i| self.tangent[3 * b + i].with(registers) * -elastic[(i, j)]);
+            self.tangent_back[place] = ((x + y) + z).kept();
         }
     }
 
-    /// F⁻¹ e_j in the axes: a row of F⁻ᵀ.
+    /// δ(gΣ) − X K + K X + 𝓜(δΛ) beside what `tangent` holds of it.
     #[inline(always)]
-    fn spatial_left(&self, j: usize) -> Left {
-        let [x, y, z] = &self.back.0;
-        self.left(Column([x.0[j], y.0[j], z.0[j], 0.0]))
-    }
-
-    /// e_j in the axes: a row of N.
-    #[inline(always)]
-    fn relaxed_left(&self, j: usize) -> Left {
-        let [x, y, z] = &self.axes.0;
-        self.left(Column([x.0[j], y.0[j], z.0[j], 0.0]))
-    }
-
-    /// 𝓜(a ⊗ b), C a and C⁻¹ b being given.
-    #[inline(always)]
-    fn viscous(&self, (a, carried): (&Column, &Column), (b, back): (&Column, &Column)) -> Columns {
-        (outer(carried, back) + outer(b, a)) * self.half_viscosity
-    }
-
-    /// C⁻¹ b and C a of vectors that have no name.
-    #[inline(always)]
-    fn by_values(&self, v: &Column) -> [Column; 2] {
-        let Column([x, y, z, _]) = *v;
-        let c = &self.values;
-        [Column([x * c[0], y * c[1], z * c[2], 0.0]), Column([x / c[0], y / c[1], z / c[2], 0.0])]
-    }
-
-    /// δ(gΣ) − X K + K X + 𝓜(δΛ) and δ(gφ) along ξ = u ⊗ w, δΛ = −ξ Λ; Fᵀ g 𝔸[Fξ] is given.
-    #[inline(always)]
-    fn stretched(&self, left: &Left, right: &Right, tangent: &Columns) -> (Columns, f64) {
-        let heavy = self.mandel.image(&left.u);
-        let mut change = *tangent + outer(&right.w, &heavy);
-        if self.half_viscosity > 0.0 {
-            change += outer(&left.both, &right.back) - outer(&left.carried, &right.turned);
-            change += outer(&right.kept, &left.u) - outer(&right.w, &left.turned);
-            let [_, back] = self.by_values(&right.pulled);
-            change = change - self.viscous((&left.u, &left.carried), (&right.pulled, &back));
+    fn stretched<F: Four>(&self, side: &Side, row: &Row, tangent: &Columns, registers: F) -> Columns<F> {
+        let [a, b, c, d] = &side.dyads;
+        if self.viscous.is_none() {
+            return tangent.with(registers) + dyad(&row.w, a, registers);
         }
-        (change, heavy.dot(&right.w))
+        let pairs = (dyad(&row.w, a, registers) + dyad(b, &row.back, registers))
+            + (dyad(c, &row.first, registers) + dyad(&row.second, d, registers));
+        tangent.with(registers) + pairs
     }
 
-    /// δV_G and δZ for δ(gΣ) − X K + K X + 𝓜(δΛ), δ(gφ), δQ and δ(tr Λ).
+    /// δV_G and δZ for δ(gΣ) − X K + K X + 𝓜(δΛ), δ(gφ) and δ(tr Λ); δQ is added to what moves V_G.
     #[inline(always)]
-    fn answer(&self, stress: &Columns, (energy, drive): (f64, Option<&Columns>), growth: f64) -> Change {
-        let Some(law) = &self.law else { return Change { velocity: Columns::default(), total: *stress } };
-        let mut loaded = *stress;
-        if let Some(drive) = drive {
-            loaded += *drive;
-        }
+    fn answer<F: Four>(
+        &self,
+        stress: &Columns<F>,
+        (energy, growth): (f64, f64),
+        drive: Option<&Columns<F>>,
+    ) -> Change<F> {
+        let Some(law) = &self.law else {
+            return Change { velocity: Columns::default().with(stress.0[0].0), total: *stress };
+        };
+        let loaded = drive.map_or(*stress, |drive| *stress + *drive);
         let excess = match law.volume {
             Volume::Free => energy,
             Volume::Kept => loaded.trace() / 3.0,
             Volume::Follows => (loaded.trace() - law.stretching * growth) / 3.0,
         };
-        let velocity = law.mobility.velocity(&(loaded + Columns(UNIT) * -excess));
+        let velocity = law.mobility.velocity(&loaded.plus_unit(-excess));
         let mut total = *stress;
         if law.volume == Volume::Follows {
-            total += Columns(UNIT) * (energy - excess);
+            total = total.plus_unit(energy - excess);
         }
-        if self.half_viscosity > 0.0 {
-            let c = &self.values;
-            for (b, column) in total.0.iter_mut().enumerate() {
-                let Column([x, y, z, _]) = velocity.0[b];
-                let row = Column([velocity.at(b, 0), velocity.at(b, 1), velocity.at(b, 2), 0.0]);
-                let carried = Column([x * c[0], y * c[1], z * c[2], 0.0]) * (1.0 / c[b]);
-                *column = *column - (carried + row) * self.half_viscosity;
-            }
+        if let Some((ratios, half)) = &self.viscous {
+            total = total - (velocity.entrywise(&ratios.with(stress.0[0].0)) + velocity.transpose() * *half);
         }
         Change { velocity, total }
     }
 
-    /// δĠ and δP̈ of a change, `own` being V_G δG.
+    /// δĠ, but for V_G δG, and δP̈ of a change; `moment` is δM.
     #[inline(always)]
-    fn along(&self, change: &Change, moment: Option<&Columns>, asked: f64) -> (Columns, Columns) {
-        let stress = self.back.times(&change.total).times(&self.inverse);
-        let mut free = stress * -self.body.volume;
+    fn along<F: Four>(&self, change: &Change<F>, moment: Option<&Columns>, asked: f64) -> (Columns<F>, Columns<F>) {
+        let registers = change.total.0[0].0;
+        let load = |matrix: &Columns| matrix.with(registers);
+        let mut acceleration = load(&self.back).times(&change.total).times(&load(&self.outward));
         if let Some(moment) = moment {
-            free += *moment;
+            acceleration += self.body.per_inertia(&load(moment));
         }
-        (self.axes.times(&change.velocity).times(&self.contraction), self.accelerate(&free, asked))
+        let rate = load(&self.axes).times(&change.velocity).times(&load(&self.contraction));
+        (rate, self.held(&acceleration, asked))
     }
 
-    /// δP̈ of δB, where tr(δP̈ P⁻¹) has to be as asked.
+    /// δP̈ where tr(δP̈ P⁻¹) has to be as asked.
     #[inline(always)]
-    fn accelerate(&self, free: &Columns, asked: f64) -> Columns {
-        let acceleration = self.body.per_inertia(free);
-        match &self.solution.constraint {
-            Some(constraint) => acceleration + constraint.way * constraint.push(free, asked),
-            None => acceleration,
-        }
+    fn held<F: Four>(&self, acceleration: &Columns<F>, asked: f64) -> Columns<F> {
+        let Some(reaction) = &self.reaction else { return *acceleration };
+        let registers = acceleration.0[0].0;
+        let missing = asked - acceleration.dot(&reaction.across.with(registers));
+        *acceleration + reaction.way.with(registers) * (missing * reaction.compliance)
     }
 
     /// δĠ and δP̈ along δP_jB, by which M changes by δM.
     #[inline(always)]
-    pub(crate) fn along_gradient(&self, j: usize, b: usize, moment: &Columns) -> (Columns, Columns) {
-        let (left, right) = (self.spatial_left(j), self.right(b));
-        let (stress, energy) = self.stretched(&left, &right, &self.tangent[3 * b + j]);
+    pub(crate) fn along_gradient<F: Four>(
+        &self,
+        (j, b): (usize, usize),
+        moment: Option<&Columns>,
+        registers: F,
+    ) -> (Columns<F>, Columns<F>) {
+        let (side, row) = (&self.spatial[j], &self.rows[b]);
+        let stress = self.stretched(side, row, &self.tangent[3 * b + j], registers);
         // tr Λ = tr L changes by −u·Λᵀw.
-        let mut change = self.answer(&stress, (energy, None), -left.u.dot(&right.pulled));
-        change.total = change.total - outer(&right.w, &self.total.transpose().image(&left.u));
-        let asked = self.asked.as_ref().map_or(0.0, |[gradient, _]| gradient.at(j, b));
-        self.along(&change, Some(moment), asked)
+        let mut change = self.answer(&stress, (side.heavy.dot(&row.w), -side.u.dot(&row.pulled)), None);
+        change.total = change.total - dyad(&row.w, &side.total, registers);
+        self.along(&change, moment, self.reaction.map_or(0.0, |reaction| reaction.by_gradient.at(j, b)))
     }
 
     /// δĠ and δP̈ along δṖ_jB, by which M changes by δM.
     #[inline(always)]
-    pub(crate) fn along_rate(&self, j: usize, b: usize, moment: &Columns) -> (Columns, Columns) {
-        let (left, right) = (self.spatial_left(j), self.right(b));
-        let stress = self.viscous((&left.u, &left.carried), (&right.w, &right.back));
-        let change = self.answer(&stress, (0.0, None), left.u.dot(&right.w));
-        let asked = self.asked.as_ref().map_or(0.0, |[_, carried]| 2.0 * carried.at(j, b));
-        self.along(&change, Some(moment), asked)
+    pub(crate) fn along_rate<F: Four>(
+        &self,
+        (j, b): (usize, usize),
+        moment: Option<&Columns>,
+        registers: F,
+    ) -> (Columns<F>, Columns<F>) {
+        let (side, row) = (&self.spatial[j], &self.rows[b]);
+        let half = self.viscous.map_or(0.0, |(_, half)| half);
+        let stress = (dyad(&side.carried, &row.back, registers) + dyad(&row.w, &side.u, registers)) * half;
+        let change = self.answer(&stress, (0.0, side.u.dot(&row.w)), None);
+        self.along(&change, moment, self.reaction.map_or(0.0, |reaction| 2.0 * reaction.by_rate.at(j, b)))
     }
 
     /// δĠ and δP̈ along δG_jB.
     #[inline(always)]
-    pub(crate) fn along_contraction(&self, j: usize, b: usize) -> (Columns, Columns) {
-        let (left, right) = (self.relaxed_left(j), self.right(b));
-        // Fᵀ g 𝔸[Fξ] with ξ = −e_j ⊗ w_B, F e_j = Σ_i F_ij e_i.
-        let f = &self.solution.split.elastic;
-        let [x, y, z] = [0, 1, 2].map(|i| self.tangent[3 * b + i] * f.at(i, j));
-        let (stress, energy) = self.stretched(&left, &right, &((x + y) + z));
-        let mut stress = stress * -1.0;
-        // What G does beside stretching F back: it makes the relaxed body larger, and Λ is seen from it.
-        let growth = left.u.dot(&right.w);
-        stress += self.mandel * growth;
-        if self.half_viscosity > 0.0 {
-            let seen = self.pulled.image(&left.u);
-            let [carried, _] = self.by_values(&seen);
-            stress = stress - self.viscous((&seen, &carried), (&right.w, &right.back));
-        }
+    pub(crate) fn along_contraction<F: Four>(&self, (j, b): (usize, usize), registers: F) -> (Columns<F>, Columns<F>) {
+        let (side, row) = (&self.relaxed[j], &self.rows[b]);
+        let growth = side.u.dot(&row.w);
+        let mut stress = self.stretched(side, row, &self.tangent_back[3 * b + j], registers);
+        stress += self.mandel.with(registers) * growth;
         // tr Λ = tr L does not depend on G.
-        let mut change = self.answer(&stress, (self.solution.energy * growth - energy, None), 0.0);
-        change.total += outer(&right.w, &self.total.transpose().image(&left.u));
-        change.total = change.total - outer(&self.total.image(&right.w), &left.u);
+        let mut change = self.answer(&stress, (self.energy * growth - side.heavy.dot(&row.w), 0.0), None);
+        change.total += dyad(&row.w, &side.total, registers);
+        change.total = change.total - dyad(&self.total.image(&row.w), &side.u, registers);
         let (mut rate, acceleration) = self.along(&change, None, 0.0);
-        // V_G δG, with V_G as it stands.
-        rate.0[b] += self.solution.velocity.0[j];
+        rate.0[b] += Column(registers.like(self.velocity.0[j].0));
         (rate, acceleration)
     }
 
     /// δĠ and δP̈ along a change of the drive.
     pub(crate) fn along_drive(&self, drive: &Mat3) -> (Columns, Columns) {
         let turned = self.axes.transpose().times(&Columns::of(drive)).times(&self.axes);
-        let change = self.answer(&Columns::default(), (0.0, Some(&turned)), 0.0);
-        self.along(&change, None, 0.0)
+        self.along(&self.answer(&Columns::default(), (0.0, 0.0), Some(&turned)), None, 0.0)
     }
 
     /// δP̈ where M alone changes.
     #[inline(always)]
-    pub(crate) fn along_moment(&self, moment: &Columns) -> Columns {
-        self.accelerate(moment, 0.0)
+    pub(crate) fn along_moment<F: Four>(&self, moment: &Columns, registers: F) -> Columns<F> {
+        self.held(&self.body.per_inertia(&moment.with(registers)), 0.0)
     }
 }

@@ -1,6 +1,6 @@
 //! The balance of a contractile body solved at P, Ṗ, G, M and Q.
 //!
-//! With Λ = F⁻¹ L F, Σ = Fᵀ ∂φ/∂F and A as in `mobility`, the law of contraction is
+//! With Σ = Fᵀ ∂φ/∂F and A as in `mobility`, the law of contraction is
 //!
 //!   A(V_G) = g Σ − g φ I + μ Fᵀ sym L F⁻ᵀ + Q − π I,       τ = g ∂φ/∂F Fᵀ + μ sym(L − F V_G F⁻¹),   S = (τ − π I) P⁻ᵀ
 //!
@@ -9,99 +9,112 @@
 //!   pressure is that of the second derivative of det P, as of an affine body.
 //! - If G is prescribed, so is V_G; the pressure is that of tr(P̈ P⁻¹) = tr L² + d(tr V_G)/dt, and Q is what is left of the law.
 //!
+//! With viscosity everything is in the axes N of FᵀF = N diag(c) Nᵀ: with D = F N, Fᵀ X F⁻ᵀ is Dᵀ X D diag(1/c) there.
 //! Elastic stresses are symmetric to the last bit, and used without the mean that a pressure takes over, for the reason
 //! told in `affine::solution`.
 
-use super::decomposition::Split;
 use super::mobility::{Axes, Mobility};
-use super::{Contraction, Pull};
+use super::{Command, ContractileBalance, Contraction, Pull};
 use crate::affine::Constraint;
-use crate::columns::{Columns, UNIT};
+use crate::columns::{Columns, Four};
 use crate::tensor::Mat3;
-
-/// What drives or prescribes the contraction at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Command {
-    /// Q \[Pa\].
-    Drive(Mat3),
-    /// V_G \[1/s\] and d(tr V_G)/dt \[1/s²\].
-    Velocity(Mat3, f64),
-}
-
-/// The balance of a contractile body and its law of contraction, solved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContractileBalance {
-    /// P̈ [1/s²].
-    pub acceleration: Mat3,
-    /// V_G = Ġ G⁻¹ [1/s].
-    pub contraction_velocity: Mat3,
-    /// Q, given or taken \[Pa\].
-    pub drive: Mat3,
-    /// S, internal friction that acts on L included [Pa].
-    pub stress: Mat3,
-    /// π [Pa]; none of a compressible material.
-    pub pressure: Option<f64>,
-    /// V (μ |sym Ḟ F⁻¹|² + τ_L·L) ≥ 0 [W], τ_L being internal friction that acts on L.
-    pub friction: f64,
-    /// V μ_γ |V_G|² ≥ 0 [W].
-    pub drag: f64,
-    /// V Q·V_G [W].
-    pub drive_power: f64,
-}
 
 /// What the derivative needs again.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Solution {
-    pub split: Split,
-    /// g φ and g ∂φ/∂F.
+pub(super) struct Solution<F> {
+    /// F.
+    pub elastic: Columns<F>,
+    /// P⁻ᵀ.
+    pub across: Columns<F>,
+    /// L.
+    pub l: Columns<F>,
+    /// g φ and g ∂φ/∂F Fᵀ.
     pub energy: f64,
-    pub elastic_stress: Columns,
+    pub elastic_stress: Columns<F>,
     /// V_G.
-    pub velocity: Columns,
-    /// Where they were needed.
+    pub velocity: Columns<F>,
+    /// Of F, where there is viscosity.
     pub axes: Option<Axes>,
-    /// sym(Ḟ F⁻¹).
-    pub straining: Columns,
+    /// sym(Ḟ F⁻¹); zero without viscosity.
+    straining: Columns<F>,
     /// τ − π I, without internal friction that acts on L.
-    pub kirchhoff: Columns,
+    pub kirchhoff: Columns<F>,
     /// τ_L.
-    pub medium: Columns,
-    pub acceleration: Columns,
+    medium: Option<Columns<F>>,
+    pub acceleration: Columns<F>,
     /// Where the pressure is that of the second derivative of det P.
-    pub constraint: Option<Constraint>,
-    /// V times the part of the pressure that the constraint gives.
-    pub push: f64,
+    pub constraint: Option<Constraint<F>>,
     /// π.
-    pub pressure: f64,
+    pressure: f64,
 }
 
-impl Solution {
-    pub fn new(pull: &Pull<'_>, command: &Command, moment: &Columns) -> Self {
+/// F and what turns the law of contraction into its axes.
+struct Frame<F> {
+    elastic: Columns<F>,
+    /// F⁻¹.
+    back: Columns<F>,
+    axes: Option<Axes>,
+}
+
+impl<F: Four> Frame<F> {
+    /// Fᵀ X F⁻ᵀ + Q, in the axes.
+    #[inline(always)]
+    fn pulled(&self, stress: &Columns<F>, drive: &Columns<F>) -> Columns<F> {
+        let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
+            return self.elastic.transpose().times(stress).times_transposed(&self.back) + *drive;
+        };
+        let registers = stress.0[0].0;
+        let (n, d) = (axes.with(registers), carried.with(registers));
+        d.transpose().times(stress).times(&d.scaled(inverses)) + n.transpose().times(drive).times(&n)
+    }
+
+    /// V and F V F⁻¹ of a V in the axes.
+    #[inline(always)]
+    fn pushed(&self, velocity: &Columns<F>) -> [Columns<F>; 2] {
+        let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
+            return [*velocity, self.elastic.times(velocity).times(&self.back)];
+        };
+        let registers = velocity.0[0].0;
+        let (n, d) = (axes.with(registers), carried.with(registers));
+        let outside = |left: &Columns<F>, right: &Columns<F>| left.times(velocity).times_transposed(right);
+        [outside(&n, &n), outside(&d, &d.scaled(inverses))]
+    }
+}
+
+impl<F: Four> Solution<F> {
+    #[inline(always)]
+    pub fn new(pull: &Pull<'_>, command: &Command, moment: &Columns<F>) -> Self {
         let Pull { body, contraction, at, decomposition } = *pull;
-        let split = decomposition.split(at);
-        let Split { elastic, back, l, across, .. } = &split;
+        let registers = moment.0[0].0;
+        let load = |matrix: &Mat3| Columns::of(matrix).with(registers);
+        let (elastic, across, l) =
+            (load(&decomposition.elastic), load(&at.inverse).transpose(), load(&at.velocity_gradient));
         let ratio = decomposition.volume_ratio;
-        let (energy, stress) = body.material.as_ref().map_or_else(Default::default, |it| it.energy_and_stress(elastic));
+        let (energy, stress) = match &body.material {
+            Some(material) => material.energy_and_kirchhoff_stress(&elastic, at.volume_ratio / ratio),
+            None => (0.0, Columns::default().with(registers)),
+        };
         let (energy, elastic_stress) = (ratio * energy, stress * ratio);
+        let mean = elastic_stress.trace() / 3.0;
+        let deviator = elastic_stress.plus_unit(-mean);
         let viscosity = body.viscosity.kirchhoff;
         let strain_rate = l.symmetric();
-
-        // Elastic stresses without their mean, that of the law of contraction and that of the balance.
-        let mandel = elastic.transpose().times(&elastic_stress).symmetric();
-        let mean = mandel.trace() / 3.0;
-        let push_back = elastic_stress.times_transposed(elastic).symmetric();
-        let deviator = push_back + Columns(UNIT) * (-push_back.trace() / 3.0);
         let incompressible = body.is_incompressible();
         let own_pressure = incompressible && contraction.gives_pressure();
 
-        let mut axes = None;
-        let (velocity, excess) = match command {
-            Command::Velocity(velocity, _) => (Columns::of(velocity), 0.0),
+        let back = load(&decomposition.contraction).times_transposed(&across);
+        let frame = Frame { elastic, back, axes: Axes::of(&elastic.kept(), viscosity) };
+        let (velocity, carried, excess) = match command {
+            Command::Velocity(velocity, _) => {
+                let velocity = load(velocity);
+                (velocity, elastic.times(&velocity).times(&back), 0.0)
+            }
             Command::Drive(drive) => {
-                let mut stress = mandel + Columns(UNIT) * -mean + Columns::of(drive);
+                let mut stress = deviator;
                 if viscosity > 0.0 {
-                    stress += elastic.transpose().times(&strain_rate).times_transposed(back) * viscosity;
+                    stress += strain_rate * viscosity;
                 }
+                let stress = frame.pulled(&stress, &load(drive));
                 let growth = match contraction.kept_volume {
                     Some(_) => Some(0.0),
                     None => own_pressure.then(|| l.trace()),
@@ -109,38 +122,41 @@ impl Solution {
                 let excess = growth.map_or(energy - mean, |growth| {
                     (stress.trace() - (contraction.viscosity + viscosity) * growth) / 3.0
                 });
-                stress += Columns(UNIT) * -excess;
-                axes = Axes::of(elastic, viscosity);
-                let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, axes.as_ref());
-                (in_axes(axes.as_ref(), &stress, |stress| mobility.velocity(stress)), excess)
+                let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, frame.axes.as_ref());
+                let [velocity, carried] = frame.pushed(&mobility.velocity(&stress.plus_unit(-excess)));
+                (velocity, carried, excess)
             }
         };
 
-        let straining = match velocity == Columns::default() {
-            true => strain_rate,
-            false => (*l - elastic.times(&velocity).times(back)).symmetric(),
-        };
         // π = excess + mean − gφ of an incompressible material whose law of contraction tells it.
         let (left, mut pressure) = match (incompressible, own_pressure) {
             (false, _) => (mean, 0.0),
             (true, true) => (energy - excess, excess + mean - energy),
             (true, false) => (0.0, mean),
         };
-        let mut kirchhoff = (deviator + Columns(UNIT) * left) + straining * viscosity;
-        let medium = body.medium_stress(at);
-        let free = *moment - (kirchhoff + medium).times(across) * body.volume;
+        let mut kirchhoff = deviator.plus_unit(left);
+        let mut straining = Columns::default().with(registers);
+        if viscosity > 0.0 {
+            straining = (l - carried).symmetric();
+            kirchhoff += straining * viscosity;
+        }
+        let medium = body.medium_stress(at, &l);
+        let stress = medium.map_or(kirchhoff, |medium| kirchhoff + medium);
+        let free = *moment - stress.times(&across) * body.volume;
         let mut acceleration = body.per_inertia(&free);
-        let constraint = (incompressible && !own_pressure).then(|| Constraint::new(body, across));
-        let mut push = 0.0;
+        let constraint = (incompressible && !own_pressure).then(|| Constraint::new(body, &across));
         if let Some(constraint) = &constraint {
-            let growth = if let Command::Velocity(_, growing) = command { *growing } else { 0.0 };
-            push = constraint.push(&free, l.dot(&l.transpose()) + growth);
+            let growing = if let Command::Velocity(_, growing) = command { *growing } else { 0.0 };
+            let push = constraint.push(&free, l.dot(&l.transpose()) + growing);
             acceleration += constraint.way * push;
-            kirchhoff += Columns(UNIT) * (-push / body.volume);
+            kirchhoff = kirchhoff.plus_unit(-push / body.volume);
             pressure += push / body.volume;
         }
+        let axes = frame.axes;
         Self {
-            split,
+            elastic,
+            across,
+            l,
             energy,
             elastic_stress,
             velocity,
@@ -150,28 +166,37 @@ impl Solution {
             medium,
             acceleration,
             constraint,
-            push,
             pressure,
         }
     }
 
+    /// What is told of it.
+    #[inline(always)]
     pub fn balance(&self, pull: &Pull<'_>, command: &Command) -> ContractileBalance {
-        let Pull { body, contraction, .. } = *pull;
-        let Self { split, velocity, straining, kirchhoff, medium, .. } = self;
+        let Pull { body, contraction, decomposition, .. } = *pull;
+        let Self { elastic, across, l, velocity, straining, kirchhoff, medium, .. } = self;
+        let own = load_contraction(decomposition, across);
         let drive = match command {
             Command::Drive(drive) => *drive,
             Command::Velocity(velocity, _) => {
-                let mandel = split.elastic.transpose().times(kirchhoff).times_transposed(&split.back);
+                let back = own.times_transposed(across);
+                let mandel = elastic.transpose().times(kirchhoff).times_transposed(&back);
                 velocity * contraction.viscosity - mandel.matrix() + Mat3::from_diagonal_element(self.energy)
             }
         };
         let contraction_velocity = velocity.matrix();
-        let viscous = body.viscosity.kirchhoff * straining.dot(straining) + medium.dot(&split.l);
+        let mut viscous = body.viscosity.kirchhoff * straining.dot(straining);
+        let mut stress = *kirchhoff;
+        if let Some(medium) = medium {
+            viscous += medium.dot(l);
+            stress += *medium;
+        }
         ContractileBalance {
             acceleration: self.acceleration.matrix(),
             contraction_velocity,
+            contraction_rate: velocity.times(&own).matrix(),
             drive,
-            stress: (*kirchhoff + *medium).times(&split.across).matrix(),
+            stress: stress.times(across).matrix(),
             pressure: body.is_incompressible().then_some(self.pressure),
             friction: body.volume * viscous,
             drag: body.volume * contraction.viscosity * velocity.dot(velocity),
@@ -180,13 +205,10 @@ impl Solution {
     }
 }
 
-/// A map in the axes N, of a matrix outside them.
+/// G in registers like those of another matrix.
 #[inline(always)]
-fn in_axes(axes: Option<&Axes>, matrix: &Columns, map: impl Fn(&Columns) -> Columns) -> Columns {
-    match axes {
-        None => map(matrix),
-        Some(turn) => turn.axes.times(&map(&turn.turned(matrix))).times_transposed(&turn.axes),
-    }
+fn load_contraction<F: Four>(at: &super::Decomposition, like: &Columns<F>) -> Columns<F> {
+    Columns::of(&at.contraction).with(like.0[0].0)
 }
 
 impl Contraction {

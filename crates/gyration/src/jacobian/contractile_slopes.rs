@@ -5,7 +5,7 @@
 //! A part of the drive that answers to the body adds what a change of Q does, times the derivative of what the body feels.
 
 use super::affine_slopes::{Seen, load_slopes};
-use crate::columns::Columns;
+use crate::columns::{Columns, Four, Work, dispatch};
 use crate::contractile::{ContractileSlopes, Felt};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
@@ -29,48 +29,71 @@ pub(super) fn fill(
     }
     let arm = body.pin.as_ref().map(|pin| pin.point);
     let seen = loads.as_ref().map(|slopes| Seen { slopes, arm, mass: body.mass.mass });
-    let balance = moving.slopes(model, &moment);
-    let medium =
-        moving.contractile.medium.as_ref().map(|medium| medium.slopes(&moving.pulled.gyration, &Mat3::zeros()));
-    let at = half - 9;
-    let mut write = |coordinate: usize, (rate, acceleration): (Option<Columns>, Columns)| {
-        let mut column = block.column_mut(coordinate);
-        let column = column.as_mut_slice();
-        if let Some(seen) = seen.as_ref().filter(|_| coordinate < 2 * half) {
-            seen.linear(coordinate >= half, coordinate % half, &mut column[half..half + at]);
-        }
-        acceleration.write(&mut column[half + at..]);
-        if let Some(rate) = rate.filter(|_| moving.contractile.contraction.is_driven()) {
-            rate.write(&mut column[2 * half..]);
-        }
-    };
-    let along = |by_rate: bool, coordinate: usize| {
-        seen.as_ref().map_or_else(Columns::default, |seen| seen.along(by_rate, coordinate))
-    };
-    for place in 0..at {
-        write(place, (None, balance.along_moment(&along(false, place))));
-        write(half + place, (None, balance.along_moment(&along(true, place))));
-    }
-    for place in 0..9 {
-        let (j, b, coordinate) = (place % 3, place / 3, at + place);
-        let (mut gradient, mut rate) = (along(false, coordinate), along(true, coordinate));
-        if let Some(medium) = &medium {
-            gradient += medium.by_gradient(j, b);
-            rate += medium.by_rate(j, b);
-        }
-        let (contraction, acceleration) = balance.along_gradient(j, b, &gradient);
-        write(coordinate, (Some(contraction), acceleration));
-        let (contraction, acceleration) = balance.along_rate(j, b, &rate);
-        write(half + coordinate, (Some(contraction), acceleration));
-    }
-    if moving.contractile.contraction.is_driven() {
-        for place in 0..9 {
-            let (contraction, acceleration) = balance.along_contraction(place % 3, place / 3);
-            write(2 * half + place, (Some(contraction), acceleration));
-        }
-        add_feedback(block, model, moving, &balance);
-    }
+    let mut written = Contracting { model, moving, moment: &moment, seen: seen.as_ref(), half, block };
+    dispatch(&mut written);
     Ok(())
+}
+
+/// δP̈ and δĠ along each coordinate, each of its rates and each number of G, to be written into the block.
+struct Contracting<'a> {
+    model: &'a Model,
+    moving: &'a ContractileMotion<'a>,
+    moment: &'a Mat3,
+    /// The derivatives of the loads, if there are any.
+    seen: Option<&'a Seen<'a>>,
+    /// How many coordinates there are; those of P are the last nine.
+    half: usize,
+    block: &'a mut DMatrix<f64>,
+}
+
+impl Work for &mut Contracting<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<F: Four>(self, zeros: F) {
+        let Contracting { model, moving, moment, seen, half, block } = self;
+        let (half, size, driven) = (*half, block.nrows(), moving.contractile.contraction.is_driven());
+        let balance = moving.slopes_in(zeros, &moving.command(model), moment);
+        let medium = moving.contractile.medium.as_ref();
+        let medium = medium.map(|medium| medium.slopes(&moving.pulled.gyration, &Mat3::zeros()));
+        let at = half - 9;
+        let columns = block.as_mut_slice();
+        let mut write = |coordinate: usize, (rate, acceleration): (Columns<F>, Columns<F>)| {
+            let column = &mut columns[size * coordinate..size * (coordinate + 1)];
+            acceleration.write(&mut column[half + at..2 * half]);
+            if driven {
+                rate.write(&mut column[2 * half..]);
+            }
+        };
+        let along = |by_rate: bool, coordinate: usize| seen.map(|seen| seen.along(by_rate, coordinate));
+        for place in 0..9 {
+            let (entry, coordinate) = ((place % 3, place / 3), at + place);
+            let (mut gradient, mut rate) = (along(false, coordinate), along(true, coordinate));
+            if let Some(medium) = &medium {
+                let (j, b) = entry;
+                gradient = Some(gradient.unwrap_or_default() + medium.by_gradient(j, b));
+                rate = Some(rate.unwrap_or_default() + medium.by_rate(j, b));
+            }
+            write(coordinate, balance.along_gradient(entry, gradient.as_ref(), zeros));
+            write(half + coordinate, balance.along_rate(entry, rate.as_ref(), zeros));
+            if driven {
+                write(2 * half + place, balance.along_contraction(entry, zeros));
+            }
+        }
+        if let Some(seen) = seen {
+            for coordinate in 0..2 * half {
+                let (by_rate, place) = (coordinate >= half, coordinate % half);
+                let column = &mut columns[size * coordinate..size * (coordinate + 1)];
+                seen.linear(by_rate, place, &mut column[half..half + at]);
+                if place < at {
+                    balance.along_moment(&seen.along(by_rate, place), zeros).write(&mut column[half + at..2 * half]);
+                }
+            }
+        }
+        if driven {
+            add_feedback(block, model, moving, &balance);
+        }
+    }
 }
 
 /// Adds what the parts of the drive do that answer to the body.

@@ -118,12 +118,12 @@ impl ByInvariants {
     }
 }
 
-/// φ and S: what [`ByInvariants`] gives, without what only the tangent needs.
+/// S: what [`ByInvariants`] gives, without what only the tangent needs.
 #[inline(always)]
-pub(super) fn energy_and_stress(p: &Columns, material: &Material) -> (f64, Columns) {
+pub(super) fn stress(p: &Columns, material: &Material) -> Columns {
     let (right, cofactor) = (p.transpose().times(p), p.cofactor());
     let invariants = Invariants::of(&right, p.0[0].dot(&cofactor.0[0]));
-    let Derivatives { energy, first: [f1, f2, f3], .. } = material.derivatives(&invariants);
+    let [f1, f2, f3] = material.derivatives(&invariants).first;
     let mut stress = *p * (2.0 * (f1 + invariants.first * f2));
     if f2 != 0.0 {
         stress = stress - p.times(&right) * (2.0 * f2);
@@ -131,18 +131,22 @@ pub(super) fn energy_and_stress(p: &Columns, material: &Material) -> (f64, Colum
     if f3 != 0.0 {
         stress += cofactor * f3;
     }
-    (energy, stress)
+    stress
 }
 
-/// S Pᵀ = 2(f₁ + ι₁f₂) B − 2f₂ B² + J f₃ I, B = PPᵀ: symmetric to the last bit, since all of it is.
+/// φ and S Pᵀ = 2(f₁ + ι₁f₂) B − 2f₂ B² + J f₃ I, B = PPᵀ: symmetric to the last bit, since all of it is.
 #[inline(always)]
-pub(super) fn kirchhoff_stress<F: Four>(p: &Columns<F>, volume: f64, material: &Material) -> Columns<F> {
+pub(super) fn energy_and_kirchhoff_stress<F: Four>(
+    p: &Columns<F>,
+    volume: f64,
+    material: &Material,
+) -> (f64, Columns<F>) {
     let left = p.times_transposed(p);
     let invariants = Invariants::of(&left, volume);
-    let [f1, f2, f3] = material.derivatives(&invariants).first;
+    let Derivatives { energy, first: [f1, f2, f3], .. } = material.derivatives(&invariants);
     let mut stress = (left * (2.0 * (f1 + invariants.first * f2))).plus_unit(volume * f3);
     if f2 != 0.0 {
         stress = stress - left.times(&left) * (2.0 * f2);
     }
-    stress
+    (energy, stress)
 }

@@ -142,27 +142,13 @@ impl Material {
         tangent
     }
 
-    /// φ and S.
-    #[inline(always)]
-    pub(crate) fn energy_and_stress(&self, p: &Columns) -> (f64, Columns) {
-        match self {
-            Self::MooneyRivlin(_) | Self::Fung(_) | Self::NeoHookeanLog(_) | Self::StVenantKirchhoff(_) => {
-                invariants::energy_and_stress(p, self)
-            }
-            Self::Ogden(_) | Self::Hencky(_) => {
-                let kept = self.at(p);
-                (kept.energy(), kept.stress())
-            }
-        }
-    }
-
     /// S.
     #[inline(always)]
     pub(crate) fn stress_at(&self, p: &Columns) -> Columns {
         match self {
             Self::Ogden(material) => principal::stress(p, |c| material.slopes(c)),
             Self::Hencky(material) => principal::stress(p, |c| material.slopes(c)),
-            _ => invariants::energy_and_stress(p, self).1,
+            _ => invariants::stress(p, self),
         }
     }
 
@@ -172,7 +158,16 @@ impl Material {
         match self {
             Self::Ogden(material) => principal::kirchhoff_stress(&p.kept(), |c| material.slopes(c)).with(p.0[0].0),
             Self::Hencky(material) => principal::kirchhoff_stress(&p.kept(), |c| material.slopes(c)).with(p.0[0].0),
-            _ => invariants::kirchhoff_stress(p, volume, self),
+            _ => invariants::energy_and_kirchhoff_stress(p, volume, self).1,
+        }
+    }
+
+    /// φ and S Pᵀ at P and det P.
+    #[inline(always)]
+    pub(crate) fn energy_and_kirchhoff_stress<F: Four>(&self, p: &Columns<F>, volume: f64) -> (f64, Columns<F>) {
+        match self.by_principal(&p.kept()) {
+            Some(kept) => (kept.energy(), kept.stress().with(p.0[0].0).times_transposed(p).symmetric()),
+            None => invariants::energy_and_kirchhoff_stress(p, volume, self),
         }
     }
 

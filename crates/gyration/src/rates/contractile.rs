@@ -5,7 +5,10 @@
 use super::affine::write;
 use super::{AffineLoads, AffineMotion, meet};
 use crate::body::Contractile;
-use crate::contractile::{Command, ContractileBalance, Decomposition, Felt, Nearest, Pull, Source, velocity_of};
+use crate::columns::Four;
+use crate::contractile::{
+    Command, ContractileBalance, ContractileSlopes, Decomposition, Feedback, Felt, Nearest, Pull, Source, velocity_of,
+};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
 use crate::model::Model;
@@ -41,6 +44,7 @@ impl<'a> ContractileMotion<'a> {
         Ok(Self { pulled, contractile, decomposition, time })
     }
 
+    #[inline(always)]
     fn pull(&self) -> Pull<'_> {
         Pull {
             body: &self.contractile.affine.interior,
@@ -62,7 +66,7 @@ impl<'a> ContractileMotion<'a> {
     }
 
     /// The measures of the parts that answer to the body, and what they are for.
-    pub fn felt(&self, model: &Model) -> impl Iterator<Item = (Felt, &'a crate::contractile::Feedback)> {
+    pub fn felt(&self, model: &Model) -> impl Iterator<Item = (Felt, &'a Feedback)> {
         let parts = match &self.contractile.contraction.source {
             Source::Driven { feedback, .. } => feedback.as_slice(),
             Source::Prescribed(_) => &[],
@@ -88,9 +92,10 @@ impl<'a> ContractileMotion<'a> {
         self.pull().balance(&self.command(model), &self.pulled.moment(model, loads))
     }
 
-    /// The derivatives of P̈ and Ġ.
-    pub fn slopes(&self, model: &Model, moment: &Mat3) -> crate::contractile::ContractileSlopes<'_> {
-        self.pull().slopes(&self.command(model), moment)
+    /// The derivatives of P̈ and Ġ, with Q or V_G as it is.
+    #[inline(always)]
+    pub fn slopes_in<F: Four>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'_> {
+        self.pull().slopes_in(registers, command, moment)
     }
 
     /// Solves the balance for the rates of the block, and adds the powers of drive, contraction, friction and constraint.
@@ -108,8 +113,7 @@ impl<'a> ContractileMotion<'a> {
         write(model, &self.pulled, loads, &balance.acceleration, rates);
         if self.contractile.contraction.is_driven() {
             let at = rates.len() - 9;
-            let rate = balance.contraction_velocity * self.decomposition.contraction;
-            rates[at..].copy_from_slice(rate.as_slice());
+            rates[at..].copy_from_slice(balance.contraction_rate.as_slice());
         }
     }
 }
