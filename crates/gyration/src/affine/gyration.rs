@@ -22,7 +22,7 @@ impl Gyration {
     ///
     /// # Errors
     /// det P where it is not a positive normal number.
-    #[inline]
+    #[inline(always)]
     pub fn of(gradient: &Mat3, rate: &Mat3) -> Result<Self, f64> {
         let cofactor = cofactor(gradient);
         let volume_ratio = gradient.column(0).dot(&cofactor.column(0));

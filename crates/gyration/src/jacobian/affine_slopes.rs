@@ -4,7 +4,7 @@
 //!
 //! A pinned body has P alone: p₀ = a − P r takes its columns of p₀ into those of P, and M is about the pin.
 
-use crate::affine::Entry;
+use crate::affine::{AffineSlopes, Entry};
 use crate::columns::{Columns, Four, Work, dispatch};
 use crate::contact::ContactSlopes;
 use crate::inadmissible::Inadmissible;
@@ -26,8 +26,8 @@ pub(super) fn fill(
     let loads = load_slopes(model, workspace, time, moving)?;
     let moment = moving.moment(model, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
     let half = block.nrows() / 2;
-    for coordinate in 0..half {
-        block[(coordinate, half + coordinate)] = 1.0;
+    for (coordinate, column) in block.as_mut_slice().chunks_exact_mut(2 * half).skip(half).enumerate() {
+        column[coordinate] = 1.0;
     }
     let loads =
         loads.as_ref().map(|slopes| Seen { slopes, arm: body.pin.as_ref().map(|pin| pin.point), mass: body.mass.mass });
@@ -58,23 +58,33 @@ impl Work for Acceleration<'_> {
     fn run<F: Four>(self, zeros: F) {
         let Self { moving, moment, loads, half, block } = self;
         let balance = moving.affine.interior.slopes_in(zeros, &moving.gyration, moment);
-        let (places, rates) = block.split_at_mut(2 * half * half);
-        let column = |coordinate: usize| 2 * half * (coordinate + 1) - 9..2 * half * (coordinate + 1);
-        let at = half - 9;
-        if let Some(loads) = loads {
-            for coordinate in 0..at {
-                let along = |by_rate| balance.along_moment(&loads.along(by_rate, coordinate), zeros);
-                along(false).write(&mut places[column(coordinate)]);
-                along(true).write(&mut rates[column(coordinate)]);
+        let Some(loads) = loads else { return by_gradient(zeros, &balance, |_, _| None, (block, half)) };
+        for (coordinate, column) in block.chunks_exact_mut(2 * half).enumerate() {
+            let (by_rate, coordinate) = (coordinate >= half, coordinate % half);
+            if coordinate < half - 9 {
+                balance.along_moment(&loads.along(by_rate, coordinate), zeros).write(&mut column[2 * half - 9..]);
             }
         }
-        for b in 0..3 {
-            for j in 0..3 {
-                let (entry, coordinate) = (Entry { j, b }, at + 3 * b + j);
-                let [by_place, by_rate] = [false, true].map(|rate| loads.map(|loads| loads.along(rate, coordinate)));
-                balance.along_gradient(entry, by_place.as_ref(), zeros).write(&mut places[column(coordinate)]);
-                balance.along_rate(entry, by_rate.as_ref(), zeros).write(&mut rates[column(coordinate)]);
-            }
+        by_gradient(zeros, &balance, |by_rate, coordinate| Some(loads.along(by_rate, coordinate)), (block, half));
+    }
+}
+
+/// Writes δP̈ along P and Ṗ into the block, given δM along each coordinate or its rate, if there is any.
+#[inline(always)]
+fn by_gradient<F: Four>(
+    zeros: F,
+    balance: &AffineSlopes,
+    moment: impl Fn(bool, usize) -> Option<Columns>,
+    (block, half): (&mut [f64], usize),
+) {
+    let (places, rates) = block.split_at_mut(2 * half * half);
+    let column = |coordinate: usize| 2 * half * (coordinate + 1) - 9..2 * half * (coordinate + 1);
+    for b in 0..3 {
+        for j in 0..3 {
+            let (entry, coordinate) = (Entry { j, b }, half - 9 + 3 * b + j);
+            let (by_place, by_rate) = (moment(false, coordinate), moment(true, coordinate));
+            balance.along_gradient(entry, by_place.as_ref(), zeros).write(&mut places[column(coordinate)]);
+            balance.along_rate(entry, by_rate.as_ref(), zeros).write(&mut rates[column(coordinate)]);
         }
     }
 }
