@@ -36,7 +36,7 @@ impl<'a> AffineMotion<'a> {
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0.
-    #[inline]
+    #[inline(always)]
     pub fn new(index: usize, affine: &'a Affine, motion: &'a BodyMotion) -> Result<Self, Inadmissible> {
         let gyration = Gyration::of(&motion.placement.gradient, &motion.velocity.gradient_rate);
         let gyration = gyration.map_err(|value| Inadmissible { body: index, quantity: Quantity::Volume, value })?;
