@@ -62,6 +62,12 @@ impl Columns {
         Self([Column([n[0], n[1], n[2], 0.0]), Column([n[3], n[4], n[5], 0.0]), Column([n[6], n[7], n[8], 0.0])])
     }
 
+    /// The numbers of a matrix in registers of this kind.
+    #[inline(always)]
+    pub fn load<F: Four>(matrix: &Mat3, registers: F) -> Columns<F> {
+        Self::of(matrix).with(registers)
+    }
+
     /// In registers of this kind.
     #[inline(always)]
     pub fn with<F: Four>(&self, registers: F) -> Columns<F> {

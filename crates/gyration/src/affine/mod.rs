@@ -149,13 +149,15 @@ impl AffineBody {
     /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa]; none without it.
     #[inline(always)]
     pub(crate) fn medium_stress<F: Four>(&self, at: &Gyration, l: &Columns<F>) -> Option<Columns<F>> {
-        let newtonian = self.viscosity.newtonian().map(|part| part.stress_at(at.volume_ratio, l));
-        let friction =
-            || self.anisotropic.as_ref().map(|friction| Columns::of(&friction.kirchhoff_stress(at)).with(l.0[0].0));
-        match (newtonian, friction()) {
-            (Some(one), Some(other)) => Some(one + other),
-            (one, other) => one.or(other),
+        let mut stress = None;
+        if let Some(newtonian) = self.viscosity.newtonian() {
+            stress = Some(newtonian.stress_at(at.volume_ratio, l));
         }
+        if let Some(friction) = &self.anisotropic {
+            let own = Columns::of(&friction.kirchhoff_stress(at)).with(l.0[0].0);
+            stress = Some(if let Some(stress) = stress { stress + own } else { own });
+        }
+        stress
     }
 
     /// A body of the same inertia with that friction alone; none without it.

@@ -136,8 +136,9 @@ impl Vectors {
     fn relaxed(&self, u: Column) -> Side {
         let forth = self.spatial(u);
         let seen = self.pulled.image(&u) * self.half;
-        let [a, b, c, d] = forth.dyads.map(|vector| vector * -1.0);
-        Side { dyads: [a - seen, b - times(&seen, self.values), c, d], ..forth }
+        let [a, b, c, d] = forth.dyads;
+        let (a, b) = (a * -1.0 - seen, b * -1.0 - times(&seen, self.values));
+        Side { dyads: [a, b, c * -1.0, d * -1.0], ..forth }
     }
 
     #[inline(always)]
@@ -163,22 +164,27 @@ impl<'a> Pull<'a> {
         let Pull { body, decomposition, .. } = *self;
         let solution = Solution::new(self, command, &Columns::of(moment).with(registers));
         let viscosity = body.viscosity.kirchhoff;
-        let load = |matrix: &Mat3| Columns::of(matrix).with(registers);
-        let (n, values) = solution.axes.map_or((Columns(UNIT), [1.0; 3]), |axes| (axes.axes, axes.values));
+        let (n, values) = match &solution.axes {
+            Some(axes) => (axes.axes, axes.values),
+            None => (Columns(UNIT), [1.0; 3]),
+        };
         let n_in = n.with(registers);
         let turned = n_in.transpose();
-        let own = load(&decomposition.contraction);
+        let own = Columns::load(&decomposition.contraction, registers);
         let back = own.times_transposed(&solution.across).transpose().times(&n_in);
         let forth = solution.elastic.times(&n_in).transpose();
-        let inverse = turned.times_transposed(&load(&decomposition.inverse));
+        let inverse = turned.times_transposed(&Columns::load(&decomposition.inverse, registers));
         // Λ = F⁻¹ L F; Fᵀ X F⁻ᵀ of symmetric stresses.
         let pulled = back.transpose().times(&solution.l).times_transposed(&forth);
         let mandel = forth.times(&solution.elastic_stress).times(&back).symmetric();
         let total = forth.times(&solution.kirchhoff).times(&back);
         let velocity = turned.times(&solution.velocity).times(&n_in);
         let half = 0.5 * viscosity;
-        let ratios = solution.axes.map(|axes| ratios(&axes, half));
-        let kept = ratios.map_or_else(Columns::default, |ratios| (velocity - pulled).kept().entrywise(&ratios));
+        let ratios = solution.axes.as_ref().map(|axes| ratios(axes, half));
+        let kept = match &ratios {
+            Some(ratios) => (velocity - pulled).entrywise(&ratios.with(registers)).kept(),
+            None => Columns::default(),
+        };
         let (mandel, total, pulled) = (mandel.kept(), total.kept(), pulled.kept());
         let vectors = Vectors { values, half, kept, pulled, mandel, total };
 
@@ -261,19 +267,24 @@ impl ContractileSlopes<'_> {
     fn fill_tangents<F: Four>(&mut self, pull: &Pull<'_>, (forth, n): (&Columns<F>, &Columns<F>)) {
         let Some(material) = &pull.body.material else { return };
         let Decomposition { elastic, inverse, volume_ratio, .. } = pull.decomposition;
-        let (kept, registers) = (material.at(&Columns::of(elastic)), n.0[0].0);
-        for j in 0..3 {
-            let turned = [0, 1, 2].map(|b| forth.times(&kept.slope(j, b).with(registers)).times(n) * *volume_ratio);
-            for b in 0..3 {
-                let [x, y, z] = [0, 1, 2].map(|k| turned[k] * inverse[(b, k)]);
-                self.tangent[3 * b + j] = ((x + y) + z).kept();
-            }
+        let (slopes, registers) = (material.slopes_at(&Columns::of(elastic)), n.0[0].0);
+        let mut turned = [Columns::default().with(registers); 9];
+        for (turned, slope) in turned.iter_mut().zip(&slopes) {
+            *turned = forth.times(&slope.with(registers)).times(n) * *volume_ratio;
         }
-        for place in 0..9 {
+        for b in 0..3 {
+            for j in 0..3 {
+                let (x, y, z) = (turned[j], turned[3 + j], turned[6 + j]);
+                let sum = (x * inverse[(b, 0)] + y * inverse[(b, 1)]) + z * inverse[(b, 2)];
+                self.tangent[3 * b + j] = sum.kept();
+            }
             // −F e_j = −Σ_i F_ij e_i.
-            let (j, b) = (place % 3, place / 3);
-            let [x, y, z] = [0, 1, 2].map(|i| self.tangent[3 * b + i].with(registers) * -elastic[(i, j)]);
-            self.tangent_back[place] = ((x + y) + z).kept();
+            let tangents = &self.tangent[3 * b..3 * b + 3];
+            let (x, y, z) = (tangents[0].with(registers), tangents[1].with(registers), tangents[2].with(registers));
+            for j in 0..3 {
+                let sum = (x * -elastic[(0, j)] - y * elastic[(1, j)]) - z * elastic[(2, j)];
+                self.tangent_back[3 * b + j] = sum.kept();
+            }
         }
     }
 
@@ -300,7 +311,7 @@ impl ContractileSlopes<'_> {
         let Some(law) = &self.law else {
             return Change { velocity: Columns::default().with(stress.0[0].0), total: *stress };
         };
-        let loaded = drive.map_or(*stress, |drive| *stress + *drive);
+        let loaded = if let Some(drive) = drive { *stress + *drive } else { *stress };
         let excess = match law.volume {
             Volume::Free => energy,
             Volume::Kept => loaded.trace() / 3.0,
@@ -321,12 +332,11 @@ impl ContractileSlopes<'_> {
     #[inline(always)]
     fn along<F: Four>(&self, change: &Change<F>, moment: Option<&Columns>, asked: f64) -> (Columns<F>, Columns<F>) {
         let registers = change.total.0[0].0;
-        let load = |matrix: &Columns| matrix.with(registers);
-        let mut acceleration = load(&self.back).times(&change.total).times(&load(&self.outward));
+        let mut acceleration = self.back.with(registers).times(&change.total).times(&self.outward.with(registers));
         if let Some(moment) = moment {
-            acceleration += self.body.per_inertia(&load(moment));
+            acceleration += self.body.per_inertia(&moment.with(registers));
         }
-        let rate = load(&self.axes).times(&change.velocity).times(&load(&self.contraction));
+        let rate = self.axes.with(registers).times(&change.velocity).times(&self.contraction.with(registers));
         (rate, self.held(&acceleration, asked))
     }
 
@@ -337,6 +347,12 @@ impl ContractileSlopes<'_> {
         let registers = acceleration.0[0].0;
         let missing = asked - acceleration.dot(&reaction.across.with(registers));
         *acceleration + reaction.way.with(registers) * (missing * reaction.compliance)
+    }
+
+    /// What tr(δP̈ P⁻¹) has to be; nothing where no pressure sees to it.
+    #[inline(always)]
+    fn asked(&self, of: impl Fn(&Reaction) -> f64) -> f64 {
+        if let Some(reaction) = &self.reaction { of(reaction) } else { 0.0 }
     }
 
     /// δĠ and δP̈ along δP_jB, by which M changes by δM.
@@ -352,7 +368,7 @@ impl ContractileSlopes<'_> {
         // tr Λ = tr L changes by −u·Λᵀw.
         let mut change = self.answer(&stress, (side.heavy.dot(&row.w), -side.u.dot(&row.pulled)), None);
         change.total = change.total - dyad(&row.w, &side.total, registers);
-        self.along(&change, moment, self.reaction.map_or(0.0, |reaction| reaction.by_gradient.at(j, b)))
+        self.along(&change, moment, self.asked(|reaction| reaction.by_gradient.at(j, b)))
     }
 
     /// δĠ and δP̈ along δṖ_jB, by which M changes by δM.
@@ -364,10 +380,10 @@ impl ContractileSlopes<'_> {
         registers: F,
     ) -> (Columns<F>, Columns<F>) {
         let (side, row) = (&self.spatial[j], &self.rows[b]);
-        let half = self.viscous.map_or(0.0, |(_, half)| half);
+        let half = self.viscous.as_ref().map_or(0.0, |(_, half)| *half);
         let stress = (dyad(&side.carried, &row.back, registers) + dyad(&row.w, &side.u, registers)) * half;
         let change = self.answer(&stress, (0.0, side.u.dot(&row.w)), None);
-        self.along(&change, moment, self.reaction.map_or(0.0, |reaction| 2.0 * reaction.by_rate.at(j, b)))
+        self.along(&change, moment, self.asked(|reaction| 2.0 * reaction.by_rate.at(j, b)))
     }
 
     /// δĠ and δP̈ along δG_jB.

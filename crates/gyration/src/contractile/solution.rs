@@ -76,8 +76,7 @@ impl<F: Four> Frame<F> {
         };
         let registers = velocity.0[0].0;
         let (n, d) = (axes.with(registers), carried.with(registers));
-        let outside = |left: &Columns<F>, right: &Columns<F>| left.times(velocity).times_transposed(right);
-        [outside(&n, &n), outside(&d, &d.scaled(inverses))]
+        [n.times(velocity).times_transposed(&n), d.times(velocity).times_transposed(&d.scaled(inverses))]
     }
 }
 
@@ -86,9 +85,9 @@ impl<F: Four> Solution<F> {
     pub fn new(pull: &Pull<'_>, command: &Command, moment: &Columns<F>) -> Self {
         let Pull { body, contraction, at, decomposition } = *pull;
         let registers = moment.0[0].0;
-        let load = |matrix: &Mat3| Columns::of(matrix).with(registers);
-        let (elastic, across, l) =
-            (load(&decomposition.elastic), load(&at.inverse).transpose(), load(&at.velocity_gradient));
+        let elastic = Columns::load(&decomposition.elastic, registers);
+        let across = Columns::load(&at.inverse, registers).transpose();
+        let l = Columns::load(&at.velocity_gradient, registers);
         let ratio = decomposition.volume_ratio;
         let (energy, stress) = match &body.material {
             Some(material) => material.energy_and_kirchhoff_stress(&elastic, at.volume_ratio / ratio),
@@ -102,11 +101,11 @@ impl<F: Four> Solution<F> {
         let incompressible = body.is_incompressible();
         let own_pressure = incompressible && contraction.gives_pressure();
 
-        let back = load(&decomposition.contraction).times_transposed(&across);
+        let back = Columns::load(&decomposition.contraction, registers).times_transposed(&across);
         let frame = Frame { elastic, back, axes: Axes::of(&elastic.kept(), viscosity) };
         let (velocity, carried, excess) = match command {
             Command::Velocity(velocity, _) => {
-                let velocity = load(velocity);
+                let velocity = Columns::load(velocity, registers);
                 (velocity, elastic.times(&velocity).times(&back), 0.0)
             }
             Command::Drive(drive) => {
@@ -114,14 +113,13 @@ impl<F: Four> Solution<F> {
                 if viscosity > 0.0 {
                     stress += strain_rate * viscosity;
                 }
-                let stress = frame.pulled(&stress, &load(drive));
-                let growth = match contraction.kept_volume {
-                    Some(_) => Some(0.0),
-                    None => own_pressure.then(|| l.trace()),
+                let stress = frame.pulled(&stress, &Columns::load(drive, registers));
+                let stretching = contraction.viscosity + viscosity;
+                let excess = match (contraction.kept_volume, own_pressure) {
+                    (Some(_), _) => stress.trace() / 3.0,
+                    (None, true) => (stress.trace() - stretching * l.trace()) / 3.0,
+                    (None, false) => energy - mean,
                 };
-                let excess = growth.map_or(energy - mean, |growth| {
-                    (stress.trace() - (contraction.viscosity + viscosity) * growth) / 3.0
-                });
                 let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, frame.axes.as_ref());
                 let [velocity, carried] = frame.pushed(&mobility.velocity(&stress.plus_unit(-excess)));
                 (velocity, carried, excess)
@@ -141,10 +139,10 @@ impl<F: Four> Solution<F> {
             kirchhoff += straining * viscosity;
         }
         let medium = body.medium_stress(at, &l);
-        let stress = medium.map_or(kirchhoff, |medium| kirchhoff + medium);
+        let stress = if let Some(medium) = medium { kirchhoff + medium } else { kirchhoff };
         let free = *moment - stress.times(&across) * body.volume;
         let mut acceleration = body.per_inertia(&free);
-        let constraint = (incompressible && !own_pressure).then(|| Constraint::new(body, &across));
+        let constraint = if incompressible && !own_pressure { Some(Constraint::new(body, &across)) } else { None };
         if let Some(constraint) = &constraint {
             let growing = if let Command::Velocity(_, growing) = command { *growing } else { 0.0 };
             let push = constraint.push(&free, l.dot(&l.transpose()) + growing);
@@ -175,7 +173,7 @@ impl<F: Four> Solution<F> {
     pub fn balance(&self, pull: &Pull<'_>, command: &Command) -> ContractileBalance {
         let Pull { body, contraction, decomposition, .. } = *pull;
         let Self { elastic, across, l, velocity, straining, kirchhoff, medium, .. } = self;
-        let own = load_contraction(decomposition, across);
+        let own = Columns::load(&decomposition.contraction, across.0[0].0);
         let drive = match command {
             Command::Drive(drive) => *drive,
             Command::Velocity(velocity, _) => {
@@ -203,12 +201,6 @@ impl<F: Four> Solution<F> {
             drive_power: body.volume * drive.dot(&contraction_velocity),
         }
     }
-}
-
-/// G in registers like those of another matrix.
-#[inline(always)]
-fn load_contraction<F: Four>(at: &super::Decomposition, like: &Columns<F>) -> Columns<F> {
-    Columns::of(&at.contraction).with(like.0[0].0)
 }
 
 impl Contraction {

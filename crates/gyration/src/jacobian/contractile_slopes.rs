@@ -58,26 +58,22 @@ impl Work for &mut Contracting<'_> {
         let medium = medium.map(|medium| medium.slopes(&moving.pulled.gyration, &Mat3::zeros()));
         let at = half - 9;
         let columns = block.as_mut_slice();
-        let mut write = |coordinate: usize, (rate, acceleration): (Columns<F>, Columns<F>)| {
-            let column = &mut columns[size * coordinate..size * (coordinate + 1)];
-            acceleration.write(&mut column[half + at..2 * half]);
-            if driven {
-                rate.write(&mut column[2 * half..]);
-            }
-        };
-        let along = |by_rate: bool, coordinate: usize| seen.map(|seen| seen.along(by_rate, coordinate));
+        let loads = |by_rate: bool, coordinate: usize| seen.map(|seen| seen.along(by_rate, coordinate));
         for place in 0..9 {
             let (entry, coordinate) = ((place % 3, place / 3), at + place);
-            let (mut gradient, mut rate) = (along(false, coordinate), along(true, coordinate));
+            let (mut gradient, mut rate) = (loads(false, coordinate), loads(true, coordinate));
             if let Some(medium) = &medium {
                 let (j, b) = entry;
                 gradient = Some(gradient.unwrap_or_default() + medium.by_gradient(j, b));
                 rate = Some(rate.unwrap_or_default() + medium.by_rate(j, b));
             }
-            write(coordinate, balance.along_gradient(entry, gradient.as_ref(), zeros));
-            write(half + coordinate, balance.along_rate(entry, rate.as_ref(), zeros));
+            let along = balance.along_gradient(entry, gradient.as_ref(), zeros);
+            write(&mut columns[size * coordinate..][..size], half, &along);
+            let along = balance.along_rate(entry, rate.as_ref(), zeros);
+            write(&mut columns[size * (half + coordinate)..][..size], half, &along);
             if driven {
-                write(2 * half + place, balance.along_contraction(entry, zeros));
+                let along = balance.along_contraction(entry, zeros);
+                write(&mut columns[size * (2 * half + place)..][..size], half, &along);
             }
         }
         if let Some(seen) = seen {
@@ -93,6 +89,15 @@ impl Work for &mut Contracting<'_> {
         if driven {
             add_feedback(block, model, moving, &balance);
         }
+    }
+}
+
+/// Writes δP̈ and, if G is part of the state, δĠ into a column of the block.
+#[inline(always)]
+fn write<F: Four>(column: &mut [f64], half: usize, (rate, acceleration): &(Columns<F>, Columns<F>)) {
+    acceleration.write(&mut column[2 * half - 9..2 * half]);
+    if column.len() > 2 * half {
+        rate.write(&mut column[2 * half..]);
     }
 }
 

@@ -134,10 +134,9 @@ impl Material {
 
     /// ∂S_iA/∂P_jB at (3A + i, 3B + j), det P > 0.
     pub fn tangent(&self, p: &Mat3) -> Tangent {
-        let kept = self.at(&Columns::of(p));
         let mut tangent = Tangent::zeros();
-        for place in 0..9 {
-            kept.slope(place % 3, place / 3).write(&mut tangent.as_mut_slice()[9 * place..]);
+        for (place, slope) in self.slopes_at(&Columns::of(p)).iter().enumerate() {
+            slope.write(&mut tangent.as_mut_slice()[9 * place..]);
         }
         tangent
     }
@@ -162,10 +161,24 @@ impl Material {
         }
     }
 
+    /// ∂S/∂P_jB at 3B + j.
+    ///
+    /// A function of its own, however often it is needed: it is long, and so is what it takes in.
+    #[inline(never)]
+    pub(crate) fn slopes_at(&self, p: &Columns) -> [Columns; 9] {
+        let kept = self.at(p);
+        let mut slopes = [Columns::default(); 9];
+        for (place, slope) in slopes.iter_mut().enumerate() {
+            *slope = kept.slope(place % 3, place / 3);
+        }
+        slopes
+    }
+
     /// φ and S Pᵀ at P and det P.
     #[inline(always)]
     pub(crate) fn energy_and_kirchhoff_stress<F: Four>(&self, p: &Columns<F>, volume: f64) -> (f64, Columns<F>) {
-        match self.by_principal(&p.kept()) {
+        let principal = matches!(self, Self::Ogden(_) | Self::Hencky(_));
+        match principal.then(|| self.by_principal(&p.kept())).flatten() {
             Some(kept) => (kept.energy(), kept.stress().with(p.0[0].0).times_transposed(p).symmetric()),
             None => invariants::energy_and_kirchhoff_stress(p, volume, self),
         }
@@ -181,7 +194,7 @@ impl Material {
     }
 
     /// An energy of the principal values at a gradient; none for others.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn by_principal(&self, p: &Columns) -> Option<ByPrincipal> {
         match self {
             Self::Ogden(material) => Some(ByPrincipal::new(p, |c| material.principal(c))),

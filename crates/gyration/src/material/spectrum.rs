@@ -21,7 +21,7 @@ pub(crate) struct Spectrum {
 
 impl Spectrum {
     /// Of PᵀP; not finite where P is not.
-    #[inline(always)]
+    #[inline(never)]
     pub fn of(p: &Columns) -> Self {
         let axes = principal_axes(&p.transpose().times(p));
         let carried = p.times(&axes);
