@@ -6,6 +6,7 @@
 mod soft;
 
 use gyration::tensor::Mat3;
+use gyration_sim::{Outcome, Reason};
 use gyration_validation::{Case, Experiment};
 use soft::{CUBE, entry, size};
 
@@ -72,4 +73,24 @@ fn light_rubber_follows_its_contraction() {
     let (coarse, fine) = (error(0.2), error(0.1));
     case.check("deviation of G at ρ = 0.1 kg/m³, relative", 0.0, fine, 1e-4);
     case.check("ratio of the deviations at 0.2 and 0.1 kg/m³", 2.0, coarse / fine, 0.01);
+}
+
+#[test]
+fn body_that_pulls_together_without_end_collapses_with_an_outcome_that_says_so() {
+    // G = e^(−5t): det G leaves the range of numbers at t = 47 s.
+    let collapsing = Experiment::of_scene(&format!(
+        r#"
+        world = {{ gravity = [0, 0, 0] }}
+        time = {{ end = 100, sample = 1 }}
+        [[body]]
+        name = "body"
+        {CUBE}
+        density = 1000
+        contractile = {{ contraction_viscosity = 10, drive = {{ constant = {{ value = [[-50, 0, 0], [0, -50, 0], [0, 0, -50]] }} }} }}
+        "#
+    ));
+    let Outcome::Stopped(stop) = collapsing.attempt().outcome else { panic!("the body has vanished") };
+    assert_eq!((stop.reason, stop.body.as_deref()), (Reason::Collapsed, Some("body")));
+    assert!((40.0..48.0).contains(&stop.time), "{}", stop.time);
+    assert!(stop.what.contains("contracted to nothing") && stop.advice.contains("isochoric"), "{stop:?}");
 }
