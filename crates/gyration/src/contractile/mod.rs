@@ -14,6 +14,7 @@ mod mobility;
 mod restore;
 mod slopes;
 mod solution;
+mod vectors;
 
 pub use decomposition::Decomposition;
 pub use feedback::{Feedback, Felt, Measure, Nearest};

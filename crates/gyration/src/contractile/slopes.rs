@@ -11,10 +11,11 @@
 //!
 //!   δP = e_j ⊗ e_B:  ξ = F⁻¹e_j ⊗ w_B,  δΛ = −ξ Λ;      δṖ:  δΛ = F⁻¹e_j ⊗ w_B;      δG:  γ = e_j ⊗ w_B = −ξ,  δΛ = γ Λ − Λ γ
 //!
-//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`Side`, `Row`).
+//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`vectors`).
 
 use super::mobility::{Axes, Mobility};
 use super::solution::Solution;
+use super::vectors::{Row, Side, Vectors, dyad};
 use super::{Command, Decomposition, Pull};
 use crate::affine::AffineBody;
 use crate::columns::{Column, Columns, Four, UNIT};
@@ -80,81 +81,6 @@ enum Volume {
     Follows,
     /// It is zero.
     Kept,
-}
-
-/// The dyads of one j: w ⊗ a + b ⊗ C⁻¹w + c ⊗ w₁ + w₂ ⊗ d, and what else is needed of u.
-#[derive(Debug, Clone, Copy, Default)]
-struct Side {
-    u: Column,
-    /// C u.
-    carried: Column,
-    dyads: [Column; 4],
-    /// gΣ u, Zᵀu.
-    heavy: Column,
-    total: Column,
-}
-
-/// What depends on B alone.
-#[derive(Debug, Clone, Copy, Default)]
-struct Row {
-    w: Column,
-    /// C⁻¹ w, w₁ = −(Kᵀ C⁻¹ w + (μ/2) C⁻¹ Λᵀ w), w₂ = K w − (μ/2) Λᵀ w, Λᵀ w.
-    back: Column,
-    first: Column,
-    second: Column,
-    pulled: Column,
-}
-
-/// What the sides and rows are made of.
-struct Vectors {
-    values: [f64; 3],
-    half: f64,
-    kept: Columns,
-    pulled: Columns,
-    mandel: Columns,
-    total: Columns,
-}
-
-#[inline(always)]
-fn times(column: &Column, [x, y, z]: [f64; 3]) -> Column {
-    let Column([a, b, c, _]) = *column;
-    Column([a * x, b * y, c * z, 0.0])
-}
-
-impl Vectors {
-    /// For ξ = u ⊗ w, δΛ = −ξ Λ.
-    #[inline(always)]
-    fn spatial(&self, u: Column) -> Side {
-        let carried = times(&u, self.values);
-        let heavy = self.mandel.image(&u);
-        let dyads = [heavy - self.kept.transpose().image(&u), self.kept.image(&carried), carried, u];
-        Side { u, carried, dyads, heavy, total: self.total.transpose().image(&u) }
-    }
-
-    /// For γ = u ⊗ w = −ξ, δΛ = γ Λ − Λ γ.
-    #[inline(always)]
-    fn relaxed(&self, u: Column) -> Side {
-        let forth = self.spatial(u);
-        let seen = self.pulled.image(&u) * self.half;
-        let [a, b, c, d] = forth.dyads;
-        let (a, b) = (a * -1.0 - seen, b * -1.0 - times(&seen, self.values));
-        Side { dyads: [a, b, c * -1.0, d * -1.0], ..forth }
-    }
-
-    #[inline(always)]
-    fn row(&self, w: Column) -> Row {
-        let inverses = self.values.map(|value| 1.0 / value);
-        let (back, pulled) = (times(&w, inverses), self.pulled.transpose().image(&w));
-        let first = self.kept.transpose().image(&back) + times(&pulled, inverses) * self.half;
-        Row { w, back, first: first * -1.0, second: self.kept.image(&w) - pulled * self.half, pulled }
-    }
-}
-
-/// a ⊗ b.
-#[inline(always)]
-fn dyad<F: Four>(a: &Column, b: &Column, registers: F) -> Columns<F> {
-    let (a, [x, y, z, _]) = (Column(registers.like(a.0)), b.0);
-    Columns([a * x, a * y, a * z])
 }
 
 impl<'a> Pull<'a> {

@@ -48,6 +48,18 @@ pub(super) struct Solution<F> {
     pressure: f64,
 }
 
+/// What a contraction answers to.
+struct Loaded<F> {
+    /// g ∂φ/∂F Fᵀ without its mean.
+    deviator: Columns<F>,
+    /// sym L.
+    strain_rate: Columns<F>,
+    /// gφ less that mean: what is taken away where nothing is incompressible.
+    free: f64,
+    /// tr L.
+    growth: f64,
+}
+
 /// F and what turns the law of contraction into its axes.
 struct Frame<F> {
     elastic: Columns<F>,
@@ -66,6 +78,32 @@ impl<F: Four> Frame<F> {
         let registers = stress.0[0].0;
         let (n, d) = (axes.with(registers), carried.with(registers));
         d.transpose().times(stress).times(&d.scaled(inverses)) + n.transpose().times(drive).times(&n)
+    }
+
+    /// V_G, F V_G F⁻¹ and the multiple of I that the law of contraction takes away.
+    #[inline(always)]
+    fn contract(&self, pull: &Pull<'_>, command: &Command, loaded: &Loaded<F>) -> (Columns<F>, Columns<F>, f64) {
+        let Pull { body, contraction, .. } = *pull;
+        let Loaded { deviator, strain_rate, free, growth } = loaded;
+        let registers = deviator.0[0].0;
+        let drive = match command {
+            Command::Drive(drive) => Columns::load(drive, registers),
+            Command::Velocity(velocity, _) => {
+                let velocity = Columns::load(velocity, registers);
+                return (velocity, self.elastic.times(&velocity).times(&self.back), 0.0);
+            }
+        };
+        let viscosity = body.viscosity.kirchhoff;
+        let stress = if viscosity > 0.0 { *deviator + *strain_rate * viscosity } else { *deviator };
+        let stress = self.pulled(&stress, &drive);
+        let excess = match (contraction.kept_volume, body.is_incompressible()) {
+            (Some(_), _) => stress.trace() / 3.0,
+            (None, true) => (stress.trace() - (contraction.viscosity + viscosity) * growth) / 3.0,
+            (None, false) => *free,
+        };
+        let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, self.axes.as_ref());
+        let [velocity, carried] = self.pushed(&mobility.velocity(&stress.plus_unit(-excess)));
+        (velocity, carried, excess)
     }
 
     /// V and F V F⁻¹ of a V in the axes.
@@ -103,28 +141,8 @@ impl<F: Four> Solution<F> {
 
         let back = Columns::load(&decomposition.contraction, registers).times_transposed(&across);
         let frame = Frame { elastic, back, axes: Axes::of(&elastic.kept(), viscosity) };
-        let (velocity, carried, excess) = match command {
-            Command::Velocity(velocity, _) => {
-                let velocity = Columns::load(velocity, registers);
-                (velocity, elastic.times(&velocity).times(&back), 0.0)
-            }
-            Command::Drive(drive) => {
-                let mut stress = deviator;
-                if viscosity > 0.0 {
-                    stress += strain_rate * viscosity;
-                }
-                let stress = frame.pulled(&stress, &Columns::load(drive, registers));
-                let stretching = contraction.viscosity + viscosity;
-                let excess = match (contraction.kept_volume, own_pressure) {
-                    (Some(_), _) => stress.trace() / 3.0,
-                    (None, true) => (stress.trace() - stretching * l.trace()) / 3.0,
-                    (None, false) => energy - mean,
-                };
-                let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, frame.axes.as_ref());
-                let [velocity, carried] = frame.pushed(&mobility.velocity(&stress.plus_unit(-excess)));
-                (velocity, carried, excess)
-            }
-        };
+        let loaded = Loaded { deviator, strain_rate, free: energy - mean, growth: l.trace() };
+        let (velocity, carried, excess) = frame.contract(pull, command, &loaded);
 
         // π = excess + mean − gφ of an incompressible material whose law of contraction tells it.
         let (left, mut pressure) = match (incompressible, own_pressure) {
