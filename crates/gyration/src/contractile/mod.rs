@@ -165,3 +165,59 @@ pub fn energy(body: &AffineBody, at: &Decomposition) -> f64 {
     let density = body.material.as_ref().map_or(0.0, |material| material.response(&at.elastic).energy);
     body.volume * at.volume_ratio * density
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::affine::Viscosity;
+    use crate::material::{Material, MooneyRivlin};
+    use crate::shape::{Cuboid, Shape};
+    use crate::tensor::Vec3;
+
+    /// All columns of the derivative, in memory.
+    struct Derivative<'a, 'b>(&'b Pull<'a>, &'b Command);
+
+    impl Work for Derivative<'_, '_> {
+        type Output = Vec<Columns>;
+
+        fn run<F: Four>(self, zeros: F) -> Vec<Columns> {
+            let slopes = self.0.slopes_in(zeros, self.1, &Mat3::identity());
+            let entries = (0..9).map(|place| (place % 3, place / 3));
+            let columns = entries.flat_map(|entry| {
+                [
+                    slopes.along_gradient(entry, None, zeros),
+                    slopes.along_rate(entry, Some(&Columns::of(&Mat3::identity())), zeros),
+                    slopes.along_contraction(entry, zeros),
+                ]
+            });
+            columns.flat_map(|(rate, acceleration)| [rate.kept(), acceleration.kept()]).collect()
+        }
+    }
+
+    #[test]
+    fn registers_of_every_width_give_the_same_bytes() {
+        let entries = |seed: f64| Mat3::from_fn(|i, j| (seed + 2.1 * i as f64 + 0.8 * (j * j) as f64).sin());
+        let mass = Shape::Box(Cuboid { size: Vec3::new(0.8, 1.0, 0.6) }).mass_properties(0.8);
+        for (bulk, viscosity) in
+            [None, Some(7.0)].into_iter().flat_map(|bulk| [0.0, 0.6].map(|viscosity| (bulk, viscosity)))
+        {
+            let material = Material::MooneyRivlin(MooneyRivlin { c1: 2.0, c2: 1.0, bulk });
+            let viscosity = Viscosity { kirchhoff: viscosity, shear: 0.1, bulk: 0.2 };
+            let body = AffineBody::new(&mass, None, Some(material), viscosity).unwrap();
+            let source = Source::Driven { drive: Signal::Constant(entries(0.3)), feedback: Vec::new() };
+            let contraction = Contraction { viscosity: 0.8, kept_volume: None, spin: Spin::Full, source };
+            let at = Gyration::of(&(Mat3::identity() + 0.2 * entries(0.1)), &entries(1.3)).unwrap();
+            let decomposition = Decomposition::of(&at.gradient, &(Mat3::identity() + 0.1 * entries(2.2))).unwrap();
+            let pull = Pull { body: &body, contraction: &contraction, at: &at, decomposition: &decomposition };
+            let command = Command::Drive(entries(0.3));
+            let moment = entries(0.9);
+            let balance = || Balance { pull: &pull, command: &command, moment: &moment };
+            assert_eq!(dispatch(balance()), balance().run([0.0; 4]));
+            let (wide, plain) = (dispatch(Derivative(&pull, &command)), Derivative(&pull, &command).run([0.0; 4]));
+            for (wide, plain) in wide.iter().zip(&plain) {
+                assert_eq!(wide.matrix(), plain.matrix());
+            }
+            assert_eq!(wide.len(), 54);
+        }
+    }
+}
