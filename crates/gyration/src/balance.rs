@@ -14,7 +14,7 @@ use crate::kinematics::Velocity;
 use crate::ledger::Energy;
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, meet};
+use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, nearest};
 use crate::shape::{MassPoint, Points, Shape};
 use crate::state::{BodyMotion, State};
 use crate::tensor::{Mat3, Vec3};
@@ -117,12 +117,7 @@ pub(crate) fn contact_loads(
 
 /// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
 pub fn smallest_gap(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> f64 {
-    let Some(surface) = &model.bodies[index].surface else {
-        return f64::INFINITY;
-    };
-    (0..model.supports.len())
-        .map(|support| surface.smallest_gap(&meet(model, support, time, motion).0).0)
-        .fold(f64::INFINITY, f64::min)
+    nearest(model, time, index, motion).map_or(f64::INFINITY, |nearest| nearest.gap)
 }
 
 /// The speed of a body's fastest material point [m/s].

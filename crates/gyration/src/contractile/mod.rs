@@ -153,11 +153,6 @@ impl Pull<'_> {
     pub fn balance(&self, command: &Command, moment: &Mat3) -> ContractileBalance {
         dispatch(Balance { pull: self, command, moment })
     }
-
-    /// V g φ(F) \[J\].
-    pub fn energy(&self) -> f64 {
-        energy(self.body, self.decomposition)
-    }
 }
 
 /// V g φ(F) \[J\].

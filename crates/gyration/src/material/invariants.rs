@@ -118,22 +118,6 @@ impl ByInvariants {
     }
 }
 
-/// S: what [`ByInvariants`] gives, without what only the tangent needs.
-#[inline(always)]
-pub(super) fn stress(p: &Columns, material: &Material) -> Columns {
-    let (right, cofactor) = (p.transpose().times(p), p.cofactor());
-    let invariants = Invariants::of(&right, p.0[0].dot(&cofactor.0[0]));
-    let [f1, f2, f3] = material.derivatives(&invariants).first;
-    let mut stress = *p * (2.0 * (f1 + invariants.first * f2));
-    if f2 != 0.0 {
-        stress = stress - p.times(&right) * (2.0 * f2);
-    }
-    if f3 != 0.0 {
-        stress += cofactor * f3;
-    }
-    stress
-}
-
 /// φ and S Pᵀ = 2(f₁ + ι₁f₂) B − 2f₂ B² + J f₃ I, B = PPᵀ: symmetric to the last bit, since all of it is.
 #[inline(always)]
 pub(super) fn energy_and_kirchhoff_stress<F: Four>(

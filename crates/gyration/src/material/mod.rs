@@ -127,11 +127,6 @@ impl Material {
         Response { energy: kept.energy(), stress: kept.stress().matrix() }
     }
 
-    /// S = ∂φ/∂P alone.
-    pub fn stress(&self, p: &Mat3) -> Mat3 {
-        self.stress_at(&Columns::of(p)).matrix()
-    }
-
     /// ∂S_iA/∂P_jB at (3A + i, 3B + j), det P > 0.
     pub fn tangent(&self, p: &Mat3) -> Tangent {
         let mut tangent = Tangent::zeros();
@@ -139,16 +134,6 @@ impl Material {
             slope.write(&mut tangent.as_mut_slice()[9 * place..]);
         }
         tangent
-    }
-
-    /// S.
-    #[inline(always)]
-    pub(crate) fn stress_at(&self, p: &Columns) -> Columns {
-        match self {
-            Self::Ogden(material) => principal::stress(p, |c| material.slopes(c)),
-            Self::Hencky(material) => principal::stress(p, |c| material.slopes(c)),
-            _ => invariants::stress(p, self),
-        }
     }
 
     /// S Pᵀ at P and det P, symmetric to the last bit.

@@ -86,13 +86,6 @@ impl ByPrincipal {
     }
 }
 
-/// S from the slopes s_i alone: what [`ByPrincipal::stress`] gives, without what only the tangent needs.
-#[inline(always)]
-pub(super) fn stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> Columns {
-    let Spectrum { values, axes, carried } = Spectrum::of(p);
-    carried.scaled(&slopes(&values)).times_transposed(&axes)
-}
-
 /// S Pᵀ = Q diag(s) Qᵀ.
 #[inline(always)]
 pub(super) fn kirchhoff_stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> Columns {

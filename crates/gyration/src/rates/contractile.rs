@@ -3,11 +3,11 @@
 //!   P̈ J = M − V S,   μ_γ V_G = Fᵀ S Gᵀ − det G φ I + Q,   Ġ = V_G G
 
 use super::affine::write;
-use super::{AffineLoads, AffineMotion, meet};
+use super::{AffineLoads, AffineMotion, nearest};
 use crate::body::Contractile;
 use crate::columns::Four;
 use crate::contractile::{
-    Command, ContractileBalance, ContractileSlopes, Decomposition, Feedback, Felt, Nearest, Pull, Source, velocity_of,
+    Command, ContractileBalance, ContractileSlopes, Decomposition, Feedback, Felt, Pull, Source, velocity_of,
 };
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
@@ -72,18 +72,8 @@ impl<'a> ContractileMotion<'a> {
             Source::Prescribed(_) => &[],
         };
         let BodyMotion { placement, velocity } = self.pulled.motion;
-        parts.iter().map(move |part| (part.measure.of(placement, velocity, || self.nearest(model)), part))
-    }
-
-    /// The support next to the body; none without any.
-    fn nearest(&self, model: &Model) -> Option<Nearest> {
-        let surface = model.bodies[self.pulled.index].surface.as_ref()?;
-        let near = (0..model.supports.len()).map(|support| {
-            let (field, relative) = meet(model, support, self.time, self.pulled.motion);
-            let (gap, point) = surface.smallest_gap(&field);
-            Nearest { gap, normal: relative.normal, point }
-        });
-        near.min_by(|a, b| a.gap.total_cmp(&b.gap))
+        let near = move || nearest(model, self.time, self.pulled.index, self.pulled.motion);
+        parts.iter().map(move |part| (part.measure.of(placement, velocity, near), part))
     }
 
     /// P̈, V_G, stress, pressure.

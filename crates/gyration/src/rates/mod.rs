@@ -15,6 +15,7 @@ mod rigid;
 
 use crate::body::{Body, BodyKind};
 use crate::contact::{Contact, ContactScratch, Deformation, Meeting, RelativeMotion};
+use crate::contractile::Nearest;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::ledger::Work;
 use crate::load::SpringLoads;
@@ -177,6 +178,17 @@ pub fn meet(model: &Model, support: usize, time: f64, motion: &BodyMotion) -> (G
         gradient_rate: motion.velocity.gradient_rate,
     };
     (field, relative)
+}
+
+/// The support next to a body's surface; none without supports or surface.
+pub(crate) fn nearest(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Option<Nearest> {
+    let surface = model.bodies[index].surface.as_ref()?;
+    let near = (0..model.supports.len()).map(|support| {
+        let (field, relative) = meet(model, support, time, motion);
+        let (gap, point) = surface.smallest_gap(&field);
+        Nearest { gap, normal: relative.normal, point }
+    });
+    near.min_by(|a, b| a.gap.total_cmp(&b.gap))
 }
 
 /// Hands the loads of each spring of a body to `each`.
