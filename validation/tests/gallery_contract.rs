@@ -8,18 +8,12 @@
 
 mod independent;
 
-use gyration_validation::{Answer, Experiment, Run, largest};
+use gyration_validation::{Case, Experiment, Run, largest};
 use independent::{Equations, integrate};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-fn answer(
-    case: &'static str,
-    quantity: &'static str,
-    (reference, measured): (f64, f64),
-    tolerance: f64,
-    source: &'static str,
-) {
-    Answer { row: None, case, quantity, reference, measured, tolerance, source }.check();
+fn case(name: &'static str, source: &'static str) -> Case {
+    Case { row: None, name, source }
 }
 
 /// The ledger closes, and viscosity and contraction only take.
@@ -48,9 +42,12 @@ fn three_amplitudes_stay_nearly_leave_and_leave() {
     };
     let (gentle, threshold, strong) = (least("contract-1"), least("contract-2"), least("contract-3"));
     println!("least load of the weight, largest gap [m], lift-offs: {gentle:?} {threshold:?} {strong:?}");
-    assert!(gentle.0 > 0.15 && gentle.1 < 0.008 && gentle.2 == 0, "{gentle:?}");
-    assert!((0.0..0.1).contains(&threshold.0) && threshold.1 < 0.02, "{threshold:?}");
-    assert!(strong.0 < 1e-4 && strong.1 > 0.04 && strong.2 >= 5, "{strong:?}");
+    // A tenth of the weight parts what presses on the table all the time from what nearly leaves it. The field carries the weight at
+    // 5.6 mm; a quarter of the height is off the table by any standard, and the block strokes 7.5 times.
+    const TENTH: f64 = 0.1;
+    assert!(gentle.0 > TENTH && gentle.1 < 1.5 * 0.0056 && gentle.2 == 0, "{gentle:?}");
+    assert!(threshold.0 < TENTH && threshold.1 < 0.025, "{threshold:?}");
+    assert!(strong.0 < 1e-2 * TENTH && strong.1 > 0.025 && strong.2 >= 5, "{strong:?}");
 }
 
 #[test]
@@ -97,20 +94,15 @@ fn crawler_travels_by_the_area_of_its_stroke() {
     assert!(travelled > 0.01, "{travelled}");
     let shear = "body.block.contractile.prescribed.sum.2.sine.amplitude=[[0, 0, -0.3], [0, 0, 0], [0, 0, 0]]";
     let mirrored = Experiment::of_gallery("crawl", &[shear]).run();
-    let case = "gallery: crawl";
-    answer(
-        case,
-        "travel of the mirrored stroke in a cycle [m]",
-        (-travelled, last_cycle(&mirrored, 100)),
-        1e-9,
-        "the mirror",
-    );
+    let mirror = case("gallery: crawl", "the mirror");
+    mirror.check("travel of the mirrored stroke in a cycle [m]", -travelled, last_cycle(&mirrored, 100), 1e-9);
     // The area tells the travel as far as inertia is small: an eighth of the frequency has a sixty-fourth of it.
     let slow = ["1", "2"].map(|part| format!("body.block.contractile.prescribed.sum.{part}.sine.frequency=0.125"));
     let times = ["time.end=24", "time.sample=0.08"];
     let run = Experiment::of_gallery("crawl", &[&slow[0], &slow[1], times[0], times[1]]).run();
     let closed = enclosed(&run, 100);
-    answer(case, "travel in a slow cycle [m]", (closed, last_cycle(&run, 100)), 0.03, "−(h/2) ∮ P_xz d(ln P_xx)");
+    let area = case("gallery: crawl", "−(h/2) ∮ P_xz d(ln P_xx)");
+    area.check("travel in a slow cycle [m]", closed, last_cycle(&run, 100), 0.03);
 }
 
 #[test]
@@ -120,7 +112,12 @@ fn reciprocal_stroke_gets_nowhere() {
     let (least, most) = extremes(&run.column("block.x"));
     assert!(most - least > 0.005, "it is to move to and fro: {least} {most}");
     let net = last_cycle(&run, 100) / 0.2;
-    answer("gallery: scallop", "net travel of a cycle, of the length of the body", (0.0, net), 1e-6, "scallop theorem");
+    case("gallery: scallop", "scallop theorem").check(
+        "net travel of a cycle, of the length of the body",
+        0.0,
+        net,
+        1e-6,
+    );
 }
 
 #[test]
@@ -134,7 +131,7 @@ fn ball_rolls_under_its_own_wave() {
     let (p_xx, p_xz) = (run.column("ball.P_xx")[last], run.column("ball.P_xz")[last]);
     let stretch = p_xx.hypot(p_xz);
     // A contact of finite width slips a little, and the axis is not quite level.
-    answer("gallery: roll-over", "speed [m/s]", (0.5 * TAU * 0.1 * stretch, speed), 0.02, "v = (Ω/2) R λ");
+    case("gallery: roll-over", "v = (Ω/2) R λ").check("speed [m/s]", 0.5 * TAU * 0.1 * stretch, speed, 0.02);
 }
 
 /// (g, ġ, t) of the gallery's ball: j/V = ρR²/5.
@@ -161,13 +158,8 @@ fn ball_breathes_as_its_scalar_equation_says() {
     let (least, most) = extremes(&run.column("ball.P_zz"));
     println!("breathes from {least:.3} to {most:.3}");
     assert!(most / least > 1.3, "{least} {most}");
-    answer("gallery: breathe", "largest error of the stretch", (0.0, apart), 1e-6, "(j/V) g g̈ + μ_γ ġ/g = Q(t)");
-    let stored = largest(run.column("energy.elastic"));
-    answer(
-        "gallery: breathe",
-        "largest elastic energy, of that in play",
-        (0.0, stored / run.energy_in_play),
-        1e-9,
-        "F = I",
-    );
+    let breathing = case("gallery: breathe", "(j/V) g g̈ + μ_γ ġ/g = Q(t)");
+    breathing.check("largest error of the stretch", 0.0, apart, 1e-6);
+    let stored = largest(run.column("energy.elastic")) / run.energy_in_play;
+    breathing.by("F = I").check("largest elastic energy, of that in play", 0.0, stored, 1e-9);
 }
