@@ -6,7 +6,7 @@ use clap_complete::Shell;
 use std::path::PathBuf;
 
 /// Commands that are planned but not in this version.
-pub const LATER: [&str; 5] = ["report", "view", "resistance", "study", "calibrate"];
+pub const LATER: [&str; 3] = ["resistance", "study", "calibrate"];
 
 const STYLES: Styles =
     Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
@@ -41,6 +41,12 @@ pub enum Command {
     Export(Export),
     /// Draw a recording, or the contact laws of a scene
     Plot(Plot),
+    /// Write a recording as one HTML file: playback, plots, ledger, scene; readable without network
+    #[cfg(feature = "view")]
+    Report(Report),
+    /// Show a recording, or a scene that runs as it is watched, in a browser
+    #[cfg(feature = "view")]
+    View(View),
     /// Print the JSON Schema of a scene
     Schema,
     /// Print the completions of a shell
@@ -148,6 +154,36 @@ pub struct Plot {
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub measures: Vec<String>,
     /// Change a value of the scene before its laws are drawn
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+/// `gyration report`
+#[cfg(feature = "view")]
+#[derive(Debug, Args)]
+pub struct Report {
+    /// Directory of the recording
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub recording: PathBuf,
+    /// File to write [default: STEM.html in the current folder]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+}
+
+/// `gyration view`
+#[cfg(feature = "view")]
+#[derive(Debug, Args)]
+pub struct View {
+    /// Directory of a recording, or a scene: its path or its name in the gallery
+    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath)]
+    pub source: String,
+    /// Port of 127.0.0.1 to listen on [default: a free one]
+    #[arg(long, value_name = "N")]
+    pub port: Option<u16>,
+    /// Do not start a browser; the address is printed in any case
+    #[arg(long)]
+    pub no_open: bool,
+    /// Change a value of the scene
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
 }

@@ -6,6 +6,8 @@ use crate::plot::PlotError;
 use gyration_record::RecordError;
 use gyration_scene::LoadError;
 use gyration_sim::RunError;
+#[cfg(feature = "view")]
+use gyration_view::ViewError;
 use std::io;
 use std::path::PathBuf;
 
@@ -24,6 +26,10 @@ pub enum CliError {
     /// There is no picture.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// Nothing can be shown.
+    #[cfg(feature = "view")]
+    #[error(transparent)]
+    View(#[from] ViewError),
     /// The arguments ask for something that is not to be had.
     #[error("{problem}\n  fix: {fix}")]
     Arguments {
@@ -78,6 +84,10 @@ impl CliError {
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
             Self::Plot(PlotError::Nothing { .. } | PlotError::Measure { .. }) => code::BAD_INPUT,
             Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,
+            #[cfg(feature = "view")]
+            Self::View(ViewError::Port { .. } | ViewError::NoPage { .. }) => code::BAD_INPUT,
+            #[cfg(feature = "view")]
+            Self::View(_) => code::BAD_FILE,
             Self::Scene(LoadError::Read(_))
             | Self::Record(_)
             | Self::Run(_)

@@ -179,8 +179,8 @@ impl Recording {
         Ok(times?.data.into_iter().zip(kinds.into_iter().zip(bodies)).map(event).collect())
     }
 
-    /// Name, array and place in its row of each column.
-    pub(crate) fn group_columns(&self) -> impl Iterator<Item = (&str, &str, usize)> {
+    /// Name, array and place in its row of each column, in the order of the CSV.
+    pub fn column_places(&self) -> impl Iterator<Item = (&str, &str, usize)> {
         self.group.columns()
     }
 

@@ -136,7 +136,8 @@ impl<'a> Job<'a> {
         Ok(Recorded::Ran(Box::new(summary)))
     }
 
-    fn layout(&self) -> Layout {
+    /// What the recording holds.
+    pub fn layout(&self) -> Layout {
         let (arrays, csv_order) = Fields::new(self.model, &self.plan.extras).arrays(self.model);
         let row_len = arrays.iter().map(gyration_record::ArraySpec::row_len).sum();
         let expected = (self.plan.end / self.plan.sample).ceil() as usize + 1;
@@ -150,7 +151,8 @@ impl<'a> Job<'a> {
         }
     }
 
-    fn all_attributes(&self) -> Attributes {
+    /// The attributes of the recording before the run has ended: those given, bodies, supports, gravity.
+    pub fn all_attributes(&self) -> Attributes {
         let mut attributes = self.attributes.clone();
         attributes.insert("bodies".into(), self.model.bodies.iter().map(describe_body).collect());
         attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());

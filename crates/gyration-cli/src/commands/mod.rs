@@ -5,9 +5,13 @@ mod completions;
 mod export;
 mod modes;
 mod plot;
+#[cfg(feature = "view")]
+mod report;
 mod run;
 mod scenes;
 mod schema;
+#[cfg(feature = "view")]
+mod view;
 
 use crate::arguments::{Command, SceneArguments};
 use crate::error::CliError;
@@ -26,6 +30,10 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Export(arguments) => export::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),
+        #[cfg(feature = "view")]
+        Command::Report(arguments) => report::execute(&arguments),
+        #[cfg(feature = "view")]
+        Command::View(arguments) => view::execute(&arguments),
         Command::Schema => schema::execute(),
         Command::Completions { shell } => completions::execute(shell),
     }

@@ -59,7 +59,7 @@ fn exit_code(outcome: &Outcome) -> u8 {
 }
 
 /// The program that runs.
-fn provenance() -> Provenance {
+pub(super) fn provenance() -> Provenance {
     Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: Some(env!("GYRATION_COMMIT").to_owned()) }
 }
 

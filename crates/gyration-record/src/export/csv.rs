@@ -17,7 +17,7 @@ pub fn csv(recording: &Recording, out: &mut impl Write) -> Result<(), RecordErro
     // Of each column: which of the arrays, and where in its row.
     let mut places = vec![(0, 0)];
     let mut header = String::from("t");
-    for (name, array, index) in recording.group_columns() {
+    for (name, array, index) in recording.column_places() {
         let known = arrays.iter().position(|known| *known == array);
         let place = known.unwrap_or_else(|| {
             arrays.push(array);

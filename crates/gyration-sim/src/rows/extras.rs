@@ -22,6 +22,13 @@ impl Extras {
         extras
     }
 
+    /// This set and one quantity more.
+    #[must_use]
+    pub fn and(mut self, quantity: Recorded) -> Self {
+        self.asked[quantity as usize] = true;
+        self
+    }
+
     /// Whether nothing is asked for.
     pub fn is_empty(&self) -> bool {
         !self.asked.contains(&true)

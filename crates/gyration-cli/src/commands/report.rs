@@ -1,0 +1,23 @@
+//! `gyration report`: a recording as one HTML file that needs neither network nor this program.
+
+use super::stem;
+use crate::arguments::Report;
+use crate::error::{CliError, code};
+use crate::output;
+use gyration_view::{Stored, report};
+use std::path::PathBuf;
+
+/// Writes the report.
+pub fn execute(arguments: &Report) -> Result<u8, CliError> {
+    let stored = Stored::open(&arguments.recording)?;
+    let made = report(&stored)?;
+    let default = || PathBuf::from(format!("{}.html", stem(&arguments.recording)));
+    let path = arguments.output.clone().unwrap_or_else(default);
+    output::write_file(&path, made.html.as_bytes())?;
+    let samples = match made.samples {
+        (kept, all) if kept == all => format!("{all} samples"),
+        (kept, all) => format!("{kept} of {all} samples, to keep it small"),
+    };
+    output::say(&format!("wrote {} ({samples}, {:.1} MB)", path.display(), made.html.len() as f64 / 1e6));
+    Ok(code::DONE)
+}

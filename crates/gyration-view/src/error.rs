@@ -1,0 +1,33 @@
+//! What keeps a recording or a run from being shown.
+
+use gyration_record::RecordError;
+use std::io;
+
+/// Failure to show something.
+#[derive(Debug, thiserror::Error)]
+pub enum ViewError {
+    /// The recording cannot be read.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The program was built without the page.
+    #[error(
+        "this program was built without the page that shows recordings: {reason}\n  \
+         fix: install Node 20 or later and build again, \
+         or build the page elsewhere (`npm ci && npm run build` in viewer/) and build with GYRATION_PAGE=viewer/dist/index.html"
+    )]
+    NoPage {
+        /// What was wrong when it was built.
+        reason: &'static str,
+    },
+    /// The port is not to be had.
+    #[error("cannot listen on port {port} of 127.0.0.1: {source}\n  fix: leave out --port, and a free one is taken")]
+    Port {
+        /// The port asked for.
+        port: u16,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The server broke down.
+    #[error("the local server failed: {0}")]
+    Server(io::Error),
+}

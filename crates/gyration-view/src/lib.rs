@@ -1,0 +1,28 @@
+//! Looking at recordings and runs in a browser: the local server and the report.
+//!
+//! ```text
+//! recording ─→ Stored ──┬─→ report: one HTML file with everything in it
+//!                       └─→ Server ─→ page: header (JSON), blobs (arrays)
+//! scene ─→ Live (a thread that runs it) ─→ Server ─→ page: websocket
+//! ```
+//!
+//! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: [`header`] says what one is given,
+//! [`blob`] how the numbers are laid out. The server listens on 127.0.0.1 and answers to that name only. No mechanics here.
+
+#![forbid(unsafe_code)]
+
+pub mod blob;
+mod error;
+mod frame;
+pub mod header;
+mod live;
+pub mod page;
+mod report;
+mod server;
+mod stored;
+
+pub use error::ViewError;
+pub use live::Live;
+pub use report::{Report, report};
+pub use server::{Server, Source};
+pub use stored::Stored;

@@ -1,0 +1,192 @@
+//! The thread that runs a scene again and again, as pages ask for it.
+
+use super::{Shared, Subject};
+use crate::blob;
+use crate::header::Header;
+use gyration::body::BodyKind;
+use gyration_record::{Layout, RecordError};
+use gyration_scene::{Recorded, Scene};
+use gyration_sim::events::Event;
+use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunSummary, Simulation, Sink, limit_in_words};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+/// Numbers of all rows together at most, 200 MB: a longer run is sampled more coarsely.
+const MOST_NUMBERS: usize = 50_000_000;
+/// Between two calls of the pages.
+const NEWS_EVERY: Duration = Duration::from_millis(30);
+/// Between two words on progress.
+const PROGRESS_EVERY: Duration = Duration::from_millis(150);
+
+/// Runs what is wanted, for ever.
+pub(super) fn run(shared: &Shared, subject: &Subject) {
+    loop {
+        let overrides = shared.next();
+        if let Err(problem) = run_once(shared, subject, &overrides) {
+            shared.store().problem(problem);
+        }
+        shared.announce();
+    }
+}
+
+/// Runs the scene once, or says in words why not.
+fn run_once(shared: &Shared, subject: &Subject, overrides: &[String]) -> Result<(), String> {
+    let scene = Scene::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
+    let mut job = Job::of(&scene, &subject.provenance);
+    // Bodies that deform are coloured by their stress, which is recorded on request only.
+    if job.model.bodies.iter().any(|body| !matches!(body.kind, BodyKind::Rigid(_))) {
+        job.plan.extras = job.plan.extras.and(Recorded::CauchyStress);
+    }
+    let thinned = thin(&mut job);
+    let layout = job.layout();
+    let mut simulation = Simulation::new(job.model, job.start, job.plan).map_err(|error| error.to_string())?;
+    let mut first = FirstRow::default();
+    simulation.begin(&mut first).map_err(|error| error.to_string())?;
+    let strides = publish(shared, &job, &layout, thinned);
+    let mut sink = Publisher { shared, told: Instant::now(), stride: strides };
+    let told = first.0.map_or(Ok(()), |(time, row)| sink.row(time, &row));
+    let began = Instant::now();
+    let mut watch = Watch { shared, told: Instant::now() };
+    let outcome = told.map_err(RunError::from).and_then(|()| simulation.run(&mut sink, &mut watch));
+    let outcome = outcome.map_err(|error| error.to_string())?;
+    if is_superseded(&outcome) {
+        return Ok(());
+    }
+    let summary = RunSummary::of(job.model, &mut simulation, outcome, began.elapsed()).attributes();
+    let outcome = summary.get("outcome").cloned().unwrap_or(Value::Null);
+    shared.store().finish(json!({ "type": "done", "outcome": outcome, "summary": summary }));
+    Ok(())
+}
+
+/// Whether the run was left for another.
+fn is_superseded(outcome: &Outcome) -> bool {
+    matches!(outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted)
+}
+
+/// Samples more coarsely what would be too long to keep; the samples kept, and those of the scene.
+fn thin(job: &mut Job) -> Option<(usize, usize)> {
+    let numbers: usize = job.layout().arrays.iter().map(gyration_record::ArraySpec::row_len).sum();
+    let samples = (job.plan.end / job.plan.sample).ceil() as usize + 1;
+    let every = samples.saturating_mul(numbers).div_ceil(MOST_NUMBERS);
+    if every <= 1 {
+        return None;
+    }
+    job.plan.sample *= every as f64;
+    Some((samples.div_ceil(every), samples))
+}
+
+/// Begins a run in the store; the numbers in a row.
+fn publish(shared: &Shared, job: &Job, layout: &Layout, thinned: Option<(usize, usize)>) -> usize {
+    let mut store = shared.store();
+    let mut header = Header::of_layout(layout, job.all_attributes(), store.next_run());
+    if let Some((kept, of)) = thinned {
+        header.thinned = thinned;
+        header
+            .notes
+            .push(format!("The run is long: some {kept} of {of} samples are kept here. `gyration run` keeps all."));
+    }
+    let fixed = layout.fixed.iter().filter_map(|array| {
+        let (surface, part) = array.spec.name.strip_prefix("surface_")?.split_once('_')?;
+        let bytes = if part == "triangles" { blob::indices(&array.values) } else { blob::singles(&array.values) };
+        Some((format!("surface/{surface}/{part}"), bytes))
+    });
+    let strides: Vec<usize> = header.arrays.iter().map(crate::header::ArrayEntry::stride).collect();
+    let stride = strides.iter().sum();
+    store.begin(&header.to_json(), fixed.collect(), strides);
+    stride
+}
+
+/// Keeps the first row until the run is known to have one.
+#[derive(Default)]
+struct FirstRow(Option<(f64, Vec<f64>)>);
+
+impl Sink for FirstRow {
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        self.0 = Some((time, row.to_vec()));
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event) -> Result<(), RecordError> {
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+/// Publishes rows and events.
+struct Publisher<'a> {
+    shared: &'a Shared,
+    told: Instant,
+    stride: usize,
+}
+
+impl Sink for Publisher<'_> {
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        debug_assert_eq!(row.len(), self.stride);
+        self.shared.store().row(time, row);
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        let Event { time, kind, body } = *event;
+        self.shared.store().event(gyration_record::Event { time, kind, body: Some(body) });
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        if self.told.elapsed() >= NEWS_EVERY {
+            self.told = Instant::now();
+            self.shared.announce();
+        }
+        Ok(())
+    }
+}
+
+/// Halts the run while it is paused, ends it for another, and says how far it is.
+struct Watch<'a> {
+    shared: &'a Shared,
+    told: Instant,
+}
+
+impl Monitor for Watch<'_> {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        if self.told.elapsed() >= PROGRESS_EVERY {
+            self.told = Instant::now();
+            let step = progress.step;
+            self.shared.store().progress(json!({
+                "time": progress.time,
+                "end": progress.end,
+                "steps": progress.statistics.accepted(),
+                "step": step.end - step.start,
+                "limited_by": limit_in_words(progress.model, &step.limit),
+            }));
+        }
+        self.shared.is_superseded().then_some(Reason::Interrupted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Cursor;
+    use super::super::store::Store;
+    use serde_json::json;
+
+    /// A store is all that pages see; this one stands for a page that takes everything.
+    #[test]
+    fn a_store_is_handed_on_once_and_in_order() {
+        let mut store = Store::default();
+        store.begin(&json!({ "run": store.next_run() }), vec![("surface/0/points".into(), vec![0; 12])], vec![1, 2]);
+        for k in 0..3 {
+            store.row(f64::from(k), &[1.0, 2.0, 3.0]);
+        }
+        let mut cursor = Cursor::default();
+        assert_eq!(store.take(&mut cursor).len(), 3, "header, surface, rows");
+        assert!(store.take(&mut cursor).is_empty());
+        store.finish(json!({ "type": "done" }));
+        assert_eq!(store.take(&mut cursor).len(), 1);
+        store.begin(&json!({}), Vec::new(), vec![1]);
+        assert_eq!(store.take(&mut cursor).len(), 1, "the header of the next run");
+    }
+}

@@ -1,0 +1,161 @@
+//! What a run has published so far, and how far each page has taken it.
+
+use crate::blob;
+use crate::frame::frame;
+use gyration_record::Event;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// Bytes of numbers in one message at most: a page draws between two messages.
+const MOST_BYTES: usize = 2 << 20;
+
+/// A run as far as it has got.
+#[derive(Debug, Default)]
+pub(crate) struct Store {
+    run: u64,
+    header: Option<Arc<str>>,
+    /// Blobs that do not grow: the surfaces.
+    fixed: Vec<(String, Vec<u8>)>,
+    /// Numbers in a row of each array.
+    strides: Vec<usize>,
+    times: Vec<f64>,
+    /// The rows, one after the other.
+    values: Vec<f32>,
+    events: Vec<Event>,
+    /// The last word on how far it is; counted, so that a page knows whether it has had it.
+    progress: (u64, Value),
+    done: Option<Value>,
+    paused: bool,
+    /// Why the run last wanted could not begin, counted; empty once another one has begun.
+    problem: (u64, String),
+}
+
+/// How far a page has taken a store.
+#[derive(Debug, Default)]
+pub(crate) struct Cursor {
+    run: u64,
+    fixed: usize,
+    rows: usize,
+    events: usize,
+    progress: u64,
+    paused: bool,
+    done: bool,
+    problem: u64,
+}
+
+/// A message to a page.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Message {
+    Text(String),
+    Binary(Vec<u8>),
+}
+
+impl Store {
+    /// Forgets the run before and begins a new one.
+    pub(super) fn begin(&mut self, header: &Value, fixed: Vec<(String, Vec<u8>)>, strides: Vec<usize>) {
+        let header = json!({ "type": "header", "header": header }).to_string();
+        *self = Self {
+            run: self.run + 1,
+            header: Some(header.into()),
+            fixed,
+            strides,
+            progress: (self.progress.0, Value::Null),
+            problem: (self.problem.0, String::new()),
+            ..Self::default()
+        };
+    }
+
+    /// The number that the next run will have.
+    pub(super) fn next_run(&self) -> u64 {
+        self.run + 1
+    }
+
+    pub(super) fn row(&mut self, time: f64, row: &[f64]) {
+        self.times.push(time);
+        self.values.extend(row.iter().map(|value| *value as f32));
+    }
+
+    pub(super) fn event(&mut self, event: Event) {
+        self.events.push(event);
+    }
+
+    pub(super) fn progress(&mut self, progress: Value) {
+        self.progress = (self.progress.0 + 1, progress);
+    }
+
+    pub(super) fn finish(&mut self, done: Value) {
+        self.done = Some(done);
+    }
+
+    pub(super) fn pause(&mut self, paused: bool) {
+        self.paused = paused;
+    }
+
+    pub(super) fn problem(&mut self, problem: String) {
+        self.problem = (self.problem.0 + 1, problem);
+    }
+
+    /// What a page has not had yet, a few messages at a time; none: it has had all.
+    pub(crate) fn take(&self, cursor: &mut Cursor) -> Vec<Message> {
+        let mut messages = Vec::new();
+        if let Some(header) = self.header.as_ref().filter(|_| cursor.run != self.run) {
+            *cursor = Cursor { run: self.run, problem: cursor.problem, ..Cursor::default() };
+            messages.push(Message::Text(header.to_string()));
+        }
+        for (name, bytes) in &self.fixed[cursor.fixed..] {
+            messages.push(self.blob(name, bytes));
+            cursor.fixed += 1;
+        }
+        let full = self.take_rows(cursor, &mut messages);
+        if cursor.events < self.events.len() {
+            cursor.events = self.events.len();
+            messages.push(self.blob("events", &blob::events(&self.events)));
+        }
+        if cursor.progress != self.progress.0 || cursor.paused != self.paused {
+            (cursor.progress, cursor.paused) = (self.progress.0, self.paused);
+            let mut progress = json!({ "type": "progress", "paused": self.paused });
+            if let (Some(all), Some(told)) = (progress.as_object_mut(), self.progress.1.as_object()) {
+                all.extend(told.clone());
+            }
+            messages.push(Message::Text(progress.to_string()));
+        }
+        if cursor.problem != self.problem.0 {
+            cursor.problem = self.problem.0;
+            if !self.problem.1.is_empty() {
+                messages.push(Message::Text(json!({ "type": "error", "message": self.problem.1 }).to_string()));
+            }
+        }
+        // The end is told once every row is there.
+        if let Some(done) = self.done.as_ref().filter(|_| !cursor.done && !full) {
+            cursor.done = true;
+            messages.push(Message::Text(done.to_string()));
+        }
+        messages
+    }
+
+    /// Takes rows, as many as one message holds; whether there are more.
+    fn take_rows(&self, cursor: &mut Cursor, messages: &mut Vec<Message>) -> bool {
+        let all: usize = self.strides.iter().sum();
+        let first = cursor.rows;
+        let last = self.times.len().min(first + (MOST_BYTES / (4 * all + 8)).max(1));
+        if first == last {
+            return false;
+        }
+        let mut payload = blob::doubles(self.times[first..last].iter().copied());
+        let mut offset = 0;
+        for stride in &self.strides {
+            for row in self.values[first * all..last * all].chunks_exact(all) {
+                payload.extend(row[offset..offset + stride].iter().flat_map(|value| value.to_le_bytes()));
+            }
+            offset += stride;
+        }
+        let head = json!({ "kind": "rows", "run": self.run, "first": first, "rows": last - first });
+        messages.push(Message::Binary(frame(&head, &payload)));
+        cursor.rows = last;
+        last < self.times.len()
+    }
+
+    fn blob(&self, name: &str, bytes: &[u8]) -> Message {
+        Message::Binary(frame(&json!({ "kind": "blob", "run": self.run, "name": name }), bytes))
+    }
+}

@@ -1,0 +1,97 @@
+//! The report: one HTML file with page and data, readable without network and without this program.
+//!
+//! Data are deflated, then written in base64. A file that can be mailed is small: arrays that only few look at are left
+//! out of a long recording first, then samples are thinned, one in 2, 3, …, and the header says so.
+
+use crate::error::ViewError;
+use crate::header::{Header, Mode};
+use crate::page;
+use crate::stored::{Stored, kept};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use std::fmt::Write as _;
+
+/// Characters that the data may take: with the page, which is below 1 MB, a report stays below 3 MB.
+const MOST_DATA: usize = 1_900_000;
+/// What base64 makes of a deflated number at the least, in long recordings of the gallery: where the search begins.
+const FEWEST_CHARACTERS: f64 = 1.5;
+/// Arrays left out first; the recording has them.
+const DISPENSABLE: [&str; 5] =
+    ["affine_momentum", "gradient_rate", "contraction_velocity", "angular_momentum", "linear_momentum"];
+/// How hard to compress, of 10: more takes longer and gains next to nothing on such numbers.
+const LEVEL: u8 = 6;
+
+/// A report.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// The file.
+    pub html: String,
+    /// Samples in it, and in the recording.
+    pub samples: (usize, usize),
+}
+
+/// Makes the report of a recording.
+///
+/// # Errors
+/// `NoPage`; `Record` if the recording cannot be read.
+pub fn report(stored: &Stored) -> Result<Report, ViewError> {
+    let page = page::html()?;
+    let rows = stored.rows();
+    let mut header = stored.header().clone();
+    header.mode = Mode::Report;
+    let mut every = 1;
+    if !may_fit(&header, rows, every) {
+        leave_out_dispensable(&mut header);
+        every = (1..rows).find(|every| may_fit(&header, rows, *every)).unwrap_or(rows.max(1));
+    }
+    let notes = header.notes.len();
+    loop {
+        header.notes.truncate(notes);
+        header.rows = kept(rows, every);
+        header.thinned = (every > 1).then_some((header.rows, rows));
+        if every > 1 {
+            header.notes.push(format!(
+                "To keep the file small, {} of {rows} samples are shown, one in {every}; the recording has all.",
+                header.rows
+            ));
+        }
+        let data = embedded(stored, &header, every)?;
+        if data.len() <= MOST_DATA || every >= rows {
+            return Ok(Report { html: page.replacen(page::PLACEHOLDER, &data, 1), samples: (header.rows, rows) });
+        }
+        every = (every * data.len()).div_ceil(MOST_DATA).max(every + 1);
+    }
+}
+
+/// Whether the data fit if they take as little as they can.
+fn may_fit(header: &Header, rows: usize, every: usize) -> bool {
+    let numbers: usize = header.arrays.iter().map(|array| array.stride()).sum();
+    (numbers * kept(rows, every)) as f64 * FEWEST_CHARACTERS <= MOST_DATA as f64
+}
+
+fn leave_out_dispensable(header: &mut Header) {
+    let all = header.arrays.len();
+    header.arrays.retain(|array| !DISPENSABLE.contains(&array.name.as_str()));
+    header.columns.retain(|(_, array, _)| !DISPENSABLE.contains(&array.as_str()));
+    if header.arrays.len() < all {
+        let words = "To keep the file small, momenta and rates are left out; the recording has them.";
+        header.notes.push(words.to_owned());
+    }
+}
+
+/// The elements of the page that hold the data.
+fn embedded(stored: &Stored, header: &Header, every: usize) -> Result<String, ViewError> {
+    let mut data = String::new();
+    // JSON has `<` in texts only, where its escape says the same: no text of a scene can end the element.
+    let json = header.to_json().to_string().replace('<', "\\u003c");
+    // Writing to a string does not fail.
+    let _ = writeln!(data, "<script type=\"application/json\" id=\"gyration-header\">{json}</script>");
+    let surfaces =
+        (0..header.surfaces.len()).flat_map(|k| ["points", "triangles"].map(|part| format!("surface/{k}/{part}")));
+    let names = ["time", "events"].map(String::from).into_iter().chain(surfaces);
+    for name in names.chain(header.arrays.iter().map(|array| array.name.clone())) {
+        let packed = miniz_oxide::deflate::compress_to_vec(&stored.blob(&name, 0..stored.rows(), every)?, LEVEL);
+        let _ = writeln!(data, "<script type=\"text/plain\" data-blob=\"{name}\">{}</script>", STANDARD.encode(packed));
+    }
+    Ok(data)
+}

@@ -1,0 +1,170 @@
+//! The local server: the page, and what it asks for.
+//!
+//! ```text
+//! GET /                          the page
+//! GET /api/header                header of a recording; of a live run only that it is one
+//! GET /api/blob/NAME?from=&to=   numbers of a recording
+//! GET /api/live                  websocket of a live run
+//! ```
+//!
+//! It listens on 127.0.0.1 and answers only requests that call it by that name and come from its own page: a page from
+//! elsewhere in the same browser can neither read nor steer it.
+
+mod guard;
+mod socket;
+
+use crate::error::ViewError;
+use crate::live::Live;
+use crate::page;
+use crate::stored::Stored;
+use axum::Router;
+use axum::extract::{Path, Query, State};
+use axum::http::{StatusCode, header};
+use axum::response::{Html, IntoResponse, Response};
+use axum::routing::get;
+use gyration_record::RecordError;
+use serde::Deserialize;
+use serde_json::json;
+use std::future::Future;
+use std::net::{Ipv4Addr, TcpListener};
+use std::sync::{Arc, PoisonError, RwLock};
+
+/// What is shown.
+pub enum Source {
+    /// A recording on disk.
+    Recording(Box<Stored>),
+    /// A scene that runs as it is watched.
+    Live(Live),
+}
+
+/// A server that has its port, but does not answer yet.
+pub struct Server {
+    listener: TcpListener,
+    port: u16,
+}
+
+/// What requests share.
+enum Shown {
+    /// Opened again whenever its header is asked for: it may grow.
+    Recording(RwLock<Arc<Stored>>),
+    Live(Live),
+}
+
+impl Server {
+    /// Takes a port of 127.0.0.1, or a free one.
+    ///
+    /// # Errors
+    /// `Port` if the port is not to be had.
+    pub fn bind(port: Option<u16>) -> Result<Self, ViewError> {
+        let asked = port.unwrap_or(0);
+        let failed = |source| ViewError::Port { port: asked, source };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, asked)).map_err(failed)?;
+        listener.set_nonblocking(true).map_err(failed)?;
+        let port = listener.local_addr().map_err(failed)?.port();
+        Ok(Self { listener, port })
+    }
+
+    /// The address of the page.
+    pub fn url(&self) -> String {
+        format!("http://127.0.0.1:{}/", self.port)
+    }
+
+    /// Answers until `end` is done.
+    ///
+    /// # Errors
+    /// `Server` if the system takes away what the server needs.
+    pub fn serve(self, source: Source, end: impl Future<Output = ()>) -> Result<(), ViewError> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(ViewError::Server)?;
+        let shown = match source {
+            Source::Recording(stored) => Shown::Recording(RwLock::new(Arc::from(stored))),
+            Source::Live(live) => Shown::Live(live),
+        };
+        let router = router(Arc::new(shown), self.port);
+        let served = runtime.block_on(async move {
+            let listener = tokio::net::TcpListener::from_std(self.listener)?;
+            tokio::select! {
+                served = async { axum::serve(listener, router).await } => served,
+                () = end => Ok(()),
+            }
+        });
+        // Pages that are still connected are not waited for.
+        runtime.shutdown_background();
+        served.map_err(ViewError::Server)
+    }
+}
+
+fn router(shown: Arc<Shown>, port: u16) -> Router {
+    Router::new()
+        .route("/", get(index))
+        .route("/favicon.ico", get(|| async { StatusCode::NO_CONTENT }))
+        .route("/api/header", get(header_of))
+        .route("/api/blob/{*name}", get(blob_of))
+        .route("/api/live", get(socket::live))
+        .with_state(shown)
+        .layer(axum::middleware::from_fn_with_state(port, guard::guard))
+}
+
+async fn index() -> Response {
+    match page::html() {
+        Ok(html) => Html(html).into_response(),
+        Err(error) => Refusal::from(error).into_response(),
+    }
+}
+
+async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, Refusal> {
+    let json = match &*shown {
+        Shown::Live(_) => json!({ "protocol": crate::header::PROTOCOL, "mode": "live" }),
+        Shown::Recording(stored) => {
+            let path = stored.read().unwrap_or_else(PoisonError::into_inner).path().to_path_buf();
+            let fresh = Stored::open(&path)?;
+            let json = fresh.header().to_json();
+            *stored.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(fresh);
+            json
+        }
+    };
+    Ok(([(header::CONTENT_TYPE, "application/json")], json.to_string()).into_response())
+}
+
+/// Rows of a blob; all without.
+#[derive(Debug, Deserialize)]
+struct Rows {
+    from: Option<usize>,
+    to: Option<usize>,
+}
+
+async fn blob_of(
+    State(shown): State<Arc<Shown>>,
+    Path(name): Path<String>,
+    Query(rows): Query<Rows>,
+) -> Result<Response, Refusal> {
+    let Shown::Recording(stored) = &*shown else {
+        return Err(Refusal(StatusCode::NOT_FOUND, "a live run is sent by websocket, at /api/live".to_owned()));
+    };
+    let stored = Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner));
+    let rows = rows.from.unwrap_or(0)..rows.to.unwrap_or(stored.rows());
+    // Reading may take long: other requests are answered meanwhile.
+    let read = tokio::task::spawn_blocking(move || stored.blob(&name, rows, 1)).await;
+    let bytes = read.map_err(|error| Refusal(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))??;
+    Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
+}
+
+/// A request that cannot be met, in words.
+#[derive(Debug)]
+struct Refusal(StatusCode, String);
+
+impl From<ViewError> for Refusal {
+    fn from(error: ViewError) -> Self {
+        let status = match &error {
+            ViewError::Record(RecordError::NoSuchArray { .. }) => StatusCode::NOT_FOUND,
+            ViewError::Record(RecordError::NoSuchRows { .. }) => StatusCode::RANGE_NOT_SATISFIABLE,
+            _ => StatusCode::INTERNAL_SERVER_ERROR,
+        };
+        Self(status, error.to_string())
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response {
+        (self.0, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], self.1).into_response()
+    }
+}

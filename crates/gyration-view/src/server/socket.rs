@@ -1,0 +1,88 @@
+//! The websocket of a live run: what is new goes out, what the watcher wants comes in.
+
+use super::{Refusal, Shown};
+use crate::live::{Cursor, Live, Message, Shared};
+use axum::extract::State;
+use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Deserialize;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Between two looks at the store; thirty pictures a second are enough.
+const PACE: Duration = Duration::from_millis(33);
+/// A watcher's wish is short; a mistaken client must not fill the memory.
+const MOST_BYTES: usize = 1 << 20;
+
+/// What a watcher may want.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+enum Wish {
+    Pause,
+    Resume,
+    Restart { set: Vec<String> },
+}
+
+/// Opens the websocket.
+pub(super) async fn live(State(shown): State<Arc<Shown>>, upgrade: WebSocketUpgrade) -> Result<Response, Refusal> {
+    let Shown::Live(live) = &*shown else {
+        return Err(Refusal(StatusCode::NOT_FOUND, "this is a recording: see /api/header".to_owned()));
+    };
+    let live: Live = live.clone();
+    Ok(upgrade.max_message_size(MOST_BYTES).on_upgrade(|socket| async move {
+        // A page that goes away ends this in the middle of a message: there is nobody left to tell.
+        let _ = converse(socket, &live.watch()).await;
+    }))
+}
+
+/// Sends what is new and does what is wanted, until the page goes away.
+async fn converse(mut socket: WebSocket, shared: &Arc<Shared>) -> Result<(), axum::Error> {
+    let mut news = shared.news.subscribe();
+    let mut cursor = Cursor::default();
+    loop {
+        let messages = shared.store().take(&mut cursor);
+        let idle = messages.is_empty();
+        for message in messages {
+            socket.send(message.into()).await?;
+        }
+        let pause = async {
+            if idle {
+                // The sender lives as long as `shared`: this cannot fail.
+                let _ = news.changed().await;
+            }
+            tokio::time::sleep(PACE).await;
+        };
+        tokio::select! {
+            wish = socket.recv() => match wish {
+                Some(Ok(ws::Message::Text(text))) => grant(shared, &text, &mut socket).await?,
+                Some(Ok(ws::Message::Close(_))) | None => return Ok(()),
+                Some(Ok(_)) => {}
+                Some(Err(error)) => return Err(error),
+            },
+            () = pause => {}
+        }
+    }
+}
+
+async fn grant(shared: &Shared, text: &str, socket: &mut WebSocket) -> Result<(), axum::Error> {
+    match serde_json::from_str(text) {
+        Ok(Wish::Pause) => shared.pause(true),
+        Ok(Wish::Resume) => shared.pause(false),
+        Ok(Wish::Restart { set }) => shared.restart(set),
+        Err(error) => {
+            let words = serde_json::json!({ "type": "error", "message": format!("not understood: {error}") });
+            socket.send(ws::Message::Text(words.to_string().into())).await?;
+        }
+    }
+    Ok(())
+}
+
+impl From<Message> for ws::Message {
+    fn from(message: Message) -> Self {
+        match message {
+            Message::Text(text) => Self::Text(text.into()),
+            Message::Binary(bytes) => Self::Binary(bytes.into()),
+        }
+    }
+}

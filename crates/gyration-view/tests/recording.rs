@@ -1,0 +1,98 @@
+//! A recording on disk is served as it stands, and only to its own page.
+
+mod common;
+
+use common::{FALL, Served, doubles, record, singles};
+use gyration_record::Recording;
+use gyration_view::{Source, Stored};
+
+fn served(folder: &tempfile::TempDir) -> (Recording, Served) {
+    let path = record(folder.path(), "fall", FALL);
+    let stored = Stored::open(&path).unwrap();
+    (Recording::open(&path).unwrap(), Served::new(Source::Recording(Box::new(stored))))
+}
+
+#[test]
+fn the_header_says_what_the_recording_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let (recording, served) = served(&folder);
+    let header = served.json("/api/header");
+    assert_eq!(header["mode"], "recording");
+    assert_eq!(header["rows"], recording.rows());
+    assert_eq!((&header["complete"], &header["outcome"]), (&true.into(), &"completed".into()));
+    assert_eq!(header["scene"].as_str(), Some(FALL));
+    assert_eq!(header["bodies"][0]["name"], "ball");
+    assert_eq!(header["summary"]["statistics"], recording.attributes()["statistics"]);
+    let columns: Vec<&str> = header["columns"].as_array().unwrap().iter().map(|c| c[0].as_str().unwrap()).collect();
+    assert_eq!(columns, recording.columns().collect::<Vec<_>>());
+    for array in header["arrays"].as_array().unwrap() {
+        let name = array["name"].as_str().unwrap();
+        assert_eq!(array["stride"], recording.array(name).unwrap().row_len(), "{name}");
+    }
+}
+
+#[test]
+fn blobs_hold_the_numbers_of_the_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let (recording, served) = served(&folder);
+    let blob = |name: &str| served.get(&format!("/api/blob/{name}"));
+    assert_eq!(doubles(&blob("time").1), recording.times().unwrap());
+    let all = recording.read("position").unwrap().data;
+    assert_eq!(singles(&blob("position").1), all.iter().map(|x| *x as f32).collect::<Vec<_>>());
+    let some = singles(&blob("position?from=3&to=5").1);
+    assert_eq!(some, all[3 * 6..5 * 6].iter().map(|x| *x as f32).collect::<Vec<_>>());
+    assert!(doubles(&blob("events").1).len() >= 3, "the ball has touched");
+    assert_eq!(blob("no_such_thing").0, 404);
+    assert_eq!(blob("position?from=3&to=500").0, 416);
+    assert_eq!(blob("../../etc/passwd").0, 404);
+    assert_eq!(blob("position?from=x").0, 400);
+}
+
+#[test]
+fn requests_from_elsewhere_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, served) = served(&folder);
+    let port = served.port;
+    let ask = |headers: &str| served.ask("/api/header", headers).0;
+    assert_eq!(ask(&format!("Host: localhost:{port}\r\n")), 200);
+    assert_eq!(ask(&format!("Host: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:{port}\r\n")), 200);
+    assert_eq!(ask(&format!("Host: rebound.example:{port}\r\n")), 403);
+    assert_eq!(ask(&format!("Host: 127.0.0.1:{port}\r\nOrigin: http://elsewhere.example\r\n")), 403);
+}
+
+#[test]
+fn a_recording_that_grows_is_read_as_far_as_it_has_got() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = record(folder.path(), "long", FALL);
+    let short = record(folder.path(), "short", &FALL.replace("end = 0.3", "end = 0.1"));
+    let shown = folder.path().join("shown.gyr");
+    std::fs::rename(&short, &shown).unwrap();
+    let served = Served::new(Source::Recording(Box::new(Stored::open(&shown).unwrap())));
+    let before = served.json("/api/header")["rows"].as_u64().unwrap();
+    std::fs::rename(&shown, &short).unwrap();
+    std::fs::rename(&long, &shown).unwrap();
+    let after = served.json("/api/header")["rows"].as_u64().unwrap();
+    assert_eq!((before, after), (11, 31));
+    assert_eq!(doubles(&served.get(&format!("/api/blob/time?from={before}")).1).len(), 20);
+}
+
+#[test]
+fn what_is_no_recording_or_was_torn_is_an_error_in_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = |path: &std::path::Path| Stored::open(path).unwrap_err().to_string();
+    assert!(problem(folder.path()).contains("is not a recording"), "{}", problem(folder.path()));
+    assert!(problem(&folder.path().join("none")).contains("there is no recording at"));
+    let (recording, served) = served(&folder);
+    std::fs::write(recording.path().join("position/c.0.0.0"), b"torn").unwrap();
+    let (status, body) = served.get("/api/blob/position");
+    assert_eq!(status, 500);
+    assert!(String::from_utf8_lossy(&body).contains("is damaged: 4 bytes where"), "{}", String::from_utf8_lossy(&body));
+    let group = recording.path().join("zarr.json");
+    let text = std::fs::read_to_string(&group).unwrap();
+    std::fs::write(&group, text.replacen("\"record_format\": 1", "\"record_format\": 99", 1)).unwrap();
+    assert!(
+        problem(recording.path()).contains("has format 99, this program reads format 1"),
+        "{}",
+        problem(recording.path())
+    );
+}
