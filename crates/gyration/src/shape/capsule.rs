@@ -5,11 +5,13 @@
 //!   V = πr²h + 4πr³/3,   J_xx = J_yy = m_c r²/4 + m_s r²/5,
 //!   J_zz = m_c h²/12 + m_s (r²/5 + 3hr/8 + h²/4)
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{CIRCLE_POINTS, Outline, SILHOUETTE_POINTS, circle, directions};
+use super::triangulation::Triangulation;
+use super::turned::{Stretch, turned};
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -80,6 +82,14 @@ impl Capsule {
             outline.add_line(around);
         }
         outline
+    }
+
+    /// The wall and the half spheres, in about `count` triangles.
+    pub fn triangulation(&self, count: usize) -> Triangulation {
+        let (radius, top) = (self.radius, 0.5 * self.height);
+        let half = |z: f64, angles| Stretch::Arc { center: [0.0, z], radius, angles };
+        let wall = Stretch::Line { from: [radius, -top], to: [radius, top] };
+        turned(&[half(-top, [-FRAC_PI_2, 0.0]), wall, half(top, [0.0, FRAC_PI_2])], count)
     }
 
     /// Points of the half balls.

@@ -5,6 +5,7 @@
 use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::Outline;
+use super::triangulation::Triangulation;
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -56,6 +57,14 @@ impl Cuboid {
             polylines.extend(upper_ends.map(|axis| vec![corner, corner | axis]));
         }
         Outline { points: self.silhouette_points(), polylines }
+    }
+
+    /// The six faces, two triangles each, on the eight corners.
+    pub fn triangulation(&self, _count: usize) -> Triangulation {
+        // Corners by their bits, counter-clockwise seen from outside.
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Triangulation { points: self.silhouette_points(), triangles }
     }
 
     /// The eight corners; bit k of the index says whether axis k is on its positive side.

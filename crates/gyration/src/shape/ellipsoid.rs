@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 
 use super::error::{ShapeError, positive};
 use super::feature::Feature;
+use super::geodesic::unit_sphere;
 use super::outline::{Outline, SILHOUETTE_POINTS, directions};
+use super::triangulation::Triangulation;
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -58,6 +60,11 @@ impl Ellipsoid {
             outline.add_ellipse(Vec3::zeros(), axis(k), axis((k + 1) % 3));
         }
         outline
+    }
+
+    /// The image of a geodesic polyhedron of about `count` triangles.
+    pub fn triangulation(&self, count: usize) -> Triangulation {
+        unit_sphere(count).mapped(|point| point.component_mul(&self.semi_axes))
     }
 
     /// The image of evenly spread points of a sphere.

@@ -14,11 +14,14 @@ mod edges;
 mod ellipsoid;
 mod error;
 mod feature;
+mod geodesic;
 mod outline;
 mod points;
 mod polyhedron;
 mod sphere;
 mod torus;
+mod triangulation;
+mod turned;
 mod union;
 mod wireframe;
 
@@ -35,6 +38,7 @@ pub use points::{MassPoint, Points};
 pub use polyhedron::{Polyhedron, PolyhedronError};
 pub use sphere::Sphere;
 pub use torus::Torus;
+pub use triangulation::Triangulation;
 pub use union::{Part, Union};
 
 use crate::mass::MassProperties;
@@ -148,6 +152,14 @@ impl Shape {
     /// A wireframe to draw, in the shape's frame.
     pub fn outline(&self) -> Outline {
         each!(self, shape => shape.outline())
+    }
+
+    /// The surface as about `count` triangles of like size, in the shape's frame: a thousand or two make a good picture.
+    ///
+    /// A box and a polyhedron are shown by their own triangles, however many, a union by those of its parts, `count` of
+    /// each; points have none. A surface that would be coarse to the eye has a few more than asked for.
+    pub fn triangulation(&self, count: usize) -> Triangulation {
+        each!(self, shape => shape.triangulation(count))
     }
 
     /// At most [`SILHOUETTE_POINTS`] points whose projected convex hull is the outline of the projected shape.

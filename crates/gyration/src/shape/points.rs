@@ -5,6 +5,7 @@
 use super::error::{ShapeError, finite, positive};
 use super::feature::Feature;
 use super::outline::{Outline, extreme_points};
+use super::triangulation::Triangulation;
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -74,6 +75,11 @@ impl Points {
     /// The points, without lines.
     pub fn outline(&self) -> Outline {
         Outline { points: self.points.iter().map(|point| point.at).collect(), polylines: Vec::new() }
+    }
+
+    /// None: points have no surface.
+    pub fn triangulation(&self, _count: usize) -> Triangulation {
+        Triangulation::default()
     }
 
     /// The points, thinned to the outermost if there are many.

@@ -10,6 +10,7 @@
 use super::edges::{Edge, EdgeFaults};
 use super::feature::Feature;
 use super::outline::{Outline, extreme_points};
+use super::triangulation::Triangulation;
 use super::wireframe;
 use crate::mass::MassProperties;
 use crate::surface::Surface;
@@ -230,6 +231,11 @@ impl Polyhedron {
     /// The sharp edges, on at most 2000 points.
     pub fn outline(&self) -> Outline {
         wireframe::sharp_edges(self)
+    }
+
+    /// The triangles, however many.
+    pub fn triangulation(&self, _count: usize) -> Triangulation {
+        Triangulation { points: self.vertices.clone(), triangles: self.triangles.clone() }
     }
 
     /// The vertices, thinned to those that are extreme in some direction if there are many.

@@ -6,6 +6,7 @@ use super::ellipsoid::Ellipsoid;
 use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::Outline;
+use super::triangulation::Triangulation;
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::Vec3;
@@ -49,6 +50,11 @@ impl Sphere {
     /// Three great circles.
     pub fn outline(&self) -> Outline {
         self.as_ellipsoid().outline()
+    }
+
+    /// A geodesic polyhedron of about `count` triangles.
+    pub fn triangulation(&self, count: usize) -> Triangulation {
+        self.as_ellipsoid().triangulation(count)
     }
 
     /// Points spread evenly over the sphere.

@@ -7,6 +7,8 @@ use std::f64::consts::{PI, TAU};
 use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, circle};
+use super::triangulation::Triangulation;
+use super::turned::{Stretch, turned};
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -70,6 +72,12 @@ impl Torus {
             outline.add_ellipse(outward * major, outward * minor, Vec3::z() * minor);
         }
         outline
+    }
+
+    /// The tube, in about `count` triangles.
+    pub fn triangulation(&self, count: usize) -> Triangulation {
+        let tube = Stretch::Arc { center: [self.major_radius, 0.0], radius: self.minor_radius, angles: [0.0, TAU] };
+        turned(&[tube], count)
     }
 
     /// Points of the outer half of the tube: the inner half lies within their hull.

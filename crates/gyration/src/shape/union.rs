@@ -7,6 +7,7 @@ use super::Shape;
 use super::error::{ShapeError, finite, positive};
 use super::feature::Feature;
 use super::outline::{Outline, extreme_points};
+use super::triangulation::Triangulation;
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -90,6 +91,15 @@ impl Union {
             outline.add_transformed(&part.shape.outline(), &part.rotation, &part.offset);
         }
         outline
+    }
+
+    /// The surfaces of all parts, also where one covers another, in about `count` triangles each.
+    pub fn triangulation(&self, count: usize) -> Triangulation {
+        let mut all = Triangulation::default();
+        for part in &self.parts {
+            all.add_transformed(&part.shape.triangulation(count), &part.rotation, &part.offset);
+        }
+        all
     }
 
     /// Points of all parts; their hull is that of the whole, so draw the parts one by one where gaps between them matter.
