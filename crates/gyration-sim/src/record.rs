@@ -5,6 +5,9 @@
 //! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an
 //! uninterrupted one.
 
+mod surfaces;
+
+use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
 use crate::period::period;
@@ -143,18 +146,20 @@ impl<'a> Job<'a> {
         let expected = (self.plan.end / self.plan.sample).ceil() as usize + 1;
         Layout {
             arrays,
+            fixed: Surfaces::of(&self.model.bodies).arrays(),
             csv_order,
             labels: vec![("body".into(), self.model.bodies.iter().map(|body| body.name.clone()).collect())],
             event_kinds: EVENT_KINDS.map(String::from).into(),
             chunk_rows: chunk_rows_for(row_len, expected),
-            ..Layout::default()
         }
     }
 
     /// The attributes of the recording before the run has ended: those given, bodies, supports, gravity.
     pub fn all_attributes(&self) -> Attributes {
         let mut attributes = self.attributes.clone();
-        attributes.insert("bodies".into(), self.model.bodies.iter().map(describe_body).collect());
+        let surfaces = Surfaces::of(&self.model.bodies);
+        let bodies = self.model.bodies.iter().zip(surfaces.of_bodies());
+        attributes.insert("bodies".into(), bodies.map(|(body, surface)| describe_body(body, *surface)).collect());
         attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
         attributes
@@ -171,9 +176,9 @@ fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     Some((resolved, attributes.get("bodies")?.clone()))
 }
 
-/// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass; of one that contracts also
-/// volume [m³] and period of what drives it [s].
-fn describe_body(body: &gyration::body::Body) -> Value {
+/// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass, and which of the surfaces
+/// is its own; of one that contracts also volume [m³] and period of what drives it [s].
+fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
     let center = body.mass.center;
     let outline = body.shape.outline();
     let relative =
@@ -191,6 +196,7 @@ fn describe_body(body: &gyration::body::Body) -> Value {
         "size": body.size,
         "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
         "silhouette": relative(&body.shape.silhouette_points()),
+        "surface": surface,
     });
     if let BodyKind::Contractile(contractile) = &body.kind {
         described["volume"] = json!(contractile.affine.interior.volume);
