@@ -17,6 +17,7 @@ mod period;
 mod plan;
 mod ports;
 mod record;
+pub mod replay;
 pub mod rows;
 mod run;
 mod summary;

@@ -1,0 +1,113 @@
+//! A recording brought back to life: the model that was run, and its state at any sample.
+//!
+//! A recording holds (p₀, P, ṗ₀, Ṗ, G) of every body and the scene that says all the rest, so that whatever depends on
+//! (Model, State) can be had again without a step: mean stress, tractions, gaps. Nothing is written, and nothing is taken
+//! from the arrays of derived quantities, whether or not the run recorded them.
+
+mod cells;
+mod error;
+mod rebuild;
+mod snapshot;
+mod window;
+
+pub use cells::SurfaceCells;
+pub use error::ReplayError;
+pub use snapshot::{BodySnapshot, Snapshot};
+
+use gyration::body::{Body, BodyKind};
+use gyration::homogeneous::observe_homogeneous;
+use gyration::kinematics::{Placement, Quaternion, Velocity};
+use gyration::model::Model;
+use gyration::rates::Workspace;
+use gyration::state::{RigidStart, Start, State};
+use gyration::tensor::{Mat3, Vec3, axial};
+use gyration_record::Recording;
+use nalgebra::{Rotation3, UnitQuaternion};
+use window::{Row, Window};
+
+/// The model of a recording, and its states by their row.
+#[derive(Debug, Clone)]
+pub struct Replay {
+    model: Model,
+    window: Window,
+    workspace: Workspace,
+}
+
+impl Replay {
+    /// Builds the model of a recording again; the rows are those that it has now.
+    ///
+    /// Files that the scene refers to are looked for in the folder of the recording, then in the current one.
+    ///
+    /// # Errors
+    /// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed), `Record`.
+    pub fn open(recording: &Recording) -> Result<Self, ReplayError> {
+        let model = rebuild::model(recording)?;
+        Ok(Self { model, window: Window::new(recording), workspace: Workspace::default() })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The state at a sample.
+    ///
+    /// # Errors
+    /// `Record` if there is no such row, or it cannot be read.
+    pub fn state(&mut self, row: usize) -> Result<State, ReplayError> {
+        let row = self.window.row(&self.model, row)?;
+        let starts = self.model.bodies.iter().enumerate().map(|(index, body)| start(body, &row, index));
+        let mut state = State::start(&self.model, &starts.collect::<Vec<_>>());
+        state.time = row.time();
+        state.works.copy_from_slice(row.works());
+        Ok(state)
+    }
+
+    /// The bodies at a sample.
+    ///
+    /// # Errors
+    /// Those of [`state`](Replay::state).
+    pub fn snapshot(&mut self, row: usize) -> Result<Snapshot<'_>, ReplayError> {
+        let state = self.state(row)?;
+        Ok(Snapshot { model: &self.model, row, state })
+    }
+
+    /// The mean Cauchy stress σ = S Pᵀ/det P of each body at a sample \[Pa\]; none of a rigid body.
+    ///
+    /// # Errors
+    /// Those of [`state`](Replay::state); `Inadmissible` where the row is outside the model, which no run records.
+    pub fn cauchy_stress(&mut self, row: usize) -> Result<Vec<Option<Mat3>>, ReplayError> {
+        let state = self.state(row)?;
+        let Self { model, workspace, .. } = self;
+        let mut stress = |(index, body): (usize, &Body)| {
+            if body.affine().is_none() {
+                return Ok(None);
+            }
+            let seen = observe_homogeneous(model, workspace, &state, index, &Vec3::zeros());
+            Ok(Some(seen.map_err(|source| ReplayError::Inadmissible { row, source })?.cauchy_stress))
+        };
+        model.bodies.iter().enumerate().map(&mut stress).collect()
+    }
+}
+
+/// A body's part of the state from its row: the inverse of `State::motion`.
+fn start(body: &Body, row: &Row, index: usize) -> Start {
+    let placement = Placement { position: row.position(index), gradient: row.gradient(index) };
+    let velocity = Velocity { velocity: row.velocity(index), gradient_rate: row.gradient_rate(index) };
+    match &body.kind {
+        BodyKind::Rigid(_) => {
+            let rotation = Rotation3::from_matrix_unchecked(placement.gradient);
+            let q = UnitQuaternion::from_rotation_matrix(&rotation);
+            // Ṗ Rᵀ = [ω]×, whose axial vector is 2ω.
+            let spin = velocity.gradient_rate * placement.gradient.transpose();
+            Start::Rigid(RigidStart {
+                position: placement.position,
+                orientation: Quaternion([q.w, q.i, q.j, q.k]),
+                velocity: velocity.velocity,
+                angular_velocity: 0.5 * axial(&spin),
+            })
+        }
+        BodyKind::Affine(_) => Start::Affine(placement, velocity),
+        BodyKind::Contractile(_) => Start::Contractile(placement, velocity, row.contraction(index)),
+    }
+}

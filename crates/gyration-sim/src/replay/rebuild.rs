@@ -1,0 +1,95 @@
+//! The model of a recording from its attributes.
+//!
+//! `resolved` is a scene in JSON with every default in its place, so that later defaults do not matter; `scene`, with
+//! `overrides`, serves where it is missing or not understood. What was built must have the bodies that were recorded:
+//! a mesh may have changed behind its name.
+
+use super::error::ReplayError;
+use gyration::body::Body;
+use gyration::model::Model;
+use gyration_record::{Attributes, Recording};
+use gyration_scene::Scene;
+use serde_json::Value;
+use std::path::Path;
+
+/// Relative difference of masses, centres and Euler tensors that rounding explains: sums over the triangles of a mesh.
+const ROUNDING: f64 = 1e-9;
+
+/// The model of a recording.
+pub(super) fn model(recording: &Recording) -> Result<Model, ReplayError> {
+    let path = || recording.path().to_path_buf();
+    let beside = recording.path().parent().unwrap_or(Path::new(""));
+    let mut first_failure = None;
+    for (name, text, overrides) in texts(recording.attributes()) {
+        for base in [beside, Path::new("")] {
+            match Scene::parse(&name, &text, base, &overrides) {
+                Ok(scene) => {
+                    let model = scene.built().model.clone();
+                    check(recording, &model)?;
+                    return Ok(model);
+                }
+                Err(errors) => {
+                    first_failure.get_or_insert(errors);
+                }
+            }
+        }
+    }
+    Err(match first_failure {
+        Some(errors) => ReplayError::Scene { path: path(), errors: Box::new(errors) },
+        None => ReplayError::NoScene { path: path() },
+    })
+}
+
+/// The texts that may be the scene, with their names and overrides, the best first.
+fn texts(attributes: &Attributes) -> Vec<(String, String, Vec<String>)> {
+    let name = attributes.get("scene_name").and_then(Value::as_str).unwrap_or("scene");
+    let overrides = attributes.get("overrides").and_then(Value::as_array).into_iter().flatten();
+    let overrides = overrides.filter_map(Value::as_str).map(String::from).collect();
+    let resolved = attributes.get("resolved").filter(|resolved| resolved.is_object());
+    let resolved = resolved.map(|it| (format!("{name}.json"), it.to_string(), Vec::new()));
+    let written = attributes.get("scene").and_then(Value::as_str);
+    let written = written.map(|it| (format!("{name}.toml"), it.to_owned(), overrides));
+    resolved.into_iter().chain(written).collect()
+}
+
+/// Whether the bodies are those that were recorded.
+fn check(recording: &Recording, model: &Model) -> Result<(), ReplayError> {
+    let recorded = recording.attributes().get("bodies").and_then(Value::as_array).cloned().unwrap_or_default();
+    for (k, recorded) in recorded.iter().enumerate() {
+        let difference = match model.bodies.get(k) {
+            None => Some("it is not there"),
+            Some(body) => difference(body, recorded),
+        };
+        if let Some(quantity) = difference {
+            let body = recorded.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
+            return Err(ReplayError::OtherBody { path: recording.path().to_path_buf(), body, quantity });
+        }
+    }
+    Ok(())
+}
+
+/// What differs between a body and its description.
+fn difference(body: &Body, recorded: &Value) -> Option<&'static str> {
+    let numbers = |key: &str| -> Vec<f64> {
+        let value = recorded.get(key);
+        let list = value.and_then(Value::as_array).cloned().unwrap_or_else(|| value.cloned().into_iter().collect());
+        list.iter().filter_map(Value::as_f64).collect()
+    };
+    let differ = |key: &str, values: &[f64], scale: f64| {
+        let recorded = numbers(key);
+        let far = |(a, b): (&f64, &f64)| (a - b).abs() > ROUNDING * scale;
+        !recorded.is_empty() && (recorded.len() != values.len() || recorded.iter().zip(values).any(far))
+    };
+    let mass = &body.mass;
+    if recorded.get("name").and_then(Value::as_str).is_some_and(|name| name != body.name) {
+        Some("the name")
+    } else if differ("mass", &[mass.mass], mass.mass) {
+        Some("the mass")
+    } else if differ("center", mass.center.as_slice(), body.size + mass.center.norm()) {
+        Some("the centre of mass")
+    } else if differ("euler_tensor", mass.euler_tensor.as_slice(), mass.euler_tensor.norm()) {
+        Some("the Euler tensor")
+    } else {
+        None
+    }
+}

@@ -1,0 +1,139 @@
+//! A body of a replay at one sample: velocity, gap and traction at points of its surface.
+//!
+//!   p = p₀ + P X,   ṗ = ṗ₀ + Ṗ X,   d = (p − o)·n,   t = Σ c d^−ν × (n, −(n·w) n or −(I − n⊗n) w)
+//!
+//! over the terms of all laws with all supports. t is force per current area, whatever measure a contact has: a law per
+//! reference area is divided by the area factor k = |cof(P) N|. The surface tension of a potential per deformed area is
+//! no traction and has no resultant force; it is left aside.
+
+use super::cells::SurfaceCells;
+use super::error::ReplayError;
+use gyration::contact::{
+    Action, AreaMeasure, Contact, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Term,
+};
+use gyration::model::Model;
+use gyration::rates::meet;
+use gyration::state::{BodyMotion, State};
+use gyration::tensor::{Vec3, cofactor};
+use gyration::{Inadmissible, Quantity};
+
+/// The bodies of a recording at one of its samples.
+#[derive(Debug, Clone)]
+pub struct Snapshot<'a> {
+    pub(super) model: &'a Model,
+    pub(super) row: usize,
+    pub(super) state: State,
+}
+
+/// One of them.
+#[derive(Debug, Clone)]
+pub struct BodySnapshot<'a> {
+    model: &'a Model,
+    row: usize,
+    time: f64,
+    body: usize,
+    motion: BodyMotion,
+}
+
+impl<'a> Snapshot<'a> {
+    /// The state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// A body, by its index.
+    pub fn body(&self, body: usize) -> BodySnapshot<'a> {
+        let motion = self.state.motion(self.model, body);
+        BodySnapshot { model: self.model, row: self.row, time: self.state.time, body, motion }
+    }
+}
+
+impl BodySnapshot<'_> {
+    /// How it moves.
+    pub fn motion(&self) -> &BodyMotion {
+        &self.motion
+    }
+
+    /// The distance of a material point X (from the centre of mass) to the nearest support \[m\]; infinite without any.
+    pub fn gap(&self, point: &Vec3) -> f64 {
+        let place = self.motion.placement.place(point);
+        let gaps = self.model.supports.iter().map(|support| support.gap(&place, self.time));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The traction of all contact laws at a point of the surface, per current area \[Pa\].
+    ///
+    /// X from the centre of mass \[m\], N the outward unit normal there, both in the reference placement.
+    ///
+    /// # Errors
+    /// `Inadmissible` if the point is on or behind a support.
+    pub fn traction(&self, point: &Vec3, normal: &Vec3) -> Result<Vec3, ReplayError> {
+        let mut traction = Vec3::zeros();
+        for contact in self.contacts() {
+            let (field, relative) = meet(self.model, contact.support, self.time, &self.motion);
+            let gap = field.gap(point);
+            if gap.is_nan() || gap <= 0.0 {
+                return Err(self.outside(contact, gap));
+            }
+            let area_factor = match contact.measure {
+                AreaMeasure::ReferenceArea => (cofactor(&self.motion.placement.gradient) * normal).norm(),
+                AreaMeasure::DeformedArea | AreaMeasure::DeformedAreaPotential => 1.0,
+            };
+            traction += law_traction(contact, gap, &relative, point) / area_factor;
+        }
+        Ok(traction)
+    }
+
+    /// The mean traction over each triangle of a surface, per current area \[Pa\], from its exact integral.
+    ///
+    /// Times the current area it is the contact force on the triangle: over a body of flat faces they add up to the
+    /// recorded force to rounding, over a curved one to the error of its triangles.
+    ///
+    /// # Errors
+    /// `Inadmissible` if a triangle reaches a support.
+    pub fn mean_tractions(&self, cells: &SurfaceCells) -> Result<Vec<Vec3>, ReplayError> {
+        let gradient = &self.motion.placement.gradient;
+        let deformation = self.model.bodies[self.body].affine().and_then(|_| Deformation::of(gradient));
+        let mut scratch = ContactScratch::default();
+        let mut tractions = vec![Vec3::zeros(); cells.len()];
+        for contact in self.contacts() {
+            let (field, motion) = meet(self.model, contact.support, self.time, &self.motion);
+            for (cell, traction) in cells.iter().zip(&mut tractions) {
+                let meeting = Meeting { surface: &cell.surface, field, motion, deformation };
+                let loads = ContactLoads::integrate(contact, &meeting, &mut scratch);
+                let force = loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
+                let area = cell.current_area(gradient);
+                // A triangle without area bears nothing.
+                if area > 0.0 {
+                    *traction += force / area;
+                }
+            }
+        }
+        Ok(tractions)
+    }
+
+    fn contacts(&self) -> &[Contact] {
+        &self.model.bodies[self.body].contacts
+    }
+
+    fn outside(&self, contact: &Contact, gap: f64) -> ReplayError {
+        let quantity = Quantity::Gap { support: contact.support };
+        ReplayError::Inadmissible { row: self.row, source: Inadmissible { body: self.body, quantity, value: gap } }
+    }
+}
+
+/// The traction of the laws of one contact at a point, in the measure of the contact \[Pa\].
+fn law_traction(contact: &Contact, gap: f64, relative: &RelativeMotion, point: &Vec3) -> Vec3 {
+    let n = &relative.normal;
+    let w = relative.velocity + relative.gradient_rate * point;
+    let along = n * n.dot(&w);
+    let traction = |term: Term| {
+        let strength = term.coefficient * gap.powf(-term.exponent);
+        match term.action {
+            Action::Central => strength * n,
+            Action::Normal => -strength * along,
+            Action::Tangential => -strength * (w - along),
+        }
+    };
+    contact.laws().iter().flat_map(|law| law.terms()).flatten().map(traction).sum()
+}

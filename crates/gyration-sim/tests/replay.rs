@@ -1,0 +1,276 @@
+//! A recording brought back to life agrees with the run that left it.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set its scene has failed")]
+
+use gyration::balance::observe;
+use gyration::rates::Workspace;
+use gyration::shape::Triangulation;
+use gyration::tensor::{Mat3, Vec3};
+use gyration_record::Recording;
+use gyration_scene::Scene;
+use gyration_sim::replay::{Replay, ReplayError, SurfaceCells};
+use gyration_sim::{Job, Provenance, Unwatched};
+use std::path::{Path, PathBuf};
+
+fn record(scene: &Scene, folder: &Path) -> Recording {
+    let provenance = Provenance { version: "test".into(), commit: None };
+    let path = folder.join(format!("{}.gyr", scene.name()));
+    Job::of(scene, &provenance).record(&path, &mut Unwatched).unwrap();
+    Recording::open(&path).unwrap()
+}
+
+fn gallery(name: &str, overrides: &[&str], folder: &Path) -> Recording {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    record(&Scene::open(name, &overrides).unwrap(), folder)
+}
+
+/// The vector of a body in a row of an array.
+fn vector(recording: &Recording, array: &str, row: usize, body: usize) -> Vec3 {
+    let numbers = recording.read_rows(array, row..row + 1).unwrap().data;
+    Vec3::from_column_slice(&numbers[3 * body..][..3])
+}
+
+/// Bodies of all kinds, pinned ones, a support that moves; long enough to meet it.
+const SCENES: [(&str, &[&str]); 7] = [
+    ("dice", &["time.end=0.5"]),
+    ("top", &["time.end=0.2"]),
+    ("shaker", &["time.end=0.2"]),
+    ("elastic-bounce-tilted", &["time.end=0.5"]),
+    ("pinned-strain", &["time.end=0.2"]),
+    ("hop", &["time.end=0.2"]),
+    ("contract-1", &["time.end=0.2"]),
+];
+
+#[test]
+fn a_replayed_state_is_the_one_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, overrides) in SCENES {
+        let recording = gallery(name, overrides, folder.path());
+        let mut replay = Replay::open(&recording).unwrap();
+        let model = replay.model().clone();
+        let mut worst = 0.0_f64;
+        for row in (0..recording.rows()).step_by(7) {
+            let state = replay.state(row).unwrap();
+            for (body, of) in model.bodies.iter().enumerate() {
+                let seen = observe(&model, &mut Workspace::default(), &state, body).unwrap();
+                let position = vector(&recording, "position", row, body);
+                assert!(
+                    (seen.motion.placement.position - position).norm() < 1e-15 * (of.size + position.norm()),
+                    "{name}"
+                );
+                let force = vector(&recording, "contact_force", row, body);
+                let scale = force.norm().max(of.mass.mass * model.gravity.norm());
+                worst = worst.max((seen.contact_force - force).norm() / scale);
+            }
+        }
+        println!("{name}: contact force within {worst:.1e}");
+        // A rotation read from its matrix rounds to 1e-16; the lever of the size over the gap, times the exponent of the
+        // law, multiplies it by 10⁴ at most here.
+        assert!(worst < 1e-11, "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn replayed_stress_is_that_which_the_run_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, end) in
+        [("contract-1", "time.end=0.2"), ("elastic-bounce-tilted", "time.end=0.5"), ("hop", "time.end=0.2")]
+    {
+        let recording = gallery(name, &[end, "record.quantities=[\"cauchy_stress\"]"], folder.path());
+        let mut replay = Replay::open(&recording).unwrap();
+        let mut worst = 0.0_f64;
+        for row in 0..recording.rows() {
+            let stress = replay.cauchy_stress(row).unwrap();
+            let recorded = recording.read_rows("cauchy_stress", row..row + 1).unwrap().data;
+            for (body, stress) in stress.iter().enumerate() {
+                let recorded = Mat3::from_row_slice(&recorded[9 * body..][..9]);
+                // Of the largest elastic modulus in these scenes, 8 kPa: a stress of zero is a difference of such.
+                worst = worst.max((stress.unwrap() - recorded).norm() / recorded.norm().max(8e3));
+            }
+        }
+        println!("{name}: stress within {worst:.1e}");
+        assert!(worst < 1e-13, "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn a_rigid_body_has_no_stress() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = gallery("dice", &["time.end=0.02"], folder.path());
+    assert_eq!(Replay::open(&recording).unwrap().cauchy_stress(0).unwrap(), [None]);
+}
+
+/// A body hangs over a table that moves, near enough to feel all laws, and moves in every way that it can.
+fn hovering(shape: &str, kind: &str, measure: &str) -> Scene {
+    let text = format!(
+        r#"
+[time]
+end = 0.01
+sample = 0.01
+[[support]]
+name = "table"
+plane = {{ origin = [0, 0, 0], normal = [0.1, 0, 1] }}
+motion = {{ oscillate = {{ direction = [0, 0, 1], amplitude = "1 mm", frequency = "10 Hz", phase = 0.3 }} }}
+[[contact]]
+support = "table"
+measure = "{measure}"
+repulsion = {{ alpha = 200, nu = 4, d0 = "5 cm" }}
+damping = {{ beta = 30, nu = 3, d0 = "5 cm" }}
+friction = {{ beta = 50, nu = 2, d0 = "5 cm" }}
+adhesion = {{ beta = 40, nu_attractive = 2, nu_repulsive = 5, d0 = "4 cm" }}
+[[body]]
+name = "it"
+shape = {{ {shape} }}
+density = 1000
+{kind}
+position = [0, 0, 0.13]
+velocity = [0.3, 0.1, -0.2]
+"#
+    );
+    Scene::parse("hovering.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+const RIGID: &str = "angular_velocity = [3, -2, 5]\norientation = { axis_angle = { axis = [1, 2, 0], angle = 0.3 } }";
+const AFFINE: &str = "affine = { material = { neo_hookean_log = { mu = 1000, lambda = 2000 } } }\n\
+                      gradient = [[1.2, 0.3, 0], [0, 0.9, 0.1], [0.1, 0, 0.8]]\ngradient_rate = [[1, 2, 0], [0, -1, 1], [3, 0, 0.5]]";
+const MEASURES: [&str; 3] = ["deformed_area", "reference_area", "deformed_area_potential"];
+
+/// ∫ t dA over the current surface, by the midpoints of the sides of each triangle: exact for quadratic integrands.
+fn integrated(replay: &mut Replay, row: usize, surface: &Triangulation) -> Vec3 {
+    let body = replay.snapshot(row).unwrap().body(0);
+    let gradient = body.motion().placement.gradient;
+    let mut force = Vec3::zeros();
+    for triangle in &surface.triangles {
+        let [a, b, c] = surface.corners(triangle);
+        let normal = (b - a).cross(&(c - a)).normalize();
+        let area = 0.5 * (gradient * (b - a)).cross(&(gradient * (c - a))).norm();
+        for middle in [a + b, b + c, c + a] {
+            force += area / 3.0 * body.traction(&(0.5 * middle), &normal).unwrap();
+        }
+    }
+    force
+}
+
+#[test]
+fn tractions_integrate_to_the_contact_force_whatever_the_measure_of_area() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [("box = { size = [0.1, 0.12, 0.08] }", RIGID), ("box = { size = [0.1, 0.12, 0.08] }", AFFINE)];
+    for (k, ((shape, kind), measure)) in cases.iter().flat_map(|case| MEASURES.map(|m| (*case, m))).enumerate() {
+        let at = folder.path().join(k.to_string());
+        std::fs::create_dir(&at).unwrap();
+        let recording = record(&hovering(shape, kind, measure), &at);
+        let mut replay = Replay::open(&recording).unwrap();
+        let surface = centered(&replay);
+        for row in 0..recording.rows() {
+            let force = vector(&recording, "contact_force", row, 0);
+            let mut error = |n: usize| {
+                let difference = integrated(&mut replay, row, &surface.subdivided(n)) - force;
+                difference.norm() / force.norm()
+            };
+            let (coarse, fine) = (error(8), error(32));
+            println!("{measure}, row {row}, {kind:.6}: {coarse:.1e}, {fine:.1e}");
+            // Sides of 0.1 m/32 against gaps of 0.05 m; the rule is of order four: a quarter of the step, a 256th of the error.
+            assert!(fine < 1e-6 && fine < coarse / 150.0, "{measure}: {coarse:e} {fine:e}");
+        }
+    }
+}
+
+#[test]
+fn tractions_of_a_curved_body_integrate_to_the_contact_force_as_its_triangles_grow_finer() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording =
+        record(&hovering("ellipsoid = { semi_axes = [0.06, 0.05, 0.04] }", AFFINE, "reference_area"), folder.path());
+    let mut replay = Replay::open(&recording).unwrap();
+    let force = vector(&recording, "contact_force", 1, 0);
+    let shape = replay.model().bodies[0].shape.clone();
+    let mut error = |count: usize| {
+        let difference = integrated(&mut replay, 1, &shape.triangulation(count)) - force;
+        difference.norm() / force.norm()
+    };
+    let (coarse, fine) = (error(2000), error(32000));
+    println!("{coarse:.1e}, {fine:.1e}");
+    // Chords cut 1/8 of the square of the step off: 16 times the triangles, a 16th of the error.
+    assert!(fine < 2e-3 && (fine * 16.0 / coarse - 1.0).abs() < 0.1, "{coarse:e} {fine:e}");
+}
+
+/// The surface of the first body relative to its centre of mass.
+fn centered(replay: &Replay) -> Triangulation {
+    let body = &replay.model().bodies[0];
+    let center = body.mass.center;
+    body.shape.triangulation(1600).mapped(|point| point - center)
+}
+
+#[test]
+fn mean_tractions_of_flat_faces_add_up_to_the_contact_force_exactly() {
+    let folder = tempfile::tempdir().unwrap();
+    for (k, (kind, measure)) in [RIGID, AFFINE].iter().flat_map(|kind| MEASURES.map(|m| (*kind, m))).enumerate() {
+        let at = folder.path().join(k.to_string());
+        std::fs::create_dir(&at).unwrap();
+        let recording = record(&hovering("box = { size = [0.1, 0.12, 0.08] }", kind, measure), &at);
+        let mut replay = Replay::open(&recording).unwrap();
+        let surface = centered(&replay).subdivided(4);
+        let cells = SurfaceCells::new(&surface);
+        for row in 0..recording.rows() {
+            let body = replay.snapshot(row).unwrap().body(0);
+            let tractions = body.mean_tractions(&cells).unwrap();
+            let gradient = body.motion().placement.gradient;
+            let force: Vec3 = surface
+                .triangles
+                .iter()
+                .zip(&tractions)
+                .map(|(triangle, traction)| {
+                    let [a, b, c] = surface.corners(triangle);
+                    0.5 * (gradient * (b - a)).cross(&(gradient * (c - a))).norm() * traction
+                })
+                .sum();
+            let recorded = vector(&recording, "contact_force", row, 0);
+            // 192 terms.
+            assert!((force - recorded).norm() < 1e-13 * recorded.norm(), "{measure}: {force} {recorded}");
+        }
+    }
+}
+
+#[test]
+fn the_smallest_gap_of_the_corners_is_the_recorded_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = record(&hovering("box = { size = [0.1, 0.12, 0.08] }", AFFINE, "reference_area"), folder.path());
+    let mut replay = Replay::open(&recording).unwrap();
+    let surface = centered(&replay);
+    let body = replay.snapshot(1).unwrap().body(0);
+    let smallest = surface.points.iter().map(|point| body.gap(point)).fold(f64::INFINITY, f64::min);
+    let recorded = recording.read_rows("gap", 1..2).unwrap().data[0];
+    assert!((smallest - recorded).abs() < 1e-16, "{smallest} {recorded}");
+}
+
+/// A tetrahedron as an OBJ file, with a leg of this length along z.
+fn tetrahedron(folder: &Path, leg: f64) -> PathBuf {
+    let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {leg}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    let path = folder.join("body.obj");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn a_mesh_that_moved_or_changed_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = tetrahedron(folder.path(), 1.0);
+    let text = "[time]\nend = 0.01\nsample = 0.01\n[[body]]\nname = \"rock\"\nshape = { mesh = { file = \"body.obj\" } }\ndensity = 1.0\n";
+    let scene = Scene::parse("rock.toml", text, folder.path(), &[]).unwrap();
+    let recording = record(&scene, folder.path());
+    // Beside the recording.
+    assert!(Replay::open(&recording).is_ok());
+    tetrahedron(folder.path(), 1.1);
+    let changed = Replay::open(&recording).unwrap_err();
+    assert!(matches!(changed, ReplayError::OtherBody { quantity: "the mass", .. }), "{changed}");
+    std::fs::remove_file(mesh).unwrap();
+    let moved = Replay::open(&recording).unwrap_err();
+    assert!(matches!(moved, ReplayError::Scene { .. }) && moved.to_string().contains("body.obj"), "{moved}");
+}
+
+#[test]
+fn rows_that_are_not_there_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = gallery("dice", &["time.end=0.02"], folder.path());
+    let mut replay = Replay::open(&recording).unwrap();
+    assert!(matches!(replay.state(recording.rows()), Err(ReplayError::Record(_))));
+}
