@@ -1,0 +1,205 @@
+// The whole page: puts source, clock, picture, plots and panels together.
+//
+// Data flows one way: the source fills the recording, the clock says which instant, picture and panels show it. Nothing
+// is drawn unless one of them has changed.
+
+import type { Outcome, Summary } from "./data/header";
+import type { Recording } from "./data/recording";
+import type { Listener, Progress, Source } from "./data/source";
+import type { Handle } from "./handle";
+import { keysOf } from "./keys";
+import { Sliders } from "./live/sliders";
+import { RunStatus } from "./live/status";
+import { Picture } from "./picture";
+import { Player } from "./player";
+import { Banner } from "./ui/banner";
+import { h, iconButton } from "./ui/dom";
+import { helpDialog, listen } from "./ui/help";
+import { Plots } from "./ui/plots";
+import { scenePanel } from "./ui/scenetext";
+import { outcomeInWords, summaryPanel } from "./ui/summary";
+import { Tabs } from "./ui/tabs";
+import { switchTheme, watchTheme } from "./ui/theme";
+import { Transport } from "./ui/transport";
+
+export class App implements Listener {
+  readonly handle: Handle;
+  private readonly player = new Player();
+  private readonly transport = new Transport(this.player);
+  private readonly plots = new Plots((time) => this.player.seek(time));
+  private readonly banner = new Banner();
+  private readonly picture: Picture;
+  private readonly tabs: Tabs;
+  private readonly title = h("h1", {}, "Gyration");
+  private readonly mode = h("span", { class: "mode" });
+  private readonly chip = h("span", { class: "chip", role: "status" });
+  private sliders: Sliders | null = null;
+  private status: RunStatus | null = null;
+  private source: Source | null = null;
+  private recording: Recording | null = null;
+  private becameReady: () => void = () => {};
+
+  constructor(page: HTMLElement) {
+    const ready = new Promise<void>((resolve) => {
+      this.becameReady = resolve;
+    });
+    this.picture = new Picture(this.player, (body) => this.plots.choose(body));
+    this.tabs = new Tabs((name) => name === "Plots" && this.plots.draw());
+    this.tabs.set("Plots", this.plots.element);
+    const keys = keysOf(this.player, this.transport, this.picture, {
+      help: () => help.showModal(),
+      theme: () => this.switchTheme(),
+      tab: () => this.tabs.next(),
+    });
+    const help = helpDialog(keys);
+    listen(keys);
+    page.append(
+      h(
+        "header",
+        { class: "top" },
+        this.title,
+        this.mode,
+        this.chip,
+        h("span", { class: "gap" }),
+        iconButton("theme", "Dark or light (D)", () => this.switchTheme()),
+        iconButton("help", "Keys (?)", () => help.showModal()),
+      ),
+      this.banner.element,
+      h(
+        "main",
+        {},
+        h("div", { class: "left" }, this.picture.element, this.transport.element),
+        this.tabs.element,
+      ),
+      help,
+    );
+    watchTheme(() => this.restyle());
+    this.player.changed = (took) => this.moved(took);
+    this.handle = this.handleWith(ready);
+  }
+
+  async show(source: Source): Promise<void> {
+    this.source = source;
+    const { control } = source;
+    if (control) {
+      const restart = (overrides: string[]) => control.restart(overrides);
+      const sliders = new Sliders(restart);
+      this.sliders = sliders;
+      this.status = new RunStatus(control, () => restart(sliders.overrides()));
+      this.tabs.set("Sliders", h("div", {}, this.status.element, sliders.element));
+    }
+    await source.start(this);
+  }
+
+  begun(recording: Recording): void {
+    const fresh = this.recording === null;
+    this.recording = recording;
+    const { header } = recording;
+    document.title = `${header.title ?? header.scene_name ?? "Recording"} – Gyration`;
+    this.title.textContent = header.title ?? header.scene_name ?? "Recording";
+    this.mode.textContent = { report: "report", recording: "recording", live: "live" }[header.mode];
+    this.banner.clearError();
+    this.picture.load(recording);
+    this.transport.load(recording);
+    this.player.load(recording, fresh);
+    this.sliders?.load(header);
+    this.status?.begun();
+    this.tell();
+    this.picture.drawNow();
+    this.becameReady();
+    // The plots come after the first frame: what moves is looked at first.
+    requestAnimationFrame(() => {
+      this.plots.load(recording);
+      this.moved(null);
+      if (fresh && header.mode === "live") this.player.play();
+    });
+  }
+
+  grew(): void {
+    this.picture.grew();
+    this.transport.grew();
+    this.plots.grew();
+    this.moved(null);
+  }
+
+  surfaced(): void {
+    this.picture.surfaced();
+  }
+
+  progress(progress: Progress): void {
+    this.status?.progress(progress);
+    this.tell();
+  }
+
+  done(_: Outcome | null, summary: Summary): void {
+    const { recording } = this;
+    if (!recording) return;
+    recording.header.summary = { ...recording.header.summary, ...summary };
+    this.transport.grew();
+    this.plots.grew();
+    this.status?.done(outcomeInWords(recording));
+    this.tell();
+    this.moved(null);
+  }
+
+  failed(message: string): void {
+    this.banner.fail(message);
+  }
+
+  lost(reason: string): void {
+    this.banner.lose(reason, () => this.source?.reconnect());
+  }
+
+  found(): void {
+    this.banner.found();
+  }
+
+  /** Puts the panels of words and the chip in line with the recording. */
+  private tell(): void {
+    const { recording } = this;
+    if (!recording) return;
+    const words = outcomeInWords(recording);
+    const stopped = typeof recording.header.outcome === "object" && words.startsWith("Stopped");
+    this.chip.textContent = stopped ? "stopped early" : recording.header.complete ? "" : "running";
+    this.chip.className = `chip ${stopped ? "bad" : ""}`;
+    this.chip.title = words;
+    this.chip.hidden = this.chip.textContent === "";
+    this.tabs.set("Summary", summaryPanel(recording));
+    this.tabs.set("Scene", scenePanel(recording.header));
+  }
+
+  private moved(frameTook: number | null): void {
+    this.transport.moved();
+    this.picture.request(frameTook);
+    if (this.recording) this.plots.pointAt(this.player.time, this.recording.rowAt(this.player.time));
+  }
+
+  private switchTheme(): void {
+    switchTheme();
+    this.restyle();
+  }
+
+  private restyle(): void {
+    this.picture.restyle();
+    this.plots.restyle();
+  }
+
+  private handleWith(ready: Promise<void>): Handle {
+    const { player, picture } = this;
+    const rows = () => this.recording?.rows ?? 0;
+    return {
+      ready,
+      get time() {
+        return player.time;
+      },
+      get rows() {
+        return rows();
+      },
+      get frame() {
+        return picture.frames;
+      },
+      seek: (time) => player.seek(time),
+      renderNow: () => picture.drawNow(),
+    };
+  }
+}

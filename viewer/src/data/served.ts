@@ -1,0 +1,123 @@
+// A recording on the server's disk. One that is still being written is asked for new rows each second.
+
+import { checkedHeader, type Header } from "./header";
+import { Recording } from "./recording";
+import type { Listener, Source } from "./source";
+
+const POLL_MS = 1000;
+
+/** Rows asked for at once are about this many bytes. */
+const PORTION_BYTES = 8e6;
+
+export function servedRecording(first: Header): Source {
+  return new Served(first);
+}
+
+class Served implements Source {
+  readonly control = null;
+  private recording: Recording;
+  private listener: Listener | null = null;
+  private timer = 0;
+
+  constructor(first: Header) {
+    this.recording = new Recording(first);
+  }
+
+  async start(listener: Listener): Promise<void> {
+    this.listener = listener;
+    const { recording } = this;
+    await Promise.all(
+      recording.header.surfaces.map(async (_, k) => {
+        const [points, triangles] = await Promise.all([
+          bytes(`surface/${k}/points`),
+          bytes(`surface/${k}/triangles`),
+        ]);
+        recording.surfaces[k] = { points: new Float32Array(points), triangles: new Uint32Array(triangles) };
+      }),
+    );
+    await this.portion();
+    listener.begun(recording);
+    await this.rest();
+  }
+
+  reconnect(): void {
+    window.clearTimeout(this.timer);
+    void this.poll();
+  }
+
+  /** All that the header announces; then over, or again in a second. */
+  private async rest(): Promise<void> {
+    const { recording, listener } = this;
+    if (!listener) return;
+    try {
+      while (recording.rows < recording.header.rows) {
+        await this.portion();
+        listener.grew();
+      }
+      recording.setEvents(new Float64Array(await bytes("events")));
+      listener.grew();
+    } catch (error) {
+      this.lose(error);
+      return;
+    }
+    const { complete, outcome, summary, end } = recording.header;
+    if (complete) {
+      listener.done(outcome, summary ?? {});
+      return;
+    }
+    listener.progress({ time: recording.lastTime, end, steps: 0, step: 0, paused: false, limited_by: "" });
+    this.timer = window.setTimeout(() => void this.poll(), POLL_MS);
+  }
+
+  private async poll(): Promise<void> {
+    try {
+      this.recording.header = await servedHeader();
+    } catch (error) {
+      this.lose(error);
+      return;
+    }
+    this.listener?.found();
+    await this.rest();
+  }
+
+  private async portion(): Promise<void> {
+    const { recording } = this;
+    const { rows, arrays } = recording.header;
+    const from = recording.rows;
+    const rowBytes = 8 + 4 * arrays.reduce((sum, array) => sum + array.stride, 0);
+    const to = Math.min(rows, from + Math.max(1, Math.floor(PORTION_BYTES / rowBytes)));
+    const query = `?from=${from}&to=${to}`;
+    const [time, ...values] = await Promise.all([
+      bytes(`time${query}`),
+      ...arrays.map((array) => bytes(array.name + query)),
+    ]);
+    recording.put(
+      from,
+      new Float64Array(time),
+      values.map((value) => new Float32Array(value)),
+    );
+  }
+
+  private lose(error: unknown): void {
+    this.listener?.lost(error instanceof ServerError ? error.message : "The server does not answer.");
+  }
+}
+
+/** An answer of the server that is an error, in its words. */
+class ServerError extends Error {}
+
+/** The header that the server gives. */
+export async function servedHeader(): Promise<Header> {
+  return checkedHeader(await (await answer("/api/header")).json());
+}
+
+async function bytes(path: string): Promise<ArrayBuffer> {
+  return (await answer(`/api/blob/${path}`)).arrayBuffer();
+}
+
+async function answer(path: string): Promise<Response> {
+  const response = await fetch(path, { cache: "no-store" });
+  if (!response.ok)
+    throw new ServerError((await response.text()) || `The server answers ${response.status}.`);
+  return response;
+}

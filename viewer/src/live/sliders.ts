@@ -1,0 +1,181 @@
+// Sliders for the numbers of a live scene: drag one, and the run starts again with it.
+//
+// Thousands of numbers are no reason for thousands of sliders: a search narrows them down, and a list grows on demand.
+
+import type { Header, Json } from "../data/header";
+import { plain } from "../math/format";
+import { h, iconButton } from "../ui/dom";
+import { groupOf, type Leaf, leaves, override, valueAt } from "./leaves";
+import { rangeFor, tidy } from "./range";
+
+/** A run starts again this long after the last move of a slider [ms]. */
+const PATIENCE_MS = 150;
+/** Sliders shown at once. */
+const PORTION = 60;
+const PLACES = 1000;
+
+export class Sliders {
+  readonly element: HTMLElement;
+  private readonly search: HTMLInputElement;
+  private readonly list = h("div", { class: "sliders" });
+  private readonly reset: HTMLButtonElement;
+  /** The scene as it was first: ranges are about its numbers. */
+  private scene: Json = null;
+  private all: Leaf[] = [];
+  private given: string[] = [];
+  /** Changed numbers by key and path. */
+  private readonly changes = new Map<string, { leaf: Leaf; value: number }>();
+  private shown = PORTION;
+  private timer = 0;
+
+  constructor(private readonly restart: (overrides: string[]) => void) {
+    this.search = h("input", {
+      type: "search",
+      placeholder: "Search the scene's numbers",
+      "aria-label": "search the scene's numbers",
+      oninput: () => {
+        this.shown = PORTION;
+        this.build();
+      },
+    });
+    this.reset = h("button", { type: "button", onclick: () => this.resetAll() }, "Reset all");
+    this.element = h(
+      "div",
+      { class: "controls" },
+      h("div", { class: "row" }, this.search, this.reset),
+      this.list,
+    );
+  }
+
+  /** The scene of a run; the first one gives the sliders. */
+  load(header: Header): void {
+    if (this.scene !== null || !header.resolved) return;
+    this.scene = header.resolved;
+    this.given = header.overrides ?? [];
+    this.all = leaves(this.scene);
+    this.build();
+  }
+
+  /** Everything that differs from the scene's text, as `--set` takes it. */
+  overrides(): string[] {
+    const byKey = new Map<string, { path: number[]; value: number }[]>();
+    for (const { leaf, value } of this.changes.values()) {
+      byKey.set(leaf.key, [...(byKey.get(leaf.key) ?? []), { path: leaf.path, value }]);
+    }
+    const kept = this.given.filter((given) => !byKey.has(given.split("=")[0].trim()));
+    return [...kept, ...[...byKey].map(([key, changes]) => override(this.scene, key, changes))];
+  }
+
+  private build(): void {
+    const wanted = this.search.value.toLowerCase().split(/\s+/);
+    const found = this.all.filter((leaf) => wanted.every((word) => named(leaf).toLowerCase().includes(word)));
+    const groups = new Map<string, HTMLElement>();
+    for (const leaf of found.slice(0, this.shown)) {
+      const name = groupOf(leaf.key);
+      let group = groups.get(name);
+      if (!group) {
+        group = h("fieldset", {}, h("legend", {}, name));
+        groups.set(name, group);
+      }
+      group.append(this.slider(leaf, name));
+    }
+    const more = found.length - this.shown;
+    this.list.replaceChildren(...groups.values());
+    if (found.length === 0)
+      this.list.append(h("p", { class: "quiet" }, "No number of the scene has this in its key."));
+    if (more > 0) {
+      this.list.append(
+        h("button", { type: "button", class: "add", onclick: () => this.showMore() }, `${more} more`),
+      );
+    }
+    this.reset.disabled = this.changes.size === 0;
+  }
+
+  private showMore(): void {
+    this.shown += PORTION;
+    this.build();
+  }
+
+  private slider(leaf: Leaf, group: string): HTMLElement {
+    const range = rangeFor(leaf.key, leaf.value, reachOf(this.scene, leaf));
+    const name = named(leaf);
+    const value = () => this.changes.get(idOf(leaf))?.value ?? leaf.value;
+    const drag = h("input", {
+      type: "range",
+      min: 0,
+      max: PLACES,
+      step: 1,
+      value: PLACES * range.place(value()),
+      "aria-label": name,
+      oninput: () => take(tidy(range.at(Number(drag.value) / PLACES)), false),
+    });
+    const entry = h("input", {
+      type: "text",
+      inputmode: "decimal",
+      class: "exact",
+      value: typed(value()),
+      "aria-label": `${name}, exact`,
+      onchange: () => {
+        const number = Number(entry.value.replace("−", "-"));
+        if (entry.value.trim() !== "" && Number.isFinite(number)) take(number, true);
+        else entry.value = typed(value());
+      },
+    });
+    const back = iconButton("restart", `Back to ${plain(leaf.value)}`, () => take(leaf.value, true));
+    const label = h(
+      "span",
+      { class: "name", title: leaf.key },
+      name.slice(group.length).replace(/^\./, "") || name,
+    );
+    const row = h("div", { class: "slider", "data-key": name }, label, entry, back, drag);
+    const take = (number: number, moves: boolean) => {
+      this.change(leaf, number);
+      entry.value = typed(number);
+      if (moves) drag.value = String(PLACES * range.place(number));
+      row.classList.toggle("changed", number !== leaf.value);
+    };
+    row.classList.toggle("changed", value() !== leaf.value);
+    return row;
+  }
+
+  private change(leaf: Leaf, value: number): void {
+    if (value === leaf.value) this.changes.delete(idOf(leaf));
+    else this.changes.set(idOf(leaf), { leaf, value });
+    this.reset.disabled = this.changes.size === 0;
+    window.clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => this.restart(this.overrides()), PATIENCE_MS);
+  }
+
+  private resetAll(): void {
+    this.changes.clear();
+    this.build();
+    this.restart(this.overrides());
+  }
+}
+
+function idOf(leaf: Leaf): string {
+  return `${leaf.key} ${leaf.path.join(" ")}`;
+}
+
+/** The key, with components by letters: `body.die.velocity.x`, `body.block.gradient.xz`. */
+function named({ key, path }: Leaf): string {
+  if (path.length === 0) return key;
+  const letters = path.every((index) => index < 3)
+    ? path.map((index) => "xyz"[index]).join("")
+    : path.join(".");
+  return `${key}.${letters}`;
+}
+
+/** How far a component that is zero may go: as far as its neighbours; one, if they are zero too. */
+function reachOf(scene: Json, { key }: Leaf): number {
+  const value = valueAt(scene, key);
+  const numbers = Array.isArray(value)
+    ? (value.flat(4) as Json[]).filter((item) => typeof item === "number")
+    : [];
+  return Math.max(0, ...numbers.map(Math.abs)) || 1;
+}
+
+function typed(value: number): string {
+  const size = Math.abs(value);
+  return size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential() : String(value);
+}

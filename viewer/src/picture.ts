@@ -1,0 +1,144 @@
+// The picture: canvas, what is laid over it, and the scene of the recording on its stage. Without WebGL it says so, and
+// the rest of the page goes on.
+
+import type { Recording } from "./data/recording";
+import type { Player } from "./player";
+import { h } from "./ui/dom";
+import { Scales } from "./ui/scales";
+import { themeColor } from "./ui/theme";
+import { Toolbar } from "./ui/toolbar";
+import { SceneView, type Shown } from "./view/scene";
+import { Stage } from "./view/stage";
+
+/** A press that moves less than this is a click [px]. */
+const CLICK_PX = 4;
+
+export class Picture {
+  readonly element: HTMLElement;
+  readonly toolbar: Toolbar;
+  private readonly shown: Shown = {
+    coloring: "body",
+    forces: false,
+    velocity: false,
+    axes: false,
+    trails: false,
+    ghosts: false,
+    supports: true,
+    follow: null,
+  };
+  private readonly canvas = h("canvas", { "aria-label": "the bodies in space", tabindex: 0 });
+  private readonly scales = new Scales();
+  private readonly stage: Stage | null;
+  private view: SceneView | null = null;
+  private playing = false;
+
+  constructor(
+    private readonly player: Player,
+    chose: (body: number | null) => void,
+  ) {
+    this.toolbar = new Toolbar(
+      this.shown,
+      () => this.request(null),
+      chose,
+      () => this.reset(),
+    );
+    this.stage = stageOn(this.canvas);
+    const missing = h(
+      "p",
+      { class: "no-webgl", role: "alert" },
+      "This browser has no WebGL, so that the bodies cannot be drawn. Plots, ledger and scene are there all the same.",
+    );
+    this.element = h(
+      "div",
+      { class: "picture" },
+      this.stage ? this.canvas : missing,
+      this.stage && this.toolbar.element,
+      this.stage && this.scales.element,
+    );
+    if (!this.stage) return;
+    this.stage.prepare = () => this.prepare();
+    new ResizeObserver(() => this.stage?.resize()).observe(this.canvas);
+    this.listenForClicks();
+  }
+
+  get frames(): number {
+    return this.stage?.frames ?? 0;
+  }
+
+  load(recording: Recording): void {
+    const { stage } = this;
+    if (!stage) return;
+    this.view?.dispose();
+    stage.resize();
+    this.view = new SceneView(stage, recording, this.shown);
+    this.toolbar.load(recording, this.view.colors);
+    this.restyle();
+  }
+
+  grew(): void {
+    this.view?.grew();
+  }
+
+  surfaced(): void {
+    this.view?.surfaced();
+    this.request(null);
+  }
+
+  /** A frame as soon as the browser draws; `took`, while playing: what the last one took [ms]. */
+  request(took: number | null): void {
+    if (took !== null && this.playing) this.stage?.tookWhilePlaying(took);
+    this.playing = took !== null;
+    this.stage?.request();
+  }
+
+  drawNow(): void {
+    this.stage?.draw();
+  }
+
+  /** The first view again. */
+  reset(): void {
+    this.shown.follow = null;
+    this.stage?.look();
+    this.view?.refit();
+    this.toolbar.refresh();
+    this.request(null);
+  }
+
+  /** After a change of theme. */
+  restyle(): void {
+    this.stage?.background(themeColor("--sky"), Number(themeColor("--skylight")));
+    this.view?.supports.paint(themeColor("--ground"), themeColor("--line"), Number(themeColor("--shadow")));
+    this.request(null);
+  }
+
+  private prepare(): void {
+    const { view, player } = this;
+    if (!view) return;
+    view.place(player.time, player.smooth);
+    const grid =
+      this.shown.supports && view.recording.header.supports.length > 0 ? view.supports.spacing : null;
+    this.scales.show(view.colors.scale(this.shown.coloring), grid);
+  }
+
+  /** A click on a body chooses it, a click beside all bodies chooses none. */
+  private listenForClicks(): void {
+    let from: [number, number] = [0, 0];
+    this.canvas.addEventListener("pointerdown", ({ clientX, clientY }) => {
+      from = [clientX, clientY];
+    });
+    this.canvas.addEventListener("click", ({ clientX, clientY }) => {
+      if (Math.hypot(clientX - from[0], clientY - from[1]) > CLICK_PX || !this.view) return;
+      const { left, top, width, height } = this.canvas.getBoundingClientRect();
+      const body = this.view.bodyAt((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
+      if (this.view.recording.header.bodies.length > 1) this.toolbar.choose(body);
+    });
+  }
+}
+
+function stageOn(canvas: HTMLCanvasElement): Stage | null {
+  try {
+    return new Stage(canvas);
+  } catch {
+    return null;
+  }
+}

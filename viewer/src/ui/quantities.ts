@@ -1,0 +1,166 @@
+// What can be plotted: groups of series of a recording, found by the names and dimensions of its arrays.
+
+import type { Recording, Track } from "../data/recording";
+import { words } from "../math/format";
+import { leftCauchyGreen, symmetricAxes, vonMises } from "../math/mat3";
+
+export interface Line {
+  label: string;
+  at: (row: number) => number;
+}
+
+/** Lines of one unit for one chart. */
+export interface Chart {
+  id: string;
+  title: string;
+  units: string;
+  log: boolean;
+  lines: Line[];
+}
+
+/** Bodies in one chart; more would be a tangle. */
+const MOST_BODIES = 8;
+
+/** The charts of a recording; those of single bodies are of `body`, or of all where that is one line each. */
+export function charts(recording: Recording, body: number | null): Chart[] {
+  const shown =
+    body === null ? recording.header.bodies.map((_, index) => index).slice(0, MOST_BODIES) : [body];
+  const one = body ?? 0;
+  return [
+    energies(recording),
+    works(recording),
+    residual(recording),
+    gap(recording, shown),
+    vector(recording, "linear_momentum", "Momentum", one),
+    vector(recording, "angular_momentum", "Angular momentum", one),
+    vector(recording, "position", "Position", one),
+    vector(recording, "velocity", "Velocity", one),
+    vector(recording, "contact_force", "Contact force", one),
+    stretches(recording, one),
+    stress(recording, shown),
+    pressure(recording, shown),
+  ].filter((chart): chart is Chart => chart !== null && chart.lines.length > 0);
+}
+
+/** A chart of columns by their names in the CSV. */
+export function columnsChart(recording: Recording, names: string[]): Chart {
+  const lines: Line[] = [];
+  let units = "";
+  for (const [name, array, place] of recording.header.columns) {
+    const track = recording.track(array);
+    if (!names.includes(name) || !track) continue;
+    units ||= track.spec.units;
+    lines.push({ label: name, at: (row) => track.values[row * track.stride + place] });
+  }
+  return { id: "columns", title: "Columns", units, log: false, lines };
+}
+
+function scalars(recording: Recording, prefix: string): Track[] {
+  return [...recording.tracks.values()].filter(
+    ({ spec }) => spec.name.startsWith(prefix) && spec.stride === 1,
+  );
+}
+
+function plainLine(track: Track, label: string): Line {
+  return { label, at: (row) => track.values[row] };
+}
+
+function energies(recording: Recording): Chart {
+  const parts = scalars(recording, "energy_").filter(({ spec }) => spec.name !== "energy_residual");
+  const lines = parts.map((track) => plainLine(track, words(track.spec.name.slice("energy_".length))));
+  if (lines.length > 1) {
+    lines.push({ label: "sum", at: (row) => parts.reduce((sum, track) => sum + track.values[row], 0) });
+  }
+  return { id: "energy", title: "Energy", units: "J", log: false, lines };
+}
+
+function works(recording: Recording): Chart {
+  const lines = scalars(recording, "work_").map((track) =>
+    plainLine(track, words(track.spec.name.slice("work_".length))),
+  );
+  return { id: "work", title: "Work", units: "J", log: false, lines };
+}
+
+function residual(recording: Recording): Chart | null {
+  const track = recording.track("energy_residual");
+  return track
+    ? {
+        id: "residual",
+        title: "Ledger residual",
+        units: "J",
+        log: false,
+        lines: [plainLine(track, "residual")],
+      }
+    : null;
+}
+
+function scalarPerBody(recording: Recording, array: string, bodies: number[]): Line[] {
+  const track = recording.track(array);
+  if (!track) return [];
+  const names = recording.header.bodies;
+  const has = (body: number) => {
+    for (let row = 0; row < recording.rows; row += Math.max(1, recording.rows >> 4)) {
+      if (Number.isFinite(track.values[row * track.stride + body])) return true;
+    }
+    return false;
+  };
+  return bodies
+    .filter(has)
+    .map((body) => ({ label: names[body].name, at: (row) => track.values[row * track.stride + body] }));
+}
+
+function gap(recording: Recording, bodies: number[]): Chart {
+  return { id: "gap", title: "Gap", units: "m", log: true, lines: scalarPerBody(recording, "gap", bodies) };
+}
+
+function pressure(recording: Recording, bodies: number[]): Chart {
+  const lines = scalarPerBody(recording, "pressure", bodies);
+  return { id: "pressure", title: "Pressure", units: "Pa", log: false, lines };
+}
+
+function vector(recording: Recording, array: string, title: string, body: number): Chart | null {
+  const track = recording.track(array);
+  if (!track) return null;
+  const lines = ["x", "y", "z"].map((label, k) => ({
+    label,
+    at: (row: number) => track.values[row * track.stride + 3 * body + k],
+  }));
+  return { id: array, title: ofBody(recording, title, body), units: track.spec.units, log: false, lines };
+}
+
+function stretches(recording: Recording, body: number): Chart | null {
+  const track = recording.track("placement_gradient");
+  if (!track || recording.header.bodies[body].kind === "rigid") return null;
+  const of = (row: number) => {
+    const at = row * track.stride + 9 * body;
+    return symmetricAxes(leftCauchyGreen(track.values.subarray(at, at + 9))).values;
+  };
+  const lines = ["λ₁", "λ₂", "λ₃"].map((label, k) => ({ label, at: (row: number) => Math.sqrt(of(row)[k]) }));
+  return {
+    id: "stretch",
+    title: ofBody(recording, "Principal stretches", body),
+    units: "1",
+    log: false,
+    lines,
+  };
+}
+
+function stress(recording: Recording, bodies: number[]): Chart | null {
+  const track = recording.track("cauchy_stress");
+  if (!track) return null;
+  const lines = bodies
+    .filter((body) => recording.header.bodies[body].kind !== "rigid")
+    .map((body) => ({
+      label: recording.header.bodies[body].name,
+      at: (row: number) => {
+        const at = row * track.stride + 9 * body;
+        return vonMises(track.values.subarray(at, at + 9));
+      },
+    }));
+  return { id: "stress", title: "Von Mises stress", units: "Pa", log: false, lines };
+}
+
+function ofBody(recording: Recording, title: string, body: number): string {
+  const { bodies } = recording.header;
+  return bodies.length > 1 ? `${title} of ${bodies[body].name}` : title;
+}

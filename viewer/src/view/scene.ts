@@ -1,0 +1,156 @@
+// The scene of a recording on a stage: its layers, what of them is shown, and the body that is followed.
+
+import { Raycaster, Vector2, Vector3 } from "three";
+import { Frame } from "../data/frame";
+import type { Vec3 } from "../data/header";
+import type { Recording } from "../data/recording";
+import { BodyLayer } from "./bodies";
+import { type Coloring, Colors } from "./coloring";
+import { framed } from "./framing";
+import { GhostLayer } from "./ghosts";
+import { OutlineLayer } from "./outlines";
+import type { Stage } from "./stage";
+import { SupportLayer } from "./supports";
+import { TrailLayer } from "./trails";
+import { VectorLayer } from "./vectors";
+
+/** What is shown. */
+export interface Shown {
+  coloring: Coloring;
+  forces: boolean;
+  velocity: boolean;
+  axes: boolean;
+  trails: boolean;
+  ghosts: boolean;
+  supports: boolean;
+  /** The body that the camera goes with. */
+  follow: number | null;
+}
+
+export class SceneView {
+  readonly frame = new Frame();
+  readonly colors: Colors;
+  readonly supports: SupportLayer;
+  private bodies: BodyLayer;
+  private readonly outlines: OutlineLayer;
+  private readonly vectors: VectorLayer;
+  private readonly trails: TrailLayer;
+  private ghosts: GhostLayer;
+  private followed: { body: number; at: Vector3 } | null = null;
+  /** Rows that the framing has seen. */
+  private framedRows = 0;
+  private radius = 1;
+
+  constructor(
+    private readonly stage: Stage,
+    readonly recording: Recording,
+    private readonly shown: Shown,
+  ) {
+    this.colors = new Colors(recording);
+    this.bodies = new BodyLayer(recording, stage.quality.triangles);
+    this.outlines = new OutlineLayer(recording);
+    this.supports = new SupportLayer(recording);
+    this.vectors = new VectorLayer(recording);
+    this.trails = new TrailLayer(recording);
+    this.ghosts = new GhostLayer(recording, stage.quality.triangles);
+    stage.root.clear();
+    stage.root.add(this.supports.group, this.bodies.group, this.outlines.group, this.vectors.group);
+    stage.root.add(this.trails.lines, this.ghosts.group);
+    this.refit();
+  }
+
+  /** Fits stage and layers to what has been recorded. */
+  refit(): void {
+    const framing = framed(this.recording);
+    this.framedRows = this.recording.rows;
+    this.radius = framing.radius;
+    if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = 0;
+    this.supports.fit(framing.center, framing.radius);
+    this.vectors.fit(framing.radius);
+    this.stage.frame(framing);
+    this.followed = null;
+  }
+
+  /** After new rows: fits again once the recording has doubled, unless the reader has chosen a view. */
+  grew(): void {
+    if (!this.stage.touched && this.recording.rows >= 2 * this.framedRows) this.refit();
+  }
+
+  /** After a surface has come. */
+  surfaced(): void {
+    this.bodies.group.removeFromParent();
+    this.bodies.dispose();
+    this.bodies = new BodyLayer(this.recording, this.stage.quality.triangles);
+    this.stage.root.add(this.bodies.group);
+  }
+
+  /** Puts everything where it is at a time [s]. */
+  place(time: number, smooth: boolean): void {
+    const { shown, frame } = this;
+    frame.take(this.recording, time, smooth);
+    this.bodies.place(frame);
+    this.bodies.paint(this.colors.at(shown.coloring, frame));
+    this.outlines.place(frame);
+    this.outlines.paint(this.colors.at(shown.coloring, frame));
+    this.supports.group.visible = shown.supports;
+    this.supports.place(frame.time);
+    this.vectors.shown = shown;
+    this.vectors.place(frame);
+    this.trails.lines.visible = shown.trails;
+    this.trails.place(frame.row);
+    this.ghosts.group.visible = shown.ghosts;
+    this.ghosts.place();
+    this.follow();
+    this.light();
+  }
+
+  /** The body under a point of the canvas, from −1 to 1. */
+  bodyAt(x: number, y: number): number | null {
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(x, y), this.stage.camera);
+    const [hit] = ray.intersectObject(this.bodies.group, true);
+    return hit ? this.bodies.bodyOf(hit.object, hit.instanceId) : null;
+  }
+
+  dispose(): void {
+    this.bodies.dispose();
+    this.vectors.dispose();
+    this.trails.dispose();
+    this.ghosts.dispose();
+  }
+
+  /** Moves the camera as the followed body has moved since it was looked at last. */
+  private follow(): void {
+    const body = this.shown.follow;
+    if (body === null) {
+      this.followed = null;
+      return;
+    }
+    const at = new Vector3(...this.centerOf(body));
+    if (![at.x, at.y, at.z].every(Number.isFinite)) return;
+    if (this.followed?.body === body) this.stage.shift(at.clone().sub(this.followed.at));
+    else if (this.followed || this.stage.touched) this.stage.shift(at.clone().sub(this.stage.target));
+    this.followed = { body, at };
+  }
+
+  private centerOf(body: number): Vec3 {
+    return Array.from(this.frame.position.subarray(3 * body, 3 * body + 3)) as Vec3;
+  }
+
+  /** The light shines on the bodies, wherever they are, with room for their shadows. */
+  private light(): void {
+    const { bodies } = this.recording.header;
+    const low = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+    const high = low.map((value) => -value);
+    bodies.forEach((body, index) => {
+      this.centerOf(index).forEach((value, axis) => {
+        if (!Number.isFinite(value)) return;
+        low[axis] = Math.min(low[axis], value - 0.7 * body.size);
+        high[axis] = Math.max(high[axis], value + 0.7 * body.size);
+      });
+    });
+    const center = low.map((value, axis) => 0.5 * (value + high[axis])) as Vec3;
+    const radius = 0.5 * Math.hypot(...high.map((value, axis) => value - low[axis]));
+    if (Number.isFinite(radius)) this.stage.lightUp(center, Math.max(radius, 0.02 * this.radius));
+  }
+}

@@ -1,0 +1,217 @@
+// The stage: renderer, lights, camera. It draws when asked, once an animation frame at most, and never by itself.
+//
+// Everything on it stands in a root whose unit is the scene's radius, so that lights, shadows and clipping planes are
+// the same for a millimetre and a kilometre. Up is against gravity.
+
+import {
+  Color,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Vec3 } from "../data/header";
+import { across, cross } from "../math/mat3";
+import { corners, type Framing } from "./framing";
+import { type Quality, qualityFor, Thrift } from "./quality";
+
+const FIELD_OF_VIEW = 32;
+/** Where the first look comes from: to the right, back, up. */
+const FIRST_LOOK = [0.5, 1, 0.42];
+/** Room around what is framed. */
+const MARGIN = 1.2;
+/** Where the light comes from, in the same directions. */
+const LIGHT = [-0.5, 0.75, 1.5];
+
+/** Before there is anything to look at. */
+const UNIT: Pick<Framing, "box" | "center" | "radius"> = {
+  box: [
+    [-1, -1, -1],
+    [1, 1, 1],
+  ],
+  center: [0, 0, 0],
+  radius: 1,
+};
+
+export class Stage {
+  readonly root = new Group();
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 200);
+  readonly quality: Quality;
+  readonly renderer: WebGLRenderer;
+  /** Frames drawn so far. */
+  frames = 0;
+  /** Whether the reader has moved the camera. */
+  touched = false;
+  /** Called before each frame. */
+  prepare: () => void = () => {};
+  private readonly scene = new Scene();
+  private readonly key = new DirectionalLight("#fffaf2", 2.3);
+  private readonly fill = new DirectionalLight("#dfe8ff", 0.55);
+  private readonly sky = new HemisphereLight("#ffffff", "#aab0bb", 1.25);
+  private controls: OrbitControls;
+  private asked = 0;
+  private framing: Framing = { ...UNIT, up: [0, 0, 1], travels: false };
+  private readonly thrift: Thrift;
+
+  /** Fails where there is no WebGL. */
+  constructor(readonly canvas: HTMLCanvasElement) {
+    const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    if (!context) throw new Error("no WebGL");
+    this.quality = qualityFor(context);
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.renderer.setPixelRatio(Math.min(this.quality.pixelRatio, devicePixelRatio));
+    this.renderer.shadowMap.enabled = this.quality.shadows;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.thrift = new Thrift(this.renderer, this.quality);
+    this.key.castShadow = this.quality.shadows;
+    this.key.shadow.mapSize.set(this.quality.shadowMap, this.quality.shadowMap);
+    this.key.shadow.radius = 3;
+    this.key.shadow.normalBias = 0.004;
+    this.scene.add(this.sky, this.key, this.key.target, this.fill, this.root);
+    this.controls = this.newControls();
+    canvas.addEventListener("webglcontextrestored", () => this.request());
+  }
+
+  /** A frame, as soon as the browser draws. */
+  request(): void {
+    this.asked ||= requestAnimationFrame(() => this.draw());
+  }
+
+  /** A frame, now. */
+  draw(): void {
+    cancelAnimationFrame(this.asked);
+    this.asked = 0;
+    this.prepare();
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = 0.01 * distance;
+    this.camera.far = distance + 60;
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+    this.frames++;
+  }
+
+  /** While playing: how long the last frame took [ms]. */
+  tookWhilePlaying(milliseconds: number): void {
+    if (!this.thrift.saw(milliseconds)) return;
+    if (!this.quality.shadows) this.key.castShadow = false;
+    this.resize();
+  }
+
+  resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.request();
+  }
+
+  background(color: string, sky: number): void {
+    this.scene.background = new Color(color);
+    this.sky.intensity = sky;
+  }
+
+  /** Makes a ball the unit of the stage, and looks at it unless the reader has chosen a view. */
+  frame(framing: Framing): void {
+    this.framing = framing;
+    const { center, radius, up } = framing;
+    this.root.scale.setScalar(1 / radius);
+    this.root.position.set(...center).divideScalar(-radius);
+    if (this.camera.up.distanceTo(new Vector3(...up)) > 1e-6) {
+      this.camera.up.set(...up);
+      this.controls.dispose();
+      this.controls = this.newControls();
+    }
+    this.sky.position.set(...up);
+    this.fill.position.copy(this.direction([1, 0.3, 0.25]));
+    if (!this.touched) this.look();
+  }
+
+  /** The first look again. */
+  look(): void {
+    this.touched = false;
+    const back = this.direction(FIRST_LOOK);
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.copy(back.multiplyScalar(this.distanceFor(back)));
+    this.controls.update();
+    this.request();
+  }
+
+  /** How far from the middle of the box the camera must be to see all of it from a direction. */
+  private distanceFor(back: Vector3): number {
+    const right = new Vector3().crossVectors(this.camera.up, back).normalize();
+    const above = new Vector3().crossVectors(back, right);
+    const tall = Math.tan((0.5 * FIELD_OF_VIEW * Math.PI) / 180) / MARGIN;
+    const wide = tall * this.camera.aspect;
+    const needed = corners(this.framing.box).map((corner) => {
+      const at = this.root.localToWorld(new Vector3(...corner));
+      const aside = Math.max(Math.abs(at.dot(right)) / wide, Math.abs(at.dot(above)) / tall);
+      return at.dot(back) + aside;
+    });
+    return Math.max(...needed);
+  }
+
+  /** Moves camera and target by a distance of the scene [m]. */
+  shift(by: Vector3): void {
+    const moved = by.divideScalar(this.framing.radius);
+    this.controls.target.add(moved);
+    this.camera.position.add(moved);
+  }
+
+  /** Puts the camera's target on a point of the scene [m]. */
+  aim(at: Vec3): void {
+    this.shift(new Vector3(...at).sub(this.target));
+    this.controls.update();
+    this.request();
+  }
+
+  /** The point of the scene looked at [m]. */
+  get target(): Vector3 {
+    return this.root.worldToLocal(this.controls.target.clone());
+  }
+
+  /** Lets shadows fall from everything within a ball of the scene [m]. */
+  lightUp(center: Vec3, radius: number): void {
+    const at = this.root.localToWorld(new Vector3(...center));
+    const reach = radius / this.framing.radius;
+    this.key.target.position.copy(at);
+    this.key.position.copy(at).addScaledVector(this.direction(LIGHT), 3 * reach);
+    const { camera } = this.key.shadow;
+    Object.assign(camera, {
+      left: -reach,
+      right: reach,
+      top: reach,
+      bottom: -reach,
+      near: 0.1 * reach,
+      far: 3 * reach + 4,
+    });
+    camera.updateProjectionMatrix();
+  }
+
+  /** A unit vector from its parts to the right, backwards and up. */
+  private direction([right, back, high]: number[]): Vector3 {
+    const up = this.framing.up;
+    const side = across(up);
+    const inward = cross(up, side);
+    return new Vector3(...up)
+      .multiplyScalar(high)
+      .addScaledVector(new Vector3(...side), right)
+      .addScaledVector(new Vector3(...inward), -back)
+      .normalize();
+  }
+
+  private newControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.minDistance = 0.02;
+    controls.maxDistance = 60;
+    controls.addEventListener("change", () => this.request());
+    controls.addEventListener("start", () => {
+      this.touched = true;
+    });
+    return controls;
+  }
+}

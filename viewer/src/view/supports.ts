@@ -1,0 +1,148 @@
+// Supports: planes with a grid that fits the scene, fades far away, and moves as the support does.
+//
+// The piece of the plane that is drawn stays where the scene is; the grid on it is fixed to the support, so that a belt
+// runs and a shaken table shakes. From behind a plane is nearly clear.
+
+import {
+  Color,
+  DoubleSide,
+  Group,
+  Matrix4,
+  Mesh,
+  PlaneGeometry,
+  ShaderMaterial,
+  ShadowMaterial,
+  Vector2,
+  Vector3,
+} from "three";
+import type { Support, Vec3 } from "../data/header";
+import type { Recording } from "../data/recording";
+import { roundBelow } from "../math/format";
+import { across, cross, dot } from "../math/mat3";
+
+const VERTEX = /* glsl */ `
+uniform float extent;
+varying vec2 onPlane;
+void main() {
+	onPlane = position.xy * extent;
+	gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+}`;
+
+const FRAGMENT = /* glsl */ `
+uniform float extent, spacing;
+uniform vec2 offset;
+uniform vec3 ground, line;
+varying vec2 onPlane;
+float lines( vec2 at, float width ) {
+	vec2 pixels = fwidth( at );
+	vec2 away = abs( fract( at - 0.5 ) - 0.5 ) / max( pixels, vec2( 1e-9 ) );
+	vec2 drawn = ( 1.0 - smoothstep( width - 0.5, width + 0.5, away ) ) * ( 1.0 - smoothstep( 0.15, 0.5, pixels ) );
+	return max( drawn.x, drawn.y );
+}
+void main() {
+	vec2 at = ( onPlane - offset ) / spacing;
+	float fade = 1.0 - smoothstep( 0.35, 1.0, length( onPlane ) / ( 0.5 * extent ) );
+	float drawn = max( 0.55 * lines( at, 0.6 ), lines( at / 5.0, 0.9 ) );
+	float side = gl_FrontFacing ? 1.0 : 0.25;
+	gl_FragColor = vec4( mix( ground, line, drawn ), fade * side * mix( 0.86, 1.0, drawn ) );
+	#include <colorspace_fragment>
+}`;
+
+/** Where a support is: its displacement at a time [m]. */
+export function displacement(support: Support, time: number): Vec3 {
+  const { motion } = support;
+  if (!motion) return [0, 0, 0];
+  if ("velocity" in motion) return scaled(motion.velocity, time);
+  const { direction, amplitude, frequency, phase } = motion.oscillate;
+  return scaled(direction, amplitude * Math.sin(2 * Math.PI * frequency * time + phase));
+}
+
+function scaled(v: Vec3, factor: number): Vec3 {
+  return [factor * v[0], factor * v[1], factor * v[2]];
+}
+
+interface Plane {
+  support: Support;
+  /** Right-handed: two directions in the plane, and the normal. */
+  axes: [Vec3, Vec3, Vec3];
+  grid: Mesh<PlaneGeometry, ShaderMaterial>;
+  shade: Mesh<PlaneGeometry, ShadowMaterial>;
+}
+
+export class SupportLayer {
+  readonly group = new Group();
+  /** Distance of thin lines [m]. */
+  spacing = 1;
+  private readonly planes: Plane[];
+  private center: Vec3 = [0, 0, 0];
+
+  constructor(recording: Recording) {
+    const geometry = new PlaneGeometry(1, 1);
+    this.planes = recording.header.supports.map((support) => {
+      const first = across(support.normal);
+      const axes: Plane["axes"] = [first, cross(support.normal, first), support.normal];
+      const grid = new Mesh(geometry, gridMaterial());
+      const shade = new Mesh(geometry, new ShadowMaterial({ opacity: 0.28, depthWrite: false }));
+      shade.receiveShadow = true;
+      for (const [order, mesh] of [grid, shade].entries()) {
+        mesh.matrixAutoUpdate = false;
+        mesh.frustumCulled = false;
+        mesh.renderOrder = -2 + order;
+        this.group.add(mesh);
+      }
+      return { support, axes, grid, shade };
+    });
+  }
+
+  /** Fits the drawn pieces to a scene of this centre and radius [m]. */
+  fit(center: Vec3, radius: number): void {
+    this.center = center;
+    this.spacing = roundBelow(radius / 6);
+    for (const { grid } of this.planes) {
+      grid.material.uniforms.extent.value = 11 * radius;
+      grid.material.uniforms.spacing.value = this.spacing;
+    }
+  }
+
+  place(time: number): void {
+    for (const { support, axes, grid, shade } of this.planes) {
+      const moved = displacement(support, time);
+      const origin = support.origin.map((value, k) => value + moved[k]) as Vec3;
+      const [u, v, n] = axes;
+      const away = this.center.map((value, k) => value - origin[k]) as Vec3;
+      const foot = this.center.map((value, k) => value - dot(away, n) * n[k]) as Vec3;
+      const extent = grid.material.uniforms.extent.value as number;
+      const basis = [u, v, n].map((axis, k) => new Vector3(...axis).multiplyScalar(k < 2 ? extent : 1));
+      const matrix = new Matrix4().makeBasis(basis[0], basis[1], basis[2]).setPosition(...foot);
+      grid.matrix.copy(matrix);
+      shade.matrix.copy(matrix);
+      const seen = origin.map((value, k) => value - foot[k]) as Vec3;
+      grid.material.uniforms.offset.value.set(dot(seen, u), dot(seen, v));
+    }
+  }
+
+  paint(ground: string, line: string, shadow: number): void {
+    for (const { grid, shade } of this.planes) {
+      grid.material.uniforms.ground.value.set(ground);
+      grid.material.uniforms.line.value.set(line);
+      shade.material.opacity = shadow;
+    }
+  }
+}
+
+function gridMaterial(): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: {
+      extent: { value: 1 },
+      spacing: { value: 1 },
+      offset: { value: new Vector2() },
+      ground: { value: new Color() },
+      line: { value: new Color() },
+    },
+    transparent: true,
+    depthWrite: false,
+    side: DoubleSide,
+  });
+}
