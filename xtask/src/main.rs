@@ -1,9 +1,9 @@
 //! Chores of the repository, run as `cargo xtask CHORE`.
 //!
-//! `test` is the one test command: format, lints, documentation, every test of the workspace, the Python tests, the
-//! table of known answers and, where cargo-deny is installed, licences and advisories. `validate` runs the problems
-//! with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes, draws their
-//! pictures and writes `docs/gallery.md`.
+//! `test` is the one test command: format, lints, documentation, every test of the workspace, those of the viewer in a
+//! browser, the Python tests, the table of known answers and, where cargo-deny is installed, licences and advisories.
+//! `validate` runs the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery`
+//! runs the scenes, draws their pictures and writes `docs/gallery.md`.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -14,6 +14,7 @@ mod steps;
 mod tally;
 mod test;
 mod validate;
+mod viewer;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -22,7 +23,7 @@ const USAGE: &str = "\
 usage: cargo xtask CHORE
 
   test           run every check; the last line is `N passed, N failed`
-  test --fast    the same without documentation, Python and cargo-deny
+  test --fast    the same without documentation, viewer, Python and cargo-deny
   validate       run the problems with a known answer and rewrite docs/known-answers.md
   gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md";
 

@@ -54,9 +54,15 @@ fn has_venv() -> bool {
     succeeds(python().args(["-c", "import venv, ensurepip"]))
 }
 
-fn is_root() -> bool {
+/// Whether packages can be installed without asking.
+pub fn is_root() -> bool {
     let output = Command::new("id").arg("-u").output();
     output.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
+}
+
+/// Renews Debian's lists of packages.
+pub fn refresh_package_lists(steps: &mut Steps) -> bool {
+    steps.run("refresh the package lists", Command::new("apt-get").args(["update", "-q"]))
 }
 
 /// Installs Debian's package for virtual environments where that can be done without asking.
@@ -74,7 +80,7 @@ fn install_venv(steps: &mut Steps) -> bool {
         );
         return false;
     }
-    steps.run("refresh the package lists", Command::new("apt-get").args(["update", "-q"]))
+    refresh_package_lists(steps)
         && steps.run(
             "install python3-venv",
             Command::new("apt-get").args(["install", "-y", "-q", "--no-install-recommends", "python3-venv"]),

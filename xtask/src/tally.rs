@@ -1,6 +1,7 @@
 //! What test programs say about themselves, read from the lines that they print.
 //!
 //!   test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.05s
+//!   Tests  1 failed | 11 passed | 2 skipped (14)               of the viewer
 //!   validation: row=13 case="…" …
 
 use crate::answers::Answer;
@@ -27,6 +28,10 @@ impl Tally {
             self.passed += count(result, "passed");
             self.failed += count(result, "failed");
             self.ignored += count(result, "ignored");
+        } else if let Some(result) = line.trim_start().strip_prefix("Tests  ") {
+            self.passed += count(result, "passed");
+            self.failed += count(result, "failed");
+            self.ignored += count(result, "skipped");
         } else if let Some(text) = line.strip_prefix("validation: ") {
             match Answer::parse(text) {
                 Some(answer) => self.answers.push(answer),
@@ -45,15 +50,25 @@ impl Tally {
     }
 }
 
-/// The number before `word` in "ok. 12 passed; 0 failed; …".
+/// The number before `word` in "ok. 12 passed; 0 failed; …" or "12 passed | 2 skipped (14)".
 fn count(result: &str, word: &str) -> usize {
-    let field = result.split([';', '.']).map(str::trim).find(|field| field.ends_with(word));
+    let fields = result.split([';', '.', '|', '(']).map(str::trim);
+    let field = fields.into_iter().find(|field| field.ends_with(word));
     field.and_then(|field| field.split(' ').next()).and_then(|n| n.parse().ok()).unwrap_or(0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn results_of_the_viewer_are_read() {
+        let mut tally = Tally::default();
+        tally.read(" Test Files  1 failed | 2 passed (3)");
+        tally.read("      Tests  1 failed | 11 passed | 2 skipped (14)");
+        tally.read("      Tests  5 passed (5)");
+        assert_eq!((tally.passed, tally.failed, tally.ignored), (16, 1, 2));
+    }
 
     #[test]
     fn results_of_all_programs_are_summed() {

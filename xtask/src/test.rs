@@ -1,7 +1,7 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
 use crate::steps::{Steps, succeeds};
-use crate::{answers, gallery, python, root, validate};
+use crate::{answers, gallery, python, root, validate, viewer};
 use std::process::{Command, ExitCode};
 
 /// How much to check.
@@ -9,7 +9,7 @@ use std::process::{Command, ExitCode};
 pub enum Extent {
     /// Everything.
     Full,
-    /// Without documentation, Python and cargo-deny.
+    /// Without documentation, viewer, Python and cargo-deny.
     Fast,
 }
 
@@ -38,10 +38,11 @@ pub fn run(extent: Extent) -> ExitCode {
     gallery::check(&mut steps);
     match extent {
         Extent::Full => {
+            viewer::tests(&mut steps);
             python_tests(&mut steps);
             dependencies(&mut steps);
         }
-        Extent::Fast => steps.skip("documentation, Python tests and cargo-deny (--fast)"),
+        Extent::Fast => steps.skip("documentation, tests of the viewer and in Python, and cargo-deny (--fast)"),
     }
     if steps.conclude() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

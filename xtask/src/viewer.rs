@@ -1,0 +1,58 @@
+//! The page of the viewer: its checks and its tests in a browser.
+//!
+//! Node and npm must be there. A browser is Debian's Chromium, which is installed where that is possible without asking
+//! (as root), and named otherwise; `GYRATION_CHROMIUM` names another one.
+
+use crate::python::{is_root, refresh_package_lists};
+use crate::steps::{Steps, succeeds};
+use crate::{root, target_directory};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Names under which Chromium is found.
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+/// Checks, builds and tests the page with the program that the tests of the workspace built.
+pub fn tests(steps: &mut Steps) {
+    if !succeeds(npm().arg("--version")) {
+        steps.complain("viewer: Node 20 or later is not installed; `cargo xtask test --fast` does without".into());
+        return;
+    }
+    let installed =
+        steps.run("install packages of the viewer", npm().args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]));
+    let Some(browser) = browser(steps).filter(|_| installed) else { return };
+    steps.run("types and lints of the viewer", npm().args(["run", "--silent", "check"]));
+    let program = target_directory().join("debug").join(if cfg!(windows) { "gyration.exe" } else { "gyration" });
+    let mut command = npm();
+    // No colours: the output is read.
+    command.arg("test").env("GYRATION_BIN", program).env("GYRATION_CHROMIUM", browser).env("NO_COLOR", "1");
+    steps.run_tests("tests of the viewer", &mut command);
+}
+
+fn npm() -> Command {
+    let mut command = Command::new(if cfg!(windows) { "npm.cmd" } else { "npm" });
+    command.current_dir(root().join("viewer"));
+    command
+}
+
+/// A browser, installed if there is none.
+fn browser(steps: &mut Steps) -> Option<PathBuf> {
+    let named = std::env::var_os("GYRATION_CHROMIUM").map(PathBuf::from);
+    let found = || named.clone().or_else(|| BROWSERS.iter().find_map(|name| on_path(name)));
+    if found().is_none() {
+        if !(is_root() && succeeds(Command::new("apt-get").arg("--version"))) {
+            steps.complain("viewer: no browser; on Debian and Ubuntu: sudo apt-get install chromium".into());
+            return None;
+        }
+        let mut install = Command::new("apt-get");
+        install.args(["install", "-y", "-q", "--no-install-recommends", "chromium"]);
+        let _ = refresh_package_lists(steps) && steps.run("install a browser", &mut install);
+    }
+    found()
+}
+
+/// Where a program is found.
+fn on_path(name: &str) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH")?;
+    std::env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file())
+}
