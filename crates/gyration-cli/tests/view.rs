@@ -35,7 +35,9 @@ fn a_report_is_one_file_with_page_and_data() {
     assert_eq!(said.stdout, "");
     assert!(said.stderr.starts_with("wrote ball.html (61 samples, "), "{}", said.stderr);
     let html = fs::read_to_string(sandbox.path("ball.html")).unwrap();
-    assert!(html.len() < 3_000_000 && html.contains("id=\"gyration-header\"") && html.contains("data-blob=\"position\""));
+    assert!(
+        html.len() < 3_000_000 && html.contains("id=\"gyration-header\"") && html.contains("data-blob=\"position\"")
+    );
     sandbox.done(&["report", "ball.gyr", "-o", "other.html"]);
     assert_eq!(html, fs::read_to_string(sandbox.path("other.html")).unwrap(), "the same recording, the same bytes");
 }

@@ -1,6 +1,7 @@
 //! What keeps a recording or a run from being shown.
 
 use gyration_record::RecordError;
+use gyration_sim::replay::ReplayError;
 use std::io;
 
 /// Failure to show something.
@@ -9,6 +10,9 @@ pub enum ViewError {
     /// The recording cannot be read.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// The states of the recording cannot be had again.
+    #[error(transparent)]
+    Replay(#[from] ReplayError),
     /// The program was built without the page.
     #[error(
         "this program was built without the page that shows recordings: {reason}\n  \

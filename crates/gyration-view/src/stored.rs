@@ -1,17 +1,28 @@
 //! A recording on disk as the page sees it: its header, and its arrays by name.
+//!
+//! The page colours bodies that deform by their stress, which few recordings hold: it is computed from the model and the
+//! states of the recording, as if it had been recorded.
 
 use crate::blob;
 use crate::error::ViewError;
-use crate::header::Header;
+use crate::header::{ArrayEntry, Header};
 use gyration_record::{RecordError, Recording};
+use gyration_sim::replay::Replay;
+use serde_json::Value;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The array that is computed where it was not recorded.
+const STRESS: &str = "cauchy_stress";
 
 /// A recording to be shown, finished or still growing.
 #[derive(Debug, Clone)]
 pub struct Stored {
     recording: Recording,
     header: Header,
+    /// Where the stress comes from, if it is not recorded.
+    replay: Option<Arc<Mutex<Replay>>>,
 }
 
 impl Stored {
@@ -30,7 +41,8 @@ impl Stored {
         if header.surfaces.is_empty() && header.rows > 0 {
             header.notes.push("The recording holds no surfaces: bodies are drawn by their outlines.".to_owned());
         }
-        Ok(Self { recording, header })
+        let replay = if lacks_stress(&header) { offer_stress(&recording, &mut header) } else { None };
+        Ok(Self { recording, header, replay })
     }
 
     /// What the page is told first.
@@ -65,6 +77,13 @@ impl Stored {
             return Err(RecordError::NoSuchArray { name: name.to_owned() }.into());
         }
         let mut bytes = Vec::new();
+        if let Some(replay) = self.replay.as_ref().filter(|_| name == STRESS) {
+            let mut replay = replay.lock().unwrap_or_else(PoisonError::into_inner);
+            for row in kept_rows(rows, every) {
+                bytes.extend(blob::singles(&stress(&mut replay, row)?));
+            }
+            return Ok(bytes);
+        }
         self.each_row(name, rows, every, |row| {
             bytes.extend(if name == "time" { blob::doubles(row.iter().copied()) } else { blob::singles(row) });
         })?;
@@ -102,23 +121,69 @@ impl Stored {
     }
 }
 
+/// Whether there are bodies that deform, and their stress was not recorded.
+fn lacks_stress(header: &Header) -> bool {
+    let deforms = |body: &Value| body["kind"] != "rigid";
+    let bodies = header.attributes.get("bodies").and_then(Value::as_array);
+    bodies.is_some_and(|bodies| bodies.iter().any(deforms)) && header.arrays.iter().all(|array| array.name != STRESS)
+}
+
+/// Adds the stress to the arrays of the header, or a note why it cannot be had.
+fn offer_stress(recording: &Recording, header: &mut Header) -> Option<Arc<Mutex<Replay>>> {
+    match Replay::open(recording) {
+        Ok(replay) => {
+            header.arrays.push(ArrayEntry {
+                name: STRESS.to_owned(),
+                units: "Pa".to_owned(),
+                description: "Cauchy stress S P^T/det P, computed from the recording; NaN for a rigid body".to_owned(),
+                dims: vec![
+                    ("body".to_owned(), replay.model().bodies.len()),
+                    ("row".to_owned(), 3),
+                    ("col".to_owned(), 3),
+                ],
+            });
+            Some(Arc::new(Mutex::new(replay)))
+        }
+        Err(problem) => {
+            header.notes.push(format!("Stresses are not shown: {problem}"));
+            None
+        }
+    }
+}
+
+/// The stress of all bodies at a row, matrix by matrix, row by row.
+fn stress(replay: &mut Replay, row: usize) -> Result<Vec<f64>, ViewError> {
+    let bodies = replay.cauchy_stress(row)?;
+    let numbers = |stress: &Option<gyration::tensor::Mat3>| match stress {
+        // nalgebra stores columns; rows are recorded.
+        Some(stress) => stress.transpose().as_slice().to_vec(),
+        None => vec![f64::NAN; 9],
+    };
+    Ok(bodies.iter().flat_map(numbers).collect())
+}
+
+/// The rows that are kept of a range: one in `every`, and the last.
+fn kept_rows(rows: Range<usize>, every: usize) -> impl Iterator<Item = usize> {
+    let last = rows.end.checked_sub(1).filter(|last| rows.start <= *last && !(last - rows.start).is_multiple_of(every));
+    rows.step_by(every).chain(last)
+}
+
 /// How many rows [`Stored::blob`] keeps.
 pub(crate) fn kept(rows: usize, every: usize) -> usize {
-    let whole = rows.div_ceil(every);
-    let last_is_extra = rows > 0 && !(rows - 1).is_multiple_of(every);
-    whole + usize::from(last_is_extra)
+    kept_rows(0..rows, every).count()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::kept;
+    use super::{kept, kept_rows};
 
     #[test]
     fn the_last_row_is_kept_whatever_the_thinning() {
         for rows in 0..40 {
             for every in 1..9 {
-                let expected = (0..rows).filter(|row| row % every == 0 || row + 1 == rows).count();
-                assert_eq!(kept(rows, every), expected, "{rows} rows, every {every}");
+                let expected: Vec<_> = (0..rows).filter(|row| row % every == 0 || row + 1 == rows).collect();
+                assert_eq!(kept_rows(0..rows, every).collect::<Vec<_>>(), expected);
+                assert_eq!(kept(rows, every), expected.len(), "{rows} rows, every {every}");
             }
         }
     }

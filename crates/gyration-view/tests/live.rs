@@ -1,5 +1,7 @@
 //! A scene runs as it is watched: pages get every row, steer the run, and cannot slow it.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{FALL, Served, doubles, provenance, singles};

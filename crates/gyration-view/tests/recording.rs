@@ -1,5 +1,7 @@
 //! A recording on disk is served as it stands, and only to its own page.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{FALL, Served, doubles, record, singles};
@@ -10,6 +12,48 @@ fn served(folder: &tempfile::TempDir) -> (Recording, Served) {
     let path = record(folder.path(), "fall", FALL);
     let stored = Stored::open(&path).unwrap();
     (Recording::open(&path).unwrap(), Served::new(Source::Recording(Box::new(stored))))
+}
+
+/// The arrays that stand in the recording itself.
+fn recorded(header: &serde_json::Value) -> impl Iterator<Item = &serde_json::Value> {
+    header["arrays"].as_array().unwrap().iter().filter(|array| array["name"] != "cauchy_stress")
+}
+
+#[test]
+fn stress_is_shown_whether_or_not_it_was_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, computed) = served(&folder);
+    let asks = FALL.replace("[time]", "[record]\nquantities = [\"cauchy_stress\"]\n[time]");
+    let path = record(folder.path(), "asks", &asks);
+    let recorded = Served::new(Source::Recording(Box::new(Stored::open(&path).unwrap())));
+    let blob = |served: &Served, range: &str| singles(&served.get(&format!("/api/blob/cauchy_stress{range}")).1);
+    let (computed_all, recorded_all) = (blob(&computed, ""), blob(&recorded, ""));
+    assert_eq!(computed_all.len(), 31 * 18);
+    let mut largest = 0.0_f32;
+    for (row, (a, b)) in computed_all.chunks(18).zip(recorded_all.chunks(18)).enumerate() {
+        assert!(a[..9].iter().all(|x| x.is_nan()), "the ball is rigid");
+        for (a, b) in a[9..].iter().zip(&b[9..]) {
+            // Rounding of both to single precision, of numbers up to the largest so far.
+            largest = largest.max(b.abs());
+            assert!((a - b).abs() <= 1e-6 * largest, "row {row}: {a} and {b}");
+        }
+    }
+    assert!(largest > 1.0, "the jelly is under stress");
+    let bits = |values: &[f32]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&blob(&computed, "?from=4&to=6")), bits(&computed_all[4 * 18..6 * 18]));
+}
+
+#[test]
+fn surfaces_hold_the_shapes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, served) = served(&folder);
+    let points = singles(&served.get("/api/blob/surface/1/points").1);
+    assert!(points.len() == 24 && points.iter().all(|x| (x.abs() - 0.05).abs() < 1e-8), "{points:?}");
+    let triangles: Vec<u32> =
+        served.get("/api/blob/surface/1/triangles").1.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect();
+    assert!(triangles.len() == 36 && triangles.iter().all(|index| *index < 8));
+    assert_eq!(served.get("/api/blob/surface/9/points").0, 404);
+    assert_eq!(served.get("/api/blob/surface/1/colour").0, 404);
 }
 
 #[test]
@@ -25,7 +69,9 @@ fn the_header_says_what_the_recording_says() {
     assert_eq!(header["summary"]["statistics"], recording.attributes()["statistics"]);
     let columns: Vec<&str> = header["columns"].as_array().unwrap().iter().map(|c| c[0].as_str().unwrap()).collect();
     assert_eq!(columns, recording.columns().collect::<Vec<_>>());
-    for array in header["arrays"].as_array().unwrap() {
+    assert_eq!(header["bodies"][1]["surface"], 1);
+    assert_eq!(header["surfaces"][1], serde_json::json!({ "points": 8, "triangles": 12 }));
+    for array in recorded(&header) {
         let name = array["name"].as_str().unwrap();
         assert_eq!(array["stride"], recording.array(name).unwrap().row_len(), "{name}");
     }

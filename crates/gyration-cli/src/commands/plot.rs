@@ -4,14 +4,13 @@ use super::stem;
 use crate::arguments::{Plot, What};
 use crate::error::{CliError, code};
 use crate::output;
-use crate::plot::chart::Figure;
+use crate::plot::chart::{Figure, Panel};
 use crate::plot::draw::Format;
-use crate::plot::recorded::{BodyPicture, Recorded};
+use crate::plot::recorded::Recorded;
 use crate::plot::show::{self, Quantity};
-use gyration::body::Body;
 use gyration_record::Recording;
 use gyration_scene::Scene;
-use serde_json::Value;
+use gyration_sim::replay::{Replay, ReplayError};
 use std::path::{Path, PathBuf};
 
 /// Draws the picture.
@@ -85,49 +84,27 @@ fn of_recording(arguments: &Plot) -> Result<Drawn, CliError> {
             Some(Quantity::Stroke) => show::strokes(&recorded, &arguments.measures)?,
             Some(quantity) => show::panels(&recorded, quantity)?,
             None if *what == What::Overview => show::overview(&recorded)?,
-            None => {
-                let scene = recorded_scene(&recorded)?;
-                show::law_panels(&scene.built().model, &scene.built().state)?
-            }
+            None => recorded_laws(&recording)?,
         });
     }
     Ok((what, show::figure(&recorded, panels), stem(path)))
 }
 
-/// The scene as it was recorded.
-///
-/// A recording does not tell where its scene was: files that the scene refers to are looked for in the current folder
-/// and beside the recording, and must give the bodies that were recorded.
-fn recorded_scene(recorded: &Recorded) -> Result<Scene, CliError> {
-    let recording = recorded.recording;
-    let attributes = recording.attributes();
-    let text = attributes.get("scene").and_then(Value::as_str).unwrap_or_default();
-    let overrides = attributes.get("overrides").and_then(Value::as_array).cloned().unwrap_or_default();
-    let overrides: Vec<String> = overrides.iter().filter_map(Value::as_str).map(str::to_owned).collect();
-    let name = recording.path().display().to_string();
-    let beside = recording.path().canonicalize().ok().and_then(|path| path.parent().map(Path::to_path_buf));
-    let folders = [Some(PathBuf::new()), beside].into_iter().flatten();
-    let built: Vec<_> = folders.map(|folder| Scene::parse(&name, text, &folder, &overrides)).collect();
-    let problem = match built.iter().find_map(|built| built.as_ref().err()) {
-        Some(errors) => format!("the scene of {name} cannot be built again from here:\n{errors}"),
-        None => format!("a file that the scene of {name} refers to is another one here than when it was recorded"),
-    };
-    let mut same = built.into_iter().flatten().filter(|scene| has_recorded_bodies(scene, recorded));
-    same.next().ok_or_else(|| {
-        CliError::arguments(problem, "plot the scene file instead, which knows its folder: `gyration plot SCENE laws`")
-    })
+/// The contact laws of a recording, at its start.
+fn recorded_laws(recording: &Recording) -> Result<Vec<Panel>, CliError> {
+    let mut replay = Replay::open(recording).map_err(no_replay)?;
+    let start = replay.state(0).map_err(no_replay)?;
+    Ok(show::law_panels(replay.model(), &start)?)
 }
 
-/// Masses and sizes that differ by less are those of the same body: another build may round otherwise.
-const ROUNDING: f64 = 1e-9;
-
-/// Whether a scene has the masses and sizes that were recorded.
-fn has_recorded_bodies(scene: &Scene, recorded: &Recorded) -> bool {
-    let bodies = &scene.built().model.bodies;
-    let close = |a: f64, b: f64| (a - b).abs() <= ROUNDING * b.abs();
-    let same =
-        |(body, picture): (&Body, &BodyPicture)| close(body.mass.mass, picture.mass) && close(body.size, picture.size);
-    bodies.len() == recorded.bodies.len() && bodies.iter().zip(&recorded.bodies).all(same)
+fn no_replay(problem: ReplayError) -> CliError {
+    match problem {
+        ReplayError::Record(error) => error.into(),
+        problem => CliError::arguments(
+            problem.to_string(),
+            "plot the scene file instead, which knows its folder: `gyration plot SCENE laws`",
+        ),
+    }
 }
 
 fn quantity(what: What) -> Option<Quantity> {
