@@ -40,6 +40,12 @@ impl<F: Four> Column<F> {
         Self(a.product(b.turned()).minus(a.turned().product(b)).turned())
     }
 
+    /// a_i b_i.
+    #[inline(always)]
+    pub fn product(&self, other: &Self) -> Self {
+        Self(self.0.product(other.0))
+    }
+
     /// (a₀b₀ + a₁b₁) + a₂b₂.
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {
@@ -110,8 +116,9 @@ impl<F: Four> Columns<F> {
     /// Aᵀ.
     #[inline(always)]
     pub fn transpose(&self) -> Self {
-        let Columns([Column([a0, a1, a2, _]), Column([b0, b1, b2, _]), Column([c0, c1, c2, _])]) = self.kept();
-        Columns([Column([a0, b0, c0, 0.0]), Column([a1, b1, c1, 0.0]), Column([a2, b2, c2, 0.0])]).with(self.0[0].0)
+        let [Column(a), Column(b), Column(c)] = self.0;
+        let [a, b, c] = F::transposed([a, b, c, a.like([0.0; 4])]);
+        Self([Column(a), Column(b), Column(c)])
     }
 
     /// A b.
@@ -149,6 +156,18 @@ impl<F: Four> Columns<F> {
         // x + (−0) is x, whatever x is.
         let unit = [like([s, -0.0, -0.0, -0.0]), like([-0.0, s, -0.0, -0.0]), like([-0.0, -0.0, s, -0.0])];
         *self + Self(unit)
+    }
+
+    /// A_ik + d_k off the diagonal, A_ii on it.
+    #[inline(always)]
+    pub fn plus_beside(&self, d: &[f64; 3]) -> Self {
+        let like = self.0[0].0;
+        let ([x, y, z], [a, b, c]) = (self.0, *d);
+        Self([
+            x + Column(like.like([-0.0, a, a, -0.0])),
+            y + Column(like.like([b, -0.0, b, -0.0])),
+            z + Column(like.like([c, c, -0.0, -0.0])),
+        ])
     }
 
     /// ½(A + Aᵀ).

@@ -6,14 +6,17 @@ mod moving;
 use gyration::body::{Affine, Body, BodyKind, Contractile};
 use gyration::contact::AreaMeasure;
 use gyration::contractile::{Contraction, Feedback, Measure, Source, Spin};
+use gyration::jacobian::jacobian;
 use gyration::kinematics::{Placement, Velocity};
 use gyration::ledger::Work;
 use gyration::load::Frame;
 use gyration::model::Model;
+use gyration::rates::Workspace;
 use gyration::signal::{Signal, Wave};
 use gyration::state::{Start, State};
 use gyration::tensor::{Mat3, Vec3};
 use moving::*;
+use nalgebra::DMatrix;
 use proptest::prelude::*;
 
 /// A tensor without any symmetry.
@@ -116,6 +119,23 @@ proptest! {
             let model = Model::new(gravity, supports, bodies.into_iter().map(alone).collect());
             assert_jacobian_is_the_derivative(&model, &state(&model, &numbers));
         }
+    }
+
+    #[test]
+    fn jacobian_owes_nothing_to_what_the_block_held_before(numbers in numbers(33)) {
+        let Model { bodies, gravity, supports, .. } = model([3.0; 4], true, true);
+        let alone = |body: Body| Body { contacts: Vec::new(), springs: Vec::new(), ..body };
+        let model = Model::new(gravity, supports, bodies.into_iter().map(alone).collect());
+        let blocks = || -> Vec<_> { model.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect() };
+        let fill = |state: &State, blocks: &mut [DMatrix<f64>]| {
+            jacobian(&model, &mut Workspace::default(), state.time, &state.bodies, blocks).unwrap();
+        };
+        let (mut fresh, mut used) = (blocks(), blocks());
+        let other: Vec<f64> = numbers.iter().map(|number| 0.5 * number).collect();
+        fill(&state(&model, &other), &mut used);
+        fill(&state(&model, &numbers), &mut used);
+        fill(&state(&model, &numbers), &mut fresh);
+        prop_assert_eq!(used, fresh);
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub trait Four: Copy {
     fn spread<const PLACE: usize>(self) -> Self;
     /// (a₁, a₂, a₀, a₃).
     fn turned(self) -> Self;
+    /// (a_i, b_i, c_i, d_i) for i = 0, 1, 2.
+    fn transposed(rows: [Self; 4]) -> [Self; 3];
 }
 
 /// What is done with four numbers at once.
@@ -95,6 +97,12 @@ impl Four for [f64; 4] {
     fn turned(self) -> Self {
         let [a, b, c, d] = self;
         [b, c, a, d]
+    }
+
+    #[inline(always)]
+    fn transposed(rows: [Self; 4]) -> [Self; 3] {
+        let [[a0, a1, a2, _], [b0, b1, b2, _], [c0, c1, c2, _], [d0, d1, d2, _]] = rows;
+        [[a0, b0, c0, d0], [a1, b1, c1, d1], [a2, b2, c2, d2]]
     }
 }
 
@@ -182,6 +190,21 @@ mod wide {
             const ORDER: i32 = 0b11_00_10_01;
             self.with(cast(self.simd.avx2._mm256_permute4x64_pd::<ORDER>(cast(self.numbers))))
         }
+
+        #[inline(always)]
+        fn transposed([a, b, c, d]: [Self; 4]) -> [Self; 3] {
+            const LOWER: i32 = 0b10_00_00;
+            const UPPER: i32 = 0b11_00_01;
+            let avx = a.simd.avx;
+            let (x, y, z, w) = (cast(a.numbers), cast(b.numbers), cast(c.numbers), cast(d.numbers));
+            let (even, odd) = (avx._mm256_unpacklo_pd(x, y), avx._mm256_unpackhi_pd(x, y));
+            let (even_end, odd_end) = (avx._mm256_unpacklo_pd(z, w), avx._mm256_unpackhi_pd(z, w));
+            [
+                a.with(cast(avx._mm256_permute2f128_pd::<LOWER>(even, even_end))),
+                a.with(cast(avx._mm256_permute2f128_pd::<LOWER>(odd, odd_end))),
+                a.with(cast(avx._mm256_permute2f128_pd::<UPPER>(even, even_end))),
+            ]
+        }
     }
 }
 
@@ -199,8 +222,15 @@ mod tests {
             let (a, b) = (zeros.like(self.0), zeros.like(self.1));
             let spread = [a.spread::<0>(), a.spread::<1>(), a.spread::<2>(), a.spread::<3>()];
             let rest = [zeros, a.plus(b), a.minus(b), a.product(b), a.times(0.7), a.turned()];
+            let columns = F::transposed([a, b, a.plus(b), b.turned()]);
             let places = [a.at(0), a.at(1), a.at(2), a.at(3)].map(f64::to_bits);
-            spread.iter().chain(&rest).map(|four| four.numbers().map(f64::to_bits)).chain([places]).collect()
+            spread
+                .iter()
+                .chain(&rest)
+                .chain(&columns)
+                .map(|four| four.numbers().map(f64::to_bits))
+                .chain([places])
+                .collect()
         }
     }
 

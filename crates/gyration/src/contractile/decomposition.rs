@@ -22,7 +22,7 @@ impl Decomposition {
     ///
     /// # Errors
     /// det G where it is not a positive normal number.
-    #[inline]
+    #[inline(always)]
     pub fn of(gradient: &Mat3, contraction: &Mat3) -> Result<Self, f64> {
         let cofactor = cofactor(contraction);
         let volume_ratio = contraction.column(0).dot(&cofactor.column(0));

@@ -17,9 +17,9 @@ use crate::material::Spectrum;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mobility {
     /// X, with 1/(μ_γ + μ) on its diagonal.
-    own: Columns,
-    /// Y, symmetric and zero on its diagonal.
-    other: Columns,
+    pub own: Columns,
+    /// Y, zero on its diagonal.
+    pub other: Columns,
 }
 
 /// The principal axes and values of C = FᵀF.
@@ -38,10 +38,24 @@ impl Axes {
     /// Of an elastic gradient, where a viscosity needs them.
     #[inline(always)]
     pub fn of(elastic: &Columns, viscosity: f64) -> Option<Self> {
-        (viscosity > 0.0).then(|| {
-            let Spectrum { values, axes, carried } = Spectrum::of(elastic);
-            Self { axes, carried, values, inverses: values.map(|value| 1.0 / value) }
-        })
+        if viscosity > 0.0 { Some(Self::at(elastic)) } else { None }
+    }
+
+    /// Of an elastic gradient.
+    #[inline(always)]
+    pub fn at(elastic: &Columns) -> Self {
+        let Spectrum { values, axes, carried } = Spectrum::of(elastic);
+        let [x, y, z] = values;
+        Self { axes, carried, values, inverses: [1.0 / x, 1.0 / y, 1.0 / z] }
+    }
+
+    /// All c_i/c_j.
+    #[inline(always)]
+    pub fn ratios(&self) -> Columns {
+        let [x, y, z] = self.values;
+        let [a, b, c] = self.inverses;
+        let values = Column([x, y, z, 0.0]);
+        Columns([values * a, values * b, values * c])
     }
 
     /// c_i/c_j.
@@ -77,6 +91,36 @@ impl Mobility {
             own: Columns([Column([s, b, d, 0.0]), Column([a, s, f, 0.0]), Column([c, e, s, 0.0])]),
             other: Columns([Column([0.0, x, y, 0.0]), Column([x, 0.0, z, 0.0]), Column([y, z, 0.0, 0.0])]),
         }
+    }
+
+    /// What is left of R, R − (μ/2)(C V C⁻¹ + Vᵀ), where V = A⁻¹(R) has to be symmetric; otherwise it is μ_γ V, as this is on the
+    /// diagonal. Off it, with s = 2 X_ij,
+    ///
+    ///   s (μ_γ + (μ/4)(1/ρ + 1)) R_ij − s (μ/4)(ρ + 1) R_ji
+    #[inline(always)]
+    pub fn rest(&self, [gamma, viscosity]: [f64; 2], axes: &Axes) -> Self {
+        let (r, part) = (axes.ratios(), 0.25 * viscosity);
+        // 1/ρ of (i, j) is ρ of (j, i).
+        let (mut own, mut other): (Columns, Columns) = (self.own * gamma, Columns::default());
+        for (i, j) in [(0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)] {
+            let s = 2.0 * self.own.at(i, j);
+            own.0[j].0[i] = s * (gamma + part * (r.at(j, i) + 1.0));
+            other.0[j].0[i] = -s * (part * (r.at(i, j) + 1.0));
+        }
+        Self { own, other }
+    }
+
+    /// Where V does not answer: V = 0.
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { own: Columns::default(), other: Columns::default() }
+    }
+
+    /// What is left of R there: all of it.
+    #[inline(always)]
+    pub fn all() -> Self {
+        let ones = Column([1.0, 1.0, 1.0, 0.0]);
+        Self { own: Columns([ones; 3]), other: Columns::default() }
     }
 
     /// A⁻¹(R), or its symmetric kin; R and the result are in the axes N.

@@ -11,43 +11,41 @@
 //!
 //!   δP = e_j ⊗ e_B:  ξ = F⁻¹e_j ⊗ w_B,  δΛ = −ξ Λ;      δṖ:  δΛ = F⁻¹e_j ⊗ w_B;      δG:  γ = e_j ⊗ w_B = −ξ,  δΛ = γ Λ − Λ γ
 //!
-//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`vectors`).
+//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`vectors`). The three j of one B are done
+//! at once (`triple`).
 
 use super::mobility::{Axes, Mobility};
 use super::solution::Solution;
-use super::vectors::{Row, Side, Vectors, dyad};
-use super::{Command, Decomposition, Pull};
+use super::triple::{Fixed, Triple, along, spread};
+use super::vectors::{Row, Side, Vectors, strained};
+use super::{Command, Pull, Spin};
 use crate::affine::AffineBody;
 use crate::columns::{Column, Columns, Four, UNIT};
+use crate::material::Coaxial;
 use crate::tensor::Mat3;
 
 /// The derivative at P, Ṗ, G, M and Q: what its columns are made of.
 #[derive(Debug, Clone, Copy)]
-pub struct ContractileSlopes<'a> {
+pub(crate) struct ContractileSlopes<'a, F> {
     body: &'a AffineBody,
-    /// How V_G answers; none if it is prescribed.
-    law: Option<Law>,
-    /// μ/2 c_i/c_j and μ/2; none without viscosity.
-    viscous: Option<(Columns, f64)>,
-    /// N, F⁻ᵀ N, NᵀG, NᵀG⁻ᵀ and −V NᵀG⁻ᵀ J⁻¹.
-    axes: Columns,
-    back: Columns,
-    contraction: Columns,
-    inverse: Columns,
-    outward: Columns,
-    /// gΣ and Z in the axes, gφ.
-    mandel: Columns,
-    total: Columns,
+    law: Law<F>,
+    /// N and NᵀG; F⁻ᵀ N and −V NᵀG⁻ᵀ J⁻¹.
+    axes: Fixed<F>,
+    contraction: Fixed<F>,
+    back: Fixed<F>,
+    outward: Fixed<F>,
+    /// N again.
+    turn: Columns<F>,
+    /// gφ, and the diagonal gΣ in the axes.
     energy: f64,
-    /// V_G, outside the axes.
-    velocity: Columns,
-    /// Of e_j as seen through F⁻¹, for δP and δṖ, and as it is, for δG.
-    spatial: [Side; 3],
-    relaxed: [Side; 3],
+    mandel: Column,
+    /// V_Gᵀ, outside the axes.
+    velocity: Columns<F>,
+    /// Of F⁻¹e_j, for δP; of −e_j, for δG; for δṖ.
+    spatial: Side<F>,
+    relaxed: Side<F>,
+    strained: [Columns<F>; 2],
     rows: [Row; 3],
-    /// Nᵀ Fᵀ g 𝔸[e_j ⊗ w_B] N, and of −F e_j ⊗ w_B, at 3B + j.
-    tangent: [Columns; 9],
-    tangent_back: [Columns; 9],
     reaction: Option<Reaction>,
 }
 
@@ -63,11 +61,14 @@ struct Reaction {
     by_rate: Columns,
 }
 
-/// How the contraction velocity answers to stress.
+/// How the contraction velocity answers to stress, and what is left of the stress.
 #[derive(Debug, Clone, Copy)]
-struct Law {
-    mobility: Mobility,
-    /// μ_γ + μ.
+struct Law<F> {
+    velocity: [Fixed<F>; 2],
+    /// None if it is μ_γ δV_G.
+    rest: Option<[Fixed<F>; 2]>,
+    /// μ_γ and μ_γ + μ.
+    viscosity: f64,
     stretching: f64,
     volume: Volume,
 }
@@ -81,90 +82,133 @@ enum Volume {
     Follows,
     /// It is zero.
     Kept,
+    /// All of V_G is prescribed.
+    Prescribed,
 }
 
 impl<'a> Pull<'a> {
     /// The derivative of the balance and of the law of contraction; `moment` is M [N m].
     #[inline(always)]
-    pub(crate) fn slopes_in<F: Four>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'a> {
+    pub(crate) fn slopes_in<F: Four>(
+        &self,
+        registers: F,
+        command: &Command,
+        moment: &Mat3,
+    ) -> ContractileSlopes<'a, F> {
         let Pull { body, decomposition, .. } = *self;
         let solution = Solution::new(self, command, &Columns::of(moment).with(registers));
-        let viscosity = body.viscosity.kirchhoff;
-        let (n, values) = match &solution.axes {
-            Some(axes) => (axes.axes, axes.values),
-            None => (Columns(UNIT), [1.0; 3]),
+        let axes = match &solution.axes {
+            Some(axes) => *axes,
+            None => Axes::at(&solution.elastic.kept()),
         };
-        let n_in = n.with(registers);
-        let turned = n_in.transpose();
-        let own = Columns::load(&decomposition.contraction, registers);
-        let back = own.times_transposed(&solution.across).transpose().times(&n_in);
-        let forth = solution.elastic.times(&n_in).transpose();
+        let (n, d) = (axes.axes.with(registers), axes.carried.with(registers));
+        let (turned, forth, back) = (n.transpose(), d.transpose(), d.scaled(&axes.inverses));
         let inverse = turned.times_transposed(&Columns::load(&decomposition.inverse, registers));
-        // Λ = F⁻¹ L F; Fᵀ X F⁻ᵀ of symmetric stresses.
-        let pulled = back.transpose().times(&solution.l).times_transposed(&forth);
-        let mandel = forth.times(&solution.elastic_stress).times(&back).symmetric();
-        let total = forth.times(&solution.kirchhoff).times(&back);
-        let velocity = turned.times(&solution.velocity).times(&n_in);
-        let half = 0.5 * viscosity;
-        let ratios = solution.axes.as_ref().map(|axes| ratios(axes, half));
-        let kept = match &ratios {
-            Some(ratios) => (velocity - pulled).entrywise(&ratios.with(registers)).kept(),
-            None => Columns::default(),
-        };
-        let (mandel, total, pulled) = (mandel.kept(), total.kept(), pulled.kept());
-        let vectors = Vectors { values, half, kept, pulled, mandel, total };
-
-        let mut slopes = ContractileSlopes {
+        let vectors = self.vectors((&axes, &back, &forth, &d), &solution);
+        let u = n * -1.0;
+        ContractileSlopes {
             body,
-            law: law(self, solution.axes.as_ref()),
-            viscous: ratios.map(|ratios| (ratios, half)),
-            axes: n,
-            back: back.kept(),
-            contraction: turned.times(&own).kept(),
-            inverse: inverse.kept(),
-            outward: (body.per_inertia(&inverse) * -body.volume).kept(),
-            mandel,
-            total,
+            law: self.law(&axes, registers),
+            axes: Fixed::of(&axes.axes, registers),
+            contraction: fixed(&turned.times(&Columns::load(&decomposition.contraction, registers))),
+            back: fixed(&back),
+            outward: fixed(&(body.per_inertia(&inverse) * -body.volume)),
+            turn: n,
             energy: solution.energy,
-            velocity: solution.velocity.kept(),
-            spatial: [Side::default(); 3],
-            relaxed: [Side::default(); 3],
-            rows: [Row::default(); 3],
-            tangent: [Columns::default(); 9],
-            tangent_back: [Columns::default(); 9],
+            mandel: Column(vectors.mandel.0.numbers()),
+            velocity: solution.velocity.transpose(),
+            spatial: vectors.spatial(&back),
+            relaxed: vectors.relaxed(&u),
+            strained: vectors.strained(&back),
+            rows: vectors.rows(&inverse),
             reaction: reaction(&solution),
-        };
-        for j in 0..3 {
-            let row_of = |matrix: &Columns| Column([matrix.at(j, 0), matrix.at(j, 1), matrix.at(j, 2), 0.0]);
-            slopes.spatial[j] = vectors.spatial(row_of(&slopes.back));
-            slopes.relaxed[j] = vectors.relaxed(row_of(&n));
-            slopes.rows[j] = vectors.row(slopes.inverse.0[j]);
         }
-        slopes.fill_tangents(self, (&forth, &n_in));
-        slopes
+    }
+
+    /// What the vectors are made of; `back` is F⁻ᵀ N, `forth` the transpose of d = F N.
+    #[inline(always)]
+    fn vectors<F: Four>(
+        &self,
+        (axes, back, forth, d): (&Axes, &Columns<F>, &Columns<F>, &Columns<F>),
+        solution: &Solution<F>,
+    ) -> Vectors<F> {
+        let Pull { body, at, decomposition, .. } = *self;
+        let (registers, n, g) = (d.0[0].0, axes.axes.with(d.0[0].0), decomposition.volume_ratio);
+        let coaxial = match &body.material {
+            Some(material) => material.coaxial(&axes.values, at.volume_ratio / g),
+            None => Coaxial::default(),
+        };
+        let half = 0.5 * body.viscosity.kirchhoff;
+        // Λ = F⁻¹ L F, and Fᵀ X F⁻ᵀ of a symmetric stress.
+        let pulled = back.transpose().times(&solution.l).times(d);
+        let total = forth.times(&solution.kirchhoff).times(back);
+        let velocity = n.transpose().times(&solution.velocity).times(&n);
+        let kept = (velocity - pulled).entrywise(&axes.ratios().with(registers)) * half;
+        let [x, y, z] = coaxial.mandel;
+        let mandel = [g * x, g * y, g * z];
+        let full = coaxial.along.with(registers) * g;
+        let straight = diagonal([full.at(0, 0), full.at(1, 1), full.at(2, 2), 0.0]).with(registers);
+        let weights = diagonal([mandel[0], mandel[1], mandel[2], 0.0]).with(registers);
+        Vectors {
+            values: three(axes.values, registers),
+            inverses: three(axes.inverses, registers),
+            mandel: three(mandel, registers),
+            half,
+            kept,
+            pulled,
+            total,
+            own: coaxial.own.with(registers) * g + straight + weights,
+            other: (coaxial.other.with(registers) * g).plus_beside(&mandel),
+            along: full - straight,
+        }
+    }
+
+    #[inline(always)]
+    fn law<F: Four>(&self, axes: &Axes, registers: F) -> Law<F> {
+        let Pull { body, contraction, .. } = *self;
+        let coefficients = [contraction.viscosity, body.viscosity.kirchhoff];
+        let volume = match (contraction.is_driven(), contraction.kept_volume, body.is_incompressible()) {
+            (false, _, _) => Volume::Prescribed,
+            (true, Some(_), _) => Volume::Kept,
+            (true, None, true) => Volume::Follows,
+            (true, None, false) => Volume::Free,
+        };
+        let (velocity, rest) = match (volume, contraction.spin) {
+            (Volume::Prescribed, _) => (Mobility::none(), Some(pair(&Mobility::all(), registers))),
+            (_, Spin::Full) => (Mobility::new(coefficients, Spin::Full, Some(axes)), None),
+            (_, Spin::Symmetric) => {
+                let mobility = Mobility::new(coefficients, Spin::Symmetric, Some(axes));
+                (mobility, Some(pair(&mobility.rest(coefficients, axes), registers)))
+            }
+        };
+        Law {
+            velocity: pair(&velocity, registers),
+            rest,
+            viscosity: contraction.viscosity,
+            stretching: coefficients[0] + coefficients[1],
+            volume,
+        }
     }
 }
 
-/// μ/2 c_i/c_j.
 #[inline(always)]
-fn ratios(axes: &Axes, half: f64) -> Columns {
-    let column = |j: usize| Column([0, 1, 2, 2].map(|i| half * axes.ratio(i, j)));
-    Columns([column(0), column(1), column(2)])
+fn pair<F: Four>(Mobility { own, other }: &Mobility, registers: F) -> [Fixed<F>; 2] {
+    [Fixed::of(own, registers), Fixed::of(other, registers)]
 }
 
 #[inline(always)]
-fn law(pull: &Pull<'_>, axes: Option<&Axes>) -> Option<Law> {
-    let Pull { body, contraction, .. } = *pull;
-    let viscosity = body.viscosity.kirchhoff;
-    contraction.is_driven().then(|| Law {
-        mobility: Mobility::new([contraction.viscosity, viscosity], contraction.spin, axes),
-        stretching: contraction.viscosity + viscosity,
-        volume: match (contraction.kept_volume, body.is_incompressible()) {
-            (Some(_), _) => Volume::Kept,
-            (None, true) => Volume::Follows,
-            (None, false) => Volume::Free,
-        },
-    })
+fn three<F: Four>([x, y, z]: [f64; 3], registers: F) -> Column<F> {
+    Column(registers.like([x, y, z, 0.0]))
+}
+
+#[inline(always)]
+fn diagonal([x, y, z, _]: [f64; 4]) -> Columns {
+    Columns([Column([x, 0.0, 0.0, 0.0]), Column([0.0, y, 0.0, 0.0]), Column([0.0, 0.0, z, 0.0])])
+}
+
+#[inline(always)]
+fn fixed<F: Four>(matrix: &Columns<F>) -> Fixed<F> {
+    Fixed::of(&matrix.kept(), matrix.0[0].0)
 }
 
 #[inline(always)]
@@ -182,161 +226,141 @@ fn reaction<F: Four>(solution: &Solution<F>) -> Option<Reaction> {
     })
 }
 
-/// What changes along a direction: V_G, and the bracket of δS, both in the axes.
-struct Change<F> {
-    velocity: Columns<F>,
-    total: Columns<F>,
+/// δĠ and δP̈ along the three rows of a column, M kept and without what a `Reaction` does to δP̈.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Along<F> {
+    pub rate: Triple<F>,
+    pub acceleration: Triple<F>,
 }
 
-impl ContractileSlopes<'_> {
+impl<F: Four> ContractileSlopes<'_, F> {
+    /// δV_G and δZ for δ(gΣ) − X K + K X + 𝓜(δΛ) + δQ, δ(gφ) and δ(tr Λ), the second but for −δQ.
     #[inline(always)]
-    fn fill_tangents<F: Four>(&mut self, pull: &Pull<'_>, (forth, n): (&Columns<F>, &Columns<F>)) {
-        let Some(material) = &pull.body.material else { return };
-        let Decomposition { elastic, inverse, volume_ratio, .. } = pull.decomposition;
-        let (slopes, registers) = (material.slopes_at(&Columns::of(elastic)), n.0[0].0);
-        let mut turned = [Columns::default().with(registers); 9];
-        for (turned, slope) in turned.iter_mut().zip(&slopes) {
-            *turned = forth.times(&slope.with(registers)).times(n) * *volume_ratio;
-        }
-        for b in 0..3 {
-            for j in 0..3 {
-                let (x, y, z) = (turned[j], turned[3 + j], turned[6 + j]);
-                let sum = (x * inverse[(b, 0)] + y * inverse[(b, 1)]) + z * inverse[(b, 2)];
-                self.tangent[3 * b + j] = sum.kept();
-            }
-            // −F e_j = −Σ_i F_ij e_i.
-            let tangents = &self.tangent[3 * b..3 * b + 3];
-            let (x, y, z) = (tangents[0].with(registers), tangents[1].with(registers), tangents[2].with(registers));
-            for j in 0..3 {
-                let sum = (x * -elastic[(0, j)] - y * elastic[(1, j)]) - z * elastic[(2, j)];
-                self.tangent_back[3 * b + j] = sum.kept();
-            }
-        }
-    }
-
-    /// δ(gΣ) − X K + K X + 𝓜(δΛ) beside what `tangent` holds of it.
-    #[inline(always)]
-    fn stretched<F: Four>(&self, side: &Side, row: &Row, tangent: &Columns, registers: F) -> Columns<F> {
-        let [a, b, c, d] = &side.dyads;
-        if self.viscous.is_none() {
-            return tangent.with(registers) + dyad(&row.w, a, registers);
-        }
-        let pairs = (dyad(&row.w, a, registers) + dyad(b, &row.back, registers))
-            + (dyad(c, &row.first, registers) + dyad(&row.second, d, registers));
-        tangent.with(registers) + pairs
-    }
-
-    /// δV_G and δZ for δ(gΣ) − X K + K X + 𝓜(δΛ), δ(gφ) and δ(tr Λ); δQ is added to what moves V_G.
-    #[inline(always)]
-    fn answer<F: Four>(
-        &self,
-        stress: &Columns<F>,
-        (energy, growth): (f64, f64),
-        drive: Option<&Columns<F>>,
-    ) -> Change<F> {
-        let Some(law) = &self.law else {
-            return Change { velocity: Columns::default().with(stress.0[0].0), total: *stress };
+    fn answer(&self, stress: &Triple<F>, energy: &Column<F>, growth: &Column<F>) -> [Triple<F>; 2] {
+        const THIRD: f64 = 1.0 / 3.0;
+        let Law { velocity, rest, viscosity, stretching, volume } = &self.law;
+        let none = *energy * 0.0;
+        let (excess, level) = match volume {
+            Volume::Free => (*energy, *energy),
+            Volume::Follows => ((stress.trace() - *growth * *stretching) * THIRD, *energy),
+            Volume::Kept => (stress.trace() * THIRD, stress.trace() * THIRD),
+            Volume::Prescribed => (none, none),
         };
-        let loaded = if let Some(drive) = drive { *stress + *drive } else { *stress };
-        let excess = match law.volume {
-            Volume::Free => energy,
-            Volume::Kept => loaded.trace() / 3.0,
-            Volume::Follows => (loaded.trace() - law.stretching * growth) / 3.0,
+        let velocity = stress.mixed(&velocity[0], &velocity[1], (&excess, &none));
+        let total = if let Some([own, other]) = rest {
+            stress.mixed(own, other, (&excess, &level))
+        } else {
+            velocity.times_plus_unit(*viscosity, &level)
         };
-        let velocity = law.mobility.velocity(&loaded.plus_unit(-excess));
-        let mut total = *stress;
-        if law.volume == Volume::Follows {
-            total = total.plus_unit(energy - excess);
-        }
-        if let Some((ratios, half)) = &self.viscous {
-            total = total - (velocity.entrywise(&ratios.with(stress.0[0].0)) + velocity.transpose() * *half);
-        }
-        Change { velocity, total }
+        [velocity, total]
     }
 
-    /// δĠ, but for V_G δG, and δP̈ of a change; `moment` is δM.
+    /// δĠ, but for V_G δG, and δP̈ of a change of V_G and of the bracket of δS, both in the axes.
     #[inline(always)]
-    fn along<F: Four>(&self, change: &Change<F>, moment: Option<&Columns>, asked: f64) -> (Columns<F>, Columns<F>) {
-        let registers = change.total.0[0].0;
-        let mut acceleration = self.back.with(registers).times(&change.total).times(&self.outward.with(registers));
-        if let Some(moment) = moment {
-            acceleration += self.body.per_inertia(&moment.with(registers));
-        }
-        let rate = self.axes.with(registers).times(&change.velocity).times(&self.contraction.with(registers));
-        (rate, self.held(&acceleration, asked))
+    fn along(&self, velocity: &Triple<F>, total: &Triple<F>) -> Along<F> {
+        let acceleration = total.between(&self.back, &self.outward);
+        Along { rate: velocity.between(&self.axes, &self.contraction), acceleration }
     }
 
-    /// δP̈ where tr(δP̈ P⁻¹) has to be as asked.
     #[inline(always)]
-    fn held<F: Four>(&self, acceleration: &Columns<F>, asked: f64) -> Columns<F> {
-        let Some(reaction) = &self.reaction else { return *acceleration };
-        let registers = acceleration.0[0].0;
-        let missing = asked - acceleration.dot(&reaction.across.with(registers));
-        *acceleration + reaction.way.with(registers) * (missing * reaction.compliance)
+    fn none(&self) -> Column<F> {
+        spread(0.0, self.turn.0[0].0)
     }
 
-    /// What tr(δP̈ P⁻¹) has to be; nothing where no pressure sees to it.
+    /// Along δP_jB for all j.
     #[inline(always)]
-    fn asked(&self, of: impl Fn(&Reaction) -> f64) -> f64 {
-        if let Some(reaction) = &self.reaction { of(reaction) } else { 0.0 }
-    }
-
-    /// δĠ and δP̈ along δP_jB, by which M changes by δM.
-    #[inline(always)]
-    pub(crate) fn along_gradient<F: Four>(
-        &self,
-        (j, b): (usize, usize),
-        moment: Option<&Columns>,
-        registers: F,
-    ) -> (Columns<F>, Columns<F>) {
-        let (side, row) = (&self.spatial[j], &self.rows[b]);
-        let stress = self.stretched(side, row, &self.tangent[3 * b + j], registers);
+    pub fn along_gradient(&self, b: usize) -> Along<F> {
+        let (side, row) = (&self.spatial, &self.rows[b]);
+        let stress = side.stretched(row);
         // tr Λ = tr L changes by −u·Λᵀw.
-        let mut change = self.answer(&stress, (side.heavy.dot(&row.w), -side.u.dot(&row.pulled)), None);
-        change.total = change.total - dyad(&row.w, &side.total, registers);
-        self.along(&change, moment, self.asked(|reaction| reaction.by_gradient.at(j, b)))
+        let (energy, growth) = (along(&side.u.0, &row.heavy), along(&side.u.0, &row.pulled));
+        let [velocity, total] = self.answer(&stress, &energy, &growth);
+        self.along(&velocity, &total.plus_dyad(&row.w, &side.total))
     }
 
-    /// δĠ and δP̈ along δṖ_jB, by which M changes by δM.
+    /// Along δṖ_jB for all j.
     #[inline(always)]
-    pub(crate) fn along_rate<F: Four>(
-        &self,
-        (j, b): (usize, usize),
-        moment: Option<&Columns>,
-        registers: F,
-    ) -> (Columns<F>, Columns<F>) {
-        let (side, row) = (&self.spatial[j], &self.rows[b]);
-        let half = self.viscous.as_ref().map_or(0.0, |(_, half)| *half);
-        let stress = (dyad(&side.carried, &row.back, registers) + dyad(&row.w, &side.u, registers)) * half;
-        let change = self.answer(&stress, (0.0, side.u.dot(&row.w)), None);
-        self.along(&change, moment, self.asked(|reaction| 2.0 * reaction.by_rate.at(j, b)))
+    pub fn along_rate(&self, b: usize) -> Along<F> {
+        let row = &self.rows[b];
+        let growth = along(&self.spatial.u.0, &row.w);
+        let [velocity, total] = self.answer(&strained(&self.strained, row), &self.none(), &growth);
+        self.along(&velocity, &total)
     }
 
-    /// δĠ and δP̈ along δG_jB.
+    /// Along δG_jB for all j.
     #[inline(always)]
-    pub(crate) fn along_contraction<F: Four>(&self, (j, b): (usize, usize), registers: F) -> (Columns<F>, Columns<F>) {
-        let (side, row) = (&self.relaxed[j], &self.rows[b]);
-        let growth = side.u.dot(&row.w);
-        let mut stress = self.stretched(side, row, &self.tangent_back[3 * b + j], registers);
-        stress += self.mandel.with(registers) * growth;
+    pub fn along_contraction(&self, b: usize) -> Along<F> {
+        let (side, row) = (&self.relaxed, &self.rows[b]);
+        // −tr γ.
+        let growth = along(&side.u.0, &row.w);
+        let stress = side.stretched(row).plus_diagonal(&self.mandel, &(growth * -1.0));
+        let energy = along(&side.u.0, &row.heavy) - growth * self.energy;
         // tr Λ = tr L does not depend on G.
-        let mut change = self.answer(&stress, (self.energy * growth - side.heavy.dot(&row.w), 0.0), None);
-        change.total += dyad(&row.w, &side.total, registers);
-        change.total = change.total - dyad(&self.total.image(&row.w), &side.u, registers);
-        let (mut rate, acceleration) = self.along(&change, None, 0.0);
-        rate.0[b] += Column(registers.like(self.velocity.0[j].0));
-        (rate, acceleration)
+        let [velocity, total] = self.answer(&stress, &energy, &self.none());
+        let total = total.plus_dyad(&row.w, &side.total).plus_dyad(&row.total, &side.u);
+        let Along { rate, acceleration } = self.along(&velocity, &total);
+        Along { rate: rate.plus_dyad_transposed(&self.velocity, &UNIT[b]), acceleration }
     }
 
-    /// δĠ and δP̈ along a change of the drive.
-    pub(crate) fn along_drive(&self, drive: &Mat3) -> (Columns, Columns) {
-        let turned = self.axes.transpose().times(&Columns::of(drive)).times(&self.axes);
-        self.along(&self.answer(&Columns::default(), (0.0, 0.0), Some(&turned)), None, 0.0)
-    }
-
-    /// δP̈ where M alone changes.
+    /// Along a change of the drive, the same for all three.
     #[inline(always)]
-    pub(crate) fn along_moment<F: Four>(&self, moment: &Columns, registers: F) -> Columns<F> {
-        self.held(&self.body.per_inertia(&moment.with(registers)), 0.0)
+    pub fn along_drive(&self, drive: &Mat3) -> Along<F> {
+        let registers = self.turn.0[0].0;
+        let turned = self.turn.transpose().times(&Columns::load(drive, registers)).times(&self.turn);
+        let drive = fixed(&turned);
+        let [velocity, total] = self.answer(&Triple(drive.0), &self.none(), &self.none());
+        self.along(&velocity, &total.less(&drive))
+    }
+
+    /// Whether δP̈ is not that of `Along` even if M stays as it is.
+    #[inline(always)]
+    pub fn is_held(&self) -> bool {
+        self.reaction.is_some()
+    }
+
+    /// What tr(δP̈ P⁻¹) has to be along δP_jB or δṖ_jB, where it is held.
+    #[inline(always)]
+    pub fn asked(&self, by_rate: bool, (j, b): (usize, usize)) -> f64 {
+        let Some(Reaction { by_gradient, by_rate: rate, .. }) = &self.reaction else { return 0.0 };
+        if by_rate { 2.0 * rate.at(j, b) } else { by_gradient.at(j, b) }
+    }
+
+    /// δP̈ with what δM adds to that of `Along`, and tr(δP̈ P⁻¹) as asked, where it is held.
+    #[inline(always)]
+    pub fn held(&self, along: &Columns, moment: &Columns, asked: f64) -> Columns<F> {
+        let registers = self.turn.0[0].0;
+        let acceleration = along.with(registers) + self.body.per_inertia(&moment.with(registers));
+        let Some(reaction) = &self.reaction else { return acceleration };
+        let missing = asked - acceleration.dot(&reaction.across.with(registers));
+        acceleration + reaction.way.with(registers) * (missing * reaction.compliance)
+    }
+}
+
+impl<F: Four> Along<F> {
+    /// Writes δP̈ and, if G is part of the state, δĠ behind it into three columns that lie `apart` from each other.
+    #[inline(always)]
+    pub fn write(&self, columns: &mut [f64], apart: usize, driven: bool) {
+        let [x, y, z] = &self.acceleration.0;
+        let [u, v, w] = &self.rate.0;
+        let one = F::transposed([x[0].0, x[1].0, x[2].0, y[0].0]);
+        let two = F::transposed([y[1].0, y[2].0, z[0].0, z[1].0]);
+        let three = F::transposed([z[2].0, u[0].0, u[1].0, u[2].0]);
+        let four = F::transposed([v[0].0, v[1].0, v[2].0, w[0].0]);
+        let five = F::transposed([w[1].0, w[2].0, w[1].0, w[2].0]);
+        for j in 0..3 {
+            if driven {
+                let out = &mut columns[apart * j..][..18];
+                out[..4].copy_from_slice(&one[j].numbers());
+                out[4..8].copy_from_slice(&two[j].numbers());
+                out[8..12].copy_from_slice(&three[j].numbers());
+                out[12..16].copy_from_slice(&four[j].numbers());
+                out[16..].copy_from_slice(&five[j].numbers()[..2]);
+            } else {
+                let out = &mut columns[apart * j..][..9];
+                out[..4].copy_from_slice(&one[j].numbers());
+                out[4..8].copy_from_slice(&two[j].numbers());
+                out[8] = three[j].at(0);
+            }
+        }
     }
 }

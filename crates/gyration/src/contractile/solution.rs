@@ -19,6 +19,8 @@ use crate::affine::Constraint;
 use crate::columns::{Columns, Four};
 use crate::tensor::Mat3;
 
+const THIRD: f64 = 1.0 / 3.0;
+
 /// What the derivative needs again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Solution<F> {
@@ -28,9 +30,8 @@ pub(super) struct Solution<F> {
     pub across: Columns<F>,
     /// L.
     pub l: Columns<F>,
-    /// g φ and g ∂φ/∂F Fᵀ.
+    /// g φ.
     pub energy: f64,
-    pub elastic_stress: Columns<F>,
     /// V_G.
     pub velocity: Columns<F>,
     /// Of F, where there is viscosity.
@@ -63,17 +64,24 @@ struct Loaded<F> {
 /// F and what turns the law of contraction into its axes.
 struct Frame<F> {
     elastic: Columns<F>,
-    /// F⁻¹.
-    back: Columns<F>,
+    /// G and P⁻ᵀ.
+    own: Columns<F>,
+    across: Columns<F>,
     axes: Option<Axes>,
 }
 
 impl<F: Four> Frame<F> {
+    /// F⁻¹.
+    #[inline(always)]
+    fn back(&self) -> Columns<F> {
+        self.own.times_transposed(&self.across)
+    }
+
     /// Fᵀ X F⁻ᵀ + Q, in the axes.
     #[inline(always)]
     fn pulled(&self, stress: &Columns<F>, drive: &Columns<F>) -> Columns<F> {
         let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
-            return self.elastic.transpose().times(stress).times_transposed(&self.back) + *drive;
+            return self.elastic.transpose().times(stress).times_transposed(&self.back()) + *drive;
         };
         let registers = stress.0[0].0;
         let (n, d) = (axes.with(registers), carried.with(registers));
@@ -90,15 +98,15 @@ impl<F: Four> Frame<F> {
             Command::Drive(drive) => Columns::load(drive, registers),
             Command::Velocity(velocity, _) => {
                 let velocity = Columns::load(velocity, registers);
-                return (velocity, self.elastic.times(&velocity).times(&self.back), 0.0);
+                return (velocity, self.elastic.times(&velocity).times(&self.back()), 0.0);
             }
         };
         let viscosity = body.viscosity.kirchhoff;
         let stress = if viscosity > 0.0 { *deviator + *strain_rate * viscosity } else { *deviator };
         let stress = self.pulled(&stress, &drive);
         let excess = match (contraction.kept_volume, body.is_incompressible()) {
-            (Some(_), _) => stress.trace() / 3.0,
-            (None, true) => (stress.trace() - (contraction.viscosity + viscosity) * growth) / 3.0,
+            (Some(_), _) => stress.trace() * THIRD,
+            (None, true) => (stress.trace() - (contraction.viscosity + viscosity) * growth) * THIRD,
             (None, false) => *free,
         };
         let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, self.axes.as_ref());
@@ -110,7 +118,7 @@ impl<F: Four> Frame<F> {
     #[inline(always)]
     fn pushed(&self, velocity: &Columns<F>) -> [Columns<F>; 2] {
         let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
-            return [*velocity, self.elastic.times(velocity).times(&self.back)];
+            return [*velocity, self.elastic.times(velocity).times(&self.back())];
         };
         let registers = velocity.0[0].0;
         let (n, d) = (axes.with(registers), carried.with(registers));
@@ -132,15 +140,15 @@ impl<F: Four> Solution<F> {
             None => (0.0, Columns::default().with(registers)),
         };
         let (energy, elastic_stress) = (ratio * energy, stress * ratio);
-        let mean = elastic_stress.trace() / 3.0;
+        let mean = elastic_stress.trace() * THIRD;
         let deviator = elastic_stress.plus_unit(-mean);
         let viscosity = body.viscosity.kirchhoff;
         let strain_rate = l.symmetric();
         let incompressible = body.is_incompressible();
         let own_pressure = incompressible && contraction.gives_pressure();
 
-        let back = Columns::load(&decomposition.contraction, registers).times_transposed(&across);
-        let frame = Frame { elastic, back, axes: Axes::of(&elastic.kept(), viscosity) };
+        let own = Columns::load(&decomposition.contraction, registers);
+        let frame = Frame { elastic, own, across, axes: Axes::of(&elastic.kept(), viscosity) };
         let loaded = Loaded { deviator, strain_rate, free: energy - mean, growth: l.trace() };
         let (velocity, carried, excess) = frame.contract(pull, command, &loaded);
 
@@ -174,7 +182,6 @@ impl<F: Four> Solution<F> {
             across,
             l,
             energy,
-            elastic_stress,
             velocity,
             axes,
             straining,

@@ -3,84 +3,184 @@
 //!
 //!   w ⊗ (gΣ − Kᵀ)u + K C u ⊗ C⁻¹w − C u ⊗ (KᵀC⁻¹w + (μ/2) C⁻¹Λᵀw) + (K − (μ/2) Λᵀ)w ⊗ u        for δΛ = −ξ Λ,
 //!
-//! of which one vector depends on the row of the increment alone (`Side`) and one on its column (`Row`). For an increment of G, ξ is −e_j ⊗ w and
-//! δΛ has −Λ e_j ⊗ w besides. Symbols as in `slopes`.
+//! of which one vector depends on the row of the increment alone (`Side`) and one on its column (`Row`). An increment of G has
+//! ξ = u ⊗ w with u = −e_j and δΛ = −ξ Λ + Λ ξ, of which the second adds (μ/2)(C Λ u ⊗ C⁻¹w + w ⊗ Λ u). In the axes gΣ = diag(m)
+//! and 𝔸 couples little (`material::coaxial`), so that all that goes with u_i and u_k in number (i, k) is gathered before:
+//!
+//!   R_ik = u_i (a_ik w_k − c_i first_k) + u_k (b_ik w_i + second_i) + (K C u)_i (C⁻¹w)_k − (Kᵀu)_k w_i,   R_ii besides: Σ_j≠i d_ij u_j w_j
+//!
+//! Symbols as in `slopes`.
 
+use super::triple::Triple;
 use crate::columns::{Column, Columns, Four};
 
-/// The dyads of one j: w ⊗ a + b ⊗ C⁻¹w + c ⊗ w₁ + w₂ ⊗ d, and what else is needed of u.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Side {
-    pub u: Column,
-    /// C u.
-    pub carried: Column,
-    pub dyads: [Column; 4],
-    /// gΣ u, Zᵀu.
-    pub heavy: Column,
-    pub total: Column,
+/// What depends on j alone, of all three: column i holds the numbers i of their vectors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Side<F> {
+    pub u: Columns<F>,
+    /// K C u, and −Kᵀ u.
+    forth: Columns<F>,
+    across: Columns<F>,
+    /// −Zᵀ u.
+    pub total: Columns<F>,
 }
 
 /// What depends on B alone.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     pub w: Column,
-    /// C⁻¹ w, w₁ = −(Kᵀ C⁻¹ w + (μ/2) C⁻¹ Λᵀ w), w₂ = K w − (μ/2) Λᵀ w, Λᵀ w.
+    /// C⁻¹ w, m w, −Λᵀ w, Z w.
     pub back: Column,
-    pub first: Column,
-    pub second: Column,
+    pub heavy: Column,
     pub pulled: Column,
+    pub total: Column,
+    /// What goes with u_i, u_k and, on the diagonal, with u_j.
+    own: Columns,
+    other: Columns,
+    along: Columns,
 }
 
 /// What the sides and rows are made of.
-pub(super) struct Vectors {
-    /// c and μ/2.
-    pub values: [f64; 3],
+pub(super) struct Vectors<F> {
+    /// c and 1/c, m.
+    pub values: Column<F>,
+    pub inverses: Column<F>,
+    pub mandel: Column<F>,
+    /// μ/2.
     pub half: f64,
-    /// K, Λ, gΣ and Z.
-    pub kept: Columns,
-    pub pulled: Columns,
-    pub mandel: Columns,
-    pub total: Columns,
+    /// K, Λ and Z.
+    pub kept: Columns<F>,
+    pub pulled: Columns<F>,
+    pub total: Columns<F>,
+    /// a with d_ii + m_i on the diagonal, b with m_k added, d without diagonal; times g.
+    pub own: Columns<F>,
+    pub other: Columns<F>,
+    pub along: Columns<F>,
 }
 
+/// What the rows are made of, column B for each.
+struct Rows<F> {
+    w: Columns<F>,
+    back: Columns<F>,
+    first: Columns<F>,
+    second: Columns<F>,
+    pulled: Columns<F>,
+    total: Columns<F>,
+}
+
+/// diag(a) B.
 #[inline(always)]
-fn times(column: &Column, [x, y, z]: [f64; 3]) -> Column {
-    let Column([a, b, c, _]) = *column;
-    Column([a * x, b * y, c * z, 0.0])
+fn stretched<F: Four>(a: &Column<F>, Columns([x, y, z]): &Columns<F>) -> Columns<F> {
+    Columns([a.product(x), a.product(y), a.product(z)])
 }
 
-impl Vectors {
-    /// For ξ = u ⊗ w, δΛ = −ξ Λ.
+impl<F: Four> Vectors<F> {
+    /// For ξ = u ⊗ w, δΛ = −ξ Λ; column i of u holds the numbers i of all three.
     #[inline(always)]
-    pub fn spatial(&self, u: Column) -> Side {
-        let carried = times(&u, self.values);
-        let heavy = self.mandel.image(&u);
-        let dyads = [heavy - self.kept.transpose().image(&u), self.kept.image(&carried), carried, u];
-        Side { u, carried, dyads, heavy, total: self.total.transpose().image(&u) }
+    pub fn spatial(&self, u: &Columns<F>) -> Side<F> {
+        let carried = u.scaled(&self.three());
+        Side {
+            u: *u,
+            forth: carried.times_transposed(&self.kept),
+            across: u.times(&self.kept) * -1.0,
+            total: u.times(&self.total) * -1.0,
+        }
     }
 
-    /// For γ = u ⊗ w = −ξ, δΛ = γ Λ − Λ γ.
+    /// For ξ = u ⊗ w, δΛ = −ξ Λ + Λ ξ.
     #[inline(always)]
-    pub fn relaxed(&self, u: Column) -> Side {
-        let forth = self.spatial(u);
-        let seen = self.pulled.image(&u) * self.half;
-        let [a, b, c, d] = forth.dyads;
-        let (a, b) = (a * -1.0 - seen, b * -1.0 - times(&seen, self.values));
-        Side { dyads: [a, b, c * -1.0, d * -1.0], ..forth }
+    pub fn relaxed(&self, u: &Columns<F>) -> Side<F> {
+        let Side { forth, across, total, .. } = self.spatial(u);
+        let seen = u.times_transposed(&self.pulled) * self.half;
+        Side { u: *u, forth: forth + seen.scaled(&self.three()), across: across + seen, total }
+    }
+
+    /// (μ/2) C u and (μ/2) u.
+    #[inline(always)]
+    pub fn strained(&self, u: &Columns<F>) -> [Columns<F>; 2] {
+        let half = *u * self.half;
+        [half.scaled(&self.three()), half]
     }
 
     #[inline(always)]
-    pub fn row(&self, w: Column) -> Row {
-        let inverses = self.values.map(|value| 1.0 / value);
-        let (back, pulled) = (times(&w, inverses), self.pulled.transpose().image(&w));
-        let first = self.kept.transpose().image(&back) + times(&pulled, inverses) * self.half;
-        Row { w, back, first: first * -1.0, second: self.kept.image(&w) - pulled * self.half, pulled }
+    fn three(&self) -> [f64; 3] {
+        let [x, y, z, _] = self.values.0.numbers();
+        [x, y, z]
+    }
+
+    /// Of all three w, columns of a matrix.
+    #[inline(always)]
+    pub fn rows(&self, w: &Columns<F>) -> [Row; 3] {
+        let back = stretched(&self.inverses, w);
+        let pulled = self.pulled.transpose().times(w);
+        let half = pulled * self.half;
+        let rows = Rows {
+            w: *w,
+            back,
+            first: self.kept.transpose().times(&back) + stretched(&self.inverses, &half),
+            second: self.kept.times(w) - half,
+            pulled: pulled * -1.0,
+            total: self.total.times(w),
+        };
+        [self.row(&rows, 0), self.row(&rows, 1), self.row(&rows, 2)]
+    }
+
+    #[inline(always)]
+    fn row(&self, rows: &Rows<F>, b: usize) -> Row {
+        let (w, second, first) = (rows.w.0[b], rows.second.0[b], Column(rows.first.0[b].0.numbers()));
+        let kept = Column(w.0.numbers());
+        let ([x, y, z], [p, q, r]) = (self.own.0, self.other.0);
+        let own = [
+            x * kept.0[0] - self.values * first.0[0],
+            y * kept.0[1] - self.values * first.0[1],
+            z * kept.0[2] - self.values * first.0[2],
+        ];
+        let other = [p.product(&w) + second, q.product(&w) + second, r.product(&w) + second];
+        Row {
+            w: kept,
+            back: Column(rows.back.0[b].0.numbers()),
+            heavy: Column(self.mandel.product(&w).0.numbers()),
+            pulled: Column(rows.pulled.0[b].0.numbers()),
+            total: Column(rows.total.0[b].0.numbers()),
+            own: Columns(own).kept(),
+            other: Columns(other).kept(),
+            along: self.along.scaled(&[kept.0[0], kept.0[1], kept.0[2]]).kept(),
+        }
     }
 }
 
-/// a ⊗ b.
+impl<F: Four> Side<F> {
+    /// R.
+    #[inline(always)]
+    pub fn stretched(&self, row: &Row) -> Triple<F> {
+        let [x, y, z] = &self.u.0;
+        let Columns([a, b, c]) = &row.along;
+        let one = self.number(row, 0, 0) + (*y * b.0[0] + *z * c.0[0]);
+        let two = self.number(row, 1, 1) + (*x * a.0[1] + *z * c.0[1]);
+        let three = self.number(row, 2, 2) + (*x * a.0[2] + *y * b.0[2]);
+        Triple([
+            [one, self.number(row, 1, 0), self.number(row, 2, 0)],
+            [self.number(row, 0, 1), two, self.number(row, 2, 1)],
+            [self.number(row, 0, 2), self.number(row, 1, 2), three],
+        ])
+    }
+
+    #[inline(always)]
+    fn number(&self, row: &Row, i: usize, k: usize) -> Column<F> {
+        let Self { u, forth, across, .. } = self;
+        let pair = u.0[i] * row.own.0[k].0[i] + u.0[k] * row.other.0[k].0[i];
+        pair + (forth.0[i] * row.back.0[k] + across.0[k] * row.w.0[i])
+    }
+}
+
+/// x ⊗ C⁻¹w + w ⊗ y.
 #[inline(always)]
-pub(super) fn dyad<F: Four>(a: &Column, b: &Column, registers: F) -> Columns<F> {
-    let (a, [x, y, z, _]) = (Column(registers.like(a.0)), b.0);
-    Columns([a * x, a * y, a * z])
+pub(super) fn strained<F: Four>([x, y]: &[Columns<F>; 2], row: &Row) -> Triple<F> {
+    let (a, b) = (&row.back.0, &row.w.0);
+    let ([p, q, r], [u, v, w]) = (&x.0, &y.0);
+    Triple([
+        [*p * a[0] + *u * b[0], *q * a[0] + *u * b[1], *r * a[0] + *u * b[2]],
+        [*p * a[1] + *v * b[0], *q * a[1] + *v * b[1], *r * a[1] + *v * b[2]],
+        [*p * a[2] + *w * b[0], *q * a[2] + *w * b[1], *r * a[2] + *w * b[2]],
+    ])
 }

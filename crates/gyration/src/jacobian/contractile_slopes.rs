@@ -27,6 +27,10 @@ pub(super) fn fill(
     for coordinate in 0..half {
         block[(coordinate, half + coordinate)] = 1.0;
     }
+    if !moving.contractile.contraction.feedback().is_empty() {
+        // What the body feels of p₀ adds to columns that may hold that of another state.
+        block.view_mut((half, 0), (block.nrows() - half, half - 9)).fill(0.0);
+    }
     let arm = body.pin.as_ref().map(|pin| pin.point);
     let seen = loads.as_ref().map(|slopes| Seen { slopes, arm, mass: body.mass.mass });
     let mut written = Contracting { model, moving, moment: &moment, seen: seen.as_ref(), half, block };
@@ -58,32 +62,38 @@ impl Work for &mut Contracting<'_> {
         let medium = medium.map(|medium| medium.slopes(&moving.pulled.gyration, &Mat3::zeros()));
         let at = half - 9;
         let columns = block.as_mut_slice();
-        let loads = |by_rate: bool, coordinate: usize| seen.map(|seen| seen.along(by_rate, coordinate));
-        for place in 0..9 {
-            let (entry, coordinate) = ((place % 3, place / 3), at + place);
-            let (mut gradient, mut rate) = (loads(false, coordinate), loads(true, coordinate));
-            if let Some(medium) = &medium {
-                let (j, b) = entry;
-                gradient = Some(gradient.unwrap_or_default() + medium.by_gradient(j, b));
-                rate = Some(rate.unwrap_or_default() + medium.by_rate(j, b));
-            }
-            let along = balance.along_gradient(entry, gradient.as_ref(), zeros);
-            write(&mut columns[size * coordinate..][..size], half, &along);
-            let along = balance.along_rate(entry, rate.as_ref(), zeros);
-            write(&mut columns[size * (half + coordinate)..][..size], half, &along);
+        let start = size * at + 2 * half - 9;
+        for b in 0..3 {
+            let from = start + size * 3 * b;
+            balance.along_gradient(b).write(&mut columns[from..], size, driven);
+            balance.along_rate(b).write(&mut columns[from + size * half..], size, driven);
             if driven {
-                let along = balance.along_contraction(entry, zeros);
-                write(&mut columns[size * (2 * half + place)..][..size], half, &along);
+                balance.along_contraction(b).write(&mut columns[from + size * (2 * half - at)..], size, driven);
             }
         }
-        if let Some(seen) = seen {
-            for coordinate in 0..2 * half {
+        if seen.is_some() || medium.is_some() || balance.is_held() {
+            for coordinate in 0..size {
                 let (by_rate, place) = (coordinate >= half, coordinate % half);
                 let column = &mut columns[size * coordinate..size * (coordinate + 1)];
-                seen.linear(by_rate, place, &mut column[half..half + at]);
-                if place < at {
-                    balance.along_moment(&seen.along(by_rate, place), zeros).write(&mut column[half + at..2 * half]);
+                let (mut own, mut moment, mut asked) = (Columns::default(), Columns::default(), 0.0);
+                if coordinate < 2 * half {
+                    if let Some(seen) = seen {
+                        seen.linear(by_rate, place, &mut column[half..half + at]);
+                        moment = seen.along(by_rate, place);
+                    }
+                    if place >= at {
+                        let (j, b) = ((place - at) % 3, (place - at) / 3);
+                        asked = balance.asked(by_rate, (j, b));
+                        if let Some(medium) = &medium {
+                            moment += if by_rate { medium.by_rate(j, b) } else { medium.by_gradient(j, b) };
+                        }
+                    }
                 }
+                let out = &mut column[half + at..2 * half];
+                if place >= at || coordinate >= 2 * half {
+                    own = Columns::read(out);
+                }
+                balance.held(&own, &moment, asked).write(out);
             }
         }
         if driven {
@@ -92,24 +102,20 @@ impl Work for &mut Contracting<'_> {
     }
 }
 
-/// Writes δP̈ and, if G is part of the state, δĠ into a column of the block.
-#[inline(always)]
-fn write<F: Four>(column: &mut [f64], half: usize, (rate, acceleration): &(Columns<F>, Columns<F>)) {
-    acceleration.write(&mut column[2 * half - 9..2 * half]);
-    if column.len() > 2 * half {
-        rate.write(&mut column[2 * half..]);
-    }
-}
-
 /// Adds what the parts of the drive do that answer to the body.
-fn add_feedback(block: &mut DMatrix<f64>, model: &Model, moving: &ContractileMotion, balance: &ContractileSlopes) {
+#[inline(always)]
+fn add_feedback<F: Four>(
+    block: &mut DMatrix<f64>,
+    model: &Model,
+    moving: &ContractileMotion,
+    balance: &ContractileSlopes<F>,
+) {
     let pin = model.bodies[moving.pulled.index].pin.as_ref();
     let half = if pin.is_some() { 9 } else { 12 };
     for (felt, feedback) in moving.felt(model).filter(|(felt, feedback)| feedback.answer(felt.value).1) {
-        let (rate, acceleration) = balance.along_drive(&feedback.gain);
-        let mut change = [0.0; 18];
-        acceleration.write(&mut change[..9]);
-        rate.write(&mut change[9..]);
+        let mut change = [0.0; 3 * 18];
+        balance.along_drive(&feedback.gain).write(&mut change, 18, true);
+        balance.held(&Columns::read(&change), &Columns::default(), 0.0).write(&mut change);
         let Felt { by_position, mut by_gradient, by_rate, .. } = felt;
         if let Some(pin) = pin {
             // p₀ = a − P r.
@@ -118,7 +124,7 @@ fn add_feedback(block: &mut DMatrix<f64>, model: &Model, moving: &ContractileMot
         let places = by_position.iter().take(half - 9).chain(by_gradient.iter());
         let rates = [0.0; 3].iter().take(half - 9).chain(by_rate.iter());
         for (coordinate, slope) in places.chain(rates).enumerate().filter(|(_, slope)| **slope != 0.0) {
-            for (row, change) in change.iter().enumerate() {
+            for (row, change) in change[..18].iter().enumerate() {
                 block[(2 * half - 9 + row, coordinate)] += slope * change;
             }
         }

@@ -16,6 +16,7 @@
 //! The orthogonality energy κ|PᵀP − I|² is St Venant–Kirchhoff with λ = 0, μ = 4κ; neo-Hookean is Mooney–Rivlin with
 //! c₁ = μ/2. This module sees a gradient, never a body or a time.
 
+mod coaxial;
 mod fung;
 mod hencky;
 mod invariants;
@@ -27,6 +28,7 @@ mod spectrum;
 mod st_venant_kirchhoff;
 mod volume;
 
+pub(crate) use coaxial::Coaxial;
 pub use fung::Fung;
 pub use hencky::Hencky;
 pub use mooney_rivlin::MooneyRivlin;

@@ -30,7 +30,7 @@ impl<'a> ContractileMotion<'a> {
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
-    #[inline]
+    #[inline(always)]
     pub fn new(
         index: usize,
         contractile: &'a Contractile,
@@ -67,10 +67,7 @@ impl<'a> ContractileMotion<'a> {
 
     /// The measures of the parts that answer to the body, and what they are for.
     pub fn felt(&self, model: &Model) -> impl Iterator<Item = (Felt, &'a Feedback)> {
-        let parts = match &self.contractile.contraction.source {
-            Source::Driven { feedback, .. } => feedback.as_slice(),
-            Source::Prescribed(_) => &[],
-        };
+        let parts = self.contractile.contraction.feedback();
         let BodyMotion { placement, velocity } = self.pulled.motion;
         let near = move || nearest(model, self.time, self.pulled.index, self.pulled.motion);
         parts.iter().map(move |part| (part.measure.of(placement, velocity, near), part))
@@ -84,7 +81,7 @@ impl<'a> ContractileMotion<'a> {
 
     /// The derivatives of P̈ and Ġ, with Q or V_G as it is.
     #[inline(always)]
-    pub fn slopes_in<F: Four>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'_> {
+    pub fn slopes_in<F: Four>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'_, F> {
         self.pull().slopes_in(registers, command, moment)
     }
 
