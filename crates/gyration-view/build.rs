@@ -21,11 +21,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("cargo:rerun-if-changed={}", source.display());
     }
     let page = out.join("page.html");
-    let made = match env::var("GYRATION_PAGE") {
+    let given = env::var("GYRATION_PAGE");
+    let made = match &given {
         Ok(given) if given == "none" => Err("GYRATION_PAGE=none".to_owned()),
         Ok(given) => {
             println!("cargo:rerun-if-changed={given}");
-            fs::copy(&given, &page).map(drop).map_err(|error| format!("GYRATION_PAGE={given}: {error}"))
+            fs::copy(given, &page).map(drop).map_err(|error| format!("GYRATION_PAGE={given}: {error}"))
         }
         Err(_) => build(viewer, &out).and_then(|built| {
             fs::copy(&built, &page).map(drop).map_err(|error| format!("{}: {error}", built.display()))
@@ -34,6 +35,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let constant = match made {
         Ok(()) => "Ok(include_str!(concat!(env!(\"OUT_DIR\"), \"/page.html\")))".to_owned(),
         Err(reason) => {
+            if given.as_deref() != Ok("none") {
+                // Tried again at the next build: this path is not there.
+                println!("cargo:rerun-if-changed={}", out.join("no-page-yet").display());
+            }
             println!("cargo:warning=built without the page of `gyration view` and `gyration report`: {reason}");
             format!("Err({reason:?})")
         }
