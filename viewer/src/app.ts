@@ -110,7 +110,7 @@ export class App implements Listener {
     // The plots come after the first frame: what moves is looked at first.
     requestAnimationFrame(() => {
       this.plots.load(recording);
-      this.moved(null);
+      this.pointPlots();
       if (fresh && header.mode === "live") this.player.play();
     });
   }
@@ -171,6 +171,10 @@ export class App implements Listener {
   private moved(frameTook: number | null): void {
     this.transport.moved();
     this.picture.request(frameTook);
+    this.pointPlots();
+  }
+
+  private pointPlots(): void {
     if (this.recording) this.plots.pointAt(this.player.time, this.recording.rowAt(this.player.time));
   }
 

@@ -1,4 +1,4 @@
-// Arrows in crowds: shafts and heads as two instanced meshes, drawn over everything, since what they show begins at or
+// Arrows in crowds: shafts and heads as copies of two meshes, drawn over everything, since what they show begins at or
 // inside of a body.
 
 import {
@@ -12,13 +12,16 @@ import {
   Quaternion,
   Vector3,
 } from "three";
-import { instances } from "./bodies";
+import { instancesOf, matricesOf, moved } from "./instances";
 
 const UP = new Vector3(0, 1, 0);
 
 /** Length of a head, and of its base, in radii of the shaft. */
 const HEAD_LENGTH = 7;
 const HEAD_RADIUS = 2.6;
+
+/** Arrows of which there are more are drawn with fewer corners. */
+const CROWD = 100;
 
 export class Arrows {
   readonly group = new Group();
@@ -31,12 +34,14 @@ export class Arrows {
     readonly most: number,
     readonly material: MeshBasicMaterial,
   ) {
-    this.shafts = instances(lifted(new CylinderGeometry(1, 1, 1, 10)), material, most);
-    this.heads = instances(lifted(new ConeGeometry(HEAD_RADIUS, HEAD_LENGTH, 14)), material, most);
+    const sides = most > CROWD ? 4 : 12;
+    this.shafts = instancesOf(lifted(new CylinderGeometry(1, 1, 1, sides, 1, true)), material, most);
+    this.heads = instancesOf(lifted(new ConeGeometry(HEAD_RADIUS, HEAD_LENGTH, sides)), material, most);
     for (const mesh of [this.shafts, this.heads]) {
       mesh.renderOrder = 5;
       this.group.add(mesh);
     }
+    this.finish();
   }
 
   clear(): void {
@@ -52,12 +57,13 @@ export class Arrows {
     const shaft = Math.max(0, length - HEAD_LENGTH * thick);
     turn.setFromUnitVectors(UP, to.copy(along).divideScalar(length));
     const start = new Vector3(from[0], from[1], from[2]);
-    this.shafts.setMatrixAt(
-      this.used,
-      matrix.compose(start, turn, new Vector3(thick, shaft || 1e-9 * length, thick)),
-    );
+    matrix
+      .compose(start, turn, new Vector3(thick, shaft || 1e-9 * length, thick))
+      .toArray(matricesOf(this.shafts), 16 * this.used);
     start.addScaledVector(to, shaft);
-    this.heads.setMatrixAt(this.used, matrix.compose(start, turn, new Vector3(thick, thick, thick)));
+    matrix
+      .compose(start, turn, new Vector3(thick, thick, thick))
+      .toArray(matricesOf(this.heads), 16 * this.used);
     this.used++;
   }
 
@@ -66,7 +72,7 @@ export class Arrows {
     for (const mesh of [this.shafts, this.heads]) {
       mesh.count = this.used;
       mesh.visible = this.used > 0;
-      mesh.instanceMatrix.needsUpdate = true;
+      moved(mesh);
     }
   }
 

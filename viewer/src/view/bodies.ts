@@ -4,18 +4,19 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
-  DynamicDrawUsage,
   Group,
-  InstancedMesh,
-  type Material,
+  type InstancedMesh,
+  type Raycaster,
   SRGBColorSpace,
 } from "three";
 import type { Frame } from "../data/frame";
 import type { Recording, Surface } from "../data/recording";
 import type { Rgb } from "../math/colors";
 import { coarsened } from "./coarse";
-import { shaded } from "./crease";
+import { COARSE_CREASE, CREASE, shaded } from "./crease";
+import { instancesOf, matricesOf, moved } from "./instances";
 import { bodyMaterial } from "./material";
+import type { Quality } from "./quality";
 
 /** Bodies that share a surface. */
 interface Shared {
@@ -26,14 +27,11 @@ interface Shared {
 export class BodyLayer {
   readonly group = new Group();
   private readonly shared: Shared[] = [];
+  private readonly material = bodyMaterial();
 
-  /** `triangles`: how many may be drawn, all bodies together. */
-  constructor(recording: Recording, triangles: number) {
-    const material = bodyMaterial();
+  constructor(recording: Recording, { triangles }: Quality) {
     for (const [bodies, geometry] of geometries(recording, triangles)) {
-      const mesh = instances(geometry, material, bodies.length);
-      mesh.castShadow = true;
-      mesh.receiveShadow = true;
+      const mesh = instancesOf(geometry, this.material, bodies.length);
       this.shared.push({ mesh, bodies });
       this.group.add(mesh);
     }
@@ -42,10 +40,8 @@ export class BodyLayer {
   /** Moves every body to its place. */
   place(frame: Frame): void {
     for (const { mesh, bodies } of this.shared) {
-      const matrices = mesh.instanceMatrix.array as Float32Array;
-      for (const [instance, body] of bodies.entries()) writePlacement(matrices, 16 * instance, frame, body);
-      mesh.instanceMatrix.needsUpdate = true;
-      mesh.boundingSphere = null;
+      for (const [k, body] of bodies.entries()) writePlacement(matricesOf(mesh), 16 * k, frame, body);
+      moved(mesh);
     }
   }
 
@@ -53,25 +49,39 @@ export class BodyLayer {
   paint(colorOf: (body: number) => Rgb): void {
     const color = new Color();
     for (const { mesh, bodies } of this.shared) {
-      bodies.forEach((body, instance) => {
-        mesh.setColorAt(instance, color.setRGB(...colorOf(body), SRGBColorSpace));
-      });
+      for (const [k, body] of bodies.entries()) {
+        mesh.setColorAt(k, color.setRGB(...colorOf(body), SRGBColorSpace));
+      }
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
   }
 
-  /** The body behind an instance that was hit. */
-  bodyOf(mesh: unknown, instance: number | undefined): number | null {
-    const shared = this.shared.find((one) => one.mesh === mesh);
-    return shared && instance !== undefined ? (shared.bodies[instance] ?? null) : null;
+  /** What casts shadows. */
+  get casters(): InstancedMesh[] {
+    return this.shared.map(({ mesh }) => mesh);
+  }
+
+  /** Triangles of all bodies together. */
+  get triangles(): number {
+    return this.shared.reduce(
+      (sum, { mesh }) => sum + (mesh.count * (mesh.geometry.index?.count ?? 0)) / 3,
+      0,
+    );
+  }
+
+  /** The nearest body on a ray. */
+  hitBy(ray: Raycaster): number | null {
+    const [hit] = ray.intersectObjects(this.group.children, false);
+    const shared = hit && this.shared.find(({ mesh }) => mesh === hit.object);
+    return shared && hit.instanceId !== undefined ? shared.bodies[hit.instanceId] : null;
   }
 
   dispose(): void {
     for (const { mesh } of this.shared) {
       mesh.geometry.dispose();
-      (mesh.material as Material).dispose();
       mesh.dispose();
     }
+    this.material.dispose();
   }
 }
 
@@ -87,20 +97,14 @@ export function* geometries(recording: Recording, triangles: number): Generator<
 
 function geometryOf(surface: Surface, most: number): BufferGeometry {
   const { points, triangles } = coarsened(surface.points, surface.triangles, most);
-  const { position, normal, index } = shaded(points, triangles);
+  // What was made coarse has edges that the body has not.
+  const crease = triangles === surface.triangles ? CREASE : COARSE_CREASE;
+  const { position, normal, index } = shaded(points, triangles, crease);
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(position, 3));
   geometry.setAttribute("normal", new BufferAttribute(normal, 3));
   geometry.setIndex(new BufferAttribute(index, 1));
   return geometry;
-}
-
-/** A mesh of so many instances that may be anywhere. */
-export function instances(geometry: BufferGeometry, material: Material, count: number): InstancedMesh {
-  const mesh = new InstancedMesh(geometry, material, count);
-  mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-  mesh.frustumCulled = false;
-  return mesh;
 }
 
 /** x = p + P X as a column-major 4×4 matrix. */

@@ -1,8 +1,9 @@
 // Normals for a triangulated surface: smooth where it is, with an edge where neighbouring triangles differ by more
 // than the crease angle. Points that need several normals are doubled.
 
-/** Faces that differ by more than this keep an edge between them: 30 degrees. */
-const CREASE_COSINE = Math.cos(Math.PI / 6);
+/** Faces that differ by more than this keep an edge between them [rad]. */
+export const CREASE = Math.PI / 6;
+export const COARSE_CREASE = (75 * Math.PI) / 180;
 
 export interface Shaded {
   position: Float32Array;
@@ -11,7 +12,7 @@ export interface Shaded {
 }
 
 /** The surface with normals in the reference placement. */
-export function shaded(points: Float32Array, triangles: Uint32Array): Shaded {
+export function shaded(points: Float32Array, triangles: Uint32Array, crease = CREASE): Shaded {
   const faces = faceNormals(points, triangles);
   const incident = corners(points.length / 3, triangles);
   const position: number[] = [];
@@ -20,7 +21,7 @@ export function shaded(points: Float32Array, triangles: Uint32Array): Shaded {
   for (let point = 0; point < incident.length; point++) {
     const made: number[] = [];
     for (const corner of incident[point]) {
-      const n = cornerNormal(corner, incident[point], faces);
+      const n = cornerNormal(corner, incident[point], faces, Math.cos(crease));
       let vertex = made.find((old) => sameDirection(normal, 3 * old, n));
       if (vertex === undefined) {
         vertex = position.length / 3;
@@ -56,7 +57,12 @@ function corners(points: number, triangles: Uint32Array): number[][] {
 }
 
 /** Sum of the normals around the point, of the faces that lie within the crease angle of this one. */
-function cornerNormal(corner: number, around: number[], faces: Float64Array): [number, number, number] {
+function cornerNormal(
+  corner: number,
+  around: number[],
+  faces: Float64Array,
+  creaseCosine: number,
+): [number, number, number] {
   const own = corner - (corner % 3);
   const [x, y, z] = [faces[own], faces[own + 1], faces[own + 2]];
   const length = Math.hypot(x, y, z);
@@ -65,7 +71,7 @@ function cornerNormal(corner: number, around: number[], faces: Float64Array): [n
     const face = other - (other % 3);
     const [fx, fy, fz] = [faces[face], faces[face + 1], faces[face + 2]];
     const cosine = (x * fx + y * fy + z * fz) / (length * Math.hypot(fx, fy, fz));
-    if (cosine >= CREASE_COSINE || face === own) {
+    if (cosine >= creaseCosine || face === own) {
       sx += fx;
       sy += fy;
       sz += fz;

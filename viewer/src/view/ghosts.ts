@@ -1,11 +1,13 @@
 // Onion skins: the bodies at equal times of the whole recording, clear enough to be seen through.
 
-import { Color, Group, type InstancedMesh, type MeshLambertMaterial, SRGBColorSpace } from "three";
+import { Color, Group, type InstancedMesh, SRGBColorSpace } from "three";
 import { Frame } from "../data/frame";
 import type { Recording } from "../data/recording";
 import { bodyColor, rgb } from "../math/colors";
-import { geometries, instances, writePlacement } from "./bodies";
+import { geometries, writePlacement } from "./bodies";
+import { instancesOf, matricesOf, moved } from "./instances";
 import { ghostMaterial } from "./material";
+import type { Quality } from "./quality";
 
 /** Skins of each body, if that is not too many altogether. */
 const SKINS = 9;
@@ -13,12 +15,13 @@ const MOST = 600;
 
 export class GhostLayer {
   readonly group = new Group();
-  private meshes: InstancedMesh[] = [];
+  private skins: InstancedMesh[] = [];
+  private readonly material = ghostMaterial();
   private rows = 0;
 
   constructor(
     private readonly recording: Recording,
-    private readonly triangles: number,
+    private readonly quality: Quality,
   ) {
     this.group.visible = false;
   }
@@ -27,37 +30,42 @@ export class GhostLayer {
   place(): void {
     if (!this.group.visible || this.rows === this.recording.rows) return;
     this.rows = this.recording.rows;
-    this.dispose();
-    const times = this.times();
-    const frames = times.map((time) => {
+    this.clear();
+    const frames = this.times().map((time) => {
       const frame = new Frame();
       frame.take(this.recording, time, false);
       return frame;
     });
-    for (const [bodies, geometry] of geometries(this.recording, this.triangles / frames.length)) {
-      const mesh = instances(geometry, ghostMaterial(), bodies.length * frames.length);
-      mesh.renderOrder = 2;
-      const matrices = mesh.instanceMatrix.array as Float32Array;
-      let instance = 0;
-      for (const frame of frames) {
-        for (const body of bodies) {
-          writePlacement(matrices, 16 * instance, frame, body);
-          mesh.setColorAt(instance++, new Color().setRGB(...rgb(bodyColor(body)), SRGBColorSpace));
+    const { triangles } = this.quality;
+    const color = new Color();
+    for (const [bodies, geometry] of geometries(this.recording, triangles / frames.length)) {
+      const skins = instancesOf(geometry, this.material, bodies.length * frames.length);
+      for (const [f, frame] of frames.entries()) {
+        for (const [b, body] of bodies.entries()) {
+          const copy = f * bodies.length + b;
+          writePlacement(matricesOf(skins), 16 * copy, frame, body);
+          skins.setColorAt(copy, color.setRGB(...rgb(bodyColor(body)), SRGBColorSpace));
         }
       }
-      this.meshes.push(mesh);
-      this.group.add(mesh);
+      moved(skins);
+      skins.renderOrder = 2;
+      this.skins.push(skins);
+      this.group.add(skins);
     }
   }
 
   dispose(): void {
-    for (const mesh of this.meshes) {
-      mesh.removeFromParent();
-      mesh.geometry.dispose();
-      (mesh.material as MeshLambertMaterial).dispose();
-      mesh.dispose();
+    this.clear();
+    this.material.dispose();
+  }
+
+  private clear(): void {
+    this.group.clear();
+    for (const skins of this.skins) {
+      skins.geometry.dispose();
+      skins.dispose();
     }
-    this.meshes = [];
+    this.skins = [];
   }
 
   private times(): number[] {

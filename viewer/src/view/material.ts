@@ -1,54 +1,70 @@
-// The material of bodies: three's own, with two changes to its shaders.
+// The materials of bodies: own shaders, small enough to compile fast and to run on a processor.
 //
-// Normals. A material element moves by P, its normal by the cofactor of P: n ∝ cof(P) N. The library divides by squared
+// Normals. A material element moves by P, its normal by the cofactor of P: n ∝ cof(P) N. Libraries divide by squared
 // lengths of columns instead, which is wrong under shear. With P = (a | b | c) the cofactor is (b×c | c×a | a×b).
+//
+// Light. A sky that is bright above and dim below, a key light, and a weak one from the side of the camera.
 //
 // Octants. The eight octants about the centre of mass, in the axes of the body, differ a little in shade, so that a ball
 // can be seen to turn and a shear to shear.
 
-import { MeshLambertMaterial, MeshStandardMaterial } from "three";
+import { ShaderMaterial, Vector3 } from "three";
 
-const NORMAL_BY_COFACTOR = /* glsl */ `
-vec3 transformedNormal = objectNormal;
-#ifdef USE_INSTANCING
-	mat3 placement = mat3( instanceMatrix );
-	transformedNormal = mat3( cross( placement[ 1 ], placement[ 2 ] ), cross( placement[ 2 ], placement[ 0 ] ),
-		cross( placement[ 0 ], placement[ 1 ] ) ) * transformedNormal;
-#endif
-transformedNormal = normalMatrix * transformedNormal;
-`;
+const VERTEX = /* glsl */ `
+varying vec3 vReference, vNormal, vColor, vView;
+void main() {
+	mat3 P = mat3( instanceMatrix );
+	vReference = position;
+	vNormal = mat3( cross( P[ 1 ], P[ 2 ] ), cross( P[ 2 ], P[ 0 ] ), cross( P[ 0 ], P[ 1 ] ) ) * normal;
+	vColor = vec3( 1.0 );
+	#ifdef USE_INSTANCING_COLOR
+		vColor = instanceColor;
+	#endif
+	vec4 place = modelMatrix * ( instanceMatrix * vec4( position, 1.0 ) );
+	vView = cameraPosition - place.xyz;
+	gl_Position = projectionMatrix * ( viewMatrix * place );
+}`;
 
-const OCTANTS = /* glsl */ `
-#include <color_fragment>
-vec3 fromPlane = clamp( vReference / max( fwidth( vReference ), vec3( 1e-12 ) ), -0.5, 0.5 );
-diffuseColor.rgb *= 1.0 + OCTANT_CONTRAST * 8.0 * fromPlane.x * fromPlane.y * fromPlane.z;
-`;
+const FRAGMENT = /* glsl */ `
+uniform vec3 up, key, fill;
+uniform float sky, opacity, contrast;
+varying vec3 vReference, vNormal, vColor, vView;
+void main() {
+	vec3 n = normalize( gl_FrontFacing ? vNormal : -vNormal );
+	vec3 fromPlane = clamp( vReference / max( fwidth( vReference ), vec3( 1e-12 ) ), -0.5, 0.5 );
+	vec3 color = vColor * ( 1.0 + contrast * 8.0 * fromPlane.x * fromPlane.y * fromPlane.z );
+	vec3 light = sky * mix( vec3( 0.30, 0.31, 0.34 ), vec3( 0.55, 0.56, 0.58 ), 0.5 + 0.5 * dot( n, up ) );
+	light += vec3( 0.62, 0.60, 0.56 ) * max( 0.0, 0.15 + 0.85 * dot( n, key ) );
+	light += vec3( 0.16, 0.17, 0.20 ) * max( 0.0, dot( n, fill ) );
+	vec3 halfway = normalize( key + normalize( vView ) );
+	float gloss = 0.10 * pow( max( 0.0, dot( n, halfway ) ), 24.0 );
+	gl_FragColor = vec4( color * light + gloss, opacity );
+	#include <colorspace_fragment>
+}`;
 
-type Shader = { vertexShader: string; fragmentShader: string };
+/** Where light comes from, unit vectors; shared by all bodies. */
+export const LIGHT = {
+  up: { value: new Vector3(0, 0, 1) },
+  key: { value: new Vector3(0, 0, 1) },
+  fill: { value: new Vector3(0, 0, 1) },
+  sky: { value: 1 },
+};
 
-function adapt(shader: Shader, contrast: number): void {
-  shader.vertexShader = shader.vertexShader
-    .replace("#include <common>", "#include <common>\nvarying vec3 vReference;")
-    .replace("#include <begin_vertex>", "#include <begin_vertex>\nvReference = position;")
-    .replace("#include <defaultnormal_vertex>", NORMAL_BY_COFACTOR);
-  shader.fragmentShader = shader.fragmentShader
-    .replace(
-      "#include <common>",
-      `#include <common>\nvarying vec3 vReference;\n#define OCTANT_CONTRAST ${contrast.toFixed(3)}`,
-    )
-    .replace("#include <color_fragment>", OCTANTS);
+function material(opacity: number, contrast: number): ShaderMaterial {
+  const made = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT });
+  made.uniforms = { ...LIGHT, opacity: { value: opacity }, contrast: { value: contrast } };
+  return made;
 }
 
 /** Of bodies as they are. */
-export function bodyMaterial(): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ roughness: 0.62, metalness: 0 });
-  material.onBeforeCompile = (shader) => adapt(shader, 0.09);
-  return material;
+export function bodyMaterial(): ShaderMaterial {
+  return material(1, 0.09);
 }
 
 /** Of bodies at other times. */
-export function ghostMaterial(): MeshLambertMaterial {
-  const material = new MeshLambertMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
-  material.onBeforeCompile = (shader) => adapt(shader, 0);
-  return material;
+export function ghostMaterial(): ShaderMaterial {
+  const made = material(0.2, 0);
+  made.transparent = true;
+  made.depthWrite = false;
+  return made;
 }

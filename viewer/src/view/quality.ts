@@ -1,49 +1,50 @@
-// How much may be drawn. A processor that stands in for a graphics card pays for every pixel; so does an old phone.
+// How much may be drawn. A processor that stands in for a graphics card pays for every pixel and every corner.
 
 import type { WebGLRenderer } from "three";
 
 export interface Quality {
   pixelRatio: number;
-  antialias: boolean;
-  shadows: boolean;
-  shadowMap: number;
   /** Triangles of all bodies together. */
   triangles: number;
+  /** Directions of light that make shadows soft. */
+  directions: number;
 }
 
-const FULL: Quality = {
-  pixelRatio: 2,
-  antialias: true,
-  shadows: true,
-  shadowMap: 2048,
-  triangles: 3_000_000,
-};
-const MODEST: Quality = {
-  pixelRatio: 1,
-  antialias: true,
-  shadows: true,
-  shadowMap: 1024,
-  triangles: 150_000,
-};
+const FULL: Quality = { pixelRatio: 2, triangles: 3_000_000, directions: 12 };
+const MODEST: Quality = { pixelRatio: 0.75, triangles: 20_000, directions: 4 };
 
 /** Names of renderers that compute on the processor. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** What suits the machine behind a context. */
-export function qualityFor(context: WebGLRenderingContext | WebGL2RenderingContext): Quality {
-  return isSoftware(context) ? { ...MODEST } : { ...FULL };
+/** The context of a canvas and what suits the machine behind it; `#quality=full` in the address insists on the best. */
+export function contextOf(
+  canvas: HTMLCanvasElement,
+): { context: WebGL2RenderingContext; quality: Quality } | null {
+  const attributes = { alpha: false, stencil: true, antialias: true };
+  const best = location.hash.includes("quality=full");
+  const fast = canvas.getContext("webgl2", { ...attributes, failIfMajorPerformanceCaveat: !best });
+  if (fast) return { context: fast, quality: { ...(best || !isSoftware(fast) ? FULL : MODEST) } };
+  const slow = canvas.getContext("webgl2", { ...attributes, antialias: false });
+  return slow && { context: slow, quality: { ...MODEST } };
 }
 
-function isSoftware(context: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+function isSoftware(context: WebGL2RenderingContext): boolean {
   const info = context.getExtension("WEBGL_debug_renderer_info");
   const name: unknown = context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER);
   return typeof name === "string" && SOFTWARE.test(name);
 }
 
-/** Frames slower than this while playing [ms] cost pixels. */
-const SLOW_MS = 50;
+/** Directions of light for so many triangles: shadows and bodies together keep to the limit; none where they cannot. */
+export function directionsFor(quality: Quality, triangles: number): number {
+  const most = Math.round(quality.triangles / Math.max(1, triangles)) - 1;
+  return Math.max(0, Math.min(quality.directions, most));
+}
 
-/** Watches how long frames take while playing and gives up pixels, then shadows, where they take long. */
+/** Frames slower than this while playing [ms] cost pixels. */
+const SLOW_MS = 60;
+const LEAST_RATIO = 0.6;
+
+/** Watches how long frames take while playing, and gives up pixels where they take long. */
 export class Thrift {
   private slow = 0;
 
@@ -55,18 +56,13 @@ export class Thrift {
   /** After a frame that took so long [ms]; returns whether something was given up. */
   saw(frame: number): boolean {
     this.slow = frame > SLOW_MS ? this.slow + 1 : Math.max(0, this.slow - 1);
-    if (this.slow < 8) return false;
+    if (this.slow < 8 || this.quality.pixelRatio <= LEAST_RATIO) return false;
     this.slow = 0;
-    const { quality, renderer } = this;
-    if (quality.pixelRatio > 0.75) {
-      quality.pixelRatio = Math.max(0.75, quality.pixelRatio / 1.5);
-      renderer.setPixelRatio(Math.min(quality.pixelRatio, devicePixelRatio));
-      return true;
-    }
-    if (quality.shadows) {
-      quality.shadows = false;
-      return true;
-    }
-    return false;
+    this.quality.pixelRatio = Math.max(
+      LEAST_RATIO,
+      Math.min(this.quality.pixelRatio, devicePixelRatio) / 1.4,
+    );
+    this.renderer.setPixelRatio(this.quality.pixelRatio);
+    return true;
   }
 }

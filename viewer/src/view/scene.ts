@@ -8,7 +8,9 @@ import { BodyLayer } from "./bodies";
 import { type Coloring, Colors } from "./coloring";
 import { framed } from "./framing";
 import { GhostLayer } from "./ghosts";
+import { LIGHT } from "./material";
 import { OutlineLayer } from "./outlines";
+import { directionsFor } from "./quality";
 import type { Stage } from "./stage";
 import { SupportLayer } from "./supports";
 import { TrailLayer } from "./trails";
@@ -39,7 +41,7 @@ export class SceneView {
   private followed: { body: number; at: Vector3 } | null = null;
   /** Rows that the framing has seen. */
   private framedRows = 0;
-  private radius = 1;
+  private center: Vec3 = [0, 0, 0];
 
   constructor(
     private readonly stage: Stage,
@@ -47,15 +49,16 @@ export class SceneView {
     private readonly shown: Shown,
   ) {
     this.colors = new Colors(recording);
-    this.bodies = new BodyLayer(recording, stage.quality.triangles);
+    this.bodies = new BodyLayer(recording, stage.quality);
     this.outlines = new OutlineLayer(recording);
     this.supports = new SupportLayer(recording);
     this.vectors = new VectorLayer(recording);
     this.trails = new TrailLayer(recording);
-    this.ghosts = new GhostLayer(recording, stage.quality.triangles);
+    this.ghosts = new GhostLayer(recording, stage.quality);
     stage.root.clear();
     stage.root.add(this.supports.group, this.bodies.group, this.outlines.group, this.vectors.group);
     stage.root.add(this.trails.lines, this.ghosts.group);
+    this.cast();
     this.refit();
   }
 
@@ -63,9 +66,9 @@ export class SceneView {
   refit(): void {
     const framing = framed(this.recording);
     this.framedRows = this.recording.rows;
-    this.radius = framing.radius;
     if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = 0;
-    this.supports.fit(framing.center, framing.radius);
+    this.center = framing.center;
+    this.supports.fit(framing.radius);
     this.vectors.fit(framing.radius);
     this.stage.frame(framing);
     this.followed = null;
@@ -80,8 +83,9 @@ export class SceneView {
   surfaced(): void {
     this.bodies.group.removeFromParent();
     this.bodies.dispose();
-    this.bodies = new BodyLayer(this.recording, this.stage.quality.triangles);
+    this.bodies = new BodyLayer(this.recording, this.stage.quality);
     this.stage.root.add(this.bodies.group);
+    this.cast();
   }
 
   /** Puts everything where it is at a time [s]. */
@@ -93,7 +97,7 @@ export class SceneView {
     this.outlines.place(frame);
     this.outlines.paint(this.colors.at(shown.coloring, frame));
     this.supports.group.visible = shown.supports;
-    this.supports.place(frame.time);
+    this.supports.place(frame.time, this.middle(), LIGHT.key.value.toArray() as Vec3);
     this.vectors.shown = shown;
     this.vectors.place(frame);
     this.trails.lines.visible = shown.trails;
@@ -101,19 +105,18 @@ export class SceneView {
     this.ghosts.group.visible = shown.ghosts;
     this.ghosts.place();
     this.follow();
-    this.light();
   }
 
   /** The body under a point of the canvas, from −1 to 1. */
   bodyAt(x: number, y: number): number | null {
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2(x, y), this.stage.camera);
-    const [hit] = ray.intersectObject(this.bodies.group, true);
-    return hit ? this.bodies.bodyOf(hit.object, hit.instanceId) : null;
+    return this.bodies.hitBy(ray);
   }
 
   dispose(): void {
     this.bodies.dispose();
+    this.supports.dispose();
     this.vectors.dispose();
     this.trails.dispose();
     this.ghosts.dispose();
@@ -133,24 +136,16 @@ export class SceneView {
     this.followed = { body, at };
   }
 
-  private centerOf(body: number): Vec3 {
-    return Array.from(this.frame.position.subarray(3 * body, 3 * body + 3)) as Vec3;
+  /** The point around which the planes are drawn: where the followed body is, else the middle of the scene. */
+  private middle(): Vec3 {
+    return this.shown.follow === null ? this.center : this.centerOf(this.shown.follow);
   }
 
-  /** The light shines on the bodies, wherever they are, with room for their shadows. */
-  private light(): void {
-    const { bodies } = this.recording.header;
-    const low = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
-    const high = low.map((value) => -value);
-    bodies.forEach((body, index) => {
-      this.centerOf(index).forEach((value, axis) => {
-        if (!Number.isFinite(value)) return;
-        low[axis] = Math.min(low[axis], value - 0.7 * body.size);
-        high[axis] = Math.max(high[axis], value + 0.7 * body.size);
-      });
-    });
-    const center = low.map((value, axis) => 0.5 * (value + high[axis])) as Vec3;
-    const radius = 0.5 * Math.hypot(...high.map((value, axis) => value - low[axis]));
-    if (Number.isFinite(radius)) this.stage.lightUp(center, Math.max(radius, 0.02 * this.radius));
+  private cast(): void {
+    this.supports.shade(this.bodies.casters, directionsFor(this.stage.quality, this.bodies.triangles));
+  }
+
+  private centerOf(body: number): Vec3 {
+    return Array.from(this.frame.position.subarray(3 * body, 3 * body + 3)) as Vec3;
   }
 }

@@ -1,32 +1,24 @@
 // The stage: renderer, lights, camera. It draws when asked, once an animation frame at most, and never by itself.
 //
-// Everything on it stands in a root whose unit is the scene's radius, so that lights, shadows and clipping planes are
+// Everything on it stands in a root whose unit is the scene's radius, so that light and clipping planes are
 // the same for a millimetre and a kilometre. Up is against gravity.
 
-import {
-  Color,
-  DirectionalLight,
-  Group,
-  HemisphereLight,
-  PCFShadowMap,
-  PerspectiveCamera,
-  Scene,
-  Vector3,
-  WebGLRenderer,
-} from "three";
+import { Color, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Vec3 } from "../data/header";
 import { across, cross } from "../math/mat3";
 import { corners, type Framing } from "./framing";
-import { type Quality, qualityFor, Thrift } from "./quality";
+import { LIGHT } from "./material";
+import { contextOf, type Quality, Thrift } from "./quality";
 
 const FIELD_OF_VIEW = 32;
 /** Where the first look comes from: to the right, back, up. */
 const FIRST_LOOK = [0.5, 1, 0.42];
 /** Room around what is framed. */
 const MARGIN = 1.2;
-/** Where the light comes from, in the same directions. */
-const LIGHT = [-0.5, 0.75, 1.5];
+/** Where light comes from, in the same directions. */
+const KEY = [-0.5, 0.75, 1.5];
+const FILL = [1, 0.5, 0.25];
 
 /** Before there is anything to look at. */
 const UNIT: Pick<Framing, "box" | "center" | "radius"> = {
@@ -50,9 +42,6 @@ export class Stage {
   /** Called before each frame. */
   prepare: () => void = () => {};
   private readonly scene = new Scene();
-  private readonly key = new DirectionalLight("#fffaf2", 2.3);
-  private readonly fill = new DirectionalLight("#dfe8ff", 0.55);
-  private readonly sky = new HemisphereLight("#ffffff", "#aab0bb", 1.25);
   private controls: OrbitControls;
   private asked = 0;
   private framing: Framing = { ...UNIT, up: [0, 0, 1], travels: false };
@@ -60,19 +49,13 @@ export class Stage {
 
   /** Fails where there is no WebGL. */
   constructor(readonly canvas: HTMLCanvasElement) {
-    const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
-    if (!context) throw new Error("no WebGL");
-    this.quality = qualityFor(context);
-    this.renderer = new WebGLRenderer({ canvas, context });
+    const made = contextOf(canvas);
+    if (!made) throw new Error("no WebGL");
+    this.quality = made.quality;
+    this.renderer = new WebGLRenderer({ canvas, context: made.context, stencil: true });
     this.renderer.setPixelRatio(Math.min(this.quality.pixelRatio, devicePixelRatio));
-    this.renderer.shadowMap.enabled = this.quality.shadows;
-    this.renderer.shadowMap.type = PCFShadowMap;
     this.thrift = new Thrift(this.renderer, this.quality);
-    this.key.castShadow = this.quality.shadows;
-    this.key.shadow.mapSize.set(this.quality.shadowMap, this.quality.shadowMap);
-    this.key.shadow.radius = 3;
-    this.key.shadow.normalBias = 0.004;
-    this.scene.add(this.sky, this.key, this.key.target, this.fill, this.root);
+    this.scene.add(this.root);
     this.controls = this.newControls();
     canvas.addEventListener("webglcontextrestored", () => this.request());
   }
@@ -97,14 +80,15 @@ export class Stage {
 
   /** While playing: how long the last frame took [ms]. */
   tookWhilePlaying(milliseconds: number): void {
-    if (!this.thrift.saw(milliseconds)) return;
-    if (!this.quality.shadows) this.key.castShadow = false;
-    this.resize();
+    if (this.thrift.saw(milliseconds)) this.resize();
   }
 
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
+    const ratio = this.renderer.getPixelRatio();
     if (width === 0 || height === 0) return;
+    if (this.canvas.width === Math.floor(width * ratio) && this.canvas.height === Math.floor(height * ratio))
+      return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.request();
@@ -112,7 +96,7 @@ export class Stage {
 
   background(color: string, sky: number): void {
     this.scene.background = new Color(color);
-    this.sky.intensity = sky;
+    LIGHT.sky.value = sky;
   }
 
   /** Makes a ball the unit of the stage, and looks at it unless the reader has chosen a view. */
@@ -126,8 +110,9 @@ export class Stage {
       this.controls.dispose();
       this.controls = this.newControls();
     }
-    this.sky.position.set(...up);
-    this.fill.position.copy(this.direction([1, 0.3, 0.25]));
+    LIGHT.up.value.set(...up);
+    LIGHT.key.value.copy(this.direction(KEY));
+    LIGHT.fill.value.copy(this.direction(FILL));
     if (!this.touched) this.look();
   }
 
@@ -172,24 +157,6 @@ export class Stage {
   /** The point of the scene looked at [m]. */
   get target(): Vector3 {
     return this.root.worldToLocal(this.controls.target.clone());
-  }
-
-  /** Lets shadows fall from everything within a ball of the scene [m]. */
-  lightUp(center: Vec3, radius: number): void {
-    const at = this.root.localToWorld(new Vector3(...center));
-    const reach = radius / this.framing.radius;
-    this.key.target.position.copy(at);
-    this.key.position.copy(at).addScaledVector(this.direction(LIGHT), 3 * reach);
-    const { camera } = this.key.shadow;
-    Object.assign(camera, {
-      left: -reach,
-      right: reach,
-      top: reach,
-      bottom: -reach,
-      near: 0.1 * reach,
-      far: 3 * reach + 4,
-    });
-    camera.updateProjectionMatrix();
   }
 
   /** A unit vector from its parts to the right, backwards and up. */

@@ -3,22 +3,12 @@
 // The piece of the plane that is drawn stays where the scene is; the grid on it is fixed to the support, so that a belt
 // runs and a shaken table shakes. From behind a plane is nearly clear.
 
-import {
-  Color,
-  DoubleSide,
-  Group,
-  Matrix4,
-  Mesh,
-  PlaneGeometry,
-  ShaderMaterial,
-  ShadowMaterial,
-  Vector2,
-  Vector3,
-} from "three";
+import { Color, DoubleSide, Group, type InstancedMesh, Mesh, PlaneGeometry, ShaderMaterial, Vector2, Vector3 } from "three";
 import type { Support, Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
 import { roundBelow } from "../math/format";
 import { across, cross, dot } from "../math/mat3";
+import { ShadowLayer } from "./shadows";
 
 const VERTEX = /* glsl */ `
 uniform float extent;
@@ -66,7 +56,7 @@ interface Plane {
   /** Right-handed: two directions in the plane, and the normal. */
   axes: [Vec3, Vec3, Vec3];
   grid: Mesh<PlaneGeometry, ShaderMaterial>;
-  shade: Mesh<PlaneGeometry, ShadowMaterial>;
+  shadows: ShadowLayer | null;
 }
 
 export class SupportLayer {
@@ -74,7 +64,8 @@ export class SupportLayer {
   /** Distance of thin lines [m]. */
   spacing = 1;
   private readonly planes: Plane[];
-  private center: Vec3 = [0, 0, 0];
+  private extent = 1;
+  private strength = 0;
 
   constructor(recording: Recording) {
     const geometry = new PlaneGeometry(1, 1);
@@ -82,50 +73,66 @@ export class SupportLayer {
       const first = across(support.normal);
       const axes: Plane["axes"] = [first, cross(support.normal, first), support.normal];
       const grid = new Mesh(geometry, gridMaterial());
-      const shade = new Mesh(geometry, new ShadowMaterial({ opacity: 0.28, depthWrite: false }));
-      shade.receiveShadow = true;
-      for (const [order, mesh] of [grid, shade].entries()) {
-        mesh.matrixAutoUpdate = false;
-        mesh.frustumCulled = false;
-        mesh.renderOrder = -2 + order;
-        this.group.add(mesh);
-      }
-      return { support, axes, grid, shade };
+      grid.matrixAutoUpdate = false;
+      grid.frustumCulled = false;
+      grid.renderOrder = -2;
+      this.group.add(grid);
+      return { support, axes, grid, shadows: null };
     });
   }
 
-  /** Fits the drawn pieces to a scene of this centre and radius [m]. */
-  fit(center: Vec3, radius: number): void {
-    this.center = center;
-    this.spacing = roundBelow(radius / 6);
-    for (const { grid } of this.planes) {
-      grid.material.uniforms.extent.value = 11 * radius;
-      grid.material.uniforms.spacing.value = this.spacing;
-    }
+  /** Lets bodies cast shadows, with so many directions of light. */
+  shade(casters: InstancedMesh[], directions: number): void {
+    this.planes.forEach((plane, index) => {
+      const first = 1 + index * directions;
+      // The stencil has eight bits.
+      if (first + directions > 255) return;
+      plane.shadows?.dispose();
+      plane.shadows?.group.removeFromParent();
+      plane.shadows = new ShadowLayer(casters, directions, first);
+      this.group.add(plane.shadows.group);
+    });
   }
 
-  place(time: number): void {
-    for (const { support, axes, grid, shade } of this.planes) {
+  /** Fits the drawn pieces to a scene of this radius [m]. */
+  fit(radius: number): void {
+    this.extent = 11 * radius;
+    this.spacing = roundBelow(radius / 6);
+  }
+
+  /** Puts the planes where they are at a time, drawn around a point, in light from a direction. */
+  place(time: number, center: Vec3, light: Vec3): void {
+    const { extent, spacing } = this;
+    for (const { support, axes, grid, shadows } of this.planes) {
       const moved = displacement(support, time);
       const origin = support.origin.map((value, k) => value + moved[k]) as Vec3;
-      const [u, v, n] = axes;
-      const away = this.center.map((value, k) => value - origin[k]) as Vec3;
-      const foot = this.center.map((value, k) => value - dot(away, n) * n[k]) as Vec3;
-      const extent = grid.material.uniforms.extent.value as number;
-      const basis = [u, v, n].map((axis, k) => new Vector3(...axis).multiplyScalar(k < 2 ? extent : 1));
-      const matrix = new Matrix4().makeBasis(basis[0], basis[1], basis[2]).setPosition(...foot);
-      grid.matrix.copy(matrix);
-      shade.matrix.copy(matrix);
-      const seen = origin.map((value, k) => value - foot[k]) as Vec3;
-      grid.material.uniforms.offset.value.set(dot(seen, u), dot(seen, v));
+      const [u, v, normal] = axes;
+      const height = dot(center, normal) - dot(origin, normal);
+      const middle = center.map((value, k) => value - height * normal[k]) as Vec3;
+      const basis = [u, v, normal].map((axis, k) => new Vector3(...axis).multiplyScalar(k < 2 ? extent : 1));
+      grid.matrix.makeBasis(basis[0], basis[1], basis[2]).setPosition(...middle);
+      const { uniforms } = grid.material;
+      uniforms.extent.value = extent;
+      uniforms.spacing.value = spacing;
+      const fixed = origin.map((value, k) => value - middle[k]) as Vec3;
+      uniforms.offset.value.set(dot(fixed, u), dot(fixed, v));
+      shadows?.place({ origin, normal, middle, extent }, light, this.strength);
     }
   }
 
   paint(ground: string, line: string, shadow: number): void {
-    for (const { grid, shade } of this.planes) {
+    this.strength = shadow;
+    for (const { grid } of this.planes) {
       grid.material.uniforms.ground.value.set(ground);
       grid.material.uniforms.line.value.set(line);
-      shade.material.opacity = shadow;
+    }
+  }
+
+  dispose(): void {
+    for (const { grid, shadows } of this.planes) {
+      grid.material.dispose();
+      grid.geometry.dispose();
+      shadows?.dispose();
     }
   }
 }

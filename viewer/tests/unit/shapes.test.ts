@@ -102,6 +102,14 @@ describe("coarse surfaces", () => {
     }
   });
 
+  it("become_lumps_of_twenty_triangles_where_hardly_any_are_left", () => {
+    const [points, triangles] = ball(30);
+    const coarse = coarsened(points, triangles, 20);
+    expect(coarse.triangles.length / 3).toBe(20);
+    // An icosahedron in a ball has 0.605 of its volume.
+    expect(volume(coarse.points, coarse.triangles) / volume(points, triangles)).toBeGreaterThan(0.58);
+  });
+
   it("stay_as_they_are_where_they_are_few", () => {
     expect(coarsened(CUBE, CUBE_TRIANGLES, 12).triangles).toBe(CUBE_TRIANGLES);
   });
