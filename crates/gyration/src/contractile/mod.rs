@@ -15,6 +15,7 @@ mod restore;
 mod slopes;
 mod solution;
 mod triple;
+mod turned;
 mod vectors;
 
 pub use decomposition::Decomposition;

@@ -15,13 +15,12 @@
 //! at once (`triple`).
 
 use super::mobility::{Axes, Mobility};
-use super::solution::Solution;
 use super::triple::{Fixed, Triple, along, spread};
+use super::turned::{Elastic, Reaction, Turned, Volume, diagonal};
 use super::vectors::{Row, Side, Vectors, strained};
 use super::{Command, Pull, Spin};
 use crate::affine::AffineBody;
 use crate::columns::{Column, Columns, Four, UNIT};
-use crate::material::Coaxial;
 use crate::tensor::Mat3;
 
 /// The derivative at P, Ṗ, G, M and Q: what its columns are made of.
@@ -49,18 +48,6 @@ pub(crate) struct ContractileSlopes<'a, F> {
     reaction: Option<Reaction>,
 }
 
-/// What a pressure adds that is that of the second derivative of det P.
-#[derive(Debug, Clone, Copy)]
-struct Reaction {
-    /// P⁻ᵀ, P⁻ᵀ J⁻¹ and 1/tr(P⁻ᵀ J⁻¹ P⁻¹).
-    across: Columns,
-    way: Columns,
-    compliance: f64,
-    /// (F P̈ F − 2FLL)ᵀ and (FL)ᵀ with F = P⁻¹.
-    by_gradient: Columns,
-    by_rate: Columns,
-}
-
 /// How the contraction velocity answers to stress, and what is left of the stress.
 #[derive(Debug, Clone, Copy)]
 struct Law<F> {
@@ -73,19 +60,6 @@ struct Law<F> {
     volume: Volume,
 }
 
-/// What decides tr V_G.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Volume {
-    /// The stress.
-    Free,
-    /// tr L, by the pressure.
-    Follows,
-    /// It is zero.
-    Kept,
-    /// All of V_G is prescribed.
-    Prescribed,
-}
-
 impl<'a> Pull<'a> {
     /// The derivative of the balance and of the law of contraction; `moment` is M [N m].
     #[inline(always)]
@@ -96,93 +70,76 @@ impl<'a> Pull<'a> {
         moment: &Mat3,
     ) -> ContractileSlopes<'a, F> {
         let Pull { body, decomposition, .. } = *self;
-        let solution = Solution::new(self, command, &Columns::of(moment).with(registers));
-        let axes = match &solution.axes {
-            Some(axes) => *axes,
-            None => Axes::at(&solution.elastic.kept()),
-        };
-        let (n, d) = (axes.axes.with(registers), axes.carried.with(registers));
-        let (turned, forth, back) = (n.transpose(), d.transpose(), d.scaled(&axes.inverses));
-        let inverse = turned.times_transposed(&Columns::load(&decomposition.inverse, registers));
-        let vectors = self.vectors((&axes, &back, &forth, &d), &solution);
-        let u = n * -1.0;
+        let axes = Axes::at(&Columns::of(&decomposition.elastic));
+        let elastic = self.elastic(&axes, registers);
+        let mobility = self.mobility(&axes);
+        let turned = self.turned((&axes, &mobility), &elastic, command, moment);
+        let back = turned.axes.transpose();
+        let inverse = back.times_transposed(&Columns::load(&decomposition.inverse, registers));
+        let contraction = back.times(&Columns::load(&decomposition.contraction, registers));
+        let vectors = self.vectors(&axes, &elastic, &turned);
         ContractileSlopes {
             body,
-            law: self.law(&axes, registers),
+            law: self.law(&mobility, &axes, registers),
             axes: Fixed::of(&axes.axes, registers),
-            contraction: fixed(&turned.times(&Columns::load(&decomposition.contraction, registers))),
-            back: fixed(&back),
+            contraction: fixed(&contraction),
+            back: fixed(&turned.back),
             outward: fixed(&(body.per_inertia(&inverse) * -body.volume)),
-            turn: n,
-            energy: solution.energy,
+            turn: turned.axes,
+            energy: elastic.energy,
             mandel: Column(vectors.mandel.0.numbers()),
-            velocity: solution.velocity.transpose(),
-            spatial: vectors.spatial(&back),
-            relaxed: vectors.relaxed(&u),
-            strained: vectors.strained(&back),
+            velocity: turned.velocity,
+            spatial: vectors.spatial(&turned.back),
+            relaxed: vectors.relaxed(&(turned.axes * -1.0)),
+            strained: vectors.strained(&turned.back),
             rows: vectors.rows(&inverse),
-            reaction: reaction(&solution),
+            reaction: turned.reaction,
         }
     }
 
-    /// What the vectors are made of; `back` is F⁻ᵀ N, `forth` the transpose of d = F N.
+    /// What the vectors are made of.
     #[inline(always)]
-    fn vectors<F: Four>(
-        &self,
-        (axes, back, forth, d): (&Axes, &Columns<F>, &Columns<F>, &Columns<F>),
-        solution: &Solution<F>,
-    ) -> Vectors<F> {
-        let Pull { body, at, decomposition, .. } = *self;
-        let (registers, n, g) = (d.0[0].0, axes.axes.with(d.0[0].0), decomposition.volume_ratio);
-        let coaxial = match &body.material {
-            Some(material) => material.coaxial(&axes.values, at.volume_ratio / g),
-            None => Coaxial::default(),
-        };
-        let half = 0.5 * body.viscosity.kirchhoff;
-        // Λ = F⁻¹ L F, and Fᵀ X F⁻ᵀ of a symmetric stress.
-        let pulled = back.transpose().times(&solution.l).times(d);
-        let total = forth.times(&solution.kirchhoff).times(back);
-        let velocity = n.transpose().times(&solution.velocity).times(&n);
-        let kept = (velocity - pulled).entrywise(&axes.ratios().with(registers)) * half;
-        let [x, y, z] = coaxial.mandel;
-        let mandel = [g * x, g * y, g * z];
-        let full = coaxial.along.with(registers) * g;
-        let straight = diagonal([full.at(0, 0), full.at(1, 1), full.at(2, 2), 0.0]).with(registers);
-        let weights = diagonal([mandel[0], mandel[1], mandel[2], 0.0]).with(registers);
+    fn vectors<F: Four>(&self, axes: &Axes, elastic: &Elastic<F>, turned: &Turned<F>) -> Vectors<F> {
+        let (registers, full) = (turned.axes.0[0].0, elastic.along);
+        let straight = diagonal([full.at(0, 0), full.at(1, 1), full.at(2, 2)]).with(registers);
+        let weights = diagonal(elastic.mandel).with(registers);
         Vectors {
             values: three(axes.values, registers),
             inverses: three(axes.inverses, registers),
-            mandel: three(mandel, registers),
-            half,
-            kept,
-            pulled,
-            total,
-            own: coaxial.own.with(registers) * g + straight + weights,
-            other: (coaxial.other.with(registers) * g).plus_beside(&mandel),
+            mandel: three(elastic.mandel, registers),
+            half: 0.5 * self.body.viscosity.kirchhoff,
+            kept: turned.kept,
+            pulled: turned.pulled,
+            total: turned.total,
+            own: elastic.own + straight + weights,
+            other: elastic.other.plus_beside(&elastic.mandel),
             along: full - straight,
         }
     }
 
+    /// How V_G answers to stress.
     #[inline(always)]
-    fn law<F: Four>(&self, axes: &Axes, registers: F) -> Law<F> {
+    fn mobility(&self, axes: &Axes) -> Mobility {
+        let Pull { body, contraction, .. } = *self;
+        if contraction.is_driven() {
+            Mobility::new([contraction.viscosity, body.viscosity.kirchhoff], contraction.spin, Some(axes))
+        } else {
+            Mobility::none()
+        }
+    }
+
+    #[inline(always)]
+    fn law<F: Four>(&self, mobility: &Mobility, axes: &Axes, registers: F) -> Law<F> {
         let Pull { body, contraction, .. } = *self;
         let coefficients = [contraction.viscosity, body.viscosity.kirchhoff];
-        let volume = match (contraction.is_driven(), contraction.kept_volume, body.is_incompressible()) {
-            (false, _, _) => Volume::Prescribed,
-            (true, Some(_), _) => Volume::Kept,
-            (true, None, true) => Volume::Follows,
-            (true, None, false) => Volume::Free,
-        };
-        let (velocity, rest) = match (volume, contraction.spin) {
-            (Volume::Prescribed, _) => (Mobility::none(), Some(pair(&Mobility::all(), registers))),
-            (_, Spin::Full) => (Mobility::new(coefficients, Spin::Full, Some(axes)), None),
-            (_, Spin::Symmetric) => {
-                let mobility = Mobility::new(coefficients, Spin::Symmetric, Some(axes));
-                (mobility, Some(pair(&mobility.rest(coefficients, axes), registers)))
-            }
+        let volume = self.volume();
+        let rest = match (volume, contraction.spin) {
+            (Volume::Prescribed, _) => Some(pair(&Mobility::all(), registers)),
+            (_, Spin::Full) => None,
+            (_, Spin::Symmetric) => Some(pair(&mobility.rest(coefficients, axes), registers)),
         };
         Law {
-            velocity: pair(&velocity, registers),
+            velocity: pair(mobility, registers),
             rest,
             viscosity: contraction.viscosity,
             stretching: coefficients[0] + coefficients[1],
@@ -202,28 +159,8 @@ fn three<F: Four>([x, y, z]: [f64; 3], registers: F) -> Column<F> {
 }
 
 #[inline(always)]
-fn diagonal([x, y, z, _]: [f64; 4]) -> Columns {
-    Columns([Column([x, 0.0, 0.0, 0.0]), Column([0.0, y, 0.0, 0.0]), Column([0.0, 0.0, z, 0.0])])
-}
-
-#[inline(always)]
 fn fixed<F: Four>(matrix: &Columns<F>) -> Fixed<F> {
     Fixed::of(&matrix.kept(), matrix.0[0].0)
-}
-
-#[inline(always)]
-fn reaction<F: Four>(solution: &Solution<F>) -> Option<Reaction> {
-    let constraint = solution.constraint.as_ref()?;
-    let Solution { l, across, acceleration, .. } = solution;
-    let carried = l.transpose().times(across);
-    let straight = across.times_transposed(acceleration).times(across);
-    Some(Reaction {
-        across: across.kept(),
-        way: constraint.way.kept(),
-        compliance: constraint.compliance,
-        by_gradient: (straight - l.transpose().times(&carried) * 2.0).kept(),
-        by_rate: carried.kept(),
-    })
 }
 
 /// δĠ and δP̈ along the three rows of a column, M kept and without what a `Reaction` does to δP̈.

@@ -17,9 +17,11 @@ use super::invariants::{Derivatives, Invariants};
 use super::principal::Principal;
 use crate::columns::{Column, Columns};
 
-/// Σ and the tangent in the axes of C.
+/// φ, Σ and the tangent in the axes of C.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Coaxial {
+    /// φ.
+    pub energy: f64,
     /// c_i s_i.
     pub mandel: [f64; 3],
     /// a and b, zero on the diagonal.
@@ -54,7 +56,7 @@ impl Material {
 
 fn by_principal(c: &[f64; 3], at: &Principal) -> Coaxial {
     let Principal { slopes: s, curvature, quotients: [xy, zx, yz], .. } = at;
-    let mut coaxial = Coaxial::default();
+    let mut coaxial = Coaxial { energy: at.energy, ..Coaxial::default() };
     // By the one that is left out.
     let quotients = [*yz, *zx, *xy];
     for i in 0..3 {
@@ -75,7 +77,7 @@ fn by_principal(c: &[f64; 3], at: &Principal) -> Coaxial {
 fn by_invariants(c: &[f64; 3], volume: f64, at: &Derivatives) -> Coaxial {
     let ([f1, f2, f3], [f11, f12, f13, f22, f23, f33]) = (at.first, at.second);
     let (pressure, grown) = (f3 * volume, f33 * volume * volume + f3 * volume);
-    let mut coaxial = Coaxial::default();
+    let mut coaxial = Coaxial { energy: at.energy, ..Coaxial::default() };
     let across = [c[1] + c[2], c[2] + c[0], c[0] + c[1]];
     for i in 0..3 {
         let [j, k] = OTHERS[i];
@@ -123,7 +125,7 @@ mod tests {
         for material in materials {
             let Spectrum { values, axes, carried } = Spectrum::of(&Columns::of(&f));
             let (n, carried) = (axes.matrix(), carried.matrix());
-            let Coaxial { mandel, own, other, along } = material.coaxial(&values, f.determinant());
+            let Coaxial { energy, mandel, own, other, along } = material.coaxial(&values, f.determinant());
             let change = f * n * xi * n.transpose();
             let moved = material.tangent(&f) * nalgebra::SVector::<f64, 9>::from_column_slice(change.as_slice());
             let known = carried.transpose() * Mat3::from_column_slice(moved.as_slice()) * n;
@@ -131,6 +133,7 @@ mod tests {
             let found = off + Mat3::from_diagonal(&(along.matrix() * xi.diagonal()));
             // Some roundings of numbers of order 10².
             assert!((found - known).norm() < 1e-13 * known.norm().max(1.0) * 10.0, "{material:?}: {found} {known}");
+            assert!((energy - material.response(&f).energy).abs() < 1e-13 * energy, "{material:?}");
             let stress = carried.transpose() * material.response(&f).stress * n;
             assert!((stress - Mat3::from_diagonal(&mandel.into())).norm() < 1e-12 * stress.norm(), "{material:?}");
         }
