@@ -92,6 +92,13 @@ impl Capsule {
         turned(&[half(-top, [-FRAC_PI_2, 0.0]), wall, half(top, [0.0, FRAC_PI_2])], count)
     }
 
+    /// The point of the surface over a point inside, on the ray from the nearest point of the axis.
+    pub(super) fn push_out(&self, point: &Vec3) -> Vec3 {
+        let half = 0.5 * self.height;
+        let foot = Vec3::z() * point.z.clamp(-half, half);
+        foot + (point - foot).normalize() * self.radius
+    }
+
     /// Points of the half balls.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         let equators = [0.5, -0.5].into_iter().flat_map(|end| circle(50, self.radius, end * self.height));

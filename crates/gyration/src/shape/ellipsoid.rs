@@ -67,6 +67,11 @@ impl Ellipsoid {
         unit_sphere(count).mapped(|point| point.component_mul(&self.semi_axes))
     }
 
+    /// The point of the surface over a point inside, on the ray from the centre.
+    pub(super) fn push_out(&self, point: &Vec3) -> Vec3 {
+        point / point.component_div(&self.semi_axes).norm()
+    }
+
     /// The image of evenly spread points of a sphere.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         directions(SILHOUETTE_POINTS).map(|point| point.component_mul(&self.semi_axes)).collect()

@@ -162,6 +162,22 @@ impl Shape {
         each!(self, shape => shape.triangulation(count))
     }
 
+    /// The point of the true surface over a point of a triangle of [`Shape::triangulation`], in the shape's frame.
+    ///
+    /// `corners` of the triangle \[m\], `weights` of them, which add up to one; neighbours agree on their common side. Of flat
+    /// faces, and of a union, whose parts answer for themselves, it is the point of the triangle.
+    pub fn over(&self, corners: &[Vec3; 3], weights: &[f64; 3]) -> Vec3 {
+        let flat = corners.iter().zip(weights).map(|(corner, weight)| corner * *weight).sum::<Vec3>();
+        match self {
+            Self::Sphere(sphere) => sphere.push_out(&flat),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.push_out(&flat),
+            Self::Capsule(capsule) => capsule.push_out(&flat),
+            Self::Torus(torus) => torus.push_out(&flat),
+            Self::Cylinder(_) | Self::Cone(_) => turned::over_wall(corners, weights, &flat),
+            Self::Box(_) | Self::Polyhedron(_) | Self::Union(_) | Self::Points(_) => flat,
+        }
+    }
+
     /// At most [`SILHOUETTE_POINTS`] points whose projected convex hull is the outline of the projected shape.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         each!(self, shape => shape.silhouette_points())

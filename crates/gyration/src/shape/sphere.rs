@@ -62,6 +62,11 @@ impl Sphere {
         self.as_ellipsoid().silhouette_points()
     }
 
+    /// The point of the surface over a point inside, on the ray from the centre.
+    pub(super) fn push_out(&self, point: &Vec3) -> Vec3 {
+        self.as_ellipsoid().push_out(point)
+    }
+
     fn as_ellipsoid(&self) -> Ellipsoid {
         Ellipsoid { semi_axes: Vec3::repeat(self.radius) }
     }

@@ -80,6 +80,12 @@ impl Torus {
         turned(&[tube], count)
     }
 
+    /// The point of the surface over a point inside, on the ray from the middle of the tube.
+    pub(super) fn push_out(&self, point: &Vec3) -> Vec3 {
+        let middle = Vec3::new(point.x, point.y, 0.0).normalize() * self.major_radius;
+        middle + (point - middle).normalize() * self.minor_radius
+    }
+
     /// Points of the outer half of the tube: the inner half lies within their hull.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         const AROUND_TUBE: usize = 8;

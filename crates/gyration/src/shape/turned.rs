@@ -10,6 +10,7 @@ use std::iter::successors;
 
 use super::outline::{CIRCLE_POINTS, circle};
 use super::triangulation::Triangulation;
+use crate::tensor::Vec3;
 
 /// Steps of half a turn of a profile, at least: a tube then has 16 sides.
 const HALF_TURN: f64 = 8.0;
@@ -105,6 +106,18 @@ pub(super) fn turned(profile: &[Stretch], count: usize) -> Triangulation {
         }
     }
     joined(&found)
+}
+
+/// The point of the wall, or of the end, of a cylinder or cone over a point `flat` of a triangle.
+///
+/// Its height and azimuth are those of `flat`; its distance from the axis is the mean of the corners': exact on a straight
+/// wall, and a chord of a rim becomes an arc of it.
+pub(super) fn over_wall(corners: &[Vec3; 3], weights: &[f64; 3], flat: &Vec3) -> Vec3 {
+    let radius: f64 = corners.iter().zip(weights).map(|(corner, weight)| weight * corner.xy().norm()).sum();
+    let inside = flat.xy().norm();
+    // On the axis there is nothing to stretch.
+    let stretch = if inside > 0.0 { radius / inside } else { 1.0 };
+    Vec3::new(flat.x * stretch, flat.y * stretch, flat.z)
 }
 
 /// The rings of a profile, one a point; the last is left out where it is the first again.
