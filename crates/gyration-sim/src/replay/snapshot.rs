@@ -36,6 +36,11 @@ pub struct BodySnapshot<'a> {
 }
 
 impl<'a> Snapshot<'a> {
+    /// The model.
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
     /// The state.
     pub fn state(&self) -> &State {
         &self.state
@@ -84,10 +89,10 @@ impl BodySnapshot<'_> {
         Ok(traction)
     }
 
-    /// The mean traction over each triangle of a surface, per current area \[Pa\], from its exact integral.
+    /// The mean traction over each triangle of a surface, per current area \[Pa\], from its integral.
     ///
-    /// Times the current area it is the contact force on the triangle: over a body of flat faces they add up to the
-    /// recorded force to rounding, over a curved one to the error of its triangles.
+    /// Times the current area of the triangle it is the contact force on the part of the true surface over it: they add
+    /// up to the recorded force, to rounding if all faces are flat, to some thousandths if not.
     ///
     /// # Errors
     /// `Inadmissible` if a triangle reaches a support.
@@ -98,16 +103,19 @@ impl BodySnapshot<'_> {
         let mut tractions = vec![Vec3::zeros(); cells.len()];
         for contact in self.contacts() {
             let (field, motion) = meet(self.model, contact.support, self.time, &self.motion);
-            for (cell, traction) in cells.iter().zip(&mut tractions) {
-                let meeting = Meeting { surface: &cell.surface, field, motion, deformation };
+            for (cell, force) in tractions.iter_mut().enumerate() {
+                let surface = cells.over(cell, contact, &field);
+                let meeting = Meeting { surface: &surface, field, motion, deformation };
                 let loads = ContactLoads::integrate(contact, &meeting, &mut scratch);
-                let force = loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
-                let area = cell.current_area(gradient);
-                // A triangle without area bears nothing.
-                if area > 0.0 {
-                    *traction += force / area;
-                }
+                *force += loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
             }
+        }
+        let surface = cells.surface();
+        for (triangle, traction) in surface.triangles.iter().zip(&mut tractions) {
+            let [a, b, c] = surface.corners(triangle).map(|corner| gradient * corner);
+            let area = 0.5 * (b - a).cross(&(c - a)).norm();
+            // A triangle without area bears nothing.
+            *traction = if area > 0.0 { *traction / area } else { Vec3::zeros() };
         }
         Ok(tractions)
     }
