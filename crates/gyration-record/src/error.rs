@@ -74,6 +74,12 @@ pub enum RecordError {
         /// The contradiction.
         reason: String,
     },
+    /// The recording is older than the surfaces that recordings hold.
+    #[error("{path} has no surfaces of its bodies, which recordings of earlier versions lack: run its scene again")]
+    NoSurfaces {
+        /// The recording.
+        path: PathBuf,
+    },
     /// The description of the arrays cannot be recorded.
     #[error("the layout of the recording is not valid: {reason}")]
     Layout {

@@ -1,9 +1,13 @@
 //! Exports of a recording to formats that everything reads.
 //!
-//! They pass chunk by chunk, so that a long run needs no more memory than a short one.
+//! They pass chunk by chunk, so that a long run needs no more memory than a short one; an animation is thinned.
 
 mod csv;
+mod drawing;
+mod gltf;
 mod npz;
+pub mod vtk;
 
 pub use csv::csv;
+pub use gltf::gltf;
 pub use npz::npz;

@@ -1,0 +1,145 @@
+//! What a picture in space needs of a recording: the bodies with their surfaces, the supports, which way is up.
+//!
+//! A surface's points are relative to the centre of mass in the reference placement: a body shows them at p = p₀ + P X.
+
+use crate::error::RecordError;
+use crate::recording::Recording;
+use nalgebra::{Matrix3, Vector3};
+use serde::Deserialize;
+use serde_json::Value;
+use std::f64::consts::TAU;
+
+pub(super) type Vec3 = Vector3<f64>;
+pub(super) type Mat3 = Matrix3<f64>;
+
+/// All that is drawn.
+#[derive(Debug, Clone)]
+pub(super) struct Drawing {
+    pub bodies: Vec<Figure>,
+    pub supports: Vec<Ground>,
+    /// The distinct surfaces.
+    pub surfaces: Vec<SurfaceMesh>,
+    /// Against gravity; z without any.
+    pub up: Vec3,
+}
+
+/// A body.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Figure {
+    pub name: String,
+    kind: String,
+    pub size: f64,
+    /// Index of its surface; none for points.
+    pub surface: Option<usize>,
+    outline: Outline,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct Outline {
+    points: Vec<[f64; 3]>,
+}
+
+/// A support: a plane that may move.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Ground {
+    pub name: String,
+    pub origin: [f64; 3],
+    pub normal: [f64; 3],
+    motion: Option<Motion>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Motion {
+    Velocity([f64; 3]),
+    Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
+}
+
+/// A surface of triangles.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SurfaceMesh {
+    pub points: Vec<Vec3>,
+    /// Indices of points, counter-clockwise seen from outside.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+impl Drawing {
+    /// Reads it.
+    ///
+    /// # Errors
+    /// `NoSurfaces` if the recording is older than they are; `Corrupt`; those of reading.
+    pub fn of(recording: &Recording) -> Result<Self, RecordError> {
+        let attributes = recording.attributes();
+        let bodies = attributes.get("bodies").and_then(Value::as_array);
+        if bodies.is_some_and(|bodies| bodies.iter().any(|body| body.get("surface").is_none())) {
+            return Err(RecordError::NoSurfaces { path: recording.path().to_path_buf() });
+        }
+        let bodies: Vec<Figure> = attribute(recording, "bodies")?;
+        let count = bodies.iter().filter_map(|body| body.surface).max().map_or(0, |last| last + 1);
+        let gravity = Vec3::from(attribute::<[f64; 3]>(recording, "gravity")?);
+        Ok(Self {
+            bodies,
+            supports: attribute(recording, "supports")?,
+            surfaces: (0..count).map(|k| SurfaceMesh::read(recording, k)).collect::<Result<_, _>>()?,
+            up: (-gravity).try_normalize(0.0).unwrap_or_else(Vec3::z),
+        })
+    }
+}
+
+fn attribute<T: serde::de::DeserializeOwned>(recording: &Recording, name: &str) -> Result<T, RecordError> {
+    let value = recording.attributes().get(name).cloned().unwrap_or_default();
+    let strange =
+        |error: serde_json::Error| RecordError::corrupt(recording.path(), format!("attribute `{name}`: {error}"));
+    serde_json::from_value(value).map_err(strange)
+}
+
+impl Figure {
+    /// Whether P is a rotation.
+    pub fn is_rigid(&self) -> bool {
+        self.kind == "rigid"
+    }
+
+    /// The points that stand for a body without a surface.
+    pub fn points(&self) -> impl Iterator<Item = Vec3> {
+        self.outline.points.iter().map(|point| Vec3::from(*point))
+    }
+}
+
+impl Ground {
+    /// Whether it moves.
+    pub fn moves(&self) -> bool {
+        self.motion.is_some()
+    }
+
+    /// Its displacement at a time \[m\].
+    pub fn displacement(&self, time: f64) -> Vec3 {
+        match self.motion {
+            None => Vec3::zeros(),
+            Some(Motion::Velocity(velocity)) => Vec3::from(velocity) * time,
+            Some(Motion::Oscillate { direction, amplitude, frequency, phase }) => {
+                Vec3::from(direction) * (amplitude * (TAU * frequency * time + phase).sin())
+            }
+        }
+    }
+}
+
+impl SurfaceMesh {
+    fn read(recording: &Recording, k: usize) -> Result<Self, RecordError> {
+        let points = recording.read(&format!("surface_{k}_points"))?.data;
+        let points: Vec<Vec3> = points.as_chunks().0.iter().map(|point: &[f64; 3]| Vec3::from(*point)).collect();
+        let corners = recording.read(&format!("surface_{k}_triangles"))?.data;
+        let index = |corner: f64| {
+            let known = corner >= 0.0 && corner < points.len() as f64 && corner.fract() == 0.0;
+            known.then_some(corner as usize)
+        };
+        let triangles =
+            corners.as_chunks().0.iter().map(|&[a, b, c]: &[f64; 3]| Some([index(a)?, index(b)?, index(c)?]));
+        match triangles.collect() {
+            Some(triangles) if points.iter().flatten().all(|x| x.is_finite()) => Ok(Self { points, triangles }),
+            _ => {
+                let reason = format!("surface {k} names points that are not there, or are not finite");
+                Err(RecordError::corrupt(recording.path(), reason))
+            }
+        }
+    }
+}

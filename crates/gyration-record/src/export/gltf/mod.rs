@@ -1,0 +1,238 @@
+//! glTF: the motion as an animation, one `.glb` that every viewer and modeller of three-dimensional scenes opens.
+//!
+//! ```text
+//! root: turns "up" (against gravity) to y, as glTF has it
+//! ├── body, rigid:     translation p₀, rotation P, its mesh
+//! ├── body, deforming: translation p₀, rotation U, scale S  ──  rotation Vᵀ, its mesh        P = U S Vᵀ
+//! └── support:         a sheet with a grid, moving if the support does
+//! ```
+//!
+//! Lengths in metres, times in seconds, from t = 0. Meshes of bodies with equal surfaces share their numbers.
+
+mod container;
+mod factors;
+mod ground;
+mod motion;
+mod paint;
+mod shading;
+#[cfg(test)]
+mod tests;
+
+use super::drawing::{Drawing, Figure, Ground, Vec3};
+use crate::error::RecordError;
+use crate::recording::Recording;
+use container::Numbers;
+use ground::Sheet;
+use motion::{Track, keys, tracks};
+use nalgebra::UnitQuaternion;
+use serde_json::{Value, json};
+use shading::{shaded, single};
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// How vertices are joined, by the codes of the format.
+const POINTS: u32 = 0;
+const LINES: u32 = 1;
+const TRIANGLES: u32 = 4;
+
+/// Writes the motion to a binary glTF file, replacing it; returns the number of samples that became keys.
+///
+/// # Errors
+/// `NoSurfaces` if the recording is older than they are; `Corrupt`; those of reading; `Io` with the file's path.
+pub fn gltf(recording: &Recording, path: &Path) -> Result<usize, RecordError> {
+    let drawing = Drawing::of(recording)?;
+    let rows = keys(&recording.times()?, drawing.bodies.len());
+    let tracks = tracks(recording, &drawing, &rows)?;
+    let document = Document::new(&drawing, &tracks);
+    let file = File::create(path).map_err(RecordError::io("create", path))?;
+    let mut out = BufWriter::new(file);
+    let written = document.write(recording, &mut out).and_then(|()| out.flush());
+    written.map_err(RecordError::io("write", path))?;
+    Ok(rows.len())
+}
+
+/// The document under construction.
+#[derive(Default)]
+struct Document {
+    numbers: Numbers,
+    nodes: Vec<Value>,
+    meshes: Vec<Value>,
+    materials: Vec<Value>,
+    samplers: Vec<Value>,
+    channels: Vec<Value>,
+}
+
+impl Document {
+    fn new(drawing: &Drawing, tracks: &[Track]) -> Self {
+        let mut this = Self::default();
+        let up = UnitQuaternion::rotation_between(&drawing.up, &Vec3::y());
+        // Straight down to up: half a turn about x.
+        let up = up.unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI));
+        this.nodes.push(json!({ "name": "scene, y up", "rotation": quaternion(&up) }));
+        let mut children = Vec::new();
+        let surfaces: Vec<Value> = drawing.surfaces.iter().map(|surface| this.surface(surface)).collect();
+        for (index, (figure, track)) in drawing.bodies.iter().zip(tracks).enumerate() {
+            children.push(this.body(index, figure, track, &surfaces));
+        }
+        let carried = carried(drawing, tracks);
+        for ground in &drawing.supports {
+            let times = tracks.iter().map(|track| track.times.as_slice()).max_by_key(|times| times.len());
+            children.push(this.support(ground, &carried, times.unwrap_or(&[])));
+        }
+        this.nodes[0]["children"] = children.into();
+        this
+    }
+
+    /// Vertices and triangles of a surface, without a material yet.
+    fn surface(&mut self, surface: &super::drawing::SurfaceMesh) -> Value {
+        let shaded = shaded(surface);
+        let attributes = json!({
+            "POSITION": self.numbers.vertices(&shaded.positions),
+            "NORMAL": self.numbers.vertices(&shaded.normals),
+        });
+        json!({ "attributes": attributes, "indices": self.numbers.indices(&shaded.indices), "mode": TRIANGLES })
+    }
+
+    /// The nodes of a body; returns the outer one.
+    fn body(&mut self, index: usize, figure: &Figure, track: &Track, surfaces: &[Value]) -> usize {
+        let material = self.add_material(paint::body(index, &figure.name));
+        let mut primitive = match figure.surface.and_then(|surface| surfaces.get(surface)) {
+            Some(surface) => surface.clone(),
+            None => {
+                let points: Vec<_> = figure.points().map(|point| single(&point)).collect();
+                json!({ "attributes": { "POSITION": self.numbers.vertices(&points) }, "mode": POINTS })
+            }
+        };
+        primitive["material"] = material.into();
+        let mesh = self.add_mesh(&figure.name, vec![primitive]);
+        let (outer, inner) = (self.nodes.len(), self.nodes.len() + 1);
+        let Some((position, factors)) = track.positions.first().zip(track.factors.first()) else {
+            self.nodes.push(json!({ "name": figure.name, "mesh": mesh }));
+            return outer;
+        };
+        let mut node = json!({ "name": figure.name, "translation": single(position) });
+        let times = self.times(&track.times);
+        let positions: Vec<_> = track.positions.iter().map(single).collect();
+        self.animate(outer, "translation", times, &positions);
+        if figure.is_rigid() {
+            // U and Vᵀ of a rotation are any pair with the product P.
+            let turns: Vec<_> = continuous(track.factors.iter().map(|factors| factors.outer * factors.inner));
+            node["rotation"] = json!(turns[0]);
+            node["mesh"] = mesh.into();
+            self.nodes.push(node);
+            self.animate(outer, "rotation", times, &turns);
+            return outer;
+        }
+        node["rotation"] = json!(quaternion(&factors.outer));
+        node["scale"] = json!(single(&factors.stretches));
+        node["children"] = json!([inner]);
+        self.nodes.push(node);
+        self.nodes.push(json!({
+            "name": format!("{}, axes of stretch", figure.name), "rotation": quaternion(&factors.inner), "mesh": mesh,
+        }));
+        let each = |of: fn(&factors::Factors) -> [f32; 4]| track.factors.iter().map(of).collect::<Vec<_>>();
+        let scales: Vec<_> = track.factors.iter().map(|factors| single(&factors.stretches)).collect();
+        self.animate(outer, "rotation", times, &each(|factors| quaternion(&factors.outer)));
+        self.animate(outer, "scale", times, &scales);
+        self.animate(inner, "rotation", times, &each(|factors| quaternion(&factors.inner)));
+        outer
+    }
+
+    /// The node of a support.
+    fn support(&mut self, ground: &Ground, carried: &[(Vec3, f64)], times: &[f64]) -> usize {
+        let sheet = Sheet::under(ground, carried);
+        let [surface, grid] = [paint::sheet(), paint::grid()].map(|material| self.add_material(material));
+        let normals = [single(&sheet.normal); 4];
+        let sheet_primitive = json!({
+            "attributes": {
+                "POSITION": self.numbers.vertices(&sheet.corners),
+                "NORMAL": self.numbers.vertices(&normals),
+            },
+            "indices": self.numbers.indices(&[0, 1, 2, 0, 2, 3]),
+            "material": surface,
+            "mode": TRIANGLES,
+        });
+        let lines = json!({
+            "attributes": { "POSITION": self.numbers.vertices(&sheet.lines) }, "material": grid, "mode": LINES,
+        });
+        let mesh = self.add_mesh(&ground.name, vec![sheet_primitive, lines]);
+        let at = |time: f64| single(&(sheet.center + ground.displacement(time)));
+        let node = self.nodes.len();
+        self.nodes.push(json!({
+            "name": ground.name, "mesh": mesh, "translation": at(times.first().copied().unwrap_or(0.0)),
+        }));
+        if ground.moves() && !times.is_empty() {
+            let places: Vec<_> = times.iter().map(|time| at(*time)).collect();
+            let times = self.times(times);
+            self.animate(node, "translation", times, &places);
+        }
+        node
+    }
+
+    fn add_material(&mut self, material: Value) -> usize {
+        self.materials.push(material);
+        self.materials.len() - 1
+    }
+
+    fn add_mesh(&mut self, name: &str, primitives: Vec<Value>) -> usize {
+        self.meshes.push(json!({ "name": name, "primitives": primitives }));
+        self.meshes.len() - 1
+    }
+
+    /// The accessor of these key times.
+    fn times(&mut self, times: &[f64]) -> usize {
+        let times: Vec<_> = times.iter().map(|time| [*time as f32]).collect();
+        self.numbers.keys(&times)
+    }
+
+    /// Lets a property of a node go through these values.
+    fn animate<const N: usize>(&mut self, node: usize, property: &str, times: usize, values: &[[f32; N]]) {
+        let output = self.numbers.keys(values);
+        self.channels.push(json!({
+            "sampler": self.samplers.len(), "target": { "node": node, "path": property },
+        }));
+        self.samplers.push(json!({ "input": times, "output": output, "interpolation": "LINEAR" }));
+    }
+
+    fn write(self, recording: &Recording, out: &mut impl Write) -> std::io::Result<()> {
+        let said = |name: &str| recording.attributes().get(name).and_then(Value::as_str).unwrap_or_default();
+        let title = if said("title").is_empty() { said("scene_name") } else { said("title") };
+        let mut document = json!({
+            "asset": { "version": "2.0", "generator": format!("gyration {}", said("version")) },
+            "scene": 0,
+            "scenes": [{ "name": title, "nodes": [0] }],
+            "nodes": self.nodes,
+            "meshes": self.meshes,
+            "materials": self.materials,
+        });
+        if !self.channels.is_empty() {
+            document["animations"] = json!([{ "name": title, "channels": self.channels, "samplers": self.samplers }]);
+        }
+        self.numbers.write(document, out)
+    }
+}
+
+/// Where the bodies come in the whole motion: centres and half of their sizes.
+fn carried(drawing: &Drawing, tracks: &[Track]) -> Vec<(Vec3, f64)> {
+    let of_body = |(figure, track): (&Figure, &Track)| {
+        let half = 0.5 * figure.size;
+        track.positions.iter().map(|position| (*position, half)).collect::<Vec<_>>()
+    };
+    drawing.bodies.iter().zip(tracks).flat_map(of_body).collect()
+}
+
+/// Quaternions of which each is the nearer one to the last.
+fn continuous(turns: impl Iterator<Item = UnitQuaternion<f64>>) -> Vec<[f32; 4]> {
+    let mut last = UnitQuaternion::identity();
+    let next = |turn| {
+        last = factors::nearest_sign(turn, &last);
+        quaternion(&last)
+    };
+    turns.map(next).collect()
+}
+
+/// x, y, z, w.
+fn quaternion(turn: &UnitQuaternion<f64>) -> [f32; 4] {
+    [turn.i as f32, turn.j as f32, turn.k as f32, turn.w as f32]
+}

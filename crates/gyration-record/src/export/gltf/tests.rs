@@ -1,0 +1,134 @@
+//! The factors of P: exact at every key, near the natural mean between, and never spinning.
+
+use super::factors::{Factors, natural_mean};
+use super::motion::{Pose, Track, keys};
+use crate::export::drawing::{Mat3, Vec3};
+use nalgebra::Rotation3;
+
+fn rotation(x: f64, y: f64, z: f64) -> Mat3 {
+    Rotation3::from_scaled_axis(Vec3::new(x, y, z)).into_inner()
+}
+
+fn poses(count: usize, gradient: impl Fn(f64) -> Mat3) -> Vec<Pose> {
+    let pose = |k: usize| {
+        let time = k as f64 / (count - 1) as f64;
+        Pose { time, position: Vec3::new(time, 0.0, 0.0), gradient: gradient(time) }
+    };
+    (0..count).map(pose).collect()
+}
+
+/// What a player shows at a time.
+fn shown(track: &Track, time: f64) -> Mat3 {
+    let after = track.times.iter().position(|key| *key >= time).unwrap();
+    if after == 0 || track.times[after] == time {
+        return track.factors[after].product();
+    }
+    let (a, b) = (&track.factors[after - 1], &track.factors[after]);
+    let part = (time - track.times[after - 1]) / (track.times[after] - track.times[after - 1]);
+    let [outer, inner] = [(a.outer, b.outer), (a.inner, b.inner)].map(|(a, b)| a.slerp(&b, part));
+    Factors { outer, stretches: a.stretches.lerp(&b.stretches, part), inner }.product()
+}
+
+/// Checks a track at its keys, half-way between the poses, and that nothing spins.
+fn check(name: &str, poses: &[Pose]) -> Track {
+    let track = Track::of(poses, false).unwrap();
+    let mut missed = [0.0_f64; 2];
+    for pose in poses {
+        let at = track.times.iter().position(|time| *time == pose.time).unwrap();
+        let difference = track.factors[at].product() - pose.gradient;
+        missed[0] = missed[0].max(difference.norm() / pose.gradient.norm());
+    }
+    for pair in poses.windows(2) {
+        let time = 0.5 * (pair[0].time + pair[1].time);
+        let mean = natural_mean(&pair[0].gradient, &pair[1].gradient).unwrap();
+        missed[1] = missed[1].max((shown(&track, time) - mean).norm() / mean.norm());
+    }
+    println!(
+        "{name}: {} keys of {}, missed by {:.1e}, half-way {:.1e}",
+        track.times.len(),
+        poses.len(),
+        missed[0],
+        missed[1]
+    );
+    // Entries of 1e-9 count as diagonal; a key half-way is asked for from 1e-3 on.
+    assert!(missed[0] < 2e-9 && missed[1] < 1.5e-3, "{name}: {missed:?}");
+    track
+}
+
+#[test]
+fn rotating_sheared_body_is_met_at_its_keys_and_between() {
+    let shear = Mat3::new(1.2, 0.5, 0.1, 0.0, 0.9, -0.2, 0.1, 0.0, 0.8);
+    let track = check("tumbling", &poses(100, |t| rotation(3.0 * t, 5.0 * t, -2.0 * t) * shear));
+    // The axes of stretch stay in the body.
+    let turned = track.factors[0].inner.angle_to(&track.factors[99].inner);
+    assert!(turned < 1e-7, "{turned}");
+}
+
+#[test]
+fn stretches_that_cross_keep_their_axes() {
+    let track = check("crossing", &poses(41, |t| Mat3::from_diagonal(&Vec3::new(0.5 + t, 1.5 - t, 1.0))));
+    for factors in &track.factors {
+        assert!(factors.inner.angle() < 1e-12 && factors.outer.angle() < 1e-12);
+    }
+    assert_eq!(track.times.len(), 41);
+}
+
+#[test]
+fn a_body_without_deformation_does_not_spin() {
+    let noise = |t: f64| Mat3::from_fn(|i, j| 1e-12 * (1e4 * t * (1.0 + (i + 3 * j) as f64)).sin());
+    let wobble = |t: f64| rotation(7.0 * t, 1.0, 0.0) * (Mat3::identity() + noise(t));
+    let track = check("rounding", &poses(50, wobble));
+    for pair in track.factors.windows(2) {
+        assert!(pair[0].inner.angle_to(&pair[1].inner) < 1e-9);
+        assert!(pair[0].outer.angle_to(&pair[1].outer) < 0.15);
+    }
+}
+
+#[test]
+fn axes_that_turn_quickly_get_keys_in_between() {
+    // Stretches that come within 1e-3 of each other, and part again along the diagonals: the axes turn by 45° in a moment.
+    let near = |t: f64| {
+        let (along, across) = (0.3 * (0.5 - t), 1e-3);
+        Mat3::identity() + Mat3::new(along, across, 0.0, across, -along, 0.0, 0.0, 0.0, 0.0)
+    };
+    check("avoided crossing", &poses(8, near));
+    // A shear that grows: the axes turn all the time.
+    check("simple shear", &poses(12, |t| Mat3::new(1.0, 4.0 * t, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)));
+    // A bar that is pressed along one axis, let go, and pressed along another.
+    let pressed = |t: f64| {
+        let amount = 0.5 * (1.0 - 2.0 * t);
+        let axis = if amount > 0.0 { Vec3::x() } else { Vec3::new(1.0, 1.0, 0.5).normalize() };
+        Mat3::identity() - amount.abs() * axis * axis.transpose()
+    };
+    check("pressed twice", &poses(31, pressed));
+}
+
+#[test]
+fn needles_and_plates_are_met() {
+    let bar = Mat3::from_diagonal(&Vec3::new(100.0, 0.1, 0.1));
+    check("needle", &poses(30, |t| rotation(0.0, 2.0 * t, 0.0) * bar * rotation(0.0, 0.0, 0.5)));
+    let plate = Mat3::from_diagonal(&Vec3::new(10.0, 10.0, 0.01));
+    check("plate", &poses(30, |t| rotation(t, 2.0 * t, 0.0) * plate));
+}
+
+#[test]
+fn a_body_turned_inside_out_is_told() {
+    let poses = poses(3, |t| Mat3::from_diagonal(&Vec3::new(1.0, 1.0, 1.0 - 2.0 * t)));
+    assert_eq!(Track::of(&poses, false), Err(0.5));
+}
+
+#[test]
+fn keys_are_samples_and_thinned_alike() {
+    let times: Vec<f64> = (0..=200).map(|k| f64::from(k) * 0.01).collect();
+    assert_eq!(keys(&times, 1), (0..=200).collect::<Vec<_>>());
+    // Ten seconds at 1 kHz: 60 keys a second.
+    let times: Vec<f64> = (0..=10_000).map(|k| f64::from(k) * 1e-3).collect();
+    let chosen = keys(&times, 1);
+    assert!((550..=601).contains(&chosen.len()), "{}", chosen.len());
+    assert_eq!((chosen[0], chosen[chosen.len() - 1]), (0, 10_000));
+    // A millisecond in 10 000 samples: 300 keys.
+    let times: Vec<f64> = (0..=10_000).map(|k| f64::from(k) * 1e-7).collect();
+    assert!((280..=301).contains(&keys(&times, 1).len()));
+    assert_eq!(keys(&[0.0], 1), [0]);
+    assert_eq!(keys(&[], 1), [0_usize; 0]);
+}
