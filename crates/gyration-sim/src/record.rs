@@ -5,7 +5,7 @@
 //! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an
 //! uninterrupted one.
 
-mod surfaces;
+pub(crate) mod surfaces;
 
 use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};

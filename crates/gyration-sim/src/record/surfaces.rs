@@ -17,7 +17,7 @@ const ALL_TRIANGLES: usize = 100_000;
 
 /// Distinct surfaces, and that of each body.
 #[derive(Debug, Clone)]
-pub(super) struct Surfaces<'a> {
+pub(crate) struct Surfaces<'a> {
     /// The first body of each distinct surface.
     distinct: Vec<&'a Body>,
     /// Index of each body's surface; none for points.
@@ -25,7 +25,7 @@ pub(super) struct Surfaces<'a> {
 }
 
 impl<'a> Surfaces<'a> {
-    pub(super) fn of(bodies: &'a [Body]) -> Self {
+    pub(crate) fn of(bodies: &'a [Body]) -> Self {
         let mut distinct: Vec<&Body> = Vec::new();
         let one = |body: &'a Body| {
             body.shape.sharpest_feature()?;
@@ -42,8 +42,13 @@ impl<'a> Surfaces<'a> {
     }
 
     /// The index of each body's surface; none for points.
-    pub(super) fn of_bodies(&self) -> &[Option<usize>] {
+    pub(crate) fn of_bodies(&self) -> &[Option<usize>] {
         &self.of_body
+    }
+
+    /// The first body of each distinct surface.
+    pub(crate) fn distinct(&self) -> &[&'a Body] {
+        &self.distinct
     }
 
     /// The fixed arrays of all surfaces.

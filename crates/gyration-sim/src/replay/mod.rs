@@ -8,6 +8,7 @@ mod cells;
 mod error;
 mod rebuild;
 mod snapshot;
+pub mod vtk;
 mod window;
 
 pub use cells::SurfaceCells;
