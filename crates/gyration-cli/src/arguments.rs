@@ -3,6 +3,7 @@
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Commands that are planned but not in this version.
@@ -117,9 +118,12 @@ pub struct Export {
     /// What to write
     #[arg(long)]
     pub format: ExportFormat,
-    /// File to write; - writes csv to stdout [default: STEM.csv or STEM.npz in the current folder]
+    /// File to write; - writes csv to stdout [default: STEM.csv, .npz, .pvd or .glb in the current folder]
     #[arg(short, long, value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
+    /// Take each N-th sample, and the last (vtk)
+    #[arg(long, value_name = "N")]
+    pub every: Option<NonZeroUsize>,
 }
 
 /// Formats of an export.
@@ -129,11 +133,9 @@ pub enum ExportFormat {
     Csv,
     /// All arrays, for numpy.load
     Npz,
-    /// Not in this version yet
-    #[value(hide = true)]
+    /// Surfaces with tractions and stresses, for ParaView: STEM.pvd, with the data in STEM-vtp beside it
     Vtk,
-    /// Not in this version yet
-    #[value(hide = true)]
+    /// The motion as an animation, for viewers and modellers: STEM.glb
     Gltf,
 }
 

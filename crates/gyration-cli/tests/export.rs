@@ -45,35 +45,122 @@ fn csv_has_the_columns_of_the_contract() {
 fn exports_have_default_names() {
     let sandbox = recorded();
     assert_eq!(sandbox.done(&["export", "ball.gyr/", "--format", "csv"]).stdout, "");
-    sandbox.done(&["export", "ball.gyr", "--format", "npz"]);
-    assert_eq!(sandbox.names(), ["ball.csv", "ball.gyr", "ball.npz", "ball.toml"]);
+    for format in ["npz", "vtk", "gltf"] {
+        sandbox.done(&["export", "ball.gyr", "--format", format]);
+    }
+    let names = ["ball-vtp", "ball.csv", "ball.glb", "ball.gyr", "ball.npz", "ball.pvd", "ball.toml"];
+    assert_eq!(sandbox.names(), names);
     assert!(fs::read(sandbox.path("ball.npz")).unwrap().starts_with(b"PK\x03\x04"));
 }
 
 #[test]
 fn what_cannot_be_exported_is_refused() {
     let sandbox = recorded();
-    sandbox.refused(2, &["export", "ball.gyr", "--format", "gltf"]);
-    sandbox.refused(2, &["export", "ball.gyr", "--format", "npz", "-o", "-"]);
-    sandbox.refused(3, &["export", "nothing.gyr", "--format", "csv"]);
-    sandbox.refused(3, &["export", "ball.toml", "--format", "csv"]);
-    sandbox.refused(3, &["export", "ball.gyr", "--format", "csv", "-o", "no/such/folder.csv"]);
+    let formats = ["csv", "npz", "vtk", "gltf"];
+    for format in formats {
+        sandbox.refused(3, &["export", "nothing.gyr", "--format", format]);
+        sandbox.refused(3, &["export", "ball.toml", "--format", format]);
+        sandbox.refused(3, &["export", "ball.gyr", "--format", format, "-o", "no/such/folder"]);
+    }
+    for format in &formats[1..] {
+        sandbox.refused(2, &["export", "ball.gyr", "--format", format, "-o", "-"]);
+    }
+    sandbox.refused(2, &["export", "ball.gyr", "--format", "gltf", "--every", "2"]);
+    sandbox.refused(2, &["export", "ball.gyr", "--format", "vtk", "--every", "0"]);
+    assert_eq!(sandbox.names(), ["ball.gyr", "ball.toml"]);
 }
 
 #[test]
 fn failed_export_leaves_the_old_file_and_no_half_of_a_new_one() {
     let sandbox = recorded();
-    for format in ["csv", "npz"] {
+    for format in ["csv", "npz", "vtk", "gltf"] {
         sandbox.done(&["export", "ball.gyr", "--format", format]);
     }
     let before = common::tree(&sandbox.path("."));
     let chunk = sandbox.path("ball.gyr/position/c.0.0.0");
     fs::write(&chunk, b"short").unwrap();
-    for format in ["csv", "npz"] {
+    for format in ["csv", "npz", "vtk", "gltf"] {
         sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
     }
     fs::write(&chunk, &before[chunk.strip_prefix(sandbox.path(".")).unwrap()]).unwrap();
     assert!(before == common::tree(&sandbox.path(".")));
+}
+
+#[test]
+fn surfaces_for_paraview_are_listed_with_their_times() {
+    let sandbox = recorded();
+    let said = sandbox.done(&["export", "ball.gyr", "--format", "vtk", "--every", "25", "-o", "series.pvd"]);
+    assert!(said.stderr.contains("4 samples of 1620 cells"), "{}", said.stderr);
+    let list = fs::read_to_string(sandbox.path("series.pvd")).unwrap();
+    let listed: Vec<&str> = list.lines().filter(|line| line.contains("part=\"0\"")).collect();
+    // Every 25th of 61 samples, and the last.
+    let expected = [("0e0", 0), ("2.5e-1", 25), ("5e-1", 50), ("6e-1", 60)];
+    assert_eq!(listed.len(), expected.len());
+    for (line, (time, row)) in listed.iter().zip(expected) {
+        let file = format!("series-vtp/bodies-{row:06}.vtp");
+        assert_eq!(*line, format!("<DataSet timestep=\"{time}\" part=\"0\" file=\"{file}\"/>"));
+        assert!(fs::read(sandbox.path(&file)).unwrap().starts_with(b"<?xml"));
+    }
+    // A table that stands still has one file for all times.
+    assert_eq!(list.matches("series-vtp/supports-000000.vtp").count(), 4);
+    assert_eq!(fs::read_dir(sandbox.path("series-vtp")).unwrap().count(), 5);
+}
+
+#[test]
+fn a_series_replaces_an_earlier_one_and_nothing_else() {
+    let sandbox = recorded();
+    let export = ["export", "ball.gyr", "--format", "vtk"];
+    sandbox.done(&export);
+    let before = common::tree(&sandbox.path("ball-vtp"));
+    sandbox.done(&["export", "ball.gyr", "--format", "vtk", "--every", "30"]);
+    assert_eq!(common::tree(&sandbox.path("ball-vtp")).len(), 4);
+    sandbox.done(&export);
+    assert!(before == common::tree(&sandbox.path("ball-vtp")), "the same recording should give the same bytes");
+    sandbox.write("ball-vtp/notes.txt", "mine");
+    let said = sandbox.refused(2, &export);
+    assert!(said.stderr.contains("notes.txt"), "{}", said.stderr);
+    assert!(sandbox.path("ball-vtp/notes.txt").exists() && !sandbox.path("ball-vtp.part").exists());
+}
+
+#[test]
+fn recordings_of_earlier_and_later_versions_are_told() {
+    let sandbox = recorded();
+    let metadata = sandbox.path("ball.gyr/zarr.json");
+    let text = fs::read_to_string(&metadata).unwrap();
+    fs::write(&metadata, text.replace("\"surface\":", "\"skin\":")).unwrap();
+    let said = sandbox.refused(3, &["export", "ball.gyr", "--format", "gltf"]);
+    assert!(said.stderr.contains("no surfaces") && said.stderr.contains("run its scene again"), "{}", said.stderr);
+    // Surfaces come from the scene there.
+    sandbox.done(&["export", "ball.gyr", "--format", "vtk", "--every", "60"]);
+    fs::write(&metadata, text.replace("\"record_format\": 1", "\"record_format\": 2")).unwrap();
+    for format in ["csv", "npz", "vtk", "gltf"] {
+        let said = sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
+        assert!(said.stderr.contains("format 2"), "{}", said.stderr);
+    }
+    fs::write(&metadata, &text[..text.len() / 2]).unwrap();
+    for format in ["csv", "npz", "vtk", "gltf"] {
+        sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
+    }
+    fs::write(&metadata, text).unwrap();
+    let points = sandbox.path("ball.gyr/surface_0_points/c.0.0");
+    fs::write(&points, vec![0xff; fs::read(&points).unwrap().len()]).unwrap();
+    let said = sandbox.refused(3, &["export", "ball.gyr", "--format", "gltf"]);
+    assert!(said.stderr.contains("surface 0"), "{}", said.stderr);
+}
+
+#[test]
+fn surfaces_of_a_recording_with_a_mesh_need_the_mesh_and_an_animation_does_not() {
+    let sandbox = Sandbox::new();
+    let shape = "{ sphere = { radius = \"5 cm\" } }";
+    sandbox.write("ball.toml", &BALL.replace(shape, "{ mesh = { file = \"body.obj\" } }").replace("0.6", "0.01"));
+    let mesh = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    sandbox.write("body.obj", mesh);
+    sandbox.done(&["run", "ball.toml", "--quiet"]);
+    sandbox.done(&["export", "ball.gyr", "--format", "vtk"]);
+    fs::remove_file(sandbox.path("body.obj")).unwrap();
+    let said = sandbox.refused(2, &["export", "ball.gyr", "--format", "vtk"]);
+    assert!(said.stderr.contains("body.obj") && said.stderr.contains("gltf"), "{}", said.stderr);
+    sandbox.done(&["export", "ball.gyr", "--format", "gltf"]);
 }
 
 #[cfg(unix)]

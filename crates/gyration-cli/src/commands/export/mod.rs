@@ -1,0 +1,74 @@
+//! `gyration export`: a recording as a table, as arrays, as surfaces for ParaView, as an animation.
+
+mod surfaces;
+
+use super::stem;
+use crate::arguments::{Export, ExportFormat};
+use crate::error::{CliError, code};
+use crate::output;
+use gyration_record::{Recording, export};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes the export.
+pub fn execute(arguments: &Export) -> Result<u8, CliError> {
+    let Export { recording: source, format, every, .. } = arguments;
+    if every.is_some() && *format != ExportFormat::Vtk {
+        return Err(CliError::arguments("--every is for vtk only", "leave it out; gltf is thinned to what is seen"));
+    }
+    let recording = Recording::open(source)?;
+    let path =
+        arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.{}", stem(source), ending(*format))));
+    if path == Path::new("-") {
+        return to_stdout(&recording, *format);
+    }
+    let what = match format {
+        ExportFormat::Csv => {
+            output::in_place(&path, |partial| write_csv(&recording, partial))?;
+            format!("{} samples", recording.rows())
+        }
+        ExportFormat::Npz => {
+            output::in_place(&path, |partial| Ok(export::npz(&recording, partial)?))?;
+            format!("{} samples", recording.rows())
+        }
+        ExportFormat::Gltf => {
+            let mut keys = 0;
+            output::in_place(&path, |partial| {
+                keys = export::gltf(&recording, partial)?;
+                Ok(())
+            })?;
+            format!("{keys} of {} samples", recording.rows())
+        }
+        ExportFormat::Vtk => surfaces::write(&recording, &path, every.map_or(1, usize::from))?,
+    };
+    output::say(&format!("wrote {} ({what})", path.display()));
+    Ok(code::DONE)
+}
+
+fn ending(format: ExportFormat) -> &'static str {
+    match format {
+        ExportFormat::Csv => "csv",
+        ExportFormat::Npz => "npz",
+        ExportFormat::Vtk => "pvd",
+        ExportFormat::Gltf => "glb",
+    }
+}
+
+fn to_stdout(recording: &Recording, format: ExportFormat) -> Result<u8, CliError> {
+    if format != ExportFormat::Csv {
+        let fix = format!("name a file with -o FILE.{}", ending(format));
+        return Err(CliError::arguments("only csv can be written to stdout", fix));
+    }
+    let mut out = BufWriter::new(io::stdout().lock());
+    export::csv(recording, &mut out)?;
+    out.flush()?;
+    Ok(code::DONE)
+}
+
+fn write_csv(recording: &Recording, path: &Path) -> Result<(), CliError> {
+    let failed = output::cannot_write(path);
+    let mut out = BufWriter::new(File::create(path).map_err(&failed)?);
+    export::csv(recording, &mut out)?;
+    out.flush().map_err(failed)
+}
