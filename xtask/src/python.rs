@@ -24,7 +24,7 @@ pub fn environment(steps: &mut Steps) -> Option<PathBuf> {
         && steps.run(
             "install Python packages",
             Command::new(&interpreter)
-                .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"])
+                .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--requirement"])
                 .arg(&pinned),
         );
     if !made {
