@@ -175,7 +175,9 @@ function reachOf(scene: Json, { key }: Leaf): number {
   return Math.max(0, ...numbers.map(Math.abs)) || 1;
 }
 
+/** As one would type it: rounding in the last digits is left out. */
 function typed(value: number): string {
-  const size = Math.abs(value);
-  return size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential() : String(value);
+  const short = Number(value.toPrecision(9));
+  const size = Math.abs(short);
+  return size !== 0 && (size < 1e-4 || size >= 1e7) ? short.toExponential() : String(short);
 }

@@ -23,23 +23,31 @@ export function leftCauchyGreen(p: Mat3): number[] {
 
 /** Largest principal stretch, √ of the largest eigenvalue of P Pᵀ. */
 export function greatestStretch(p: Mat3): number {
-  return Math.sqrt(largestEigenvalue(leftCauchyGreen(p)));
+  return principalStretches(p)[0];
+}
+
+/** Principal stretches, descending. */
+export function principalStretches(p: Mat3): Vec3 {
+  const [a, b, c] = eigenvalues(leftCauchyGreen(p));
+  return [Math.sqrt(a), Math.sqrt(Math.max(0, b)), Math.sqrt(Math.max(0, c))];
 }
 
 /**
- * Largest eigenvalue of a symmetric matrix in closed form: m + 2√p cos φ with the third of the angle φ of the
- * characteristic polynomial of the deviator. Source: O. K. Smith, Comm. ACM 4 (1961) 168.
+ * Eigenvalues of a symmetric matrix in closed form, descending: m + 2√p cos(φ + 2πk/3), with φ a third of the angle of
+ * the characteristic polynomial of the deviator. Source: O. K. Smith, Comm. ACM 4 (1961) 168.
  */
-export function largestEigenvalue(s: Mat3): number {
+export function eigenvalues(s: Mat3): Vec3 {
   const mean = (s[0] + s[4] + s[8]) / 3;
   const [a, b, c] = [s[0] - mean, s[4] - mean, s[8] - mean];
   const off = s[1] * s[1] + s[2] * s[2] + s[5] * s[5];
   const p = (a * a + b * b + c * c + 2 * off) / 6;
-  if (!(p > 0)) return mean;
+  if (!(p > 0)) return [mean, mean, mean];
   const half =
     (a * (b * c - s[5] * s[5]) - s[1] * (s[1] * c - s[5] * s[2]) + s[2] * (s[1] * s[5] - b * s[2])) / 2;
-  const cosine = Math.min(1, Math.max(-1, half / (p * Math.sqrt(p))));
-  return mean + 2 * Math.sqrt(p) * Math.cos(Math.acos(cosine) / 3);
+  const angle = Math.acos(Math.min(1, Math.max(-1, half / (p * Math.sqrt(p))))) / 3;
+  const largest = mean + 2 * Math.sqrt(p) * Math.cos(angle);
+  const smallest = mean + 2 * Math.sqrt(p) * Math.cos(angle + (2 * Math.PI) / 3);
+  return [largest, 3 * mean - largest - smallest, smallest];
 }
 
 /** Eigenvalues and vectors of a symmetric matrix by Jacobi rotations; a handful of sweeps reaches rounding. */

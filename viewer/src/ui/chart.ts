@@ -181,7 +181,7 @@ export class ChartView {
     return {
       width,
       height: HEIGHT,
-      padding: [8, 10, 0, 0],
+      padding: [8, 16, 0, 0],
       legend: { show: false },
       cursor: { y: false, points: { size: 5 }, drag: { x: true, y: false, setScale: false } },
       scales: { x: { time: false }, y: this.chart.log ? { distr: 3 } : { range: withMargin } },

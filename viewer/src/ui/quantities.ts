@@ -2,7 +2,8 @@
 
 import type { Recording, Track } from "../data/recording";
 import { words } from "../math/format";
-import { leftCauchyGreen, symmetricAxes, vonMises } from "../math/mat3";
+import { principalStretches, vonMises } from "../math/mat3";
+import { derived } from "./derived";
 
 export interface Line {
   label: string;
@@ -131,11 +132,12 @@ function vector(recording: Recording, array: string, title: string, body: number
 function stretches(recording: Recording, body: number): Chart | null {
   const track = recording.track("placement_gradient");
   if (!track || recording.header.bodies[body].kind === "rigid") return null;
-  const of = (row: number) => {
-    const at = row * track.stride + 9 * body;
-    return symmetricAxes(leftCauchyGreen(track.values.subarray(at, at + 9))).values;
-  };
-  const lines = ["λ₁", "λ₂", "λ₃"].map((label, k) => ({ label, at: (row: number) => Math.sqrt(of(row)[k]) }));
+  const values = () =>
+    derived(recording, `stretch ${body}`, 3, (row) => {
+      const at = row * track.stride + 9 * body;
+      return principalStretches(track.values.subarray(at, at + 9));
+    });
+  const lines = ["λ₁", "λ₂", "λ₃"].map((label, k) => ({ label, at: (row: number) => values()[3 * row + k] }));
   return {
     id: "stretch",
     title: ofBody(recording, "Principal stretches", body),
@@ -148,15 +150,14 @@ function stretches(recording: Recording, body: number): Chart | null {
 function stress(recording: Recording, bodies: number[]): Chart | null {
   const track = recording.track("cauchy_stress");
   if (!track) return null;
+  const values = (body: number) =>
+    derived(recording, `stress ${body}`, 1, (row) => {
+      const at = row * track.stride + 9 * body;
+      return [vonMises(track.values.subarray(at, at + 9))];
+    });
   const lines = bodies
     .filter((body) => recording.header.bodies[body].kind !== "rigid")
-    .map((body) => ({
-      label: recording.header.bodies[body].name,
-      at: (row: number) => {
-        const at = row * track.stride + 9 * body;
-        return vonMises(track.values.subarray(at, at + 9));
-      },
-    }));
+    .map((body) => ({ label: recording.header.bodies[body].name, at: (row: number) => values(body)[row] }));
   return { id: "stress", title: "Von Mises stress", units: "Pa", log: false, lines };
 }
 

@@ -11,7 +11,7 @@ export interface Quality {
 }
 
 const FULL: Quality = { pixelRatio: 2, triangles: 3_000_000, directions: 12 };
-const MODEST: Quality = { pixelRatio: 0.75, triangles: 20_000, directions: 4 };
+const MODEST: Quality = { pixelRatio: 1, triangles: 20_000, directions: 6 };
 
 /** Names of renderers that compute on the processor. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
@@ -34,10 +34,13 @@ function isSoftware(context: WebGL2RenderingContext): boolean {
   return typeof name === "string" && SOFTWARE.test(name);
 }
 
-/** Directions of light for so many triangles: shadows and bodies together keep to the limit; none where they cannot. */
+/** Directions of light for so many triangles of bodies: none where the bodies alone are as much as can be drawn. */
 export function directionsFor(quality: Quality, triangles: number): number {
-  const most = Math.round(quality.triangles / Math.max(1, triangles)) - 1;
-  return Math.max(0, Math.min(quality.directions, most));
+  if (triangles > 0.8 * quality.triangles) return 0;
+  return Math.max(
+    1,
+    Math.min(quality.directions, Math.floor((1.5 * quality.triangles) / Math.max(1, triangles))),
+  );
 }
 
 /** Frames slower than this while playing [ms] cost pixels. */

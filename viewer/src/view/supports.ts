@@ -3,7 +3,17 @@
 // The piece of the plane that is drawn stays where the scene is; the grid on it is fixed to the support, so that a belt
 // runs and a shaken table shakes. From behind a plane is nearly clear.
 
-import { Color, DoubleSide, Group, type InstancedMesh, Mesh, PlaneGeometry, ShaderMaterial, Vector2, Vector3 } from "three";
+import {
+  Color,
+  DoubleSide,
+  Group,
+  type InstancedMesh,
+  Mesh,
+  PlaneGeometry,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+} from "three";
 import type { Support, Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
 import { roundBelow } from "../math/format";
@@ -32,7 +42,7 @@ float lines( vec2 at, float width ) {
 void main() {
 	vec2 at = ( onPlane - offset ) / spacing;
 	float fade = 1.0 - smoothstep( 0.35, 1.0, length( onPlane ) / ( 0.5 * extent ) );
-	float drawn = max( 0.55 * lines( at, 0.6 ), lines( at / 5.0, 0.9 ) );
+	float drawn = max( 0.4 * lines( at, 0.6 ), 0.9 * lines( at / 5.0, 0.8 ) );
 	float side = gl_FrontFacing ? 1.0 : 0.25;
 	gl_FragColor = vec4( mix( ground, line, drawn ), fade * side * mix( 0.86, 1.0, drawn ) );
 	#include <colorspace_fragment>

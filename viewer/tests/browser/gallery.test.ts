@@ -1,0 +1,39 @@
+// Every scene of the gallery: its report opens, draws, moves, and asks for nothing from anywhere.
+
+import { statSync } from "node:fs";
+import { describe, expect, it } from "vitest";
+import { colors, differing, lastTime, opened, pixelsAt } from "./browser";
+import { gallery, recorded, reported } from "./program";
+
+/** A tenth of a scene is enough to see it move. */
+function beginning(end: number): number {
+  return Math.min(end, Math.max(0.3, 0.1 * end));
+}
+
+describe("the report of every gallery scene", () => {
+  it.each(gallery())("%s_renders_and_moves", async (scene, end) => {
+    const file = reported(recorded(scene, `time.end=${beginning(end)}`));
+    expect(statSync(file).size).toBeLessThan(3e6);
+    const began = performance.now();
+    const { page, problems, close } = await opened(file);
+    const took = performance.now() - began;
+    const last = await lastTime(page);
+    const seen = await pixelsAt(page, 0);
+    expect(colors(seen), "colours of the picture").toBeGreaterThan(12);
+
+    // Without planes and with a camera that stands, whatever changes is a body.
+    await page.keyboard.press("g");
+    const follows = page.getByRole("button", { name: "Follow the body" });
+    if ((await follows.getAttribute("aria-pressed")) === "true") await page.keyboard.press("f");
+    const bodies: number[][] = [];
+    for (const part of [0, 0.37, 0.71, 1]) bodies.push(await pixelsAt(page, part * last));
+    const changed = bodies.slice(1).map((pixels) => differing(bodies[0], pixels));
+    expect(Math.max(...changed), "pixels that change").toBeGreaterThan(8);
+    expect(colors(bodies[0]), "colours of the bodies").toBeGreaterThan(3);
+    expect(problems).toEqual([]);
+    console.log(
+      `${scene}: first frame after ${took.toFixed(0)} ms, ${(statSync(file).size / 1e6).toFixed(2)} MB`,
+    );
+    await close();
+  });
+});
