@@ -11,6 +11,9 @@ const PREFIXES: [number, string][] = [
   [1e-12, "p"],
 ];
 
+/** Below the last prefix a power of ten reads better. */
+const LEAST = 1e-12;
+
 /** Units that take a prefix; others stand as they are. */
 const PREFIXED = new Set(["m", "s", "Pa", "J", "N", "W", "g"]);
 
@@ -39,7 +42,8 @@ function minus(text: string): string {
 /** A number with its unit, with a prefix where the unit takes one: `3.2 mm`. */
 export function withUnit(value: number, unit: string, digits = 4): string {
   if (unit === "1" || unit === "") return plain(value, digits);
-  if (!PREFIXED.has(unit) || value === 0 || !Number.isFinite(value)) return `${plain(value, digits)} ${unit}`;
+  const bare = !PREFIXED.has(unit) || !(Math.abs(value) >= LEAST) || !Number.isFinite(value);
+  if (bare) return `${plain(value, digits)} ${unit}`;
   const [factor, prefix] = prefixFor(value);
   return `${plain(value / factor, digits)} ${prefix}${unit}`;
 }
@@ -52,7 +56,7 @@ export function prefixFor(value: number): [number, string] {
 
 /** The prefix for an axis that reaches up to `most` of some unit; none where the unit takes none. */
 export function scaleFor(most: number, unit: string): [number, string] {
-  if (!PREFIXED.has(unit) || !(most > 0) || !Number.isFinite(most)) return [1, unit];
+  if (!PREFIXED.has(unit) || !(most >= LEAST) || !Number.isFinite(most)) return [1, unit];
   const [factor, prefix] = prefixFor(most);
   return [factor, prefix + unit];
 }

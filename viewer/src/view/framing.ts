@@ -19,6 +19,8 @@ export interface Framing {
   radius: number;
   /** The opposite of gravity; z without gravity. */
   up: Vec3;
+  /** Whether it is looked at from below, since all supports are above. */
+  fromBelow: boolean;
   /** Whether the ball goes with the bodies, since their whole path would make them dots. */
   travels: boolean;
 }
@@ -27,15 +29,17 @@ export interface Framing {
 export function framed(recording: Recording): Framing {
   const { header } = recording;
   const up = upward(recording);
+  const { supports } = header;
+  const fromBelow = supports.length > 0 && supports.every(({ normal }) => dot(normal, up) < -0.3);
   const size = Math.max(...header.bodies.map((body) => body.size), 1e-12);
   const whole = box(recording, recording.rows - 1);
   const extent = Math.max(...whole[1].map((value, axis) => value - whole[0][axis]));
   if (header.bodies.length > 1 || !(extent > MOST_SIZES * size))
-    return { ...ball(whole), up, travels: false };
+    return { ...ball(whole), up, fromBelow, travels: false };
   const [x, y, z] = recording.track("position")?.values ?? [0, 0, 0];
   const around: Box = nowhere();
   grow(around, [x, y, z], ROOM_SIZES * size);
-  return { ...ball(around), up, travels: true };
+  return { ...ball(around), up, fromBelow, travels: true };
 }
 
 export function upward(recording: Recording): Vec3 {

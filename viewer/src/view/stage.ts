@@ -44,7 +44,7 @@ export class Stage {
   private readonly scene = new Scene();
   private controls: OrbitControls;
   private asked = 0;
-  private framing: Framing = { ...UNIT, up: [0, 0, 1], travels: false };
+  private framing: Framing = { ...UNIT, up: [0, 0, 1], fromBelow: false, travels: false };
   private readonly thrift: Thrift;
 
   /** Fails where there is no WebGL. */
@@ -119,7 +119,8 @@ export class Stage {
   /** The first look again. */
   look(): void {
     this.touched = false;
-    const back = this.direction(FIRST_LOOK);
+    const [right, inward, high] = FIRST_LOOK;
+    const back = this.direction([right, inward, this.framing.fromBelow ? -0.6 * high : high]);
     this.controls.target.set(0, 0, 0);
     this.camera.position.copy(back.multiplyScalar(this.distanceFor(back)));
     this.controls.update();

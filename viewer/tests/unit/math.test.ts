@@ -93,6 +93,8 @@ describe("numbers as people read them", () => {
     expect(withUnit(0.0032, "m")).toBe("3.2 mm");
     expect(withUnit(1234, "Pa")).toBe("1.234 kPa");
     expect(withUnit(0.001, "m")).toBe("1 mm");
+    expect(withUnit(2.3e-15, "J")).toBe("2.3e−15 J");
+    expect(withUnit(0, "J")).toBe("0 J");
     expect(withUnit(0.5, "kg m/s")).toBe("0.5 kg m/s");
     expect(scaleFor(0.02, "J")).toEqual([1e-3, "mJ"]);
     expect(scaleFor(0.02, "1/s")).toEqual([1, "1/s"]);
