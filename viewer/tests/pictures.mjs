@@ -3,10 +3,11 @@
 // They are to be small enough to commit: together below 280 kB.
 
 import { execFileSync, execSync, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import { indexedPng } from "./palette.mjs";
 
 const REPOSITORY = join(import.meta.dirname, "../..");
 const PROGRAM = process.env.GYRATION_BIN ?? join(REPOSITORY, "target/release/gyration");
@@ -49,9 +50,26 @@ async function picture(name, url, { keys = "", time, scheme = "light", prepare =
   await page.evaluate((at) => window.gyration.seek(at), time);
   await page.waitForTimeout(2500);
   const path = join(PICTURES, `${name}.png`);
-  await page.screenshot({ path });
+  const shot = (await page.screenshot()).toString("base64");
+  writeFileSync(path, indexedPng(await pixelsOf(page, shot)));
   await page.close();
   return path;
+}
+
+/** The pixels of a PNG, decoded by the browser. */
+async function pixelsOf(page, base64) {
+  const [width, height, pixels] = await page.evaluate(async (png) => {
+    const image = await createImageBitmap(
+      new Blob([Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0))]),
+    );
+    const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    canvas.drawImage(image, 0, 0);
+    const { data } = canvas.getImageData(0, 0, image.width, image.height);
+    let text = "";
+    for (let k = 0; k < data.length; k += 8192) text += String.fromCharCode(...data.subarray(k, k + 8192));
+    return [image.width, image.height, btoa(text)];
+  }, base64);
+  return { width, height, data: Buffer.from(pixels, "base64") };
 }
 
 async function sliders(page) {

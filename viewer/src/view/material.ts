@@ -33,11 +33,11 @@ void main() {
 	vec3 n = normalize( gl_FrontFacing ? vNormal : -vNormal );
 	vec3 fromPlane = clamp( vReference / max( fwidth( vReference ), vec3( 1e-12 ) ), -0.5, 0.5 );
 	vec3 color = vColor * ( 1.0 + contrast * 8.0 * fromPlane.x * fromPlane.y * fromPlane.z );
-	vec3 light = sky * mix( vec3( 0.30, 0.31, 0.34 ), vec3( 0.55, 0.56, 0.58 ), 0.5 + 0.5 * dot( n, up ) );
-	light += vec3( 0.62, 0.60, 0.56 ) * max( 0.0, 0.15 + 0.85 * dot( n, key ) );
-	light += vec3( 0.16, 0.17, 0.20 ) * max( 0.0, dot( n, fill ) );
+	vec3 light = sky * mix( vec3( 0.33, 0.34, 0.37 ), vec3( 0.58, 0.59, 0.60 ), 0.5 + 0.5 * dot( n, up ) );
+	light += vec3( 0.46, 0.45, 0.42 ) * max( 0.0, 0.15 + 0.85 * dot( n, key ) );
+	light += vec3( 0.12, 0.13, 0.15 ) * max( 0.0, dot( n, fill ) );
 	vec3 halfway = normalize( key + normalize( vView ) );
-	float gloss = 0.10 * pow( max( 0.0, dot( n, halfway ) ), 24.0 );
+	float gloss = 0.08 * pow( max( 0.0, dot( n, halfway ) ), 24.0 );
 	gl_FragColor = vec4( color * light + gloss, opacity );
 	#include <colorspace_fragment>
 }`;

@@ -44,10 +44,7 @@ export class OutlineLayer {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", this.position);
     geometry.setAttribute("color", this.color);
-    const dots = new Points(
-      geometry,
-      new PointsMaterial({ size: 9, sizeAttenuation: false, vertexColors: true }),
-    );
+    const dots = new Points(geometry, roundDots());
     const outlined = new BufferGeometry();
     outlined.setAttribute("position", this.position);
     outlined.setAttribute("color", this.color);
@@ -77,4 +74,14 @@ export class OutlineLayer {
     });
     this.color.needsUpdate = true;
   }
+}
+
+/** Discs of some pixels. */
+function roundDots(): PointsMaterial {
+  const material = new PointsMaterial({ size: 10, sizeAttenuation: false, vertexColors: true });
+  material.onBeforeCompile = (shader) => {
+    const round = "void main() {\n\tif ( length( gl_PointCoord - 0.5 ) > 0.5 ) discard;";
+    shader.fragmentShader = shader.fragmentShader.replace("void main() {", round);
+  };
+  return material;
 }
