@@ -81,10 +81,11 @@ stem, name = sys.argv[1:]
 run = xarray.open_zarr(f"{stem}.gyr").load()
 start = run.sel(body=name).isel(time=0)
 scene = trimesh.load_scene(f"{stem}.glb")
-nodes = [node for node in scene.graph.nodes_geometry if node.split(",")[0] == name]
-assert len(nodes) == 1, scene.graph.nodes_geometry
-matrix, geometry = scene.graph[nodes[0]]
-mesh = scene.geometry[geometry]
+# A node for the surface and one for the wireframe.
+shown = [scene.graph[node] for node in scene.graph.nodes_geometry if scene.graph[node][1].split("_")[0] == name]
+solid = [(matrix, mesh) for matrix, geometry in shown if isinstance(mesh := scene.geometry[geometry], trimesh.Trimesh)]
+assert len(shown) == 2 and len(solid) == 1, scene.graph.nodes_geometry
+matrix, mesh = solid[0]
 mesh.merge_vertices(merge_norm=True)
 assert mesh.is_watertight and mesh.volume > 0
 up = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])

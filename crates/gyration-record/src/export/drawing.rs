@@ -37,6 +37,8 @@ pub(super) struct Figure {
 #[derive(Debug, Clone, Deserialize)]
 struct Outline {
     points: Vec<[f64; 3]>,
+    /// Lines through points, by index.
+    polylines: Vec<Vec<usize>>,
 }
 
 /// A support: a plane that may move.
@@ -97,6 +99,12 @@ impl Figure {
     /// Whether P is a rotation.
     pub fn is_rigid(&self) -> bool {
         self.kind == "rigid"
+    }
+
+    /// The ends of the lines of its wireframe, two by two, from the centre of mass \[m\].
+    pub fn lines(&self) -> impl Iterator<Item = Vec3> {
+        let steps = self.outline.polylines.iter().flat_map(|line| line.windows(2)).flatten();
+        steps.filter_map(|index| self.outline.points.get(*index)).map(|point| Vec3::from(*point))
     }
 
     /// The points that stand for a body without a surface.

@@ -36,6 +36,9 @@ const POINTS: u32 = 0;
 const LINES: u32 = 1;
 const TRIANGLES: u32 = 4;
 
+/// By how much a wireframe is larger than its body, so that it lies outside the triangles.
+const LIFT: f64 = 1.003;
+
 /// Writes the motion to a binary glTF file, replacing it; returns the number of samples that became keys.
 ///
 /// # Errors
@@ -96,16 +99,7 @@ impl Document {
 
     /// The nodes of a body; returns the outer one.
     fn body(&mut self, index: usize, figure: &Figure, track: &Track, surfaces: &[Value]) -> usize {
-        let material = self.add_material(paint::body(index, &figure.name));
-        let mut primitive = match figure.surface.and_then(|surface| surfaces.get(surface)) {
-            Some(surface) => surface.clone(),
-            None => {
-                let points: Vec<_> = figure.points().map(|point| single(&point)).collect();
-                json!({ "attributes": { "POSITION": self.numbers.vertices(&points) }, "mode": POINTS })
-            }
-        };
-        primitive["material"] = material.into();
-        let mesh = self.add_mesh(&figure.name, vec![primitive]);
+        let mesh = self.figure(index, figure, surfaces);
         let (outer, inner) = (self.nodes.len(), self.nodes.len() + 1);
         let Some((position, factors)) = track.positions.first().zip(track.factors.first()) else {
             self.nodes.push(json!({ "name": figure.name, "mesh": mesh }));
@@ -137,6 +131,26 @@ impl Document {
         self.animate(outer, "scale", times, &scales);
         self.animate(inner, "rotation", times, &each(|factors| quaternion(&factors.inner)));
         outer
+    }
+
+    /// The mesh of a body: its surface and its wireframe, by which the eye sees a ball turn; or its points.
+    fn figure(&mut self, index: usize, figure: &Figure, surfaces: &[Value]) -> usize {
+        let [fill, line] = paint::body(index, &figure.name).map(|material| self.add_material(material));
+        let Some(surface) = figure.surface.and_then(|surface| surfaces.get(surface)) else {
+            let points: Vec<_> = figure.points().map(|point| single(&point)).collect();
+            let attributes = json!({ "POSITION": self.numbers.vertices(&points) });
+            return self
+                .add_mesh(&figure.name, vec![json!({ "attributes": attributes, "mode": POINTS, "material": fill })]);
+        };
+        let mut skin = surface.clone();
+        skin["material"] = fill.into();
+        let mut primitives = vec![skin];
+        let lines: Vec<_> = figure.lines().map(|end| single(&(end * LIFT))).collect();
+        if !lines.is_empty() {
+            let attributes = json!({ "POSITION": self.numbers.vertices(&lines) });
+            primitives.push(json!({ "attributes": attributes, "mode": LINES, "material": line }));
+        }
+        self.add_mesh(&figure.name, primitives)
     }
 
     /// The node of a support.

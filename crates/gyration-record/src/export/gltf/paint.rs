@@ -9,9 +9,10 @@ const BODIES: [[u8; 3]; 7] =
 const SHEET: [u8; 3] = [225, 228, 232];
 const GRID: [u8; 3] = [150, 156, 164];
 
-/// The material of a body.
-pub(super) fn body(index: usize, name: &str) -> Value {
-    material(name, BODIES[index % BODIES.len()], 0.6)
+/// The materials of a body and of its wireframe, which is half as bright.
+pub(super) fn body(index: usize, name: &str) -> [Value; 2] {
+    let color = BODIES[index % BODIES.len()];
+    [material(name, color, 0.6), material(&format!("{name}, lines"), color.map(|component| component / 2), 1.0)]
 }
 
 /// The material of a support.
