@@ -44,7 +44,7 @@ export class App implements Listener {
       this.becameReady = resolve;
     });
     this.picture = new Picture(this.player, (body) => this.plots.choose(body));
-    this.tabs = new Tabs((name) => name === "Plots" && this.plots.draw());
+    this.tabs = new Tabs((name) => this.opened(name));
     this.tabs.set("Plots", this.plots.element);
     const keys = keysOf(this.player, this.transport, this.picture, {
       help: () => help.showModal(),
@@ -105,6 +105,7 @@ export class App implements Listener {
     this.sliders?.load(header);
     this.status?.begun();
     this.tell();
+    this.fillPanels();
     this.picture.drawNow();
     this.becameReady();
     // The plots come after the first frame: what moves is looked at first.
@@ -139,6 +140,7 @@ export class App implements Listener {
     this.plots.grew();
     this.status?.done(outcomeInWords(recording));
     this.tell();
+    this.fillPanels();
     this.moved(null);
   }
 
@@ -154,7 +156,7 @@ export class App implements Listener {
     this.banner.found();
   }
 
-  /** Puts the panels of words and the chip in line with the recording. */
+  /** Says in the head of the page how the run stands. */
   private tell(): void {
     const { recording } = this;
     if (!recording) return;
@@ -164,8 +166,18 @@ export class App implements Listener {
     this.chip.className = `chip ${stopped ? "bad" : ""}`;
     this.chip.title = words;
     this.chip.hidden = this.chip.textContent === "";
-    this.tabs.set("Summary", summaryPanel(recording));
-    this.tabs.set("Scene", scenePanel(recording.header));
+  }
+
+  /** Writes the panels of words anew; while a run goes on, that is done when one is opened. */
+  private fillPanels(): void {
+    if (!this.recording) return;
+    this.tabs.set("Summary", summaryPanel(this.recording));
+    this.tabs.set("Scene", scenePanel(this.recording.header));
+  }
+
+  private opened(panel: string): void {
+    if (panel === "Plots") this.plots.draw();
+    if (panel === "Summary" && this.recording) this.tabs.set("Summary", summaryPanel(this.recording));
   }
 
   private moved(frameTook: number | null): void {

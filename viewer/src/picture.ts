@@ -68,15 +68,19 @@ export class Picture {
   load(recording: Recording): void {
     const { stage } = this;
     if (!stage) return;
-    this.view?.dispose();
-    stage.resize();
-    this.view = new SceneView(stage, recording, this.shown);
+    const before = this.view;
+    const again = before !== null && before.recording.header.bodies.length === recording.header.bodies.length;
+    before?.dispose();
+    stage.expect(recording.header.bodies.length);
+    this.view = new SceneView(stage, recording, this.shown, again ? before.framing : null);
+    if (!again) stage.look();
     this.toolbar.load(recording, this.view.colors);
     this.restyle();
   }
 
   grew(): void {
     this.view?.grew();
+    this.toolbar.refresh();
   }
 
   surfaced(): void {
@@ -98,7 +102,7 @@ export class Picture {
   /** The first view again. */
   reset(): void {
     this.shown.follow = null;
-    this.stage?.look();
+    if (this.stage) this.stage.touched = false;
     this.view?.refit();
     this.toolbar.refresh();
     this.request(null);

@@ -7,6 +7,7 @@ import {
   Group,
   type InstancedMesh,
   type Raycaster,
+  type ShaderMaterial,
   SRGBColorSpace,
 } from "three";
 import type { Frame } from "../data/frame";
@@ -27,9 +28,10 @@ interface Shared {
 export class BodyLayer {
   readonly group = new Group();
   private readonly shared: Shared[] = [];
-  private readonly material = bodyMaterial();
+  private readonly material: ShaderMaterial;
 
-  constructor(recording: Recording, { triangles }: Quality) {
+  constructor(recording: Recording, { triangles, crowd }: Quality) {
+    this.material = bodyMaterial(recording.header.bodies.length > crowd);
     for (const [bodies, geometry] of geometries(recording, triangles)) {
       const mesh = instancesOf(geometry, this.material, bodies.length);
       this.shared.push({ mesh, bodies });

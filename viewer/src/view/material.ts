@@ -31,15 +31,23 @@ uniform float sky, opacity, contrast;
 varying vec3 vReference, vNormal, vColor, vView;
 void main() {
 	vec3 n = normalize( gl_FrontFacing ? vNormal : -vNormal );
+	vec3 color = vColor;
+	#ifndef CROWD
 	vec3 fromPlane = clamp( vReference / max( fwidth( vReference ), vec3( 1e-12 ) ), -0.5, 0.5 );
-	vec3 color = vColor * ( 1.0 + contrast * 8.0 * fromPlane.x * fromPlane.y * fromPlane.z );
+	color *= 1.0 + contrast * 8.0 * fromPlane.x * fromPlane.y * fromPlane.z;
+	#endif
 	vec3 light = sky * mix( vec3( 0.33, 0.34, 0.37 ), vec3( 0.58, 0.59, 0.60 ), 0.5 + 0.5 * dot( n, up ) );
 	light += vec3( 0.46, 0.45, 0.42 ) * max( 0.0, 0.15 + 0.85 * dot( n, key ) );
 	light += vec3( 0.12, 0.13, 0.15 ) * max( 0.0, dot( n, fill ) );
+	#ifdef CROWD
+	// Close to the curve of the screen, and without its powers.
+	gl_FragColor = vec4( sqrt( color * light ), opacity );
+	#else
 	vec3 halfway = normalize( key + normalize( vView ) );
 	float gloss = 0.08 * pow( max( 0.0, dot( n, halfway ) ), 24.0 );
 	gl_FragColor = vec4( color * light + gloss, opacity );
 	#include <colorspace_fragment>
+	#endif
 }`;
 
 /** Where light comes from, unit vectors; shared by all bodies. */
@@ -56,9 +64,11 @@ function material(opacity: number, contrast: number): ShaderMaterial {
   return made;
 }
 
-/** Of bodies as they are. */
-export function bodyMaterial(): ShaderMaterial {
-  return material(1, 0.09);
+/** Of bodies as they are; plainer in a crowd. */
+export function bodyMaterial(crowd: boolean): ShaderMaterial {
+  const made = material(1, 0.09);
+  if (crowd) made.defines = { CROWD: "" };
+  return made;
 }
 
 /** Of bodies at other times. */

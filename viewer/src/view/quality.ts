@@ -4,14 +4,16 @@ import type { WebGLRenderer } from "three";
 
 export interface Quality {
   pixelRatio: number;
+  /** More bodies than these are drawn with fewer pixels and plainer light. */
+  crowd: number;
   /** Triangles of all bodies together. */
   triangles: number;
   /** Directions of light that make shadows soft. */
   directions: number;
 }
 
-const FULL: Quality = { pixelRatio: 2, triangles: 3_000_000, directions: 12 };
-const MODEST: Quality = { pixelRatio: 1, triangles: 20_000, directions: 6 };
+const FULL: Quality = { pixelRatio: 2, crowd: 1e9, triangles: 3_000_000, directions: 12 };
+const MODEST: Quality = { pixelRatio: 1, crowd: 200, triangles: 20_000, directions: 6 };
 
 /** Names of renderers that compute on the processor. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;

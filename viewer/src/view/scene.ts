@@ -6,7 +6,7 @@ import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
 import { BodyLayer } from "./bodies";
 import { type Coloring, Colors } from "./coloring";
-import { framed } from "./framing";
+import { type Framing, framed } from "./framing";
 import { GhostLayer } from "./ghosts";
 import { LIGHT } from "./material";
 import { OutlineLayer } from "./outlines";
@@ -41,12 +41,14 @@ export class SceneView {
   private followed: { body: number; at: Vector3 } | null = null;
   /** Rows that the framing has seen. */
   private framedRows = 0;
+  framing!: Framing;
   private center: Vec3 = [0, 0, 0];
 
   constructor(
     private readonly stage: Stage,
     readonly recording: Recording,
     private readonly shown: Shown,
+    kept: Framing | null = null,
   ) {
     this.colors = new Colors(recording);
     this.bodies = new BodyLayer(recording, stage.quality);
@@ -59,19 +61,15 @@ export class SceneView {
     stage.root.add(this.supports.group, this.bodies.group, this.outlines.group, this.vectors.group);
     stage.root.add(this.trails.lines, this.ghosts.group);
     this.cast();
-    this.refit();
+    this.fit(kept ?? framed(recording));
+    // A run that starts again is looked at as the one before.
+    if (kept) this.framedRows = Number.POSITIVE_INFINITY;
   }
 
   /** Fits stage and layers to what has been recorded. */
   refit(): void {
-    const framing = framed(this.recording);
-    this.framedRows = this.recording.rows;
-    if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = 0;
-    this.center = framing.center;
-    this.supports.fit(framing.radius);
-    this.vectors.fit(framing.radius);
-    this.stage.frame(framing);
-    this.followed = null;
+    this.fit(framed(this.recording));
+    if (!this.stage.touched) this.stage.look();
   }
 
   /** After new rows: fits again once the recording has doubled, unless the reader has chosen a view. */
@@ -86,6 +84,17 @@ export class SceneView {
     this.bodies = new BodyLayer(this.recording, this.stage.quality);
     this.stage.root.add(this.bodies.group);
     this.cast();
+  }
+
+  private fit(framing: Framing): void {
+    this.framing = framing;
+    this.framedRows = this.recording.rows;
+    this.center = framing.center;
+    if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = 0;
+    this.supports.fit(framing.radius);
+    this.vectors.fit(framing.radius);
+    this.stage.frame(framing);
+    this.followed = null;
   }
 
   /** Puts everything where it is at a time [s]. */
@@ -132,7 +141,7 @@ export class SceneView {
     const at = new Vector3(...this.centerOf(body));
     if (![at.x, at.y, at.z].every(Number.isFinite)) return;
     if (this.followed?.body === body) this.stage.shift(at.clone().sub(this.followed.at));
-    else if (this.followed || this.stage.touched) this.stage.shift(at.clone().sub(this.stage.target));
+    else this.stage.shift(at.clone().sub(this.stage.target));
     this.followed = { body, at };
   }
 

@@ -14,6 +14,8 @@ import { contextOf, type Quality, Thrift } from "./quality";
 const FIELD_OF_VIEW = 32;
 /** Where the first look comes from: to the right, back, up. */
 const FIRST_LOOK = [0.5, 1, 0.42];
+/** Pixels of a crowd, a side, beside those of a few. */
+const CROWD_RATIO = 0.7;
 /** Room around what is framed. */
 const MARGIN = 1.2;
 /** Where light comes from, in the same directions. */
@@ -83,6 +85,13 @@ export class Stage {
     if (this.thrift.saw(milliseconds)) this.resize();
   }
 
+  /** Takes fewer pixels where there are many bodies. */
+  expect(bodies: number): void {
+    const ratio = this.quality.pixelRatio * (bodies > this.quality.crowd ? CROWD_RATIO : 1);
+    this.renderer.setPixelRatio(Math.min(ratio, devicePixelRatio));
+    this.resize();
+  }
+
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const ratio = this.renderer.getPixelRatio();
@@ -99,7 +108,7 @@ export class Stage {
     LIGHT.sky.value = sky;
   }
 
-  /** Makes a ball the unit of the stage, and looks at it unless the reader has chosen a view. */
+  /** Makes a ball the unit of the stage. */
   frame(framing: Framing): void {
     this.framing = framing;
     const { center, radius, up } = framing;
@@ -113,7 +122,6 @@ export class Stage {
     LIGHT.up.value.set(...up);
     LIGHT.key.value.copy(this.direction(KEY));
     LIGHT.fill.value.copy(this.direction(FILL));
-    if (!this.touched) this.look();
   }
 
   /** The first look again. */
