@@ -75,6 +75,7 @@ async function pixelsOf(page, base64) {
 async function sliders(page) {
   await page.keyboard.press("Space");
   await page.getByRole("tab", { name: "Sliders" }).click();
+  await page.getByRole("searchbox").fill("velocity");
   const velocity = page.getByRole("textbox", { name: "body.die.velocity.x, exact" });
   await velocity.fill("0.8");
   await velocity.press("Enter");
@@ -97,7 +98,7 @@ async function live(scene, options) {
 
 try {
   const made = [
-    await picture("page-report", report("dice"), { time: 0.21, keys: "cv" }),
+    await picture("page-report", report("dice"), { time: 0.195, keys: "cv" }),
     await picture("page-stretch", report("elastic-bounce-tilted"), {
       time: 0.305,
       keys: "a",

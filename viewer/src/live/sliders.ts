@@ -13,6 +13,8 @@ const PATIENCE_MS = 150;
 /** Sliders shown at once. */
 const PORTION = 60;
 const PLACES = 1000;
+/** Letters of a slider's name. */
+const LONGEST_NAME = 22;
 
 export class Sliders {
   readonly element: HTMLElement;
@@ -124,8 +126,8 @@ export class Sliders {
     const back = iconButton("restart", `Back to ${plain(leaf.value)}`, () => take(leaf.value, true));
     const label = h(
       "span",
-      { class: "name", title: leaf.key },
-      name.slice(group.length).replace(/^\./, "") || name,
+      { class: "name", title: name },
+      shortened(name.slice(group.length).replace(/^\./, "") || name),
     );
     const row = h("div", { class: "slider", "data-key": name }, label, entry, back, drag);
     const take = (number: number, moves: boolean) => {
@@ -164,6 +166,14 @@ function named({ key, path }: Leaf): string {
     ? path.map((index) => "xyz"[index]).join("")
     : path.join(".");
   return `${key}.${letters}`;
+}
+
+/** The end of a long key says more than its beginning. */
+function shortened(key: string): string {
+  const words = key.split(".");
+  while (words.length > 2 && words.join(".").length > LONGEST_NAME) words.shift();
+  const short = words.join(".");
+  return short === key ? key : `… ${short}`;
 }
 
 /** How far a component that is zero may go: as far as its neighbours; one, if they are zero too. */

@@ -56,7 +56,7 @@ export function helpDialog(keys: Key[]): HTMLDialogElement {
 export function listen(keys: Key[]): void {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const target = event.target as HTMLElement;
+    const target = event.target instanceof Element ? event.target : document.body;
     if (target.closest("input:not(.scrubber), select, textarea, dialog[open]")) return;
     if (event.key === " " && target.closest("button")) return;
     const key = keys.find(({ keys }) => keys.includes(event.key));
