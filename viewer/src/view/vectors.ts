@@ -22,7 +22,7 @@ const LEAST_FORCE = 1e-3;
 /** Points of a surface this close to the lowest one, in sizes, count as lowest too. */
 const LOWEST_BAND = 0.02;
 /** Radius of a shaft in sizes of the body. */
-const SHAFT = 0.014;
+const SHAFT = 0.02;
 
 export class VectorLayer {
   readonly group = new Group();
