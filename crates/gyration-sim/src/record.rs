@@ -160,6 +160,7 @@ impl<'a> Job<'a> {
         let surfaces = Surfaces::of(&self.model.bodies);
         let bodies = self.model.bodies.iter().zip(surfaces.of_bodies());
         attributes.insert("bodies".into(), bodies.map(|(body, surface)| describe_body(body, *surface)).collect());
+        attributes.insert("outlines".into(), surfaces.distinct().iter().map(|body| describe_outline(body)).collect());
         attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
         attributes
@@ -173,16 +174,25 @@ fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
         solver.remove("max_wall_time");
     }
-    Some((resolved, attributes.get("bodies")?.clone()))
+    let bodies = [attributes.get("bodies")?, attributes.get("outlines").unwrap_or(&Value::Null)];
+    Some((resolved, bodies.into_iter().cloned().collect()))
 }
 
-/// What a drawing needs of a body: its wireframe and silhouette relative to the centre of mass, and which of the surfaces
-/// is its own; of one that contracts also volume [m³] and period of what drives it [s].
-fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
-    let center = body.mass.center;
+/// Wireframe and silhouette of a body, relative to the centre of mass.
+fn describe_outline(body: &gyration::body::Body) -> Value {
     let outline = body.shape.outline();
-    let relative =
-        |points: &[gyration::tensor::Vec3]| points.iter().map(|p| json!((p - center).as_slice())).collect::<Value>();
+    let relative = |points: &[gyration::tensor::Vec3]| {
+        points.iter().map(|point| json!((point - body.mass.center).as_slice())).collect::<Value>()
+    };
+    json!({
+        "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
+        "silhouette": relative(&body.shape.silhouette_points()),
+    })
+}
+
+/// What a drawing needs of a body: which of the surfaces and outlines is its own, or its own outline if it has no surface;
+/// of one that contracts also volume [m³] and period of what drives it [s].
+fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
     let mut described = json!({
         "name": body.name,
         "kind": match body.kind {
@@ -191,13 +201,16 @@ fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
             BodyKind::Contractile(_) => "contractile",
         },
         "mass": body.mass.mass,
-        "center": center.as_slice(),
+        "center": body.mass.center.as_slice(),
         "euler_tensor": body.mass.euler_tensor.as_slice(),
         "size": body.size,
-        "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
-        "silhouette": relative(&body.shape.silhouette_points()),
         "surface": surface,
     });
+    if let (None, Value::Object(own)) = (surface, describe_outline(body))
+        && let Some(all) = described.as_object_mut()
+    {
+        all.extend(own);
+    }
     if let BodyKind::Contractile(contractile) = &body.kind {
         described["volume"] = json!(contractile.affine.interior.volume);
         described["period"] = json!(period(contractile.contraction.signal()));

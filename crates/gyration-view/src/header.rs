@@ -176,7 +176,8 @@ impl Header {
         }
         header.insert("bodies".into(), self.bodies());
         header.insert("outcome".into(), self.attributes.get("outcome").cloned().unwrap_or(Value::Null));
-        let is_own = |name: &str| OWN.contains(&name) || name == "outcome" || name.starts_with("record_");
+        let is_own =
+            |name: &str| OWN.contains(&name) || ["outcome", "outlines"].contains(&name) || name.starts_with("record_");
         let summary = self.attributes.iter().filter(|(name, _)| !is_own(name));
         header.insert("summary".into(), Value::Object(summary.map(|(k, v)| (k.clone(), v.clone())).collect()));
         let arrays = self.arrays.iter().map(|array| {

@@ -6,6 +6,7 @@ use super::thin::Thinner;
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
+use gyration_record::export::bodies_with_outlines;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
@@ -121,7 +122,7 @@ impl<'a> Recorded<'a> {
         let supports: Vec<SupportPicture> = attribute(recording, "supports")?;
         Ok(Self {
             recording,
-            bodies: attribute(recording, "bodies")?,
+            bodies: described(recording, "bodies", &bodies_with_outlines(recording.attributes()))?,
             supports: supports.into_iter().map(Support::from).collect(),
             gravity: attribute::<[f64; 3]>(recording, "gravity")?.into(),
         })
@@ -213,7 +214,10 @@ impl<'a> Recorded<'a> {
 
 /// An attribute of the recording in a type of ours.
 fn attribute<T: DeserializeOwned>(recording: &Recording, name: &'static str) -> Result<T, PlotError> {
-    let value = recording.attributes().get(name).unwrap_or(&Value::Null);
+    described(recording, name, recording.attributes().get(name).unwrap_or(&Value::Null))
+}
+
+fn described<T: DeserializeOwned>(recording: &Recording, name: &'static str, value: &Value) -> Result<T, PlotError> {
     T::deserialize(value).map_err(|error| PlotError::Attribute {
         path: recording.path().to_path_buf(),
         name,

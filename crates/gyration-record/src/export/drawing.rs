@@ -2,6 +2,7 @@
 //!
 //! A surface's points are relative to the centre of mass in the reference placement: a body shows them at p = p₀ + P X.
 
+use crate::Attributes;
 use crate::error::RecordError;
 use crate::recording::Recording;
 use nalgebra::{Matrix3, Vector3};
@@ -76,7 +77,9 @@ impl Drawing {
         if bodies.is_some_and(|bodies| bodies.iter().any(|body| body.get("surface").is_none())) {
             return Err(RecordError::NoSurfaces { path: recording.path().to_path_buf() });
         }
-        let bodies: Vec<Figure> = attribute(recording, "bodies")?;
+        let strange =
+            |error: serde_json::Error| RecordError::corrupt(recording.path(), format!("attribute `bodies`: {error}"));
+        let bodies: Vec<Figure> = serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange)?;
         let count = bodies.iter().filter_map(|body| body.surface).max().map_or(0, |last| last + 1);
         let gravity = Vec3::from(attribute::<[f64; 3]>(recording, "gravity")?);
         Ok(Self {
@@ -86,6 +89,21 @@ impl Drawing {
             up: (-gravity).try_normalize(0.0).unwrap_or_else(Vec3::z),
         })
     }
+}
+
+/// The bodies of a recording as its attributes describe them, each with wireframe and silhouette: those that have a surface
+/// share them with it, as `outlines`.
+pub fn bodies_with_outlines(attributes: &Attributes) -> Value {
+    let mut bodies = attributes.get("bodies").cloned().unwrap_or_default();
+    let outlines = attributes.get("outlines").and_then(Value::as_array);
+    for body in bodies.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
+        let surface = body.get("surface").and_then(Value::as_u64).and_then(|k| usize::try_from(k).ok());
+        let shared = surface.and_then(|k| outlines?.get(k)).and_then(Value::as_object);
+        for (name, value) in shared.into_iter().flatten() {
+            body.entry(name.as_str()).or_insert_with(|| value.clone());
+        }
+    }
+    bodies
 }
 
 fn attribute<T: serde::de::DeserializeOwned>(recording: &Recording, name: &str) -> Result<T, RecordError> {

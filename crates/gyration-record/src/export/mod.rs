@@ -9,5 +9,6 @@ mod npz;
 pub mod vtk;
 
 pub use csv::csv;
+pub use drawing::bodies_with_outlines;
 pub use gltf::gltf;
 pub use npz::npz;
