@@ -25,6 +25,7 @@ export function helpDialog(keys: Key[]): HTMLDialogElement {
     ["click in a plot", "go to that time"],
     ["drag in a plot", "zoom; double click: all again"],
   ].map(([shown, does]) => h("tr", {}, h("th", {}, shown), h("td", {}, does)));
+  const half = Math.ceil((rows.length + mouse.length) / 2);
   dialog.append(
     h(
       "header",
@@ -35,14 +36,14 @@ export function helpDialog(keys: Key[]): HTMLDialogElement {
     h(
       "div",
       { class: "columns" },
-      h("table", {}, h("tbody", {}, ...rows)),
-      h("table", {}, h("tbody", {}, ...mouse)),
+      h("table", {}, h("tbody", {}, ...rows.slice(0, half))),
+      h("table", {}, h("tbody", {}, ...rows.slice(half), ...mouse)),
     ),
     h(
       "p",
       { class: "quiet" },
       "A contact force is drawn asinh(f/mg) half body sizes long: in proportion below the weight, by logarithm above. ",
-      "Axes of strain are orange where the body is extended, blue where it is shortened. Planes are light from the front. ",
+      "Axes of strain are orange where the body is extended, blue where it is shortened. ",
       "Between samples, slow playing moves bodies along straight lines; at rest only samples are shown.",
     ),
   );
