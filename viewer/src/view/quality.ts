@@ -22,12 +22,18 @@ const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 export function contextOf(
   canvas: HTMLCanvasElement,
 ): { context: WebGL2RenderingContext; quality: Quality } | null {
-  const attributes = { alpha: false, stencil: true, antialias: true };
-  const best = location.hash.includes("quality=full");
-  const fast = canvas.getContext("webgl2", { ...attributes, failIfMajorPerformanceCaveat: !best });
-  if (fast) return { context: fast, quality: { ...(best || !isSoftware(fast) ? FULL : MODEST) } };
-  const slow = canvas.getContext("webgl2", { ...attributes, antialias: false });
-  return slow && { context: slow, quality: { ...MODEST } };
+  // Whether edges are smoothed is settled with a context: the machine is asked through another one before.
+  const modest = !location.hash.includes("quality=full") && drawsInSoftware();
+  const context = canvas.getContext("webgl2", { alpha: false, stencil: true, antialias: !modest });
+  return context && { context, quality: { ...(modest ? MODEST : FULL) } };
+}
+
+function drawsInSoftware(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  if (!probe) return false;
+  const software = isSoftware(probe);
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  return software;
 }
 
 function isSoftware(context: WebGL2RenderingContext): boolean {
