@@ -22,6 +22,8 @@ pub fn tests(steps: &mut Steps) {
         steps.run("install packages of the viewer", npm().args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]));
     let Some(browser) = browser(steps).filter(|_| installed) else { return };
     steps.run("types and lints of the viewer", npm().args(["run", "--silent", "check"]));
+    // Some tests look at the bundle itself.
+    steps.run("build the page", npm().args(["run", "--silent", "build"]));
     let program = target_directory().join("debug").join(if cfg!(windows) { "gyration.exe" } else { "gyration" });
     let mut command = npm();
     // No colours: the output is read.

@@ -52,7 +52,11 @@ impl Page {
                     match message["type"].as_str().unwrap() {
                         "header" => *watched = Watched { header: message["header"].clone(), ..Watched::default() },
                         "done" => watched.done = message,
-                        "progress" => watched.paused = message["paused"].as_bool(),
+                        "progress" => {
+                            // Every word on progress is whole, the first one too.
+                            assert!(message["time"].is_number() && message["end"].is_number(), "{message}");
+                            watched.paused = message["paused"].as_bool();
+                        }
                         "error" => return Some(message["message"].as_str().unwrap().to_owned()),
                         other => panic!("{other}"),
                     }

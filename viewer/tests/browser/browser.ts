@@ -66,23 +66,26 @@ export async function opened(
   return { page, problems, close: () => context.close() };
 }
 
-/** The picture at a time, shrunk to a string of bytes that can be compared: one in sixteen pixels. */
-export async function pixelsAt(page: Page, time: number): Promise<number[]> {
-  return page.evaluate((at) => {
-    window.gyration.seek(at);
-    window.gyration.renderNow();
-    const canvas = document.querySelector<HTMLCanvasElement>(".picture canvas")!;
-    const gl = canvas.getContext("webgl2")!;
-    const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
-    const all = new Uint8Array(4 * width * height);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, all);
-    const some: number[] = [];
-    for (let y = 0; y < height; y += 4) {
-      for (let x = 0; x < width; x += 4)
-        some.push(...all.subarray(4 * (y * width + x), 4 * (y * width + x) + 3));
-    }
-    return some;
-  }, time);
+/** The picture at a time, shrunk to a string of bytes that can be compared: one pixel in so many along and down. */
+export async function pixelsAt(page: Page, time: number, along = 4, down = 4): Promise<number[]> {
+  return page.evaluate(
+    ([at, right, up]) => {
+      window.gyration.seek(at);
+      window.gyration.renderNow();
+      const canvas = document.querySelector<HTMLCanvasElement>(".picture canvas")!;
+      const gl = canvas.getContext("webgl2")!;
+      const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
+      const all = new Uint8Array(4 * width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+      const some: number[] = [];
+      for (let y = 0; y < height; y += up) {
+        for (let x = 0; x < width; x += right)
+          some.push(...all.subarray(4 * (y * width + x), 4 * (y * width + x) + 3));
+      }
+      return some;
+    },
+    [time, along, down] as const,
+  );
 }
 
 /** How many colours there are, roughly. */

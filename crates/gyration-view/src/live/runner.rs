@@ -182,11 +182,11 @@ mod tests {
             store.row(f64::from(k), &[1.0, 2.0, 3.0]);
         }
         let mut cursor = Cursor::default();
-        assert_eq!(store.take(&mut cursor).len(), 3, "header, surface, rows");
+        assert_eq!(store.take(&mut cursor).len(), 4, "header, surface, rows, progress");
         assert!(store.take(&mut cursor).is_empty());
         store.finish(json!({ "type": "done" }));
         assert_eq!(store.take(&mut cursor).len(), 1);
         store.begin(&json!({}), Vec::new(), vec![1]);
-        assert_eq!(store.take(&mut cursor).len(), 1, "the header of the next run");
+        assert_eq!(store.take(&mut cursor).len(), 2, "header and progress of the next run");
     }
 }

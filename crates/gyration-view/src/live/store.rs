@@ -53,13 +53,14 @@ pub(crate) enum Message {
 impl Store {
     /// Forgets the run before and begins a new one.
     pub(super) fn begin(&mut self, header: &Value, fixed: Vec<(String, Vec<u8>)>, strides: Vec<usize>) {
+        let start = json!({ "time": 0.0, "end": header["end"], "steps": 0, "step": 0.0, "limited_by": "" });
         let header = json!({ "type": "header", "header": header }).to_string();
         *self = Self {
             run: self.run + 1,
             header: Some(header.into()),
             fixed,
             strides,
-            progress: (self.progress.0, Value::Null),
+            progress: (self.progress.0 + 1, start),
             problem: (self.problem.0, String::new()),
             ..Self::default()
         };
@@ -111,7 +112,8 @@ impl Store {
             cursor.events = self.events.len();
             messages.push(self.blob("events", &blob::events(&self.events)));
         }
-        if cursor.progress != self.progress.0 || cursor.paused != self.paused {
+        let moved = cursor.progress != self.progress.0 || cursor.paused != self.paused;
+        if moved && !self.progress.1.is_null() {
             (cursor.progress, cursor.paused) = (self.progress.0, self.paused);
             let mut progress = json!({ "type": "progress", "paused": self.paused });
             if let (Some(all), Some(told)) = (progress.as_object_mut(), self.progress.1.as_object()) {
