@@ -206,8 +206,8 @@ fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
         "size": body.size,
         "surface": surface,
     });
-    if let (None, Value::Object(own)) = (surface, describe_outline(body))
-        && let Some(all) = described.as_object_mut()
+    if surface.is_none()
+        && let (Value::Object(own), Some(all)) = (describe_outline(body), described.as_object_mut())
     {
         all.extend(own);
     }
