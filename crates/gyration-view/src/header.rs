@@ -102,14 +102,16 @@ const OWN: [&str; 11] = [
     "gravity",
 ];
 
+/// Points and triangles of each distinct surface, by the sizes of the arrays that hold them.
+fn surfaces(size: impl Fn(&str) -> usize) -> Vec<(usize, usize)> {
+    let each = (0..).map(|k| (size(&format!("surface_{k}_points")), size(&format!("surface_{k}_triangles"))));
+    each.take_while(|(points, _)| *points > 0).collect()
+}
+
 impl Header {
     /// The header of a recording on disk.
     pub fn of_recording(recording: &Recording) -> Self {
         let size = |name: &str| recording.array(name).map_or(0, |array| array.shape.first().copied().unwrap_or(0));
-        let surfaces = (0..)
-            .map(|k| (size(&format!("surface_{k}_points")), size(&format!("surface_{k}_triangles"))))
-            .take_while(|(points, _)| *points > 0)
-            .collect();
         Self {
             mode: Mode::Recording,
             run: 1,
@@ -120,7 +122,7 @@ impl Header {
                 .map(|(name, array, index)| (name.to_owned(), array.to_owned(), index))
                 .collect(),
             event_kinds: recording.event_kinds().to_vec(),
-            surfaces,
+            surfaces: surfaces(size),
             rows: recording.rows(),
             thinned: None,
             notes: Vec::new(),
@@ -139,10 +141,6 @@ impl Header {
             let found = layout.fixed.iter().find(|fixed| fixed.spec.name == name);
             found.and_then(|fixed| fixed.spec.dims.first()).map_or(0, |dim| dim.size)
         };
-        let surfaces = (0..)
-            .map(|k| (size(&format!("surface_{k}_points")), size(&format!("surface_{k}_triangles"))))
-            .take_while(|(points, _)| *points > 0)
-            .collect();
         let named = |spec: &gyration_record::ArraySpec| {
             let columns = spec.columns.iter().enumerate().filter(|(_, column)| !column.is_empty());
             columns.map(|(index, column)| (column.clone(), spec.name.clone(), index)).collect::<Vec<_>>()
@@ -156,7 +154,7 @@ impl Header {
             arrays: layout.arrays.iter().map(entry).collect(),
             columns,
             event_kinds: layout.event_kinds.clone(),
-            surfaces,
+            surfaces: surfaces(size),
             rows: 0,
             thinned: None,
             notes: Vec::new(),

@@ -9,7 +9,6 @@ use crate::page;
 use crate::stored::{Stored, kept};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use std::fmt::Write as _;
 
 /// Characters that the data may take: with the page, which is below 1 MB, a report stays below 3 MB.
 const MOST_DATA: usize = 1_900_000;
@@ -55,11 +54,15 @@ pub fn report(stored: &Stored) -> Result<Report, ViewError> {
                 header.rows
             ));
         }
-        let data = embedded(stored, &header, every)?;
-        if data.len() <= MOST_DATA || every >= rows {
-            return Ok(Report { html: page.replacen(page::PLACEHOLDER, &data, 1), samples: (header.rows, rows) });
+        // What thinning cannot make smaller, a mesh of many triangles, is not paid for in samples beyond a quarter.
+        let fixed = described(stored, &header)?;
+        let room = MOST_DATA.saturating_sub(fixed.len()).max(MOST_DATA / 4);
+        let data = sampled(stored, &header, every)?;
+        if data.len() <= room || every >= rows {
+            let html = page.replacen(page::PLACEHOLDER, &(fixed + &data), 1);
+            return Ok(Report { html, samples: (header.rows, rows) });
         }
-        every = (every * data.len()).div_ceil(MOST_DATA).max(every + 1);
+        every = (every * data.len()).div_ceil(room).max(every + 1);
     }
 }
 
@@ -79,19 +82,26 @@ fn leave_out_dispensable(header: &mut Header) {
     }
 }
 
-/// The elements of the page that hold the data.
-fn embedded(stored: &Stored, header: &Header, every: usize) -> Result<String, ViewError> {
-    let mut data = String::new();
+/// The elements of the page that hold header, events and surfaces.
+fn described(stored: &Stored, header: &Header) -> Result<String, ViewError> {
     // JSON has `<` in texts only, where its escape says the same: no text of a scene can end the element.
     let json = header.to_json().to_string().replace('<', "\\u003c");
-    // Writing to a string does not fail.
-    let _ = writeln!(data, "<script type=\"application/json\" id=\"gyration-header\">{json}</script>");
-    let surfaces =
+    let mut elements = format!("<script type=\"application/json\" id=\"gyration-header\">{json}</script>\n");
+    let parts =
         (0..header.surfaces.len()).flat_map(|k| ["points", "triangles"].map(|part| format!("surface/{k}/{part}")));
-    let names = ["time", "events"].map(String::from).into_iter().chain(surfaces);
-    for name in names.chain(header.arrays.iter().map(|array| array.name.clone())) {
-        let packed = miniz_oxide::deflate::compress_to_vec(&stored.blob(&name, 0..stored.rows(), every)?, LEVEL);
-        let _ = writeln!(data, "<script type=\"text/plain\" data-blob=\"{name}\">{}</script>", STANDARD.encode(packed));
+    for name in std::iter::once("events".to_owned()).chain(parts) {
+        elements += &element(stored, &name, 1)?;
     }
-    Ok(data)
+    Ok(elements)
+}
+
+/// The elements that hold one sample in `every`.
+fn sampled(stored: &Stored, header: &Header, every: usize) -> Result<String, ViewError> {
+    let names = header.arrays.iter().map(|array| array.name.as_str());
+    std::iter::once("time").chain(names).map(|name| element(stored, name, every)).collect()
+}
+
+fn element(stored: &Stored, name: &str, every: usize) -> Result<String, ViewError> {
+    let packed = miniz_oxide::deflate::compress_to_vec(&stored.blob(name, 0..stored.rows(), every)?, LEVEL);
+    Ok(format!("<script type=\"text/plain\" data-blob=\"{name}\">{}</script>\n", STANDARD.encode(packed)))
 }

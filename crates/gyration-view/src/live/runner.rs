@@ -37,8 +37,8 @@ fn run_once(shared: &Shared, subject: &Subject, overrides: &[String]) -> Result<
     if job.model.bodies.iter().any(|body| !matches!(body.kind, BodyKind::Rigid(_))) {
         job.plan.extras = job.plan.extras.and(Recorded::CauchyStress);
     }
-    let thinned = thin(&mut job);
     let layout = job.layout();
+    let thinned = thin(&mut job, &layout);
     let mut simulation = Simulation::new(job.model, job.start, job.plan).map_err(|error| error.to_string())?;
     let mut first = FirstRow::default();
     simulation.begin(&mut first).map_err(|error| error.to_string())?;
@@ -64,8 +64,8 @@ fn is_superseded(outcome: &Outcome) -> bool {
 }
 
 /// Samples more coarsely what would be too long to keep; the samples kept, and those of the scene.
-fn thin(job: &mut Job) -> Option<(usize, usize)> {
-    let numbers: usize = job.layout().arrays.iter().map(gyration_record::ArraySpec::row_len).sum();
+fn thin(job: &mut Job, layout: &Layout) -> Option<(usize, usize)> {
+    let numbers: usize = layout.arrays.iter().map(gyration_record::ArraySpec::row_len).sum();
     let samples = (job.plan.end / job.plan.sample).ceil() as usize + 1;
     let every = samples.saturating_mul(numbers).div_ceil(MOST_NUMBERS);
     if every <= 1 {
