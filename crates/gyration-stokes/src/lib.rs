@@ -1,0 +1,36 @@
+//! The resistance of a closed surface in slow viscous flow, by boundary elements.
+//!
+//! Plain numbers in, plain numbers out: points and triangles give the 12×12 matrix from velocity and velocity gradient to force
+//! and affine moment, for a fluid of viscosity one. [`Surface`] is the mesh, [`Options`] say about which centre and what the
+//! triangles stand for, [`Resistance`] is the answer with its estimated error. The method stands in `resistance.rs`.
+//!
+//! ```
+//! use gyration_stokes::{Options, Surface};
+//! let sphere = Surface::icosphere(2)?;
+//! let drag = sphere.resistance(&Options::default())?;
+//! assert!((drag.matrix[0][0] / (6.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
+//! # Ok::<(), gyration_stokes::StokesError>(())
+//! ```
+//!
+//! The same bytes come out on any number of threads. Nothing here knows of bodies, scenes or time.
+
+#![forbid(unsafe_code)]
+
+mod assembly;
+mod coarse;
+mod curvature;
+mod dense;
+mod error;
+mod estimate;
+mod inner;
+mod mesh;
+mod motion;
+mod pair;
+mod panel;
+mod resistance;
+mod rule;
+mod surface;
+
+pub use error::StokesError;
+pub use resistance::{DEFAULT_MAX_BYTES, Faces, Options, Resistance};
+pub use surface::Surface;

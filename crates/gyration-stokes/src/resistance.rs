@@ -1,0 +1,206 @@
+//! The resistance matrix of a surface, from the single layer over it.
+//!
+//! In a fluid of viscosity one at rest at infinity, the body moves with u = U + L (x − c), E = sym L, q = tr L. Let v be the
+//! flow of a uniform source q in the body: div v = q in it, 0 outside, no vorticity, no pressure. What is left, u − v, has
+//! no divergence in the body and its inner stress is 2 (E − ∇v). By the representation formula on both sides, the traction is
+//!
+//!   t = ψ + 2 (E − q I) n,    (1/8π) ∫ G ψ dA = −(u − v) on the surface,    ∫ ψ·v dA = 0 (no pressure in the body)
+//!
+//! and with b = u − v and S the single layer, which is symmetric and positive up to S n = 0 (b is orthogonal to n),
+//!
+//!   x′·H x = −∫ t·u′ dA = ⟨S⁺ b, b′⟩ − 2V (E:E′ − q q′)
+//!
+//! ψ is linear on each triangle, so that the first term is a best approximation from below. s ⟨n,·⟩² is added to S: any
+//! s > 0 leaves the solution alone. Sources: Pozrikidis, *Boundary Integral and Singularity Methods* (1992), ch. 2–4;
+//! `physics.md` §7.
+
+use crate::assembly::SingleLayer;
+use crate::coarse::CoarseSpace;
+use crate::curvature::{Weight, node_normals, risen};
+use crate::dense::{self, Columns, SIDES};
+use crate::error::StokesError;
+use crate::estimate::largest_share;
+use crate::motion::{Mat12, Motion, inner_work, right_sides};
+use crate::panel::{Panel, Vec3};
+use crate::surface::Surface;
+
+/// Bytes of matrices that are taken unless said otherwise: 16,000 unknowns, some 10,000 triangles of a smooth surface.
+pub const DEFAULT_MAX_BYTES: u64 = 5 << 29;
+
+/// What the flat triangles stand for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Faces {
+    /// A surface that is smooth but for its edges, with the corners on it: its rise above the triangles is added to first order.
+    #[default]
+    Curved,
+    /// Themselves: the body is the polyhedron.
+    Flat,
+}
+
+/// What is asked of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// The centre c of the motions and moments [length].
+    pub centre: [f64; 3],
+    /// What the triangles stand for.
+    pub faces: Faces,
+    /// Bytes that the matrices may take.
+    pub max_bytes: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { centre: [0.0; 3], faces: Faces::default(), max_bytes: DEFAULT_MAX_BYTES }
+    }
+}
+
+/// The resistance of a body in a fluid of viscosity one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resistance {
+    /// H: (f; N row by row) = −H (U; L row by row), f = ∫ t dA, N_ij = ∫ t_i (x − c)_j dA. Symmetric, positive definite.
+    pub matrix: [[f64; 12]; 12],
+    /// Estimated relative error: |x·ΔH x| ≤ error · x·H x for every motion x.
+    ///
+    /// It counts what a space of tractions of half the fineness loses, brought to this mesh at first order; with
+    /// [`Faces::Curved`] also the spread of the correction among three rules for the normals, and its square. It is the
+    /// sum of the largest shares, measured on ellipsoids between 1 and 4 times the true error. With [`Faces::Flat`] it knows nothing of
+    /// a smooth surface for which the triangles may stand.
+    pub error: f64,
+    nodes: Vec<[usize; 3]>,
+    normals: Vec<Vec3>,
+    /// −ψ of the twelve motions, by unknown.
+    densities: Columns,
+}
+
+impl Surface {
+    /// The resistance matrix about a centre.
+    ///
+    /// # Errors
+    /// Matrices larger than allowed; a centre that is not finite; a surface that crosses itself, if that makes the single
+    /// layer indefinite; a mesh so coarse that a motion is not resisted.
+    pub fn resistance(&self, options: &Options) -> Result<Resistance, StokesError> {
+        self.check(options)?;
+        let panels = Panel::all(self);
+        let normals = node_normals(&panels, self.node_count, Weight::Angle);
+        let layer = SingleLayer::new(&panels, self.node_count);
+        let Solution { densities, energy, lost } = self.solve(layer, &panels, options)?;
+        let volume = self.volume();
+        let mut matrix = energy - Motion::matrix(|one, other| volume * inner_work(one, other));
+        let mut uncertain = vec![lost];
+        let mut second_order = 0.0;
+        if options.faces == Faces::Curved {
+            let by = |weight| risen(&panels, &node_normals(&panels, self.node_count, weight), &densities);
+            let risen = by(Weight::Angle);
+            matrix += risen;
+            second_order = largest_share(&matrix, &[risen])?.powi(2);
+            uncertain.extend([Weight::Area, Weight::Sphere].map(|weight| risen - by(weight)));
+        }
+        let error = largest_share(&matrix, &uncertain)? + second_order;
+        let rows = std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
+        Ok(Resistance { matrix: rows, error, nodes: self.nodes.clone(), normals, densities })
+    }
+
+    fn check(&self, options: &Options) -> Result<(), StokesError> {
+        if let Some(&value) = options.centre.iter().find(|value| !value.is_finite()) {
+            return Err(StokesError::BadOption { what: "centre", must_be: "finite", value });
+        }
+        let (unknowns, limit) = (self.unknowns(), options.max_bytes);
+        let bytes = dense::bytes(unknowns) + dense::bytes(CoarseSpace::new(self).order());
+        match bytes > limit {
+            true => Err(StokesError::TooLarge { triangles: self.triangles.len(), unknowns, bytes, limit }),
+            false => Ok(()),
+        }
+    }
+
+    /// Solves S φ = b for the twelve motions, φ = −ψ without pressure in the body.
+    fn solve(&self, layer: SingleLayer, panels: &[Panel], options: &Options) -> Result<Solution, StokesError> {
+        let SingleLayer { half: mut matrix, expansion } = layer;
+        let sides = right_sides(panels, &options.centre.into(), &expansion);
+        regularize(&mut matrix, panels);
+        let coarse = CoarseSpace::new(self);
+        let coarse_sides = coarse.sides(&sides);
+        let coarse_matrix = coarse.matrix(&matrix);
+        let mut densities = sides.clone();
+        matrix.factor().map_err(|unknown| self.indefinite(unknown))?.solve(&mut densities);
+        let mut coarse_densities = coarse_sides.clone();
+        // A subspace of a definite space is definite, but for rounding.
+        coarse_matrix.factor().map_err(|_| self.indefinite(0))?.solve(&mut coarse_densities);
+        let energy = products(&densities, &sides);
+        let lost = (energy - products(&coarse_densities, &coarse_sides)) * coarse.factor();
+        remove_pressure(&mut densities, panels, &expansion, self.volume());
+        Ok(Solution { densities, energy, lost })
+    }
+
+    fn indefinite(&self, unknown: usize) -> StokesError {
+        let node = unknown / 3;
+        let triangle = self.nodes.iter().position(|nodes| nodes.contains(&node)).unwrap_or(0);
+        StokesError::NotDefinite { unknown, triangle }
+    }
+}
+
+/// The single layer solved for the twelve motions.
+struct Solution {
+    /// φ = −ψ.
+    densities: Columns,
+    /// ⟨S⁺ b, b′⟩.
+    energy: Mat12,
+    /// What of it the space of tractions is estimated to lose.
+    lost: Mat12,
+}
+
+/// Σ φ_k b′_k, symmetric.
+fn products(densities: &Columns, sides: &Columns) -> Mat12 {
+    let mut sum = Mat12::zeros();
+    for (density, side) in densities.iter().zip(sides) {
+        for i in 0..SIDES {
+            (0..=i).for_each(|j| sum[(i, j)] += 0.5 * (density[i] * side[j] + density[j] * side[i]));
+        }
+    }
+    Mat12::from_fn(|i, j| sum[(i.max(j), i.min(j))])
+}
+
+/// S = half + halfᵀ + s ⟨n,·⟩², s such that n, otherwise of eigenvalue 0, gets one like the others.
+fn regularize(half: &mut dense::Symmetric, panels: &[Panel]) {
+    let mut normal = vec![0.0; half.order];
+    let mut area = 0.0;
+    for panel in panels {
+        area += panel.area;
+        for node in panel.nodes {
+            (0..3).for_each(|a| normal[3 * node + a] += panel.normal()[a] * panel.area / 3.0);
+        }
+    }
+    // A sphere of radius R: eigenvalues near R/3 of S in the mean, s A of the added term.
+    let strength = (area / (4.0 * std::f64::consts::PI)).sqrt() / (3.0 * area);
+    half.symmetrize(|i, j| strength * normal[i] * normal[j]);
+}
+
+/// Adds the multiple of n to each density with which ∫ ψ·v dA = 0.
+fn remove_pressure(densities: &mut Columns, panels: &[Panel], expansion: &[f64], volume: f64) {
+    let mut pressure = [0.0; SIDES];
+    for (density, v) in densities.iter().zip(expansion) {
+        (0..SIDES).for_each(|k| pressure[k] += density[k] * v / volume);
+    }
+    let nodes = expansion.len() / 3;
+    for (node, normal) in node_normals(panels, nodes, Weight::Angle).iter().enumerate() {
+        for a in 0..3 {
+            (0..SIDES).for_each(|k| densities[3 * node + a][k] -= pressure[k] * normal[a]);
+        }
+    }
+}
+
+impl Resistance {
+    /// The traction t at the corners of each triangle, for the motion x = (U; L row by row) [force/area].
+    pub fn tractions(&self, motion: &[f64; 12]) -> Vec<[[f64; 3]; 3]> {
+        let unit = Motion::all();
+        let at = |node: usize| {
+            let mut traction = Vec3::zeros();
+            for (k, (weight, motion)) in motion.iter().zip(&unit).enumerate() {
+                let density = Vec3::from_fn(|a, _| self.densities[3 * node + a][k]);
+                let inner = motion.strain() * self.normals[node] - motion.expansion() * self.normals[node];
+                traction += *weight * (2.0 * inner - density);
+            }
+            traction.into()
+        };
+        self.nodes.iter().map(|nodes| nodes.map(at)).collect()
+    }
+}
