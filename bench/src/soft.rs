@@ -103,6 +103,7 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
         shape,
         contacts,
         springs: Vec::new(),
+        inclusion: None,
         pin: None,
     };
     let table =

@@ -59,6 +59,7 @@ impl FacetBody {
             surface: Some(surface.unwrap_or_else(|error| panic!("{error}"))),
             contacts: vec![Contact::new(0, AreaMeasure::default(), self.laws.clone())],
             springs: Vec::new(),
+            inclusion: None,
             pin: None,
             size: side,
         };

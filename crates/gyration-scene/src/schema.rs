@@ -1,7 +1,7 @@
 //! The JSON Schema of a scene, generated from the file's types.
 //!
 //! Besides the standard keywords it has `unit` (the SI unit of a quantity; a string must have a unit of the same
-//! dimension) and `later` (the key is part of the format, but not of this version).
+//! dimension).
 
 use crate::file::SceneFile;
 use schemars::Schema;

@@ -15,8 +15,8 @@ pub(crate) enum TableFault {
     /// Not rows of numbers.
     #[error("table {}, line {line}: {reason}", path.display())]
     Malformed {
-        /// What its tensors are called.
-        symbol: char,
+        /// The names of its columns.
+        columns: String,
         /// The file.
         path: PathBuf,
         /// The line, from 1.
@@ -41,10 +41,7 @@ impl TableFault {
     pub(crate) fn help(&self) -> String {
         let help = match self {
             Self::Unreadable(_) => "the path is relative to the folder of the scene",
-            Self::Malformed { symbol, .. } => {
-                let names = ENTRIES.map(|entry| format!(", {symbol}_{entry}"));
-                return format!("write rows of `t{}`", names.concat());
-            }
+            Self::Malformed { columns, .. } => return format!("write rows of `{columns}`"),
             Self::Rows { source: TableError::NotSorted { .. }, .. } => "sort the rows by time, each time once",
             Self::Rows { source: TableError::NotFinite { .. }, .. } => "write finite numbers",
             Self::Rows { source: TableError::Empty, .. } => "write at least one row",
@@ -55,11 +52,10 @@ impl TableFault {
 
 /// What begins a line that is a remark.
 const COMMENT: u8 = b'#';
-/// t and nine entries.
-const COLUMNS: usize = 10;
-
 /// The entries of a tensor, row by row.
-const ENTRIES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+const TENSOR: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+/// The components of a vector.
+const VECTOR: [&str; 3] = ["x", "y", "z"];
 
 /// Reads a table of tensors in time: rows of t \[s\] and the entries in SI units, row by row. Messages call them by
 /// `symbol`.
@@ -68,11 +64,28 @@ const ENTRIES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"
 /// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that do
 /// not increase.
 pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
+    read_table(path, (symbol, &TENSOR), interpolation)
+}
+
+/// The same for a table of vectors, which are the first columns of its tensors.
+///
+/// # Errors
+/// As of [`read_tensors`].
+pub(crate) fn read_vectors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
+    read_table(path, (symbol, &VECTOR), interpolation)
+}
+
+fn read_table(
+    path: &Path,
+    (symbol, entries): (char, &[&str]),
+    interpolation: Interpolation,
+) -> Result<TensorTable, TableFault> {
     let bytes = read::bytes(path)?;
     let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
-    let rows = rows(content).map_err(|(start, reason)| {
+    let rows = rows(content, entries.len()).map_err(|(start, reason)| {
         let line = line(content, start);
-        TableFault::Malformed { symbol, path: path.to_owned(), line, reason }
+        let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}_{entry}")).collect();
+        TableFault::Malformed { columns: format!("t{}", names.concat()), path: path.to_owned(), line, reason }
     })?;
     TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {
         let row = match source {
@@ -95,7 +108,7 @@ struct Row {
 }
 
 /// The rows; or what is wrong with the one that begins behind a byte.
-fn rows(content: &[u8]) -> Result<Vec<Row>, (usize, String)> {
+fn rows(content: &[u8], entries: usize) -> Result<Vec<Row>, (usize, String)> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -108,11 +121,11 @@ fn rows(content: &[u8]) -> Result<Vec<Row>, (usize, String)> {
         // Of a text in memory nothing else can be wrong.
         let record = record.map_err(|error| (start(error.position()), "it is not valid UTF-8 text".to_owned()))?;
         // A line of names has no number.
-        if index == 0 && record.len() == COLUMNS && record.iter().all(|field| field.parse::<f64>().is_err()) {
+        if index == 0 && record.len() == entries + 1 && record.iter().all(|field| field.parse::<f64>().is_err()) {
             continue;
         }
         let start = start(record.position());
-        let (time, value) = row(&record).map_err(|reason| (start, reason))?;
+        let (time, value) = row(&record, entries).map_err(|reason| (start, reason))?;
         rows.push(Row { start, time, value });
     }
     Ok(rows)
@@ -127,13 +140,19 @@ fn line(content: &[u8], start: usize) -> u64 {
 }
 
 /// A row, or what is wrong with it.
-fn row(record: &csv::StringRecord) -> Result<(f64, Mat3), String> {
-    if record.len() != COLUMNS {
-        return Err(format!("expected {COLUMNS} columns, found {}", record.len()));
+fn row(record: &csv::StringRecord, entries: usize) -> Result<(f64, Mat3), String> {
+    let columns = entries + 1;
+    if record.len() != columns {
+        return Err(format!("expected {columns} columns, found {}", record.len()));
     }
-    let mut numbers = [0.0; COLUMNS];
-    for (column, (number, field)) in numbers.iter_mut().zip(record).enumerate() {
-        *number = field.parse().map_err(|_| format!("column {} holds \"{field}\", which is no number", column + 1))?;
+    let mut numbers = Vec::with_capacity(columns);
+    for (column, field) in record.iter().enumerate() {
+        let number: Result<f64, _> = field.parse();
+        numbers.push(number.map_err(|_| format!("column {} holds \"{field}\", which is no number", column + 1))?);
     }
-    Ok((numbers[0], Mat3::from_row_slice(&numbers[1..])))
+    let value = match entries {
+        9 => Mat3::from_row_slice(&numbers[1..]),
+        _ => Mat3::from_fn(|row, column| if column == 0 { numbers[1 + row] } else { 0.0 }),
+    };
+    Ok((numbers[0], value))
 }

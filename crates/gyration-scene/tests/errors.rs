@@ -43,7 +43,7 @@ fn structure_errors_stand_at_their_place() {
             "Angle (rad)",
         ),
         ("rigid = { §stiffness = 3 }", "body.ball.rigid.stiffness", "unknown key", ""),
-        ("§inclusion = { inertia = true }", "body.ball.inclusion", "not in this version yet", "leave"),
+        ("inclusion = §{ inertia = true }", "body.ball.inclusion", "the scene has no fluid", "[fluid]"),
         (
             "spring = [{ anchor = [0, 0, 1], stiffness = §-1 }]",
             "body.ball.spring.0.stiffness",
@@ -61,7 +61,7 @@ fn structure_errors_stand_at_their_place() {
 fn section_errors_stand_at_their_place() {
     let rows: &[Row] = &[
         ("§wrold = {}\n", "wrold", "unknown key \"wrold\"", "did you mean `world`?"),
-        ("§fluid = { viscosity = 1 }\n", "fluid", "are not in this version yet", "leave `fluid` out"),
+        ("fluid = { viscosity = §0 }\n", "fluid.viscosity", "must be greater than 0", "greater than 0"),
         ("title = §3\n", "title", "expected a string, found a number", "a string"),
         ("world = §3\n", "world", "expected a table", "gravity"),
         ("world.gravity = [0, 0, §\"9.81 m/s\"]\n", "world.gravity.2", "expected m/s^2", "9.81 m/s^2"),
@@ -95,6 +95,60 @@ fn section_errors_stand_at_their_place() {
         "greater",
         "",
     );
+}
+
+#[test]
+fn errors_of_fluids_stand_at_their_place() {
+    let swelling = "[[0, 1, 0], [0, 0, 0], [0, 0, 0.5]]";
+    let rows: &[(&str, &str, &str, &str)] = &[
+        ("viscosity = §-1", "fluid.viscosity", "must be greater than 0 Pa s", "greater than 0"),
+        ("viscosity = 1\ndensity = §-1", "fluid.density", "at least 0 kg/m^3", ""),
+        ("viscosity = 1\nvelocity = §1", "fluid.velocity", "found a number", "one key of constant, sine, sum, table"),
+        ("viscosity = 1\nvelocity = [1, §\"2 m\", 0]", "fluid.velocity.1", "is in m, expected m/s", ""),
+        ("viscosity = 1\nvelocity = { §sin = {} }", "fluid.velocity.sin", "unknown key", "`sine`"),
+        (
+            "viscosity = 1\nvelocity = { table = { file = §\"no.csv\" } }",
+            "fluid.velocity.table.file",
+            "cannot read",
+            "relative to the folder",
+        ),
+    ];
+    for (line, key, message, help) in rows {
+        assert_error(&format!("{TIME}{BALL}[fluid]\n{line}\n"), key, message, help);
+    }
+    let text = format!("{TIME}{BALL}[fluid]\nviscosity = 1\nvelocity_gradient = §{swelling}\n");
+    assert_error(&text, "fluid.velocity_gradient", "its trace is 0.5 1/s: the fluid would swell", "add up to 0");
+    let text = format!(
+        "{TIME}{BALL}[fluid]\nviscosity = 1\nvelocity_gradient = §{{ sine = {{ amplitude = {swelling}, frequency = 1 }} }}\n"
+    );
+    assert_error(&text, "fluid.velocity_gradient", "at t = ", "add up to 0");
+}
+
+#[test]
+fn errors_of_inclusions_stand_at_their_place() {
+    let fluid = |density: f64| format!("[fluid]\nviscosity = 1\ndensity = {density}\n");
+    let rows: &[Row] = &[
+        ("inclusion = { §inetria = false }", "body.ball.inclusion.inetria", "unknown key", "did you mean `inertia`?"),
+        (
+            "inclusion = { inertia = false }\nvelocity = §[1, 0, 0]",
+            "body.ball.velocity",
+            "moves as the balance of forces says",
+            "inertia = true",
+        ),
+        (
+            "inclusion = { inertia = false, history = §true }",
+            "body.ball.inclusion.history",
+            "without inertia has no history",
+            "inertia = true",
+        ),
+        ("inclusion = { history = §true }\npin = [0, 0, 0]", "body.ball.inclusion.history", "pinned", "one of"),
+        ("inclusion = { history = §true }\naffine = {}", "body.ball.inclusion.history", "rigid sphere", "leave"),
+    ];
+    for (line, key, message, help) in rows {
+        assert_error(&format!("{}{TIME}{BALL}{line}\n", fluid(1.0)), key, message, help);
+    }
+    let text = format!("{}{TIME}{BALL}inclusion = {{ history = §true }}\n", fluid(0.0));
+    assert_error(&text, "body.ball.inclusion.history", "the fluid has no density", "fluid.density");
 }
 
 #[test]

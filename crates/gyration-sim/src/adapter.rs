@@ -57,7 +57,7 @@ impl<'a> ModelSystem<'a> {
         let mut powers = vec![0.0; model.works().len()];
         rates(model, &mut workspace, start.time, &start.bodies, &mut slopes, &mut powers)?;
         let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(model, start, &slopes, body)).collect();
-        let energy = model.bodies.iter().zip(&speeds).map(|(b, v)| 0.5 * b.mass.mass * v * v).sum();
+        let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(model, body, *speed)).sum();
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
@@ -90,15 +90,30 @@ impl<'a> ModelSystem<'a> {
     }
 }
 
+/// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its size, η v size².
+fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
+    match &model.fluid {
+        Some(fluid) if !body.has_inertia() => fluid.viscosity * speed * body.size * body.size,
+        _ => 0.5 * body.mass.mass * speed * speed,
+    }
+}
+
 /// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, and one size a second
 /// for a body that nothing moves.
 fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
     let body = &model.bodies[index];
-    let motion = start.motion(model, index);
     let slopes = &slopes[model.blocks()[index].clone()];
-    let scale = fastest_speed(body, &motion).max((model.gravity.norm() * body.size).sqrt());
+    let (motion, falling) = match body.has_inertia() {
+        true => (start.motion(model, index), (model.gravity.norm() * body.size).sqrt()),
+        // Gravity moves it as fast as the fluid allows.
+        false => (BodyMotion::of_rates(body, &start.bodies[model.blocks()[index].clone()], slopes), 0.0),
+    };
+    let scale = fastest_speed(body, &motion).max(falling);
     if scale > 0.0 {
         return scale;
+    }
+    if !body.has_inertia() {
+        return body.size;
     }
     // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
     let (_, at_rates) = parts(body);
@@ -146,11 +161,13 @@ impl System for ModelSystem<'_> {
             let (at_turn, at_rates) = parts(body);
             let (places, rates) = y_scale[block.clone()].split_at_mut(at_rates);
             let (center, turn) = places.split_at_mut(at_turn);
-            let (center_rate, turn_rate) = rates.split_at_mut(at_turn);
             center.fill(length + rounding);
             turn.fill((length + rounding) / body.size);
-            center_rate.fill(velocity);
-            turn_rate.fill(velocity / body.size);
+            if body.has_inertia() {
+                let (center_rate, turn_rate) = rates.split_at_mut(at_turn);
+                center_rate.fill(velocity);
+                turn_rate.fill(velocity / body.size);
+            }
             if body.contraction().is_some_and(Contraction::is_driven) {
                 // G is a number of order one, on which forces depend as they do on P.
                 let contraction = &mut y_scale[block.end - 9..block.end];
@@ -205,10 +222,12 @@ fn restore_volume(body: &Body, interior: &AffineBody, block: &mut [f64]) -> (f64
     }
     let (at, rates) = parts(body);
     let energy = |p: &Mat3, rate: &Mat3| interior.energy(p) + 0.5 * (rate * interior.euler_tensor).dot(rate);
-    let (p, rate) = (matrix(block, at), matrix(block, rates + at));
+    let (p, rate) = (matrix(block, at), rate_of(body, block, rates + at));
     let corrected = interior.project(&p, &rate);
     block[at..at + 9].copy_from_slice(corrected.gradient.as_slice());
-    block[rates + at..rates + at + 9].copy_from_slice(corrected.rate.as_slice());
+    if body.has_inertia() {
+        block[rates + at..rates + at + 9].copy_from_slice(corrected.rate.as_slice());
+    }
     (corrected.size, energy(&corrected.gradient, &corrected.rate) - energy(&p, &rate))
 }
 
@@ -216,18 +235,27 @@ fn restore_volume(body: &Body, interior: &AffineBody, block: &mut [f64]) -> (f64
 /// that it took [J].
 fn restore_contraction(body: &Body, contractile: &Contractile, time: f64, block: &mut [f64]) -> (f64, f64) {
     let (at, rates) = parts(body);
-    let (p, rate) = (matrix(block, at), matrix(block, rates + at));
+    let (p, rate) = (matrix(block, at), rate_of(body, block, rates + at));
     let prescribed = !contractile.contraction.is_driven();
     let end = block.len();
     let contraction = if prescribed { contractile.contraction.signal().at(time) } else { matrix(block, end - 9) };
     let restored = contractile.restore(time, (&p, &rate, &contraction));
     block[at..at + 9].copy_from_slice(restored.gradient.as_slice());
-    block[rates + at..rates + at + 9].copy_from_slice(restored.rate.as_slice());
+    let mut kept = rate;
+    if body.has_inertia() {
+        block[rates + at..rates + at + 9].copy_from_slice(restored.rate.as_slice());
+        kept = restored.rate;
+    }
     if !prescribed {
         block[end - 9..].copy_from_slice(restored.contraction.as_slice());
     }
     let before = contractile.energy((&p, &rate, &contraction));
-    (restored.size, contractile.energy((&restored.gradient, &restored.rate, &restored.contraction)) - before)
+    (restored.size, contractile.energy((&restored.gradient, &kept, &restored.contraction)) - before)
+}
+
+/// Ṗ of a body that deforms; zero of one without inertia, whose state has none.
+fn rate_of(body: &Body, block: &[f64], at: usize) -> Mat3 {
+    if body.has_inertia() { matrix(block, at) } else { Mat3::zeros() }
 }
 
 fn matrix(block: &[f64], at: usize) -> Mat3 {

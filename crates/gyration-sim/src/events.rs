@@ -10,7 +10,7 @@
 //! dense output. Speeds below 1e-6 of the body's speed scale are taken for rest: a body that has settled gives no
 //! events, and one that passes through rest keeps the sign that it had before. Two events of one kind within a quarter
 //! of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several
-//! steps unless its force does not matter.
+//! steps unless its force does not matter. A body without inertia is carried, not thrown: it has no events.
 
 use gyration::model::Model;
 use gyration::state::BodyMotion;
@@ -63,7 +63,8 @@ pub fn rises(kind: usize) -> bool {
 /// The upward speed of the centre; NaN without gravity and for a pinned body.
 pub fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 {
     let gravity = model.gravity.norm();
-    if gravity == 0.0 || model.bodies[body].pin.is_some() {
+    let body = &model.bodies[body];
+    if gravity == 0.0 || body.pin.is_some() || !body.has_inertia() {
         return f64::NAN;
     }
     -motion.velocity.velocity.dot(&model.gravity) / (gravity * speed * REST)
@@ -71,7 +72,8 @@ pub fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 
 
 /// The rate of the smallest gap; NaN without surface or supports.
 pub fn approach(model: &Model, time: f64, body: usize, motion: &BodyMotion, speed: f64) -> f64 {
-    let Some(surface) = &model.bodies[body].surface else { return f64::NAN };
+    let this = &model.bodies[body];
+    let Some(surface) = this.surface.as_ref().filter(|_| this.has_inertia()) else { return f64::NAN };
     let mut nearest = (f64::INFINITY, f64::NAN);
     for support in &model.supports {
         let field = GapField {
@@ -90,7 +92,7 @@ pub fn approach(model: &Model, time: f64, body: usize, motion: &BodyMotion, spee
 /// The size of the contact force [N]; NaN without contacts.
 pub fn lift_off(model: &Model, body: usize, force: f64, speed: f64) -> f64 {
     let this = &model.bodies[body];
-    if this.contacts.is_empty() {
+    if this.contacts.is_empty() || !this.has_inertia() {
         return f64::NAN;
     }
     let gravity = model.gravity.norm();

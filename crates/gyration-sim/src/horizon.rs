@@ -12,6 +12,7 @@
 //! meet the body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
 
 use crate::views::View;
+use gyration::fluid::Fluid;
 use gyration::model::Model;
 use gyration::rates::meet;
 use gyration::signal::Signal;
@@ -50,6 +51,8 @@ struct Approach<'a> {
 pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], longest: f64) -> f64 {
     let couples = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
     let signals = || model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
+    let flow = || model.fluid.iter().flat_map(Fluid::signals);
+    let signals = || signals().chain(flow());
     let kinks = couples.chain(signals().filter_map(|signal| signal.next_kink(time)));
     let mut step = kinks.fold(longest, |step, kink| step.min(kink - time));
     for frequency in signals().map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {

@@ -43,6 +43,8 @@ pub enum Reason {
     GapClosed,
     /// A body that deforms was flattened: its volume vanished.
     Inverted,
+    /// Nothing resists the motion of a body without inertia.
+    Unresisted,
     /// A contractile body contracted to nothing: det G vanished.
     Collapsed,
     /// A spring lost its direction.
@@ -159,6 +161,11 @@ impl Stop {
                 "Only a material whose energy grows without bound under compression forbids that: one with a `bulk` or a \
                  logarithm of the volume, or an incompressible one; or start it with a smaller `gradient_rate`."
                     .to_string(),
+            ),
+            Quantity::Resistance => (
+                Reason::Unresisted,
+                format!("nothing resists the motion of body {body:?}, which has no inertia"),
+                "Give it `inclusion = { inertia = true }`, or look for sizes and viscosities out of all proportion.".to_string(),
             ),
             Quantity::Contraction => (
                 Reason::Collapsed,

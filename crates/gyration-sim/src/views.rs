@@ -5,7 +5,8 @@
 //!
 //!   p̈₀ = −R ([Ω̇]× + [Ω]×²) r,   of an affine one p̈₀ = −P̈ r
 //!
-//! The force of the contacts follows from the balance, f = m (p̈₀ − g), where nothing else pulls at the body.
+//! The force of the contacts follows from the balance, f = m (p̈₀ − g), where nothing else pulls at the body. A body without
+//! inertia has its velocities among the rates, and no accelerations.
 
 use gyration::body::{Body, BodyKind};
 use gyration::model::Model;
@@ -26,6 +27,10 @@ pub(crate) struct View {
 impl View {
     /// Reads a body's blocks of the state and of its rates.
     pub fn of(body: &Body, block: &[f64], rates: &[f64]) -> Self {
+        if !body.has_inertia() {
+            let stretching = body.affine().map(|_| Mat3::zeros());
+            return Self { motion: BodyMotion::of_rates(body, block, rates), acceleration: Vec3::zeros(), stretching };
+        }
         let motion = BodyMotion::unpack(body, block);
         let vector = |at: usize| Vec3::new(rates[at], rates[at + 1], rates[at + 2]);
         let matrix = |at: usize| Mat3::from_column_slice(&rates[at..at + 9]);
@@ -44,7 +49,7 @@ impl View {
     /// |f| of the contacts [N]; none where pins, springs or friction take a part of the load.
     pub fn contact_force(&self, model: &Model, body: &Body) -> Option<f64> {
         let resisted = body.affine().is_some_and(|affine| !affine.resistances.is_empty());
-        let alone = body.pin.is_none() && body.springs.is_empty() && !resisted;
+        let alone = body.pin.is_none() && body.springs.is_empty() && !resisted && body.inclusion.is_none();
         alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }

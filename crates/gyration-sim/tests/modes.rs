@@ -35,6 +35,7 @@ fn bare(shape: Shape, density: f64) -> Body {
         shape,
         contacts: Vec::new(),
         springs: Vec::new(),
+        inclusion: None,
         pin: None,
     }
 }

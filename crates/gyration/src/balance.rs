@@ -14,7 +14,7 @@ use crate::kinematics::Velocity;
 use crate::ledger::Energy;
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, nearest};
+use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, nearest, settled_motion};
 use crate::shape::{MassPoint, Points, Shape};
 use crate::state::{BodyMotion, State};
 use crate::tensor::{Mat3, Vec3};
@@ -62,13 +62,14 @@ pub fn observe(
     index: usize,
 ) -> Result<BodyObservation, Inadmissible> {
     let body = &model.bodies[index];
-    let motion = state.motion(model, index);
+    let motion = settled_motion(model, workspace, state, index)?;
     let (contact, pressure, effort) = match &body.kind {
         BodyKind::Rigid(_) => (contact_loads(model, workspace, state.time, index, &motion)?, None, None),
         BodyKind::Affine(affine) => {
             let moving = AffineMotion::new(index, affine, &motion)?;
             let loads = moving.loads(model, workspace, state.time)?;
-            (loads.contact, moving.balance(model, &loads.total).pressure, None)
+            let balance = moving.balance(model, &loads.total);
+            (loads.contact, balance.pressure, None)
         }
         BodyKind::Contractile(contractile) => {
             let block = &state.bodies[model.blocks()[index].clone()];
@@ -156,6 +157,7 @@ pub fn energies(
         for (index, body) in model.bodies.iter().enumerate() {
             let motion = state.motion(model, index);
             *value += match energy {
+                // A body without inertia is still here: its kinetic energy takes no part in its balance.
                 Energy::Kinetic => kinetic_energy(body, &motion),
                 Energy::Gravity => -body.mass.mass * model.gravity.dot(&motion.placement.position),
                 Energy::Elastic => elastic_energy(model, state, index, &motion)?,

@@ -10,11 +10,12 @@
 //! | affine, pinned | P     | Ṗ        | P (9), Ṗ (9)                              |
 //! | contractile | p₀, P    | ṗ₀, Ṗ    | as an affine body's, then G (9) unless it is prescribed |
 //!
-//! with Ω in body axes, P, Ṗ and G column by column.
+//! with Ω in body axes, P, Ṗ and G column by column. A body in a fluid that has no inertia has no velocities in its state.
 
 use crate::affine::AffineBody;
 use crate::contact::Contact;
 use crate::contractile::{self, Contraction, Decomposition, Restored};
+use crate::fluid::Inclusion;
 use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
 use crate::shape::Shape;
@@ -40,6 +41,8 @@ pub struct Body {
     pub springs: Vec<Spring>,
     /// The material point that stays fixed in space, if any.
     pub pin: Option<Pin>,
+    /// What makes it feel the fluid, if it is immersed.
+    pub inclusion: Option<Inclusion>,
     /// Characteristic length [m]: the largest side of the bounding box.
     pub size: f64,
 }
@@ -156,6 +159,24 @@ impl RigidInertia {
     }
 }
 
+/// How many numbers of each sort a body has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Parts {
+    /// p₀ and the quaternion or P.
+    pub places: usize,
+    /// ṗ₀ and Ω or Ṗ.
+    pub velocities: usize,
+    /// G.
+    pub contraction: usize,
+}
+
+impl Parts {
+    /// All of them.
+    pub fn all(&self) -> usize {
+        self.places + self.velocities + self.contraction
+    }
+}
+
 /// A gap below this fraction of the lengths from which it is computed cannot be told from zero: rounding alone would
 /// change the forces by more than any tolerance.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
@@ -188,16 +209,26 @@ impl Body {
         }
     }
 
-    /// How many numbers its state has.
-    pub fn dimension(&self) -> usize {
-        match (&self.kind, &self.pin) {
-            (BodyKind::Rigid(_), None) => 13,
-            (BodyKind::Rigid(_), Some(_)) => 7,
-            (BodyKind::Affine(_), None) => 24,
-            (BodyKind::Affine(_), Some(_)) => 18,
-            (BodyKind::Contractile(it), pin) => {
-                (if pin.is_some() { 18 } else { 24 }) + if it.contraction.is_driven() { 9 } else { 0 }
+    /// Whether it has inertia; without, its velocities are no state but follow from the balance.
+    pub fn has_inertia(&self) -> bool {
+        self.inclusion.as_ref().is_none_or(|inclusion| inclusion.inertia)
+    }
+
+    /// How many numbers its place and form take, its velocities, and its contraction.
+    pub(crate) fn parts(&self) -> Parts {
+        let free = if self.pin.is_some() { 0 } else { 3 };
+        let contraction = if self.contraction().is_some_and(Contraction::is_driven) { 9 } else { 0 };
+        match &self.kind {
+            BodyKind::Rigid(_) => Parts { places: free + 4, velocities: free + 3, contraction },
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
+                Parts { places: free + 9, velocities: free + 9, contraction }
             }
         }
+    }
+
+    /// How many numbers its state has.
+    pub fn dimension(&self) -> usize {
+        let parts = self.parts();
+        if self.has_inertia() { parts.all() } else { parts.places + parts.contraction }
     }
 }

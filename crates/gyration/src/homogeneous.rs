@@ -12,9 +12,9 @@ use crate::body::{Body, BodyKind};
 use crate::inadmissible::Inadmissible;
 use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{AffineMotion, ContractileMotion, Workspace, rates, spring_loads};
+use crate::rates::{AffineMotion, ContractileMotion, RigidImmersion, Workspace, rates, settled_motion, spring_loads};
 use crate::state::{BodyMotion, State, Turn};
-use crate::tensor::{Mat3, Polar, Vec3, cross_matrix};
+use crate::tensor::{Mat3, Polar, Vec3, axial, cross_matrix};
 
 /// What the theory of homogeneous strains tells of one body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,7 @@ pub fn observe_homogeneous(
     origin: &Vec3,
 ) -> Result<HomogeneousObservation, Inadmissible> {
     let body = &model.bodies[index];
-    let motion = state.motion(model, index);
+    let motion = settled_motion(model, workspace, state, index)?;
     let (p, rate) = (&motion.placement.gradient, &motion.velocity.gradient_rate);
     let interior = interior(model, workspace, state, index, &motion)?;
     let Interior { euler_tensor, moment, acceleration, stress } = interior;
@@ -110,7 +110,7 @@ fn interior(
             Ok(Interior {
                 euler_tensor: affine.interior.euler_tensor,
                 moment: moving.moment(model, &loads),
-                acceleration: balance.acceleration,
+                acceleration: inertial(body, &balance.acceleration),
                 stress: balance.stress,
             })
         }
@@ -122,19 +122,27 @@ fn interior(
             Ok(Interior {
                 euler_tensor: contractile.affine.interior.euler_tensor,
                 moment: moving.pulled.moment(model, &loads),
-                acceleration: balance.acceleration,
+                acceleration: inertial(body, &balance.acceleration),
                 stress: balance.stress,
             })
         }
         BodyKind::Rigid(_) => {
             let mut loads = contact_loads(model, workspace, state.time, index, motion)?;
             spring_loads(index, body, motion, |spring| loads += spring.total())?;
+            if let Some(fluid) = immersed_loads(model, state, index, motion) {
+                loads += fluid;
+            }
             let acceleration = rigid_acceleration(model, workspace, state, index, motion)?;
             let (euler_tensor, moment) = about_pin(model, body, &loads);
             let stress = (moment - acceleration * euler_tensor) / body.mass.volume;
             Ok(Interior { euler_tensor, moment, acceleration, stress })
         }
     }
+}
+
+/// P̈, which takes nothing of a body without inertia.
+fn inertial(body: &Body, acceleration: &Mat3) -> Mat3 {
+    if body.has_inertia() { *acceleration } else { Mat3::zeros() }
 }
 
 /// J and M about the pin, if there is one.
@@ -147,6 +155,15 @@ fn about_pin(model: &Model, body: &Body, loads: &Loads) -> (Mat3, Mat3) {
     )
 }
 
+/// f and M of the fluid on a rigid body; none if it is not immersed.
+fn immersed_loads(model: &Model, state: &State, index: usize, motion: &BodyMotion) -> Option<Loads> {
+    let rotation = &motion.placement.gradient;
+    // Ω from Ṗ = R [Ω]×.
+    let spin = 0.5 * axial(&rotation.tr_mul(&motion.velocity.gradient_rate));
+    let turn = Turn { spin, ..Turn::unpack(&model.bodies[index], &state.bodies[model.blocks()[index].clone()]) };
+    Some(RigidImmersion::of(model, state.time, index, (motion, &turn))?.loads(rotation))
+}
+
 /// P̈ = R ([Ω̇]× + [Ω]×²).
 fn rigid_acceleration(
     model: &Model,
@@ -155,6 +172,9 @@ fn rigid_acceleration(
     index: usize,
     motion: &BodyMotion,
 ) -> Result<Mat3, Inadmissible> {
+    if !model.bodies[index].has_inertia() {
+        return Ok(Mat3::zeros());
+    }
     let mut slopes = vec![0.0; model.dimension()];
     let mut powers = vec![0.0; model.works().len()];
     rates(model, workspace, state.time, &state.bodies, &mut slopes, &mut powers)?;

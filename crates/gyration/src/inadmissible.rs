@@ -17,6 +17,8 @@ pub enum Quantity {
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.
     Contraction,
+    /// The resistance to the motion of a body without inertia, which must be > 0.
+    Resistance,
 }
 
 /// A state outside the model: which body, which quantity, its value.

@@ -15,7 +15,9 @@ use crate::body::{Body, BodyKind, RigidInertia};
 use crate::contact::{ContactWrench, Meeting, RigidMotion};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
-use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, spring_loads};
+use crate::rates::{
+    AffineMotion, ContractileMotion, RigidImmersion, Workspace, for_each_contact, settled_slopes, spring_loads,
+};
 use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, cross_matrix};
 use nalgebra::{DMatrix, SMatrix};
@@ -34,26 +36,44 @@ pub fn jacobian(
 ) -> Result<(), Inadmissible> {
     for (index, (body, matrix)) in model.bodies.iter().zip(blocks).enumerate() {
         let block = &bodies[model.blocks()[index].clone()];
-        match &body.kind {
-            BodyKind::Rigid(inertia) => {
-                let turn = Turn::unpack(body, block);
-                let slopes = rigid_slopes(model, workspace, time, index, (&turn.motion(body, block), &turn))?;
-                matrix.fill(0.0);
-                match body.pin {
-                    None => fill_free(matrix, body, inertia, &turn, &slopes),
-                    Some(_) => fill_pinned(matrix, inertia, &turn, &slopes),
-                }
+        match body.has_inertia() {
+            true => body_jacobian(model, workspace, time, (index, block), matrix)?,
+            false => settled_slopes(model, workspace, time, (index, block), matrix)?,
+        }
+    }
+    Ok(())
+}
+
+/// The derivatives of the rates of one body by its places, velocities and contraction.
+///
+/// What is always zero in the matrix is taken to be zero already.
+pub(crate) fn body_jacobian(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    (index, block): (usize, &[f64]),
+    matrix: &mut DMatrix<f64>,
+) -> Result<(), Inadmissible> {
+    let body = &model.bodies[index];
+    match &body.kind {
+        BodyKind::Rigid(inertia) => {
+            let turn = Turn::unpack(body, block);
+            let slopes = rigid_slopes(model, workspace, time, index, (&turn.motion(body, block), &turn))?;
+            matrix.fill(0.0);
+            match body.pin {
+                None => fill_free(matrix, body, inertia, &turn, &slopes),
+                Some(_) => fill_pinned(matrix, (body, inertia), &turn, &slopes),
             }
-            BodyKind::Affine(affine) => {
-                let motion = BodyMotion::unpack(body, block);
-                let moving = AffineMotion::new(index, affine, &motion)?;
-                affine_slopes::fill(matrix, model, workspace, time, &moving)?;
-            }
-            BodyKind::Contractile(contractile) => {
-                let motion = BodyMotion::unpack(body, block);
-                let moving = ContractileMotion::new(index, contractile, (&motion, time, block))?;
-                contractile_slopes::fill(matrix, model, workspace, &moving)?;
-            }
+        }
+        BodyKind::Affine(affine) => {
+            let motion = BodyMotion::unpack(body, block);
+            let moving = AffineMotion::new(index, affine, &motion)?;
+            affine_slopes::fill(matrix, model, workspace, time, &moving)?;
+        }
+        BodyKind::Contractile(contractile) => {
+            let motion = BodyMotion::unpack(body, block);
+            let moving = ContractileMotion::new(index, contractile, (&motion, time, block))?;
+            contractile_slopes::fill(matrix, model, workspace, &moving)?;
         }
     }
     Ok(())
@@ -77,6 +97,9 @@ fn rigid_slopes(
         Ok(())
     })?;
     spring_loads(index, body, motion, |spring| slopes.add_spring(spring, motion, &turn.spin))?;
+    if let Some(immersed) = RigidImmersion::of(model, time, index, (motion, turn)) {
+        slopes.add_fluid(&immersed);
+    }
     if let Some(pin) = &body.pin {
         slopes.tie_to_pin(&pin.point, &(body.mass.mass * model.gravity), (motion, turn));
     }
@@ -93,7 +116,10 @@ fn write<const ROWS: usize, const COLUMNS: usize>(
 }
 
 /// ∂(Ω × IΩ)/∂Ω.
-fn gyroscopic(inertia: &RigidInertia, turn: &Turn) -> Mat3 {
+fn gyroscopic(body: &Body, inertia: &RigidInertia, turn: &Turn) -> Mat3 {
+    if !body.has_inertia() {
+        return Mat3::zeros();
+    }
     cross_matrix(&turn.spin) * inertia.tensor - cross_matrix(&(inertia.tensor * turn.spin))
 }
 
@@ -111,14 +137,14 @@ fn fill_free(block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, turn
     write(block, (10, 0), &(inertia.inverse * slopes.by_place.torque));
     write(block, (10, 3), &(inertia.inverse * slopes.by_turn.torque * turns));
     write(block, (10, 7), &(inertia.inverse * slopes.by_velocity.torque));
-    write(block, (10, 10), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, turn))));
+    write(block, (10, 10), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(body, inertia, turn))));
 }
 
 /// The block of a pinned body: q, Ω from 0, 4.
-fn fill_pinned(block: &mut DMatrix<f64>, inertia: &RigidInertia, turn: &Turn, slopes: &RigidSlopes) {
+fn fill_pinned(block: &mut DMatrix<f64>, (body, inertia): (&Body, &RigidInertia), turn: &Turn, slopes: &RigidSlopes) {
     let turns = turn.quaternion.turn_by_component();
     write(block, (0, 0), &turn.quaternion.rate_by_component(&turn.spin));
     write(block, (0, 4), &turn.quaternion.rate_by_spin());
     write(block, (4, 0), &(inertia.inverse * slopes.by_turn.torque * turns));
-    write(block, (4, 4), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(inertia, turn))));
+    write(block, (4, 4), &(inertia.inverse * (slopes.by_spin.torque - gyroscopic(body, inertia, turn))));
 }

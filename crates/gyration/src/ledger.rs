@@ -52,6 +52,8 @@ pub enum Work {
     Load,
     /// By the motion of the supports: ∫∫ q·(velocity of the support), all laws.
     Support,
+    /// By the fluid: drag, and the weight of what is displaced.
+    Fluid,
     /// By the pressure of incompressible bodies, and by putting them back to det P = 1: what the error of a step leaves.
     Constraint,
 }
@@ -69,6 +71,7 @@ impl Work {
             Self::Drive => "drive",
             Self::Load => "load",
             Self::Support => "support",
+            Self::Fluid => "fluid",
             Self::Constraint => "constraint",
         }
     }

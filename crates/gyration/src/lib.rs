@@ -13,6 +13,7 @@ pub mod body;
 mod columns;
 pub mod contact;
 pub mod contractile;
+pub mod fluid;
 pub mod homogeneous;
 mod inadmissible;
 pub mod jacobian;

@@ -4,6 +4,7 @@
 
 use crate::body::Body;
 use crate::contact::{AreaMeasure, LawKind};
+use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
 use crate::support::{Support, SupportMotion};
 use crate::tensor::Vec3;
@@ -18,6 +19,8 @@ pub struct Model {
     pub supports: Vec<Support>,
     /// The bodies.
     pub bodies: Vec<Body>,
+    /// The fluid around them; those that are no inclusions do not feel it.
+    pub fluid: Option<Fluid>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
     energies: Vec<Energy>,
@@ -29,7 +32,14 @@ impl Model {
         let blocks = layout(&bodies);
         let works = works(&supports, &bodies);
         let energies = energies(&bodies);
-        Self { gravity, supports, bodies, blocks, works, energies }
+        Self { gravity, supports, bodies, fluid: None, blocks, works, energies }
+    }
+
+    /// The model in a fluid.
+    #[must_use]
+    pub fn in_fluid(mut self, fluid: Fluid) -> Self {
+        self.fluid = Some(fluid);
+        self
     }
 
     /// Where each body's numbers stand in the state.
@@ -93,6 +103,7 @@ fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
         (Work::Drive, contracting().next().is_some()),
         (Work::Load, dashpots || affine().any(|affine| affine.couple.is_some())),
         (Work::Support, carried),
+        (Work::Fluid, bodies.iter().any(|body| body.inclusion.is_some())),
         (Work::Constraint, affine().any(|affine| affine.interior.is_incompressible())),
     ]
     .into_iter()

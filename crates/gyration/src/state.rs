@@ -68,7 +68,7 @@ impl From<RigidStart> for Start {
 impl Start {
     /// Appends the body's block of the state.
     fn pack(&self, body: &Body, numbers: &mut Vec<f64>) {
-        let free = body.pin.is_none();
+        let (free, moving) = (body.pin.is_none(), body.has_inertia());
         let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
         match self {
             Self::Rigid(start) => {
@@ -76,14 +76,14 @@ impl Start {
                 let spin = quaternion.rotation().tr_mul(&start.angular_velocity);
                 push(start.position.as_slice(), free);
                 push(&quaternion.0, true);
-                push(start.velocity.as_slice(), free);
-                push(spin.as_slice(), true);
+                push(start.velocity.as_slice(), free && moving);
+                push(spin.as_slice(), moving);
             }
             Self::Affine(placement, velocity) | Self::Contractile(placement, velocity, _) => {
                 push(placement.position.as_slice(), free);
                 push(placement.gradient.as_slice(), true);
-                push(velocity.velocity.as_slice(), free);
-                push(velocity.gradient_rate.as_slice(), true);
+                push(velocity.velocity.as_slice(), free && moving);
+                push(velocity.gradient_rate.as_slice(), moving);
                 if let Self::Contractile(_, _, contraction) = self {
                     push(contraction.as_slice(), body.contraction().is_some_and(Contraction::is_driven));
                 }
@@ -109,7 +109,7 @@ impl State {
         Some(contraction(model.bodies[body].contraction()?, self.time, block))
     }
 
-    /// The motion of one body.
+    /// The motion of one body; of one without inertia as if it were still: [`settled_motion`](crate::rates::settled_motion).
     pub fn motion(&self, model: &Model, body: usize) -> BodyMotion {
         BodyMotion::unpack(&model.bodies[body], &self.bodies[model.blocks()[body].clone()])
     }
@@ -123,6 +123,11 @@ pub(crate) fn contraction(contraction: &Contraction, time: f64, block: &[f64]) -
     }
 }
 
+/// Whether a block has no velocities.
+fn is_still(body: &Body, block: &[f64]) -> bool {
+    !body.has_inertia() && block.len() < body.parts().all()
+}
+
 fn vector(numbers: &[f64]) -> Vec3 {
     Vec3::new(numbers[0], numbers[1], numbers[2])
 }
@@ -132,27 +137,56 @@ impl Turn {
     pub fn unpack(body: &Body, block: &[f64]) -> Self {
         let (at, spin) = if body.pin.is_none() { (3, 10) } else { (0, 4) };
         let quaternion = Quaternion([block[at], block[at + 1], block[at + 2], block[at + 3]]);
-        Self { quaternion, spin: vector(&block[spin..]) }
+        Self { quaternion, spin: if is_still(body, block) { Vec3::zeros() } else { vector(&block[spin..]) } }
+    }
+
+    /// Reads the block of a rigid body without inertia, its spin from the rates of the block.
+    pub fn of_rates(body: &Body, block: &[f64], rates: &[f64]) -> Self {
+        let Self { quaternion, .. } = Self::unpack(body, block);
+        let at = if body.pin.is_none() { 3 } else { 0 };
+        let rate = nalgebra::Vector4::from_column_slice(&rates[at..at + 4]);
+        Self { quaternion, spin: quaternion.turn_by_component() * rate }
     }
 
     /// The motion that goes with it, the rest being read from the block.
     pub fn motion(&self, body: &Body, block: &[f64]) -> BodyMotion {
         let rotation = self.quaternion.rotation();
         let gradient_rate = rigid_gradient_rate(&rotation, &self.spin);
-        BodyMotion::of(body.pin.as_ref(), rotation, gradient_rate, || (vector(block), vector(&block[7..])))
+        let velocity = || if is_still(body, block) { Vec3::zeros() } else { vector(&block[7..]) };
+        BodyMotion::of(body.pin.as_ref(), rotation, gradient_rate, || (vector(block), velocity()))
     }
 }
 
 impl BodyMotion {
-    /// Reads a body's block of the state.
+    /// Reads a body's block of the state; one without inertia is taken to be still.
     pub fn unpack(body: &Body, block: &[f64]) -> Self {
         match body.kind {
             BodyKind::Rigid(_) => Turn::unpack(body, block).motion(body, block),
             BodyKind::Affine(_) | BodyKind::Contractile(_) => {
                 let (gradient, rate) = if body.pin.is_none() { (3, 15) } else { (0, 9) };
                 let matrix = |at: usize| Mat3::from_column_slice(&block[at..at + 9]);
-                let center = || (vector(block), vector(&block[12..]));
-                Self::of(body.pin.as_ref(), matrix(gradient), matrix(rate), center)
+                let still = is_still(body, block);
+                let center = || (vector(block), if still { Vec3::zeros() } else { vector(&block[12..]) });
+                let rate = if still { Mat3::zeros() } else { matrix(rate) };
+                Self::of(body.pin.as_ref(), matrix(gradient), rate, center)
+            }
+        }
+    }
+
+    /// The motion of a body without inertia, given the rates of its block.
+    pub fn of_rates(body: &Body, block: &[f64], rates: &[f64]) -> Self {
+        let pin = body.pin.as_ref();
+        let center = || (vector(block), vector(rates));
+        match body.kind {
+            BodyKind::Rigid(_) => {
+                let turn = Turn::of_rates(body, block, rates);
+                let rotation = turn.quaternion.rotation();
+                Self::of(pin, rotation, rigid_gradient_rate(&rotation, &turn.spin), center)
+            }
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
+                let at = if pin.is_none() { 3 } else { 0 };
+                let matrix = |numbers: &[f64]| Mat3::from_column_slice(&numbers[at..at + 9]);
+                Self::of(pin, matrix(block), matrix(rates), center)
             }
         }
     }

@@ -57,6 +57,16 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
+    fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(24), exponents in exponents()) {
+        for inertia in [true, false] {
+            let model = immersed(model(exponents, AreaMeasure::DeformedArea), inertia);
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+
+    #[test]
     fn jacobian_is_the_derivative_of_the_rates(numbers in numbers(24), exponents in exponents()) {
         for measure in MEASURES {
             let model = model(exponents, measure);

@@ -100,6 +100,23 @@ fn state(model: &Model, numbers: &[f64]) -> State {
 }
 
 proptest! {
+    // Each case is forty bodies.
+    #![proptest_config(ProptestConfig { cases: 2, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(33), exponents in exponents()) {
+        for (incompressible, viscous) in [(false, true), (true, false), (true, true)] {
+            for inertia in [true, false] {
+                let model = immersed(model(exponents, incompressible, viscous), inertia);
+                let state = state(&model, &numbers);
+                assert_jacobian_is_the_derivative(&model, &state);
+                assert_power_is_the_rate_of_energy(&model, &state);
+            }
+        }
+    }
+}
+
+proptest! {
     #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]

@@ -15,7 +15,8 @@ use gyration::shape::Shape;
 use gyration::state::{RigidStart, State, Turn};
 use gyration::tensor::Vec3;
 use moving::{
-    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, evaluate, shapes, supports,
+    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, evaluate, immersed, shapes,
+    supports,
 };
 use proptest::prelude::*;
 
@@ -53,6 +54,16 @@ fn strategy() -> impl Strategy<Value = ([f64; 10], [f64; 4])> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn jacobian_and_power_of_inclusions_are_those_of_their_rates((numbers, exponents) in strategy()) {
+        for inertia in [true, false] {
+            let model = immersed(model(exponents), inertia);
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
 
     #[test]
     fn jacobian_is_the_derivative_of_the_rates((numbers, exponents) in strategy()) {

@@ -1,5 +1,6 @@
 //! A body: shape, mass, surface about the centre of mass, kind, springs, pin, and how it starts.
 
+use super::fluid::Immersed;
 use super::kind::Deforming;
 use super::mass::{Source, lone_point, size};
 use super::setting::Setting;
@@ -45,6 +46,7 @@ impl Solid {
         let arm = value.pin.as_ref().map(si);
         near(arm.as_ref(), &shape, key, judge);
         let kind = kind?;
+        let inclusion = Immersed { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(setting, judge);
         let start = attitude?.start(placed, &kind, judge)?;
         let place = placement(&start);
         let body = Moving {
@@ -57,6 +59,7 @@ impl Solid {
             contacts: Vec::new(),
             springs: springs(placed, &place, judge),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
+            inclusion: inclusion?,
         };
         Some(Self { body, start })
     }

@@ -5,7 +5,7 @@
 //! second derivative.
 
 use super::setting::Setting;
-use super::signal::{Maker, first_fault};
+use super::signal::{Maker, first_fault, not_finite};
 use super::start::{flaw, invertible, matrix};
 use crate::check::{Judge, direction};
 use crate::file::{self, FeltMeasure, OneOrMany};
@@ -141,12 +141,6 @@ fn prescribed(written: &file::Signal<f64>, key: &Key, setting: &Setting, judge: 
                 { sum = [{ constant = { value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } }, …] }";
     judge.note(key, format!("at t = {time:?} s {message}"), help);
     None
-}
-
-fn not_finite(value: &Mat3) -> Option<String> {
-    // Its square has a place in the power.
-    let held = value.iter().all(|entry| (entry * entry).is_finite());
-    (!held).then(|| "it leaves the range of numbers".to_owned())
 }
 
 /// Where the part of a number stands.

@@ -7,6 +7,7 @@ mod body;
 mod constraint;
 mod contact;
 mod contractile;
+mod fluid;
 mod kind;
 mod mass;
 mod material;
@@ -110,6 +111,7 @@ impl Plan {
 /// Fills in what the file leaves to be derived (`resolve`).
 pub(crate) fn build(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'_>) -> Option<Built> {
     let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, setting, judge)).collect();
+    let around = draft.fluid.as_ref().map(|written| fluid::fluid(written, setting, judge));
     let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
     contact::attach(draft, &mut solids, judge);
     for (body, solid) in draft.bodies.iter_mut().zip(&solids) {
@@ -123,7 +125,10 @@ pub(crate) fn build(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'_>)
     }
     let plan = Plan::new(draft.time.as_ref()?, &draft.solver);
     let (bodies, starts): (Vec<_>, Vec<Start>) = solids.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
-    let model = Model::new(si(&draft.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
+    let mut model = Model::new(si(&draft.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
+    if let Some(fluid) = around {
+        model = model.in_fluid(fluid?);
+    }
     let state = State::start(&model, &starts);
     let record = draft.record.as_ref().map(Record::new).unwrap_or_default();
     Some(Built { model, state, plan, record })

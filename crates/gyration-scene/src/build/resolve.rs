@@ -31,6 +31,16 @@ pub(super) fn resolve(body: &mut Body, start: &Start) {
             }
         }
     }
+    settles(body);
+}
+
+/// The velocities of a body without inertia are no part of its start.
+fn settles(body: &mut Body) {
+    if body.inclusion.as_ref().is_some_and(|inclusion| !inclusion.inertia) {
+        body.velocity = Default::default();
+        body.angular_velocity = None;
+        body.gradient_rate = None;
+    }
 }
 
 /// Placement and velocity of a body that deforms.

@@ -1,4 +1,4 @@
-//! What a body is built among: the folder of the scene, the length of the run, the supports.
+//! What a body is built among: the folder of the scene, the length of the run, the supports, the fluid.
 
 use crate::check::Draft;
 use crate::document::Document;
@@ -14,12 +14,22 @@ pub(crate) struct Setting<'a> {
     pub(super) end: Option<f64>,
     /// Whether there is a support, well formed or not.
     pub(super) has_support: bool,
+    /// Whether there is a fluid, well formed or not.
+    pub(super) has_fluid: bool,
+    /// ρ_f \[kg/m³\], if the file says so without error.
+    pub(super) fluid_density: Option<f64>,
 }
 
 impl<'a> Setting<'a> {
     /// The setting of a scene whose paths are relative to `base`.
     pub(crate) fn new(draft: &Draft, document: &Document, base: &'a Path) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
-        Self { base, end: draft.time.as_ref().map(|time| time.end.value()), has_support: !supports.is_empty() }
+        Self {
+            base,
+            end: draft.time.as_ref().map(|time| time.end.value()),
+            has_support: !supports.is_empty(),
+            has_fluid: document.root.get("fluid").is_some(),
+            fluid_density: draft.fluid.as_ref().map(|fluid| fluid.density.value()),
+        }
     }
 }

@@ -8,9 +8,13 @@ use super::start::matrix;
 use crate::check::Judge;
 use crate::file::{Interpolation as Written, Ramp, Signal as WrittenSignal, Table, Wave as WrittenWave};
 use crate::key::Key;
-use crate::table::read_tensors;
+use crate::table::{TableFault, read_tensors};
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};
 use gyration::tensor::Mat3;
+use std::path::Path;
+
+/// Reads a table: its path, what messages call its tensors, what it does between its times.
+pub(super) type Reader = fn(&Path, char, Interpolation) -> Result<TensorTable, TableFault>;
 
 /// Makes signals of one kind of tensor.
 pub(super) struct Maker<'a, 'b> {
@@ -40,7 +44,9 @@ impl Maker<'_, '_> {
             WrittenSignal::Sine(it) => Signal::Sine(wave(it)),
             WrittenSignal::Square(it) => Signal::Square(wave(it)),
             WrittenSignal::Ramp(ramp) => self.ramp(ramp, &key.key("ramp"), rest)?,
-            WrittenSignal::Table(table) => Signal::Table(self.table(table, &key.key("table").key("file"))?),
+            WrittenSignal::Table(table) => {
+                Signal::Table(self.table(table, &key.key("table").key("file"), read_tensors)?)
+            }
             WrittenSignal::Sum(parts) => {
                 // What is not zero would be added as often as there are ramps.
                 let (key, rest) = (key.key("sum"), rest.filter(|rest| *rest == Mat3::zeros()));
@@ -61,13 +67,14 @@ impl Maker<'_, '_> {
         Some(Signal::Ramp { from, to: matrix(&ramp.to), duration: ramp.duration.value() })
     }
 
-    fn table(&mut self, table: &Table, key: &Key) -> Option<TensorTable> {
+    /// The table of a file, read by `read`; notes what is wrong with it.
+    pub(super) fn table(&mut self, table: &Table, key: &Key, read: Reader) -> Option<TensorTable> {
         let interpolation = match table.interpolation {
             Written::Linear => Interpolation::Linear,
             Written::Cubic => Interpolation::Cubic,
         };
         let path = self.setting.base.join(&table.file);
-        let made = match read_tensors(&path, self.symbol, interpolation) {
+        let made = match read(&path, self.symbol, interpolation) {
             Ok(made) => made,
             Err(error) => {
                 self.judge.note(key, error.to_string(), error.help());
@@ -95,6 +102,12 @@ fn wave<T: Into<f64> + Copy>(written: &WrittenWave<T>) -> Wave {
 /// The first time from 0 to `end`, of those at which a signal is looked at, where there is something wrong with it.
 pub(super) fn first_fault(signal: &Signal, end: f64, fault: impl Fn(&Mat3) -> Option<String>) -> Option<(f64, String)> {
     instants(signal, end).find_map(|time| Some((time, fault(&signal.at(time))?)))
+}
+
+pub(super) fn not_finite(value: &Mat3) -> Option<String> {
+    // Its square has a place in the power.
+    let held = value.iter().all(|entry| (entry * entry).is_finite());
+    (!held).then(|| "it leaves the range of numbers".to_owned())
 }
 
 /// In the whole run and in a period of the fastest wave.

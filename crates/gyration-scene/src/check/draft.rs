@@ -1,7 +1,7 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
 use crate::document::{Document, Findings};
-use crate::file::{Body, Contact, Record, SceneFile, Solver, Support, Time, World};
+use crate::file::{Body, Contact, Fluid, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
 use crate::tree::Node;
 use serde::de::DeserializeOwned;
@@ -25,6 +25,7 @@ pub(crate) struct Draft {
     pub(crate) supports: Vec<Placed<Support>>,
     pub(crate) contacts: Vec<Placed<Contact>>,
     pub(crate) bodies: Vec<Placed<Body>>,
+    pub(crate) fluid: Option<Fluid>,
 }
 
 impl Draft {
@@ -41,6 +42,7 @@ impl Draft {
             supports: taker.items("support"),
             contacts: taker.items("contact"),
             bodies: taker.items("body"),
+            fluid: taker.section("fluid"),
         }
     }
 
@@ -55,7 +57,7 @@ impl Draft {
             support: self.supports.into_iter().map(|placed| placed.value).collect(),
             contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
             body: self.bodies.into_iter().map(|placed| placed.value).collect(),
-            fluid: None,
+            fluid: self.fluid,
         })
     }
 }

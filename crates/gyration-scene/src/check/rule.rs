@@ -1,11 +1,10 @@
 //! The JSON Schema of the file's types as rules that are quick to walk.
 //!
 //! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
-//! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them),
-//! `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit` and `later`. A test makes sure that nothing else
+//! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them; an array, or a table),
+//! `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`. A test makes sure that nothing else
 //! occurs.
 
-use crate::file::LATER;
 use crate::quantity::UNIT;
 use crate::schema::SCHEMA;
 use crate::units::{Unit, parse_unit};
@@ -27,8 +26,6 @@ pub(super) struct Rules {
 pub(super) struct Field {
     pub(super) rule: Rule,
     pub(super) limits: Limits,
-    /// Names what is not in this version.
-    pub(super) later: Option<String>,
     pub(super) description: String,
 }
 
@@ -43,6 +40,8 @@ pub(super) enum Rule {
     Array { item: Box<Field>, least: usize, most: usize },
     /// One table of this kind, or an array of them.
     Several(Box<Field>),
+    /// An array of the first kind, or a table of the second.
+    Either(Box<Field>, Box<Field>),
     /// True or false.
     Boolean,
     /// A pure number.
@@ -89,7 +88,6 @@ fn field(schema: &Json) -> Field {
     Field {
         rule: rule(schema),
         limits: Limits { least: number("minimum"), most: number("maximum"), above: number("exclusiveMinimum") },
-        later: text(schema, LATER).map(str::to_owned),
         description: text(schema, "description").unwrap_or_default().to_owned(),
     }
 }
@@ -103,7 +101,13 @@ fn rule(schema: &Json) -> Rule {
     }
     if let Some([one, many]) = schema.get("anyOf").and_then(Json::as_array).map(Vec::as_slice) {
         let matches = many.get("items").is_some_and(|items| rule_name(items) == rule_name(one));
-        return if matches { Rule::Several(Box::new(field(one))) } else { Rule::Unknown };
+        if matches {
+            return Rule::Several(Box::new(field(one)));
+        }
+        return match text(one, "type") {
+            Some("array") => Rule::Either(Box::new(field(one)), Box::new(field(many))),
+            _ => Rule::Unknown,
+        };
     }
     if let Some(symbol) = text(schema, UNIT) {
         return quantity(symbol, schema);
@@ -161,12 +165,13 @@ mod tests {
 
     fn assert_understood(field: &Field, place: &str) {
         match &field.rule {
-            Rule::Unknown => assert!(field.later.is_some(), "{place} is not understood"),
+            Rule::Unknown => panic!("{place} is not understood"),
             Rule::Shared(name) => assert!(RULES.shared.contains_key(name), "{place}: {name} is not defined"),
             Rule::Table { fields, .. } | Rule::Choice { tags: fields, .. } => {
                 fields.iter().for_each(|(name, field)| assert_understood(field, &format!("{place}.{name}")));
             }
             Rule::Array { item, .. } | Rule::Several(item) => assert_understood(item, place),
+            Rule::Either(array, table) => [array, table].iter().for_each(|kind| assert_understood(kind, place)),
             Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::Text => {}
         }
     }

@@ -32,6 +32,8 @@ impl Walker<'_> {
             }
             (Value::Array(items), Rule::Several(item)) => self.items(items, key, item),
             (Value::Table(_), Rule::Several(item)) => self.visit(node, key, item),
+            (Value::Array(_), Rule::Either(array, _)) => self.visit(node, key, array),
+            (Value::Table(_), Rule::Either(_, table)) => self.visit(node, key, table),
             (Value::Array(items), Rule::Array { item, least, most }) => {
                 let count = items.len();
                 if !(*least..=*most).contains(&count) {
@@ -105,10 +107,6 @@ impl Walker<'_> {
                     let help = suggest::fix(name, fields.keys().map(String::as_str), what);
                     self.findings.at(entry.key_span, &place, format!("unknown key \"{name}\""), help);
                 }
-                Some(Field { later: Some(what), .. }) => {
-                    let message = format!("{what} are not in this version yet");
-                    self.findings.at(entry.key_span, &place, message, format!("leave `{name}` out"));
-                }
                 Some(field) => self.visit(&entry.node, &place, field),
             }
         }
@@ -143,6 +141,7 @@ impl Walker<'_> {
             Rule::Text => "a string".to_owned(),
             Rule::Boolean => "true or false".to_owned(),
             Rule::Choice { words, tags } => choices(words, tags),
+            Rule::Either(array, table) => format!("{}, or {}", self.expected(&array.rule), self.expected(&table.rule)),
             Rule::Several(item) => format!("{}, or an array of such", self.expected(&item.rule)),
             Rule::Array { item, least, most } => {
                 let count = if least == most { format!("{least} items") } else { "items".to_owned() };

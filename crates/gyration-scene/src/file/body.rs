@@ -1,6 +1,6 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Contractile, Later, Orientation, Shape};
+use super::{Affine, Contractile, Inclusion, Orientation, Shape};
 use crate::quantity::{
     AngularVelocity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness,
     Velocity,
@@ -35,10 +35,9 @@ pub struct Body {
     /// It deforms homogeneously and contracts by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contractile: Option<Contractile>,
-    /// It is immersed in the fluid.
-    #[serde(default, skip_serializing)]
-    #[schemars(extend("later" = "inclusions in a fluid"))]
-    pub inclusion: Option<Later>,
+    /// It is immersed in the fluid; any other body ignores it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inclusion: Option<Inclusion>,
     /// Initial position of the centre of mass (m).
     #[serde(default)]
     pub position: [Length; 3],

@@ -8,7 +8,7 @@ mod affine;
 mod body;
 mod contact;
 mod contractile;
-mod later;
+mod fluid;
 mod material;
 mod orientation;
 mod record;
@@ -23,7 +23,7 @@ pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFric
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
-pub use later::Later;
+pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
 pub use material::{
     Fung, Hencky, Material, MooneyRivlin, NeoHookean, NeoHookeanLog, Ogden, Orthogonality, StVenantKirchhoff,
 };
@@ -37,8 +37,6 @@ pub use solver::{Method, Solver};
 pub use support::{Motion, Oscillation, Plane, Support};
 pub use time::{StopAtRest, Time};
 pub use world::World;
-
-pub(crate) use later::LATER;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -73,8 +71,7 @@ pub struct SceneFile {
     /// The bodies.
     #[schemars(length(min = 1))]
     pub body: Vec<Body>,
-    /// A viscous fluid around the bodies.
-    #[serde(default, skip_serializing)]
-    #[schemars(extend("later" = "fluids"))]
-    pub fluid: Option<Later>,
+    /// A viscous fluid around the bodies; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluid: Option<Fluid>,
 }

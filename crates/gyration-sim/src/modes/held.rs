@@ -5,6 +5,7 @@ use gyration::balance::observe;
 use gyration::body::{Body, BodyKind};
 use gyration::contact::{Action, Term};
 use gyration::contractile::Source;
+use gyration::fluid::Fluid;
 use gyration::jacobian::jacobian;
 use gyration::model::Model;
 use gyration::rates::{Workspace, meet, rates};
@@ -43,7 +44,12 @@ impl Held {
             contractile.contraction.source = Source::Prescribed(Signal::Constant(contraction));
         }
         block.truncate(body.dimension());
-        let model = Model::new(model.gravity, supports, vec![body]);
+        let mut held = Model::new(model.gravity, supports, vec![body]);
+        held.fluid = model.fluid.as_ref().map(|fluid| {
+            let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
+            Fluid { velocity, gradient, ..*fluid }
+        });
+        let model = held;
         Self { model, workspace: Workspace::default(), time: start.time, index, start: block }
     }
 

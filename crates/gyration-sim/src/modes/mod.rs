@@ -74,6 +74,9 @@ pub enum NoRest {
         /// The stretch that is farthest from one.
         stretch: f64,
     },
+    /// The body has no inertia.
+    #[error("the body has no inertia: it has no modes, but the velocities that the fluid lets it have")]
+    WithoutInertia,
     /// The search came to no end.
     #[error(
         "no rest state was found in {steps} steps from the start: accelerations of up to {acceleration:.2e} (m/s², 1/s²) are \
@@ -149,6 +152,9 @@ impl Mode {
 /// # Errors
 /// [`NoRest`].
 pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
+    if !model.bodies[body].has_inertia() {
+        return Err(NoRest::WithoutInertia);
+    }
     let mut held = Held::new(model, start, body);
     equilibrium::find(&mut held)
 }

@@ -12,7 +12,7 @@ use gyration::contact::{
     Action, AreaMeasure, Contact, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Term,
 };
 use gyration::model::Model;
-use gyration::rates::meet;
+use gyration::rates::{Workspace, meet, settled_motion};
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Vec3, cofactor};
 use gyration::{Inadmissible, Quantity};
@@ -48,7 +48,9 @@ impl<'a> Snapshot<'a> {
 
     /// A body, by its index.
     pub fn body(&self, body: usize) -> BodySnapshot<'a> {
-        let motion = self.state.motion(self.model, body);
+        // Of a state outside the model nothing better is known.
+        let settled = settled_motion(self.model, &mut Workspace::default(), &self.state, body);
+        let motion = settled.unwrap_or_else(|_| self.state.motion(self.model, body));
         BodySnapshot { model: self.model, row: self.row, time: self.state.time, body, motion }
     }
 }

@@ -230,7 +230,7 @@ impl<F: Four> Solution<F> {
 
 impl Contraction {
     /// Whether the law of contraction gives the pressure of an incompressible material.
-    pub(super) fn gives_pressure(&self) -> bool {
+    pub(crate) fn gives_pressure(&self) -> bool {
         self.is_driven() && self.kept_volume.is_none()
     }
 }

@@ -8,6 +8,7 @@
 
 use crate::contact::{ContactWrench, RigidMotion};
 use crate::load::{SpringLoads, Wrench, WrenchSlope};
+use crate::rates::RigidImmersion;
 use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 
@@ -46,6 +47,17 @@ impl RigidSlopes {
         self.by_turn.torque += arm * cross_matrix(&rotation.tr_mul(&spring.force));
         self.by_velocity += slope(spring.by_velocity);
         self.by_spin += slope(-(spring.by_velocity * swing));
+    }
+
+    /// Adds the fluid.
+    pub fn add_fluid(&mut self, immersed: &RigidImmersion) {
+        let slopes = immersed.drag.slopes();
+        self.wrench += immersed.wrench();
+        self.by_place += slopes.by_place;
+        self.by_turn += slopes.by_turn;
+        self.by_turn += immersed.lift_by_turn();
+        self.by_velocity += slopes.by_velocity;
+        self.by_spin += slopes.by_spin;
     }
 
     /// Ties the place and the velocity to the turn and the spin about a pin at `arm` = r, and takes torques about it.

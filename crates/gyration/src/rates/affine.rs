@@ -6,6 +6,7 @@ use super::{Encounter, Powers, Workspace, spring_loads};
 use crate::affine::{AffineBalance, Gyration};
 use crate::body::Affine;
 use crate::contact::{ContactLoads, Deformation, LawKind};
+use crate::fluid::ImmersedEllipsoid;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
 use crate::model::Model;
@@ -48,7 +49,8 @@ impl<'a> AffineMotion<'a> {
     pub fn is_loaded(&self, model: &Model) -> bool {
         let body = &model.bodies[self.index];
         let touched = !body.contacts.is_empty() || !body.springs.is_empty();
-        touched || self.affine.couple.is_some() || !self.affine.resistances.is_empty()
+        let immersed = model.fluid.is_some() && body.inclusion.is_some();
+        touched || immersed || self.affine.couple.is_some() || !self.affine.resistances.is_empty()
     }
 
     /// f and M of contacts, springs, couple and resistances, and the powers of their works.
@@ -96,7 +98,21 @@ impl<'a> AffineMotion<'a> {
             }
             loads += resisting;
         }
+        if let Some(immersed) = self.immersion(model, time) {
+            let fluid = immersed.loads(&self.gyration);
+            powers.fluid += fluid.power(&velocity.velocity, &velocity.gradient_rate);
+            loads += fluid;
+        }
         Ok(AffineLoads { contact, total: loads, powers })
+    }
+
+    /// The body in the fluid; none if it is not immersed.
+    #[inline]
+    pub fn immersion<'b>(&'b self, model: &'b Model, time: f64) -> Option<ImmersedEllipsoid<'b>> {
+        let (fluid, inclusion) = (model.fluid.as_ref()?, model.bodies[self.index].inclusion.as_ref()?);
+        let BodyMotion { placement, velocity } = self.motion;
+        let around = (fluid, &fluid.flow(time), &model.gravity);
+        ImmersedEllipsoid::of(inclusion, around, (placement, velocity), &self.gyration)
     }
 
     /// The affine moment about the centre of mass, or about the pin.
@@ -112,7 +128,24 @@ impl<'a> AffineMotion<'a> {
     /// P̈, stress, pressure.
     #[inline]
     pub fn balance(&self, model: &Model, loads: &Loads) -> AffineBalance {
-        self.affine.interior.balance(&self.gyration, &self.moment(model, loads))
+        let mut balance = self.affine.interior.balance(&self.gyration, &self.moment(model, loads));
+        if let Some(pressure) = &mut balance.pressure {
+            let excess = self.excess(model, &balance.acceleration);
+            *pressure -= excess;
+            balance.stress += excess * self.gyration.inverse.transpose();
+        }
+        balance
+    }
+
+    /// λ/V, by which the pressure that keeps det P is less where the body has no inertia \[Pa\]: P̈ = λ Y is then no
+    /// acceleration but what that pressure takes back.
+    pub fn excess(&self, model: &Model, acceleration: &Mat3) -> f64 {
+        if model.bodies[self.index].has_inertia() {
+            return 0.0;
+        }
+        let across = self.gyration.inverse.transpose();
+        let way = across * self.affine.interior.inverse;
+        acceleration.dot(&across) / (way.dot(&across) * self.affine.interior.volume)
     }
 
     /// Solves the balance for the rates of the block, and adds the powers of friction and constraint.

@@ -76,7 +76,20 @@ impl<'a> ContractileMotion<'a> {
     /// P̈, V_G, stress, pressure.
     #[inline]
     pub fn balance(&self, model: &Model, loads: &Loads) -> ContractileBalance {
-        self.pull().balance(&self.command(model), &self.pulled.moment(model, loads))
+        let mut balance = self.pull().balance(&self.command(model), &self.pulled.moment(model, loads));
+        let contraction = &self.contractile.contraction;
+        if let Some(pressure) = balance.pressure.as_mut().filter(|_| !contraction.gives_pressure()) {
+            let excess = self.pulled.excess(model, &balance.acceleration);
+            *pressure -= excess;
+            balance.stress += excess * self.pulled.gyration.inverse.transpose();
+            if !contraction.is_driven() {
+                // Q is what it takes, against the pressure too.
+                balance.drive -= Mat3::from_diagonal_element(excess);
+                let volume = self.contractile.affine.interior.volume;
+                balance.drive_power -= volume * excess * balance.contraction_velocity.trace();
+            }
+        }
+        balance
     }
 
     /// The derivatives of P̈ and Ġ, with Q or V_G as it is.

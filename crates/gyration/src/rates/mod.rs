@@ -6,12 +6,13 @@
 //!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA          (rigid, body axes)
 //!
 //! per body: kinematics → contact → loads → balance solved for the rates, and the powers whose integrals are the
-//! works of the ledger. A pinned body takes everything about its pin, r = X_p − X₀: τ_p = τ − r × Rᵀ(f + m g),
+//! works of the ledger. A body without inertia takes the velocities at which all of this is in balance (`settled`). A pinned body takes everything about its pin, r = X_p − X₀: τ_p = τ − r × Rᵀ(f + m g),
 //! M_p = M − (f + m g) ⊗ r. Source: `physics.md` §2.
 
 mod affine;
 mod contractile;
 mod rigid;
+mod settled;
 
 use crate::body::{Body, BodyKind};
 use crate::contact::{Contact, ContactScratch, Deformation, Meeting, RelativeMotion};
@@ -25,11 +26,15 @@ use crate::surface::{GapClosed, GapField};
 
 pub(crate) use affine::{AffineLoads, AffineMotion};
 pub(crate) use contractile::ContractileMotion;
+pub(crate) use rigid::RigidImmersion;
+pub use settled::settled_motion;
+pub(crate) use settled::settled_slopes;
 
 /// Scratch of the mechanics, reused from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct Workspace {
     pub(crate) contact: ContactScratch,
+    pub(crate) settling: settled::Settling,
 }
 
 /// The rates of all bodies and the powers of all works at time t.
@@ -49,28 +54,9 @@ pub fn rates(
     powers.fill(0.0);
     for (index, (body, block)) in model.bodies.iter().zip(model.blocks()).enumerate() {
         let (state, rates) = (&bodies[block.clone()], &mut rates[block.clone()]);
-        let done = match &body.kind {
-            BodyKind::Rigid(inertia) => {
-                let turn = Turn::unpack(body, state);
-                let motion = turn.motion(body, state);
-                let (wrench, done) = rigid::wrench(model, workspace, time, index, (&motion, &turn))?;
-                rigid::fill(model, body, inertia, (&motion, &turn), &wrench, rates);
-                done
-            }
-            BodyKind::Affine(affine) => {
-                let motion = BodyMotion::unpack(body, state);
-                let moving = AffineMotion::new(index, affine, &motion)?;
-                let mut loads = moving.loads(model, workspace, time)?;
-                moving.fill(model, &mut loads, rates);
-                loads.powers
-            }
-            BodyKind::Contractile(contractile) => {
-                let motion = BodyMotion::unpack(body, state);
-                let moving = ContractileMotion::new(index, contractile, (&motion, time, state))?;
-                let mut loads = moving.pulled.loads(model, workspace, time)?;
-                moving.fill(model, &mut loads, rates);
-                loads.powers
-            }
+        let done = match body.has_inertia() {
+            true => body_rates(model, workspace, time, (index, state), rates)?,
+            false => settled::fill(model, workspace, time, (index, state), rates)?,
         };
         for (work, power) in model.works().iter().zip(powers.iter_mut()) {
             *power += done.of(*work);
@@ -79,9 +65,43 @@ pub fn rates(
     Ok(())
 }
 
+/// The rates of one body from its places, velocities and contraction, and the powers of the works done on it.
+pub(crate) fn body_rates(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    (index, state): (usize, &[f64]),
+    rates: &mut [f64],
+) -> Result<Powers, Inadmissible> {
+    let body = &model.bodies[index];
+    match &body.kind {
+        BodyKind::Rigid(inertia) => {
+            let turn = Turn::unpack(body, state);
+            let motion = turn.motion(body, state);
+            let (wrench, done) = rigid::wrench(model, workspace, time, index, (&motion, &turn))?;
+            rigid::fill(model, body, inertia, (&motion, &turn), &wrench, rates);
+            Ok(done)
+        }
+        BodyKind::Affine(affine) => {
+            let motion = BodyMotion::unpack(body, state);
+            let moving = AffineMotion::new(index, affine, &motion)?;
+            let mut loads = moving.loads(model, workspace, time)?;
+            moving.fill(model, &mut loads, rates);
+            Ok(loads.powers)
+        }
+        BodyKind::Contractile(contractile) => {
+            let motion = BodyMotion::unpack(body, state);
+            let moving = ContractileMotion::new(index, contractile, (&motion, time, state))?;
+            let mut loads = moving.pulled.loads(model, workspace, time)?;
+            moving.fill(model, &mut loads, rates);
+            Ok(loads.powers)
+        }
+    }
+}
+
 /// The powers [W] of the works done on one body.
 #[derive(Debug, Clone, Copy, Default)]
-struct Powers {
+pub(crate) struct Powers {
     repulsion: f64,
     damping: f64,
     friction: f64,
@@ -91,6 +111,7 @@ struct Powers {
     drive: f64,
     load: f64,
     support: f64,
+    fluid: f64,
     constraint: f64,
 }
 
@@ -106,6 +127,7 @@ impl Powers {
             Work::Drive => self.drive,
             Work::Load => self.load,
             Work::Support => self.support,
+            Work::Fluid => self.fluid,
             Work::Constraint => self.constraint,
         }
     }

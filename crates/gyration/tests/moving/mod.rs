@@ -5,12 +5,14 @@ use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
 use gyration::body::{Affine, Body, BodyKind, Pin};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
+use gyration::fluid::{FixedForm, Fluid, Form, Inclusion};
 use gyration::jacobian::jacobian;
 use gyration::load::{Couple, Frame, LinearResistance, Mat12, Spring};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use gyration::signal::{Signal, Wave};
 use gyration::state::State;
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
@@ -92,8 +94,38 @@ pub fn body(shape: Shape, exponents: [f64; 4], variant: Variant) -> Body {
         surface,
         contacts: (0..2).map(|support| Contact::new(support, variant.measure, laws(exponents))).collect(),
         springs: vec![spring, Spring { rest_length: 0.0, damping: 0.0, ..spring }],
+        inclusion: None,
         pin,
     }
+}
+
+/// A fluid that flows in every way it may, and weighs something.
+fn fluid() -> Fluid {
+    let swirl = Mat3::new(0.3, 1.1, -0.4, 0.2, -0.5, 0.7, 0.6, -0.1, 0.2);
+    let wave = |amplitude| Signal::Sine(Wave { amplitude, frequency: 0.6, phase: 0.2 });
+    let stream = Mat3::from_columns(&[Vec3::new(0.4, -0.3, 0.2), Vec3::zeros(), Vec3::zeros()]);
+    let gradient = Signal::Sum(vec![Signal::Constant(0.5 * swirl), wave(swirl)]);
+    Fluid { viscosity: 0.8, density: 0.6, velocity: wave(stream), gradient }
+}
+
+/// What makes a body an inclusion, with its centre of mass off that of its volume.
+fn inclusion(body: &Body, inertia: bool) -> Inclusion {
+    let center = Vec3::new(0.05, -0.1, 0.08);
+    let form = match body.kind {
+        BodyKind::Rigid(_) => {
+            let root = Mat12::from_fn(|i, j| 0.3 * (0.9 * i as f64 + 1.7 * (j * j) as f64).sin());
+            Form::Fixed(Box::new(FixedForm::shifted(&(root * root.transpose() + Mat12::identity()), &center)))
+        }
+        _ => Form::Ellipsoid(Vec3::new(0.5, 0.3, 0.4)),
+    };
+    Inclusion { inertia, volume: 0.4, center, form }
+}
+
+/// The same bodies immersed in a fluid, with inertia or without.
+pub fn immersed(model: Model, inertia: bool) -> Model {
+    let Model { gravity, supports, bodies, .. } = model;
+    let immerse = |body: Body| Body { inclusion: Some(inclusion(&body, inertia)), ..body };
+    Model::new(gravity, supports, bodies.into_iter().map(immerse).collect()).in_fluid(fluid())
 }
 
 pub fn shapes() -> [Shape; 4] {

@@ -1,0 +1,204 @@
+//! The fluid, and what makes a body an inclusion in it.
+//!
+//! A velocity gradient of the undisturbed flow has trace zero at all times: nothing of the fluid is made or lost.
+
+use super::setting::Setting;
+use super::signal::{Maker, first_fault, not_finite};
+use super::start::matrix;
+use crate::check::{Judge, Placed};
+use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
+use crate::key::Key;
+use crate::quantity::si;
+use crate::table::read_vectors;
+use gyration::body::BodyKind;
+use gyration::fluid::{FixedForm, Fluid, Form, Inclusion};
+use gyration::mass::MassProperties;
+use gyration::shape::{Ellipsoid, Shape, Sphere};
+use gyration::signal::{Signal, Wave};
+use gyration::tensor::{Mat3, Vec3};
+
+/// The fluid of a scene; notes what is wrong with it.
+pub(super) fn fluid(written: &Written, setting: &Setting, judge: &mut Judge<'_>) -> Option<Fluid> {
+    let key = Key::root().key("fluid");
+    let velocity = match &written.velocity {
+        FlowVelocity::Steady(velocity) => Some(Signal::Constant(beside(&si(velocity)))),
+        FlowVelocity::Changing(signal) => vector_signal(signal, &key.key("velocity"), setting, judge),
+    };
+    let gradient = gradient(&written.velocity_gradient, &key.key("velocity_gradient"), setting, judge);
+    Some(Fluid {
+        viscosity: written.viscosity.value(),
+        density: written.density.value(),
+        velocity: velocity?,
+        gradient: gradient?,
+    })
+}
+
+fn gradient(written: &FlowGradient, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Signal> {
+    let signal = match written {
+        FlowGradient::Steady(rows) => Signal::Constant(matrix(rows)),
+        FlowGradient::Changing(signal) => {
+            Maker { setting, judge, symbol: 'L', rest: Mat3::zeros() }.signal(signal, key)?
+        }
+    };
+    let fault = |value: &Mat3| not_finite(value).or_else(|| swells(value));
+    let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), fault) else { return Some(signal) };
+    let at = if matches!(signal, Signal::Constant(_)) { String::new() } else { format!("at t = {time:?} s ") };
+    let help = "change a diagonal entry so that the three add up to 0, for instance [[1, 0, 0], [0, -1, 0], [0, 0, 0]]";
+    judge.note(key, format!("{at}{message}"), help);
+    None
+}
+
+/// A trace that rounding of numbers written with ten digits does not explain.
+const ROUNDING: f64 = 1e-9;
+
+/// Why a gradient cannot be that of a fluid that keeps its volume.
+fn swells(gradient: &Mat3) -> Option<String> {
+    let trace = gradient.trace();
+    let grows = trace.abs() > ROUNDING * gradient.amax();
+    grows.then(|| {
+        format!(
+            "its trace is {trace:?} 1/s: the fluid would swell everywhere, but it is incompressible and has no sources"
+        )
+    })
+}
+
+/// A vector as the first column of a tensor, as which the flow keeps it.
+fn beside(vector: &Vec3) -> Mat3 {
+    Mat3::from_columns(&[*vector, Vec3::zeros(), Vec3::zeros()])
+}
+
+fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Signal> {
+    let signal = match written {
+        VectorSignal::Constant(constant) => Signal::Constant(beside(&si(&constant.value))),
+        VectorSignal::Sine(wave) => Signal::Sine(Wave {
+            amplitude: beside(&si(&wave.amplitude)),
+            frequency: wave.frequency.value(),
+            phase: wave.phase.0,
+        }),
+        VectorSignal::Table(table) => {
+            let mut maker = Maker { setting, judge, symbol: 'U', rest: Mat3::zeros() };
+            Signal::Table(maker.table(table, &key.key("table").key("file"), read_vectors)?)
+        }
+        VectorSignal::Sum(parts) => {
+            let key = key.key("sum");
+            let parts =
+                parts.iter().enumerate().map(|(index, part)| vector_signal(part, &key.index(index), setting, judge));
+            // All of them, so that each is judged.
+            let parts: Vec<Option<Signal>> = parts.collect();
+            Signal::Sum(parts.into_iter().collect::<Option<_>>()?)
+        }
+    };
+    let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), not_finite) else {
+        return Some(signal);
+    };
+    judge.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
+    None
+}
+
+/// A body in the fluid: what is known of it when its kind is.
+pub(super) struct Immersed<'a> {
+    pub(super) placed: &'a Placed<Body>,
+    pub(super) shape: &'a Shape,
+    pub(super) mass: &'a MassProperties,
+    pub(super) kind: &'a BodyKind,
+}
+
+impl Immersed<'_> {
+    /// What makes it an inclusion: none if it is none. Outside none where something is wrong, which is noted.
+    pub(super) fn inclusion(&self, setting: &Setting, judge: &mut Judge<'_>) -> Option<Option<Inclusion>> {
+        let Some(written) = &self.placed.value.inclusion else { return Some(None) };
+        let key = self.placed.key.key("inclusion");
+        let around = self.is_in_a_fluid(setting, &key, judge);
+        let still = written.inertia || self.gives_no_velocity(judge);
+        let remembers = !written.history || self.may_have_history(written, setting, &key, judge);
+        let form = self.form(judge);
+        let center = -self.mass.center;
+        let (form, volume) = form?;
+        let form = match form {
+            Form::Fixed(form) => Form::Fixed(Box::new(FixedForm::shifted(&form.matrix, &center))),
+            Form::Ellipsoid(_) => form,
+        };
+        (around && still && remembers).then_some(Some(Inclusion { inertia: written.inertia, volume, center, form }))
+    }
+
+    fn is_in_a_fluid(&self, setting: &Setting, key: &Key, judge: &mut Judge<'_>) -> bool {
+        if !setting.has_fluid {
+            let help = "add a section `[fluid]` with a `viscosity`, or leave `inclusion` out";
+            judge.note(key, "the scene has no fluid", help);
+        }
+        setting.has_fluid
+    }
+
+    /// Notes velocities that a body without inertia cannot be given.
+    fn gives_no_velocity(&self, judge: &mut Judge<'_>) -> bool {
+        let Placed { key, value } = self.placed;
+        let moves = |vector: Option<Vec3>| vector.is_some_and(|vector| vector != Vec3::zeros());
+        let given = [
+            ("velocity", moves(Some(si(&value.velocity)))),
+            ("angular_velocity", moves(value.angular_velocity.as_ref().map(si))),
+            ("gradient_rate", value.gradient_rate.as_ref().map(matrix).is_some_and(|rate| rate != Mat3::zeros())),
+        ];
+        let mut still = true;
+        for (name, _) in given.iter().filter(|(_, given)| *given) {
+            let message = "a body without inertia moves as the balance of forces says, from the start on";
+            judge.note(&key.key(name), message, format!("leave `{name}` out, or write `inertia = true`"));
+            still = false;
+        }
+        still
+    }
+
+    /// Notes what a history force cannot be had for.
+    fn may_have_history(
+        &self,
+        written: &WrittenInclusion,
+        setting: &Setting,
+        key: &Key,
+        judge: &mut Judge<'_>,
+    ) -> bool {
+        let key = key.key("history");
+        let sphere = matches!(self.shape, Shape::Sphere(_)) && matches!(self.kind, BodyKind::Rigid(_));
+        let centered = self.mass.center.norm() <= ROUNDING * self.shape.size();
+        let faults = [
+            (!sphere, "only of a rigid sphere is the history of the flow known in closed form", "leave `history` out"),
+            (
+                !written.inertia,
+                "a body without inertia has no history",
+                "write `inertia = true`, or leave `history` out",
+            ),
+            (sphere && !centered, "the centre of mass is not that of the sphere", "give it a `density` or a `mass`"),
+            (self.placed.value.pin.is_some(), "the body is pinned", "leave out one of `pin` and `history`"),
+            (
+                setting.fluid_density == Some(0.0),
+                "the history of the flow is its inertia, and the fluid has no density",
+                "give `fluid.density` in kg/m³, or leave `history` out",
+            ),
+        ];
+        for (_, message, help) in faults.iter().filter(|(applies, ..)| *applies) {
+            judge.note(&key, *message, *help);
+        }
+        !faults.iter().any(|(applies, ..)| *applies)
+    }
+
+    /// What the fluid meets, about the centre of the shape, and the volume \[m³\].
+    fn form(&self, judge: &mut Judge<'_>) -> Option<(Form, f64)> {
+        let semi_axes = match self.shape {
+            Shape::Sphere(Sphere { radius }) => Vec3::repeat(*radius),
+            Shape::Ellipsoid(Ellipsoid { semi_axes }) => *semi_axes,
+            _ => {
+                let key = self.placed.key.key("shape");
+                judge.note(
+                    &key,
+                    "an inclusion is a sphere or an ellipsoid",
+                    "write one of these, or leave `inclusion` out",
+                );
+                return None;
+            }
+        };
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * semi_axes.product();
+        let form = match self.kind {
+            BodyKind::Rigid(_) => Form::Fixed(Box::new(FixedForm { matrix: FixedForm::of_ellipsoid(&semi_axes) })),
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => Form::Ellipsoid(semi_axes),
+        };
+        Some((form, volume))
+    }
+}

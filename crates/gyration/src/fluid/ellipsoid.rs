@@ -1,0 +1,209 @@
+//! Force and stress of slow flow on an ellipsoid that moves and deforms by homogeneous deformations, and their derivatives.
+//!
+//! With Q = P A² Pᵀ, A the reference semi-axes, U and L the velocity and the gradient of the ellipsoid against those of the flow,
+//!
+//!   f = −16πη K⁻¹ (U − U∞),      K = tr W I + W,   W = ∫₀^∞ Q B ds/Δ,   B = (Q + s)⁻¹,   Δ² = det(Q + s)
+//!   T N − 𝓜:T = η (L∞ − L + θ N),  N:T = 0,  θ = tr L,   σ = T + 2η sym L − 2ηθ I
+//!   N = (V/2) ∫ B ds/Δ,   𝓜:T = (V/4) ∫ s [B (B:T) + B (T + Tᵀ) B] ds/Δ,   V = √det Q
+//!
+//! and the traction on the surface is σ n with the same σ everywhere. Tensors are in the principal axes, where B is diagonal and
+//! everything follows from `moments`. Derivatives by Q are those of B, δB = −B δQ B, so that equal axes are no special
+//! case. Source: `physics.md` §7, written without axes.
+
+use super::moments::Moments;
+use crate::columns::Columns;
+use crate::material::Spectrum;
+use crate::tensor::{Mat3, Vec3};
+use std::f64::consts::PI;
+
+/// An ellipsoid in a fluid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ellipsoid {
+    /// Its principal axes, a column each.
+    pub axes: Mat3,
+    /// a_i² \[m²\].
+    pub squares: [f64; 3],
+    viscosity: f64,
+    moments: Moments,
+}
+
+/// What of the relation between stress and rates changes with the form along one direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FormSlope {
+    /// δK.
+    resistance: Mat3,
+    /// δN.
+    second: Mat3,
+    /// ½ tr(Q⁻¹δQ), by which V grows.
+    growth: f64,
+    /// δQ.
+    change: Mat3,
+}
+
+impl Ellipsoid {
+    /// The image of an ellipsoid of semi-axes A under P: `carried` = P A \[m\], det > 0, in a fluid of viscosity η > 0 \[Pa s\].
+    pub fn of(carried: &Mat3, viscosity: f64) -> Self {
+        let spectrum = Spectrum::of(&Columns::of(&carried.transpose()));
+        Self {
+            axes: spectrum.axes.matrix(),
+            squares: spectrum.values,
+            viscosity,
+            moments: Moments::of(spectrum.values),
+        }
+    }
+
+    /// One with its axes along those of the frame.
+    pub fn new(semi_axes: [f64; 3], viscosity: f64) -> Self {
+        let squares = semi_axes.map(|axis| axis * axis);
+        Self { axes: Mat3::identity(), squares, viscosity, moments: Moments::of(squares) }
+    }
+
+    /// A tensor in the principal axes.
+    pub fn seen(&self, tensor: &Mat3) -> Mat3 {
+        self.axes.tr_mul(tensor) * self.axes
+    }
+
+    /// A tensor in the axes of space from one in the principal axes.
+    pub fn shown(&self, tensor: &Mat3) -> Mat3 {
+        self.axes * tensor * self.axes.transpose()
+    }
+
+    /// W_i.
+    fn weight(&self, i: usize) -> f64 {
+        2.0 * self.moments.second[i] * self.squares[i] / self.volume()
+    }
+
+    /// V = a₁a₂a₃.
+    fn volume(&self) -> f64 {
+        let [a, b, c] = self.squares;
+        (a * b * c).sqrt()
+    }
+
+    /// f/(−16πη): K⁻¹ times a velocity, both in the principal axes.
+    fn mobility(&self, velocity: &Vec3) -> Vec3 {
+        let weights = [self.weight(0), self.weight(1), self.weight(2)];
+        let all = weights[0] + weights[1] + weights[2];
+        Vec3::new(velocity[0] / (all + weights[0]), velocity[1] / (all + weights[1]), velocity[2] / (all + weights[2]))
+    }
+
+    /// Force of the fluid \[N\] at a velocity relative to it \[m/s\], both in the principal axes.
+    pub fn force(&self, velocity: &Vec3) -> Vec3 {
+        -16.0 * PI * self.viscosity * self.mobility(velocity)
+    }
+
+    /// T and the stress σ of the fluid \[Pa\], in the principal axes.
+    ///
+    /// `gradient` L of the ellipsoid and `flow` L∞ of the fluid \[1/s\], tr L∞ = 0.
+    pub fn stress(&self, gradient: &Mat3, flow: &Mat3) -> Stress {
+        let expansion = gradient.trace();
+        let second = Mat3::from_diagonal(&self.moments.second.into());
+        let driving = (flow - gradient + second * expansion) * self.viscosity;
+        let extra = self.solve(&driving, 0.0);
+        Stress { extra, total: extra + self.straining(gradient) }
+    }
+
+    /// 2η sym L − 2ηθ I.
+    fn straining(&self, gradient: &Mat3) -> Mat3 {
+        let growth = 2.0 * self.viscosity * gradient.trace();
+        (gradient + gradient.transpose()) * self.viscosity - Mat3::from_diagonal_element(growth)
+    }
+
+    /// δσ along a change of L \[1/s\].
+    pub fn along_gradient(&self, gradient: &Mat3) -> Mat3 {
+        self.stress(gradient, &Mat3::zeros()).total
+    }
+
+    /// What changes with Q along δQ \[m²\], in the principal axes.
+    pub fn along_form(&self, change: &Mat3) -> FormSlope {
+        let (volume, Moments { second, narrow, fourth, .. }) = (self.volume(), &self.moments);
+        let growth = 0.5 * (0..3).map(|i| change[(i, i)] / self.squares[i]).sum::<f64>();
+        // δW_ij = (4/V) m_ij δQ_ij − δ_ij (a_i²/V) Σ_p n_ip δQ_pp.
+        let mut weight = Mat3::zeros();
+        let mut moment = Mat3::zeros();
+        for i in 0..3 {
+            for j in 0..3 {
+                weight[(i, j)] = 4.0 / volume * fourth[i][j] * change[(i, j)];
+                moment[(i, j)] = -narrow[i][j] * change[(i, j)];
+            }
+            let swept: f64 = (0..3).map(|p| narrow[i][p] * change[(p, p)]).sum();
+            weight[(i, i)] -= self.squares[i] / volume * swept;
+            moment[(i, i)] += growth * second[i] - 0.5 * swept;
+        }
+        let resistance = weight + Mat3::from_diagonal_element(weight.trace());
+        FormSlope { resistance, second: moment, growth, change: *change }
+    }
+
+    /// δf along a change of form, at a velocity relative to the fluid.
+    pub fn force_along(&self, slope: &FormSlope, velocity: &Vec3) -> Vec3 {
+        -self.force(&(slope.resistance * self.mobility(velocity)))
+    }
+
+    /// δσ along a change of form, L and L∞ kept.
+    pub fn stress_along(&self, slope: &FormSlope, stress: &Stress, gradient: &Mat3) -> Mat3 {
+        let extra = &stress.extra;
+        let driving = slope.second * (self.viscosity * gradient.trace()) - extra * slope.second;
+        self.solve(&(driving + self.fourth_along(slope, extra)), -slope.second.dot(extra))
+    }
+
+    /// δ𝓜:T.
+    fn fourth_along(&self, slope: &FormSlope, t: &Mat3) -> Mat3 {
+        let (d, Moments { fourth, sixth, .. }) = (&slope.change, &self.moments);
+        let s = t + t.transpose();
+        Mat3::from_fn(|i, j| {
+            let (mut whole, mut swept) = (fourth[i][j] * s[(i, j)], 0.0);
+            for p in 0..3 {
+                swept += sixth[i][j][p] * d[(p, p)] * s[(i, j)];
+                // δB T B + B T δB, symmetrised; and δB (B:T).
+                swept += 2.0 * sixth[i][p][j] * (d[(i, p)] * s[(p, j)] + s[(i, p)] * d[(p, j)]);
+                swept += 2.0 * sixth[i][j][p] * d[(i, j)] * t[(p, p)];
+            }
+            if i == j {
+                for k in 0..3 {
+                    whole += fourth[i][k] * t[(k, k)];
+                    for p in 0..3 {
+                        // The change of 1/Δ, and B (δB:T).
+                        swept += sixth[i][k][p] * d[(p, p)] * t[(k, k)];
+                        swept += 2.0 * sixth[i][k][p] * d[(k, p)] * t[(k, p)];
+                    }
+                }
+            }
+            slope.growth * whole - 0.5 * swept
+        })
+    }
+
+    /// The T of T N − 𝓜:T = D, N:T = c, for a D of trace zero.
+    fn solve(&self, driving: &Mat3, contracted: f64) -> Mat3 {
+        let Moments { second, fourth, .. } = &self.moments;
+        let mut t = Mat3::zeros();
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let (m, k) = (fourth[i][j], 3 - i - j);
+            // L_j − m_ij and L_i − m_ij, as sums of what is positive.
+            let (own, other) = (3.0 * fourth[j][j] + fourth[j][k], 3.0 * fourth[i][i] + fourth[i][k]);
+            // own · other − m², m² being smaller than either product: m_ij² ≤ m_ii m_jj.
+            let determinant = own * other - m * m;
+            let (ij, ji) = (driving[(i, j)], driving[(j, i)]);
+            t[(i, j)] = (other * ij + m * ji) / determinant;
+            t[(j, i)] = (own * ji + m * ij) / determinant;
+        }
+        // Σ_k m_ik (T_i − T_k) = D_i: with the differences u = T₁ − T₀, v = T₂ − T₀, rows 1 and 2 are
+        // (p + r) u − r v = D₁ and −r u + (q + r) v = D₂.
+        let [p, q, r] = [fourth[0][1], fourth[0][2], fourth[1][2]];
+        let determinant = p * q + p * r + q * r;
+        let u = ((q + r) * driving[(1, 1)] + r * driving[(2, 2)]) / determinant;
+        let v = (r * driving[(1, 1)] + (p + r) * driving[(2, 2)]) / determinant;
+        let first = contracted - (second[1] * u + second[2] * v);
+        t[(0, 0)] = first;
+        t[(1, 1)] = first + u;
+        t[(2, 2)] = first + v;
+        t
+    }
+}
+
+/// The stress of the fluid on an ellipsoid, in its principal axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stress {
+    /// T \[Pa\].
+    pub extra: Mat3,
+    /// σ \[Pa\].
+    pub total: Mat3,
+}

@@ -1,0 +1,202 @@
+//! A body in the fluid: what it has to know of itself, and the loads of the fluid on it.
+//!
+//!   f = f_d − ρ_f V det P g,   M = N P⁻ᵀ + f ⊗ X_c,   N = V det P σ      (σ, f_d: `ellipsoid`)
+//!
+//! X_c is the centre of the volume from the centre of mass; velocities are taken, and the weight of the displaced fluid acts, there.
+//! Hydrostatic pressure does not press on the body: it counts as a force. Source: `physics.md` §7.
+
+use super::ambient::{Flow, Fluid};
+use super::ellipsoid::{Ellipsoid, Stress};
+use super::fixed::FixedForm;
+use crate::affine::Gyration;
+use crate::kinematics::{Placement, Velocity};
+use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
+use crate::tensor::{Mat3, Vec3};
+
+/// What makes a body an inclusion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inclusion {
+    /// Whether the body has inertia; without, its velocities are those that the balance gives.
+    pub inertia: bool,
+    /// V, the volume that it displaces \[m³\].
+    pub volume: f64,
+    /// X_c, the centre of that volume from the centre of mass, in the body's axes \[m\].
+    pub center: Vec3,
+    /// What the fluid meets.
+    pub form: Form,
+}
+
+/// What the fluid meets.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Form {
+    /// A form that does not change.
+    Fixed(Box<FixedForm>),
+    /// The image of an ellipsoid of these semi-axes \[m\] along the body's axes.
+    Ellipsoid(Vec3),
+}
+
+/// A deformable ellipsoid in the fluid at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct ImmersedEllipsoid<'a> {
+    inclusion: &'a Inclusion,
+    semi_axes: &'a Vec3,
+    /// Its principal axes and resistance.
+    pub ellipsoid: Ellipsoid,
+    /// Relative velocity of its centre, in the principal axes \[m/s\].
+    slip: Vec3,
+    /// L in the principal axes \[1/s\].
+    gradient: Mat3,
+    /// L∞ in the principal axes \[1/s\].
+    flow: Mat3,
+    /// σ in the principal axes \[Pa\].
+    stress: Stress,
+    /// V det P \[m³\].
+    volume: f64,
+    /// ρ_f g \[N/m³\].
+    weight: Vec3,
+}
+
+impl<'a> ImmersedEllipsoid<'a> {
+    /// Of a body in motion; none if its form is fixed.
+    pub fn of(
+        inclusion: &'a Inclusion,
+        (fluid, flow, gravity): (&Fluid, &Flow, &Vec3),
+        (placement, velocity): (&Placement, &Velocity),
+        at: &Gyration,
+    ) -> Option<Self> {
+        let Form::Ellipsoid(semi_axes) = &inclusion.form else { return None };
+        let ellipsoid = Ellipsoid::of(&(at.gradient * Mat3::from_diagonal(semi_axes)), fluid.viscosity);
+        let place = placement.place(&inclusion.center);
+        let slip = ellipsoid.axes.tr_mul(&(velocity.at(&inclusion.center) - flow.at(&place)));
+        let gradient = ellipsoid.seen(&at.velocity_gradient);
+        let ambient = ellipsoid.seen(&flow.gradient);
+        let stress = ellipsoid.stress(&gradient, &ambient);
+        let (volume, weight) = (inclusion.volume * at.volume_ratio, fluid.density * gravity);
+        Some(Self { inclusion, semi_axes, ellipsoid, slip, gradient, flow: ambient, stress, volume, weight })
+    }
+
+    /// f and M of the fluid.
+    pub fn loads(&self, at: &Gyration) -> Loads {
+        let force = self.drag() - self.volume * self.weight;
+        let moment = self.couple() * at.inverse.transpose() + force * self.inclusion.center.transpose();
+        Loads { force, moment }
+    }
+
+    /// f_d \[N\].
+    pub fn drag(&self) -> Vec3 {
+        self.ellipsoid.axes * self.ellipsoid.force(&self.slip)
+    }
+
+    /// N about the centre of the volume \[N m\].
+    pub fn couple(&self) -> Mat3 {
+        self.volume * self.stress()
+    }
+
+    /// σ \[Pa\].
+    pub fn stress(&self) -> Mat3 {
+        self.ellipsoid.shown(&self.stress.total)
+    }
+
+    /// The power that the flow past the body turns into heat beyond that of the undisturbed flow \[W\]:
+    /// −f_d·(U − U∞) − V det P (σ − 2η sym L∞)·(L − L∞) ≥ 0.
+    pub fn dissipation(&self, viscosity: f64) -> f64 {
+        let ambient = (self.flow + self.flow.transpose()) * viscosity;
+        let couple = (self.stress.total - ambient).dot(&(self.gradient - self.flow));
+        -self.ellipsoid.force(&self.slip).dot(&self.slip) - self.volume * couple
+    }
+
+    /// Adds f and M and their derivatives.
+    pub fn add_to(&self, slopes: &mut LoadSlopes, at: &Gyration) {
+        slopes.loads += self.loads(at);
+        let center = &self.inclusion.center;
+        // About the centre of the volume; then its place p_c = p₀ + P X_c, and M = M_c + f ⊗ X_c.
+        let mut add = |by_rate: bool, coordinate: usize, slope: &Loads| {
+            let matrix = if by_rate { &mut slopes.by_rate } else { &mut slopes.by_place };
+            let full = Loads { force: slope.force, moment: slope.moment + slope.force * center.transpose() };
+            let numbers = numbers(&full);
+            let mut column = matrix.column_mut(coordinate);
+            column += numbers;
+        };
+        let Self { ellipsoid, flow, .. } = self;
+        for axis in 0..3 {
+            let seen: Vec3 = ellipsoid.axes.row(axis).transpose();
+            let by_rate = Loads { force: ellipsoid.axes * ellipsoid.force(&seen), moment: Mat3::zeros() };
+            let by_place = Loads { force: -(ellipsoid.axes * ellipsoid.force(&(flow * seen))), moment: Mat3::zeros() };
+            add(true, axis, &by_rate);
+            add(false, axis, &by_place);
+            for b in 0..3 {
+                if center[b] != 0.0 {
+                    add(true, 3 + 3 * b + axis, &by_rate.scaled(center[b]));
+                    add(false, 3 + 3 * b + axis, &by_place.scaled(center[b]));
+                }
+            }
+        }
+        let directions = Directions::of(self, at);
+        for coordinate in 3..COORDINATES {
+            let (j, b) = ((coordinate - 3) % 3, (coordinate - 3) / 3);
+            add(false, coordinate, &self.along_gradient(&directions, (j, b)));
+            add(true, coordinate, &self.along_rate(&directions, (j, b)));
+        }
+    }
+
+    /// δf and δM_c along δP = e_j ⊗ e_B.
+    fn along_gradient(&self, directions: &Directions, (j, b): (usize, usize)) -> Loads {
+        let Self { ellipsoid, slip, gradient, stress, volume, weight, .. } = self;
+        let axis: Vec3 = ellipsoid.axes.row(j).transpose();
+        let (swept, back) = (&directions.swept[b], &directions.back[b]);
+        let half = axis * swept.transpose();
+        let form = ellipsoid.along_form(&(half + half.transpose()));
+        // δP P⁻¹ in the principal axes; δL = −L δP P⁻¹.
+        let spread = axis * back.transpose();
+        let growth = axis.dot(back);
+        let stress_change =
+            ellipsoid.stress_along(&form, stress, gradient) - ellipsoid.along_gradient(&(gradient * spread));
+        let couple = stress.total * growth + stress_change - stress.total * spread.transpose();
+        let drag = ellipsoid.axes * ellipsoid.force_along(&form, slip);
+        Loads { force: drag - (volume * growth) * weight, moment: directions.moment(&couple, *volume) }
+    }
+
+    /// δM_c along δṖ = e_j ⊗ e_B.
+    fn along_rate(&self, directions: &Directions, (j, b): (usize, usize)) -> Loads {
+        let axis: Vec3 = self.ellipsoid.axes.row(j).transpose();
+        let change = self.ellipsoid.along_gradient(&(axis * directions.back[b].transpose()));
+        Loads { force: Vec3::zeros(), moment: directions.moment(&change, self.volume) }
+    }
+
+    /// The semi-axes of the reference shape \[m\].
+    pub fn reference(&self) -> &Vec3 {
+        self.semi_axes
+    }
+}
+
+/// What the columns of the derivative have in common; in the principal axes N.
+struct Directions {
+    /// Nᵀ P A² e_B.
+    swept: [Vec3; 3],
+    /// Nᵀ P⁻ᵀ e_B.
+    back: [Vec3; 3],
+    /// N and P⁻¹ N.
+    axes: Mat3,
+    carried: Mat3,
+}
+
+impl Directions {
+    fn of(body: &ImmersedEllipsoid, at: &Gyration) -> Self {
+        let axes = &body.ellipsoid.axes;
+        let swept = axes.tr_mul(&(at.gradient * Mat3::from_diagonal(&body.semi_axes.component_mul(body.semi_axes))));
+        let carried = at.inverse * axes;
+        let column = |matrix: &Mat3, b: usize| matrix.column(b).into_owned();
+        let back = carried.transpose();
+        Self {
+            swept: [column(&swept, 0), column(&swept, 1), column(&swept, 2)],
+            back: [column(&back, 0), column(&back, 1), column(&back, 2)],
+            axes: *axes,
+            carried,
+        }
+    }
+
+    /// V det P X P⁻ᵀ of an X in the principal axes.
+    fn moment(&self, couple: &Mat3, volume: f64) -> Mat3 {
+        volume * self.axes * couple * self.carried.transpose()
+    }
+}
