@@ -6,6 +6,7 @@
 //! ellipsoid    force and stress of the fluid on an ellipsoid that moves and deforms in a linear flow, and their derivatives
 //! inclusion    a body in the fluid, and the loads on one that deforms as an ellipsoid
 //! fixed        the loads on a body whose form does not change: one resistance matrix
+//! memory       a sphere in a fluid with inertia: history, and small vibrations
 //! ```
 //!
 //! Stokes flow: u∞ = U∞ + L∞ x far away, tr L∞ = 0. Source: Sławianowski §4; `physics.md` §7.
@@ -14,6 +15,7 @@ mod ambient;
 mod ellipsoid;
 mod fixed;
 mod inclusion;
+pub mod memory;
 mod moments;
 #[cfg(test)]
 mod tests;
