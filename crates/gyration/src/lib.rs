@@ -15,6 +15,7 @@ pub mod contact;
 pub mod contractile;
 pub mod fluid;
 pub mod homogeneous;
+pub mod immersion;
 mod inadmissible;
 pub mod jacobian;
 pub mod kinematics;

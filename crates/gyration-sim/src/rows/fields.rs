@@ -4,6 +4,7 @@
 
 use gyration::balance::BodyObservation;
 use gyration::homogeneous::HomogeneousObservation;
+use gyration::immersion::ImmersionObservation;
 use gyration::tensor::{Mat3, Vec3};
 
 /// A quantity recorded for every body.
@@ -30,6 +31,8 @@ pub(super) struct Seen<'a> {
     pub body: &'a BodyObservation,
     /// Where it was asked for.
     pub homogeneous: Option<&'a HomogeneousObservation>,
+    /// If it is immersed in a fluid.
+    pub immersed: Option<&'a ImmersionObservation>,
 }
 
 pub(super) enum Value {
@@ -185,6 +188,36 @@ pub(super) static EXTRA_FIELDS: [BodyField; 10] = [
     extra!("rotation", "1", "rotation R of P = R U", Matrix, rotation, NO_MATRIX),
     extra!("cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
     extra!("stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
+];
+
+/// A field of bodies in a fluid: NaN for any other.
+macro_rules! immersed {
+    ($name:literal, $units:literal, $description:literal, $rank:ident, $nothing:expr, $value:expr) => {
+        BodyField {
+            name: $name,
+            units: $units,
+            description: $description,
+            rank: Rank::$rank,
+            suffixes: &[],
+            value: |seen| Value::$rank(seen.immersed.map_or($nothing, $value)),
+        }
+    };
+}
+
+/// The fields of a recording with a body in a fluid.
+#[rustfmt::skip]
+pub(super) static IMMERSED_FIELDS: [BodyField; 11] = [
+    immersed!("drag", "N", "force of the fluid, without buoyancy", Vector, NO_VECTOR, |seen| seen.drag),
+    immersed!("rotlet", "N m", "torque of the fluid about the centre of the volume", Vector, NO_VECTOR, |seen| seen.rotlet),
+    immersed!("stresslet", "N m", "stresslet", Matrix, NO_MATRIX, |seen| seen.stresslet),
+    immersed!("particle_stress", "Pa", "particle stress, per volume of particle", Matrix, NO_MATRIX, |seen| seen.particle_stress),
+    immersed!("intrinsic_viscosity", "1", "increment of the viscosity of a dilute suspension, over that of the fluid and the volume fraction", Scalar, f64::NAN, |seen| seen.intrinsic_viscosity),
+    immersed!("normal_stress_1", "Pa", "first normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |seen| seen.normal_stress_differences[0]),
+    immersed!("normal_stress_2", "Pa", "second normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |seen| seen.normal_stress_differences[1]),
+    immersed!("dissipated_power", "W", "power that the disturbance of the flow turns into heat", Scalar, f64::NAN, |seen| seen.dissipated_power),
+    immersed!("semi_axes", "m", "semi-axes of an ellipsoid, descending", Vector, NO_VECTOR, |seen| seen.semi_axes),
+    immersed!("inclination", "rad", "angle of the longest axis from the direction of a simple shear", Scalar, f64::NAN, |seen| seen.inclination),
+    immersed!("orbit_constant", "1", "C/(1 + C) of the orbit of a body of revolution in simple shear", Scalar, f64::NAN, |seen| seen.orbit_constant),
 ];
 
 const NO_VECTOR: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);

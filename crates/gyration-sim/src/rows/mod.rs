@@ -9,12 +9,14 @@ mod fields;
 pub use extras::Extras;
 
 use fields::{
-    BODY_FIELDS, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, GAP, PRESSURE, Rank, Seen, Value,
+    BODY_FIELDS, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, GAP, IMMERSED_FIELDS, PRESSURE,
+    Rank, Seen, Value,
 };
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, observe};
 use gyration::body::Body;
 use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
+use gyration::immersion::{ImmersionObservation, observe_immersion};
 use gyration::model::Model;
 use gyration::rates::Workspace;
 use gyration::state::State;
@@ -27,6 +29,8 @@ pub struct Fields {
     fields: Vec<&'static BodyField>,
     /// The origin of total affine momentum, where quantities are recorded on request.
     origin: Option<Vec3>,
+    /// Whether a body is immersed in a fluid.
+    immersed: bool,
 }
 
 /// Scratch for rows.
@@ -34,6 +38,7 @@ pub struct Fields {
 pub struct RowScratch {
     bodies: Vec<BodyObservation>,
     homogeneous: Vec<HomogeneousObservation>,
+    immersed: Vec<Option<ImmersionObservation>>,
     /// The row last filled, flattened in the order of [`Fields::arrays`].
     pub row: Vec<f64>,
 }
@@ -43,8 +48,10 @@ impl Fields {
     pub fn new(model: &Model, extras: &Extras) -> Self {
         let any = |field: &&BodyField| model.bodies.iter().any(|body| applies(field.name, body));
         let usual = BODY_FIELDS.iter().filter(any);
-        let fields = usual.chain(extras.fields()).collect();
-        Self { fields, origin: (!extras.is_empty()).then_some(extras.origin) }
+        let immersed = model.fluid.is_some() && model.bodies.iter().any(|body| body.inclusion.is_some());
+        let in_fluid = IMMERSED_FIELDS.iter().filter(|_| immersed);
+        let fields = usual.chain(in_fluid).chain(extras.fields()).collect();
+        Self { fields, origin: (!extras.is_empty()).then_some(extras.origin), immersed }
     }
 
     /// The arrays of a recording of this model, and the order of its CSV columns.
@@ -75,19 +82,27 @@ impl Fields {
         initial: Option<f64>,
         scratch: &mut RowScratch,
     ) -> Result<Audit, Inadmissible> {
-        let RowScratch { bodies, homogeneous, row } = scratch;
+        let RowScratch { bodies, homogeneous, immersed, row } = scratch;
         bodies.clear();
         homogeneous.clear();
+        immersed.clear();
         row.clear();
         for index in 0..model.bodies.len() {
             bodies.push(observe(model, workspace, state, index)?);
             if let Some(origin) = &self.origin {
                 homogeneous.push(observe_homogeneous(model, workspace, state, index, origin)?);
             }
+            if self.immersed {
+                immersed.push(observe_immersion(model, workspace, state, index)?);
+            }
         }
         for field in &self.fields {
             for (index, body) in bodies.iter().enumerate() {
-                match (field.value)(&Seen { body, homogeneous: homogeneous.get(index) }) {
+                match (field.value)(&Seen {
+                    body,
+                    homogeneous: homogeneous.get(index),
+                    immersed: immersed.get(index).and_then(Option::as_ref),
+                }) {
                     Value::Scalar(value) => row.push(value),
                     Value::Vector(value) => row.extend(value.iter()),
                     // nalgebra stores columns; rows are recorded.

@@ -163,9 +163,9 @@ impl<'a> ImmersedEllipsoid<'a> {
         Loads { force: Vec3::zeros(), moment: directions.moment(&change, self.volume) }
     }
 
-    /// The semi-axes of the reference shape \[m\].
-    pub fn reference(&self) -> &Vec3 {
-        self.semi_axes
+    /// V det P \[m³\].
+    pub fn volume(&self) -> f64 {
+        self.volume
     }
 }
 

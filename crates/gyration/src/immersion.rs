@@ -1,0 +1,222 @@
+//! What a fluid and a body in it do to each other: forces, stresses, and what suspensions are described by.
+//!
+//!   N = ∫ t ⊗ (x − x_c) dA,   V_t = V det P,   Σ = N/V_t − 2η sym L           (particle stress, per volume of particle)
+//!   stresslet = V_t dev sym Σ,   rotlet_i = ε_ijk N_kj
+//!   [η] = Σ·E∞/(2η E∞·E∞),   N₁ = Σ_ee − Σ_gg,   N₂ = Σ_gg − Σ_vv            (to be multiplied with the volume fraction)
+//!
+//! t is the whole traction of the fluid, with the stress of the undisturbed flow, E∞ = sym L∞. In a simple shear L∞ = γ̇ e ⊗ g, v = e × g, the longest axis a is
+//! inclined by atan(a·g/a·e), and a body of revolution with axis p and aspect ratio r moves on an orbit
+//! C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not apply is NaN. Source: Batchelor (1970); `physics.md` §7.
+
+use crate::body::{Body, BodyKind};
+use crate::fluid::{Fluid, Form};
+use crate::inadmissible::Inadmissible;
+use crate::model::Model;
+use crate::rates::{AffineMotion, RigidImmersion, Workspace, settled_motion};
+use crate::shape::{Ellipsoid, Shape, Sphere};
+use crate::state::{BodyMotion, State, Turn};
+use crate::tensor::{Mat3, Vec3, axial};
+
+/// What is told of an inclusion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImmersionObservation {
+    /// Force of the fluid without the weight of what is displaced \[N\].
+    pub drag: Vec3,
+    /// Torque of the fluid about the centre of the volume \[N m\].
+    pub rotlet: Vec3,
+    /// Stresslet \[N m\], symmetric and traceless.
+    pub stresslet: Mat3,
+    /// Σ \[Pa\].
+    pub particle_stress: Mat3,
+    /// \[η\], the increment of the viscosity of a dilute suspension over η and the volume fraction.
+    pub intrinsic_viscosity: f64,
+    /// N₁ and N₂ over the volume fraction \[Pa\].
+    pub normal_stress_differences: [f64; 2],
+    /// What the disturbance of the flow turns into heat beyond that of the undisturbed flow \[W\].
+    pub dissipated_power: f64,
+    /// Semi-axes of an ellipsoid, descending \[m\].
+    pub semi_axes: Vec3,
+    /// Angle of the longest axis from the direction of a simple shear, in its plane \[rad\].
+    pub inclination: f64,
+    /// C/(1 + C) of a body of revolution in simple shear.
+    pub orbit_constant: f64,
+}
+
+/// The traction of the fluid on a body.
+struct Tractions {
+    drag: Vec3,
+    /// N about the centre of the volume.
+    couple: Mat3,
+    volume: f64,
+    dissipation: f64,
+    /// Principal axes and semi-axes, if it is an ellipsoid.
+    form: Option<(Mat3, [f64; 3])>,
+}
+
+/// Observes one body; none if it is not immersed.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn observe_immersion(
+    model: &Model,
+    workspace: &mut Workspace,
+    state: &State,
+    index: usize,
+) -> Result<Option<ImmersionObservation>, Inadmissible> {
+    let (Some(fluid), Some(inclusion)) = (&model.fluid, &model.bodies[index].inclusion) else { return Ok(None) };
+    let motion = settled_motion(model, workspace, state, index)?;
+    let tractions = match inclusion.form {
+        Form::Fixed(_) => rigid(model, state, index, &motion),
+        Form::Ellipsoid(_) => ellipsoid(model, state.time, index, &motion)?,
+    };
+    Ok(tractions.map(|tractions| told(fluid, state.time, &motion, &tractions)))
+}
+
+fn rigid(model: &Model, state: &State, index: usize, motion: &BodyMotion) -> Option<Tractions> {
+    let body = &model.bodies[index];
+    let inclusion = body.inclusion.as_ref()?;
+    let rotation = &motion.placement.gradient;
+    // Ω from Ṗ = R [Ω]×.
+    let spin = 0.5 * axial(&rotation.tr_mul(&motion.velocity.gradient_rate));
+    let turn = Turn { spin, ..Turn::unpack(body, &state.bodies[model.blocks()[index].clone()]) };
+    let immersed = RigidImmersion::of(model, state.time, index, (motion, &turn))?;
+    let drag = immersed.drag.force();
+    let arm = rotation * inclusion.center;
+    Some(Tractions {
+        drag,
+        couple: immersed.drag.couple() + immersed.ambient - drag * arm.transpose(),
+        volume: inclusion.volume,
+        dissipation: immersed.drag.dissipation(&spin),
+        form: semi_axes(body).map(|axes| (*rotation, axes.into())),
+    })
+}
+
+/// The semi-axes of a body whose reference shape is an ellipsoid.
+fn semi_axes(body: &Body) -> Option<Vec3> {
+    match (&body.shape, &body.kind) {
+        (Shape::Sphere(Sphere { radius }), BodyKind::Rigid(_)) => Some(Vec3::repeat(*radius)),
+        (Shape::Ellipsoid(Ellipsoid { semi_axes }), BodyKind::Rigid(_)) => Some(*semi_axes),
+        _ => None,
+    }
+}
+
+fn ellipsoid(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<Option<Tractions>, Inadmissible> {
+    let Some(affine) = model.bodies[index].affine() else { return Ok(None) };
+    let moving = AffineMotion::new(index, affine, motion)?;
+    let Some(immersed) = moving.immersion(model, time) else { return Ok(None) };
+    let viscosity = model.fluid.as_ref().map_or(f64::NAN, |fluid| fluid.viscosity);
+    Ok(Some(Tractions {
+        drag: immersed.drag(),
+        couple: immersed.couple(),
+        volume: immersed.volume(),
+        dissipation: immersed.dissipation(viscosity),
+        form: Some((immersed.ellipsoid.axes, immersed.ellipsoid.squares.map(f64::sqrt))),
+    }))
+}
+
+fn told(fluid: &Fluid, time: f64, motion: &BodyMotion, tractions: &Tractions) -> ImmersionObservation {
+    let flow = fluid.flow(time).gradient;
+    let inverse = motion.placement.gradient.try_inverse().unwrap_or(Mat3::from_element(f64::NAN));
+    let gradient = motion.velocity.gradient_rate * inverse;
+    let particle_stress = tractions.couple / tractions.volume - (gradient + gradient.transpose()) * fluid.viscosity;
+    let symmetric = 0.5 * (particle_stress + particle_stress.transpose());
+    let stresslet = symmetric - Mat3::from_diagonal_element(symmetric.trace() / 3.0);
+    let strain = 0.5 * (flow + flow.transpose());
+    let shear = Shear::of(&flow);
+    let along = |direction: &Vec3| direction.dot(&(symmetric * direction));
+    let differences = shear.as_ref().map_or([f64::NAN; 2], |Shear { flow, gradient, vorticity }| {
+        [along(flow) - along(gradient), along(gradient) - along(vorticity)]
+    });
+    let form = tractions.form.map(|(axes, lengths)| Axes::sorted(&axes, lengths));
+    let seen = form.as_ref().zip(shear.as_ref());
+    ImmersionObservation {
+        drag: tractions.drag,
+        rotlet: axial(&tractions.couple),
+        stresslet: tractions.volume * stresslet,
+        particle_stress,
+        intrinsic_viscosity: particle_stress.dot(&strain) / (2.0 * fluid.viscosity * strain.norm_squared()),
+        normal_stress_differences: differences,
+        dissipated_power: tractions.dissipation,
+        semi_axes: form.as_ref().map_or(Vec3::from_element(f64::NAN), |form| form.lengths.into()),
+        inclination: seen.map_or(f64::NAN, |(form, shear)| form.inclination(shear)),
+        orbit_constant: seen.map_or(f64::NAN, |(form, shear)| form.orbit(shear)),
+    }
+}
+
+/// L∞ = γ̇ e ⊗ g: unit vectors e, g and v = e × g.
+struct Shear {
+    flow: Vec3,
+    gradient: Vec3,
+    vorticity: Vec3,
+}
+
+/// What of a flow is no simple shear may be rounding of its numbers.
+const ROUNDING: f64 = 1e-9;
+
+impl Shear {
+    /// None of any other flow.
+    fn of(gradient: &Mat3) -> Option<Self> {
+        let rate = gradient.norm();
+        let column = (0..3).map(|k| gradient.column(k).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let flow = column.try_normalize(0.0)?;
+        let across = gradient.tr_mul(&flow) / rate;
+        let rest = gradient - rate * flow * across.transpose();
+        (rest.norm() <= ROUNDING * rate && flow.dot(&across).abs() <= ROUNDING).then(|| Self {
+            flow,
+            gradient: across,
+            vorticity: flow.cross(&across),
+        })
+    }
+}
+
+/// Principal axes by length, descending.
+struct Axes {
+    directions: [Vec3; 3],
+    lengths: [f64; 3],
+}
+
+/// Lengths whose ratio differs from one by less are equal: a direction between them has no meaning.
+const EQUAL: f64 = 1e-6;
+
+impl Axes {
+    fn sorted(axes: &Mat3, lengths: [f64; 3]) -> Self {
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
+        Self { directions: order.map(|k| axes.column(k).into_owned()), lengths: order.map(|k| lengths[k]) }
+    }
+
+    fn are_equal(&self, one: usize, other: usize) -> bool {
+        (self.lengths[one] / self.lengths[other] - 1.0).abs() < EQUAL
+    }
+
+    /// In (−π/2, π/2]; of the part in the plane of the shear.
+    fn inclination(&self, shear: &Shear) -> f64 {
+        if self.are_equal(0, 1) {
+            return f64::NAN;
+        }
+        let [along, across] = [self.directions[0].dot(&shear.flow), self.directions[0].dot(&shear.gradient)];
+        if along.hypot(across) < EQUAL {
+            return f64::NAN;
+        }
+        let angle = across.atan2(along);
+        let half = std::f64::consts::FRAC_PI_2;
+        if angle > half {
+            angle - 2.0 * half
+        } else if angle <= -half {
+            angle + 2.0 * half
+        } else {
+            angle
+        }
+    }
+
+    fn orbit(&self, shear: &Shear) -> f64 {
+        let axis = match (self.are_equal(0, 1), self.are_equal(1, 2)) {
+            (true, false) => 2,
+            (false, true) => 0,
+            _ => return f64::NAN,
+        };
+        let (p, ratio) = (&self.directions[axis], self.lengths[axis] / self.lengths[1]);
+        let plane = p.dot(&shear.gradient).hypot(p.dot(&shear.flow) / ratio);
+        plane / (plane + p.dot(&shear.vorticity).abs())
+    }
+}
