@@ -9,7 +9,8 @@
 
 use crate::dense::Symmetric;
 use crate::pair::{Block, block};
-use crate::panel::Panel;
+use crate::panel::{Panel, Vec3};
+use crate::wall::{Image, Wall};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -23,6 +24,8 @@ pub(crate) struct SingleLayer {
     pub half: Symmetric,
     /// e, by unknown.
     pub expansion: Vec<f64>,
+    /// Π, the work of the wall's pressure on a body that expands ([`crate::wall`]); 0 without a wall.
+    pub pressure: f64,
 }
 
 /// Nine rows of the matrix, from one triangle and those that follow it.
@@ -30,19 +33,21 @@ struct Strip {
     rows: Vec<f64>,
     /// Its share of e, at all nodes.
     expansion: Vec<f64>,
+    /// Its share of Π.
+    pressure: f64,
 }
 
 impl SingleLayer {
     /// Of all pairs of these triangles, `nodes` nodes in all.
-    pub fn new(panels: &[Panel], nodes: usize) -> Self {
+    pub fn new(panels: &[Panel], nodes: usize, wall: Option<&Wall>) -> Self {
         let order = 3 * nodes;
         let mut half = Symmetric::new(order);
-        let mut expansion = vec![0.0; order];
+        let (mut expansion, mut pressure) = (vec![0.0; order], 0.0);
         let stride = half.stride;
         let batch = (BATCH_BYTES / (80 * order)).clamp(16, 256);
         for (round, these) in panels.chunks(batch).enumerate() {
             let first = round * batch;
-            let make = |k: usize| Strip::new(panels, first + k, order);
+            let make = |k: usize| Strip::new(panels, first + k, order, wall);
             let strips: Vec<Strip> = (0..these.len()).into_par_iter().map(make).collect();
             let corners = corners_by_node(these, nodes);
             let rows = half.values.par_chunks_mut(3 * stride).zip(&corners).filter(|(_, corners)| !corners.is_empty());
@@ -55,10 +60,11 @@ impl SingleLayer {
                 }
             });
             for strip in &strips {
+                pressure += strip.pressure;
                 expansion.iter_mut().zip(&strip.expansion).for_each(|(sum, value)| *sum += value);
             }
         }
-        Self { half, expansion }
+        Self { half, expansion, pressure }
     }
 }
 
@@ -72,12 +78,21 @@ fn corners_by_node(panels: &[Panel], nodes: usize) -> Vec<Vec<(usize, usize)>> {
 }
 
 impl Strip {
-    fn new(panels: &[Panel], triangle: usize, order: usize) -> Self {
-        let mut strip = Self { rows: vec![0.0; 9 * order], expansion: vec![0.0; order] };
+    fn new(panels: &[Panel], triangle: usize, order: usize, wall: Option<&Wall>) -> Self {
+        let mut strip = Self { rows: vec![0.0; 9 * order], expansion: vec![0.0; order], pressure: 0.0 };
         let panel = &panels[triangle];
         for (k, other) in panels[triangle..].iter().enumerate() {
-            let block = block(panel, other);
+            let mut block = block(panel, other);
             strip.expand((panel, other), &block, k == 0);
+            if let Some(wall) = wall {
+                let image = wall.between(panel, other);
+                strip.reflect((panel, other), &image, k == 0);
+                block
+                    .as_flattened_mut()
+                    .iter_mut()
+                    .zip(image.block.as_flattened())
+                    .for_each(|(sum, value)| *sum += value);
+            }
             strip.add(other, &block, order, if k == 0 { 0.5 } else { 1.0 } / (8.0 * PI));
         }
         strip
@@ -97,16 +112,26 @@ impl Strip {
         let trace = |i: usize, j: usize| (0..3).map(|a| block[3 * i + a][3 * j + a]).sum::<f64>() / (16.0 * PI);
         for k in 0..3 {
             let here: f64 = (0..3).map(|j| trace(k, j)).sum();
-            self.push(one.nodes[k], other, here);
+            self.push(one.nodes[k], other.normal() * here);
             if !same {
                 let there: f64 = (0..3).map(|i| trace(i, k)).sum();
-                self.push(other.nodes[k], one, there);
+                self.push(other.nodes[k], one.normal() * there);
             }
         }
     }
 
-    fn push(&mut self, node: usize, source: &Panel, potential: f64) {
-        let normal = source.normal();
-        (0..3).for_each(|a| self.expansion[3 * node + a] += normal[a] * potential);
+    /// What the images add to e and Π.
+    fn reflect(&mut self, (one, other): (&Panel, &Panel), image: &Image, same: bool) {
+        self.pressure += if same { image.pressure } else { 2.0 * image.pressure };
+        for k in 0..3 {
+            self.push(one.nodes[k], image.here[k]);
+            if !same {
+                self.push(other.nodes[k], image.there[k]);
+            }
+        }
+    }
+
+    fn push(&mut self, node: usize, flow: Vec3) {
+        (0..3).for_each(|a| self.expansion[3 * node + a] += flow[a]);
     }
 }

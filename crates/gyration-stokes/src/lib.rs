@@ -30,7 +30,9 @@ mod panel;
 mod resistance;
 mod rule;
 mod surface;
+mod wall;
 
 pub use error::StokesError;
 pub use resistance::{DEFAULT_MAX_BYTES, Faces, Options, Resistance};
 pub use surface::Surface;
+pub use wall::Plane;

@@ -10,6 +10,8 @@
 //!
 //!   x′·H x = −∫ t·u′ dA = ⟨S⁺ b, b′⟩ − 2V (E:E′ − q q′)
 //!
+//! A wall adds images to G and v, and q q′ Π to the matrix ([`crate::wall`]).
+//!
 //! ψ is linear on each triangle, so that the first term is a best approximation from below. s ⟨n,·⟩² is added to S: any
 //! s > 0 leaves the solution alone. Sources: Pozrikidis, *Boundary Integral and Singularity Methods* (1992), ch. 2–4;
 //! `physics.md` §7.
@@ -23,6 +25,7 @@ use crate::estimate::largest_share;
 use crate::motion::{Mat12, Motion, inner_work, right_sides};
 use crate::panel::{Panel, Vec3};
 use crate::surface::Surface;
+use crate::wall::{Plane, Wall};
 
 /// Bytes of matrices that are taken unless said otherwise: 16,000 unknowns, some 10,000 triangles of a smooth surface.
 pub const DEFAULT_MAX_BYTES: u64 = 5 << 29;
@@ -44,13 +47,15 @@ pub struct Options {
     pub centre: [f64; 3],
     /// What the triangles stand for.
     pub faces: Faces,
+    /// A plane wall without slip that bounds the fluid.
+    pub wall: Option<Plane>,
     /// Bytes that the matrices may take.
     pub max_bytes: u64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { centre: [0.0; 3], faces: Faces::default(), max_bytes: DEFAULT_MAX_BYTES }
+        Self { centre: [0.0; 3], faces: Faces::default(), wall: None, max_bytes: DEFAULT_MAX_BYTES }
     }
 }
 
@@ -66,6 +71,8 @@ pub struct Resistance {
     /// sum of the largest shares, measured on ellipsoids between 1 and 4 times the true error. With [`Faces::Flat`] it knows nothing of
     /// a smooth surface for which the triangles may stand.
     pub error: f64,
+    /// What [`Faces::Curved`] has added to the matrix of the flat triangles; zeros with [`Faces::Flat`].
+    pub curvature: [[f64; 12]; 12],
     nodes: Vec<[usize; 3]>,
     normals: Vec<Vec3>,
     /// −ψ of the twelve motions, by unknown.
@@ -76,28 +83,33 @@ impl Surface {
     /// The resistance matrix about a centre.
     ///
     /// # Errors
-    /// Matrices larger than allowed; a centre that is not finite; a surface that crosses itself, if that makes the single
+    /// Matrices larger than allowed; a centre that is not finite; a wall that is touched, crossed or too near for the
+    /// triangles that face it; a surface that crosses itself, if that makes the single
     /// layer indefinite; a mesh so coarse that a motion is not resisted.
     pub fn resistance(&self, options: &Options) -> Result<Resistance, StokesError> {
         self.check(options)?;
         let panels = Panel::all(self);
         let normals = node_normals(&panels, self.node_count, Weight::Angle);
-        let layer = SingleLayer::new(&panels, self.node_count);
+        let wall = options.wall.as_ref().map(|plane| Wall::new(plane, &panels)).transpose()?;
+        let layer = SingleLayer::new(&panels, self.node_count, wall.as_ref());
+        let pressure = layer.pressure;
         let Solution { densities, energy, lost } = self.solve(layer, &panels, options)?;
         let volume = self.volume();
-        let mut matrix = energy - Motion::matrix(|one, other| volume * inner_work(one, other));
+        let beside = |x: &Motion, y: &Motion| pressure * x.expansion() * y.expansion() - volume * inner_work(x, y);
+        let mut matrix = energy + Motion::matrix(beside);
         let mut uncertain = vec![lost];
-        let mut second_order = 0.0;
+        let (mut curvature, mut second_order) = (Mat12::zeros(), 0.0);
         if options.faces == Faces::Curved {
             let by = |weight| risen(&panels, &node_normals(&panels, self.node_count, weight), &densities);
-            let risen = by(Weight::Angle);
-            matrix += risen;
-            second_order = largest_share(&matrix, &[risen])?.powi(2);
-            uncertain.extend([Weight::Area, Weight::Sphere].map(|weight| risen - by(weight)));
+            curvature = by(Weight::Angle);
+            matrix += curvature;
+            second_order = largest_share(&matrix, &[curvature])?.powi(2);
+            uncertain.extend([Weight::Area, Weight::Sphere].map(|weight| curvature - by(weight)));
         }
         let error = largest_share(&matrix, &uncertain)? + second_order;
-        let rows = std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
-        Ok(Resistance { matrix: rows, error, nodes: self.nodes.clone(), normals, densities })
+        let rows = |matrix: Mat12| std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
+        let (matrix, curvature) = (rows(matrix), rows(curvature));
+        Ok(Resistance { matrix, error, curvature, nodes: self.nodes.clone(), normals, densities })
     }
 
     fn check(&self, options: &Options) -> Result<(), StokesError> {
@@ -114,7 +126,7 @@ impl Surface {
 
     /// Solves S φ = b for the twelve motions, φ = −ψ without pressure in the body.
     fn solve(&self, layer: SingleLayer, panels: &[Panel], options: &Options) -> Result<Solution, StokesError> {
-        let SingleLayer { half: mut matrix, expansion } = layer;
+        let SingleLayer { half: mut matrix, expansion, pressure } = layer;
         let sides = right_sides(panels, &options.centre.into(), &expansion);
         regularize(&mut matrix, panels);
         let coarse = CoarseSpace::new(self);
@@ -127,7 +139,7 @@ impl Surface {
         coarse_matrix.factor().map_err(|_| self.indefinite(0))?.solve(&mut coarse_densities);
         let energy = products(&densities, &sides);
         let lost = (energy - products(&coarse_densities, &coarse_sides)) * coarse.factor();
-        remove_pressure(&mut densities, panels, &expansion, self.volume());
+        set_pressure(&mut densities, panels, &expansion, (pressure, self.volume()));
         Ok(Solution { densities, energy, lost })
     }
 
@@ -174,9 +186,9 @@ fn regularize(half: &mut dense::Symmetric, panels: &[Panel]) {
     half.symmetrize(|i, j| strength * normal[i] * normal[j]);
 }
 
-/// Adds the multiple of n to each density with which ∫ ψ·v dA = 0.
-fn remove_pressure(densities: &mut Columns, panels: &[Panel], expansion: &[f64], volume: f64) {
-    let mut pressure = [0.0; SIDES];
+/// Adds the multiple of n to each density with which ∫ φ·v dA = q Π: no pressure in the body but that of the wall.
+fn set_pressure(densities: &mut Columns, panels: &[Panel], expansion: &[f64], (wall, volume): (f64, f64)) {
+    let mut pressure = Motion::all().map(|motion| -motion.expansion() * wall / volume);
     for (density, v) in densities.iter().zip(expansion) {
         (0..SIDES).for_each(|k| pressure[k] += density[k] * v / volume);
     }
