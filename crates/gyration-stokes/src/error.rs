@@ -119,7 +119,8 @@ pub enum StokesError {
     /// The matrix of the single layer has a pivot that is not positive.
     #[error(
         "the matrix of the single layer is not positive definite (unknown {unknown}, triangle {triangle}): \
-         the surface crosses itself, or triangles lie on each other"
+         the surface crosses itself, triangles lie on each other, or they are far larger than the body is thick there; \
+         mend or refine the surface"
     )]
     NotDefinite {
         /// The pivot.

@@ -33,6 +33,7 @@ mod surface;
 mod wall;
 
 pub use error::StokesError;
+pub use mesh::MAX_REFINEMENTS;
 pub use resistance::{DEFAULT_MAX_BYTES, Faces, Options, Resistance};
 pub use surface::Surface;
 pub use wall::Plane;

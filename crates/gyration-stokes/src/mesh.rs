@@ -4,12 +4,19 @@ use crate::error::StokesError;
 use crate::surface::Surface;
 use std::collections::HashMap;
 
+/// Refinements of an icosphere: 1.3 million triangles, far more than a matrix can be made of.
+pub const MAX_REFINEMENTS: u32 = 8;
+
 impl Surface {
     /// An icosphere of radius one about the origin: 20·4^`refinements` triangles, corners on the sphere.
     ///
     /// # Errors
-    /// None for refinements that fit the memory.
+    /// More than [`MAX_REFINEMENTS`].
     pub fn icosphere(refinements: u32) -> Result<Self, StokesError> {
+        if refinements > MAX_REFINEMENTS {
+            let value = f64::from(refinements);
+            return Err(StokesError::BadOption { what: "number of refinements", must_be: "8 at most", value });
+        }
         let mut sphere = Self::new(&icosahedron(), &ICOSAHEDRON)?;
         for _ in 0..refinements {
             sphere = sphere.refined(normalized)?;
@@ -23,7 +30,8 @@ impl Surface {
     /// [`Surface::inflated`] to the true volume.
     ///
     /// # Errors
-    /// A semi-axis that is not positive and finite, or so unlike the others that triangles become degenerate.
+    /// A semi-axis that is not positive and finite, or so unlike the others that triangles become degenerate; more than
+    /// [`MAX_REFINEMENTS`].
     pub fn ellipsoid(semi_axes: [f64; 3], refinements: u32) -> Result<Self, StokesError> {
         if let Some(&value) = semi_axes.iter().find(|axis| !(axis.is_finite() && **axis > 0.0)) {
             return Err(StokesError::BadOption { what: "semi-axis", must_be: "positive and finite", value });

@@ -68,8 +68,9 @@ pub struct Resistance {
     ///
     /// It counts what a space of tractions of half the fineness loses, brought to this mesh at first order; with
     /// [`Faces::Curved`] also the spread of the correction among three rules for the normals, and its square. It is the
-    /// sum of the largest shares, measured on ellipsoids between 1 and 4 times the true error. With [`Faces::Flat`] it knows nothing of
-    /// a smooth surface for which the triangles may stand.
+    /// sum of the largest shares. On ellipsoids of 80 to 5,120 triangles and aspect ratios up to 20 it is 1 to 4 times
+    /// the true error; at 100, where triangles are as long as the body is thick many times over, it falls to half of it.
+    /// With [`Faces::Flat`] it knows nothing of a smooth surface for which the triangles may stand.
     pub error: f64,
     /// What [`Faces::Curved`] has added to the matrix of the flat triangles; zeros with [`Faces::Flat`].
     pub curvature: [[f64; 12]; 12],

@@ -95,3 +95,8 @@ fn centre_that_is_not_finite_is_refused() {
 fn ellipsoid_without_thickness_is_refused() {
     assert!(matches!(Surface::ellipsoid([1.0, 1.0, 0.0], 1), Err(StokesError::BadOption { .. })));
 }
+
+#[test]
+fn refinement_without_end_is_refused() {
+    assert!(matches!(Surface::icosphere(9), Err(StokesError::BadOption { .. })));
+}
