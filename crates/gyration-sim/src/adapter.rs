@@ -168,6 +168,11 @@ impl System for ModelSystem<'_> {
                 center_rate.fill(velocity);
                 turn_rate.fill(velocity / body.size);
             }
+            if let Some(memory) = body.memory() {
+                let (trailing, turning) = y_scale[block.clone()][13..].split_at_mut(3 * memory.translation.rates.len());
+                trailing.fill(velocity);
+                turning.fill(velocity / body.size);
+            }
             if body.contraction().is_some_and(Contraction::is_driven) {
                 // G is a number of order one, on which forces depend as they do on P.
                 let contraction = &mut y_scale[block.end - 9..block.end];

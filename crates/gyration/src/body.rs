@@ -10,12 +10,13 @@
 //! | affine, pinned | P     | Ṗ        | P (9), Ṗ (9)                              |
 //! | contractile | p₀, P    | ṗ₀, Ṗ    | as an affine body's, then G (9) unless it is prescribed |
 //!
-//! with Ω in body axes, P, Ṗ and G column by column. A body in a fluid that has no inertia has no velocities in its state.
+//! with Ω in body axes, P, Ṗ and G column by column. A body in a fluid that has no inertia has no velocities in its state; a
+//! rigid sphere whose motion the fluid remembers has the modes of that memory behind.
 
 use crate::affine::AffineBody;
 use crate::contact::Contact;
 use crate::contractile::{self, Contraction, Decomposition, Restored};
-use crate::fluid::Inclusion;
+use crate::fluid::{Inclusion, Memory};
 use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
 use crate::shape::Shape;
@@ -166,14 +167,14 @@ pub(crate) struct Parts {
     pub places: usize,
     /// ṗ₀ and Ω or Ṗ.
     pub velocities: usize,
-    /// G.
-    pub contraction: usize,
+    /// G, or what the fluid remembers.
+    pub further: usize,
 }
 
 impl Parts {
     /// All of them.
     pub fn all(&self) -> usize {
-        self.places + self.velocities + self.contraction
+        self.places + self.velocities + self.further
     }
 }
 
@@ -214,14 +215,20 @@ impl Body {
         self.inclusion.as_ref().is_none_or(|inclusion| inclusion.inertia)
     }
 
-    /// How many numbers its place and form take, its velocities, and its contraction.
+    /// What the fluid remembers of it.
+    pub fn memory(&self) -> Option<&Memory> {
+        self.inclusion.as_ref()?.memory.as_ref()
+    }
+
+    /// How many numbers its place and form take, its velocities, and what else it has.
     pub(crate) fn parts(&self) -> Parts {
         let free = if self.pin.is_some() { 0 } else { 3 };
         let contraction = if self.contraction().is_some_and(Contraction::is_driven) { 9 } else { 0 };
+        let memory = self.memory().map_or(0, Memory::dimension);
         match &self.kind {
-            BodyKind::Rigid(_) => Parts { places: free + 4, velocities: free + 3, contraction },
+            BodyKind::Rigid(_) => Parts { places: free + 4, velocities: free + 3, further: memory },
             BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-                Parts { places: free + 9, velocities: free + 9, contraction }
+                Parts { places: free + 9, velocities: free + 9, further: contraction }
             }
         }
     }
@@ -229,6 +236,6 @@ impl Body {
     /// How many numbers its state has.
     pub fn dimension(&self) -> usize {
         let parts = self.parts();
-        if self.has_inertia() { parts.all() } else { parts.places + parts.contraction }
+        if self.has_inertia() { parts.all() } else { parts.places + parts.further }
     }
 }

@@ -12,10 +12,10 @@ use crate::body::{Body, BodyKind};
 use crate::fluid::{Fluid, Form};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
-use crate::rates::{AffineMotion, RigidImmersion, Workspace, settled_motion};
+use crate::rates::{AffineMotion, RigidImmersion, RigidMemory, Workspace, body_rates, settled_motion};
 use crate::shape::{Ellipsoid, Shape, Sphere};
 use crate::state::{BodyMotion, State, Turn};
-use crate::tensor::{Mat3, Vec3, axial};
+use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 
 /// What is told of an inclusion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,29 +66,59 @@ pub fn observe_immersion(
     let (Some(fluid), Some(inclusion)) = (&model.fluid, &model.bodies[index].inclusion) else { return Ok(None) };
     let motion = settled_motion(model, workspace, state, index)?;
     let tractions = match inclusion.form {
-        Form::Fixed(_) => rigid(model, state, index, &motion),
+        Form::Fixed(_) => rigid(model, workspace, state, index, &motion)?,
         Form::Ellipsoid(_) => ellipsoid(model, state.time, index, &motion)?,
     };
     Ok(tractions.map(|tractions| told(fluid, state.time, &motion, &tractions)))
 }
 
-fn rigid(model: &Model, state: &State, index: usize, motion: &BodyMotion) -> Option<Tractions> {
+fn rigid(
+    model: &Model,
+    workspace: &mut Workspace,
+    state: &State,
+    index: usize,
+    motion: &BodyMotion,
+) -> Result<Option<Tractions>, Inadmissible> {
     let body = &model.bodies[index];
-    let inclusion = body.inclusion.as_ref()?;
+    let Some(inclusion) = &body.inclusion else { return Ok(None) };
     let rotation = &motion.placement.gradient;
     // Ω from Ṗ = R [Ω]×.
     let spin = 0.5 * axial(&rotation.tr_mul(&motion.velocity.gradient_rate));
     let turn = Turn { spin, ..Turn::unpack(body, &state.bodies[model.blocks()[index].clone()]) };
-    let immersed = RigidImmersion::of(model, state.time, index, (motion, &turn))?;
-    let drag = immersed.drag.force();
+    let Some(immersed) = RigidImmersion::of(model, state.time, index, (motion, &turn)) else { return Ok(None) };
+    let steady = immersed.drag.force();
     let arm = rotation * inclusion.center;
-    Some(Tractions {
-        drag,
-        couple: immersed.drag.couple() + immersed.ambient - drag * arm.transpose(),
+    let (force, torque) = remembered(model, workspace, state, index, (motion, &turn))?;
+    Ok(Some(Tractions {
+        drag: steady + force,
+        // The axial part of [T]×/2 is T.
+        couple: immersed.drag.couple() + immersed.ambient - steady * arm.transpose() + 0.5 * cross_matrix(&torque),
         volume: inclusion.volume,
         dissipation: immersed.drag.dissipation(&spin),
         form: semi_axes(body).map(|axes| (*rotation, axes.into())),
-    })
+    }))
+}
+
+/// Force and torque of what the fluid remembers, added mass included, in the axes of space.
+fn remembered(
+    model: &Model,
+    workspace: &mut Workspace,
+    state: &State,
+    index: usize,
+    (motion, turn): (&BodyMotion, &Turn),
+) -> Result<(Vec3, Vec3), Inadmissible> {
+    let block = &state.bodies[model.blocks()[index].clone()];
+    let Some(sphere) = RigidMemory::of(model, state.time, index, (motion, turn, block)) else {
+        return Ok((Vec3::zeros(), Vec3::zeros()));
+    };
+    let mut rates = vec![0.0; block.len()];
+    body_rates(model, workspace, state.time, (index, block), &mut rates)?;
+    let (linear, angular) = (Vec3::from_column_slice(&rates[7..10]), Vec3::from_column_slice(&rates[10..13]));
+    let turned = motion.placement.gradient * angular;
+    Ok((
+        sphere.loads.force - sphere.memory.added_mass * linear,
+        sphere.loads.torque - sphere.memory.added_inertia * turned,
+    ))
 }
 
 /// The semi-axes of a body whose reference shape is an ellipsoid.

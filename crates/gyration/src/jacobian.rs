@@ -9,6 +9,7 @@
 
 mod affine_slopes;
 mod contractile_slopes;
+mod memory_slopes;
 mod rigid_slopes;
 
 use crate::body::{Body, BodyKind, RigidInertia};
@@ -16,7 +17,8 @@ use crate::contact::{ContactWrench, Meeting, RigidMotion};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
 use crate::rates::{
-    AffineMotion, ContractileMotion, RigidImmersion, Workspace, for_each_contact, settled_slopes, spring_loads,
+    AffineMotion, ContractileMotion, RigidImmersion, RigidMemory, Workspace, for_each_contact, settled_slopes,
+    spring_loads,
 };
 use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, cross_matrix};
@@ -61,7 +63,10 @@ pub(crate) fn body_jacobian(
             let slopes = rigid_slopes(model, workspace, time, index, (&turn.motion(body, block), &turn))?;
             matrix.fill(0.0);
             match body.pin {
-                None => fill_free(matrix, body, inertia, &turn, &slopes),
+                None => match RigidMemory::of(model, time, index, (&turn.motion(body, block), &turn, block)) {
+                    None => fill_free(matrix, body, inertia, &turn, &slopes),
+                    Some(memory) => memory_slopes::fill(matrix, inertia, &memory, &slopes),
+                },
                 Some(_) => fill_pinned(matrix, (body, inertia), &turn, &slopes),
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::body::{Body, BodyKind, Pin};
 use crate::contractile::{Contraction, Source};
+use crate::fluid::Memory;
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
@@ -69,17 +70,19 @@ impl Start {
     /// Appends the body's block of the state.
     fn pack(&self, body: &Body, numbers: &mut Vec<f64>) {
         let (free, moving) = (body.pin.is_none(), body.has_inertia());
-        let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
         match self {
             Self::Rigid(start) => {
+                let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
                 let quaternion = start.orientation.normalized();
                 let spin = quaternion.rotation().tr_mul(&start.angular_velocity);
                 push(start.position.as_slice(), free);
                 push(&quaternion.0, true);
                 push(start.velocity.as_slice(), free && moving);
                 push(spin.as_slice(), moving);
+                numbers.extend(std::iter::repeat_n(0.0, body.memory().map_or(0, Memory::dimension)));
             }
             Self::Affine(placement, velocity) | Self::Contractile(placement, velocity, _) => {
+                let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
                 push(placement.position.as_slice(), free);
                 push(placement.gradient.as_slice(), true);
                 push(velocity.velocity.as_slice(), free && moving);

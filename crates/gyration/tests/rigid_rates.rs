@@ -15,8 +15,8 @@ use gyration::shape::Shape;
 use gyration::state::{RigidStart, State, Turn};
 use gyration::tensor::Vec3;
 use moving::{
-    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, evaluate, immersed, shapes,
-    supports,
+    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, evaluate, immersed, remembered,
+    shapes, supports,
 };
 use proptest::prelude::*;
 
@@ -54,6 +54,20 @@ fn strategy() -> impl Strategy<Value = ([f64; 10], [f64; 4])> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn jacobian_and_power_of_spheres_that_the_fluid_remembers_are_those_of_their_rates(
+        (numbers, exponents) in strategy(),
+    ) {
+        let model = remembered(model(exponents));
+        prop_assert!(!model.bodies.is_empty());
+        let mut state = state(&model, &numbers);
+        for (place, number) in state.bodies.iter_mut().enumerate().filter(|(place, _)| *place >= 13) {
+            *number = (1.7 * place as f64).sin();
+        }
+        assert_jacobian_is_the_derivative(&model, &state);
+        assert_power_is_the_rate_of_energy(&model, &state);
+    }
 
     #[test]
     fn jacobian_and_power_of_inclusions_are_those_of_their_rates((numbers, exponents) in strategy()) {

@@ -11,7 +11,7 @@ use crate::key::Key;
 use crate::quantity::si;
 use crate::table::read_vectors;
 use gyration::body::BodyKind;
-use gyration::fluid::{FixedForm, Fluid, Form, Inclusion};
+use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory};
 use gyration::mass::MassProperties;
 use gyration::shape::{Ellipsoid, Shape, Sphere};
 use gyration::signal::{Signal, Wave};
@@ -113,12 +113,19 @@ impl Immersed<'_> {
         let remembers = !written.history || self.may_have_history(written, setting, &key, judge);
         let form = self.form(judge);
         let center = -self.mass.center;
+        let memory = if written.history && remembers { self.memory(written, setting, &key, judge)? } else { None };
         let (form, volume) = form?;
         let form = match form {
             Form::Fixed(form) => Form::Fixed(Box::new(FixedForm::shifted(&form.matrix, &center))),
             Form::Ellipsoid(_) => form,
         };
-        (around && still && remembers).then_some(Some(Inclusion { inertia: written.inertia, volume, center, form }))
+        (around && still && remembers).then_some(Some(Inclusion {
+            inertia: written.inertia,
+            volume,
+            center,
+            form,
+            memory,
+        }))
     }
 
     fn is_in_a_fluid(&self, setting: &Setting, key: &Key, judge: &mut Judge<'_>) -> bool {
@@ -168,7 +175,7 @@ impl Immersed<'_> {
             (sphere && !centered, "the centre of mass is not that of the sphere", "give it a `density` or a `mass`"),
             (self.placed.value.pin.is_some(), "the body is pinned", "leave out one of `pin` and `history`"),
             (
-                setting.fluid_density == Some(0.0),
+                setting.fluid.is_some_and(|[_, density]| density == 0.0),
                 "the history of the flow is its inertia, and the fluid has no density",
                 "give `fluid.density` in kg/m³, or leave `history` out",
             ),
@@ -177,6 +184,29 @@ impl Immersed<'_> {
             judge.note(&key, *message, *help);
         }
         !faults.iter().any(|(applies, ..)| *applies)
+    }
+
+    /// What the fluid remembers of a sphere over the run; notes numbers that are out of all proportion.
+    fn memory(
+        &self,
+        written: &WrittenInclusion,
+        setting: &Setting,
+        key: &Key,
+        judge: &mut Judge<'_>,
+    ) -> Option<Option<Memory>> {
+        let (Shape::Sphere(Sphere { radius }), Some(fluid), Some(end)) = (self.shape, setting.fluid, setting.end)
+        else {
+            return Some(None);
+        };
+        let error = written.history_error.unwrap_or_default().0;
+        match Memory::of_sphere(*radius, fluid, end, error) {
+            Ok(memory) => Some(Some(memory)),
+            Err(unresolved) => {
+                let help = "look at `fluid.viscosity`, `fluid.density`, the radius and `time.end`: R²ρ/η is the time in question";
+                judge.note(&key.key("history"), unresolved.to_string(), help);
+                None
+            }
+        }
     }
 
     /// What the fluid meets, about the centre of the shape, and the volume \[m³\].

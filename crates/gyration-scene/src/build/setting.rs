@@ -16,8 +16,8 @@ pub(crate) struct Setting<'a> {
     pub(super) has_support: bool,
     /// Whether there is a fluid, well formed or not.
     pub(super) has_fluid: bool,
-    /// ρ_f \[kg/m³\], if the file says so without error.
-    pub(super) fluid_density: Option<f64>,
+    /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
+    pub(super) fluid: Option<[f64; 2]>,
 }
 
 impl<'a> Setting<'a> {
@@ -29,7 +29,7 @@ impl<'a> Setting<'a> {
             end: draft.time.as_ref().map(|time| time.end.value()),
             has_support: !supports.is_empty(),
             has_fluid: document.root.get("fluid").is_some(),
-            fluid_density: draft.fluid.as_ref().map(|fluid| fluid.density.value()),
+            fluid: draft.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
         }
     }
 }

@@ -99,6 +99,20 @@ pub struct Inclusion {
     /// Whether the fluid remembers the motion of a rigid sphere: added mass and history force. Needs a fluid density.
     #[serde(default)]
     pub history: bool,
+    /// The error of the history force that its sum of exponentials may have, relative to the force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub history_error: Option<HistoryError>,
+}
+
+/// An error from 1e-10 to 0.1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct HistoryError(#[schemars(range(min = 1e-10, max = 0.1))] pub f64);
+
+impl Default for HistoryError {
+    fn default() -> Self {
+        Self(1e-6)
+    }
 }
 
 fn yes() -> bool {

@@ -8,6 +8,7 @@
 use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{Ellipsoid, Stress};
 use super::fixed::FixedForm;
+use super::remembered::Memory;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
@@ -24,6 +25,8 @@ pub struct Inclusion {
     pub center: Vec3,
     /// What the fluid meets.
     pub form: Form,
+    /// What the fluid remembers of a rigid sphere, if that counts.
+    pub memory: Option<Memory>,
 }
 
 /// What the fluid meets.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! ambient      the fluid and the flow that it has far from the bodies
+//! remembered   the loads of that memory, and its modes
 //! moments      integrals of the ellipsoid's shape, without loss of digits from needle to disc
 //! ellipsoid    force and stress of the fluid on an ellipsoid that moves and deforms in a linear flow, and their derivatives
 //! inclusion    a body in the fluid, and the loads on one that deforms as an ellipsoid
@@ -17,6 +18,7 @@ mod fixed;
 mod inclusion;
 pub mod memory;
 mod moments;
+mod remembered;
 #[cfg(test)]
 mod tests;
 
@@ -25,3 +27,4 @@ pub use ellipsoid::{Ellipsoid, FormSlope, Stress};
 pub use fixed::{DragSlopes, FixedForm, RigidDrag};
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion};
 pub use moments::Moments;
+pub use remembered::{Memory, Remembered};

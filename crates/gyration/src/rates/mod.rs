@@ -11,6 +11,7 @@
 
 mod affine;
 mod contractile;
+mod remembered;
 mod rigid;
 mod settled;
 
@@ -26,6 +27,7 @@ use crate::surface::{GapClosed, GapField};
 
 pub(crate) use affine::{AffineLoads, AffineMotion};
 pub(crate) use contractile::ContractileMotion;
+pub(crate) use remembered::RigidMemory;
 pub(crate) use rigid::RigidImmersion;
 pub use settled::settled_motion;
 pub(crate) use settled::settled_slopes;
@@ -78,8 +80,11 @@ pub(crate) fn body_rates(
         BodyKind::Rigid(inertia) => {
             let turn = Turn::unpack(body, state);
             let motion = turn.motion(body, state);
-            let (wrench, done) = rigid::wrench(model, workspace, time, index, (&motion, &turn))?;
-            rigid::fill(model, body, inertia, (&motion, &turn), &wrench, rates);
+            let (wrench, mut done) = rigid::wrench(model, workspace, time, index, (&motion, &turn))?;
+            match RigidMemory::of(model, time, index, (&motion, &turn, state)) {
+                None => rigid::fill(model, body, inertia, (&motion, &turn), &wrench, rates),
+                Some(memory) => done.fluid += memory.fill(model, inertia, &wrench, rates),
+            }
             Ok(done)
         }
         BodyKind::Affine(affine) => {

@@ -242,7 +242,7 @@ impl Columns<'_> {
     fn fill(&self, solver: &Solver, matrix: &mut DMatrix<f64>) -> Option<()> {
         let parts = self.body.parts();
         let (places, moving) = (parts.places, parts.places + parts.velocities);
-        for column in 0..places + parts.contraction {
+        for column in 0..places + parts.further {
             // The column of the same number of a body with inertia.
             let from = if column < places { column } else { column + parts.velocities };
             let mut loads = [0.0; UNKNOWNS];
@@ -251,7 +251,7 @@ impl Columns<'_> {
             }
             let growth = self.turn_constraint(column, &mut loads);
             let change = solver.velocities(&loads[..parts.velocities], growth)?;
-            for row in 0..places + parts.contraction {
+            for row in 0..places + parts.further {
                 let into = if row < places { row } else { row + parts.velocities };
                 let through: f64 = (0..parts.velocities).map(|k| self.jacobian[(into, places + k)] * change[k]).sum();
                 matrix[(row, column)] = self.jacobian[(into, from)] + through;

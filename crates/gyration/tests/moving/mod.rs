@@ -5,7 +5,7 @@ use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
 use gyration::body::{Affine, Body, BodyKind, Pin};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
-use gyration::fluid::{FixedForm, Fluid, Form, Inclusion};
+use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory};
 use gyration::jacobian::jacobian;
 use gyration::load::{Couple, Frame, LinearResistance, Mat12, Spring};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
@@ -118,7 +118,7 @@ fn inclusion(body: &Body, inertia: bool) -> Inclusion {
         }
         _ => Form::Ellipsoid(Vec3::new(0.5, 0.3, 0.4)),
     };
-    Inclusion { inertia, volume: 0.4, center, form }
+    Inclusion { inertia, volume: 0.4, center, form, memory: None }
 }
 
 /// The same bodies immersed in a fluid, with inertia or without.
@@ -126,6 +126,20 @@ pub fn immersed(model: Model, inertia: bool) -> Model {
     let Model { gravity, supports, bodies, .. } = model;
     let immerse = |body: Body| Body { inclusion: Some(inclusion(&body, inertia)), ..body };
     Model::new(gravity, supports, bodies.into_iter().map(immerse).collect()).in_fluid(fluid())
+}
+
+/// Rigid spheres whose motion a fluid remembers, roughly.
+pub fn remembered(model: Model) -> Model {
+    let mut model = immersed(model, true);
+    model.bodies.retain(|body| body.pin.is_none() && matches!(body.shape, Shape::Sphere(_)));
+    for body in &mut model.bodies {
+        if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut body.inclusion, &body.shape) {
+            inclusion.memory = Some(Memory::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
+        }
+    }
+    let fluid = model.fluid.take();
+    let again = Model::new(model.gravity, model.supports, model.bodies);
+    again.in_fluid(fluid.unwrap())
 }
 
 pub fn shapes() -> [Shape; 4] {
