@@ -27,6 +27,30 @@ pub(crate) struct StokesletMoments {
 /// Length below which a distance from a side counts as that length, relative to the side: f stays finite, t f vanishes.
 const TOUCHING_SQUARED: f64 = 1e-28;
 
+/// A triangle in its plane, with what its sides need from everywhere.
+#[derive(Debug, Clone)]
+pub(crate) struct Outline {
+    /// Counter-clockwise.
+    pub corners: [[f64; 2]; 3],
+    /// Tangents and lengths of the sides from each corner.
+    sides: [([f64; 2], f64); 3],
+    /// Twice the area.
+    pub doubled: f64,
+}
+
+impl Outline {
+    pub fn new(corners: [[f64; 2]; 3]) -> Self {
+        let side = |from: [f64; 2], to: [f64; 2]| {
+            let along = [to[0] - from[0], to[1] - from[1]];
+            let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
+            ([along[0] / length, along[1] / length], length)
+        };
+        let [a, b, c] = corners;
+        let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        Self { corners, sides: [side(a, b), side(b, c), side(c, a)], doubled }
+    }
+}
+
 /// One side as seen from the foot of x.
 struct Side {
     m: [f64; 2],
@@ -43,13 +67,13 @@ struct Side {
 }
 
 impl Side {
-    fn new(from: [f64; 2], to: [f64; 2], w: f64) -> Self {
-        let along = [to[0] - from[0], to[1] - from[1]];
-        let length = along[0].hypot(along[1]);
-        let tau = [along[0] / length, along[1] / length];
+    /// From its first corner as seen from the foot, its tangent and its length.
+    #[inline(always)]
+    fn new(from: [f64; 2], (tau, length): ([f64; 2], f64), w: f64) -> Self {
         let m = [tau[1], -tau[0]];
         let t = from[0] * m[0] + from[1] * m[1];
-        let (start, end) = (from[0] * tau[0] + from[1] * tau[1], to[0] * tau[0] + to[1] * tau[1]);
+        let start = from[0] * tau[0] + from[1] * tau[1];
+        let end = start + length;
         let squared = (t * t + w * w).max(TOUCHING_SQUARED * length * length);
         let (r_start, r_end) = ((start * start + squared).sqrt(), (end * end + squared).sqrt());
         // r + s loses its digits where s < 0; (r + s)(r − s) = R².
@@ -66,23 +90,21 @@ impl Side {
 }
 
 /// Ω = w ∫ dA/r³ of a triangle with counter-clockwise corners ρ_k.
-fn solid_angle(corners: &[[f64; 2]; 3], w: f64) -> f64 {
-    let [a, b, c] = corners;
-    let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+fn solid_angle([a, b, c]: &[[f64; 2]; 3], doubled: f64, w: f64) -> f64 {
     let dot = |u: &[f64; 2], v: &[f64; 2]| u[0] * v[0] + u[1] * v[1] + w * w;
     let [ra, rb, rc] = [a, b, c].map(|u| dot(u, u).sqrt());
     2.0 * (w * doubled).atan2(ra * rb * rc + dot(a, b) * rc + dot(b, c) * ra + dot(c, a) * rb)
 }
 
 impl StokesletMoments {
-    /// Over the triangle with counter-clockwise corners ρ_k, from the height w; x must not lie on a side.
-    pub fn new(corners: &[[f64; 2]; 3], w: f64) -> Self {
-        let [a, b, c] = *corners;
-        let sides = [Side::new(a, b, w), Side::new(b, c, w), Side::new(c, a, w)];
-        let angle = solid_angle(corners, w);
+    /// Over a triangle, from the height w over a foot in its plane; x must not lie on a side.
+    pub fn new(outline: &Outline, foot: [f64; 2], w: f64) -> Self {
+        let around = outline.corners.map(|[u, v]| [u - foot[0], v - foot[1]]);
+        let angle = solid_angle(&around, outline.doubled, w);
         let mut a0 = -w * angle;
         let (mut a1, mut b1, mut b2, mut b3) = ([0.0; 2], [0.0; 2], [0.0; 3], [[0.0; 3]; 2]);
-        for Side { m, tau, t, rise, f, half, rest } in sides {
+        for (from, side) in around.into_iter().zip(outline.sides) {
+            let Side { m, tau, t, rise, f, half, rest } = Side::new(from, side, w);
             a0 += t * f;
             // m (t m f + τ [r]) and ∫ρρ/r ds.
             let across = t * f;
@@ -164,7 +186,7 @@ mod tests {
     fn closed_forms_agree_with_quadrature_above_beside_and_below() {
         for (dx, dy, w) in [(0.0, 0.0, 0.3), (0.1, 0.2, -0.2), (1.5, 0.4, 0.0), (-0.8, 0.9, 0.5), (0.4, -1.1, -0.1)] {
             let around = CORNERS.map(|[x, y]| [x - dx, y - dy]);
-            let (closed, summed) = (StokesletMoments::new(&around, w), by_parts(&around, w, 5));
+            let (closed, summed) = (StokesletMoments::new(&Outline::new(around), [0.0; 2], w), by_parts(&around, w, 5));
             // The rule of degree 6 on parts of a thirtieth, no nearer than 0.1.
             assert!(difference(&closed, &summed) < 1e-9, "{dx} {dy} {w}: {:e}", difference(&closed, &summed));
         }
@@ -172,19 +194,19 @@ mod tests {
 
     #[test]
     fn closed_forms_are_finite_and_continuous_in_the_plane_of_the_triangle() {
-        let (on, above) = (StokesletMoments::new(&CORNERS, 0.0), StokesletMoments::new(&CORNERS, 1e-9));
+        let (on, above) = [0.0, 1e-9].map(|w| StokesletMoments::new(&Outline::new(CORNERS), [0.0; 2], w)).into();
         // The off-diagonal −w∫ρ/r³ changes by w ln w, the rest by w.
         assert!(difference(&on, &above) < 1e-7);
         // From beyond the end of a side, on its line.
         let along = [[0.5, 0.0], [1.5, 0.0], [0.8, 0.6]];
-        let (closed, summed) = (StokesletMoments::new(&along, 0.0), by_parts(&along, 0.0, 7));
+        let (closed, summed) = (StokesletMoments::new(&Outline::new(along), [0.0; 2], 0.0), by_parts(&along, 0.0, 7));
         assert!(difference(&closed, &summed) < 1e-9);
     }
 
     #[test]
     fn closed_forms_hold_for_needles() {
         let needle = [[-0.1, 1e-3], [0.9, 2e-3], [0.2, 3e-3]];
-        let (closed, summed) = (StokesletMoments::new(&needle, 0.0), by_parts(&needle, 0.0, 8));
+        let (closed, summed) = (StokesletMoments::new(&Outline::new(needle), [0.0; 2], 0.0), by_parts(&needle, 0.0, 8));
         // The quadrature is what errs: the foot lies a third of the needle's width off it.
         assert!(difference(&closed, &summed) < 1e-5 * 1e-3_f64.sqrt());
     }

@@ -110,11 +110,10 @@ fn near(outer: &Panel, inner: &Panel, rule: &[RulePoint]) -> Block {
 /// ∫ G(x − y) φ_j(y) dA in the axes of the triangle.
 pub(crate) fn shape_moments(panel: &Panel, x: &Vec3) -> [Symmetric; 3] {
     let local = panel.axes.tr_mul(&(x - panel.corners[0]));
-    let around = panel.plane.map(|[u, v]| [u - local.x, v - local.y]);
-    let moments = StokesletMoments::new(&around, local.z);
+    let moments = StokesletMoments::new(&panel.outline, [local.x, local.y], local.z);
     std::array::from_fn(|j| {
-        let slope = panel.slopes[j];
-        let foot = slope[0] * -around[j][0] + slope[1] * -around[j][1] + 1.0;
+        let (slope, corner) = (panel.slopes[j], panel.outline.corners[j]);
+        let foot = 1.0 + slope[0] * (local.x - corner[0]) + slope[1] * (local.y - corner[1]);
         std::array::from_fn(|k| {
             foot * moments.mean[k] + slope[0] * moments.slope[0][k] + slope[1] * moments.slope[1][k]
         })

@@ -1,5 +1,6 @@
 //! A flat triangle with all that the integrals need: axes, corners in its plane, slopes of its shape functions.
 
+use crate::inner::Outline;
 use crate::surface::Surface;
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,7 +20,7 @@ pub(crate) struct Panel {
     /// Columns: along the first side, across it in the plane, the outward normal.
     pub axes: Mat3,
     /// The corners in the first two axes, from the first corner.
-    pub plane: [[f64; 2]; 3],
+    pub outline: Outline,
     /// Gradients of the three shape functions in the plane.
     pub slopes: [[f64; 2]; 3],
     /// The points of the rule of degree 2: λ = (2/3, 1/6, 1/6) and its permutations.
@@ -48,7 +49,7 @@ impl Panel {
             radius: corners.iter().map(|p| (p - centroid).norm()).fold(0.0, f64::max),
             area: 0.5 * doubled,
             axes: Mat3::from_columns(&[first, second, normal]),
-            plane,
+            outline: Outline::new(plane),
             slopes: [slope(0), slope(1), slope(2)],
             points: corners.map(|p| 0.5 * (p + centroid)),
         }
