@@ -17,6 +17,7 @@
 //! Nothing is allocated after the first step, nothing is random, and no clock is read.
 
 mod auto;
+mod bordered;
 mod combination;
 mod control;
 mod dense;

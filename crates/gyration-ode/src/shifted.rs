@@ -5,11 +5,12 @@
 //!   (s² I − s C − K) x₁ − D x₃ = r₂ + (s I − C) r₁,   −(s H + E) x₁ + (s I − M) x₃ = r₃ − H r₁,   x₂ = s x₁ − r₁
 //!
 //! s is γ/h or (α + iβ)/h. Bodies that deform are of this form, without x₃ or with a contraction there: a factorization
-//! costs an eighth, or a quarter. The form is read off the matrix itself, exactly, in every factorization: other blocks are factorized as they
-//! stand.
+//! costs an eighth, or a quarter. Where most unknowns relax by themselves (`bordered`) these are eliminated first. The form is read off the
+//! matrix itself, exactly, in every factorization: other blocks are factorized as they stand.
 
 use nalgebra::DMatrix;
 
+use crate::bordered::{ComplexBordered, RealBordered, leading};
 use crate::linear::{ComplexLu, RealLu, Singular};
 
 /// How many rates are unknowns themselves: the number of rows (0 I 0) at the top of J.
@@ -39,13 +40,16 @@ pub(crate) struct RealShifted {
     shift: f64,
     /// The number of x₁, if there are any.
     half: Option<usize>,
+    /// Where most unknowns relax by themselves.
+    bordered: Option<Box<RealBordered>>,
+    is_bordered: bool,
 }
 
 impl RealShifted {
     pub fn new(size: usize) -> Self {
         // Half of the square is the largest (n − half) × half.
         let (whole, reduced, resistance) = (RealLu::new(size), RealLu::new(size), vec![0.0; size * size / 2]);
-        Self { whole, reduced, resistance, shift: 0.0, half: None }
+        Self { whole, reduced, resistance, shift: 0.0, ..Self::default() }
     }
 
     /// Factorizes shift · I − J.
@@ -53,6 +57,11 @@ impl RealShifted {
     /// # Errors
     /// `Singular`.
     pub fn factorize(&mut self, shift: f64, jacobian: &DMatrix<f64>) -> Result<(), Singular> {
+        let lead = leading(jacobian);
+        self.is_bordered = lead.is_some();
+        if let Some(lead) = lead {
+            return self.bordered.get_or_insert_default().factorize(shift, jacobian, lead);
+        }
         self.half = second_order(jacobian);
         let Some(half) = self.half else {
             return self.whole.factorize(|i, j| if i == j { shift - jacobian[(i, j)] } else { -jacobian[(i, j)] });
@@ -72,6 +81,9 @@ impl RealShifted {
 
     /// Solves (shift · I − J) x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
+        if let Some(bordered) = self.bordered.as_ref().filter(|_| self.is_bordered) {
+            return bordered.solve(b);
+        }
         let Some(half) = self.half else { return self.whole.solve(b) };
         let (first, second) = b.split_at_mut(half);
         for (value, row) in second.iter_mut().zip(self.resistance.chunks_exact(half)) {
@@ -95,12 +107,14 @@ pub(crate) struct ComplexShifted {
     resistance: Vec<f64>,
     shift: (f64, f64),
     half: Option<usize>,
+    bordered: Option<Box<ComplexBordered>>,
+    is_bordered: bool,
 }
 
 impl ComplexShifted {
     pub fn new(size: usize) -> Self {
         let (whole, reduced, resistance) = (ComplexLu::new(size), ComplexLu::new(size), vec![0.0; size * size / 2]);
-        Self { whole, reduced, resistance, shift: (0.0, 0.0), half: None }
+        Self { whole, reduced, resistance, shift: (0.0, 0.0), ..Self::default() }
     }
 
     /// Factorizes (shift.0 + i shift.1) I − J.
@@ -108,6 +122,11 @@ impl ComplexShifted {
     /// # Errors
     /// `Singular`.
     pub fn factorize(&mut self, shift: (f64, f64), jacobian: &DMatrix<f64>) -> Result<(), Singular> {
+        let lead = leading(jacobian);
+        self.is_bordered = lead.is_some();
+        if let Some(lead) = lead {
+            return self.bordered.get_or_insert_default().factorize(shift, jacobian, lead);
+        }
         self.half = second_order(jacobian);
         let (re, im) = shift;
         let Some(half) = self.half else {
@@ -132,6 +151,9 @@ impl ComplexShifted {
 
     /// Solves ((shift.0 + i shift.1) I − J) x = b in place, b = real + i imaginary.
     pub fn solve(&self, real: &mut [f64], imaginary: &mut [f64]) {
+        if let Some(bordered) = self.bordered.as_ref().filter(|_| self.is_bordered) {
+            return bordered.solve(real, imaginary);
+        }
         let Some(half) = self.half else { return self.whole.solve(real, imaginary) };
         let (re, im) = self.shift;
         let (first_re, second_re) = real.split_at_mut(half);
@@ -193,6 +215,37 @@ mod tests {
                 prop_assert!(residual.abs() < 1e-12 * largest, "{residual:e}");
                 let residual = shift.0 * c[i] - shift.1 * d[i] - apply(&c, i) - (shift.0 * re[i] - shift.1 * im[i] - apply(re, i));
                 prop_assert!(residual.abs() < 1e-12 * largest, "{residual:e}");
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn systems_with_unknowns_that_relax_are_solved_like_any_other(
+            entries in proptest::collection::vec(-1.0_f64..1.0, 121),
+            x in proptest::collection::vec(-1.0_f64..1.0, 22),
+            shift in (2.5_f64..5.0, 0.5_f64..3.0),
+        ) {
+            let n = 11;
+            let jacobian = DMatrix::from_fn(n, n, |i, j| match (i < 4, j < 4, i == j) {
+                (false, false, true) => -entries[n * i + j].abs() * 1e3,
+                (false, false, false) => 0.0,
+                _ => 0.3 * entries[n * i + j],
+            });
+            prop_assert_eq!(leading(&jacobian), Some(4));
+            let (mut real, mut complex) = (RealShifted::new(n), ComplexShifted::new(n));
+            prop_assert!(real.factorize(shift.0, &jacobian).is_ok());
+            prop_assert!(complex.factorize(shift, &jacobian).is_ok());
+            let apply = |v: &[f64], i: usize| (0..n).map(|j| jacobian[(i, j)] * v[j]).sum::<f64>();
+            let (re, im) = x.split_at(n);
+            let mut b: Vec<f64> = (0..n).map(|i| shift.0 * re[i] - apply(re, i)).collect();
+            real.solve(&mut b);
+            let mut c: Vec<f64> = (0..n).map(|i| shift.0 * re[i] - shift.1 * im[i] - apply(re, i)).collect();
+            let mut d: Vec<f64> = (0..n).map(|i| shift.0 * im[i] + shift.1 * re[i] - apply(im, i)).collect();
+            complex.solve(&mut c, &mut d);
+            for i in 0..n {
+                // Diagonally dominant: some roundings of numbers of order one, of entries up to 1e3.
+                prop_assert!((b[i] - re[i]).abs() < 1e-12 && (c[i] - re[i]).abs() < 1e-12 && (d[i] - im[i]).abs() < 1e-12);
             }
         }
     }
