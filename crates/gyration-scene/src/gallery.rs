@@ -36,6 +36,12 @@ static SCENES: &[(&str, &str)] = &[
     ("roll-over", include_str!("../../../scenes/roll-over.toml")),
     ("breathe", include_str!("../../../scenes/breathe.toml")),
     ("scallop", include_str!("../../../scenes/scallop.toml")),
+    ("jeffery", include_str!("../../../scenes/jeffery.toml")),
+    ("tank-tread", include_str!("../../../scenes/tank-tread.toml")),
+    ("tumble-tremble", include_str!("../../../scenes/tumble-tremble.toml")),
+    ("extension", include_str!("../../../scenes/extension.toml")),
+    ("settle", include_str!("../../../scenes/settle.toml")),
+    ("swimmer", include_str!("../../../scenes/swimmer.toml")),
 ];
 
 /// Name and text of each scene of the gallery.
