@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Commands that are planned but not in this version.
-pub const LATER: [&str; 3] = ["resistance", "study", "calibrate"];
+pub const LATER: [&str; 2] = ["study", "calibrate"];
 
 const STYLES: Styles =
     Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
@@ -36,6 +36,8 @@ pub enum Command {
     Check(Check),
     /// Print the rest state of each body, and frequencies, decay rates and shapes of the small motions about it
     Modes(Check),
+    /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and moment
+    Resistance(Resistance),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
     /// Turn a recording into a table or a file for other programs
@@ -100,6 +102,32 @@ pub struct Check {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+}
+
+/// `gyration resistance`
+#[derive(Debug, Args)]
+pub struct Resistance {
+    /// Path of a scene, or its name in the gallery; behind a colon one body of it
+    #[arg(value_name = "SCENE[:BODY]", value_hint = ValueHint::FilePath)]
+    pub scene: String,
+    /// Change a value of the scene
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// By boundary elements also where there is a closed form
+    #[arg(long)]
+    pub elements: bool,
+    /// About how many triangles boundary elements take [default: 1280]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(80..=10_000))]
+    pub triangles: Option<u32>,
+    /// Near a wall without slip: the plane of this support
+    #[arg(long, value_name = "SUPPORT")]
+    pub wall: Option<String>,
+    /// Small vibrations of this frequency [Hz], of spheres in a fluid with a density
+    #[arg(long, value_name = "HZ", conflicts_with_all = ["elements", "triangles", "wall"])]
+    pub frequency: Option<f64>,
 }
 
 /// `gyration scenes`

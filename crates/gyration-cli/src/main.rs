@@ -1,7 +1,7 @@
 //! The program `gyration`: arguments in, data to stdout, messages to stderr, an exit code for scripts.
 //!
 //! ```text
-//! arguments → commands/{run, check, modes, scenes, export, plot, schema, completions}
+//! arguments → commands/{run, check, modes, resistance, scenes, export, plot, schema, completions}
 //!                 check: what can be said before a run         plot: pictures of recordings and laws
 //! ```
 //!

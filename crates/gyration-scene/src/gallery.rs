@@ -42,6 +42,7 @@ static SCENES: &[(&str, &str)] = &[
     ("extension", include_str!("../../../scenes/extension.toml")),
     ("settle", include_str!("../../../scenes/settle.toml")),
     ("swimmer", include_str!("../../../scenes/swimmer.toml")),
+    ("basset", include_str!("../../../scenes/basset.toml")),
 ];
 
 /// Name and text of each scene of the gallery.

@@ -8,6 +8,7 @@
 //! key and fix ([`SceneErrors`]); a file that cannot be read at all is a [`ReadError`]. The types of the file are in
 //! [`mod@file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
 
+pub mod boundary;
 mod build;
 mod check;
 mod document;

@@ -7,6 +7,7 @@ mod modes;
 mod plot;
 #[cfg(feature = "view")]
 mod report;
+mod resistance;
 mod run;
 mod scenes;
 mod schema;
@@ -27,6 +28,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::Modes(arguments) => modes::execute(&arguments),
+        Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Export(arguments) => export::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),

@@ -5,6 +5,7 @@
 use super::setting::Setting;
 use super::signal::{Maker, first_fault, not_finite};
 use super::start::matrix;
+use crate::boundary::{BoundaryElements, TRIANGLES, boundary_resistance};
 use crate::check::{Judge, Placed};
 use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
 use crate::key::Key;
@@ -111,19 +112,15 @@ impl Immersed<'_> {
         let around = self.is_in_a_fluid(setting, &key, judge);
         let still = written.inertia || self.gives_no_velocity(judge);
         let remembers = !written.history || self.may_have_history(written, setting, &key, judge);
-        let form = self.form(judge);
-        let center = -self.mass.center;
+        let form = self.form(written, judge);
+        let filled = self.shape.mass_properties(1.0);
+        let (volume, center) = (filled.volume, filled.center - self.mass.center);
         let memory = if written.history && remembers { self.memory(written, setting, &key, judge)? } else { None };
-        let (form, volume) = form?;
-        let form = match form {
-            Form::Fixed(form) => Form::Fixed(Box::new(FixedForm::shifted(&form.matrix, &center))),
-            Form::Ellipsoid(_) => form,
-        };
         (around && still && remembers).then_some(Some(Inclusion {
             inertia: written.inertia,
             volume,
             center,
-            form,
+            form: form?,
             memory,
         }))
     }
@@ -209,26 +206,39 @@ impl Immersed<'_> {
         }
     }
 
-    /// What the fluid meets, about the centre of the shape, and the volume \[m³\].
-    fn form(&self, judge: &mut Judge<'_>) -> Option<(Form, f64)> {
+    /// What the fluid meets.
+    fn form(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
         let semi_axes = match self.shape {
-            Shape::Sphere(Sphere { radius }) => Vec3::repeat(*radius),
-            Shape::Ellipsoid(Ellipsoid { semi_axes }) => *semi_axes,
-            _ => {
-                let key = self.placed.key.key("shape");
-                judge.note(
-                    &key,
-                    "an inclusion is a sphere or an ellipsoid",
-                    "write one of these, or leave `inclusion` out",
-                );
-                return None;
+            Shape::Sphere(Sphere { radius }) => Some(Vec3::repeat(*radius)),
+            Shape::Ellipsoid(Ellipsoid { semi_axes }) => Some(*semi_axes),
+            _ => None,
+        };
+        let key = &self.placed.key;
+        match (semi_axes, self.kind) {
+            (Some(semi_axes), BodyKind::Rigid(_)) => {
+                let matrix = FixedForm::of_ellipsoid(&semi_axes);
+                Some(Form::Fixed(Box::new(FixedForm::shifted(&matrix, &-self.mass.center))))
             }
-        };
-        let volume = 4.0 / 3.0 * std::f64::consts::PI * semi_axes.product();
-        let form = match self.kind {
-            BodyKind::Rigid(_) => Form::Fixed(Box::new(FixedForm { matrix: FixedForm::of_ellipsoid(&semi_axes) })),
-            BodyKind::Affine(_) | BodyKind::Contractile(_) => Form::Ellipsoid(semi_axes),
-        };
-        Some((form, volume))
+            (Some(semi_axes), _) => Some(Form::Ellipsoid(semi_axes)),
+            (None, BodyKind::Rigid(_)) => {
+                let triangles = written.triangles.map_or(TRIANGLES, |triangles| triangles.0 as usize);
+                let elements =
+                    BoundaryElements { triangles, center: self.mass.center, gradient: Mat3::identity(), wall: None };
+                match boundary_resistance(self.shape, &elements) {
+                    Ok(found) => Some(Form::Fixed(Box::new(FixedForm { matrix: found.matrix, error: found.error }))),
+                    Err(error) => {
+                        let help = "write another shape, a mesh that is closed and even, or leave `inclusion` out";
+                        judge.note(&key.key("shape"), error.to_string(), help);
+                        None
+                    }
+                }
+            }
+            (None, _) => {
+                let message = "an inclusion that deforms is a sphere or an ellipsoid: the flow around any other shape would have to be \
+                               computed anew at every instant";
+                judge.note(&key.key("shape"), message, "write an `ellipsoid` of like size, or make the body rigid");
+                None
+            }
+        }
     }
 }

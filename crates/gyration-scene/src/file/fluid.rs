@@ -99,10 +99,18 @@ pub struct Inclusion {
     /// Whether the fluid remembers the motion of a rigid sphere: added mass and history force. Needs a fluid density.
     #[serde(default)]
     pub history: bool,
+    /// About how many triangles the surface is divided into, if it is that of no ellipsoid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub triangles: Option<Triangles>,
     /// The error of the history force that its sum of exponentials may have, relative to the force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub history_error: Option<HistoryError>,
 }
+
+/// A number of triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Triangles(#[schemars(range(min = 80, max = 10000))] pub f64);
 
 /// An error from 1e-10 to 0.1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

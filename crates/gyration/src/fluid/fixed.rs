@@ -20,6 +20,8 @@ type Vec12 = SVector<f64, 12>;
 pub struct FixedForm {
     /// H, in the axes of the body.
     pub matrix: Mat12,
+    /// Estimated relative error of the power of any motion; 0 of a closed form.
+    pub error: f64,
 }
 
 /// (v; L row by row).
@@ -72,18 +74,28 @@ impl FixedForm {
             }
         }
         let moved = shift.transpose() * matrix * shift;
-        Self { matrix: 0.5 * (moved + moved.transpose()) }
+        Self { matrix: 0.5 * (moved + moved.transpose()), error: 0.0 }
     }
 
     /// The resistance of an ellipsoid about its centre, for viscosity 1.
     pub fn of_ellipsoid(semi_axes: &Vec3) -> Mat12 {
-        let ellipsoid = Ellipsoid::new((*semi_axes).into(), 1.0);
-        let volume = 4.0 / 3.0 * std::f64::consts::PI * semi_axes.product();
+        Self::of(&Ellipsoid::new((*semi_axes).into(), 1.0))
+    }
+
+    /// The same of the image of an ellipsoid of semi-axes A under P, `carried` = P A \[m\], in the axes of space.
+    pub fn of_image(carried: &Mat3) -> Mat12 {
+        Self::of(&Ellipsoid::of(carried, 1.0))
+    }
+
+    fn of(ellipsoid: &Ellipsoid) -> Mat12 {
+        let [a, b, c] = ellipsoid.squares;
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * (a * b * c).sqrt();
         let mut matrix = Mat12::zeros();
         for place in 0..12 {
             let (velocity, gradient) = parted(&Vec12::ith(place, 1.0));
-            let couple = volume * ellipsoid.stress(&gradient, &Mat3::zeros()).total;
-            matrix.set_column(place, &-packed(&ellipsoid.force(&velocity), &couple));
+            let stress = ellipsoid.stress(&ellipsoid.seen(&gradient), &Mat3::zeros()).total;
+            let force = ellipsoid.axes * ellipsoid.force(&ellipsoid.axes.tr_mul(&velocity));
+            matrix.set_column(place, &-packed(&force, &(volume * ellipsoid.shown(&stress))));
         }
         0.5 * (matrix + matrix.transpose())
     }
