@@ -246,8 +246,8 @@ impl Columns<'_> {
             // The column of the same number of a body with inertia.
             let from = if column < places { column } else { column + parts.velocities };
             let mut loads = [0.0; UNKNOWNS];
-            for k in 0..parts.velocities {
-                loads[k] = self.jacobian[(places + k, from)];
+            for (k, load) in loads.iter_mut().enumerate().take(parts.velocities) {
+                *load = self.jacobian[(places + k, from)];
             }
             let growth = self.turn_constraint(column, &mut loads);
             let change = solver.velocities(&loads[..parts.velocities], growth)?;
