@@ -43,6 +43,31 @@ angular_velocity = [1, 0.5, 2]
     }
 }
 
+/// A soft particle of a triaxial shape in simple shear, with or without inertia: G = ηγ̇/μ = 0.2.
+///
+/// # Panics
+/// If the scene is not valid: a mistake in this file.
+pub fn particle_in_shear(inertia: bool) -> (Model, State) {
+    let text = format!(
+        r#"
+world = {{ gravity = [0, 0, 0] }}
+time = {{ end = 10.0, sample = 0.1 }}
+fluid = {{ viscosity = 1, velocity_gradient = [[0, 1, 0], [0, 0, 0], [0, 0, 0]] }}
+[[body]]
+name = "particle"
+shape = {{ ellipsoid = {{ semi_axes = [1, 0.8, 0.6] }} }}
+density = 1
+affine = {{ material = {{ neo_hookean = {{ shear = 5 }} }} }}
+orientation = {{ axis_angle = {{ axis = [1, 0.7, 0.3], angle = 0.5 }} }}
+inclusion = {{ inertia = {inertia} }}
+"#
+    );
+    match Scene::parse("bench.toml", &text, Path::new(""), &[]) {
+        Ok(scene) => (scene.built().model.clone(), scene.built().state.clone()),
+        Err(errors) => panic!("{errors}"),
+    }
+}
+
 /// The shapes measured: name, TOML, height of the centre at which the gap is about 0.03.
 pub const SHAPES: [(&str, &str, f64); 6] = [
     ("box", "{ box = { size = [1, 1, 1] } }", 0.86),

@@ -42,6 +42,8 @@ pub struct ModelSystem<'a> {
     speeds: Vec<f64>,
     energy: f64,
     radii: Vec<f64>,
+    /// What the fluid turns into heat while bodies without inertia move by their size [J].
+    viscous: f64,
     /// The rates of the bodies at the start.
     first_rates: Vec<f64>,
 }
@@ -61,7 +63,9 @@ impl<'a> ModelSystem<'a> {
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
-        Ok(Self { model, workspace, tolerance, speeds, energy, radii, first_rates: slopes })
+        let settled = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
+        let viscous = settled.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
+        Ok(Self { model, workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes })
     }
 
     /// The model.
@@ -82,6 +86,11 @@ impl<'a> ModelSystem<'a> {
     /// The scratch of the mechanics, for observations between steps.
     pub fn workspace(&mut self) -> &mut Workspace {
         &mut self.workspace
+    }
+
+    /// The energy in play of bodies without inertia, which have no kinetic energy [J].
+    pub fn viscous_energy(&self) -> f64 {
+        self.viscous
     }
 
     /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.

@@ -250,6 +250,7 @@ impl<'a> Simulation<'a> {
         let (model, time) = (self.system.model(), self.sampled.time);
         let first = self.tally.next_sample == 0;
         let initial = (!first).then_some(self.tally.initial_energy);
+        let viscous = self.system.viscous_energy();
         let workspace = self.system.workspace();
         let audit = match self.fields.fill(model, workspace, &self.sampled, initial, &mut self.rows) {
             Ok(audit) => audit,
@@ -264,7 +265,7 @@ impl<'a> Simulation<'a> {
         if first {
             tally.initial_energy = audit.energy;
         }
-        tally.energy_in_play = tally.energy_in_play.max(audit.kinetic).max(audit.exchanged);
+        tally.energy_in_play = tally.energy_in_play.max(audit.kinetic).max(audit.exchanged).max(viscous);
         tally.largest_residual = tally.largest_residual.max(audit.residual.abs());
         tally.smallest_gap = tally.smallest_gap.min(audit.smallest_gap);
         Ok(Ok(()))
