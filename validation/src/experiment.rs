@@ -240,11 +240,32 @@ impl Run {
     /// # Panics
     /// If there is no such array or body.
     pub fn matrices_of(&self, body: usize, name: &str) -> Vec<Mat3> {
+        self.numbers_of(body, name, 9).map(Mat3::from_row_slice).collect()
+    }
+
+    /// The samples of an array of vectors (`drag`, `semi_axes`), of the body of this index.
+    ///
+    /// # Panics
+    /// If there is no such array or body.
+    pub fn vectors_of(&self, body: usize, name: &str) -> Vec<Vec3> {
+        self.numbers_of(body, name, 3).map(Vec3::from_column_slice).collect()
+    }
+
+    /// The samples of an array of numbers (`inclination`, `orbit_constant`), of the body of this index.
+    ///
+    /// # Panics
+    /// If there is no such array or body.
+    pub fn scalars_of(&self, body: usize, name: &str) -> Vec<f64> {
+        self.numbers_of(body, name, 1).map(|numbers| numbers[0]).collect()
+    }
+
+    /// The samples of an array with so many numbers a body.
+    fn numbers_of(&self, body: usize, name: &str, count: usize) -> impl Iterator<Item = &[f64]> {
         let found = self.arrays.iter().find(|array| array.name == name);
         let range = found.unwrap_or_else(|| panic!("no array {name}: {:?}", self.arrays)).range.clone();
-        let matrix = range.start + 9 * body..range.start + 9 * (body + 1);
-        assert!(matrix.end <= range.end, "{name} has no matrix of body {body}");
-        self.rows.iter().map(|row| Mat3::from_row_slice(&row[matrix.clone()])).collect()
+        let wanted = range.start + count * body..range.start + count * (body + 1);
+        assert!(wanted.end <= range.end, "{name} has no numbers of body {body}");
+        self.rows.iter().map(move |row| &row[wanted.clone()])
     }
 
     /// The times [s] of the events of a kind (`apex`, `closest_approach`, `lift_off`).

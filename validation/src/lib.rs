@@ -11,7 +11,9 @@
 mod answer;
 mod experiment;
 mod facet;
+mod tumbling;
 
 pub use answer::{Answer, Case, largest};
 pub use experiment::{Experiment, Run};
 pub use facet::FacetBody;
+pub use tumbling::{Turning, passage, threshold};

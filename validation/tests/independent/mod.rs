@@ -7,10 +7,11 @@
 //! k is the ratio of the areas of |Pe₁ × Pe₂| and |e₁ × e₂|, τ a Kirchhoff stress in terms of B = PPᵀ and sym L, and P̈ with
 //! π is solved for by elimination. Time by Gragg's modified midpoint rule with Richardson's extrapolation: see `gragg`.
 
-#![allow(dead_code, reason = "each test uses a part of this")]
+#![allow(dead_code, unused_imports, reason = "each test uses a part of this")]
 
 pub mod contracting;
 mod gragg;
+pub mod inclusion;
 
 pub use gragg::integrate;
 
