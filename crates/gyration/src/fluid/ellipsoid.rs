@@ -25,6 +25,37 @@ pub struct Ellipsoid {
     pub squares: [f64; 3],
     viscosity: f64,
     moments: Moments,
+    /// Of T N − 𝓜:T.
+    inverse: Inverse,
+}
+
+/// The inverse of T ↦ T N − 𝓜:T on what is off the diagonal, pair by pair, and of the differences on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Inverse {
+    /// (T_ij, T_ji) from (D_ij, D_ji): for each pair the entries on the diagonal and the one beside.
+    pairs: [[f64; 3]; 3],
+    /// (T₁ − T₀, T₂ − T₀) from (D₁, D₂), symmetric.
+    differences: [f64; 3],
+}
+
+/// The pairs of different axes.
+const PAIRS: [(usize, usize); 3] = [(0, 1), (1, 2), (2, 0)];
+
+impl Inverse {
+    fn of(fourth: &[[f64; 3]; 3]) -> Self {
+        let pairs = PAIRS.map(|(i, j)| {
+            let (m, k) = (fourth[i][j], 3 - i - j);
+            // L_j − m_ij and L_i − m_ij, as sums of what is positive.
+            let (own, other) = (3.0 * fourth[j][j] + fourth[j][k], 3.0 * fourth[i][i] + fourth[i][k]);
+            // m² is smaller than either part of the product: m_ij² ≤ m_ii m_jj.
+            let inverse = 1.0 / (own * other - m * m);
+            [other * inverse, own * inverse, m * inverse]
+        });
+        // Σ_k m_ik (T_i − T_k) = D_i: rows 1 and 2 are (p + r) u − r v = D₁ and −r u + (q + r) v = D₂.
+        let [p, q, r] = [fourth[0][1], fourth[0][2], fourth[1][2]];
+        let inverse = 1.0 / (p * q + p * r + q * r);
+        Self { pairs, differences: [(q + r) * inverse, (p + r) * inverse, r * inverse] }
+    }
 }
 
 /// What of the relation between stress and rates changes with the form along one direction.
@@ -44,18 +75,17 @@ impl Ellipsoid {
     /// The image of an ellipsoid of semi-axes A under P: `carried` = P A \[m\], det > 0, in a fluid of viscosity η > 0 \[Pa s\].
     pub fn of(carried: &Mat3, viscosity: f64) -> Self {
         let spectrum = Spectrum::of(&Columns::of(&carried.transpose()));
-        Self {
-            axes: spectrum.axes.matrix(),
-            squares: spectrum.values,
-            viscosity,
-            moments: Moments::of(spectrum.values),
-        }
+        Self::along(spectrum.axes.matrix(), spectrum.values, viscosity)
     }
 
     /// One with its axes along those of the frame.
     pub fn new(semi_axes: [f64; 3], viscosity: f64) -> Self {
-        let squares = semi_axes.map(|axis| axis * axis);
-        Self { axes: Mat3::identity(), squares, viscosity, moments: Moments::of(squares) }
+        Self::along(Mat3::identity(), semi_axes.map(|axis| axis * axis), viscosity)
+    }
+
+    fn along(axes: Mat3, squares: [f64; 3], viscosity: f64) -> Self {
+        let moments = Moments::of(squares);
+        Self { axes, squares, viscosity, moments, inverse: Inverse::of(&moments.fourth) }
     }
 
     /// A tensor in the principal axes.
@@ -173,24 +203,16 @@ impl Ellipsoid {
 
     /// The T of T N − 𝓜:T = D, N:T = c, for a D of trace zero.
     fn solve(&self, driving: &Mat3, contracted: f64) -> Mat3 {
-        let Moments { second, fourth, .. } = &self.moments;
+        let Inverse { pairs, differences: [p, q, r] } = &self.inverse;
+        let second = &self.moments.second;
         let mut t = Mat3::zeros();
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let (m, k) = (fourth[i][j], 3 - i - j);
-            // L_j − m_ij and L_i − m_ij, as sums of what is positive.
-            let (own, other) = (3.0 * fourth[j][j] + fourth[j][k], 3.0 * fourth[i][i] + fourth[i][k]);
-            // own · other − m², m² being smaller than either product: m_ij² ≤ m_ii m_jj.
-            let determinant = own * other - m * m;
+        for ((i, j), [one, other, beside]) in PAIRS.into_iter().zip(pairs) {
             let (ij, ji) = (driving[(i, j)], driving[(j, i)]);
-            t[(i, j)] = (other * ij + m * ji) / determinant;
-            t[(j, i)] = (own * ji + m * ij) / determinant;
+            t[(i, j)] = one * ij + beside * ji;
+            t[(j, i)] = other * ji + beside * ij;
         }
-        // Σ_k m_ik (T_i − T_k) = D_i: with the differences u = T₁ − T₀, v = T₂ − T₀, rows 1 and 2 are
-        // (p + r) u − r v = D₁ and −r u + (q + r) v = D₂.
-        let [p, q, r] = [fourth[0][1], fourth[0][2], fourth[1][2]];
-        let determinant = p * q + p * r + q * r;
-        let u = ((q + r) * driving[(1, 1)] + r * driving[(2, 2)]) / determinant;
-        let v = (r * driving[(1, 1)] + (p + r) * driving[(2, 2)]) / determinant;
+        let u = p * driving[(1, 1)] + r * driving[(2, 2)];
+        let v = r * driving[(1, 1)] + q * driving[(2, 2)];
         let first = contracted - (second[1] * u + second[2] * v);
         t[(0, 0)] = first;
         t[(1, 1)] = first + u;

@@ -142,20 +142,32 @@ impl<'a> ImmersedEllipsoid<'a> {
         }
     }
 
+    /// δf and δσ along each of [`FORMS`].
+    fn forms(&self) -> [(Vec3, Mat3); 6] {
+        let mut forms = [(Vec3::zeros(), Mat3::zeros()); 6];
+        for ((i, j), out) in FORMS.into_iter().zip(&mut forms) {
+            let mut change = Mat3::zeros();
+            change[(i, j)] = 1.0;
+            change[(j, i)] = 1.0;
+            let slope = self.ellipsoid.along_form(&change);
+            let stress = self.ellipsoid.stress_along(&slope, &self.stress, &self.gradient);
+            *out = (self.ellipsoid.force_along(&slope, &self.slip), stress);
+        }
+        forms
+    }
+
     /// δf and δM_c along δP = e_j ⊗ e_B.
     fn along_gradient(&self, directions: &Directions, (j, b): (usize, usize)) -> Loads {
-        let Self { ellipsoid, slip, gradient, stress, volume, weight, .. } = self;
+        let Self { ellipsoid, gradient, stress, volume, weight, .. } = self;
         let axis: Vec3 = ellipsoid.axes.row(j).transpose();
-        let (swept, back) = (&directions.swept[b], &directions.back[b]);
-        let half = axis * swept.transpose();
-        let form = ellipsoid.along_form(&(half + half.transpose()));
+        let back = &directions.back[b];
+        let (form_drag, form_stress) = directions.along_form(&axis, b);
         // δP P⁻¹ in the principal axes; δL = −L δP P⁻¹.
         let spread = axis * back.transpose();
         let growth = axis.dot(back);
-        let stress_change =
-            ellipsoid.stress_along(&form, stress, gradient) - ellipsoid.along_gradient(&(gradient * spread));
+        let stress_change = form_stress - ellipsoid.along_gradient(&(gradient * spread));
         let couple = stress.total * growth + stress_change - stress.total * spread.transpose();
-        let drag = ellipsoid.axes * ellipsoid.force_along(&form, slip);
+        let drag = ellipsoid.axes * form_drag;
         Loads { force: drag - (volume * growth) * weight, moment: directions.moment(&couple, *volume) }
     }
 
@@ -172,6 +184,9 @@ impl<'a> ImmersedEllipsoid<'a> {
     }
 }
 
+/// The entries of a symmetric tensor.
+const FORMS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+
 /// What the columns of the derivative have in common; in the principal axes N.
 struct Directions {
     /// Nᵀ P A² e_B.
@@ -181,6 +196,8 @@ struct Directions {
     /// N and P⁻¹ N.
     axes: Mat3,
     carried: Mat3,
+    /// δf and δσ along each symmetric δQ of one entry, or of one and its mirror image.
+    forms: [(Vec3, Mat3); 6],
 }
 
 impl Directions {
@@ -195,7 +212,21 @@ impl Directions {
             back: [column(&back, 0), column(&back, 1), column(&back, 2)],
             axes: *axes,
             carried,
+            forms: body.forms(),
         }
+    }
+
+    /// δf and δσ along δP = e_j ⊗ e_B: δQ = e_j ⊗ (P A² e_B) and its mirror image; `axis` is e_j in the principal axes.
+    fn along_form(&self, axis: &Vec3, b: usize) -> (Vec3, Mat3) {
+        let swept = &self.swept[b];
+        let (mut force, mut stress) = (Vec3::zeros(), Mat3::zeros());
+        for ((i, j), (drag, change)) in FORMS.into_iter().zip(&self.forms) {
+            // Twice the entry on the diagonal, where it is its own mirror image.
+            let entry = axis[i] * swept[j] + axis[j] * swept[i];
+            force += entry * drag;
+            stress += entry * change;
+        }
+        (force, stress)
     }
 
     /// V det P X P⁻ᵀ of an X in the principal axes.
