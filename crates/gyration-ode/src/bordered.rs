@@ -30,6 +30,12 @@ struct Parts {
 }
 
 impl Parts {
+    /// Room for a matrix of this size: at most half of the unknowns do not relax.
+    fn new(size: usize) -> Self {
+        let half = || Vec::with_capacity(size * size / 4 + 1);
+        Self { lead: 0, into: half(), from: half(), decay: Vec::with_capacity(size) }
+    }
+
     fn copy(&mut self, jacobian: &DMatrix<f64>, lead: usize) {
         let n = jacobian.nrows();
         self.lead = lead;
@@ -66,6 +72,11 @@ pub(crate) struct RealBordered {
 }
 
 impl RealBordered {
+    pub fn new(size: usize) -> Self {
+        let (reduced, inverse) = (RealLu::new(size / 2), Vec::with_capacity(size));
+        Self { parts: Parts::new(size), reduced, inverse }
+    }
+
     /// Factorizes shift · I − J, of which the first `lead` unknowns do not relax by themselves.
     ///
     /// # Errors
@@ -74,9 +85,6 @@ impl RealBordered {
         self.parts.copy(jacobian, lead);
         self.inverse.clear();
         self.inverse.extend(self.parts.decay.iter().map(|decay| 1.0 / (shift + decay)));
-        if self.reduced.capacity() < lead {
-            self.reduced = RealLu::new(lead);
-        }
         self.reduced.resize(lead);
         let (parts, inverse) = (&self.parts, &self.inverse);
         self.reduced.factorize(|i, j| {
@@ -112,6 +120,11 @@ pub(crate) struct ComplexBordered {
 }
 
 impl ComplexBordered {
+    pub fn new(size: usize) -> Self {
+        let (reduced, inverse) = (ComplexLu::new(size / 2), Vec::with_capacity(size));
+        Self { parts: Parts::new(size), reduced, inverse }
+    }
+
     /// Factorizes (shift.0 + i shift.1) I − J.
     ///
     /// # Errors
@@ -124,9 +137,6 @@ impl ComplexBordered {
             let square = re * re + im * im;
             (re / square, -im / square)
         }));
-        if self.reduced.capacity() < lead {
-            self.reduced = ComplexLu::new(lead);
-        }
         self.reduced.resize(lead);
         let (parts, inverse) = (&self.parts, &self.inverse);
         self.reduced.factorize(|i, j| {

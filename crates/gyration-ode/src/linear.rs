@@ -22,11 +22,6 @@ impl RealLu {
         Self { size, rows: vec![0.0; size * size], pivots: vec![0; size] }
     }
 
-    /// The largest matrix that it can have.
-    pub fn capacity(&self) -> usize {
-        self.pivots.len()
-    }
-
     /// Has a smaller matrix from now on than it was made for, or again one of that size.
     pub fn resize(&mut self, size: usize) {
         self.size = size.min(self.pivots.len());
@@ -88,11 +83,6 @@ impl ComplexLu {
     pub fn new(size: usize) -> Self {
         let zeros = vec![0.0; size * size];
         Self { size, real: zeros.clone(), imaginary: zeros, pivots: vec![0; size] }
-    }
-
-    /// The largest matrix that it can have.
-    pub fn capacity(&self) -> usize {
-        self.pivots.len()
     }
 
     /// Has a smaller matrix from now on than it was made for, or again one of that size.

@@ -41,7 +41,7 @@ pub(crate) struct RealShifted {
     /// The number of x₁, if there are any.
     half: Option<usize>,
     /// Where most unknowns relax by themselves.
-    bordered: Option<Box<RealBordered>>,
+    bordered: RealBordered,
     is_bordered: bool,
 }
 
@@ -49,7 +49,7 @@ impl RealShifted {
     pub fn new(size: usize) -> Self {
         // Half of the square is the largest (n − half) × half.
         let (whole, reduced, resistance) = (RealLu::new(size), RealLu::new(size), vec![0.0; size * size / 2]);
-        Self { whole, reduced, resistance, shift: 0.0, ..Self::default() }
+        Self { whole, reduced, resistance, bordered: RealBordered::new(size), ..Self::default() }
     }
 
     /// Factorizes shift · I − J.
@@ -60,7 +60,7 @@ impl RealShifted {
         let lead = leading(jacobian);
         self.is_bordered = lead.is_some();
         if let Some(lead) = lead {
-            return self.bordered.get_or_insert_default().factorize(shift, jacobian, lead);
+            return self.bordered.factorize(shift, jacobian, lead);
         }
         self.half = second_order(jacobian);
         let Some(half) = self.half else {
@@ -81,8 +81,8 @@ impl RealShifted {
 
     /// Solves (shift · I − J) x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
-        if let Some(bordered) = self.bordered.as_ref().filter(|_| self.is_bordered) {
-            return bordered.solve(b);
+        if self.is_bordered {
+            return self.bordered.solve(b);
         }
         let Some(half) = self.half else { return self.whole.solve(b) };
         let (first, second) = b.split_at_mut(half);
@@ -107,14 +107,14 @@ pub(crate) struct ComplexShifted {
     resistance: Vec<f64>,
     shift: (f64, f64),
     half: Option<usize>,
-    bordered: Option<Box<ComplexBordered>>,
+    bordered: ComplexBordered,
     is_bordered: bool,
 }
 
 impl ComplexShifted {
     pub fn new(size: usize) -> Self {
         let (whole, reduced, resistance) = (ComplexLu::new(size), ComplexLu::new(size), vec![0.0; size * size / 2]);
-        Self { whole, reduced, resistance, shift: (0.0, 0.0), ..Self::default() }
+        Self { whole, reduced, resistance, bordered: ComplexBordered::new(size), ..Self::default() }
     }
 
     /// Factorizes (shift.0 + i shift.1) I − J.
@@ -125,7 +125,7 @@ impl ComplexShifted {
         let lead = leading(jacobian);
         self.is_bordered = lead.is_some();
         if let Some(lead) = lead {
-            return self.bordered.get_or_insert_default().factorize(shift, jacobian, lead);
+            return self.bordered.factorize(shift, jacobian, lead);
         }
         self.half = second_order(jacobian);
         let (re, im) = shift;
@@ -151,8 +151,8 @@ impl ComplexShifted {
 
     /// Solves ((shift.0 + i shift.1) I − J) x = b in place, b = real + i imaginary.
     pub fn solve(&self, real: &mut [f64], imaginary: &mut [f64]) {
-        if let Some(bordered) = self.bordered.as_ref().filter(|_| self.is_bordered) {
-            return bordered.solve(real, imaginary);
+        if self.is_bordered {
+            return self.bordered.solve(real, imaginary);
         }
         let Some(half) = self.half else { return self.whole.solve(real, imaginary) };
         let (re, im) = self.shift;

@@ -42,8 +42,39 @@ const SCENE: &str = r#"
 "#;
 
 fn scene() -> Scene {
-    Scene::parse("scene.toml", SCENE, Path::new(""), &[]).unwrap()
+    parsed(SCENE)
 }
+
+fn parsed(text: &str) -> Scene {
+    Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap()
+}
+
+/// Bodies in a fluid: soft and rigid without inertia, and a ball that the fluid remembers.
+const IMMERSED: &str = r#"
+    [time]
+    end = 2.0
+    sample = 0.01
+    [fluid]
+    viscosity = 1
+    density = 1000
+    velocity_gradient = { sine = { amplitude = [[0, 5, 0], [0, 0, 0], [0, 0, 0]], frequency = 2 } }
+    [[body]]
+    name = "soft"
+    shape = { ellipsoid = { semi_axes = ["1 cm", "2 cm", "1 cm"] } }
+    density = 1100
+    affine = { material = { neo_hookean = { shear = 10 } } }
+    inclusion = { inertia = false }
+    [[body]]
+    name = "grain"
+    shape = { ellipsoid = { semi_axes = ["1 cm", "2 cm", "1 cm"] } }
+    density = 1100
+    inclusion = { inertia = false }
+    [[body]]
+    name = "ball"
+    shape = { sphere = { radius = "1 cm" } }
+    density = 3000
+    inclusion = { history = true, history_error = 1e-2 }
+"#;
 
 /// One call of everything that has scratch of its own: what is sized then is not counted.
 fn warm_up(system: &mut ModelSystem, start: &State) {
@@ -54,8 +85,7 @@ fn warm_up(system: &mut ModelSystem, start: &State) {
 }
 
 /// Steps from the first to the end, each with an interpolation and a search for a crossing.
-fn steps_after_the_first(method: Method, end: f64) -> (u64, Statistics) {
-    let scene = scene();
+fn steps_after_the_first(scene: &Scene, method: Method, end: f64) -> (u64, Statistics) {
     let (model, start) = (&scene.built().model, &scene.built().state);
     let mut system = ModelSystem::new(model, start, Tolerance { rtol: 1e-6, atol: 1e-9 }).unwrap();
     warm_up(&mut system, start);
@@ -78,7 +108,7 @@ fn steps_after_the_first(method: Method, end: f64) -> (u64, Statistics) {
 fn no_step_allocates_by_any_method() {
     // The implicit method is dear where bodies bounce: it need not see more than the first impacts.
     for (method, end) in [(Method::Explicit, 0.5), (Method::Implicit, 0.15), (Method::Auto, 2.0)] {
-        let (allocations, s) = steps_after_the_first(method, end);
+        let (allocations, s) = steps_after_the_first(&scene(), method, end);
         println!("{method:?}: {allocations} allocations, {s:?}");
         assert_eq!(allocations, 0, "{method:?}");
         // What is to be free of allocations has happened.
@@ -88,6 +118,16 @@ fn no_step_allocates_by_any_method() {
             Method::Implicit => assert!(s.factorizations > s.jacobians),
             Method::Auto => assert!(s.explicit_steps > 0 && s.implicit_steps > 0 && s.switches > 0),
         }
+    }
+}
+
+#[test]
+fn no_step_allocates_in_a_fluid() {
+    for (method, end) in [(Method::Implicit, 0.3), (Method::Auto, 0.5)] {
+        let (allocations, s) = steps_after_the_first(&parsed(IMMERSED), method, end);
+        println!("{method:?}: {allocations} allocations, {s:?}");
+        assert_eq!(allocations, 0, "{method:?}");
+        assert!(s.accepted() > 20 && s.factorizations > 5, "{method:?}");
     }
 }
 

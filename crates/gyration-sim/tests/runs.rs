@@ -57,13 +57,24 @@ impl Monitor for StopAfter {
 
 #[test]
 fn a_resumed_run_leaves_the_bytes_of_an_uninterrupted_one() {
+    assert_resumes(&gallery("dice", &["time.end=0.8"]), &[1, 2, 7, 40, 150]);
+}
+
+/// What a fluid remembers is state; what has no inertia has no velocities to remember.
+#[test]
+fn resumed_runs_in_a_fluid_leave_the_same_bytes() {
+    let error = "body.remembered.inclusion.history_error=1e-3";
+    assert_resumes(&gallery("basset", &["time.end=0.02", error]), &[1, 30, 100]);
+    assert_resumes(&gallery("tank-tread", &[]), &[2, 10]);
+}
+
+fn assert_resumes(scene: &Scene, interruptions: &[usize]) {
     let folder = tempfile::tempdir().unwrap();
-    let scene = gallery("dice", &["time.end=0.8"]);
-    let job = Job::of(&scene, &provenance());
+    let job = Job::of(scene, &provenance());
     let whole = folder.path().join("whole.gyr");
     job.record(&whole, &mut Unwatched).unwrap();
     let expected = bytes(&whole);
-    for steps in [1, 2, 7, 40, 150] {
+    for &steps in interruptions {
         let path = folder.path().join(format!("{steps}.gyr"));
         let Recorded::Ran(summary) = job.record(&path, &mut StopAfter(steps)).unwrap() else { panic!("not run") };
         let Outcome::Stopped(stop) = &summary.outcome else { panic!("{steps} steps were too many") };
