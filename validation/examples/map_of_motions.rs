@@ -34,7 +34,7 @@ const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 420.0;
 const LEFT: f64 = 60.0;
 const BOTTOM: f64 = 370.0;
-const TOP: f64 = 36.0;
+const TOP: f64 = 24.0;
 const RIGHT: f64 = 620.0;
 /// Axes: ln r from 1/5 to 5, G from 0 to 1.
 const WIDEST: f64 = 5.0;
@@ -63,7 +63,7 @@ impl Map {
 }
 
 fn main() {
-    let steps = 12;
+    let steps = 8;
     let ratio = |k: i32| WIDEST.powf(f64::from(k) / f64::from(steps));
     let mut points: Vec<(f64, f64)> = Vec::new();
     for k in (-steps..=steps).filter(|k| *k != 0) {
@@ -125,7 +125,7 @@ fn frame(map: &mut Map) {
         "aspect ratio r of the body at rest (oblate | prolate)",
         r#"text-anchor="middle""#,
     );
-    map.word((18.0, TOP - 18.0), "G = ηγ̇/μ", "");
+    map.word((18.0, TOP - 10.0), "G = ηγ̇/μ", "");
     map.word((x(2.9), y(0.12)), "tumbles", r##"text-anchor="middle" font-size="15" fill="#8a3f10""##);
     map.word((x(0.35), y(0.12)), "tumbles", r##"text-anchor="middle" font-size="15" fill="#8a3f10""##);
     map.word((x(1.8), y(0.8)), "trembles", r##"text-anchor="middle" font-size="15" fill="#1f4f88""##);
