@@ -131,5 +131,5 @@ fn frame(map: &mut Map) {
     map.word((x(1.8), y(0.8)), "trembles", r##"text-anchor="middle" font-size="15" fill="#1f4f88""##);
     map.word((x(0.55), y(0.8)), "trembles", r##"text-anchor="middle" font-size="15" fill="#1f4f88""##);
     map.word((x(1.0) + 6.0, y(0.93)), "treads (r = 1)", r##"fill="#1f5fa8""##);
-    map.word((x(4.9), y(0.36)), "5G/4 = |r − 1|/(r + 1)", r#"text-anchor="end" font-size="12""#);
+    map.word((x(4.9), y(0.27)), "5G/4 = |r − 1|/(r + 1)", r#"text-anchor="end" font-size="12""#);
 }
