@@ -175,30 +175,39 @@ impl Ellipsoid {
         self.solve(&(driving + self.fourth_along(slope, extra)), -slope.second.dot(extra))
     }
 
-    /// δ𝓜:T.
+    /// δ𝓜:T, entry by entry of δQ: few are not zero.
     fn fourth_along(&self, slope: &FormSlope, t: &Mat3) -> Mat3 {
         let (d, Moments { fourth, sixth, .. }) = (&slope.change, &self.moments);
         let s = t + t.transpose();
-        Mat3::from_fn(|i, j| {
-            let (mut whole, mut swept) = (fourth[i][j] * s[(i, j)], 0.0);
-            for p in 0..3 {
-                swept += sixth[i][j][p] * d[(p, p)] * s[(i, j)];
-                // δB T B + B T δB, symmetrised; and δB (B:T).
-                swept += 2.0 * sixth[i][p][j] * (d[(i, p)] * s[(p, j)] + s[(i, p)] * d[(p, j)]);
-                swept += 2.0 * sixth[i][j][p] * d[(i, j)] * t[(p, p)];
+        let traces = |m: &[f64; 3]| m[0] * t[(0, 0)] + m[1] * t[(1, 1)] + m[2] * t[(2, 2)];
+        let mut change = Mat3::zeros();
+        for (k, l) in (0..9).map(|entry| (entry % 3, entry / 3)).filter(|entry| d[*entry] != 0.0) {
+            let mut along = Mat3::zeros();
+            for i in 0..3 {
+                // δB (T + Tᵀ) B and B (T + Tᵀ) δB.
+                along[(k, i)] += 2.0 * sixth[k][l][i] * s[(l, i)];
+                along[(i, l)] += 2.0 * sixth[i][k][l] * s[(i, k)];
+                // B (δB:T).
+                along[(i, i)] += 2.0 * sixth[i][k][l] * t[(k, l)];
             }
-            if i == j {
-                for k in 0..3 {
-                    whole += fourth[i][k] * t[(k, k)];
-                    for p in 0..3 {
-                        // The change of 1/Δ, and B (δB:T).
-                        swept += sixth[i][k][p] * d[(p, p)] * t[(k, k)];
-                        swept += 2.0 * sixth[i][k][p] * d[(k, p)] * t[(k, p)];
-                    }
+            // δB (B:T).
+            along[(k, l)] += 2.0 * traces(&sixth[k][l]);
+            if k == l {
+                // The change of 1/Δ.
+                for i in 0..3 {
+                    (0..3).for_each(|j| along[(i, j)] += sixth[k][i][j] * s[(i, j)]);
+                    along[(i, i)] += traces(&sixth[k][i]);
                 }
             }
-            slope.growth * whole - 0.5 * swept
-        })
+            change -= 0.5 * d[(k, l)] * along;
+        }
+        if slope.growth != 0.0 {
+            for i in 0..3 {
+                (0..3).for_each(|j| change[(i, j)] += slope.growth * fourth[i][j] * s[(i, j)]);
+                change[(i, i)] += slope.growth * traces(&fourth[i]);
+            }
+        }
+        change
     }
 
     /// The T of T N − 𝓜:T = D, N:T = c, for a D of trace zero.
