@@ -11,6 +11,7 @@
 pub mod boundary;
 mod build;
 mod check;
+pub mod deforming;
 mod document;
 mod error;
 pub mod file;

@@ -45,6 +45,8 @@ pub enum Reason {
     Inverted,
     /// Nothing resists the motion of a body without inertia.
     Unresisted,
+    /// The resistance of a body that deforms in a fluid is not known as well as was asked for.
+    Unresolved,
     /// A contractile body contracted to nothing: det G vanished.
     Collapsed,
     /// A spring lost its direction.
@@ -167,6 +169,21 @@ impl Stop {
                 format!("nothing resists the motion of body {body:?}, which has no inertia"),
                 "Give it `inclusion = { inertia = true }`, or look for sizes and viscosities out of all proportion.".to_string(),
             ),
+            Quantity::Elements => (
+                Reason::Unresolved,
+                format!("the form of body {body:?} is too extreme for its boundary elements{}", by_estimate(left.value)),
+                "Give it more `inclusion.triangles`, a mesh of more even triangles, or a stiffer material.".to_string(),
+            ),
+            Quantity::Interpolation => (
+                Reason::Unresolved,
+                format!(
+                    "between the forms for which it was computed, the resistance of body {body:?} is wrong by {:.2e} of the power, \
+                     more than inclusion.tolerance",
+                    left.value
+                ),
+                "Give it a smaller `inclusion.spacing` (the error falls with its square), or a larger `inclusion.tolerance`."
+                    .to_string(),
+            ),
             Quantity::Contraction => (
                 Reason::Collapsed,
                 format!("body {body:?} has contracted to nothing: det G has come down to {:e}", left.value),
@@ -182,6 +199,11 @@ impl Stop {
 /// The gap, if the last attempt left one to tell.
 fn in_brackets(gap: f64) -> String {
     if gap.is_finite() { format!(" (smallest gap tried {gap:e} m)") } else { String::new() }
+}
+
+/// The estimated error, if there is a matrix at all.
+fn by_estimate(error: f64) -> String {
+    if error.is_finite() { format!(", by their own estimate wrong by {error:.2e} of the power") } else { String::new() }
 }
 
 fn owner(model: &Model, index: usize) -> Option<String> {

@@ -9,7 +9,7 @@
 //! C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not apply is NaN. Source: Batchelor (1970); `physics.md` §7.
 
 use crate::body::{Body, BodyKind};
-use crate::fluid::{Fluid, Form};
+use crate::fluid::{Fluid, Form, Immersed};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
 use crate::rates::{AffineMotion, RigidImmersion, RigidMemory, Workspace, body_rates, settled_motion};
@@ -49,8 +49,9 @@ struct Tractions {
     couple: Mat3,
     volume: f64,
     dissipation: f64,
-    /// Principal axes and semi-axes, if it is an ellipsoid.
+    /// Principal axes and semi-axes of an ellipsoid, or of that which has the second moments of a body that deforms.
     form: Option<(Mat3, [f64; 3])>,
+    is_ellipsoid: bool,
 }
 
 /// Observes one body; none if it is not immersed.
@@ -67,7 +68,7 @@ pub fn observe_immersion(
     let motion = settled_motion(model, workspace, state, index)?;
     let tractions = match inclusion.form {
         Form::Fixed(_) => rigid(model, workspace, state, index, &motion)?,
-        Form::Ellipsoid(_) => ellipsoid(model, state.time, index, &motion)?,
+        Form::Ellipsoid(_) | Form::Surface(_) => deformable(model, state.time, index, &motion)?,
     };
     Ok(tractions.map(|tractions| told(fluid, state.time, &motion, &tractions)))
 }
@@ -96,6 +97,7 @@ fn rigid(
         volume: inclusion.volume,
         dissipation: immersed.drag.dissipation(&spin),
         form: semi_axes(body).map(|axes| (*rotation, axes.into())),
+        is_ellipsoid: true,
     }))
 }
 
@@ -130,17 +132,19 @@ fn semi_axes(body: &Body) -> Option<Vec3> {
     }
 }
 
-fn ellipsoid(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<Option<Tractions>, Inadmissible> {
+fn deformable(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<Option<Tractions>, Inadmissible> {
     let Some(affine) = model.bodies[index].affine() else { return Ok(None) };
     let moving = AffineMotion::new(index, affine, motion)?;
-    let Some(immersed) = moving.immersion(model, time) else { return Ok(None) };
+    let Some(immersed) = moving.immersion(model, time)? else { return Ok(None) };
+    let (axes, squares) = immersed.principal();
     let viscosity = model.fluid.as_ref().map_or(f64::NAN, |fluid| fluid.viscosity);
     Ok(Some(Tractions {
         drag: immersed.drag(),
         couple: immersed.couple(),
         volume: immersed.volume(),
         dissipation: immersed.dissipation(viscosity),
-        form: Some((immersed.ellipsoid.axes, immersed.ellipsoid.squares.map(f64::sqrt))),
+        form: Some((axes, squares.map(f64::sqrt))),
+        is_ellipsoid: matches!(immersed, Immersed::Ellipsoid(_)),
     }))
 }
 
@@ -159,6 +163,8 @@ fn told(fluid: &Fluid, time: f64, motion: &BodyMotion, tractions: &Tractions) ->
     });
     let form = tractions.form.map(|(axes, lengths)| Axes::sorted(&axes, lengths));
     let seen = form.as_ref().zip(shear.as_ref());
+    // Of any other shape, only the direction of its longest axis has a meaning.
+    let exact = form.as_ref().filter(|_| tractions.is_ellipsoid);
     ImmersionObservation {
         drag: tractions.drag,
         rotlet: axial(&tractions.couple),
@@ -167,9 +173,9 @@ fn told(fluid: &Fluid, time: f64, motion: &BodyMotion, tractions: &Tractions) ->
         intrinsic_viscosity: particle_stress.dot(&strain) / (2.0 * fluid.viscosity * strain.norm_squared()),
         normal_stress_differences: differences,
         dissipated_power: tractions.dissipation,
-        semi_axes: form.as_ref().map_or(Vec3::from_element(f64::NAN), |form| form.lengths.into()),
+        semi_axes: exact.map_or(Vec3::from_element(f64::NAN), |form| form.lengths.into()),
         inclination: seen.map_or(f64::NAN, |(form, shear)| form.inclination(shear)),
-        orbit_constant: seen.map_or(f64::NAN, |(form, shear)| form.orbit(shear)),
+        orbit_constant: exact.zip(shear.as_ref()).map_or(f64::NAN, |(form, shear)| form.orbit(shear)),
     }
 }
 

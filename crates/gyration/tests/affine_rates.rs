@@ -59,10 +59,12 @@ proptest! {
     #[test]
     fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(24), exponents in exponents()) {
         for inertia in [true, false] {
-            let model = immersed(model(exponents, AreaMeasure::DeformedArea), inertia);
-            let state = state(&model, &numbers);
-            assert_jacobian_is_the_derivative(&model, &state);
-            assert_power_is_the_rate_of_energy(&model, &state);
+            let ellipsoids = immersed(model(exponents, AreaMeasure::DeformedArea), inertia);
+            for model in [ellipsoids.clone(), of_any_form(ellipsoids)] {
+                let state = state(&model, &numbers);
+                assert_jacobian_is_the_derivative(&model, &state);
+                assert_power_is_the_rate_of_energy(&model, &state);
+            }
         }
     }
 

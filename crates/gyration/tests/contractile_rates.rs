@@ -107,10 +107,12 @@ proptest! {
     fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(33), exponents in exponents()) {
         for (incompressible, viscous) in [(false, true), (true, false), (true, true)] {
             for inertia in [true, false] {
-                let model = immersed(model(exponents, incompressible, viscous), inertia);
-                let state = state(&model, &numbers);
-                assert_jacobian_is_the_derivative(&model, &state);
-                assert_power_is_the_rate_of_energy(&model, &state);
+                let ellipsoids = immersed(model(exponents, incompressible, viscous), inertia);
+                for model in [ellipsoids.clone(), of_any_form(ellipsoids)] {
+                    let state = state(&model, &numbers);
+                    assert_jacobian_is_the_derivative(&model, &state);
+                    assert_power_is_the_rate_of_energy(&model, &state);
+                }
             }
         }
     }

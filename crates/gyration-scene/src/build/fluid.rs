@@ -5,18 +5,20 @@
 use super::setting::Setting;
 use super::signal::{Maker, first_fault, not_finite};
 use super::start::matrix;
-use crate::boundary::{BoundaryElements, TRIANGLES, boundary_resistance};
+use crate::boundary::{BoundaryElements, BoundaryResistance, NoResistance, TRIANGLES, boundary_resistance};
 use crate::check::{Judge, Placed};
+use crate::deforming::{DeformingSurface, TOLERANCE};
 use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
 use crate::key::Key;
 use crate::quantity::si;
 use crate::table::read_vectors;
 use gyration::body::BodyKind;
-use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory};
+use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory, Resolution, SurfaceForm};
 use gyration::mass::MassProperties;
 use gyration::shape::{Ellipsoid, Shape, Sphere};
 use gyration::signal::{Signal, Wave};
 use gyration::tensor::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// The fluid of a scene; notes what is wrong with it.
 pub(super) fn fluid(written: &Written, setting: &Setting, judge: &mut Judge<'_>) -> Option<Fluid> {
@@ -213,7 +215,6 @@ impl Immersed<'_> {
             Shape::Ellipsoid(Ellipsoid { semi_axes }) => Some(*semi_axes),
             _ => None,
         };
-        let key = &self.placed.key;
         match (semi_axes, self.kind) {
             (Some(semi_axes), BodyKind::Rigid(_)) => {
                 let matrix = FixedForm::of_ellipsoid(&semi_axes);
@@ -224,21 +225,38 @@ impl Immersed<'_> {
                 let triangles = written.triangles.map_or(TRIANGLES, |triangles| triangles.0 as usize);
                 let elements =
                     BoundaryElements { triangles, center: self.mass.center, gradient: Mat3::identity(), wall: None };
-                match boundary_resistance(self.shape, &elements) {
-                    Ok(found) => Some(Form::Fixed(Box::new(FixedForm { matrix: found.matrix, error: found.error }))),
-                    Err(error) => {
-                        let help = "write another shape, a mesh that is closed and even, or leave `inclusion` out";
-                        judge.note(&key.key("shape"), error.to_string(), help);
-                        None
-                    }
-                }
+                let found = self.resolved(boundary_resistance(self.shape, &elements), judge)?;
+                Some(Form::Fixed(Box::new(FixedForm { matrix: found.matrix, error: found.error })))
             }
-            (None, _) => {
-                let message = "an inclusion that deforms is a sphere or an ellipsoid: the flow around any other shape would have to be \
-                               computed anew at every instant";
-                judge.note(&key.key("shape"), message, "write an `ellipsoid` of like size, or make the body rigid");
-                None
-            }
+            (None, _) => self.table(written, judge),
         }
+    }
+
+    /// What the fluid meets of a body that deforms and is no ellipsoid.
+    fn table(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
+        let surface = DeformingSurface::new(self.shape, written.triangles.map_or(TRIANGLES, |given| given.0 as usize));
+        // The first of many, by which a surface that has none is found before the run.
+        self.resolved(surface.resistance(&Mat3::identity()), judge)?;
+        let tolerance = written.tolerance.map_or(TOLERANCE, |tolerance| tolerance.0);
+        let table = surface.table(Resolution { tolerance, spacing: written.spacing.map(|spacing| spacing.0) });
+        if table.is_none() {
+            let help = "write a shape that has a volume, or leave `inclusion` out";
+            judge.note(&self.placed.key.key("shape"), "the body has no extent in some direction", help);
+        }
+        Some(Form::Surface(SurfaceForm(Arc::new(table?))))
+    }
+
+    /// A resistance by boundary elements; notes why there is none.
+    fn resolved(
+        &self,
+        found: Result<BoundaryResistance, NoResistance>,
+        judge: &mut Judge<'_>,
+    ) -> Option<BoundaryResistance> {
+        found
+            .map_err(|error| {
+                let help = "write another shape, a mesh that is closed and even, or leave `inclusion` out";
+                judge.note(&self.placed.key.key("shape"), error.to_string(), help);
+            })
+            .ok()
     }
 }

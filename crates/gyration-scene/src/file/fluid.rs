@@ -102,6 +102,12 @@ pub struct Inclusion {
     /// About how many triangles the surface is divided into, if it is that of no ellipsoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub triangles: Option<Triangles>,
+    /// Of such a body, if it deforms: the largest relative error of its resistance between the forms for which it is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<FormTolerance>,
+    /// The distance of those forms in the logarithm of the stretch; found from the tolerance unless it is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<FormSpacing>,
     /// The error of the history force that its sum of exponentials may have, relative to the force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub history_error: Option<HistoryError>,
@@ -111,6 +117,16 @@ pub struct Inclusion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Triangles(#[schemars(range(min = 80, max = 10000))] pub f64);
+
+/// A relative error from 1e-6 to 0.5.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct FormTolerance(#[schemars(range(min = 1e-6, max = 0.5))] pub f64);
+
+/// A logarithm of a stretch from 0.001 to 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct FormSpacing(#[schemars(range(min = 1e-3, max = 1.0))] pub f64);
 
 /// An error from 1e-10 to 0.1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -25,12 +25,12 @@ pub struct FixedForm {
 }
 
 /// (v; L row by row).
-fn packed(velocity: &Vec3, gradient: &Mat3) -> Vec12 {
+pub(super) fn packed(velocity: &Vec3, gradient: &Mat3) -> Vec12 {
     Vec12::from_iterator(velocity.iter().chain(gradient.transpose().iter()).copied())
 }
 
 /// The two parts of (f; N row by row).
-fn parted(numbers: &Vec12) -> (Vec3, Mat3) {
+pub(super) fn parted(numbers: &Vec12) -> (Vec3, Mat3) {
     (numbers.fixed_rows::<3>(0).into(), Mat3::from_row_iterator(numbers.iter().skip(3).copied()))
 }
 
@@ -87,7 +87,7 @@ impl FixedForm {
         Self::of(&Ellipsoid::of(carried, 1.0))
     }
 
-    fn of(ellipsoid: &Ellipsoid) -> Mat12 {
+    pub(super) fn of(ellipsoid: &Ellipsoid) -> Mat12 {
         let [a, b, c] = ellipsoid.squares;
         let volume = 4.0 / 3.0 * std::f64::consts::PI * (a * b * c).sqrt();
         let mut matrix = Mat12::zeros();

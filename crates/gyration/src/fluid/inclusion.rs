@@ -9,6 +9,7 @@ use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{Ellipsoid, Stress};
 use super::fixed::FixedForm;
 use super::remembered::Memory;
+use super::surface::SurfaceForm;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
@@ -36,6 +37,8 @@ pub enum Form {
     Fixed(Box<FixedForm>),
     /// The image of an ellipsoid of these semi-axes \[m\] along the body's axes.
     Ellipsoid(Vec3),
+    /// The image of any other shape.
+    Surface(SurfaceForm),
 }
 
 /// A deformable ellipsoid in the fluid at one instant.

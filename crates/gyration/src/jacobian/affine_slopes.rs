@@ -113,7 +113,7 @@ pub(super) fn load_slopes(
     for resistance in &affine.resistances {
         slopes.add_resistance(resistance, (&moving.motion.placement, inverse, &moving.motion.velocity));
     }
-    if let Some(immersed) = moving.immersion(model, time) {
+    if let Some(immersed) = moving.immersion(model, time)? {
         immersed.add_to(&mut slopes, &moving.gyration);
     }
     Ok(Some(slopes))

@@ -6,7 +6,7 @@ use super::{Encounter, Powers, Workspace, spring_loads};
 use crate::affine::{AffineBalance, Gyration};
 use crate::body::Affine;
 use crate::contact::{ContactLoads, Deformation, LawKind};
-use crate::fluid::ImmersedEllipsoid;
+use crate::fluid::{Immersed, Unresolved};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::load::Loads;
 use crate::model::Model;
@@ -98,7 +98,7 @@ impl<'a> AffineMotion<'a> {
             }
             loads += resisting;
         }
-        if let Some(immersed) = self.immersion(model, time) {
+        if let Some(immersed) = self.immersion(model, time)? {
             let fluid = immersed.loads(&self.gyration);
             powers.fluid += fluid.power(&velocity.velocity, &velocity.gradient_rate);
             loads += fluid;
@@ -107,12 +107,18 @@ impl<'a> AffineMotion<'a> {
     }
 
     /// The body in the fluid; none if it is not immersed.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where the resistance of its form is not known.
     #[inline]
-    pub fn immersion<'b>(&'b self, model: &'b Model, time: f64) -> Option<ImmersedEllipsoid<'b>> {
-        let (fluid, inclusion) = (model.fluid.as_ref()?, model.bodies[self.index].inclusion.as_ref()?);
+    pub fn immersion<'b>(&'b self, model: &'b Model, time: f64) -> Result<Option<Immersed<'b>>, Inadmissible> {
+        let (Some(fluid), Some(inclusion)) = (&model.fluid, &model.bodies[self.index].inclusion) else {
+            return Ok(None);
+        };
         let BodyMotion { placement, velocity } = self.motion;
         let around = (fluid, &fluid.flow(time), &model.gravity);
-        ImmersedEllipsoid::of(inclusion, around, (placement, velocity), &self.gyration)
+        let unresolved = |Unresolved { quantity, value }| Inadmissible { body: self.index, quantity, value };
+        Immersed::of(inclusion, around, (placement, velocity), &self.gyration).map_err(unresolved)
     }
 
     /// The affine moment about the centre of mass, or about the pin.

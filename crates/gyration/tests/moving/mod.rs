@@ -1,6 +1,10 @@
 //! Bodies under everything that may act on them, and relations that all rates obey.
 #![allow(dead_code, reason = "each test uses a part of this")]
 
+mod any_form;
+
+pub use any_form::of_any_form;
+
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
 use gyration::body::{Affine, Body, BodyKind, Pin};
