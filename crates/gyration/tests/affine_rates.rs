@@ -60,7 +60,7 @@ proptest! {
     fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(24), exponents in exponents()) {
         for inertia in [true, false] {
             let ellipsoids = immersed(model(exponents, AreaMeasure::DeformedArea), inertia);
-            for model in [ellipsoids.clone(), of_any_form(ellipsoids)] {
+            for model in [ellipsoids.clone(), any_form::of_any_form(ellipsoids)] {
                 let state = state(&model, &numbers);
                 assert_jacobian_is_the_derivative(&model, &state);
                 assert_power_is_the_rate_of_energy(&model, &state);

@@ -108,7 +108,7 @@ proptest! {
         for (incompressible, viscous) in [(false, true), (true, false), (true, true)] {
             for inertia in [true, false] {
                 let ellipsoids = immersed(model(exponents, incompressible, viscous), inertia);
-                for model in [ellipsoids.clone(), of_any_form(ellipsoids)] {
+                for model in [ellipsoids.clone(), any_form::of_any_form(ellipsoids)] {
                     let state = state(&model, &numbers);
                     assert_jacobian_is_the_derivative(&model, &state);
                     assert_power_is_the_rate_of_energy(&model, &state);

@@ -10,7 +10,10 @@ use crate::load::{LoadSlopes, Loads};
 use crate::tensor::{Mat3, Vec3};
 
 /// A deformable body in the fluid at one instant.
-#[expect(clippy::large_enum_variant, reason = "the closed form costs microseconds, of which an allocation would be a part")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "the closed form costs microseconds, of which an allocation would be a part"
+)]
 #[derive(Debug, Clone)]
 pub enum Immersed<'a> {
     /// The image of an ellipsoid.

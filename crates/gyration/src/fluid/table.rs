@@ -17,6 +17,7 @@ use crate::inadmissible::Quantity;
 use crate::load::Mat12;
 use crate::tensor::Mat3;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -178,10 +179,11 @@ impl Table {
     ) -> Result<Corners, Unresolved> {
         let mut found = Vec::with_capacity(CORNERS);
         for node in simplex.corners() {
-            if !nodes.contains_key(&node) {
-                nodes.insert(node, Arc::new(self.ratio(&strain(&node, spacing))?));
-            }
-            found.extend(nodes.get(&node).cloned());
+            let corner = match nodes.entry(node) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(free) => free.insert(Arc::new(self.ratio(&strain(&node, spacing))?)),
+            };
+            found.push(Arc::clone(corner));
         }
         found.try_into().map_err(|_| Unresolved { quantity: Quantity::Elements, value: f64::NAN })
     }

@@ -1,9 +1,7 @@
 //! Bodies under everything that may act on them, and relations that all rates obey.
 #![allow(dead_code, reason = "each test uses a part of this")]
 
-mod any_form;
-
-pub use any_form::of_any_form;
+pub mod any_form;
 
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
