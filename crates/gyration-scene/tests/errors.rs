@@ -141,8 +141,8 @@ fn errors_of_inclusions_stand_at_their_place() {
             "without inertia has no history",
             "inertia = true",
         ),
-        ("inclusion = { tolerance = §0 }", "body.ball.inclusion.tolerance", "at least 1e-6", "from 1e-6 to 0.5"),
-        ("inclusion = { spacing = §2 }", "body.ball.inclusion.spacing", "at most 1", "from 0.001 to 1"),
+        ("inclusion = { tolerance = §0 }", "body.ball.inclusion.tolerance", "out of range", "from 0.000001 to 0.5"),
+        ("inclusion = { spacing = §2 }", "body.ball.inclusion.spacing", "out of range", "from 0.001 to 1"),
         ("inclusion = { history = §true }\npin = [0, 0, 0]", "body.ball.inclusion.history", "pinned", "one of"),
         ("inclusion = { history = §true }\naffine = {}", "body.ball.inclusion.history", "rigid sphere", "leave"),
     ];

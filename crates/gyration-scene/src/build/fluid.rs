@@ -114,7 +114,7 @@ impl Immersed<'_> {
         let around = self.is_in_a_fluid(setting, &key, judge);
         let still = written.inertia || self.gives_no_velocity(judge);
         let remembers = !written.history || self.may_have_history(written, setting, &key, judge);
-        let form = self.form(written, judge);
+        let form = self.form(written, judge).filter(|_| can_be_resolved(written, &key, judge));
         let filled = self.shape.mass_properties(1.0);
         let (volume, center) = (filled.volume, filled.center - self.mass.center);
         let memory = if written.history && remembers { self.memory(written, setting, &key, judge)? } else { None };
@@ -237,8 +237,8 @@ impl Immersed<'_> {
         let surface = DeformingSurface::new(self.shape, written.triangles.map_or(TRIANGLES, |given| given.0 as usize));
         // The first of many, by which a surface that has none is found before the run.
         self.resolved(surface.resistance(&Mat3::identity()), judge)?;
-        let tolerance = written.tolerance.map_or(TOLERANCE, |tolerance| tolerance.0);
-        let table = surface.table(Resolution { tolerance, spacing: written.spacing.map(|spacing| spacing.0) });
+        let resolution = Resolution { tolerance: written.tolerance.unwrap_or(TOLERANCE), spacing: written.spacing };
+        let table = surface.table(resolution);
         if table.is_none() {
             let help = "write a shape that has a volume, or leave `inclusion` out";
             judge.note(&self.placed.key.key("shape"), "the body has no extent in some direction", help);
@@ -259,4 +259,18 @@ impl Immersed<'_> {
             })
             .ok()
     }
+}
+
+/// Notes errors and spacings of a table that are out of all proportion.
+fn can_be_resolved(written: &WrittenInclusion, key: &Key, judge: &mut Judge<'_>) -> bool {
+    let given = [("tolerance", written.tolerance, 1e-6..=0.5), ("spacing", written.spacing, 1e-3..=1.0)];
+    let mut can = true;
+    for (name, value, range) in given {
+        if let Some(value) = value.filter(|value| !range.contains(value)) {
+            let help = format!("write a number from {} to {}", range.start(), range.end());
+            judge.note(&key.key(name), format!("{value:?} is out of range"), help);
+            can = false;
+        }
+    }
+    can
 }

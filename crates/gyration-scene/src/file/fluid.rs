@@ -104,10 +104,10 @@ pub struct Inclusion {
     pub triangles: Option<Triangles>,
     /// Of such a body, if it deforms: the largest relative error of its resistance between the forms for which it is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<FormTolerance>,
+    pub tolerance: Option<f64>,
     /// The distance of those forms in the logarithm of the stretch; found from the tolerance unless it is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spacing: Option<FormSpacing>,
+    pub spacing: Option<f64>,
     /// The error of the history force that its sum of exponentials may have, relative to the force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub history_error: Option<HistoryError>,
@@ -117,16 +117,6 @@ pub struct Inclusion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Triangles(#[schemars(range(min = 80, max = 10000))] pub f64);
-
-/// A relative error from 1e-6 to 0.5.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct FormTolerance(#[schemars(range(min = 1e-6, max = 0.5))] pub f64);
-
-/// A logarithm of a stretch from 0.001 to 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct FormSpacing(#[schemars(range(min = 1e-3, max = 1.0))] pub f64);
 
 /// An error from 1e-10 to 0.1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
