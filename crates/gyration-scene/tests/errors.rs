@@ -143,6 +143,13 @@ fn errors_of_inclusions_stand_at_their_place() {
         ),
         ("inclusion = { tolerance = §0 }", "body.ball.inclusion.tolerance", "out of range", "from 0.000001 to 0.5"),
         ("inclusion = { spacing = §2 }", "body.ball.inclusion.spacing", "out of range", "from 0.001 to 1"),
+        ("inclusion = { triangles = §3 }", "body.ball.inclusion.triangles", "at least 80", "from 80"),
+        (
+            "inclusion = { history = true, history_error = §1 }",
+            "body.ball.inclusion.history_error",
+            "at most 0.1",
+            "from 1e-10",
+        ),
         ("inclusion = { history = §true }\npin = [0, 0, 0]", "body.ball.inclusion.history", "pinned", "one of"),
         ("inclusion = { history = §true }\naffine = {}", "body.ball.inclusion.history", "rigid sphere", "leave"),
     ];

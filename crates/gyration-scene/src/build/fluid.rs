@@ -98,6 +98,9 @@ fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, judge: &m
     None
 }
 
+/// The error of a history unless the file gives one.
+pub(super) const HISTORY_ERROR: f64 = 1e-6;
+
 /// A body in the fluid: what is known of it when its kind is.
 pub(super) struct Immersed<'a> {
     pub(super) placed: &'a Placed<Body>,
@@ -197,7 +200,7 @@ impl Immersed<'_> {
         else {
             return Some(None);
         };
-        let error = written.history_error.unwrap_or_default().0;
+        let error = written.history_error.unwrap_or(HISTORY_ERROR);
         match Memory::of_sphere(*radius, fluid, end, error) {
             Ok(memory) => Some(Some(memory)),
             Err(unresolved) => {
@@ -222,7 +225,7 @@ impl Immersed<'_> {
             }
             (Some(semi_axes), _) => Some(Form::Ellipsoid(semi_axes)),
             (None, BodyKind::Rigid(_)) => {
-                let triangles = written.triangles.map_or(TRIANGLES, |triangles| triangles.0 as usize);
+                let triangles = written.triangles.map_or(TRIANGLES, |triangles| triangles as usize);
                 let elements =
                     BoundaryElements { triangles, center: self.mass.center, gradient: Mat3::identity(), wall: None };
                 let found = self.resolved(boundary_resistance(self.shape, &elements), judge)?;
@@ -234,7 +237,7 @@ impl Immersed<'_> {
 
     /// What the fluid meets of a body that deforms and is no ellipsoid.
     fn table(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
-        let surface = DeformingSurface::new(self.shape, written.triangles.map_or(TRIANGLES, |given| given.0 as usize));
+        let surface = DeformingSurface::new(self.shape, written.triangles.map_or(TRIANGLES, |given| given as usize));
         // The first of many, by which a surface that has none is found before the run.
         self.resolved(surface.resistance(&Mat3::identity()), judge)?;
         let resolution = Resolution { tolerance: written.tolerance.unwrap_or(TOLERANCE), spacing: written.spacing };

@@ -37,7 +37,7 @@ pub(super) fn resolve(body: &mut Body, start: &Start) {
 /// The velocities of a body without inertia are no part of its start; a history has an error.
 fn settles(body: &mut Body) {
     if let Some(inclusion) = body.inclusion.as_mut().filter(|inclusion| inclusion.history) {
-        inclusion.history_error.get_or_insert_default();
+        inclusion.history_error.get_or_insert(super::fluid::HISTORY_ERROR);
     }
     if body.inclusion.as_ref().is_some_and(|inclusion| !inclusion.inertia) {
         body.velocity = Default::default();

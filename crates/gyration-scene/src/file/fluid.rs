@@ -101,7 +101,8 @@ pub struct Inclusion {
     pub history: bool,
     /// About how many triangles the surface is divided into, if it is that of no ellipsoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub triangles: Option<Triangles>,
+    #[schemars(range(min = 80, max = 10000))]
+    pub triangles: Option<f64>,
     /// Of such a body, if it deforms: the largest relative error of its resistance between the forms for which it is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -110,23 +111,8 @@ pub struct Inclusion {
     pub spacing: Option<f64>,
     /// The error of the history force that its sum of exponentials may have, relative to the force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub history_error: Option<HistoryError>,
-}
-
-/// A number of triangles.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct Triangles(#[schemars(range(min = 80, max = 10000))] pub f64);
-
-/// An error from 1e-10 to 0.1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct HistoryError(#[schemars(range(min = 1e-10, max = 0.1))] pub f64);
-
-impl Default for HistoryError {
-    fn default() -> Self {
-        Self(1e-6)
-    }
+    #[schemars(range(min = 1e-10, max = 0.1))]
+    pub history_error: Option<f64>,
 }
 
 fn yes() -> bool {

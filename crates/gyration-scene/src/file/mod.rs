@@ -23,9 +23,7 @@ pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFric
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
-pub use fluid::{
-    ConstantVector, FlowGradient, FlowVelocity, Fluid, HistoryError, Inclusion, Triangles, VectorSignal, VectorWave,
-};
+pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
 pub use material::{
     Fung, Hencky, Material, MooneyRivlin, NeoHookean, NeoHookeanLog, Ogden, Orthogonality, StVenantKirchhoff,
 };
