@@ -213,7 +213,7 @@ impl Found {
         // A mixed block is compared with the blocks that it couples.
         let own = |at: usize, count: usize| self.matrix.view((at, at), (count, count)).amax();
         let scale = (own(first, rows) * own(from, names.len())).sqrt();
-        let heads: String = names.iter().map(|name| format!("{name:>11}")).collect();
+        let heads: String = names.iter().map(|name| format!("{name:>12}")).collect();
         let _ = writeln!(text, "      {heads}");
         for row in 0..rows {
             let name = match letter {
@@ -224,7 +224,7 @@ impl Found {
                 .map(|column| {
                     let entry = block[(row, column)];
                     let entry = if entry.abs() < ROUNDING * scale { 0.0 } else { entry };
-                    format!("{:>11}", plain(entry, 5))
+                    format!("{:>12}", plain(entry, 5))
                 })
                 .collect();
             let _ = writeln!(text, "{name:<6}{entries}");
