@@ -8,12 +8,10 @@
 //! inclined by atan(a·g/a·e), and a body of revolution with axis p and aspect ratio r moves on an orbit
 //! C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not apply is NaN. Source: Batchelor (1970); `physics.md` §7.
 
-use crate::body::{Body, BodyKind};
 use crate::fluid::{Fluid, Form, Immersed};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
 use crate::rates::{AffineMotion, RigidImmersion, RigidMemory, Workspace, body_rates, settled_motion};
-use crate::shape::{Ellipsoid, Shape, Sphere};
 use crate::state::{BodyMotion, State, Turn};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 
@@ -96,7 +94,7 @@ fn rigid(
         couple: immersed.drag.couple() + immersed.ambient - steady * arm.transpose() + 0.5 * cross_matrix(&torque),
         volume: inclusion.volume,
         dissipation: immersed.drag.dissipation(&spin),
-        form: semi_axes(body).map(|axes| (*rotation, axes.into())),
+        form: body.shape.semi_axes().map(|axes| (*rotation, axes.into())),
         is_ellipsoid: true,
     }))
 }
@@ -121,15 +119,6 @@ fn remembered(
         sphere.loads.force - sphere.memory.added_mass * linear,
         sphere.loads.torque - sphere.memory.added_inertia * turned,
     ))
-}
-
-/// The semi-axes of a body whose reference shape is an ellipsoid.
-fn semi_axes(body: &Body) -> Option<Vec3> {
-    match (&body.shape, &body.kind) {
-        (Shape::Sphere(Sphere { radius }), BodyKind::Rigid(_)) => Some(Vec3::repeat(*radius)),
-        (Shape::Ellipsoid(Ellipsoid { semi_axes }), BodyKind::Rigid(_)) => Some(*semi_axes),
-        _ => None,
-    }
 }
 
 fn deformable(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<Option<Tractions>, Inadmissible> {

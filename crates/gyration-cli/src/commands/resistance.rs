@@ -13,7 +13,7 @@ use gyration::body::Body;
 use gyration::fluid::FixedForm;
 use gyration::fluid::memory::vibration::{Vibration, vibration};
 use gyration::load::Mat12;
-use gyration::shape::{Ellipsoid, Shape, Sphere};
+use gyration::shape::{Shape, Sphere};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
 use gyration_scene::boundary::{BoundaryElements, TRIANGLES, boundary_resistance};
@@ -111,7 +111,7 @@ impl Wanted {
         let body = &built.model.bodies[index];
         let placement = built.state.motion(&built.model, index).placement;
         let center = body.mass.center;
-        if let (Some(semi_axes), false) = (semi_axes(&body.shape), self.by_elements) {
+        if let (Some(semi_axes), false) = (body.shape.semi_axes(), self.by_elements) {
             let matrix = FixedForm::of_image(&(placement.gradient * Mat3::from_diagonal(&semi_axes)));
             let matrix = FixedForm::shifted(&matrix, &-(placement.gradient * center)).matrix * self.viscosity;
             return Ok(Found { matrix, error: None, triangles: None });
@@ -141,14 +141,6 @@ impl Wanted {
             return Err(CliError::arguments("the fluid has no density, and answers alike at all frequencies", fix));
         }
         Ok(vibration(radius, self.viscosity, self.density, std::f64::consts::TAU * frequency))
-    }
-}
-
-fn semi_axes(shape: &Shape) -> Option<Vec3> {
-    match shape {
-        Shape::Sphere(Sphere { radius }) => Some(Vec3::repeat(*radius)),
-        Shape::Ellipsoid(Ellipsoid { semi_axes }) => Some(*semi_axes),
-        _ => None,
     }
 }
 

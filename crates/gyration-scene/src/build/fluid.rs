@@ -15,7 +15,7 @@ use crate::table::read_vectors;
 use gyration::body::BodyKind;
 use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory, Resolution, SurfaceForm};
 use gyration::mass::MassProperties;
-use gyration::shape::{Ellipsoid, Shape, Sphere};
+use gyration::shape::{Shape, Sphere};
 use gyration::signal::{Signal, Wave};
 use gyration::tensor::{Mat3, Vec3};
 use std::sync::Arc;
@@ -213,12 +213,7 @@ impl Immersed<'_> {
 
     /// What the fluid meets.
     fn form(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
-        let semi_axes = match self.shape {
-            Shape::Sphere(Sphere { radius }) => Some(Vec3::repeat(*radius)),
-            Shape::Ellipsoid(Ellipsoid { semi_axes }) => Some(*semi_axes),
-            _ => None,
-        };
-        match (semi_axes, self.kind) {
+        match (self.shape.semi_axes(), self.kind) {
             (Some(semi_axes), BodyKind::Rigid(_)) => {
                 let matrix = FixedForm::of_ellipsoid(&semi_axes);
                 Some(Form::Fixed(Box::new(FixedForm::shifted(&matrix, &-self.mass.center))))

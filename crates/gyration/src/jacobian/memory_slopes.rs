@@ -4,7 +4,7 @@
 //!   δy_k′ = s_k (δṗ₀ − L∞ δp₀ − δy_k),   δY_k′ = S_k (R δΩ − R [Ω]× δθ − δY_k)
 
 use super::rigid_slopes::RigidSlopes;
-use super::write;
+use super::{gyroscopic, write};
 use crate::body::RigidInertia;
 use crate::rates::RigidMemory;
 use crate::tensor::{Mat3, cross_matrix};
@@ -16,7 +16,6 @@ pub(super) fn fill(block: &mut DMatrix<f64>, inertia: &RigidInertia, sphere: &Ri
     let rotation = &sphere.motion.placement.gradient;
     let (mobility, inverse) = (1.0 / sphere.mass(), sphere.inverse(inertia));
     let turns = turn.quaternion.turn_by_component();
-    let gyroscopic = cross_matrix(&turn.spin) * inertia.tensor - cross_matrix(&(inertia.tensor * turn.spin));
     let given = cross_matrix(&rotation.tr_mul(&loads.given));
     write(block, (0, 7), &Mat3::identity());
     write(block, (3, 3), &turn.quaternion.rate_by_component(&turn.spin));
@@ -28,7 +27,8 @@ pub(super) fn fill(block: &mut DMatrix<f64>, inertia: &RigidInertia, sphere: &Ri
     write(block, (10, 0), &(inverse * slopes.by_place.torque));
     write(block, (10, 3), &(inverse * (slopes.by_turn.torque + given) * turns));
     write(block, (10, 7), &(inverse * slopes.by_velocity.torque));
-    let by_spin = slopes.by_spin.torque + Mat3::from_diagonal_element(loads.by_spin) - gyroscopic;
+    let by_spin =
+        slopes.by_spin.torque + Mat3::from_diagonal_element(loads.by_spin) - gyroscopic(sphere.body, inertia, turn);
     write(block, (10, 10), &(inverse * by_spin));
     let trailing = sphere.memory.translation.rates.len();
     for (mode, (drag, rate)) in sphere.memory.modes().enumerate() {

@@ -61,6 +61,8 @@ struct Settled {
 struct Kept {
     /// P⁻¹.
     inverse: Mat3,
+    /// J⁻¹.
+    mobility: Mat3,
     /// Y.
     way: Mat3,
     /// θ [1/s].
@@ -89,7 +91,12 @@ impl Kept {
             quantity: Quantity::Volume,
             value: gradient.determinant(),
         })?;
-        Ok(Some(Self { inverse, way: inverse.transpose() * affine.interior.inverse, growth }))
+        Ok(Some(Self {
+            inverse,
+            mobility: affine.interior.inverse,
+            way: inverse.transpose() * affine.interior.inverse,
+            growth,
+        }))
     }
 
     /// λ of the accelerations P̈ at balance.
@@ -241,7 +248,7 @@ impl Columns<'_> {
     /// Writes them; none if the balance cannot be solved.
     fn fill(&self, solver: &Solver, matrix: &mut DMatrix<f64>) -> Option<()> {
         let parts = self.body.parts();
-        let (places, moving) = (parts.places, parts.places + parts.velocities);
+        let places = parts.places;
         for column in 0..places + parts.further {
             // The column of the same number of a body with inertia.
             let from = if column < places { column } else { column + parts.velocities };
@@ -257,7 +264,6 @@ impl Columns<'_> {
                 matrix[(row, column)] = self.jacobian[(into, from)] + through;
             }
         }
-        debug_assert!(moving <= NUMBERS);
         Some(())
     }
 
@@ -274,8 +280,7 @@ impl Columns<'_> {
         let inverse = &kept.inverse;
         let turned = -(inverse.row(place).transpose() * inverse.column(row).transpose());
         let lambda = kept.multiplier(&acceleration);
-        // Y = P⁻ᵀ J⁻¹, and P⁻ᵀ Y⁻¹ is J.
-        let change = turned * (kept.inverse.transpose().try_inverse().unwrap_or_else(Mat3::identity) * kept.way);
+        let change = turned * kept.mobility;
         for k in 0..9 {
             loads[parts.velocities - 9 + k] -= lambda * change[k];
         }

@@ -115,6 +115,15 @@ impl Shape {
         each!(self, shape => shape.mass_properties(density))
     }
 
+    /// The semi-axes \[m\] of a sphere or an ellipsoid; none of any other shape.
+    pub fn semi_axes(&self) -> Option<Vec3> {
+        match self {
+            Self::Sphere(Sphere { radius }) => Some(Vec3::repeat(*radius)),
+            Self::Ellipsoid(Ellipsoid { semi_axes }) => Some(*semi_axes),
+            _ => None,
+        }
+    }
+
     /// Whether masses or densities belong to the shape, so that the density of [`Shape::mass_properties`] is a factor.
     pub fn brings_mass(&self) -> bool {
         matches!(self, Self::Union(_) | Self::Points(_))
