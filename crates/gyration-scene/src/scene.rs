@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 pub struct Scene {
     name: String,
     text: String,
+    base: PathBuf,
     overrides: Vec<String>,
     file: SceneFile,
     built: Built,
@@ -82,7 +83,8 @@ impl Scene {
         salvage(&document, &setting, &mut findings);
         match (draft.complete(), built) {
             (Some(file), Some(built)) if findings.is_empty() => {
-                Ok(Self { name: stem(name), text: text.to_owned(), overrides: overrides.to_vec(), file, built })
+                let (text, base) = (text.to_owned(), base.to_path_buf());
+                Ok(Self { name: stem(name), text, base, overrides: overrides.to_vec(), file, built })
             }
             _ => Err(document.settle(findings)),
         }
@@ -96,6 +98,11 @@ impl Scene {
     /// Its text, verbatim.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The folder to which paths in it are relative.
+    pub fn base(&self) -> &Path {
+        &self.base
     }
 
     /// The overrides, in their order.

@@ -129,36 +129,49 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`RunError::Record`] if the recording fails.
     pub fn run(&mut self, sink: &mut dyn Sink, monitor: &mut dyn Monitor) -> Result<Outcome, RunError> {
-        let model = self.system.model();
-        while self.integrator.time() < self.plan.end {
-            let target = self.target();
-            let before = self.dissipation();
-            let report = match self.integrator.step(&mut self.system, target) {
-                Ok(report) => report,
-                Err(failure) => return self.stop(Stop::by_failure(model, &failure), sink),
-            };
-            self.look();
-            self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
-            self.tally.note_dissipation(before, self.dissipation());
-            self.find_events(&report, sink)?;
-            if let Err(stop) = self.sample_step(&report, sink)? {
-                return self.stop(stop, sink);
-            }
-            if self.has_come_to_rest(&report) {
-                self.record_last(sink)?.ok();
-                return Ok(Outcome::AtRest { time: report.end });
-            }
-            let (tally, integrator) = (&self.tally, &self.integrator);
-            sink.step_end(&|| tally.checkpoint(&integrator.memory()))?;
-            let (time, end) = (report.end, self.plan.end);
-            let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
-            if let Some(reason) = monitor.after_step(&progress)
-                && time < end
-            {
-                return Ok(Outcome::Stopped(Stop::by_request(time, reason)));
+        loop {
+            if let Some(outcome) = self.advance(sink, monitor)? {
+                return Ok(outcome);
             }
         }
-        Ok(Outcome::Completed)
+    }
+
+    /// Makes one step, with its events and samples; how the run has ended, if it has.
+    ///
+    /// # Errors
+    /// [`RunError::Record`] if the recording fails.
+    pub(crate) fn advance(
+        &mut self,
+        sink: &mut dyn Sink,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Outcome>, RunError> {
+        let model = self.system.model();
+        if self.integrator.time() >= self.plan.end {
+            return Ok(Some(Outcome::Completed));
+        }
+        let target = self.target();
+        let before = self.dissipation();
+        let report = match self.integrator.step(&mut self.system, target) {
+            Ok(report) => report,
+            Err(failure) => return self.stop(Stop::by_failure(model, &failure), sink).map(Some),
+        };
+        self.look();
+        self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
+        self.tally.note_dissipation(before, self.dissipation());
+        self.find_events(&report, sink)?;
+        if let Err(stop) = self.sample_step(&report, sink)? {
+            return self.stop(stop, sink).map(Some);
+        }
+        if self.has_come_to_rest(&report) {
+            self.record_last(sink)?.ok();
+            return Ok(Some(Outcome::AtRest { time: report.end }));
+        }
+        let (tally, integrator) = (&self.tally, &self.integrator);
+        sink.step_end(&|| tally.checkpoint(&integrator.memory()))?;
+        let (time, end) = (report.end, self.plan.end);
+        let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
+        let asked = monitor.after_step(&progress).filter(|_| time < end);
+        Ok(asked.map(|reason| Outcome::Stopped(Stop::by_request(time, reason))))
     }
 
     /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time at
