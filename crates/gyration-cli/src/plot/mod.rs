@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! recording, scene → show (which quantities) → chart, strip (how they are laid out) → draw (marks on a page) → SVG, PNG, PDF
+//! table of a study → study (how often, how on average, where) ↗
 //! ```
 //!
 //! The same recording gives the same bytes: there are neither dates nor names of machines in a picture.
@@ -12,6 +13,9 @@ pub mod draw;
 pub mod recorded;
 pub mod show;
 pub mod strip;
+// The command that calls it comes with the reader of tables.
+#[allow(dead_code, unused_imports)]
+pub mod study;
 mod thin;
 
 use gyration_record::RecordError;

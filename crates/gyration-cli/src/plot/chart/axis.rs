@@ -28,6 +28,8 @@ pub struct Axis {
     pub low: f64,
     /// The value at the end; > `low`.
     pub high: f64,
+    /// Names of the values 0, 1, 2, …; empty for an axis of numbers.
+    pub words: Vec<String>,
 }
 
 /// The smallest and the largest of the finite values, if there is one.
@@ -43,7 +45,13 @@ impl Axis {
     /// An axis from `low` to `high` without any margin.
     pub fn exact(name: &str, unit: &str, low: f64, high: f64) -> Self {
         let high = if high > low { high } else { low + low.abs().max(1.0) };
-        Self { name: name.to_owned(), unit: unit.to_owned(), scale: Scale::Linear, low, high }
+        Self { name: name.to_owned(), unit: unit.to_owned(), scale: Scale::Linear, low, high, words: Vec::new() }
+    }
+
+    /// An axis on which names stand one beside the other.
+    pub fn of_words(name: &str, words: Vec<String>) -> Self {
+        let high = words.len().max(1) as f64 - 0.5;
+        Self { words, ..Self::exact(name, "", -0.5, high) }
     }
 
     /// A linear axis that holds the values, with a margin of a twentieth.
@@ -64,7 +72,7 @@ impl Axis {
         let (low, high) = extremes(positive).unwrap_or((0.1, 10.0));
         let margin = (high / low).powf(0.05).max(1.1);
         let (low, high) = (low / margin, high * margin);
-        Self { name: name.to_owned(), unit: unit.to_owned(), scale: Scale::Logarithmic, low, high }
+        Self { name: name.to_owned(), unit: unit.to_owned(), scale: Scale::Logarithmic, low, high, words: Vec::new() }
     }
 
     /// Where a value stands: 0 at the beginning, 1 at the end.
@@ -93,6 +101,10 @@ impl Axis {
 
     /// At most about `count` ticks with words.
     pub fn ticks(&self, count: usize) -> Vec<Tick> {
+        if !self.words.is_empty() {
+            let tick = |(k, word): (usize, &String)| Tick { value: k as f64, label: Some(word.clone()) };
+            return self.words.iter().enumerate().map(tick).collect();
+        }
         match self.scale {
             Scale::Logarithmic => ticks::logarithmic(self.low, self.high, count),
             Scale::Linear => {

@@ -4,7 +4,7 @@
 
 use super::frame::{self, BELOW, NAME_SIZE, words_at};
 use super::legend::SIZE;
-use super::{Chart, Legend};
+use super::{Chart, Field, Legend, Shapes};
 use crate::plot::draw::{Anchor, Drawing, Label, Rect, Text, color};
 use crate::plot::strip::Strip;
 
@@ -26,8 +26,21 @@ const TITLE_SIZE: f64 = 12.0;
 pub enum Panel {
     /// Series over axes.
     Chart(Chart),
+    /// Series over axes, with areas, dots or intervals under them.
+    Field(Field),
     /// Outlines at successive times.
     Strip(Strip),
+}
+
+impl Panel {
+    /// The chart, with what stands under its series, unless it is a strip.
+    fn chart(&self) -> Option<(&Chart, &[Shapes])> {
+        match self {
+            Self::Chart(chart) => Some((chart, &[])),
+            Self::Field(field) => Some((&field.chart, &field.shapes)),
+            Self::Strip(_) => None,
+        }
+    }
 }
 
 /// Panels under a title.
@@ -53,17 +66,14 @@ impl Figure {
         let mut drawing = Drawing::new(WIDTH, 0.0, self.title.clone());
         let mut y = self.draw_title(&mut drawing);
         for (index, panel) in self.panels.iter().enumerate() {
-            y = match panel {
-                Panel::Chart(chart) => {
-                    let shares_next =
-                        matches!(self.panels.get(index + 1), Some(Panel::Chart(next)) if next.x == chart.x);
-                    draw_chart(chart, &mut drawing, &columns, y, !shares_next)
-                }
-                Panel::Strip(strip) => {
-                    let area = Rect { x: MARGIN, y: y + MARGIN, width: WIDTH - 2.0 * MARGIN, height: 0.0 };
-                    strip.draw(&mut drawing, area) + MARGIN
-                }
-            };
+            if let Panel::Strip(strip) = panel {
+                let area = Rect { x: MARGIN, y: y + MARGIN, width: WIDTH - 2.0 * MARGIN, height: 0.0 };
+                y = strip.draw(&mut drawing, area) + MARGIN;
+            } else if let Some(chart) = panel.chart() {
+                let next = self.panels.get(index + 1).and_then(Panel::chart);
+                let with_words = next.is_none_or(|next| next.0.x != chart.0.x);
+                y = draw_chart(chart, &mut drawing, &columns, y, with_words);
+            }
         }
         drawing.height = (y + 0.5 * MARGIN).ceil();
         drawing
@@ -71,12 +81,7 @@ impl Figure {
 
     /// One left edge and one width for all frames; the legends' column is as wide as the widest.
     fn columns(&self) -> Columns {
-        let charts = || {
-            self.panels.iter().filter_map(|panel| match panel {
-                Panel::Chart(chart) => Some(chart),
-                Panel::Strip(_) => None,
-            })
-        };
+        let charts = || self.panels.iter().filter_map(|panel| panel.chart().map(|(chart, _)| chart));
         let left = charts().map(frame::left_margin).fold(0.0, f64::max);
         let legend = charts().map(|chart| chart.legend().width()).fold(0.0, f64::max);
         let right = if legend > 0.0 { legend + BESIDE } else { 0.0 };
@@ -103,12 +108,18 @@ impl Figure {
 }
 
 /// Draws a chart below `y`; returns where it ends.
-fn draw_chart(chart: &Chart, drawing: &mut Drawing, columns: &Columns, y: f64, with_words: bool) -> f64 {
+fn draw_chart(
+    (chart, shapes): (&Chart, &[Shapes]),
+    drawing: &mut Drawing,
+    columns: &Columns,
+    y: f64,
+    with_words: bool,
+) -> f64 {
     let above = if chart.title.is_empty() { BETWEEN } else { ABOVE };
     let legend: Legend = chart.legend();
     let height = chart.height.max(legend.height());
     let area = Rect { x: columns.left, y: y + above, width: columns.right - columns.left, height };
-    frame::draw(chart, drawing, area, with_words);
+    frame::draw((chart, shapes), drawing, area, with_words);
     legend.draw(drawing, [area.right() + BESIDE, area.y]);
     area.bottom() + if with_words { BELOW + 0.5 * NAME_SIZE } else { BETWEEN }
 }

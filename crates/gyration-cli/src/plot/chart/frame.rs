@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Scale};
 use super::ticks::Tick;
-use super::{Chart, Series};
+use super::{Chart, Series, Shapes, shapes};
 use crate::plot::draw::{Anchor, Color, Drawing, Label, Point, Rect, Stroke, Text, color};
 
 /// Height of the words at ticks [pt].
@@ -37,8 +37,8 @@ fn upright_ticks(chart: &Chart) -> Vec<Tick> {
     chart.y.ticks((chart.height / UPRIGHT_PITCH).max(2.0) as usize)
 }
 
-/// Draws a chart into the frame; the level axis with or without its words.
-pub fn draw(chart: &Chart, drawing: &mut Drawing, frame: Rect, with_words: bool) {
+/// Draws a chart, with shapes under its series, into the frame; the level axis with or without its words.
+pub fn draw((chart, under): (&Chart, &[Shapes]), drawing: &mut Drawing, frame: Rect, with_words: bool) {
     let level = chart.x.ticks((frame.width / LEVEL_PITCH).max(2.0) as usize);
     let upright = upright_ticks(chart);
     let x = |value: f64| frame.x + chart.x.place(value) * frame.width;
@@ -49,6 +49,7 @@ pub fn draw(chart: &Chart, drawing: &mut Drawing, frame: Rect, with_words: bool)
     drawing.lines(upright.iter().filter(major).map(across).collect(), grid, None);
     let along = |tick: &Tick| vec![[x(tick.value), frame.y], [x(tick.value), frame.bottom()]];
     drawing.lines(level.iter().filter(major).map(along).collect(), grid, None);
+    under.iter().for_each(|shapes| shapes::draw(shapes, chart, drawing, frame));
     for series in &chart.series {
         draw_series(series, chart, drawing, frame);
     }

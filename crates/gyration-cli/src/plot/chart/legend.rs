@@ -10,6 +10,8 @@ pub const LEADING: f64 = 12.5;
 const SAMPLE: f64 = 18.0;
 /// Between the piece of line and the name [pt].
 const SPACE: f64 = 5.0;
+/// A stroke wider than this tells the colour of areas or dots: its sample is a square [pt].
+const WIDEST_LINE: f64 = 4.0;
 /// Names longer than this are cut [letters].
 const LONGEST_NAME: usize = 34;
 
@@ -47,6 +49,13 @@ impl Legend {
         for (row, (label, stroke)) in self.rows.iter().enumerate() {
             let [x, y] = [corner[0], corner[1] + LEADING * (row as f64 + 0.5)];
             let indent = match stroke {
+                Some(stroke) if stroke.width > WIDEST_LINE => {
+                    let half = 0.5 * stroke.width;
+                    let [left, right] = [x + 0.5 * SAMPLE - half, x + 0.5 * SAMPLE + half];
+                    let corners = vec![[left, y - half], [right, y - half], [right, y + half], [left, y + half]];
+                    drawing.area(corners, Some(stroke.color), None, None);
+                    SAMPLE + SPACE
+                }
                 Some(stroke) => {
                     drawing.line(vec![[x, y], [x + SAMPLE, y]], *stroke, None);
                     SAMPLE + SPACE

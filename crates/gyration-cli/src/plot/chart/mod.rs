@@ -7,11 +7,13 @@ mod axis;
 mod figure;
 mod frame;
 mod legend;
+mod shapes;
 pub mod ticks;
 
 pub use axis::{Axis, Scale, extremes};
 pub use figure::{Figure, Panel};
 pub use legend::Legend;
+pub use shapes::{Field, Shapes};
 
 use super::draw::{Point, Stroke, color};
 

@@ -1,0 +1,204 @@
+//! Means and shares over a parameter, with intervals of 95 %.
+//!
+//! A number has one curve, a word has one for each of its values: the share of the runs that have it. A column of
+//! colour divides the runs further. Where there is one run a point, there is a line and no interval.
+
+use super::request::Measure;
+use super::statistics::{self, Estimate};
+use super::{Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, kept, painted, palette, references};
+use crate::plot::chart::{Axis, Chart, LINE, Panel, Scale, Series, Shapes};
+use crate::plot::draw::{Color, Stroke};
+
+/// With more points than this a curve has no dots.
+const MOST_DOTS: usize = 60;
+/// Curves at most.
+const MOST_CURVES: usize = 14;
+/// Radius of dots [pt].
+const RADIUS: f64 = 2.0;
+
+/// What is averaged: a number a run, NaN where there is none.
+struct Quantity {
+    name: String,
+    values: Vec<f64>,
+    /// Whether the numbers are hits and misses.
+    is_share: bool,
+}
+
+/// Places on the level axis, and the runs that stand there.
+struct Places {
+    axis: Axis,
+    runs: Vec<(f64, Vec<usize>)>,
+}
+
+/// The chart of a table.
+pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
+    let x = axis_or(table, request.x.as_deref(), 0)?;
+    let measure = match &request.y {
+        Some(text) => Measure::read(text),
+        None => Measure { column: kept(table)?.name.clone(), values: Vec::new() },
+    };
+    let quantities = quantities(table, &measure)?;
+    let groups = groups(table, request, x)?;
+    let count = quantities.len() * groups.len();
+    if count > MOST_CURVES {
+        return Err(Unfit::new(
+            format!("{count} curves are too many to tell apart"),
+            "ask for the share of one value, --y COLUMN=VALUE, or for a map: --x NAME --y NAME --colour COLUMN",
+        ));
+    }
+    let places = Places::of(x, request, table.len())?;
+    let (mut shapes, mut series, mut range) = (Vec::new(), Vec::new(), Vec::new());
+    for (group, runs) in &groups {
+        for quantity in &quantities {
+            let points = places.estimates(quantity, runs);
+            range.extend(points.iter().flat_map(|(_, e)| [e.value, e.low, e.high]));
+            let parts = [group.as_str(), if quantities.len() > 1 { &quantity.name } else { "" }];
+            let name = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
+            draw(&points, name, palette::category(series.len()), (&mut shapes, &mut series));
+        }
+    }
+    references(request, &mut shapes, &mut series);
+    range.extend(request.reference.iter().flat_map(|reference| reference.points.iter().map(|point| point[1])));
+    let y = upright(request, &quantities, &table.column(&measure.column)?.unit, &range);
+    let intervals = shapes.iter().any(|shapes| matches!(shapes, Shapes::Intervals { .. }));
+    let remarks = if intervals { vec!["intervals of 95 %".to_owned()] } else { Vec::new() };
+    Ok(painted(Chart { title: String::new(), x: places.axis, y, series, remarks, height: HEIGHT }, shapes))
+}
+
+/// The column itself if it has numbers, the share of each of its words, or the share of some values.
+fn quantities(table: &Table, measure: &Measure) -> Result<Vec<Quantity>, Unfit> {
+    let column = table.column(&measure.column)?;
+    let share = |name: String, is_hit: &dyn Fn(usize, &str) -> bool| {
+        let value = |run: usize| column.word(run).map_or(f64::NAN, |word| f64::from(u8::from(is_hit(run, &word))));
+        Quantity { name, values: (0..table.len()).map(value).collect(), is_share: true }
+    };
+    if measure.values.is_empty() {
+        return match &column.values {
+            Values::Numbers(values) => {
+                Ok(vec![Quantity { name: column.name.clone(), values: values.clone(), is_share: false }])
+            }
+            Values::Words(_) => {
+                let of = |word: String| share(word.clone(), &|_, other| other == word);
+                Ok(column.categories().into_iter().map(of).collect())
+            }
+            Values::Lists(_) => Err(Unfit::new(
+                format!("`{}` has several numbers a run, which have no mean over a parameter", column.name),
+                "leave the kind to the program, or ask for `--kind scatter`",
+            )),
+        };
+    }
+    let others: Vec<Option<&Column>> = measure.values.iter().map(|value| table.column(value).ok()).collect();
+    let is_hit = |run: usize, word: &str| {
+        let agrees = |(value, other): (&String, &Option<&Column>)| match other {
+            Some(other) => other.word(run).as_deref() == Some(word),
+            None => value == word,
+        };
+        measure.values.iter().zip(&others).any(agrees)
+    };
+    let name = format!("share of {} = {}", measure.column, measure.values.join(" or "));
+    Ok(vec![share(name, &is_hit)])
+}
+
+/// The runs by the column of colour: the one asked for, else a second axis of the grid.
+fn groups(table: &Table, request: &Request, x: &Column) -> Result<Vec<(String, Vec<usize>)>, Unfit> {
+    let column = match &request.colour {
+        Some(name) => Some(table.column(name)?),
+        None => table.of(Role::Axis).find(|column| column.name != x.name),
+    };
+    let Some(column) = column else { return Ok(vec![(String::new(), (0..table.len()).collect())]) };
+    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+    for run in 0..table.len() {
+        let Some(word) = column.word(run) else { continue };
+        let unit = if column.unit.is_empty() { String::new() } else { format!(" {}", column.unit) };
+        let name = format!("{} = {word}{unit}", column.name);
+        match groups.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, runs)) => runs.push(run),
+            None => groups.push((name, vec![run])),
+        }
+    }
+    Ok(groups)
+}
+
+impl Places {
+    fn of(column: &Column, request: &Request, count: usize) -> Result<Self, Unfit> {
+        let categories = column.categories();
+        let levels: Vec<f64> = match &column.values {
+            Values::Numbers(_) => column.levels(),
+            Values::Words(_) => (0..categories.len()).map(|k| k as f64).collect(),
+            Values::Lists(_) => {
+                return Err(Unfit::new(format!("`{}` is a list, not a parameter", column.name), "name another --x"));
+            }
+        };
+        let beside = request.reference.iter().flat_map(|reference| reference.points.iter().map(|point| point[0]));
+        let axis = match &column.values {
+            Values::Words(_) => Axis::of_words(&column.name, categories.clone()),
+            _ => column.axis(levels.iter().copied().chain(beside)),
+        };
+        let axis = if request.is_logarithmic("x") && axis.low > 0.0 && axis.scale == Scale::Linear {
+            Axis::logarithmic(&column.name, &column.unit, levels.iter().copied())
+        } else {
+            axis
+        };
+        let mut runs: Vec<(f64, Vec<usize>)> = levels.iter().map(|level| (*level, Vec::new())).collect();
+        for run in 0..count {
+            let level = match &column.values {
+                Values::Numbers(values) => levels.binary_search_by(|level| level.total_cmp(&values[run])).ok(),
+                _ => column.word(run).and_then(|word| categories.iter().position(|other| *other == word)),
+            };
+            if let Some(level) = level {
+                runs[level].1.push(run);
+            }
+        }
+        Ok(Self { axis, runs })
+    }
+
+    /// An estimate at each place where some of the runs stand.
+    fn estimates(&self, quantity: &Quantity, runs: &[usize]) -> Vec<(f64, Estimate)> {
+        let estimate = |(level, here): &(f64, Vec<usize>)| {
+            // Both are in the order of the runs.
+            let ours = here.iter().filter(|run| runs.binary_search(run).is_ok());
+            let values: Vec<f64> = ours.map(|run| quantity.values[*run]).filter(|value| !value.is_nan()).collect();
+            let hits = values.iter().filter(|value| **value == 1.0).count();
+            let estimate = match (values.len(), quantity.is_share) {
+                (0, _) => return None,
+                (n, true) => statistics::proportion(hits, n),
+                (_, false) => statistics::mean(&values),
+            };
+            Some((*level, estimate))
+        };
+        self.runs.iter().filter_map(estimate).collect()
+    }
+}
+
+/// A line, its dots and its intervals.
+fn draw(
+    points: &[(f64, Estimate)],
+    name: String,
+    colour: Color,
+    (shapes, series): (&mut Vec<Shapes>, &mut Vec<Series>),
+) {
+    let ends: Vec<_> = points.iter().map(|(x, e)| [[*x, e.low], [*x, e.high]]).collect();
+    if ends.iter().any(|[low, high]| high[1] > low[1]) {
+        shapes.push(Shapes::Intervals { ends, stroke: Stroke::solid(colour, 0.8) });
+    }
+    let line: Vec<_> = points.iter().map(|(x, e)| [*x, e.value]).collect();
+    if points.len() <= MOST_DOTS {
+        shapes.push(Shapes::Dots { at: line.clone(), radius: RADIUS, fill: colour });
+    }
+    series.push(Series { name, points: line, stroke: Stroke::solid(colour, LINE), arrows: false });
+}
+
+fn upright(request: &Request, quantities: &[Quantity], unit: &str, range: &[f64]) -> Axis {
+    let share = quantities.iter().all(|quantity| quantity.is_share);
+    let name = match quantities {
+        [one] => one.name.clone(),
+        _ => "share of the runs".to_owned(),
+    };
+    let unit = if share { "" } else { unit };
+    let values = || range.iter().copied();
+    if request.is_logarithmic("y") {
+        return Axis::logarithmic(&name, unit, values());
+    }
+    let axis = Axis::linear(&name, unit, values());
+    if share { Axis { low: 0.0, high: axis.high.min(1.0), ..axis } } else { axis }
+}

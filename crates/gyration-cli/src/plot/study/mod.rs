@@ -1,0 +1,135 @@
+//! Pictures of studies: how often, how on average, where.
+//!
+//! ```text
+//! table, request → kind (histogram, curve, map, scatter) → chart with areas, dots, intervals → figure
+//! ```
+//!
+//! | columns                             | picture, unless something else is asked for                     |
+//! |-------------------------------------|------------------------------------------------------------------|
+//! | a list is kept                      | scatter: its numbers over the axis of the grid                   |
+//! | two axes of the grid, or more       | map: cells of the first two, coloured by what is kept            |
+//! | one axis of the grid                | curve: means or shares with intervals of 95 %                    |
+//! | none                                | histogram of what is kept                                        |
+//!
+//! The same table gives the same bytes.
+
+mod curve;
+mod histogram;
+mod map;
+mod palette;
+mod request;
+mod scatter;
+mod statistics;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use super::chart::{Chart, DASH_DOTTED, DASHED, DOTTED, Field, Figure, LINE, Panel, Series, Shapes};
+use super::draw::{Color, Stroke, color};
+pub use request::{Kind, Measure, Reference, Request};
+pub use table::{Column, Role, Table, Values};
+
+/// Why there is no picture of a study.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{problem}\n  fix: {fix}")]
+pub struct Unfit {
+    /// What is wrong.
+    pub problem: String,
+    /// What to do.
+    pub fix: String,
+}
+
+impl Unfit {
+    fn new(problem: impl Into<String>, fix: impl Into<String>) -> Self {
+        Self { problem: problem.into(), fix: fix.into() }
+    }
+}
+
+/// Height of the frame of a chart [pt].
+const HEIGHT: f64 = 240.0;
+/// Width of the samples of areas in legends [pt].
+const SWATCH: f64 = 7.0;
+
+/// The picture of a table.
+///
+/// # Errors
+/// [`Unfit`] where a column does not exist or does not suit the kind of picture.
+pub fn figure(table: &Table, request: &Request) -> Result<Figure, Unfit> {
+    if table.len() == 0 {
+        return Err(Unfit::new("the table has no rows yet", "wait for the first runs"));
+    }
+    let kind = request.kind.unwrap_or_else(|| kind_of(table, request));
+    let panels = match kind {
+        Kind::Histogram => histogram::panels(table, request)?,
+        Kind::Curve => vec![curve::panel(table, request)?],
+        Kind::Map => vec![map::panel(table, request)?],
+        Kind::Scatter => vec![scatter::panel(table, request)?],
+    };
+    let title = request.title.clone().unwrap_or_else(|| table.title.clone());
+    let failures = match table.failures() {
+        0 => String::new(),
+        failed => format!(", {failed} of them failed"),
+    };
+    Ok(Figure { title, subtitle: format!("{} runs{failures}", table.len()), panels })
+}
+
+/// The kind of picture that suits the columns.
+fn kind_of(table: &Table, request: &Request) -> Kind {
+    let is = |name: &Option<String>, role: Role| {
+        name.as_deref().and_then(|name| table.column(name).ok()).is_some_and(|column| column.role == role)
+    };
+    let measure = request.y.as_deref().map(Measure::read);
+    let measured = measure.as_ref().and_then(|measure| table.column(&measure.column).ok());
+    if measured.or_else(|| kept(table).ok()).is_some_and(|column| matches!(column.values, Values::Lists(_))) {
+        return Kind::Scatter;
+    }
+    let axes = table.of(Role::Axis).count();
+    match (&request.x, &request.y) {
+        (Some(_), Some(_)) if is(&request.x, Role::Axis) && is(&request.y, Role::Axis) => Kind::Map,
+        (Some(_), _) if is(&request.x, Role::Axis) => Kind::Curve,
+        (Some(_), Some(_)) => Kind::Scatter,
+        (Some(_), None) => Kind::Histogram,
+        (None, Some(_)) if axes > 0 => Kind::Curve,
+        (None, None) if axes > 1 => Kind::Map,
+        (None, None) if axes == 1 => Kind::Curve,
+        _ => Kind::Histogram,
+    }
+}
+
+/// The first column of what is kept; the outcome if nothing is.
+fn kept(table: &Table) -> Result<&Column, Unfit> {
+    table.of(Role::Kept).next().map_or_else(|| table.column("outcome"), Ok)
+}
+
+/// The column of a name, or the axis of the grid of this index.
+fn axis_or<'a>(table: &'a Table, name: Option<&str>, index: usize) -> Result<&'a Column, Unfit> {
+    let missing = || Unfit::new("the study has no such axis of a grid", "say which columns: --x NAME --y NAME");
+    name.map_or_else(|| table.of(Role::Axis).nth(index).ok_or_else(missing), |name| table.column(name))
+}
+
+/// The entry of an area or of dots in a legend.
+fn swatch(name: impl Into<String>, color: Color) -> Series {
+    Series { name: name.into(), points: Vec::new(), stroke: Stroke::solid(color, SWATCH), arrows: false }
+}
+
+/// What is known from elsewhere, above everything else: lines, or dots in a ring.
+fn references(request: &Request, shapes: &mut Vec<Shapes>, series: &mut Vec<Series>) {
+    for (index, reference) in request.reference.iter().enumerate() {
+        let ink = if index == 0 { color::INK } else { color::GREY };
+        if reference.line {
+            let dash = [DASHED, DOTTED, DASH_DOTTED][index % 3];
+            let stroke = Stroke { dash, ..Stroke::solid(color::INK, LINE) };
+            let points = reference.points.clone();
+            series.push(Series { name: reference.name.clone(), points, stroke, arrows: false });
+        } else {
+            let dots = |radius: f64, fill: Color| Shapes::Dots { at: reference.points.clone(), radius, fill };
+            shapes.extend([dots(4.4, color::WHITE), dots(3.4, ink)]);
+            series.push(swatch(reference.name.clone(), ink));
+        }
+    }
+}
+
+/// A chart over its shapes.
+fn painted(chart: Chart, shapes: Vec<Shapes>) -> Panel {
+    Panel::Field(Field { chart, shapes })
+}

@@ -1,0 +1,114 @@
+//! Colours of a number: from light to dark where it has one sign, through white where it has both.
+
+use super::swatch;
+use crate::plot::chart::{Series, extremes, ticks};
+use crate::plot::draw::{Color, color};
+
+/// Light to dark in even steps of lightness, told apart by all readers.
+const SEQUENCE: [Color; 5] = [
+    Color::new(0xFC, 0xF3, 0xC9),
+    Color::new(0xA5, 0xD8, 0xB8),
+    Color::new(0x3F, 0xA6, 0xB8),
+    Color::new(0x1F, 0x62, 0x9E),
+    Color::new(0x14, 0x1F, 0x57),
+];
+/// Below zero, zero, above zero.
+const TWO_SIDED: [Color; 5] = [
+    Color::new(0x00, 0x3C, 0x6E),
+    Color::new(0x56, 0xA0, 0xD4),
+    Color::new(0xF7, 0xF7, 0xF7),
+    Color::new(0xEE, 0x93, 0x4F),
+    Color::new(0x8A, 0x35, 0x00),
+];
+/// Into how many colours the range is divided: cells of one colour are one path.
+const SHADES: usize = 64;
+
+/// A range of numbers and its colours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Palette {
+    low: f64,
+    high: f64,
+    colours: [Color; 5],
+}
+
+impl Palette {
+    /// The palette of values; symmetric about zero where they have both signs.
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
+        let (low, high) = extremes(values).unwrap_or((0.0, 1.0));
+        let (low, high) = if high > low { (low, high) } else { (low - 0.5, high + 0.5) };
+        if low < 0.0 && high > 0.0 && -low.max(-high) > 0.02 * high.max(-low) {
+            let most = high.max(-low);
+            return Self { low: -most, high: most, colours: TWO_SIDED };
+        }
+        Self { low, high, colours: SEQUENCE }
+    }
+
+    /// The index of the colour of a value.
+    pub fn shade(&self, value: f64) -> usize {
+        let place = (value - self.low) / (self.high - self.low);
+        ((place * SHADES as f64) as usize).min(SHADES - 1)
+    }
+
+    /// The colour of an index.
+    pub fn colour(&self, shade: usize) -> Color {
+        self.at((shade as f64 + 0.5) / SHADES as f64)
+    }
+
+    fn at(&self, place: f64) -> Color {
+        let along = place.clamp(0.0, 1.0) * (self.colours.len() - 1) as f64;
+        let first = (along as usize).min(self.colours.len() - 2);
+        let part = along - first as f64;
+        let mixed = |k: usize| {
+            let [a, b] = [first, first + 1].map(|index| f64::from(self.colours[index].rgb[k]));
+            (a + part * (b - a)).round() as u8
+        };
+        Color::new(mixed(0), mixed(1), mixed(2))
+    }
+
+    /// Entries of a legend: round values with their colours, from the largest.
+    pub fn legend(&self) -> Vec<Series> {
+        let entry = |tick: &ticks::Tick| {
+            let colour = self.at((tick.value - self.low) / (self.high - self.low));
+            tick.label.as_ref().map(|words| swatch(words.clone(), colour))
+        };
+        ticks::linear(self.low, self.high, 8).iter().rev().filter_map(entry).collect()
+    }
+}
+
+/// The colour of a category: those of series, then tints of them.
+pub fn category(index: usize) -> Color {
+    let round = index / color::SERIES.len();
+    color::series(index).tint([1.0, 0.5, 0.25][round.min(2)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lightness(colour: Color) -> f64 {
+        let [red, green, blue] = colour.rgb.map(f64::from);
+        0.299 * red + 0.587 * green + 0.114 * blue
+    }
+
+    #[test]
+    fn a_larger_number_is_darker_where_there_is_one_sign() {
+        let palette = Palette::of([2.0, 5.0]);
+        let lights: Vec<f64> = (0..SHADES).map(|shade| lightness(palette.colour(shade))).collect();
+        assert!(lights.windows(2).all(|pair| pair[0] > pair[1]), "{lights:?}");
+    }
+
+    #[test]
+    fn zero_is_white_where_there_are_both_signs() {
+        let palette = Palette::of([-1.0, 3.0]);
+        assert!(lightness(palette.colour(palette.shade(0.0))) > 235.0);
+        assert!(palette.shade(-3.0) == 0 && palette.shade(3.0) == SHADES - 1);
+    }
+
+    #[test]
+    fn fourteen_categories_have_colours_of_their_own() {
+        let mut colours: Vec<[u8; 3]> = (0..14).map(|index| category(index).rgb).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        assert_eq!(colours.len(), 14);
+    }
+}

@@ -1,0 +1,92 @@
+//! A dot a run, or as many as its list is long: what depends on chance, and bifurcation diagrams.
+
+use super::request::Measure;
+use super::{Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, kept, painted, palette, references, swatch};
+use crate::plot::chart::{Axis, Chart, Panel, Scale, Series, Shapes};
+use crate::plot::draw::{Point, color};
+use std::collections::BTreeMap;
+
+/// With more dots than this they are small.
+const MANY: usize = 2000;
+
+/// The chart of a table.
+pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
+    let x = match &request.x {
+        Some(name) => table.column(name)?,
+        None => axis_or(table, None, 0).or_else(|problem| table.of(Role::Random).next().ok_or(problem))?,
+    };
+    let y = match &request.y {
+        Some(name) => table.column(&Measure::read(name).column)?,
+        None => kept(table)?,
+    };
+    let points: Vec<(usize, Point)> = (0..table.len()).flat_map(|run| points(x, y, run)).collect();
+    if points.is_empty() {
+        return Err(Unfit::new(
+            format!("no run has numbers of both `{}` and `{}`", x.name, y.name),
+            "name columns of numbers: --x NAME --y NAME",
+        ));
+    }
+    let radius = if points.len() > MANY { 0.6 } else { 1.6 };
+    let (mut shapes, mut series) = match &request.colour {
+        Some(name) => coloured(&points, table.column(name)?, radius)?,
+        None => {
+            let at = points.iter().map(|(_, point)| *point).collect();
+            (vec![Shapes::Dots { at, radius, fill: color::series(0) }], Vec::new())
+        }
+    };
+    references(request, &mut shapes, &mut series);
+    let beside = || request.reference.iter().flat_map(|reference| &reference.points);
+    let axis = |column: &Column, side: &str, k: usize| {
+        let values = points.iter().map(|(_, point)| point[k]).chain(beside().map(|point| point[k]));
+        let logarithmic = request.is_logarithmic(side) || column.scale() == Scale::Logarithmic;
+        let make = if logarithmic { Axis::logarithmic } else { Axis::linear };
+        make(&column.name, &column.unit, values)
+    };
+    let (x, y) = (axis(x, "x", 0), axis(y, "y", 1));
+    Ok(painted(Chart { title: String::new(), x, y, series, remarks: Vec::new(), height: HEIGHT }, shapes))
+}
+
+/// The dots of a run; a list goes with a number, or with a list of the same length.
+fn points(x: &Column, y: &Column, run: usize) -> Vec<(usize, Point)> {
+    let numbers = |column: &Column| match &column.values {
+        Values::Numbers(values) => vec![values[run]],
+        Values::Lists(lists) => lists[run].clone(),
+        Values::Words(_) => Vec::new(),
+    };
+    let (x, y) = (numbers(x), numbers(y));
+    let count = if x.is_empty() || y.is_empty() { 0 } else { x.len().max(y.len()) };
+    let at = |values: &[f64], k: usize| if values.len() == 1 { values[0] } else { *values.get(k).unwrap_or(&f64::NAN) };
+    let point = |k: usize| (run, [at(&x, k), at(&y, k)]);
+    (0..count).map(point).filter(|(_, point)| point.iter().all(|value| value.is_finite())).collect()
+}
+
+type Painted = (Vec<Shapes>, Vec<Series>);
+
+fn coloured(points: &[(usize, Point)], column: &Column, radius: f64) -> Result<Painted, Unfit> {
+    let mut dots: BTreeMap<usize, Vec<Point>> = BTreeMap::new();
+    match &column.values {
+        Values::Words(words) => {
+            let names = column.categories();
+            for (run, point) in points {
+                if let Some(index) = words[*run].as_ref().and_then(|word| names.iter().position(|name| name == word)) {
+                    dots.entry(index).or_default().push(*point);
+                }
+            }
+            let shapes = |(index, at)| Shapes::Dots { at, radius, fill: palette::category(index) };
+            let entry = |(index, name): (usize, &String)| swatch(name.clone(), palette::category(index));
+            Ok((dots.into_iter().map(shapes).collect(), names.iter().enumerate().map(entry).collect()))
+        }
+        Values::Numbers(values) => {
+            let palette = palette::Palette::of(values.iter().copied());
+            for (run, point) in points.iter().filter(|(run, _)| values[*run].is_finite()) {
+                dots.entry(palette.shade(values[*run])).or_default().push(*point);
+            }
+            let shapes = |(shade, at)| Shapes::Dots { at, radius, fill: palette.colour(shade) };
+            Ok((dots.into_iter().map(shapes).collect(), palette.legend()))
+        }
+        Values::Lists(_) => Err(Unfit::new(
+            format!("`{}` has several numbers a run, which no colour tells", column.name),
+            "name another --colour",
+        )),
+    }
+}

@@ -1,0 +1,170 @@
+//! The columns of a study as pictures see them.
+//!
+//! Every column has one value a run; a failed run has none of what is kept: NaN, no word, an empty list. Axes are the
+//! parameters that the grid goes through, so that their values return.
+
+use super::Unfit;
+use crate::plot::chart::{Axis, Scale};
+
+/// A table of runs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// What the study is about.
+    pub title: String,
+    /// The columns.
+    pub columns: Vec<Column>,
+}
+
+/// One column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
+    /// Where it comes from.
+    pub role: Role,
+    /// A value a run.
+    pub values: Values,
+}
+
+/// Where a column comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// A parameter of the grid.
+    Axis,
+    /// A random parameter.
+    Random,
+    /// What was kept of the runs.
+    Kept,
+    /// Numbers of runs, outcomes, counters.
+    Account,
+}
+
+/// Values, one a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// Words.
+    Words(Vec<Option<String>>),
+    /// Several numbers a run.
+    Lists(Vec<Vec<f64>>),
+}
+
+/// The faces of a box, in their order.
+const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
+
+impl Table {
+    /// How many runs there are.
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, |column| match &column.values {
+            Values::Numbers(values) => values.len(),
+            Values::Words(values) => values.len(),
+            Values::Lists(values) => values.len(),
+        })
+    }
+
+    /// The column of this name.
+    ///
+    /// # Errors
+    /// [`Unfit`] if there is none; the names that there are, are the fix.
+    pub fn column(&self, name: &str) -> Result<&Column, Unfit> {
+        self.columns.iter().find(|column| column.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
+            Unfit::new(format!("the table has no column `{name}`"), format!("its columns are {}", names.join(", ")))
+        })
+    }
+
+    /// The columns of a role.
+    pub fn of(&self, role: Role) -> impl Iterator<Item = &Column> {
+        self.columns.iter().filter(move |column| column.role == role)
+    }
+
+    /// How many runs failed.
+    pub fn failures(&self) -> usize {
+        let Some(Values::Words(words)) = self.column("outcome").ok().map(|column| &column.values) else { return 0 };
+        words.iter().filter(|word| word.as_deref() == Some("failed")).count()
+    }
+}
+
+impl Column {
+    /// The numbers, if it has numbers.
+    pub fn numbers(&self) -> Option<&[f64]> {
+        match &self.values {
+            Values::Numbers(values) => Some(values),
+            _ => None,
+        }
+    }
+
+    /// The value of a run in words; none if it has none.
+    pub fn word(&self, run: usize) -> Option<String> {
+        match &self.values {
+            Values::Words(words) => words[run].clone(),
+            Values::Numbers(values) => (!values[run].is_nan()).then(|| crate::plot::chart::ticks::short(values[run])),
+            Values::Lists(_) => None,
+        }
+    }
+
+    /// The different words: all six faces where they are faces of a box, else in the order of the alphabet.
+    pub fn categories(&self) -> Vec<String> {
+        let Values::Words(words) = &self.values else { return Vec::new() };
+        let mut found: Vec<&str> = words.iter().flatten().map(String::as_str).collect();
+        found.sort_unstable();
+        found.dedup();
+        let faces = !found.is_empty() && found.iter().all(|word| FACES.contains(word));
+        (if faces { FACES.to_vec() } else { found }).into_iter().map(str::to_owned).collect()
+    }
+
+    /// The different numbers, from the smallest.
+    pub fn levels(&self) -> Vec<f64> {
+        let mut levels: Vec<f64> = self.numbers().unwrap_or_default().to_vec();
+        levels.retain(|value| value.is_finite());
+        levels.sort_unstable_by(f64::total_cmp);
+        levels.dedup();
+        levels
+    }
+
+    /// The scale on which the levels are even.
+    pub fn scale(&self) -> Scale {
+        let levels = self.levels();
+        let even = |spread: &dyn Fn(&[f64]) -> f64| {
+            let steps: Vec<f64> = levels.windows(2).map(spread).collect();
+            steps.iter().all(|step| (step - steps[0]).abs() < 1e-6 * steps[0].abs())
+        };
+        let geometric = levels.len() > 2 && levels[0] > 0.0 && even(&|pair| (pair[1] / pair[0]).ln());
+        if geometric && !even(&|pair| pair[1] - pair[0]) { Scale::Logarithmic } else { Scale::Linear }
+    }
+
+    /// The axis that holds these values of the column.
+    pub fn axis(&self, values: impl IntoIterator<Item = f64>) -> Axis {
+        match self.scale() {
+            Scale::Linear => Axis::linear(&self.name, &self.unit, values),
+            Scale::Logarithmic => Axis::logarithmic(&self.name, &self.unit, values),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(values: Values) -> Column {
+        Column { name: "c".into(), unit: String::new(), role: Role::Axis, values }
+    }
+
+    #[test]
+    fn values_that_grow_by_a_factor_stand_on_a_logarithmic_axis() {
+        assert_eq!(column(Values::Numbers(vec![4.0, 1.0, 2.0, 1.0])).scale(), Scale::Logarithmic);
+        assert_eq!(column(Values::Numbers(vec![1.0, 2.0, 3.0])).scale(), Scale::Linear);
+        assert_eq!(column(Values::Numbers(vec![1.0, 2.0])).scale(), Scale::Linear);
+        assert_eq!(column(Values::Numbers(vec![0.0, 1.0, 10.0])).scale(), Scale::Linear);
+    }
+
+    #[test]
+    fn a_face_that_never_comes_is_a_category_too() {
+        let words = |words: &[&str]| column(Values::Words(words.iter().map(|word| Some((*word).into())).collect()));
+        assert_eq!(words(&["+z", "-x"]).categories(), FACES);
+        assert_eq!(words(&["falls", "stands", "falls"]).categories(), ["falls", "stands"]);
+    }
+}
