@@ -2,7 +2,7 @@
 //!
 //! Bytes become lines and columns here and nowhere else.
 
-use crate::error::{Excerpt, SceneError, SceneErrors};
+use crate::error::{Excerpt, Fault, SceneError, SceneErrors};
 use crate::key::Key;
 use crate::tree::{Node, Span, Value};
 
@@ -27,20 +27,36 @@ pub(crate) struct Finding {
     pub(crate) span: Span,
     pub(crate) message: String,
     pub(crate) help: String,
+    pub(crate) fault: Fault,
 }
 
 /// Collects what is wrong, up to a number that no one reads: a file of megabytes must not take gigabytes of messages.
 #[derive(Debug, Default)]
-pub(crate) struct Findings(Vec<Finding>);
+pub(crate) struct Findings {
+    found: Vec<Finding>,
+    /// What is being looked at.
+    looking_at: Fault,
+}
 
 /// The most findings that are kept.
 const MOST_FINDINGS: usize = 2000;
 
 impl Findings {
+    /// An empty collection of errors of this kind.
+    pub(crate) fn of(looking_at: Fault) -> Self {
+        Self { found: Vec::new(), looking_at }
+    }
+
+    /// From here on, errors are of this kind.
+    pub(crate) fn look_at(&mut self, fault: Fault) {
+        self.looking_at = fault;
+    }
+
     /// Notes an error at a span.
     pub(crate) fn at(&mut self, span: Span, key: &Key, message: impl Into<String>, help: impl Into<String>) {
         if !self.is_full() {
-            self.0.push(Finding { key: key.clone(), span, message: message.into(), help: help.into() });
+            let (key, message, help) = (key.clone(), message.into(), help.into());
+            self.found.push(Finding { key, span, message, help, fault: self.looking_at });
         }
     }
 
@@ -48,24 +64,24 @@ impl Findings {
     pub(crate) fn extend(&mut self, other: impl IntoIterator<Item = Finding>) {
         for finding in other {
             if !self.is_full() {
-                self.0.push(finding);
+                self.found.push(finding);
             }
         }
     }
 
     /// Whether nothing is wrong so far.
     pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.found.is_empty()
     }
 
     /// Whether no more are kept: there is then no need to look for more.
     pub(crate) fn is_full(&self) -> bool {
-        self.0.len() >= MOST_FINDINGS
+        self.found.len() >= MOST_FINDINGS
     }
 
     /// What was found so far.
     pub(crate) fn iter(&self) -> std::slice::Iter<'_, Finding> {
-        self.0.iter()
+        self.found.iter()
     }
 }
 
@@ -74,7 +90,7 @@ impl IntoIterator for Findings {
     type IntoIter = std::vec::IntoIter<Finding>;
 
     fn into_iter(self) -> Self::IntoIter {
-        self.0.into_iter()
+        self.found.into_iter()
     }
 }
 
@@ -90,7 +106,7 @@ impl Document {
         // A file with more errors than this is not a scene; the first ones tell.
         const MOST: usize = 200;
         let is_full = findings.is_full();
-        let mut findings = findings.0;
+        let mut findings = findings.found;
         findings.sort_by(|a, b| (a.span.text, a.span.start, &a.key).cmp(&(b.span.text, b.span.start, &b.key)));
         findings.dedup();
         let omitted = findings.len().saturating_sub(MOST);
@@ -105,7 +121,8 @@ impl Document {
             None => (String::new(), Place::new("", Span::default())),
         };
         let Place { line, column, excerpt } = place;
-        SceneError { file, line, column, key, message: finding.message, help: finding.help, excerpt }
+        let Finding { message, help, fault, span, .. } = finding;
+        SceneError { file, line, column, key, message, help, fault, overriding: span.text.checked_sub(1), excerpt }
     }
 }
 

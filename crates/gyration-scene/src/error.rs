@@ -21,8 +21,24 @@ pub struct SceneError {
     pub message: String,
     /// What to do about it; may be empty.
     pub help: String,
+    /// Whether it is the text, a place in it, or a value.
+    pub fault: Fault,
+    /// Which override it stands in, from zero; none for the file.
+    pub overriding: Option<usize>,
     /// The line of the file, cut to a readable width, with its marks.
     pub(crate) excerpt: Excerpt,
+}
+
+/// What an error is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum Fault {
+    /// The text: its syntax.
+    Syntax,
+    /// The structure: a key that is not known or missing, another kind of value, another unit. No other number mends it.
+    Structure,
+    /// A value: out of its limits, or at odds with others. Another number may do.
+    #[default]
+    Value,
 }
 
 /// The text around an error and which part of it is marked.

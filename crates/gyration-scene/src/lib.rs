@@ -4,7 +4,7 @@
 //! text → tree (TOML or JSON, with places) → overrides → structure (JSON Schema) → values → model, state, plan
 //! ```
 //!
-//! [`Scene::open`] does all of it. Everything that is wrong with a scene comes at once, with file, line, column, dotted
+//! [`Scene::open`] does all of it; [`Template`] reads a text once for many scenes. Everything that is wrong with a scene comes at once, with file, line, column, dotted
 //! key and fix ([`SceneErrors`]); a file that cannot be read at all is a [`ReadError`]. The types of the file are in
 //! [`mod@file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
 
@@ -22,14 +22,17 @@ pub mod quantity;
 mod read;
 mod scene;
 mod schema;
+pub mod sheet;
 mod suggest;
 mod table;
+mod template;
 mod tree;
 pub mod units;
 
 pub use build::{Built, Plan, Record, StopAtRest};
-pub use error::{LoadError, ReadError, SceneError, SceneErrors};
+pub use error::{Fault, LoadError, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::gallery;
 pub use scene::Scene;
-pub use schema::schema;
+pub use schema::{schema, schema_of};
+pub use template::{Template, unit_of};

@@ -4,7 +4,7 @@
 //! dimension).
 
 use crate::file::SceneFile;
-use schemars::Schema;
+use schemars::{JsonSchema, Schema};
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::Value;
@@ -16,10 +16,13 @@ pub fn schema() -> Value {
 }
 
 /// The schema, made once.
-pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
+pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(schema_of::<SceneFile>);
+
+/// The JSON Schema (draft 2020-12) of a type of file, in the manner of that of a scene.
+pub fn schema_of<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft2020_12().with_transform(WithoutNull);
-    settings.into_generator().into_root_schema_for::<SceneFile>().to_value()
-});
+    settings.into_generator().into_root_schema_for::<T>().to_value()
+}
 
 /// Removes null from what an optional key may hold: a key that is not wanted is left out.
 #[derive(Debug, Clone)]

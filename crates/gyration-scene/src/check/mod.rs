@@ -10,6 +10,7 @@ mod structure;
 mod values;
 
 pub(crate) use draft::{Draft, Placed};
+pub(crate) use rule::{RULES, Rules};
 pub(crate) use structure::structure;
 pub(crate) use values::{direction, values};
 

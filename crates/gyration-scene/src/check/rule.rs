@@ -13,10 +13,11 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// The rules of a scene, made once.
-pub(super) static RULES: LazyLock<Rules> = LazyLock::new(|| Rules::new(&SCHEMA));
+pub(crate) static RULES: LazyLock<Rules> = LazyLock::new(|| Rules::new(&SCHEMA));
 
 /// All rules, the shared ones by name.
-pub(super) struct Rules {
+#[derive(Debug)]
+pub(crate) struct Rules {
     pub(super) root: Field,
     shared: BTreeMap<String, Rule>,
 }
@@ -36,6 +37,8 @@ pub(super) enum Rule {
     Shared(String),
     /// A table with these keys.
     Table { fields: BTreeMap<String, Field>, required: Vec<String> },
+    /// A table with keys of the user's choice.
+    Named(Box<Field>),
     /// An array of so many items.
     Array { item: Box<Field>, least: usize, most: usize },
     /// One table of this kind, or an array of them.
@@ -68,7 +71,8 @@ pub(super) struct Limits {
 }
 
 impl Rules {
-    fn new(schema: &Json) -> Self {
+    /// The rules of a schema.
+    pub(crate) fn new(schema: &Json) -> Self {
         let definitions = schema.get("$defs").and_then(Json::as_object);
         let shared = definitions.into_iter().flatten().map(|(name, target)| (name.clone(), rule(target)));
         Self { root: field(schema), shared: shared.collect() }
@@ -79,6 +83,30 @@ impl Rules {
         match rule {
             Rule::Shared(name) => self.shared.get(name).unwrap_or(&Rule::Unknown),
             other => other,
+        }
+    }
+
+    /// The SI unit of the quantity at a dotted key; none if there is none, or no such key.
+    pub(crate) fn unit_of(&self, key: &str) -> Option<&str> {
+        let mut rule = self.resolve(&self.root.rule);
+        for word in key.split('.') {
+            let is_index = word.parse::<usize>().is_ok();
+            let next = match rule {
+                Rule::Either(array, _) if is_index => self.resolve(&array.rule),
+                Rule::Either(_, table) => self.resolve(&table.rule),
+                // One of several may be written without an array around it.
+                Rule::Several(item) if !is_index => self.resolve(&item.rule),
+                rule => rule,
+            };
+            rule = match next {
+                Rule::Table { fields, .. } | Rule::Choice { tags: fields, .. } => self.resolve(&fields.get(word)?.rule),
+                Rule::Array { item, .. } | Rule::Several(item) | Rule::Named(item) => self.resolve(&item.rule),
+                _ => return None,
+            };
+        }
+        match rule {
+            Rule::Quantity { symbol, .. } => Some(symbol),
+            _ => None,
         }
     }
 }
@@ -139,6 +167,9 @@ fn quantity(symbol: &str, schema: &Json) -> Rule {
 }
 
 fn table(schema: &Json) -> Rule {
+    if let Some(named) = schema.get("additionalProperties").filter(|named| **named != Json::Bool(false)) {
+        return Rule::Named(Box::new(field(named)));
+    }
     let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
     let required = required.filter_map(Json::as_str).map(str::to_owned).collect();
     Rule::Table { fields: fields(schema), required }
@@ -174,6 +205,16 @@ mod tests {
             Rule::Either(array, table) => [array, table].iter().for_each(|kind| assert_understood(kind, place)),
             Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::Text => {}
         }
+    }
+
+    #[test]
+    fn quantities_are_found_by_their_keys() {
+        let unit = |key: &str| RULES.unit_of(key);
+        assert_eq!(unit("body.die.position.2"), Some("m"));
+        assert_eq!(unit("body.0.shape.box.size"), None);
+        assert_eq!(unit("contact.0.friction.beta"), Some("Pa s/m"));
+        assert_eq!(unit("body.die.contractile.drive.sine.frequency"), Some("Hz"));
+        assert_eq!([unit("solver.rtol"), unit("body.die.colour"), unit("")], [None; 3]);
     }
 
     #[test]

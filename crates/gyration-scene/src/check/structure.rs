@@ -2,17 +2,20 @@
 //!
 //! Goes on behind every error. The depth of the recursion is that of the tree, which the parsers limit.
 
-use super::rule::{Field, Limits, RULES, Rule, Rules};
+use super::rule::{Field, Limits, Rule, Rules};
 use crate::document::Findings;
+use crate::error::Fault;
 use crate::key::Key;
 use crate::suggest;
 use crate::tree::{Node, Table, Value};
 use crate::units::{Dimension, Unit, UnitError, parse_quantity};
 use std::collections::BTreeMap;
 
-/// Notes where the tree departs from the rules of the format.
-pub(crate) fn structure(root: &Node, findings: &mut Findings) {
-    Walker { rules: &RULES, findings }.visit(root, &Key::root(), &RULES.root);
+/// Notes where the tree departs from the rules of its format.
+pub(crate) fn structure(root: &Node, rules: &Rules, findings: &mut Findings) {
+    findings.look_at(Fault::Structure);
+    Walker { rules, findings }.visit(root, &Key::root(), &rules.root);
+    findings.look_at(Fault::Value);
 }
 
 struct Walker<'a> {
@@ -29,6 +32,9 @@ impl Walker<'_> {
             (Value::Table(table), Rule::Table { fields, required }) => self.table(table, node, key, fields, required),
             (Value::Table(table), Rule::Choice { words, tags }) if !tags.is_empty() => {
                 self.tagged(table, node, key, (words, tags));
+            }
+            (Value::Table(table), Rule::Named(field)) => {
+                table.iter().for_each(|(name, entry)| self.visit(&entry.node, &key.key(name), field));
             }
             (Value::Array(items), Rule::Several(item)) => self.items(items, key, item),
             (Value::Table(_), Rule::Several(item)) => self.visit(node, key, item),
@@ -129,7 +135,9 @@ impl Walker<'_> {
                 (Some(least), Some(most)) => format!("write a number from {least:?} to {most:?}{unit}"),
                 _ => format!("write a number that is {condition}"),
             };
+            self.findings.look_at(Fault::Value);
             self.findings.at(node.span, key, message, range);
+            self.findings.look_at(Fault::Structure);
         }
     }
 
@@ -155,6 +163,7 @@ impl Walker<'_> {
                 let keys: Vec<&str> = fields.keys().map(String::as_str).collect();
                 format!("a table with keys of {}", keys.join(", "))
             }
+            Rule::Named(_) => "a table".to_owned(),
             Rule::Shared(_) | Rule::Unknown => "a value".to_owned(),
         }
     }

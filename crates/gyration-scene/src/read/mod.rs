@@ -10,7 +10,9 @@ mod toml;
 pub(crate) use overrides::apply;
 
 use crate::document::{Document, Findings};
-use crate::error::ReadError;
+use crate::error::{Fault, LoadError, ReadError, SceneErrors};
+use crate::key::Key;
+use crate::tree::Span;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -34,14 +36,40 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     Ok(content)
 }
 
-/// Reads the text of a document into its tree; errors of syntax are noted.
-pub(crate) fn tree(document: &mut Document, findings: &mut Findings) {
-    let Some(text) = document.texts.first() else { return };
-    let named_json = Path::new(&text.name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-    let content = &text.content;
-    document.root = if named_json || content.trim_start_matches('\u{feff}').trim_start().starts_with('{') {
-        json::parse(content, findings)
+/// Name and text of a file.
+///
+/// # Errors
+/// `Read` if it cannot be read, `Content` if it is no text.
+pub(crate) fn text(path: &Path) -> Result<(String, String), LoadError> {
+    let name = path.display().to_string();
+    match String::from_utf8(bytes(path)?) {
+        Ok(text) => Ok((name, text)),
+        Err(error) => Err(not_utf8(&name, &error).into()),
+    }
+}
+
+/// Reads a text into a tree.
+///
+/// # Errors
+/// All errors of its syntax.
+pub(crate) fn document(name: &str, text: &str) -> Result<Document, SceneErrors> {
+    let mut document = Document::new(name, text);
+    let mut findings = Findings::of(Fault::Syntax);
+    let named_json = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    document.root = if named_json || text.trim_start_matches('\u{feff}').trim_start().starts_with('{') {
+        json::parse(text, &mut findings)
     } else {
-        toml::parse(content, findings)
+        toml::parse(text, &mut findings)
     };
+    if findings.is_empty() { Ok(document) } else { Err(document.settle(findings)) }
+}
+
+fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> SceneErrors {
+    let document = Document::new(name, &String::from_utf8_lossy(error.as_bytes()));
+    // Up to the first bad byte the text is as it was.
+    let at = error.utf8_error().valid_up_to();
+    let mut findings = Findings::of(Fault::Syntax);
+    let span = Span { text: 0, start: at, end: at + 1 };
+    findings.at(span, &Key::root(), "not valid UTF-8", "save the file as UTF-8 text");
+    document.settle(findings)
 }

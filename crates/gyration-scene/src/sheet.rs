@@ -1,0 +1,133 @@
+//! Other files of the program, studies and measurements, read with the same care as a scene.
+//!
+//! ```text
+//! text → tree, with places → structure by the JSON Schema of a type → parts, each deserialized → notes of the caller
+//! ```
+//!
+//! Everything that is wrong comes at once, with file, line, column, dotted key and fix. A place is the keys that lead to it,
+//! an index from zero for an item of an array.
+
+use crate::check::{Rules, structure};
+use crate::document::{Document, Findings};
+use crate::error::{Fault, LoadError, SceneErrors};
+use crate::key::Key;
+use crate::read;
+use crate::schema::schema_of;
+use crate::suggest;
+use crate::tree::{Node, Value};
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use std::path::Path;
+
+/// What a kind of file may hold.
+#[derive(Debug)]
+pub struct Form(Rules);
+
+impl Form {
+    /// The form of the files that a type describes.
+    pub fn of<T: JsonSchema>() -> Self {
+        Self(Rules::new(&schema_of::<T>()))
+    }
+}
+
+/// A file and what has been found wrong with it.
+#[derive(Debug)]
+pub struct Sheet {
+    document: Document,
+    findings: Findings,
+}
+
+impl Sheet {
+    /// Reads a file, applies overrides as of a scene, and checks its structure.
+    ///
+    /// # Errors
+    /// `Read` if it cannot be read, `Content` with all errors of its syntax.
+    pub fn load(path: &Path, form: &Form, overrides: &[String]) -> Result<Self, LoadError> {
+        let (name, text) = read::text(path)?;
+        Ok(Self::parse(&name, &text, form, overrides)?)
+    }
+
+    /// Reads a text, applies overrides as of a scene, and checks its structure; `name` is what messages call it. TOML, or
+    /// JSON as of a scene.
+    ///
+    /// # Errors
+    /// All errors of its syntax.
+    pub fn parse(name: &str, text: &str, form: &Form, overrides: &[String]) -> Result<Self, SceneErrors> {
+        let mut document = read::document(name, text)?;
+        let mut findings = Findings::of(Fault::Structure);
+        read::apply(&mut document, overrides, &mut findings);
+        structure(&document.root, &form.0, &mut findings);
+        Ok(Self { document, findings })
+    }
+
+    /// Its text, verbatim.
+    pub fn text(&self) -> &str {
+        self.document.texts.first().map_or("", |text| &text.content)
+    }
+
+    /// The keys of the table at a place, in the order in which they are written; none where there is no table.
+    pub fn keys(&self, place: &[&str]) -> Vec<String> {
+        let Some(Value::Table(table)) = self.node(place).map(|node| &node.value) else { return Vec::new() };
+        let mut keys: Vec<_> = table.iter().map(|(name, entry)| (entry.key_span, name.clone())).collect();
+        keys.sort();
+        keys.into_iter().map(|(_, name)| name).collect()
+    }
+
+    /// The value at a place, as it is written.
+    pub fn value(&self, place: &[&str]) -> Option<serde_json::Value> {
+        self.node(place).map(Node::to_json)
+    }
+
+    /// The value at a place, if it is there and nothing has been found wrong within it.
+    pub fn take<T: DeserializeOwned>(&mut self, place: &[&str]) -> Option<T> {
+        let key = self.key(place);
+        let json = self.node(place)?.to_json();
+        if self.findings.iter().any(|finding| key.holds(&finding.key)) {
+            return None;
+        }
+        serde_json::from_value(json).map_err(|error| self.note(place, error.to_string(), "see the reference")).ok()
+    }
+
+    /// Notes what is wrong at a place, or around it if nothing stands there, and what to do.
+    pub fn note(&mut self, place: &[&str], message: impl Into<String>, help: impl Into<String>) {
+        let key = self.key(place);
+        self.findings.at(key.span(&self.document.root), &key, message, help);
+    }
+
+    /// Whether nothing has been found wrong.
+    pub fn is_sound(&self) -> bool {
+        self.findings.is_empty()
+    }
+
+    /// Ends the reading.
+    ///
+    /// # Errors
+    /// Everything that has been found wrong, in the order of the text.
+    pub fn finish(self) -> Result<(), SceneErrors> {
+        if self.findings.is_empty() { Ok(()) } else { Err(self.document.settle(self.findings)) }
+    }
+
+    fn node(&self, place: &[&str]) -> Option<&Node> {
+        place.iter().try_fold(&self.document.root, |node, word| match &node.value {
+            Value::Array(items) => items.get(word.parse::<usize>().ok()?),
+            _ => node.get(word),
+        })
+    }
+
+    fn key(&self, place: &[&str]) -> Key {
+        let mut key = Key::root();
+        for (depth, word) in place.iter().enumerate() {
+            let is_array = matches!(self.node(&place[..depth]), Some(Node { value: Value::Array(_), .. }));
+            key = match word.parse() {
+                Ok(index) if is_array => key.index(index),
+                _ => key.key(word),
+            };
+        }
+        key
+    }
+}
+
+/// The fix for a word that is not among the known ones: the nearest, or all of them if they are few; `what` says what they are.
+pub fn fix<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, what: &str) -> String {
+    suggest::fix(word, known, what)
+}

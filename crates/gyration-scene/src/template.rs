@@ -1,0 +1,124 @@
+//! A scene read once, of which many are made: its text is parsed, its overrides are not yet applied.
+//!
+//! [`Scene::parse`] is [`Template::parse`] and [`Template::scene`]; the errors are the same either way. A study opens a
+//! scene thousands of times, each with other numbers.
+
+use crate::build::{Setting, build, salvage};
+use crate::check::{Draft, Judge, RULES, structure, values};
+use crate::document::{Document, Findings};
+use crate::error::{Fault, LoadError, ReadError, SceneErrors};
+use crate::gallery;
+use crate::read;
+use crate::scene::Scene;
+use crate::suggest;
+use std::path::{Path, PathBuf};
+
+/// A scene whose text is read.
+#[derive(Debug, Clone)]
+pub struct Template {
+    document: Document,
+    base: PathBuf,
+    /// The name of its file without folder and ending.
+    stem: String,
+}
+
+impl Template {
+    /// Reads a scene by its path or, if there is no such file, by its name in the gallery.
+    ///
+    /// # Errors
+    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] if its text has errors of syntax.
+    pub fn open(path_or_name: &str) -> Result<Self, LoadError> {
+        let path = Path::new(path_or_name);
+        if path.is_file() {
+            return Self::load(path);
+        }
+        match gallery::find(path_or_name) {
+            Some(text) => Ok(Self::parse(&format!("{path_or_name}.toml"), text, Path::new(""))?),
+            None if path.exists() => Self::load(path),
+            None => {
+                let names = gallery::gallery().iter().map(|(name, _)| *name);
+                let help = suggest::fix(path_or_name, names, "the gallery has");
+                Err(ReadError::NotFound { path: PathBuf::from(path), help }.into())
+            }
+        }
+    }
+
+    /// Reads a scene from a file; paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// As of [`Template::open`].
+    pub fn load(path: &Path) -> Result<Self, LoadError> {
+        let (name, text) = read::text(path)?;
+        let base = path.parent().unwrap_or(Path::new(""));
+        Ok(Self::parse(&name, &text, base)?)
+    }
+
+    /// Reads a scene from a text; `name` is what messages call it, paths in it are relative to `base`.
+    ///
+    /// The text is TOML, or JSON if the name ends in `.json` or the text begins with a brace.
+    ///
+    /// # Errors
+    /// All errors of its syntax. Behind one the tree is a guess: nothing more can be said about it.
+    pub fn parse(name: &str, text: &str, base: &Path) -> Result<Self, SceneErrors> {
+        let document = read::document(name, text)?;
+        Ok(Self { document, base: base.to_owned(), stem: stem(name) })
+    }
+
+    /// The scene with these overrides, each `KEY=VALUE` as in `--set`.
+    ///
+    /// # Errors
+    /// Everything that is wrong in it, in the order of the text.
+    pub fn scene(&self, overrides: &[String]) -> Result<Scene, SceneErrors> {
+        let mut document = self.document.clone();
+        let mut findings = Findings::of(Fault::Structure);
+        read::apply(&mut document, overrides, &mut findings);
+        structure(&document.root, &RULES, &mut findings);
+        let mut draft = Draft::new(&document, &mut findings);
+        let mut judge = Judge { document: &document, findings: &mut findings };
+        values(&draft, &mut judge);
+        let setting = Setting::new(&draft, &document, &self.base);
+        let built = build(&mut draft, &setting, &mut judge);
+        salvage(&document, &setting, &mut findings);
+        match (draft.complete(), built) {
+            (Some(file), Some(built)) if findings.is_empty() => {
+                let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
+                Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built })
+            }
+            _ => Err(document.settle(findings)),
+        }
+    }
+
+    /// The name of its file without folder and ending.
+    pub fn name(&self) -> &str {
+        &self.stem
+    }
+
+    /// What messages call its file.
+    pub fn file_name(&self) -> &str {
+        self.document.texts.first().map_or("", |text| &text.name)
+    }
+
+    /// The folder that paths in it are relative to.
+    pub fn base(&self) -> &Path {
+        &self.base
+    }
+
+    /// Its text, verbatim.
+    pub fn text(&self) -> &str {
+        self.document.texts.first().map_or("", |text| &text.content)
+    }
+
+    /// What it says, without overrides and defaults, comments and layout.
+    pub fn written(&self) -> serde_json::Value {
+        self.document.root.to_json()
+    }
+}
+
+fn stem(name: &str) -> String {
+    Path::new(name).file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// The SI unit of the quantity at a dotted key of a scene, `"m"` of `body.die.position.2`; none of what is no quantity.
+pub fn unit_of(key: &str) -> Option<&'static str> {
+    RULES.unit_of(key)
+}
