@@ -135,6 +135,14 @@ pub enum ReadError {
         /// The nearest name of the gallery, or all of them.
         help: String,
     },
+    /// No file, where nothing else could be meant.
+    #[error("{path}: no such file, {help}", path = path.display())]
+    Missing {
+        /// The path asked for.
+        path: PathBuf,
+        /// What else was looked for, and the nearest names.
+        help: String,
+    },
     /// The system refused.
     #[error("{path}: cannot be read: {source}", path = path.display())]
     Io {

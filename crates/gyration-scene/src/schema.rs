@@ -4,9 +4,9 @@
 //! dimension).
 
 use crate::file::SceneFile;
-use schemars::{JsonSchema, Schema};
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
+use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 use std::sync::LazyLock;
 

@@ -21,6 +21,20 @@ pub trait Sink {
     /// Whatever keeps it from being stored.
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
 
+    /// Whether [`Sink::event_row`] is to be called.
+    fn wants_event_rows(&self) -> bool {
+        false
+    }
+
+    /// The row at the time of an event, right after the event itself; from the dense output, as samples are.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being stored.
+    fn event_row(&mut self, event: &Event, row: &[f64]) -> Result<(), RecordError> {
+        let _ = (event, row);
+        Ok(())
+    }
+
     /// The end of a step, when a checkpoint may be taken.
     ///
     /// # Errors

@@ -33,8 +33,8 @@ pub struct Simulation<'a> {
     /// Since when each signal of each body is known within the step [s].
     pub(crate) since: Vec<[f64; 3]>,
     /// What the rows hold, and scratch for them.
-    fields: Fields,
-    rows: RowScratch,
+    pub(crate) fields: Fields,
+    pub(crate) rows: RowScratch,
     /// The time of the last row [s].
     recorded: f64,
 }
@@ -247,7 +247,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// The state at a time within the last step.
-    fn interpolate(&mut self, time: f64) {
+    pub(crate) fn interpolate(&mut self, time: f64) {
         if time >= self.integrator.time() {
             return self.sample_end();
         }

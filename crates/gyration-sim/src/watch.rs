@@ -51,9 +51,19 @@ impl Simulation<'_> {
         for event in &found {
             self.tally.events[event.kind] += 1;
             sink.event(event)?;
+            if sink.wants_event_rows() && self.fill_row(event.time) {
+                sink.event_row(event, &self.rows.row)?;
+            }
         }
         self.found = found;
         Ok(())
+    }
+
+    /// Fills the row of a time within the last step; false where that state is outside the model.
+    fn fill_row(&mut self, time: f64) -> bool {
+        self.interpolate(time);
+        let (model, initial) = (self.system.model(), Some(self.tally.initial_energy));
+        self.fields.fill(model, self.system.workspace(), &self.sampled, initial, &mut self.rows).is_ok()
     }
 
     /// The signals of a body in the sampled state, but for the one that needs a force.

@@ -201,7 +201,7 @@ mod tests {
             Rule::Table { fields, .. } | Rule::Choice { tags: fields, .. } => {
                 fields.iter().for_each(|(name, field)| assert_understood(field, &format!("{place}.{name}")));
             }
-            Rule::Array { item, .. } | Rule::Several(item) => assert_understood(item, place),
+            Rule::Array { item, .. } | Rule::Several(item) | Rule::Named(item) => assert_understood(item, place),
             Rule::Either(array, table) => [array, table].iter().for_each(|kind| assert_understood(kind, place)),
             Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::Text => {}
         }
