@@ -1,0 +1,53 @@
+//! The columns of a table: name, unit, kind.
+
+use serde::{Deserialize, Serialize};
+
+/// A column.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// The SI unit of its numbers; none of what is no quantity, or where it is not known.
+    pub unit: Option<String>,
+    /// What stands in it.
+    pub kind: Kind,
+}
+
+/// What stands in a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Integers of 64 bits.
+    Integer,
+    /// Real numbers.
+    Number,
+    /// Texts.
+    Text,
+    /// Lists of real numbers.
+    List,
+}
+
+impl Column {
+    /// A column of this name, unit and kind.
+    pub fn new(name: impl Into<String>, unit: Option<&str>, kind: Kind) -> Self {
+        Self { name: name.into(), unit: unit.map(str::to_owned), kind }
+    }
+}
+
+/// The columns before the parameters.
+pub(crate) fn leading() -> [Column; 3] {
+    ["run", "point", "repetition"].map(|name| Column::new(name, None, Kind::Integer))
+}
+
+/// The columns between the parameters and what is kept.
+pub(crate) fn ending() -> [Column; 7] {
+    [
+        Column::new("outcome", None, Kind::Text),
+        Column::new("reason", None, Kind::Text),
+        Column::new("time", Some("s"), Kind::Number),
+        Column::new("steps", None, Kind::Integer),
+        Column::new("rejected", None, Kind::Integer),
+        Column::new("evaluations", None, Kind::Integer),
+        Column::new("residual", Some("1"), Kind::Number),
+    ]
+}

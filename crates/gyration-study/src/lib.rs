@@ -1,0 +1,45 @@
+//! Thousands of runs of a scene into one table: grids, random parameters, shards.
+//!
+//! ```text
+//! study.toml → Study          what is varied in a scene, and what is kept of each run
+//! run number → Study::row     depends on the study and the number alone; failures are rows
+//! rows → Table                a folder: rows as they come, one Parquet file at the end; resumed, sharded, joined
+//! execute                     the rows that are missing, on the threads of one machine
+//! table → Frame               columns in memory, for drawing
+//! ```
+//!
+//! Nothing in a table depends on clocks, threads, shards or the order of the runs. No mechanics here: a run is one of
+//! `gyration-sim`.
+
+mod column;
+mod error;
+mod execute;
+mod file;
+mod fingerprint;
+mod gallery;
+mod keep;
+mod observe;
+mod parameter;
+mod random;
+mod read;
+mod run;
+mod study;
+mod table;
+mod value;
+mod written;
+
+pub use column::{Column, Kind};
+pub use error::StudyError;
+pub use execute::{Progress, Unwatched, Watcher, execute};
+pub use gallery::studies;
+pub use keep::{Keep, Measure, Pick};
+pub use parameter::{Distribution, Parameter, Steps, Variation};
+pub use run::{FAILED, STEP_LIMIT, Worker};
+pub use study::{Recordings, Sampling, Source, Study};
+pub use table::{Data, Described, Digest, Frame, FrameColumn, Shard, Spread, Table, merge};
+pub use value::{Row, Value};
+
+/// The JSON Schema of a study.
+pub fn schema() -> serde_json::Value {
+    gyration_scene::schema_of::<file::StudyFile>()
+}

@@ -1,0 +1,185 @@
+//! From a study's text to a study: everything that is wrong at once, each with its place and its fix.
+
+mod keep;
+mod parameter;
+mod probe;
+
+pub(crate) use probe::probe;
+
+use crate::column::{Column, ending, leading};
+use crate::file::{Recordings, Sampling, StudyFile};
+use crate::keep::Keep;
+use crate::parameter::{Parameter, Variation};
+use crate::random::MOST_DIMENSIONS;
+use crate::written::toml;
+use gyration_scene::Template;
+use gyration_scene::sheet::{Form, Sheet, fix};
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::LazyLock;
+
+/// What a study's file may hold.
+pub(crate) static FORM: LazyLock<Form> = LazyLock::new(Form::of::<StudyFile>);
+
+/// The most runs of a study.
+const MOST_RUNS: u64 = 1 << 40;
+/// Whole numbers beyond this are not told from their neighbours.
+const MOST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
+/// What a study's file says.
+#[derive(Debug, Clone)]
+pub(crate) struct Read {
+    pub title: Option<String>,
+    pub scene: String,
+    pub seed: u64,
+    pub repetitions: u64,
+    pub sampling: Sampling,
+    pub recordings: Recordings,
+    pub max_steps: Option<u64>,
+    pub plot: Json,
+    /// `[set]`: key and value as TOML.
+    pub settings: Vec<(String, String)>,
+    pub parameters: Vec<Parameter>,
+    /// How many values each axis has, the slowest first.
+    pub axes: Vec<u64>,
+    pub keeps: Vec<(String, Keep)>,
+}
+
+/// Reads what a sheet says; what is wrong is noted, and then the rest is worth nothing.
+pub(crate) fn read(sheet: &mut Sheet) -> Read {
+    let settings: Vec<_> = sheet.keys(&["set"]).into_iter().map(|key| setting(sheet, key)).collect();
+    let (parameters, axes) = parameter::parameters(sheet);
+    let keeps = keep::keeps(sheet);
+    let seed = whole(sheet, &["seed"]).unwrap_or(0);
+    let repetitions = whole(sheet, &["repetitions"]).unwrap_or(1);
+    let max_steps = whole(sheet, &["max_steps"]);
+    let read = Read {
+        title: sheet.take(&["title"]),
+        scene: sheet.take(&["scene"]).unwrap_or_default(),
+        seed,
+        repetitions,
+        sampling: or_default(sheet, "sampling"),
+        recordings: or_default(sheet, "recordings"),
+        max_steps,
+        plot: sheet.value(&["plot"]).unwrap_or_default(),
+        settings,
+        parameters,
+        axes,
+        keeps,
+    };
+    dimensions(&read, sheet);
+    keys_once(&read, sheet);
+    names(&read, sheet);
+    count(&read, sheet);
+    read
+}
+
+/// The scene that a study names: a path relative to the study's file, or a name of the gallery; none if there is none.
+pub(crate) fn scene(sheet: &mut Sheet, name: &str, base: &Path) -> Option<Result<Template, gyration_scene::LoadError>> {
+    let beside = base.join(name);
+    let opened = if beside.is_file() { Template::load(&beside) } else { Template::open(name) };
+    match opened {
+        Err(gyration_scene::LoadError::Read(error)) => {
+            sheet.note(
+                &["scene"],
+                error.to_string(),
+                "write a path relative to the study's file, or a name of the gallery",
+            );
+            None
+        }
+        other => Some(other),
+    }
+}
+
+fn or_default<T: DeserializeOwned + Default>(sheet: &mut Sheet, key: &str) -> T {
+    sheet.take(&[key]).unwrap_or_default()
+}
+
+fn setting(sheet: &mut Sheet, key: String) -> (String, String) {
+    let value = sheet.value(&["set", &key]).unwrap_or_default();
+    (key, toml(&value))
+}
+
+/// A whole number that is written at a place, if one is; notes what is none.
+fn whole(sheet: &mut Sheet, place: &[&str]) -> Option<u64> {
+    let number: f64 = sheet.take(place)?;
+    if number.fract() != 0.0 || number.abs() > MOST_WHOLE {
+        sheet.note(place, format!("{number:?} is not a whole number"), "write a whole number of at most 15 digits");
+        return None;
+    }
+    Some(number as u64)
+}
+
+/// The points of Sobol have so many coordinates, and no more.
+fn dimensions(read: &Read, sheet: &mut Sheet) {
+    let random = read.parameters.iter().filter_map(|parameter| match &parameter.variation {
+        Variation::Random { distribution, .. } => Some(distribution.dimensions()),
+        Variation::Axis { .. } => None,
+    });
+    let needed: usize = random.sum();
+    if read.sampling == Sampling::Sobol && needed > MOST_DIMENSIONS {
+        let message =
+            format!("the random parameters take {needed} dimensions, and Sobol's points have {MOST_DIMENSIONS}");
+        sheet.note(&["sampling"], message, "write \"latin_hypercube\" or \"random\"");
+    }
+}
+
+/// Notes keys of the scene that are set twice.
+fn keys_once(read: &Read, sheet: &mut Sheet) {
+    let mut seen: BTreeMap<String, String> = BTreeMap::new();
+    let plain = |key: &str| key.split('.').map(str::trim).collect::<Vec<_>>().join(".");
+    for (key, _) in &read.settings {
+        seen.insert(plain(key), "[set]".to_owned());
+    }
+    for parameter in &read.parameters {
+        for key in &parameter.keys {
+            if let Some(other) = seen.insert(plain(key), format!("the parameter \"{}\"", parameter.name)) {
+                let place = ["parameter", &parameter.name, if parameter.keys.len() == 1 { "key" } else { "keys" }];
+                sheet.note(&place, format!("{other} already sets `{key}`"), "keep one of the two");
+            }
+        }
+    }
+}
+
+/// Notes names that are none, and columns that occur twice.
+fn names(read: &Read, sheet: &mut Sheet) {
+    let mut taken: BTreeMap<String, &str> = BTreeMap::new();
+    for Column { name, .. } in leading().into_iter().chain(ending()) {
+        taken.insert(name, "every table");
+    }
+    let parameters = read.parameters.iter().flat_map(|parameter| {
+        parameter.columns.iter().map(|column| ("parameter", parameter.name.as_str(), column.name.as_str()))
+    });
+    let keeps = read.keeps.iter().map(|(name, _)| ("keep", name.as_str(), name.as_str()));
+    for (section, name, column) in parameters.chain(keeps) {
+        if let Some(owner) = taken.insert(column.to_owned(), section) {
+            let owner = if owner == "every table" { owner.to_owned() } else { format!("a {owner} of this study") };
+            sheet.note(&[section, name], format!("{owner} already has a column `{column}`"), "give it another name");
+        }
+    }
+    for section in ["parameter", "keep"] {
+        for name in sheet.keys(&[section]) {
+            if name.is_empty() || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-".contains(&byte)) {
+                let help = "use letters A to Z and a to z, digits, `_` and `-`";
+                sheet.note(&[section, &name], format!("\"{name}\" is not a name"), help);
+            }
+        }
+    }
+}
+
+/// Notes a study of too many runs.
+fn count(read: &Read, sheet: &mut Sheet) {
+    let product = |total: Option<u64>, length: &u64| total.and_then(|total| total.checked_mul(*length));
+    let runs = read.axes.iter().fold(Some(read.repetitions), product);
+    if runs.is_none_or(|runs| runs > MOST_RUNS) {
+        let place = if read.repetitions > MOST_RUNS { "repetitions" } else { "parameter" };
+        sheet.note(&[place], format!("more than {MOST_RUNS} runs"), "write fewer repetitions or shorter axes");
+    }
+}
+
+/// The fix for a name that is not known.
+fn known<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, what: &str) -> String {
+    fix(word, known, what)
+}

@@ -1,0 +1,159 @@
+//! The table of a study has the same bytes whoever makes it, in whatever order, however often it is interrupted.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{complete, sandbox, study};
+use gyration_study::{Frame, Row, Shard, StudyError, Table, Value, merge};
+use std::fs;
+use std::path::Path;
+
+/// Written by one thread, in order.
+fn reference(folder: &Path) -> Vec<u8> {
+    let study = study(folder);
+    let mut table = Table::create(&folder.join("one.study"), &study, Shard::WHOLE, false).unwrap();
+    complete(&study, &mut table, 1);
+    fs::read(table.file()).unwrap()
+}
+
+#[test]
+fn bytes_are_the_same_for_any_number_of_threads_and_shards() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    let expected = reference(folder);
+    let study = study(folder);
+    for threads in [2, 3] {
+        let mut table = Table::create(&folder.join(format!("{threads}.study")), &study, Shard::WHOLE, false).unwrap();
+        complete(&study, &mut table, threads);
+        assert!(fs::read(table.file()).unwrap() == expected, "{threads} threads");
+    }
+    let path = folder.join("shards.study");
+    for number in [2, 3, 1] {
+        let error = merge(&path, &study, false).unwrap_err();
+        assert!(matches!(error, StudyError::Shards { .. }), "{error}");
+        let mut table = Table::create(&path, &study, Shard::new(number, 3).unwrap(), false).unwrap();
+        complete(&study, &mut table, 2);
+    }
+    let frame = Frame::read(&path).unwrap();
+    assert_eq!(frame.rows() as u64, study.runs());
+    let joined = merge(&path, &study, false).unwrap();
+    assert!(fs::read(joined).unwrap() == expected, "three shards");
+    assert!(matches!(merge(&path, &study, false), Err(StudyError::Exists { .. })));
+}
+
+#[test]
+fn rows_in_any_order_and_twice_make_the_same_table() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    let expected = reference(folder);
+    let study = study(folder);
+    let mut table = Table::create(&folder.join("any.study"), &study, Shard::WHOLE, false).unwrap();
+    let mut rows: Vec<Row> = table.missing().map(|run| study.row(run)).collect();
+    rows.reverse();
+    rows.rotate_left(17);
+    for rows in rows.chunks(7) {
+        table.append(rows).unwrap();
+        table.append(&rows[..rows.len() / 2]).unwrap();
+    }
+    assert_eq!(table.missing().count(), 0);
+    assert!(table.finish().unwrap());
+    assert!(fs::read(table.file()).unwrap() == expected);
+}
+
+#[test]
+fn a_table_that_was_torn_anywhere_goes_on_to_the_same_bytes() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    let expected = reference(folder);
+    let study = study(folder);
+    let rows: Vec<Row> = (0..study.runs()).map(|run| study.row(run)).collect();
+    let path = folder.join("torn.study");
+    let journal = path.join("rows/000000.jsonl");
+    // Every length of the last of a few lines, and some whole ones.
+    for (made, cut) in (0..260).map(|cut| (5, cut)).chain([(0, 0), (1, 0), (59, 0), (60, 0)]) {
+        let mut table = Table::create(&path, &study, Shard::WHOLE, true).unwrap();
+        table.append(&rows[..made]).unwrap();
+        drop(table);
+        if let Ok(bytes) = fs::read(&journal) {
+            fs::write(&journal, &bytes[..bytes.len().saturating_sub(cut)]).unwrap();
+        }
+        fs::write(path.join("rows/000000.parquet.tmp"), b"PAR1 half").unwrap();
+        fs::write(path.join("table.parquet.tmp"), b"PAR1 half").unwrap();
+        let mut table = Table::resume(&path, &study, Shard::WHOLE).unwrap();
+        let missing: Vec<u64> = table.missing().collect();
+        assert!(missing.len() >= rows.len() - made);
+        assert!(cut > 0 || missing.len() == rows.len() - made);
+        missing.iter().try_for_each(|run| table.append(&rows[*run as usize..=*run as usize])).unwrap();
+        assert!(table.finish().unwrap());
+        assert!(fs::read(table.file()).unwrap() == expected, "{made} rows, {cut} bytes cut");
+        drop(table);
+        // Resumed once more, it is as it was.
+        let table = Table::resume(&path, &study, Shard::WHOLE).unwrap();
+        assert!(table.is_complete() && table.missing().count() == 0);
+    }
+}
+
+#[test]
+fn tables_of_other_studies_and_other_writers_are_refused() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    let study = study(folder);
+    let path = folder.join("x.study");
+    assert!(matches!(Table::resume(&path, &study, Shard::WHOLE), Err(StudyError::NoTable { .. })));
+    let table = Table::create(&path, &study, Shard::WHOLE, false).unwrap();
+    assert!(matches!(Table::resume(&path, &study, Shard::WHOLE), Err(StudyError::Locked { .. })));
+    assert!(matches!(Table::create(&path, &study, Shard::WHOLE, false), Err(StudyError::Exists { .. })));
+    assert!(matches!(Table::create(&path, &study, Shard::WHOLE, true), Err(StudyError::Locked { .. })));
+    drop(table);
+    for change in ["seed=8", "repetitions=11", "keep.end.last=\"ball.x\"", "parameter.height.uniform.to=0.3"] {
+        let other = gyration_study::Study::parse("where.toml", common::STUDY, folder, &[change.to_owned()]).unwrap();
+        let error = Table::resume(&path, &other, Shard::WHOLE).unwrap_err();
+        assert!(matches!(&error, StudyError::OtherStudy { .. }), "{change}: {error}");
+        assert!(error.to_string().contains("fix:"), "{error}");
+    }
+    let same =
+        gyration_study::Study::parse("a/b.toml", common::STUDY, folder, &["title=\"other\"".to_owned()]).unwrap();
+    assert!(Table::resume(&path, &same, Shard::WHOLE).is_ok());
+    // A folder that is no table is not removed.
+    let other = folder.join("letters");
+    fs::create_dir(&other).unwrap();
+    fs::write(other.join("a.txt"), "dear").unwrap();
+    assert!(matches!(Table::create(&other, &study, Shard::WHOLE, true), Err(StudyError::Exists { .. })));
+    assert!(other.join("a.txt").exists());
+}
+
+#[test]
+fn a_frame_has_what_the_rows_have() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    let study = study(folder);
+    let path = folder.join("frame.study");
+    let mut table = Table::create(&path, &study, Shard::WHOLE, false).unwrap();
+    let rows: Vec<Row> = (0..study.runs()).map(|run| study.row(run)).collect();
+    table.append(&rows[3..9]).unwrap();
+    let open = Frame::read(&path).unwrap();
+    assert_eq!(open.rows(), 6);
+    complete(&study, &mut table, 1);
+    for frame in [Frame::read(&path).unwrap(), Frame::read(&table.file()).unwrap()] {
+        assert_eq!(frame.rows(), rows.len());
+        assert_eq!(frame.title(), Some("Where does it go?"));
+        assert_eq!(frame.parameters()[0].count, Some(3));
+        assert_eq!(frame.parameters()[1].axis, None);
+        assert_eq!(frame.kept(), ["face", "end", "lowest", "mean", "touches", "lows", "far"]);
+        for (column, told) in frame.columns().iter().zip(study.columns()) {
+            assert_eq!(&column.column, told);
+        }
+        for (index, row) in rows.iter().enumerate() {
+            for (value, column) in row.values.iter().zip(frame.columns()) {
+                match value {
+                    Value::Text(text) => assert_eq!(column.text(index), Some(text.as_str())),
+                    Value::List(list) => assert_eq!(column.list(index), Some(list.as_slice())),
+                    other => assert_eq!(column.number(index), other.number()),
+                }
+            }
+        }
+    }
+    let failed = rows.iter().filter(|row| row.values.contains(&Value::Text("failed".into()))).count();
+    assert!(failed > 0 && failed < rows.len() / 2, "{failed} of {} start below the table", rows.len());
+}
