@@ -9,7 +9,7 @@ use crate::control::{Control, initial_step};
 use crate::dense::LastStep;
 use crate::explicit::{Explicit, Trial};
 use crate::integrator::Integrator;
-use crate::newton::{Convergence, Plan};
+use crate::newton::{Ahead, Convergence, Plan};
 use crate::report::{Cause, Failure, Limit, Method, StepReport, Stepper};
 use crate::system::{Context, Layout, System};
 
@@ -45,7 +45,8 @@ impl Integrator {
         loop {
             let attempt = self.fit(h, end);
             if self.progress.stepper == Stepper::Implicit && !linearized {
-                self.linearize(system)?;
+                let collocation_step = self.progress.collocation_step;
+                self.linearize(system, Some(Ahead { h: attempt.h, collocation_step }))?;
                 linearized = true;
             }
             let evaluations = self.progress.statistics.rate_evaluations;
@@ -60,6 +61,8 @@ impl Integrator {
             rejected_by = Some(self.count(&cause));
             if matches!(cause, Cause::Newton) {
                 self.progress.control.refuse(attempt.h);
+                // The next attempt is on safer ground.
+                self.linearize(system, None)?;
             }
             h = attempt.h * Control::retreat(self.progress.stepper, &cause);
             if h < self.least_step() {
@@ -136,11 +139,14 @@ impl Integrator {
         (LEAST_ULPS * f64::EPSILON * self.current.t.abs()).max(f64::MIN_POSITIVE)
     }
 
-    fn linearize<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
+    fn linearize<S: System>(&mut self, system: &mut S, ahead: Option<Ahead>) -> Result<(), Failure<S::Inadmissible>> {
         let statistics = &mut self.progress.statistics;
         let mut context = Context { system, layout: &self.layout, statistics };
         let time = self.current.t;
-        self.implicit.stages.linearize(&mut context, &self.current).map_err(|cause| Failure::NoRates { time, cause })
+        self.implicit
+            .stages
+            .linearize(&mut context, &self.current, ahead)
+            .map_err(|cause| Failure::NoRates { time, cause })
     }
 
     fn attempt<S: System>(

@@ -126,3 +126,27 @@ fn a_very_stiff_decay_is_given_to_the_implicit_stepper() {
     assert!(integrator.statistics().accepted() < 400);
     assert!(rejections(integrator.statistics()) < 100);
 }
+
+/// A body is pushed out of a field of repulsion ν = 6 and damping ν = 3 against its weight, d'' = k (d⁻⁶ − 1 − d⁻³ d'), k
+/// large: the stiffness changes severalfold within a step.
+#[test]
+fn a_body_that_settles_takes_few_newton_iterations() {
+    let k = 1e5;
+    // With the Jacobian of the start of each step it takes 923, 1038 and 1471.
+    for (tolerance, most) in [(1e-3, 600), (1e-4, 800), (1e-5, 1250)] {
+        let mut problem = Problem::new(
+            2,
+            move |_, y, dy| (dy[0], dy[1]) = (y[1], k * (y[0].powi(-6) - 1.0 - y[0].powi(-3) * y[1])),
+            move |_, y, j: &mut DMatrix<f64>| {
+                j[(0, 1)] = 1.0;
+                j[(1, 0)] = k * (-6.0 * y[0].powi(-7) + 3.0 * y[0].powi(-4) * y[1]);
+                j[(1, 1)] = -k * y[0].powi(-3);
+            },
+        )
+        .tolerances(tolerance, tolerance);
+        let end = run(&mut problem, &[0.1, 0.0], &[], (0.0, 10.0), with(Method::Implicit));
+        let (error, evaluations) = ((end.state()[0] - 1.0).abs(), end.statistics().rate_evaluations);
+        println!("settling at {tolerance:e}: error {error:e}, {evaluations} evaluations");
+        assert!(error < tolerance && evaluations < most);
+    }
+}
