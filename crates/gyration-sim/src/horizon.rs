@@ -49,13 +49,8 @@ struct Approach<'a> {
 
 /// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
 pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], longest: f64) -> f64 {
-    let couples = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
-    let signals = || model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
-    let flow = || model.fluid.iter().flat_map(Fluid::signals);
-    let signals = || signals().chain(flow());
-    let kinks = couples.chain(signals().filter_map(|signal| signal.next_kink(time)));
-    let mut step = kinks.fold(longest, |step, kink| step.min(kink - time));
-    for frequency in signals().map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
+    let mut step = next_kink(model, time).map_or(longest, |kink| longest.min(kink - time));
+    for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
         step = step.min(DRIVE_PART / frequency);
     }
     for ((body, view), radius) in model.bodies.iter().zip(views).zip(radii) {
@@ -74,6 +69,18 @@ pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], l
         }
     }
     step
+}
+
+/// What drives bodies, and the flow around them.
+fn signals(model: &Model) -> impl Iterator<Item = &Signal> {
+    let drives = model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
+    drives.chain(model.fluid.iter().flat_map(Fluid::signals))
+}
+
+/// The first time after this one at which a couple, a drive or the flow has a kink [s].
+pub(crate) fn next_kink(model: &Model, time: f64) -> Option<f64> {
+    let couples = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
+    couples.chain(signals(model).filter_map(|signal| signal.next_kink(time))).min_by(f64::total_cmp)
 }
 
 /// How far an oscillating support comes forward from its origin along its normal [m].

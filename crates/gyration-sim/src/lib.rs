@@ -20,6 +20,7 @@ mod record;
 pub mod replay;
 pub mod rows;
 mod run;
+pub mod sensitivity;
 mod summary;
 mod tally;
 mod views;

@@ -1,0 +1,109 @@
+//! The kinks of a model's signals, and how they move with a number of the scene.
+//!
+//! Signals are continuous and tell in advance where they are not smooth. There f is continuous, or jumps with the rate
+//! of a prescribed contraction; with the instant t_k(p) it takes S along by (f⁻ − f⁺) dt_k/dp. Differences by p are
+//! taken on one side of a kink, so far from it that the neighbours' kinks do not lie between.
+
+use super::variation::{Fault, Variation};
+use crate::horizon::next_kink;
+use gyration::model::Model;
+
+/// More kinks than that are not followed.
+const MOST: usize = 100_000;
+/// The differences stay nearer to a kink than this part of the way to the next, if they can.
+const NEAR: f64 = 1e-7;
+/// A step that ends at a kink misses it by no more than this part of the time.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// How many times as far as a kink moves the differences stay from it.
+const DISTANCE: f64 = 8.0;
+
+/// A kink that moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Kink {
+    /// t_k [s].
+    pub time: f64,
+    /// dt_k/dp.
+    pub moves: f64,
+}
+
+/// The kinks that move with a number, in order of time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Kinks {
+    kinks: Vec<Kink>,
+    margin: f64,
+    /// How many have been passed.
+    passed: usize,
+}
+
+impl Kinks {
+    /// Those of a run to its end [s].
+    pub fn of(model: &Model, end: f64, variation: &mut Variation) -> Result<Self, Fault> {
+        let times = kinks(model, end);
+        if times.is_empty() || variation.starts_only() {
+            return Ok(Self::default());
+        }
+        if times.len() >= MOST {
+            return Err(Fault::Reason(format!("its signals have more than {MOST} kinks")));
+        }
+        if variation.times(|model| kinks(model, end))?.iter().all(|moves| *moves == 0.0) {
+            return Ok(Self::default());
+        }
+        loop {
+            let (moves, step) = (variation.times(|model| kinks(model, end))?, variation.step());
+            let farthest = moves.iter().fold(0.0, |most: f64, moves| most.max(moves.abs()));
+            let margin = DISTANCE * farthest * step + f64::EPSILON * end;
+            let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(end, f64::min);
+            if margin > NEAR * apart && variation.finer().is_ok() {
+                continue;
+            }
+            if margin > 0.25 * apart {
+                return Err(Fault::Reason("the kinks of its signals move too far for their distance".into()));
+            }
+            let kinks = times.into_iter().zip(moves).map(|(time, moves)| Kink { time, moves }).collect();
+            return Ok(Self { kinks, margin, passed: 0 });
+        }
+    }
+
+    /// Where to look instead at a time: there, or at two times on its side of a kink that is too near, from which a line leads
+    /// to it. Times with their weights; a kink itself counts as before.
+    pub fn beside(&self, time: f64) -> [(f64, f64); 2] {
+        let near = |kink: &&Kink| (time - kink.time).abs() < self.margin;
+        let first = self.kinks.partition_point(|kink| kink.time < time - self.margin);
+        let Some(kink) = self.kinks[first..].first().filter(near) else { return [(time, 1.0), (time, 0.0)] };
+        let side = if self.is_at(kink, time) || time < kink.time { -1.0 } else { 1.0 };
+        let part = 1.0 - side * (time - kink.time) / self.margin;
+        let place = |times: f64| kink.time + side * times * self.margin;
+        [(place(1.0), 1.0 + part), (place(2.0), -part)]
+    }
+
+    /// The kink that a step which ends at a time has come to, once: the steps of a run are short about a jump.
+    pub fn come_to(&mut self, time: f64) -> Option<Kink> {
+        let kink = self.kinks.get(self.passed).filter(|kink| time > kink.time || self.is_at(kink, time)).copied()?;
+        self.passed += 1;
+        Some(kink)
+    }
+
+    /// Whether a step that ends at a time has come to a kink.
+    pub fn has_come(&self, time: f64) -> bool {
+        self.kinks.get(self.passed).is_some_and(|kink| time > kink.time || self.is_at(kink, time))
+    }
+
+    /// A step ends at a kink but for rounding.
+    fn is_at(&self, kink: &Kink, time: f64) -> bool {
+        (time - kink.time).abs() < ROUNDING * kink.time
+    }
+}
+
+/// The kinks of all signals of a model up to a time [s].
+fn kinks(model: &Model, end: f64) -> Vec<f64> {
+    let mut times = Vec::new();
+    let mut time = 0.0;
+    while let Some(kink) = next_kink(model, time).filter(|kink| *kink > time && *kink < end) {
+        times.push(kink);
+        time = kink;
+        if times.len() >= MOST {
+            break;
+        }
+    }
+    times
+}

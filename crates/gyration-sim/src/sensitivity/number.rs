@@ -1,0 +1,140 @@
+//! A number of a scene by its dotted key, and the scene with another number in its place.
+//!
+//! Numbers are read from the resolved form, so that a default counts as written. They are changed by an override, as
+//! `--set` does; an item of a vector or a matrix brings its whole array along, which need not stand in the file.
+
+use super::SensitivityError;
+use gyration_scene::Scene;
+use serde_json::Value;
+
+/// A number of a scene.
+#[derive(Debug, Clone)]
+pub(super) struct Number {
+    /// Its dotted key.
+    pub key: String,
+    /// What it is, in SI units.
+    pub value: f64,
+    /// The key that is set: its own, or that of the array around it.
+    set_key: String,
+    /// What stands there.
+    set_value: Value,
+    /// Where in that array it is.
+    inside: Vec<usize>,
+    /// Whether it can be set in the text as it was written, or in the resolved form only.
+    in_resolved: bool,
+}
+
+/// Tables whose numbers say how something is computed or recorded, not what it is.
+const METHOD_TABLES: [&str; 3] = ["solver", "record", "time"];
+/// Keys anywhere that do.
+const METHOD_KEYS: [&str; 4] = ["triangles", "spacing", "tolerance", "history_error"];
+
+impl Number {
+    /// Finds a number by its key.
+    ///
+    /// # Errors
+    /// `SensitivityError::Key` if there is no number at this key.
+    pub fn find(scene: &Scene, key: &str) -> Result<Self, SensitivityError> {
+        let resolved = scene.resolved();
+        let fault = |message: String, help: String| SensitivityError::Key { key: key.to_owned(), message, help };
+        let mut at = &resolved;
+        let mut array: Option<(String, Value)> = None;
+        let (mut walked, mut inside): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
+        for word in key.split('.').map(str::trim) {
+            let next = match at {
+                Value::Object(table) => table.get(word),
+                Value::Array(items) => item(items, word).map(|(index, found)| {
+                    if !found.is_object() {
+                        array.get_or_insert_with(|| (walked.join("."), at.clone()));
+                        inside.push(index);
+                    }
+                    found
+                }),
+                _ => None,
+            };
+            let missing = || fault(format!("the scene has no `{word}` {}", place(&walked)), choices(at));
+            at = next.ok_or_else(missing)?;
+            walked.push(word);
+        }
+        let value = at.as_f64().ok_or_else(|| match at {
+            Value::Object(_) | Value::Array(_) => fault("several numbers stand at this key".into(), choices(at)),
+            _ => fault("what stands at this key is no number".into(), String::new()),
+        })?;
+        let (set_key, set_value) = array.unwrap_or_else(|| (key.to_owned(), at.clone()));
+        let mut this = Self { key: key.to_owned(), value, set_key, set_value, inside, in_resolved: false };
+        this.in_resolved = this.scene_at(scene, value).is_err();
+        Ok(this)
+    }
+
+    /// Why a derivative by this number would mean nothing, if that can be told from its key.
+    pub fn is_no_quantity(&self) -> Option<String> {
+        let words = || self.key.split('.');
+        let [first, last] = [words().next()?, words().next_back()?];
+        if METHOD_TABLES.contains(&first) || METHOD_KEYS.contains(&last) {
+            return Some("it says how the motion is computed or recorded, not how it is".into());
+        }
+        let leaf = self.inside.iter().try_fold(&self.set_value, |at, index| at.get(index))?;
+        (leaf.is_u64() || leaf.is_i64()).then(|| "it is a count, and changes by jumps".into())
+    }
+
+    /// Whether the number has a part in the first state only, not in the equations.
+    pub fn starts_only(&self, scene: &Scene) -> bool {
+        let mut words = self.key.split('.');
+        let (Some("body"), Some(name), Some(part)) = (words.next(), words.next(), words.next()) else { return false };
+        let bodies = &scene.built().model.bodies;
+        let by_name = bodies.iter().find(|body| body.name == name);
+        let body = by_name.or_else(|| bodies.get(name.parse::<usize>().ok()?));
+        // A pin stays where the start has put it, and so belongs to the equations.
+        let is_start =
+            ["position", "velocity", "angular_velocity", "orientation", "gradient", "gradient_rate"].contains(&part);
+        is_start && body.is_some_and(|body| body.pin.is_none())
+    }
+
+    /// The scene with another value in this place.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it then, in words.
+    pub fn scene_at(&self, scene: &Scene, value: f64) -> Result<Scene, String> {
+        let mut changed = self.set_value.clone();
+        let leaf = self.inside.iter().try_fold(&mut changed, |at, index| at.get_mut(index));
+        *leaf.ok_or("its array has changed")? = value.into();
+        let setting = format!("{}={changed}", self.set_key);
+        let found = if self.in_resolved {
+            Scene::parse("resolved.json", &scene.resolved().to_string(), scene.base(), &[setting])
+        } else {
+            let all = [scene.overrides(), &[setting]].concat();
+            Scene::parse("scene", scene.text(), scene.base(), &all)
+        };
+        found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
+    }
+}
+
+/// An item of an array by its name or its index.
+fn item<'a>(items: &'a [Value], word: &str) -> Option<(usize, &'a Value)> {
+    let by_name = items.iter().position(|item| item.get("name").and_then(Value::as_str) == Some(word));
+    let index = by_name.or_else(|| word.parse().ok())?;
+    Some((index, items.get(index)?))
+}
+
+fn place(walked: &[&str]) -> String {
+    if walked.is_empty() { "at its root".into() } else { format!("in `{}`", walked.join(".")) }
+}
+
+/// What could stand next in a key.
+fn choices(at: &Value) -> String {
+    match at {
+        Value::Object(table) => {
+            let names: Vec<&str> = table.keys().map(String::as_str).collect();
+            format!("there are: {}", names.join(", "))
+        }
+        Value::Array(items) => {
+            let names: Vec<&str> = items.iter().filter_map(|item| item.get("name")?.as_str()).collect();
+            match (names.is_empty(), items.len()) {
+                (false, _) => format!("there are: {}", names.join(", ")),
+                (true, 0) => "the array is empty".into(),
+                (true, count) => format!("name one of them by its index, 0 to {}", count - 1),
+            }
+        }
+        _ => "the key leads past a value".into(),
+    }
+}
