@@ -67,9 +67,7 @@ impl Switch {
         if self.stay == SHORT_STAY {
             self.patience = 0;
         }
-        let explicit = (EXPLICIT_REACH / spectral_radius).min(max_step) / EXPLICIT_COST;
-        let implicit = h / (evaluations as f64 + JACOBIAN_COST + LINEAR_COST);
-        self.vote(explicit > ADVANTAGE * implicit, IMPLICIT_VOTES)
+        self.vote(explicit_is_cheaper(spectral_radius, h, max_step, evaluations), IMPLICIT_VOTES)
     }
 
     /// Records the change to a stepper.
@@ -87,6 +85,19 @@ impl Switch {
         self.votes = ((self.votes << 1) | u64::from(against)) & ((1 << window) - 1);
         self.votes.count_ones() >= decisive
     }
+}
+
+/// Whether the explicit method promises to advance further for its cost than an implicit step of size h has done.
+pub(crate) fn explicit_is_cheaper(spectral_radius: f64, h: f64, max_step: f64, evaluations: u64) -> bool {
+    let explicit = (EXPLICIT_REACH / spectral_radius).min(max_step) / EXPLICIT_COST;
+    let implicit = h / (evaluations as f64 + JACOBIAN_COST + LINEAR_COST);
+    explicit > ADVANTAGE * implicit
+}
+
+/// A lower bound of the spectral radius for next to nothing: ρ ≥ |tr J|/n, the largest over the blocks.
+pub(crate) fn least_spectral_radius(jacobian: &[DMatrix<f64>]) -> f64 {
+    let blocks = jacobian.iter().filter(|matrix| !matrix.is_empty());
+    blocks.map(|matrix| matrix.trace().abs() / matrix.nrows() as f64).fold(0.0, f64::max)
 }
 
 /// The spectral radius of the Jacobian, the largest over its blocks, by the power method.
@@ -173,6 +184,17 @@ mod tests {
     #[test]
     fn free_flight_has_no_stiffness() {
         assert_eq!(radius(DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]), &[1.0, 1.0]), 0.0);
+    }
+
+    #[test]
+    fn the_lower_bound_is_below_the_spectral_radius() {
+        for trial in 0..20 {
+            let entry = |i: usize, j: usize| ((trial * 31 + i * 7 + j * 13) as f64).sin() - f64::from(u8::from(i == j));
+            let matrix = DMatrix::from_fn(5, 5, entry);
+            let exact = matrix.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max);
+            let least = least_spectral_radius(&[DMatrix::zeros(0, 0), matrix]);
+            assert!(least > 0.0 && least <= exact, "{least} {exact}");
+        }
     }
 
     #[test]

@@ -12,7 +12,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::auto::spectral_radius;
+use crate::auto::{least_spectral_radius, spectral_radius};
 use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
 use crate::report::Cause;
 use crate::shifted::{ComplexShifted, RealShifted};
@@ -147,6 +147,11 @@ impl Stages {
         for ((stage, start), z) in self.stage.iter_mut().zip(&from.u).zip(increments) {
             *stage = start + z;
         }
+    }
+
+    /// A lower bound of the spectral radius of the Jacobian of this step.
+    pub fn least_spectral_radius(&self) -> f64 {
+        least_spectral_radius(&self.jacobian)
     }
 
     /// The spectral radius of the Jacobian of this step; spends the scratch of the corrections.

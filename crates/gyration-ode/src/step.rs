@@ -4,7 +4,7 @@
 //!
 //! An attempt writes only to `other`; the accepted state is untouched until the two are swapped.
 
-use crate::auto::EXPLICIT_REACH;
+use crate::auto::{EXPLICIT_REACH, explicit_is_cheaper};
 use crate::control::{Control, initial_step};
 use crate::dense::LastStep;
 use crate::explicit::{Explicit, Trial};
@@ -274,8 +274,12 @@ impl Integrator {
                 }
             }
             Stepper::Implicit => {
-                let radius = self.implicit.stages.spectral_radius(&self.layout, &self.current.scale);
                 let (step, max_step) = (self.progress.step, self.options.max_step);
+                let mut radius = self.implicit.stages.least_spectral_radius();
+                // In a stiff stretch the bound says enough.
+                if explicit_is_cheaper(radius, step, max_step, evaluations) {
+                    radius = self.implicit.stages.spectral_radius(&self.layout, &self.current.scale);
+                }
                 if self.progress.switch.leave_implicit(radius, step, max_step, evaluations) {
                     self.change_stepper();
                     self.progress.step = step.min(EXPLICIT_REACH / radius);
