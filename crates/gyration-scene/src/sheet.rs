@@ -104,7 +104,12 @@ impl Sheet {
     /// # Errors
     /// Everything that has been found wrong, in the order of the text.
     pub fn finish(self) -> Result<(), SceneErrors> {
-        if self.findings.is_empty() { Ok(()) } else { Err(self.document.settle(self.findings)) }
+        if self.findings.is_empty() { Ok(()) } else { Err(self.refused()) }
+    }
+
+    /// Everything that has been found wrong with a sheet that is not sound, in the order of the text.
+    pub fn refused(self) -> SceneErrors {
+        self.document.settle(self.findings)
     }
 
     fn node(&self, place: &[&str]) -> Option<&Node> {

@@ -8,9 +8,11 @@ use crate::check::{Draft, Judge, RULES, structure, values};
 use crate::document::{Document, Findings};
 use crate::error::{Fault, LoadError, ReadError, SceneErrors};
 use crate::gallery;
+use crate::key::name_of;
 use crate::read;
 use crate::scene::Scene;
 use crate::suggest;
+use crate::tree::Node;
 use std::path::{Path, PathBuf};
 
 /// A scene whose text is read.
@@ -88,6 +90,24 @@ impl Template {
         }
     }
 
+    /// A dotted key with items of arrays by their indices, as far as the text has what it names: two keys of one place are
+    /// the same then.
+    pub fn by_index(&self, key: &str) -> String {
+        let mut at = Some(&self.document.root);
+        let word = |word: &str| {
+            let word = word.trim();
+            let items = at.map(Node::items).unwrap_or_default();
+            let named = items.iter().position(|item| name_of(item) == Some(word));
+            let index = named.or_else(|| word.parse().ok().filter(|index| *index < items.len()));
+            at = match index {
+                Some(index) => items.get(index),
+                None => at.and_then(|node| node.get(word)),
+            };
+            index.map_or_else(|| word.to_owned(), |index| index.to_string())
+        };
+        key.split('.').map(word).collect::<Vec<_>>().join(".")
+    }
+
     /// The name of its file without folder and ending.
     pub fn name(&self) -> &str {
         &self.stem
@@ -121,4 +141,36 @@ fn stem(name: &str) -> String {
 /// The SI unit of the quantity at a dotted key of a scene, `"m"` of `body.die.position.2`; none of what is no quantity.
 pub fn unit_of(key: &str) -> Option<&'static str> {
     RULES.unit_of(key)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    const TEXT: &str =
+        "time = { end = 1, sample = 1 }\n[[body]]\nname = \"a\"\nshape = { sphere = { radius = 1 } }\ndensity = 2\n";
+
+    #[test]
+    fn a_scene_from_a_template_is_that_of_the_text() {
+        let template = Template::parse("x.toml", TEXT, Path::new("")).unwrap();
+        for overrides in
+            [&[][..], &["body.a.density=3".to_owned()], &["body.b.density=3".to_owned()], &["body.0.mass=1".to_owned()]]
+        {
+            let (one, other) = (template.scene(overrides), Scene::parse("x.toml", TEXT, Path::new(""), overrides));
+            assert_eq!(one.as_ref().map(Scene::resolved), other.as_ref().map(Scene::resolved));
+        }
+        let errors =
+            template.scene(&["time.end=2".into(), "body.0.densty=3".into(), "time.end=-1".into()]).unwrap_err();
+        let told: Vec<_> = errors.as_slice().iter().map(|error| (error.overriding, error.fault)).collect();
+        assert_eq!(told, [(Some(1), Fault::Structure), (Some(2), Fault::Value)]);
+    }
+
+    #[test]
+    fn keys_of_one_place_are_the_same_by_index() {
+        let template = Template::parse("x.toml", TEXT, Path::new("")).unwrap();
+        assert_eq!(template.by_index(" body . a.velocity.2"), "body.0.velocity.2");
+        assert_eq!(template.by_index("body.0.velocity.2"), "body.0.velocity.2");
+        assert_eq!(template.by_index("body.b.density"), "body.b.density");
+    }
 }

@@ -6,7 +6,7 @@ use crate::observe::{Layout, Observer};
 use crate::study::Study;
 use crate::value::{Row, Value};
 use gyration_record::{RecordError, Writer, remove};
-use gyration_scene::{Scene, SceneErrors};
+use gyration_scene::{Built, Scene, SceneErrors};
 use gyration_sim::events::Event;
 use gyration_sim::{
     Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, RunSummary, Simulation, Sink,
@@ -99,40 +99,38 @@ impl Study {
     }
 
     fn simulate(&self, scene: &Scene, recording: Option<&Path>, worker: &Worker) -> Result<Option<Ended>, StudyError> {
-        let job = Job::of(scene, &provenance());
+        let Built { model, state, .. } = scene.built();
         let mut plan: RunPlan = scene.built().into();
         if recording.is_none() && !self.needs_samples() {
             plan.sample = plan.end;
         }
-        let observer = match Observer::new(self.keeps(), job.model, &Layout::new(job.model, &plan)) {
+        let observer = match Observer::new(self.keeps(), model, &Layout::new(model, &plan)) {
             Ok(observer) => observer,
             Err(message) => return Ok(Some(self.failed(message))),
         };
-        let mut simulation = match Simulation::new(job.model, job.start, plan) {
+        let mut simulation = match Simulation::new(model, state, plan) {
             Ok(simulation) => simulation,
             Err(error) => return self.not_begun(error),
         };
-        let writer = recording.map(|path| created(path, &job)).transpose()?;
+        let writer = recording.map(|path| created(path, scene)).transpose()?;
         let mut sink = Both { observer, writer };
         if let Err(error) = simulation.begin(&mut sink) {
             return self.not_begun(error);
         }
         let mut limits = Limits { stop: &worker.stop, most_steps: self.read.max_steps, is_over: false };
         let outcome = simulation.run(&mut sink, &mut limits).map_err(recorded)?;
-        if let Outcome::Stopped(stop) = &outcome
-            && stop.reason == Reason::Interrupted
-            && !limits.is_over
-        {
+        if is_interrupted(&outcome) && !limits.is_over {
             return Ok(None);
         }
         let ending = ending(&simulation, &outcome, limits.is_over);
+        let is_early = matches!(outcome, Outcome::Stopped(_));
         let Both { observer, writer } = sink;
         if let Some(writer) = writer {
             let checkpoint = simulation.checkpoint();
-            let summary = RunSummary::of(job.model, &mut simulation, outcome.clone(), Duration::ZERO);
+            let summary = RunSummary::of(model, &mut simulation, outcome, Duration::ZERO);
             writer.finish(summary.attributes(), &checkpoint)?;
         }
-        Ok(Some(Ended { ending, kept: observer.finish(), is_early: matches!(outcome, Outcome::Stopped(_)) }))
+        Ok(Some(Ended { ending, kept: observer.finish(), is_early }))
     }
 
     /// A start outside the model is a failure of this run; what the disk refuses is one of the study.
@@ -150,13 +148,10 @@ impl Study {
     }
 }
 
-/// The program that runs; its commit would make the bytes of recordings depend on where it was built.
-fn provenance() -> Provenance {
-    Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: None }
-}
-
 /// A new recording; one that a broken run has left is removed.
-fn created(path: &Path, job: &Job) -> Result<Writer, StudyError> {
+fn created(path: &Path, scene: &Scene) -> Result<Writer, StudyError> {
+    // Its commit would make the bytes of recordings depend on where the program was built.
+    let job = Job::of(scene, &Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: None });
     if path.symlink_metadata().is_ok() {
         remove(path)?;
     }
@@ -169,6 +164,10 @@ fn recorded(error: RunError) -> StudyError {
         // A run that has begun fails for no other reason.
         other => StudyError::Run(other.to_string()),
     }
+}
+
+fn is_interrupted(outcome: &Outcome) -> bool {
+    matches!(outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted)
 }
 
 fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool) -> [Value; 7] {

@@ -100,13 +100,18 @@ impl Study {
         };
         let read = read::read(&mut sheet);
         let template = read::scene(&mut sheet, &read.scene, base);
+        if let Some(Ok(template)) = &template {
+            read::keys_once(&read, template, &mut sheet);
+        }
         // What is wrong with the study may be what is wrong with its scene.
-        let (true, Some(template)) = (sheet.is_sound(), template) else { return Err(refused(sheet)) };
+        let (true, Some(template)) = (sheet.is_sound(), template) else { return Err(sheet.refused().into()) };
         let template = template?;
         let dice = dice(&read);
         let values = values(&read, &dice, place(&read, 0));
         let overrides = overrides_of(&read, &values);
-        let Some(scene) = read::probe(&template, &read, &overrides, &mut sheet)? else { return Err(refused(sheet)) };
+        let Some(scene) = read::probe(&template, &read, &overrides, &mut sheet)? else {
+            return Err(sheet.refused().into());
+        };
         let columns = columns(&read, &scene, &mut sheet);
         sheet.finish()?;
         let fingerprint = fingerprint(&read, &template, &scene);
@@ -215,14 +220,6 @@ fn not_found(name: &str) -> LoadError {
     let names = gallery::studies().iter().map(|(name, _)| *name);
     let help = format!("nor a study that is ready; {}", fix(name, names, "there are"));
     ReadError::Missing { path: PathBuf::from(name), help }.into()
-}
-
-/// Everything that is wrong with a sheet that is not sound.
-fn refused(sheet: Sheet) -> LoadError {
-    match sheet.finish() {
-        Err(errors) => errors.into(),
-        Ok(()) => unreachable!("the sheet was not sound"),
-    }
 }
 
 fn dice(read: &Read) -> Dice {

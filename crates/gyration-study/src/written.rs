@@ -25,10 +25,9 @@ pub(crate) fn toml(value: &Json) -> String {
 /// Message and fix, if it is neither a number nor a string with a unit that suits a dotted key of a scene.
 pub(crate) fn measured(value: &Json, key: &str) -> Result<f64, (String, String)> {
     match value {
-        Json::Number(number) => match number.as_f64().filter(|number| number.is_finite()) {
-            Some(number) => Ok(number),
-            None => Err(("not a finite number".into(), "write a finite number".into())),
-        },
+        Json::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
+        // What is beyond the range of numbers has no JSON.
+        Json::Null => Err(("expected a finite number".into(), "write a finite number".into())),
         Json::String(text) => in_unit(text, key),
         _ => Err(("expected a number".into(), "write a number in SI units, or a string with a unit, \"2 cm\"".into())),
     }

@@ -70,7 +70,6 @@ pub(crate) fn read(sheet: &mut Sheet) -> Read {
         keeps,
     };
     dimensions(&read, sheet);
-    keys_once(&read, sheet);
     names(&read, sheet);
     count(&read, sheet);
     read
@@ -126,10 +125,10 @@ fn dimensions(read: &Read, sheet: &mut Sheet) {
     }
 }
 
-/// Notes keys of the scene that are set twice.
-fn keys_once(read: &Read, sheet: &mut Sheet) {
+/// Notes places of the scene that are set twice.
+pub(crate) fn keys_once(read: &Read, template: &Template, sheet: &mut Sheet) {
     let mut seen: BTreeMap<String, String> = BTreeMap::new();
-    let plain = |key: &str| key.split('.').map(str::trim).collect::<Vec<_>>().join(".");
+    let plain = |key: &str| template.by_index(key);
     for (key, _) in &read.settings {
         seen.insert(plain(key), "[set]".to_owned());
     }

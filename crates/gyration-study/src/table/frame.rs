@@ -264,7 +264,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>, journals: &mut Vec<PathBuf>)
 /// The columns that the manifest of a journal tells.
 fn described_beside(journal: &Path) -> Result<(Vec<Column>, Json), StudyError> {
     let folder = journal.parent().and_then(Path::parent).unwrap_or(Path::new(""));
-    let manifest = super::read_manifest(folder)?;
+    let manifest = super::disk::read_manifest(folder)?;
     let columns = serde_json::from_value(manifest.get("columns").cloned().unwrap_or_default());
     let columns = columns.map_err(|error| StudyError::damaged(&folder.join(MANIFEST), error))?;
     Ok((columns, manifest))

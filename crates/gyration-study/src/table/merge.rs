@@ -1,9 +1,10 @@
 //! Joins the shards of a study into one table, by streaming.
 
 use super::describe::{describe, manifest};
+use super::disk::{is_of, lock, replace_file};
 use super::parquet::{Input, Output};
 use super::shard::Shard;
-use super::{MANIFEST, TABLE, is_of, lock, replace_file};
+use super::{MANIFEST, TABLE};
 use crate::error::StudyError;
 use crate::study::Study;
 use crate::value::Row;

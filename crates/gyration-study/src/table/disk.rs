@@ -1,0 +1,74 @@
+//! The folder of a table: its lock, its manifest, and files that are put into their place whole.
+
+use super::shard::Shard;
+use super::{LOCK, MANIFEST};
+use crate::error::StudyError;
+use crate::study::Study;
+use serde_json::Value as Json;
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// The folder of a shard of the table at a path.
+pub(super) fn folder(path: &Path, shard: Shard) -> PathBuf {
+    shard.folder().map_or_else(|| path.to_owned(), |name| path.join(name))
+}
+
+pub(super) fn holds_shards(folder: &Path) -> bool {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.into_iter().any(|entry| Shard::of_folder(&entry.file_name().to_string_lossy()).is_some())
+}
+
+/// Runs of a chunk: few enough that a table can be looked at while it grows, and that a chunk fits the memory.
+pub(super) fn chunk_of(runs: u64) -> u64 {
+    const FEWEST: u64 = 64;
+    const MOST: u64 = 1 << 14;
+    (runs / 32).clamp(FEWEST, MOST).next_power_of_two()
+}
+
+/// Writes a file beside its place and then puts it there.
+pub(super) fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), StudyError>) -> Result<(), StudyError> {
+    let mut aside = path.as_os_str().to_owned();
+    aside.push(".tmp");
+    let aside = PathBuf::from(aside);
+    write(&aside)?;
+    fs::rename(&aside, path).map_err(StudyError::io("write", path))
+}
+
+/// Keeps other processes from writing the same table.
+pub(super) fn lock(folder: &Path) -> Result<File, StudyError> {
+    let path = folder.join(LOCK);
+    let file = File::options().write(true).create(true).truncate(false).open(&path);
+    let file = file.map_err(StudyError::io("write", &path))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(StudyError::Locked { path: folder.to_owned() }),
+        Err(TryLockError::Error(error)) => Err(StudyError::io("lock", &path)(error)),
+    }
+}
+
+/// Refuses a folder that holds no table of this study and shard.
+pub(super) fn is_of(folder: &Path, study: &Study, shard: Shard) -> Result<(), StudyError> {
+    let manifest = read_manifest(folder)?;
+    let other = |what: &str| Err(StudyError::OtherStudy { path: folder.to_owned(), what: what.to_owned() });
+    if manifest.get("fingerprint").and_then(Json::as_str) != Some(study.fingerprint()) {
+        return match manifest.get("version").and_then(Json::as_str) {
+            Some(version) if version != env!("CARGO_PKG_VERSION") => {
+                other(&format!("version {version} of the program"))
+            }
+            _ => other("another study: what is varied or kept, the scene or the seed differs"),
+        };
+    }
+    let found = ["number", "count"].map(|key| manifest.pointer(&format!("/shard/{key}")).and_then(Json::as_u64));
+    if found != [Some(shard.number()), Some(shard.count())] { other("another shard") } else { Ok(()) }
+}
+
+pub(super) fn read_manifest(folder: &Path) -> Result<Json, StudyError> {
+    let path = folder.join(MANIFEST);
+    match fs::read_to_string(&path) {
+        Ok(text) => serde_json::from_str(&text).map_err(|error| StudyError::damaged(&path, error)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            Err(StudyError::NoTable { path: folder.to_owned(), help: "\n  fix: leave --resume out" })
+        }
+        Err(error) => Err(StudyError::io("read", &path)(error)),
+    }
+}
