@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Commands that are planned but not in this version.
-pub const LATER: [&str; 2] = ["study", "calibrate"];
+pub const LATER: [&str; 1] = ["calibrate"];
 
 const STYLES: Styles =
     Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
@@ -50,6 +50,9 @@ pub enum Command {
     /// Show a recording, or a scene that runs as it is watched, in a browser
     #[cfg(feature = "view")]
     View(View),
+    /// Run a scene many times, with other numbers each, into one table
+    #[cfg(feature = "study")]
+    Study(Study),
     /// Print the JSON Schema of a scene
     Schema,
     /// Print the completions of a shell
@@ -216,6 +219,47 @@ pub struct View {
     /// Change a value of the scene
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
+}
+
+/// `gyration study`
+#[cfg(feature = "study")]
+#[derive(Debug, Args)]
+pub struct Study {
+    /// Path of a study, or the name of a ready one; without it, the ready ones are listed
+    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
+    pub study: Option<String>,
+    /// What to do with its table instead of making it.
+    #[command(subcommand)]
+    pub action: Option<StudyAction>,
+    /// Folder of the table [default: STEM.study in the current folder]
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath, global = true)]
+    pub output: Option<PathBuf>,
+    /// Make part K of N only, into DIR/shard-K-of-N; `merge` joins the parts
+    #[arg(long, value_name = "K/N")]
+    pub shard: Option<String>,
+    /// Make what is missing in a table
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+    /// Replace an existing table
+    #[arg(long, global = true)]
+    pub force: bool,
+    /// Threads [default: as many as there are processors]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Change a value of the study: repetitions=100, parameter.height.uniform.to=0.5
+    #[arg(long = "set", value_name = "KEY=VALUE", global = true)]
+    pub overrides: Vec<String>,
+    /// Neither progress nor summary; errors are still reported
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+}
+
+/// `gyration study STUDY …`
+#[cfg(feature = "study")]
+#[derive(Debug, Subcommand)]
+pub enum StudyAction {
+    /// Join the shards of a study into one table
+    Merge,
 }
 
 /// What may be drawn.

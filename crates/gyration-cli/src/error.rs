@@ -30,6 +30,10 @@ pub enum CliError {
     #[cfg(feature = "view")]
     #[error(transparent)]
     View(#[from] ViewError),
+    /// The table of a study cannot be made.
+    #[cfg(feature = "study")]
+    #[error(transparent)]
+    Study(#[from] gyration_study::StudyError),
     /// The arguments ask for something that is not to be had.
     #[error("{problem}\n  fix: {fix}")]
     Arguments {
@@ -84,6 +88,10 @@ impl CliError {
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
             Self::Plot(PlotError::Nothing { .. } | PlotError::Measure { .. }) => code::BAD_INPUT,
             Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,
+            #[cfg(feature = "study")]
+            Self::Study(error) if error.is_bad_input() => code::BAD_INPUT,
+            #[cfg(feature = "study")]
+            Self::Study(_) => code::BAD_FILE,
             #[cfg(feature = "view")]
             Self::View(ViewError::Port { .. } | ViewError::NoPage { .. }) => code::BAD_INPUT,
             #[cfg(feature = "view")]

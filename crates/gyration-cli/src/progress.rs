@@ -41,13 +41,7 @@ impl Watch {
     /// # Errors
     /// [`CliError::Signal`].
     pub fn new(with_bar: bool) -> Result<Self, CliError> {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&interrupted);
-        ctrlc::set_handler(move || {
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(code::INTERRUPTED));
-            }
-        })?;
+        let interrupted = interruption()?;
         let bar = (with_bar && stderr().is_terminal()).then(Bar::new);
         Ok(Self { bar, interrupted })
     }
@@ -58,6 +52,21 @@ impl Watch {
             bar.bar.finish_and_clear();
         }
     }
+}
+
+/// Listens for Ctrl-C: true after the first; the second ends the program at once.
+///
+/// # Errors
+/// [`CliError::Signal`].
+pub fn interruption() -> Result<Arc<AtomicBool>, CliError> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(code::INTERRUPTED));
+        }
+    })?;
+    Ok(interrupted)
 }
 
 impl Monitor for Watch {

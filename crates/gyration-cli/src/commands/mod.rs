@@ -11,6 +11,8 @@ mod resistance;
 mod run;
 mod scenes;
 mod schema;
+#[cfg(feature = "study")]
+mod study;
 #[cfg(feature = "view")]
 mod view;
 
@@ -36,6 +38,8 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Report(arguments) => report::execute(&arguments),
         #[cfg(feature = "view")]
         Command::View(arguments) => view::execute(&arguments),
+        #[cfg(feature = "study")]
+        Command::Study(arguments) => study::execute(&arguments),
         Command::Schema => schema::execute(),
         Command::Completions { shell } => completions::execute(shell),
     }

@@ -169,7 +169,7 @@ fn resume_command(arguments: &Run, path: &Path) -> String {
 }
 
 /// An argument as a shell reads it.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+".contains(c);
     if !text.is_empty() && text.chars().all(plain) {
         text.to_owned()
@@ -179,7 +179,7 @@ fn quoted(text: &str) -> String {
 }
 
 /// The path from here, as the user would write it.
-fn shown(path: &Path) -> String {
+pub(super) fn shown(path: &Path) -> String {
     let here = std::env::current_dir().and_then(fs::canonicalize);
     let full = fs::canonicalize(path);
     match (here, full) {

@@ -1,0 +1,106 @@
+//! `gyration study`: thousands of runs of a scene into one table; shards, and their joining.
+
+mod summary;
+mod watch;
+
+use super::run::{quoted, shown};
+use crate::arguments::{Study as Arguments, StudyAction};
+use crate::error::{CliError, code};
+use crate::output;
+use gyration_study::{Digest, Shard, Study, Table, execute as make, merge, studies};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use watch::Watch;
+
+/// Does what was asked; the exit code tells whether the table is complete.
+pub fn execute(arguments: &Arguments) -> Result<u8, CliError> {
+    let Some(name) = &arguments.study else { return list() };
+    let study = Study::open(name, &arguments.overrides)?;
+    let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.study", study.name())));
+    match &arguments.action {
+        None => run(arguments, &study, &path),
+        Some(StudyAction::Merge) => join(arguments, &study, &path),
+    }
+}
+
+/// The ready studies, with what they ask.
+fn list() -> Result<u8, CliError> {
+    let mut list = String::new();
+    for (name, text) in studies() {
+        let title = Study::parse(&format!("{name}.toml"), text, Path::new(""), &[]);
+        let title = title.ok().and_then(|study| study.title().map(str::to_owned)).unwrap_or_default();
+        list += &format!("{name:<18} {title}\n");
+    }
+    output::print(&(list + "\n`gyration study NAME` makes one; `gyration study NAME plot` draws its table.\n"))?;
+    Ok(code::DONE)
+}
+
+/// Makes the runs that are missing.
+fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
+    let shard = shard(arguments.shard.as_deref())?;
+    let mut table = match arguments.resume {
+        true => Table::resume(path, study, shard)?,
+        false => Table::create(path, study, shard, arguments.force)?,
+    };
+    if table.is_complete() {
+        if !arguments.quiet {
+            output::say(&format!("{} is complete. Nothing was done.", shown(table.folder())));
+        }
+        return Ok(code::DONE);
+    }
+    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
+    let mut watch = Watch::new(!arguments.quiet)?;
+    let (began, before) = (Instant::now(), table.rows());
+    let made = make(study, &mut table, threads, &mut watch);
+    watch.finish();
+    let is_complete = made?;
+    let made = table.rows() - before;
+    if is_complete {
+        if !arguments.quiet {
+            let effort = summary::Effort { runs: made, seconds: began.elapsed().as_secs_f64(), threads: threads.get() };
+            output::say(&summary::in_words(study, &Digest::read(&table.file())?, &effort));
+            output::say(&format!("table      {}", shown(&table.file())));
+        }
+        return Ok(code::DONE);
+    }
+    output::say(&format!("gyration: the study was interrupted after {} of {} runs", table.rows(), table.runs()));
+    output::say(&format!("gyration: go on with `{}`", resume_command(arguments, path)));
+    Ok(code::INTERRUPTED)
+}
+
+/// `K/N`
+fn shard(text: Option<&str>) -> Result<Shard, CliError> {
+    let Some(text) = text else { return Ok(Shard::WHOLE) };
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.trim().parse().ok()?, n.trim().parse().ok()?)));
+    match numbers {
+        Some((number, count)) => Ok(Shard::new(number, count)?),
+        None => {
+            Err(CliError::arguments(format!("\"{text}\" is no shard"), "write --shard K/N with K from 1 to N, 3/8"))
+        }
+    }
+}
+
+fn join(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
+    let began = Instant::now();
+    let file = merge(path, study, arguments.force)?;
+    if !arguments.quiet {
+        let effort = summary::Effort { runs: 0, seconds: began.elapsed().as_secs_f64(), threads: 1 };
+        output::say(&summary::in_words(study, &Digest::read(&file)?, &effort));
+        output::say(&format!("table      {}", shown(&file)));
+    }
+    Ok(code::DONE)
+}
+
+/// The command by which an interrupted study goes on.
+fn resume_command(arguments: &Arguments, path: &Path) -> String {
+    let study = arguments.study.as_deref().unwrap_or_default();
+    let mut command = format!("gyration study {} -o {}", quoted(study), quoted(&shown(path)));
+    for text in &arguments.overrides {
+        command += &format!(" --set {}", quoted(text));
+    }
+    if let Some(shard) = &arguments.shard {
+        command += &format!(" --shard {shard}");
+    }
+    command + " --resume"
+}

@@ -1,0 +1,80 @@
+//! The table of a study in words: outcomes counted, what is kept by mean and deviation or counted, throughput.
+
+use crate::progress::duration_in_words;
+use crate::summary::plain;
+use gyration_study::{Column, Digest, Kind, Spread, Study};
+
+/// The most different texts that are listed.
+const MOST_LISTED: usize = 12;
+
+/// What it took.
+pub struct Effort {
+    /// Runs made now.
+    pub runs: u64,
+    /// Wall time [s].
+    pub seconds: f64,
+    /// Threads.
+    pub threads: usize,
+}
+
+/// The summary, a line a thing.
+pub fn in_words(study: &Study, digest: &Digest, effort: &Effort) -> String {
+    let mut lines = Vec::new();
+    if let Some(title) = study.title() {
+        lines.push(title.to_owned());
+    }
+    let points = study.points();
+    let grid =
+        if points > 1 { format!(": {points} points, {} repetitions", study.repetitions()) } else { String::new() };
+    lines.push(format!("runs       {}{grid}", digest.rows));
+    if let Some((_, spread)) = digest.column("outcome") {
+        lines.push(format!("outcomes   {}", counted(spread)));
+    }
+    let width = study.keeps().iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).max(10);
+    for (name, _) in study.keeps() {
+        if let Some((column, spread)) = digest.column(name) {
+            lines.push(format!("{name:<width$} {}", told(column, spread)));
+        }
+    }
+    if effort.runs > 0 {
+        lines.push(format!("time       {}", throughput(effort)));
+    }
+    lines.join("\n")
+}
+
+fn throughput(effort: &Effort) -> String {
+    let rate = effort.runs as f64 / effort.seconds;
+    let threads = match effort.threads {
+        1 => "on one thread".to_owned(),
+        count => format!("on {count} threads, {} each", plain(rate / count as f64, 3)),
+    };
+    let time = match effort.seconds {
+        seconds if seconds < 10.0 => format!("{} s", plain(seconds, 2)),
+        seconds => duration_in_words(seconds),
+    };
+    format!("{time}: {} runs/s {threads}", plain(rate, 3))
+}
+
+/// A kept column in a few words: counts, or mean ± standard deviation and the range.
+fn told(column: &Column, spread: &Spread) -> String {
+    if column.kind == Kind::Text {
+        return counted(spread);
+    }
+    if spread.count == 0 {
+        return "none".to_owned();
+    }
+    let unit = column.unit.as_deref().filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
+    let lists = if column.kind == Kind::List { ", in lists" } else { "" };
+    let range = format!("{} to {}", plain(spread.least, 4), plain(spread.greatest, 4));
+    format!("{} ± {}{unit} ({range}){lists}", plain(spread.mean, 5), plain(spread.deviation(), 3))
+}
+
+/// How often each text occurs, the most frequent first.
+fn counted(spread: &Spread) -> String {
+    let mut counts: Vec<(&String, &u64)> = spread.texts.iter().collect();
+    counts.sort_by_key(|(text, count)| (std::cmp::Reverse(**count), *text));
+    let more =
+        if counts.len() > MOST_LISTED { format!(", and {} more", counts.len() - MOST_LISTED) } else { String::new() };
+    let listed = counts.iter().take(MOST_LISTED).map(|(text, count)| format!("{count} {text}"));
+    listed.collect::<Vec<_>>().join(", ") + &more
+}
