@@ -6,14 +6,16 @@
 //!
 //!   validation: row=13 case="…" quantity="…" reference=… measured=… error=… tolerance=… source="…"
 //!
-//! [`Experiment`] runs a scene, or a model made by hand, in memory. Nothing here computes a reference.
+//! [`Experiment`] runs a scene, or a model made by hand, in memory; [`Studied`] some runs of a ready study. Nothing here computes a reference.
 
 mod answer;
 mod experiment;
 mod facet;
+mod studied;
 mod tumbling;
 
 pub use answer::{Answer, Case, largest};
 pub use experiment::{Experiment, Run};
 pub use facet::FacetBody;
+pub use studied::Studied;
 pub use tumbling::{Turning, passage, threshold};
