@@ -17,6 +17,7 @@ solver = { rtol = 1e-3 }
 name = "ball"
 shape = { sphere = { radius = 0.05 } }
 density = 1000
+position = [0, 0, 0.1]
 "#;
 
 const STUDY: &str = r#"

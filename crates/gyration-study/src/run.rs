@@ -152,6 +152,9 @@ impl Study {
 fn created(path: &Path, scene: &Scene) -> Result<Writer, StudyError> {
     // Its commit would make the bytes of recordings depend on where the program was built.
     let job = Job::of(scene, &Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: None });
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(StudyError::io("make", folder))?;
+    }
     if path.symlink_metadata().is_ok() {
         remove(path)?;
     }

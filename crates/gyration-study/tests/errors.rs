@@ -48,8 +48,9 @@ fn impossible_distributions_are_refused() {
     refused_as("grid = { from = 0, to = 1, count = 3, spacing = \"lin\" }", "grid.spacing", ["\"lin\"", "linear"]);
     refused_as("values = []", "values", ["no values", "one"]);
     refused_as("uniform = { from = 0.1, to = \"3 kg\" }", "uniform.to", ["\"3 kg\" is in", "number in m"]);
-    refused_as("uniform = { from = 0.1, till = 3 }", "uniform.till", ["unknown key", "to"]);
-    refused_as("uniform = { from = 0.1, to = 3 }\nwith = \"x\"", "with", ["no axis", "leave"]);
+    refused_as("uniform = { from = 0.1, to = 1, till = 3 }", "uniform.till", ["unknown key", "to"]);
+    let text = parameter(&format!("{height}uniform = {{ from = 0.1, to = 3 }}\nwith = \"x\""));
+    refused(&text, 5, "parameter.p.with", ["no axis", "leave"]);
 }
 
 #[test]

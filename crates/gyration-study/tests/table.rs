@@ -69,7 +69,7 @@ fn a_table_that_was_torn_anywhere_goes_on_to_the_same_bytes() {
     let study = study(folder);
     let rows: Vec<Row> = (0..study.runs()).map(|run| study.row(run)).collect();
     let path = folder.join("torn.study");
-    let journal = path.join("rows/000000.jsonl");
+    let journal = path.join("rows/_000000.jsonl");
     // Every length of the last of a few lines, and some whole ones.
     for (made, cut) in (0..260).map(|cut| (5, cut)).chain([(0, 0), (1, 0), (59, 0), (60, 0)]) {
         let mut table = Table::create(&path, &study, Shard::WHOLE, true).unwrap();
@@ -78,8 +78,8 @@ fn a_table_that_was_torn_anywhere_goes_on_to_the_same_bytes() {
         if let Ok(bytes) = fs::read(&journal) {
             fs::write(&journal, &bytes[..bytes.len().saturating_sub(cut)]).unwrap();
         }
-        fs::write(path.join("rows/000000.parquet.tmp"), b"PAR1 half").unwrap();
-        fs::write(path.join("table.parquet.tmp"), b"PAR1 half").unwrap();
+        fs::write(path.join("rows/_000000.parquet.tmp"), b"PAR1 half").unwrap();
+        fs::write(path.join("_table.parquet.tmp"), b"PAR1 half").unwrap();
         let mut table = Table::resume(&path, &study, Shard::WHOLE).unwrap();
         let missing: Vec<u64> = table.missing().collect();
         assert!(missing.len() >= rows.len() - made);

@@ -27,9 +27,9 @@ pub(super) fn chunk_of(runs: u64) -> u64 {
 
 /// Writes a file beside its place and then puts it there.
 pub(super) fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), StudyError>) -> Result<(), StudyError> {
-    let mut aside = path.as_os_str().to_owned();
-    aside.push(".tmp");
-    let aside = PathBuf::from(aside);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    // Readers of folders of Parquet files pass over names that begin with an underscore.
+    let aside = path.with_file_name(format!("_{name}.tmp"));
     write(&aside)?;
     fs::rename(&aside, path).map_err(StudyError::io("write", path))
 }

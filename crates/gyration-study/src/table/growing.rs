@@ -207,7 +207,7 @@ impl Table {
         replace_file(&self.file(), |path| {
             let mut output = Output::create(path, &self.columns, &self.description)?;
             for number in 0..chunks {
-                let mut input = Input::open(&self.chunk_file(number, "parquet"))?;
+                let mut input = Input::open(&self.chunk_file(number))?;
                 loop {
                     let rows = input.next(PORTION)?;
                     if rows.is_empty() {
@@ -231,14 +231,19 @@ impl Table {
         }
     }
 
-    fn chunk_file(&self, number: u64, ending: &str) -> PathBuf {
-        self.folder.join(ROWS).join(format!("{number:06}.{ending}"))
+    fn chunk_file(&self, number: u64) -> PathBuf {
+        self.folder.join(ROWS).join(format!("{number:06}.parquet"))
+    }
+
+    /// Readers of folders of Parquet files pass over names that begin with an underscore.
+    fn journal_file(&self, number: u64) -> PathBuf {
+        self.folder.join(ROWS).join(format!("_{number:06}.jsonl"))
     }
 
     fn open(&mut self, number: u64) -> Result<&mut Open, StudyError> {
         if !self.open.contains_key(&number) {
             let length = self.chunk.min(self.runs - number * self.chunk);
-            let journal = Journal::open(self.chunk_file(number, "jsonl"))?;
+            let journal = Journal::open(self.journal_file(number))?;
             // The length is that of a whole chunk, so that places are counted alike in the last one.
             let there = vec![false; self.chunk as usize];
             self.open.insert(number, Open { journal, there, count: self.chunk - length });
@@ -254,10 +259,10 @@ impl Table {
         if self.open.get(&number).is_none_or(|open| open.count < self.chunk) {
             return Ok(());
         }
-        let journal = self.chunk_file(number, "jsonl");
+        let journal = self.journal_file(number);
         let (mut rows, _) = journal::read(&journal, &self.columns)?;
         rows.sort_by_key(Row::run);
-        replace_file(&self.chunk_file(number, "parquet"), |path| {
+        replace_file(&self.chunk_file(number), |path| {
             let mut output = Output::create(path, &self.columns, &self.description)?;
             rows.into_iter().try_for_each(|row| output.push(row))?;
             output.close()
@@ -275,7 +280,7 @@ impl Table {
         let mut journals = Vec::new();
         for entry in fs::read_dir(&folder).map_err(StudyError::io("read", &folder))? {
             let path = entry.map_err(StudyError::io("read", &folder))?.path();
-            let number = path.file_stem().and_then(|stem| stem.to_str()?.parse::<u64>().ok());
+            let number = path.file_stem().and_then(|stem| stem.to_str()?.trim_start_matches('_').parse::<u64>().ok());
             match (path.extension().and_then(|ending| ending.to_str()), number) {
                 (Some("tmp"), _) => fs::remove_file(&path).map_err(StudyError::io("remove", &path))?,
                 (Some("parquet"), Some(number)) => {

@@ -4,7 +4,7 @@
 //! NAME.study/
 //!     study.json                the study, its scene, its fingerprint, its columns
 //!     rows/000012.parquet       a finished chunk: consecutive runs of this table
-//!     rows/000012.jsonl         the journal of an open chunk; gone when its .parquet is there
+//!     rows/_000012.jsonl        the journal of an open chunk; gone when its .parquet is there
 //!     recordings/run-000012.gyr
 //!     table.parquet             at the end: all rows in order; then rows/ is gone
 //!     shard-3-of-8/             a shard: the same layout inside
