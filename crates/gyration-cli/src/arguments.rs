@@ -231,8 +231,8 @@ pub struct Study {
     /// What to do with its table instead of making it.
     #[command(subcommand)]
     pub action: Option<StudyAction>,
-    /// Folder of the table [default: STEM.study in the current folder]
-    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath, global = true)]
+    /// Folder of the table [default: STEM.study in the current folder]; of `plot` the picture, .svg, .png, .pdf or - [default: STEM.svg]
+    #[arg(short, long, value_name = "PATH", value_hint = ValueHint::AnyPath, global = true)]
     pub output: Option<PathBuf>,
     /// Make part K of N only, into DIR/shard-K-of-N; `merge` joins the parts
     #[arg(long, value_name = "K/N")]
@@ -260,6 +260,26 @@ pub struct Study {
 pub enum StudyAction {
     /// Join the shards of a study into one table
     Merge,
+    /// Draw the table of a study: counts, curves with intervals, maps, dots
+    Plot(StudyPlot),
+}
+
+/// `gyration study STUDY plot`
+#[cfg(feature = "study")]
+#[derive(Debug, Args)]
+pub struct StudyPlot {
+    /// Column of the axis to the right [default: what the study says, or the first axis of its grid]
+    #[arg(long, value_name = "COLUMN")]
+    pub x: Option<String>,
+    /// Column of the axis upwards; face=+z,-z: the share of the runs with one of these values, or of those of another column
+    #[arg(long, value_name = "COLUMN[=VALUE,…]")]
+    pub y: Option<String>,
+    /// Column that colours tell apart
+    #[arg(long, visible_alias = "color", value_name = "COLUMN")]
+    pub colour: Option<String>,
+    /// Kind of picture [default: by the columns]
+    #[arg(long, value_parser = crate::plot::study::Kind::WORDS)]
+    pub kind: Option<String>,
 }
 
 /// What may be drawn.

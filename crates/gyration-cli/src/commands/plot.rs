@@ -39,7 +39,7 @@ pub fn execute(arguments: &Plot) -> Result<u8, CliError> {
 }
 
 /// The format that the ending of the file asks for.
-fn format(output: Option<&Path>) -> Result<Format, CliError> {
+pub fn format(output: Option<&Path>) -> Result<Format, CliError> {
     let Some(path) = output.filter(|path| *path != Path::new("-")) else { return Ok(Format::Svg) };
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {

@@ -7,14 +7,15 @@
 //!
 //! The same recording gives the same bytes: there are neither dates nor names of machines in a picture.
 
+// Without studies nobody fills areas or names places of an axis.
+#[cfg_attr(not(feature = "study"), allow(dead_code, unused_imports))]
 pub mod chart;
 mod cycle;
 pub mod draw;
 pub mod recorded;
 pub mod show;
 pub mod strip;
-// The command that calls it comes with the reader of tables.
-#[allow(dead_code, unused_imports)]
+#[cfg(feature = "study")]
 pub mod study;
 mod thin;
 

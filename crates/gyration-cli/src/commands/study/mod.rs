@@ -1,5 +1,6 @@
 //! `gyration study`: thousands of runs of a scene into one table; shards, and their joining.
 
+mod plot;
 mod summary;
 mod watch;
 
@@ -16,10 +17,14 @@ use watch::Watch;
 /// Does what was asked; the exit code tells whether the table is complete.
 pub fn execute(arguments: &Arguments) -> Result<u8, CliError> {
     let Some(name) = &arguments.study else { return list() };
+    // A table is drawn wherever it comes from: its study need not be there.
+    if let Some(StudyAction::Plot(wanted)) = &arguments.action {
+        return plot::execute(name, wanted, arguments.output.as_deref());
+    }
     let study = Study::open(name, &arguments.overrides)?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.study", study.name())));
     match &arguments.action {
-        None => run(arguments, &study, &path),
+        None | Some(StudyAction::Plot(_)) => run(arguments, &study, &path),
         Some(StudyAction::Merge) => join(arguments, &study, &path),
     }
 }

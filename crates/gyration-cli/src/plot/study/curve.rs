@@ -7,12 +7,14 @@ use super::request::Measure;
 use super::statistics::{self, Estimate};
 use super::{Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, kept, painted, palette, references};
 use crate::plot::chart::{Axis, Chart, LINE, Panel, Scale, Series, Shapes};
-use crate::plot::draw::{Color, Stroke};
+use crate::plot::draw::Stroke;
 
 /// With more points than this a curve has no dots.
 const MOST_DOTS: usize = 60;
 /// Curves at most.
 const MOST_CURVES: usize = 14;
+/// Between the intervals of curves at one place, as a part of the axis.
+const BESIDE: f64 = 0.006;
 /// Radius of dots [pt].
 const RADIUS: f64 = 2.0;
 
@@ -54,7 +56,8 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
             range.extend(points.iter().flat_map(|(_, e)| [e.value, e.low, e.high]));
             let parts = [group.as_str(), if quantities.len() > 1 { &quantity.name } else { "" }];
             let name = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
-            draw(&points, name, palette::category(series.len()), (&mut shapes, &mut series));
+            let beside = BESIDE * (series.len() as f64 - 0.5 * (count - 1) as f64);
+            draw(&points, name, (&places.axis, beside), (&mut shapes, &mut series));
         }
     }
     references(request, &mut shapes, &mut series);
@@ -170,14 +173,19 @@ impl Places {
     }
 }
 
-/// A line, its dots and its intervals.
+/// A line, its dots and its intervals; these stand a little beside the dots, lest those of several curves hide each other.
 fn draw(
     points: &[(f64, Estimate)],
     name: String,
-    colour: Color,
+    (axis, beside): (&Axis, f64),
     (shapes, series): (&mut Vec<Shapes>, &mut Vec<Series>),
 ) {
-    let ends: Vec<_> = points.iter().map(|(x, e)| [[*x, e.low], [*x, e.high]]).collect();
+    let colour = palette::category(series.len());
+    let at = |x: f64| match axis.scale {
+        Scale::Linear => x + beside * (axis.high - axis.low),
+        Scale::Logarithmic => x * (axis.high / axis.low).powf(beside),
+    };
+    let ends: Vec<_> = points.iter().map(|(x, e)| [[at(*x), e.low], [at(*x), e.high]]).collect();
     if ends.iter().any(|[low, high]| high[1] > low[1]) {
         shapes.push(Shapes::Intervals { ends, stroke: Stroke::solid(colour, 0.8) });
     }

@@ -1,7 +1,7 @@
 //! Cells over two parameters of the grid: basins coloured by their outcome, fields of a number.
 //!
 //! A cell reaches halfway to its neighbours, on the scale on which the parameter is even. Of several runs of a cell the
-//! most frequent word is shown, or the mean of the numbers.
+//! most frequent word is shown, or the mean of the numbers; of a list it is the change from its first number to its last.
 
 use super::request::Measure;
 use super::{Column, Request, Table, Unfit, Values, axis_or, kept, painted, palette, references, swatch};
@@ -32,11 +32,9 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
             of_numbers(&cells, &words.iter().map(hit).collect::<Vec<_>>())
         }
         Values::Numbers(values) => of_numbers(&cells, values),
-        Values::Lists(_) => {
-            return Err(Unfit::new(
-                format!("`{}` has several numbers a run, which no colour tells", column.name),
-                "name another --colour",
-            ));
+        Values::Lists(lists) => {
+            let change = |list: &Vec<f64>| list.last().zip(list.first()).map_or(f64::NAN, |(last, first)| last - first);
+            of_numbers(&cells, &lists.iter().map(change).collect::<Vec<_>>())
         }
     };
     references(request, &mut shapes, &mut series);

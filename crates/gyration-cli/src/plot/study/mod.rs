@@ -19,6 +19,7 @@ mod map;
 mod palette;
 mod request;
 mod scatter;
+mod source;
 mod statistics;
 mod table;
 #[cfg(test)]
@@ -26,7 +27,7 @@ mod tests;
 
 use super::chart::{Chart, DASH_DOTTED, DASHED, DOTTED, Field, Figure, LINE, Panel, Series, Shapes};
 use super::draw::{Color, Stroke, color};
-pub use request::{Kind, Measure, Reference, Request};
+pub use request::{Kind, Measure, Request};
 pub use table::{Column, Role, Table, Values};
 
 /// Why there is no picture of a study.

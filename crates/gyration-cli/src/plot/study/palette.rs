@@ -20,6 +20,8 @@ const TWO_SIDED: [Color; 5] = [
     Color::new(0xEE, 0x93, 0x4F),
     Color::new(0x8A, 0x35, 0x00),
 ];
+/// A sign with less than this part of the range is scatter about zero.
+const SMALLEST_SIDE: f64 = 0.1;
 /// Into how many colours the range is divided: cells of one colour are one path.
 const SHADES: usize = 64;
 
@@ -36,7 +38,7 @@ impl Palette {
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = extremes(values).unwrap_or((0.0, 1.0));
         let (low, high) = if high > low { (low, high) } else { (low - 0.5, high + 0.5) };
-        if low < 0.0 && high > 0.0 && -low.max(-high) > 0.02 * high.max(-low) {
+        if low < 0.0 && high > 0.0 && high.min(-low) > SMALLEST_SIDE * high.max(-low) {
             let most = high.max(-low);
             return Self { low: -most, high: most, colours: TWO_SIDED };
         }

@@ -28,6 +28,17 @@ pub enum Kind {
     Scatter,
 }
 
+impl Kind {
+    /// The words of the kinds.
+    pub const WORDS: [&str; 4] = ["histogram", "curve", "map", "scatter"];
+
+    /// The kind of a word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        let kinds = [Self::Histogram, Self::Curve, Self::Map, Self::Scatter];
+        Self::WORDS.iter().position(|known| *known == word).map(|index| kinds[index])
+    }
+}
+
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
