@@ -56,7 +56,7 @@ impl Table {
         if folder.symlink_metadata().is_ok() {
             let is_table = folder.join(MANIFEST).is_file() || holds_shards(&folder);
             let is_empty = fs::read_dir(&folder).is_ok_and(|mut entries| entries.next().is_none());
-            if !is_empty && !(replace && is_table) {
+            if !(is_empty || replace && is_table) {
                 return Err(StudyError::Exists { path: folder });
             }
             if is_table {

@@ -183,7 +183,7 @@ impl Input {
         let file = File::open(path).map_err(StudyError::io("read", path))?;
         let reader = SerializedFileReader::new(file).map_err(failed("read", path))?;
         let fields = reader.metadata().file_metadata().schema().get_fields().iter();
-        let kinds = fields.map(|field| kind(field)).collect::<Option<_>>();
+        let kinds = fields.map(kind).collect::<Option<_>>();
         let kinds = kinds.ok_or_else(|| StudyError::damaged(path, "its columns are not those of a study"))?;
         Ok(Self { path: path.to_owned(), reader, kinds, group: 0, columns: Vec::new(), remaining: 0 })
     }
