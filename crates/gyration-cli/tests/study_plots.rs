@@ -1,0 +1,76 @@
+//! `gyration study STUDY plot`: pictures of a table.
+
+#![cfg(feature = "study")]
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::Sandbox;
+
+/// Two heights, a random speed: six runs.
+const STUDY: &str = r#"
+title = "How high a ball is"
+scene = "ball.toml"
+repetitions = 3
+
+[parameter.drop]
+key = "body.ball.position.2"
+values = [0.2, 0.3]
+
+[parameter.speed]
+key = "body.ball.velocity.0"
+uniform = { from = 0, to = 1 }
+
+[keep]
+top = { maximum = "ball.z" }
+face = { face = "ball" }
+apexes = { at = "apex", body = "ball", column = "ball.z", last = 2 }
+
+[plot]
+y = "top"
+"#;
+
+fn studied() -> Sandbox {
+    let sandbox = Sandbox::with_ball();
+    sandbox.write("balls.toml", STUDY);
+    sandbox.done(&["study", "balls.toml", "--quiet"]);
+    sandbox
+}
+
+#[test]
+fn study_draws_what_it_says_and_what_is_asked_for() {
+    let sandbox = studied();
+    let pictures: [(&[&str], &str, &str); 6] = [
+        (&[], "balls.svg", "top"),
+        (&["--y", "apexes", "-o", "apexes.svg"], "apexes.svg", "apexes"),
+        (&["--x", "top", "--kind", "histogram", "-o", "tops.svg"], "tops.svg", "runs"),
+        (&["--x", "speed", "--y", "top", "--colour", "face", "-o", "dots.svg"], "dots.svg", "speed"),
+        (&["--x", "drop", "--y", "face=+z,-z", "-o", "share.svg"], "share.svg", "share of face"),
+        (&["-o", "balls.png"], "balls.png", "PNG"),
+    ];
+    for (more, file, words) in pictures {
+        sandbox.done(&[&["study", "balls.toml", "plot"], more].concat());
+        let picture = String::from_utf8_lossy(&std::fs::read(sandbox.path(file)).unwrap()).into_owned();
+        assert!(picture.contains(words), "{more:?}: {file} does not contain {words}");
+    }
+    let table = sandbox.done(&["study", "balls.study/table.parquet", "plot", "-o", "-"]);
+    let folder = sandbox.done(&["study", "balls.study", "plot", "-o", "-"]);
+    assert!(table.stdout.contains("How high a ball is") && table.stdout == folder.stdout);
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_the_fix() {
+    let sandbox = studied();
+    let refused: [(&[&str], &str); 4] = [
+        (&["--y", "tops"], "its columns are run, point"),
+        (&["--kind", "map"], "the study has no such axis"),
+        (&["-o", "balls.gif"], ".svg, .png or .pdf"),
+        (&["--x", "apexes", "--kind", "curve"], "is a list"),
+    ];
+    for (more, words) in refused {
+        let said = sandbox.refused(2, &[&["study", "balls.toml", "plot"], more].concat());
+        assert!(said.stderr.contains(words), "{more:?}: {}", said.stderr);
+    }
+    let said = sandbox.run(&["study", "dice-fairness", "plot"]);
+    assert!(said.code != Some(0) && said.stderr.contains("gyration study dice-fairness"), "{}", said.stderr);
+}
