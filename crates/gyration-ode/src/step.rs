@@ -76,6 +76,29 @@ impl Integrator {
         }
     }
 
+    /// Takes note that the system has changed in time, by a jump: its rates are evaluated anew at the state reached, and the
+    /// errors of the steps before say nothing on those to come. The size of the next step stays: it is the error control that
+    /// says whether it is too long.
+    ///
+    /// # Errors
+    /// `Failure` if the system has no rates there.
+    ///
+    /// # Panics
+    /// If the system has not the size of the state.
+    pub fn renew<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
+        self.prepare(system)?;
+        let Self { layout, progress, current, .. } = self;
+        let mut context = Context { system, layout, statistics: &mut progress.statistics };
+        let time = current.t;
+        let rates = context.evaluate(time, &current.u, &mut current.rate);
+        rates.map_err(|cause| Failure::NoRates { time, cause })?;
+        progress.control = Control::default();
+        progress.contraction = 1.0;
+        progress.collocation_step = 0.0;
+        self.last = LastStep::None;
+        Ok(())
+    }
+
     /// Sizes the scratch, and at the very start evaluates the rates and chooses the first step.
     fn prepare<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
         if self.open && self.layout.fits(system) {
