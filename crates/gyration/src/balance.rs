@@ -101,7 +101,10 @@ pub fn observe(
 }
 
 /// f and M of the contacts of a body.
-pub(crate) fn contact_loads(
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn contact_loads(
     model: &Model,
     workspace: &mut Workspace,
     time: f64,

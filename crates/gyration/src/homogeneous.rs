@@ -129,6 +129,9 @@ fn interior(
         BodyKind::Rigid(_) => {
             let mut loads = contact_loads(model, workspace, state.time, index, motion)?;
             spring_loads(index, body, motion, |spring| loads += spring.total())?;
+            if let Some(applied) = model.applied(index) {
+                loads += applied.loads(&motion.placement.gradient.transpose());
+            }
             if let Some(fluid) = immersed_loads(model, state, index, motion) {
                 loads += fluid;
             }

@@ -102,6 +102,9 @@ fn rigid_slopes(
         Ok(())
     })?;
     spring_loads(index, body, motion, |spring| slopes.add_spring(spring, motion, &turn.spin))?;
+    if let Some(applied) = model.applied(index) {
+        slopes.add_applied(applied, &motion.placement.gradient);
+    }
     if let Some(immersed) = RigidImmersion::of(model, time, index, (motion, turn)) {
         slopes.add_fluid(&immersed);
     }

@@ -48,7 +48,7 @@ pub enum Work {
     Contraction,
     /// By the drive: ∫V Q·V_G.
     Drive,
-    /// By dashpots and couples.
+    /// By dashpots and couples, and by what a controller applies.
     Load,
     /// By the motion of the supports: ∫∫ q·(velocity of the support), all laws.
     Support,

@@ -6,6 +6,7 @@ use crate::body::Body;
 use crate::contact::{AreaMeasure, LawKind};
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
+use crate::load::Applied;
 use crate::support::{Support, SupportMotion};
 use crate::tensor::Vec3;
 use std::ops::Range;
@@ -24,15 +25,17 @@ pub struct Model {
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
     energies: Vec<Energy>,
+    /// What a controller applies to each body; empty without one.
+    applied: Vec<Applied>,
 }
 
 impl Model {
     /// Freezes a model: lays out the state and decides which entries the ledger has.
     pub fn new(gravity: Vec3, supports: Vec<Support>, bodies: Vec<Body>) -> Self {
         let blocks = layout(&bodies);
-        let works = works(&supports, &bodies);
+        let works = works(&supports, &bodies, false);
         let energies = energies(&bodies);
-        Self { gravity, supports, bodies, fluid: None, blocks, works, energies }
+        Self { gravity, supports, bodies, fluid: None, blocks, works, energies, applied: Vec::new() }
     }
 
     /// The model in a fluid.
@@ -40,6 +43,30 @@ impl Model {
     pub fn in_fluid(mut self, fluid: Fluid) -> Self {
         self.fluid = Some(fluid);
         self
+    }
+
+    /// The model under a controller: loads may be applied to its bodies, and the ledger has their work.
+    #[must_use]
+    pub fn under_control(mut self) -> Self {
+        self.works = works(&self.supports, &self.bodies, true);
+        self.applied = vec![Applied::default(); self.bodies.len()];
+        self
+    }
+
+    /// Whether loads may be applied to its bodies.
+    pub fn is_controlled(&self) -> bool {
+        !self.applied.is_empty()
+    }
+
+    /// What is applied to a body; none without a controller.
+    pub fn applied(&self, body: usize) -> Option<&Applied> {
+        self.applied.get(body)
+    }
+
+    /// Applies a load to a body until another is applied; whether there is a controller.
+    #[must_use]
+    pub fn apply(&mut self, body: usize, load: Applied) -> bool {
+        self.applied.get_mut(body).map(|applied| *applied = load).is_some()
     }
 
     /// Where each body's numbers stand in the state.
@@ -85,7 +112,7 @@ fn has_law(bodies: &[Body], kinds: &[LawKind]) -> bool {
     laws.any(|law| kinds.contains(&law.kind()))
 }
 
-fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
+fn works(supports: &[Support], bodies: &[Body], controlled: bool) -> Vec<Work> {
     let moving = |index: usize| supports[index].motion != SupportMotion::Fixed;
     let dashpots = bodies.iter().flat_map(|body| &body.springs).any(|spring| spring.damping > 0.0);
     let carried = bodies.iter().flat_map(|body| &body.contacts).any(|contact| moving(contact.support));
@@ -101,7 +128,7 @@ fn works(supports: &[Support], bodies: &[Body]) -> Vec<Work> {
         (Work::Viscosity, resisted || affine().any(|affine| affine.interior.dissipates())),
         (Work::Contraction, contracting().any(|contraction| contraction.viscosity > 0.0)),
         (Work::Drive, contracting().next().is_some()),
-        (Work::Load, dashpots || affine().any(|affine| affine.couple.is_some())),
+        (Work::Load, controlled || dashpots || affine().any(|affine| affine.couple.is_some())),
         (Work::Support, carried),
         (Work::Fluid, bodies.iter().any(|body| body.inclusion.is_some())),
         (Work::Constraint, affine().any(|affine| affine.interior.is_incompressible())),

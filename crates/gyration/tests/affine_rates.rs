@@ -78,6 +78,18 @@ proptest! {
     }
 
     #[test]
+    fn jacobian_and_power_under_a_controller_are_those_of_the_rates(numbers in numbers(24), exponents in exponents()) {
+        let model = controlled(model(exponents, AreaMeasure::DeformedArea));
+        let state = state(&model, &numbers);
+        assert_jacobian_is_the_derivative(&model, &state);
+        assert_power_is_the_rate_of_energy(&model, &state);
+        let without_inertia = controlled(immersed(model, false));
+        let state = self::state(&without_inertia, &numbers);
+        assert_jacobian_is_the_derivative(&without_inertia, &state);
+        assert_power_is_the_rate_of_energy(&without_inertia, &state);
+    }
+
+    #[test]
     fn power_of_works_is_the_rate_of_energy(numbers in numbers(24), exponents in exponents()) {
         for measure in MEASURES {
             let model = model(exponents, measure);

@@ -15,8 +15,8 @@ use gyration::shape::Shape;
 use gyration::state::{RigidStart, State, Turn};
 use gyration::tensor::Vec3;
 use moving::{
-    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, evaluate, immersed, remembered,
-    shapes, supports,
+    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, controlled, evaluate, immersed,
+    remembered, shapes, supports,
 };
 use proptest::prelude::*;
 
@@ -84,6 +84,14 @@ proptest! {
         let model = model(exponents);
         let state = state(&model, &numbers);
         assert_jacobian_is_the_derivative(&model, &state);
+    }
+
+    #[test]
+    fn jacobian_and_power_under_a_controller_are_those_of_the_rates((numbers, exponents) in strategy()) {
+        let model = controlled(model(exponents));
+        let state = state(&model, &numbers);
+        assert_jacobian_is_the_derivative(&model, &state);
+        assert_power_is_the_rate_of_energy(&model, &state);
     }
 
     #[test]

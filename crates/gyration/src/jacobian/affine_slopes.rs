@@ -110,6 +110,9 @@ pub(super) fn load_slopes(
     if let Some(couple) = &affine.couple {
         slopes.add_couple(&couple.moment(time, inverse), inverse);
     }
+    if let Some(applied) = model.applied(moving.index) {
+        slopes.add_applied(applied, inverse);
+    }
     for resistance in &affine.resistances {
         slopes.add_resistance(resistance, (&moving.motion.placement, inverse, &moving.motion.velocity));
     }

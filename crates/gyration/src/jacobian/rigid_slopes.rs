@@ -7,7 +7,7 @@
 //!   pin       δp₀ = R(r×δθ),   δṗ₀ = R((Ω×r)×δθ + r×δΩ),   τ_p = τ − r×Rᵀ(f + m g)
 
 use crate::contact::{ContactWrench, RigidMotion};
-use crate::load::{SpringLoads, Wrench, WrenchSlope};
+use crate::load::{Applied, SpringLoads, Wrench, WrenchSlope};
 use crate::rates::RigidImmersion;
 use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
@@ -47,6 +47,12 @@ impl RigidSlopes {
         self.by_turn.torque += arm * cross_matrix(&rotation.tr_mul(&spring.force));
         self.by_velocity += slope(spring.by_velocity);
         self.by_spin += slope(-(spring.by_velocity * swing));
+    }
+
+    /// Adds what a controller applies.
+    pub fn add_applied(&mut self, applied: &Applied, rotation: &Mat3) {
+        self.wrench += applied.wrench(rotation);
+        self.by_turn += applied.wrench_by_turn(rotation);
     }
 
     /// Adds the fluid.

@@ -4,7 +4,7 @@
 //! are vectors of twelve, with power Q·q̇. A point X is X̃ = (1; X) on their columns: x = q X̃, and a force F there is
 //! Q = F ⊗ X̃. A pinned body has the coordinates P alone: q = P T, T = (−r | I), r = X_p, and Q_p = Q Tᵀ.
 
-use super::{LinearResistance, Loads, SpringLoads};
+use super::{Applied, LinearResistance, Loads, SpringLoads};
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
@@ -95,6 +95,12 @@ impl LoadSlopes {
             let slope = Loads { force: Vec3::zeros(), moment: -(moment * dp.transpose() * inverse.transpose()) };
             self.add_by_place(3 + coordinate, &slope);
         }
+    }
+
+    /// Adds what a controller applies; P⁻¹ is given. Of it, only the couple changes with P.
+    pub fn add_applied(&mut self, applied: &Applied, inverse: &Mat3) {
+        self.loads += Loads { force: applied.force, moment: applied.moment };
+        self.add_couple(&applied.couple(inverse), inverse);
     }
 
     /// Adds a load that is linear in the velocities.

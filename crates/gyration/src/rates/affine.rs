@@ -50,10 +50,11 @@ impl<'a> AffineMotion<'a> {
         let body = &model.bodies[self.index];
         let touched = !body.contacts.is_empty() || !body.springs.is_empty();
         let immersed = model.fluid.is_some() && body.inclusion.is_some();
-        touched || immersed || self.affine.couple.is_some() || !self.affine.resistances.is_empty()
+        let held = self.affine.couple.is_some() || model.applied(self.index).is_some();
+        touched || immersed || held || !self.affine.resistances.is_empty()
     }
 
-    /// f and M of contacts, springs, couple and resistances, and the powers of their works.
+    /// f and M of contacts, springs, couple, controller and resistances, and the powers of their works.
     #[inline]
     pub fn loads(&self, model: &Model, workspace: &mut Workspace, time: f64) -> Result<AffineLoads, Inadmissible> {
         if self.is_loaded(model) { self.summed(model, workspace, time) } else { Ok(AffineLoads::default()) }
@@ -90,6 +91,11 @@ impl<'a> AffineMotion<'a> {
             let moment = couple.moment(time, &self.gyration.inverse);
             powers.load += moment.dot(&velocity.gradient_rate);
             loads.moment += moment;
+        }
+        if let Some(applied) = model.applied(self.index) {
+            let held = applied.loads(&self.gyration.inverse);
+            powers.load += held.power(&velocity.velocity, &velocity.gradient_rate);
+            loads += held;
         }
         for resistance in &self.affine.resistances {
             let resisting = resistance.loads(&placement.gradient, &self.gyration.inverse, velocity);

@@ -40,6 +40,11 @@ pub(super) fn wrench(
         powers.load += spring.dashpot_power;
         wrench += spring.wrench(rotation);
     })?;
+    if let Some(applied) = model.applied(index) {
+        let held = applied.wrench(rotation);
+        powers.load += held.force.dot(&motion.velocity.velocity) + held.torque.dot(&turn.spin);
+        wrench += held;
+    }
     if let Some(immersed) = RigidImmersion::of(model, time, index, (motion, turn)) {
         let fluid = immersed.wrench();
         powers.fluid += fluid.force.dot(&motion.velocity.velocity) + fluid.torque.dot(&turn.spin);

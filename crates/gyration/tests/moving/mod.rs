@@ -9,7 +9,7 @@ use gyration::body::{Affine, Body, BodyKind, Pin};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
 use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory};
 use gyration::jacobian::jacobian;
-use gyration::load::{Couple, Frame, LinearResistance, Mat12, Spring};
+use gyration::load::{Applied, Couple, Frame, LinearResistance, Mat12, Spring};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::rates::{Workspace, rates};
@@ -142,6 +142,20 @@ pub fn remembered(model: Model) -> Model {
     let fluid = model.fluid.take();
     let again = Model::new(model.gravity, model.supports, model.bodies);
     again.in_fluid(fluid.unwrap())
+}
+
+/// The same bodies under a controller that applies force, affine moment and torque to each.
+pub fn controlled(model: Model) -> Model {
+    let mut model = model.under_control();
+    let applied = Applied {
+        force: Vec3::new(0.7, -0.4, 1.1),
+        moment: Mat3::new(0.3, -0.5, 0.2, 0.8, 0.1, -0.6, 0.4, -0.2, 0.5),
+        torque: Vec3::new(-0.9, 0.6, 0.3),
+    };
+    for body in 0..model.bodies.len() {
+        assert!(model.apply(body, applied));
+    }
+    model
 }
 
 pub fn shapes() -> [Shape; 4] {
