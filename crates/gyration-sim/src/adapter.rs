@@ -37,6 +37,12 @@ const SHARE: f64 = 0.1;
 #[derive(Debug)]
 pub struct ModelSystem<'a> {
     model: &'a Model,
+    prepared: Prepared,
+}
+
+/// Scratch and scales of a run, which belong to the size of its model and not to its numbers: they outlive a change of loads.
+#[derive(Debug, Clone)]
+pub(crate) struct Prepared {
     workspace: Workspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
@@ -46,6 +52,13 @@ pub struct ModelSystem<'a> {
     viscous: f64,
     /// The rates of the bodies at the start.
     first_rates: Vec<f64>,
+}
+
+impl Prepared {
+    /// The system of a model of the same bodies.
+    pub fn on(self, model: &Model) -> ModelSystem<'_> {
+        ModelSystem { model, prepared: self }
+    }
 }
 
 impl<'a> ModelSystem<'a> {
@@ -65,7 +78,12 @@ impl<'a> ModelSystem<'a> {
         let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
         let settled = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = settled.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
-        Ok(Self { model, workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes })
+        Ok(Prepared { workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes }.on(model))
+    }
+
+    /// Lets go of the model.
+    pub(crate) fn release(self) -> Prepared {
+        self.prepared
     }
 
     /// The model.
@@ -75,27 +93,27 @@ impl<'a> ModelSystem<'a> {
 
     /// The radius of each body's surface about its centre of mass [m].
     pub fn radii(&self) -> &[f64] {
-        &self.radii
+        &self.prepared.radii
     }
 
     /// The rates of the bodies at the start of the run, laid out as the state.
     pub fn first_rates(&self) -> &[f64] {
-        &self.first_rates
+        &self.prepared.first_rates
     }
 
     /// The scratch of the mechanics, for observations between steps.
     pub fn workspace(&mut self) -> &mut Workspace {
-        &mut self.workspace
+        &mut self.prepared.workspace
     }
 
     /// The energy in play of bodies without inertia, which have no kinetic energy [J].
     pub fn viscous_energy(&self) -> f64 {
-        self.viscous
+        self.prepared.viscous
     }
 
     /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.
     pub fn speed_scale(&self, body: usize) -> f64 {
-        self.speeds[body]
+        self.prepared.speeds[body]
     }
 }
 
@@ -148,16 +166,16 @@ impl System for ModelSystem<'_> {
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
-        rates(self.model, &mut self.workspace, t, y, dy, dw)
+        rates(self.model, &mut self.prepared.workspace, t, y, dy, dw)
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], blocks: &mut [DMatrix<f64>]) -> Result<(), Inadmissible> {
-        jacobian::jacobian(self.model, &mut self.workspace, t, y, blocks)
+        jacobian::jacobian(self.model, &mut self.prepared.workspace, t, y, blocks)
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
-        let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
-        let mut energy = self.energy;
+        let (rtol, atol) = (SHARE * self.prepared.tolerance.rtol, SHARE * self.prepared.tolerance.atol);
+        let mut energy = self.prepared.energy;
         for (index, (body, block)) in self.model.bodies.iter().zip(self.model.blocks()).enumerate() {
             let motion = BodyMotion::unpack(body, &y[block.clone()]);
             let gap = smallest_gap(self.model, t, index, &motion).max(0.0);
@@ -166,7 +184,7 @@ impl System for ModelSystem<'_> {
             let length = atol * body.size + rtol * gap.min(body.size);
             // The rounding of the places from which the gap is computed is all that can be had.
             let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);
-            let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
+            let velocity = atol * self.prepared.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
             let (at_turn, at_rates) = parts(body);
             let (places, rates) = y_scale[block.clone()].split_at_mut(at_rates);
             let (center, turn) = places.split_at_mut(at_turn);

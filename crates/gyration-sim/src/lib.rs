@@ -8,6 +8,8 @@
 //! ```
 
 pub mod adapter;
+mod aside;
+mod by_hand;
 pub mod ensemble;
 pub mod events;
 mod horizon;
@@ -27,6 +29,7 @@ mod views;
 mod watch;
 
 pub use adapter::Tolerance;
+pub use by_hand::{HandStepper, Refusal};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
 pub use ports::{Monitor, Progress, RunError, Sink};

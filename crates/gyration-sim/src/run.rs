@@ -22,7 +22,7 @@ use gyration_ode::{Integrator, Statistics, StepReport, System as _};
 pub struct Simulation<'a> {
     pub(crate) system: ModelSystem<'a>,
     pub(crate) integrator: Integrator,
-    plan: RunPlan,
+    pub(crate) plan: RunPlan,
     pub(crate) tally: Tally,
     /// The bodies after the last step.
     pub(crate) views: Vec<View>,
@@ -36,7 +36,7 @@ pub struct Simulation<'a> {
     pub(crate) fields: Fields,
     pub(crate) rows: RowScratch,
     /// The time of the last row [s].
-    recorded: f64,
+    pub(crate) recorded: f64,
 }
 
 impl<'a> Simulation<'a> {
@@ -149,16 +149,10 @@ impl<'a> Simulation<'a> {
         if self.integrator.time() >= self.plan.end {
             return Ok(Some(Outcome::Completed));
         }
-        let target = self.target();
-        let before = self.dissipation();
-        let report = match self.integrator.step(&mut self.system, target) {
+        let report = match self.step(sink)? {
             Ok(report) => report,
-            Err(failure) => return self.stop(Stop::by_failure(model, &failure), sink).map(Some),
+            Err(stop) => return self.stop(stop, sink).map(Some),
         };
-        self.look();
-        self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
-        self.tally.note_dissipation(before, self.dissipation());
-        self.find_events(&report, sink)?;
         if let Err(stop) = self.sample_step(&report, sink)? {
             return self.stop(stop, sink).map(Some);
         }
@@ -172,6 +166,30 @@ impl<'a> Simulation<'a> {
         let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
         let asked = monitor.after_step(&progress).filter(|_| time < end);
         Ok(asked.map(|reason| Outcome::Stopped(Stop::by_request(time, reason))))
+    }
+
+    /// Makes one step and finds its events.
+    pub(crate) fn step(&mut self, sink: &mut dyn Sink) -> Result<Result<StepReport, Stop>, RunError> {
+        let (target, before) = (self.target(), self.dissipation());
+        let report = match self.integrator.step(&mut self.system, target) {
+            Ok(report) => report,
+            Err(failure) => return Ok(Err(Stop::by_failure(self.system.model(), &failure))),
+        };
+        self.look();
+        self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
+        self.tally.note_dissipation(before, self.dissipation());
+        self.find_events(&report, sink)?;
+        Ok(Ok(report))
+    }
+
+    /// Takes note of a change of the model.
+    pub(crate) fn renew(&mut self) -> Result<(), Stop> {
+        let model = self.system.model();
+        self.integrator.renew(&mut self.system).map_err(|failure| Stop::by_failure(model, &failure))?;
+        // Before the first step the rates at the start stand in the system.
+        let (rates, _) = self.integrator.rates();
+        views::renew(&mut self.views, model, self.integrator.state(), rates);
+        Ok(())
     }
 
     /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time at
@@ -227,7 +245,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// Renews what is known of the bodies after a step, or before the first.
-    fn look(&mut self) {
+    pub(crate) fn look(&mut self) {
         let started = self.integrator.statistics().accepted() > 0;
         let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
         views::renew(&mut self.views, self.system.model(), self.integrator.state(), rates);
@@ -240,7 +258,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// Samples the state after the last step.
-    fn sample_end(&mut self) {
+    pub(crate) fn sample_end(&mut self) {
         self.sampled.time = self.integrator.time();
         self.sampled.bodies.copy_from_slice(self.integrator.state());
         self.sampled.works.copy_from_slice(self.integrator.quadratures());

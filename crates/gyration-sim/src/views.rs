@@ -46,9 +46,9 @@ impl View {
         Self { motion, acceleration, stretching }
     }
 
-    /// |f| of the contacts [N]; none where pins, springs or friction take a part of the load.
+    /// |f| of the contacts [N]; none where pins, springs, friction or a controller take a part of the load.
     pub fn contact_force(&self, model: &Model, body: &Body) -> Option<f64> {
-        let resisted = body.affine().is_some_and(|affine| !affine.resistances.is_empty());
+        let resisted = body.affine().is_some_and(|affine| !affine.resistances.is_empty()) || model.is_controlled();
         let alone = body.pin.is_none() && body.springs.is_empty() && !resisted && body.inclusion.is_none();
         alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())
     }

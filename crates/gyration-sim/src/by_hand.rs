@@ -1,0 +1,289 @@
+//! A run under the hand of its caller: step, look, change loads and drives, step again. Enough to close a control loop.
+//!
+//!   m p̈₀ = m g + f + F,   P̈ J = M + M_a + ½ [τ]× P⁻ᵀ − V S,   Q = Q_applied + feedback
+//!
+//! Applied values are held from one change to the next (zero-order hold); they belong to the stepper and not to the scene. Their
+//! work is `work.load`, that of a changed drive `work.drive`, so that the ledger still closes. After a change the rates are
+//! evaluated anew and the error history is forgotten, the size of the step is not. Nothing is recorded, and the run does not end
+//! by itself: neither at the scene's end nor at rest.
+
+use crate::aside::Aside;
+use crate::events::Event;
+use crate::outcome::Stop;
+use crate::plan::RunPlan;
+use crate::ports::{Monitor, Progress, RunError, Sink};
+use crate::record::{MemorySink, Unwatched};
+use crate::rows::Ledger;
+use crate::run::Simulation;
+use gyration::balance::{contact_loads, smallest_gap};
+use gyration::body::BodyKind;
+use gyration::contractile::Source;
+use gyration::load::{Applied, Loads};
+use gyration::model::Model;
+use gyration::rates::Workspace;
+use gyration::signal::Signal;
+use gyration::state::{BodyMotion, State};
+use gyration::tensor::Mat3;
+use gyration_ode::Statistics;
+use gyration_record::RecordError;
+use gyration_scene::Built;
+
+/// A run that its caller steps.
+pub struct HandStepper {
+    model: Model,
+    /// None while a step is being made.
+    aside: Option<Aside>,
+    /// Whether the model has changed since the last step.
+    changed: bool,
+    /// The scene's end [s].
+    end: f64,
+    events: Vec<Event>,
+}
+
+/// Why a change was refused.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Refusal {
+    /// The scene has no such body.
+    #[error("there is no body number {index}: the scene has {count}")]
+    Body {
+        /// What was asked for, from zero.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A number is not finite.
+    #[error("what is applied to body {body:?} has a number that is not finite: look at what the controller computed")]
+    NotFinite {
+        /// The body.
+        body: String,
+    },
+    /// The body has no drive.
+    #[error(
+        "body {body:?} has no drive to change: only a contractile body whose contraction is driven has; give it a \
+         `contraction` with a `drive` (of zeros, if all of it comes from here)"
+    )]
+    NoDrive {
+        /// The body.
+        body: String,
+    },
+}
+
+impl HandStepper {
+    /// Prepares a run from the start of a scene.
+    ///
+    /// # Errors
+    /// [`RunError::Start`] if the start is outside the model.
+    pub fn new(built: &Built) -> Result<Self, RunError> {
+        let model = built.model.clone().under_control();
+        let start = State { works: vec![0.0; model.works().len()], ..built.state.clone() };
+        let plan = RunPlan { stop_at_rest: None, ..RunPlan::from(built) };
+        let mut simulation = Simulation::new(&model, &start, plan)?;
+        simulation.begin(&mut MemorySink::default())?;
+        let aside = Some(simulation.set_aside());
+        Ok(Self { model, aside, changed: false, end: plan.end, events: Vec::new() })
+    }
+
+    /// The model as it is now.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The time reached [s].
+    pub fn time(&self) -> f64 {
+        self.kept().integrator().time()
+    }
+
+    /// The counters so far.
+    pub fn statistics(&self) -> &Statistics {
+        self.kept().integrator().statistics()
+    }
+
+    /// The state reached.
+    pub fn state(&self) -> State {
+        let integrator = self.kept().integrator();
+        State { time: integrator.time(), bodies: integrator.state().to_vec(), works: integrator.quadratures().to_vec() }
+    }
+
+    /// The events of all steps so far.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Placement and velocity of a body.
+    pub fn motion(&self, body: usize) -> &BodyMotion {
+        &self.kept().views()[body].motion
+    }
+
+    /// The smallest distance of a body to a support [m]; infinite without supports or surface.
+    pub fn gap(&self, body: usize) -> f64 {
+        smallest_gap(&self.model, self.time(), body, self.motion(body))
+    }
+
+    /// f and M of the contacts of a body.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub fn contact_loads(&self, body: usize) -> Result<Loads, Stop> {
+        let loads = contact_loads(&self.model, &mut Workspace::default(), self.time(), body, self.motion(body));
+        loads.map_err(|left| Stop::by_inadmissible(&self.model, self.time(), &left))
+    }
+
+    /// Energies, works and residual.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub fn ledger(&mut self) -> Result<Ledger, Stop> {
+        self.with(|simulation| {
+            simulation.sample_end();
+            let (model, initial) = (simulation.system.model(), simulation.tally.initial_energy);
+            let ledger = Ledger::of(model, simulation.system.workspace(), &simulation.sampled, Some(initial));
+            ledger.map_err(|left| Stop::by_inadmissible(model, simulation.sampled.time, &left))
+        })
+    }
+
+    /// The names of the columns, in the order of the CSV, each with its place in the [`row`](Self::row).
+    pub fn columns(&self) -> Vec<(String, usize)> {
+        let (arrays, order) = self.kept().fields().arrays(&self.model);
+        let mut places = std::collections::HashMap::new();
+        let mut at = 0;
+        for array in arrays {
+            places.extend(array.columns.iter().cloned().zip(at..));
+            at += array.row_len();
+        }
+        order.into_iter().filter_map(|name| places.get(&name).map(|place| (name.clone(), *place))).collect()
+    }
+
+    /// All that a recording would hold of the state reached.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub fn row(&mut self) -> Result<Vec<f64>, Stop> {
+        self.with(|simulation| {
+            simulation.sample_end();
+            let (model, initial) = (simulation.system.model(), simulation.tally.initial_energy);
+            let Simulation { system, fields, sampled, rows, .. } = simulation;
+            let filled = fields.fill(model, system.workspace(), sampled, Some(initial), rows);
+            filled.map_err(|left| Stop::by_inadmissible(model, sampled.time, &left))?;
+            Ok(rows.row.clone())
+        })
+    }
+
+    /// Applies a load to a body until another is applied to it.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such body, or a number is not finite.
+    pub fn apply(&mut self, body: usize, load: Applied) -> Result<(), Refusal> {
+        let name = self.named(body)?;
+        if !load.is_finite() {
+            return Err(Refusal::NotFinite { body: name });
+        }
+        self.changed |= self.model.applied(body) != Some(&load) && self.model.apply(body, load);
+        Ok(())
+    }
+
+    /// Puts a constant Q [Pa] in the place of the part of a body's drive that is given in time; what answers to the body stays.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there is no such body, its contraction is not driven, or a number is not finite.
+    pub fn set_drive(&mut self, body: usize, value: Mat3) -> Result<(), Refusal> {
+        let name = self.named(body)?;
+        if !value.iter().all(|number| number.is_finite()) {
+            return Err(Refusal::NotFinite { body: name });
+        }
+        let BodyKind::Contractile(contractile) = &mut self.model.bodies[body].kind else {
+            return Err(Refusal::NoDrive { body: name });
+        };
+        let Source::Driven { drive, .. } = &mut contractile.contraction.source else {
+            return Err(Refusal::NoDrive { body: name });
+        };
+        let constant = Signal::Constant(value);
+        self.changed |= *drive != constant;
+        *drive = constant;
+        Ok(())
+    }
+
+    /// Makes one step; past the scene's end it goes on.
+    ///
+    /// # Errors
+    /// [`Stop`] if the run cannot go on; the state stays the last one.
+    pub fn step(&mut self) -> Result<(), Stop> {
+        let time = self.time();
+        let end = if time < self.end { self.end } else { time + self.end };
+        self.step_towards(end, &mut Unwatched)
+    }
+
+    /// Steps to a time, and ends a step there; a time that is not ahead does nothing.
+    ///
+    /// # Errors
+    /// [`Stop`] if the run cannot go on, or the monitor asks to stop; the state stays the last one.
+    pub fn advance(&mut self, until: f64, monitor: &mut dyn Monitor) -> Result<(), Stop> {
+        while self.time() < until {
+            self.step_towards(until, monitor)?;
+        }
+        Ok(())
+    }
+
+    fn step_towards(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), Stop> {
+        let mut noted = Noted(std::mem::take(&mut self.events));
+        let changed = std::mem::take(&mut self.changed);
+        let stepped = self.with(|simulation| {
+            simulation.plan.end = end;
+            if changed {
+                simulation.renew()?;
+            }
+            let report = match simulation.step(&mut noted) {
+                Ok(stepped) => stepped?,
+                Err(error) => unreachable!("events that are kept in memory cannot fail: {error}"),
+            };
+            let (model, statistics) = (simulation.system.model(), simulation.integrator.statistics());
+            let progress = Progress { time: report.end, end, step: &report, statistics, model };
+            match monitor.after_step(&progress).filter(|_| report.end < end) {
+                Some(reason) => Err(Stop::by_request(report.end, reason)),
+                None => Ok(()),
+            }
+        });
+        self.events = noted.0;
+        stepped
+    }
+
+    fn kept(&self) -> &Aside {
+        match &self.aside {
+            Some(aside) => aside,
+            None => unreachable!("a step has panicked"),
+        }
+    }
+
+    /// Lets the run go on with the model for a while.
+    fn with<T>(&mut self, act: impl FnOnce(&mut Simulation) -> T) -> T {
+        let Some(aside) = self.aside.take() else { unreachable!("a step has panicked") };
+        let mut simulation = aside.on(&self.model);
+        let done = act(&mut simulation);
+        self.aside = Some(simulation.set_aside());
+        done
+    }
+
+    /// The name of a body.
+    fn named(&self, index: usize) -> Result<String, Refusal> {
+        let bodies = &self.model.bodies;
+        let body = bodies.get(index).ok_or(Refusal::Body { index, count: bodies.len() })?;
+        Ok(body.name.clone())
+    }
+}
+
+/// Keeps events.
+struct Noted(Vec<Event>);
+
+impl Sink for Noted {
+    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        self.0.push(*event);
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,216 @@
+//! Runs that their caller steps: what is applied acts as what a scene gives, the ledger closes, a loop can be closed.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use gyration::load::Applied;
+use gyration::tensor::{Mat3, Vec3};
+use gyration_scene::Scene;
+use gyration_sim::{HandStepper, Refusal, Unwatched};
+use std::path::Path;
+
+fn stepper(text: &str) -> HandStepper {
+    let scene = Scene::parse("hand.toml", text, Path::new(""), &[]).unwrap();
+    HandStepper::new(scene.built()).unwrap()
+}
+
+fn force(force: Vec3) -> Applied {
+    Applied { force, ..Applied::default() }
+}
+
+/// Kinds of a body that tumbles, without gravity.
+fn tumbling(kind: &str) -> String {
+    format!(
+        r#"
+        world.gravity = [0, 0, 0]
+        time = {{ end = 1, sample = 0.1 }}
+        solver.rtol = 1e-9
+        [[body]]
+        name = "b"
+        {kind}
+        shape = {{ box = {{ size = [0.1, 0.2, 0.3] }} }}
+        mass = 2.0
+        velocity = [0.3, -0.2, 1.5]
+        "#
+    )
+}
+
+const RIGID: &str = "angular_velocity = [1, 2, 3]";
+const AFFINE: &str = "angular_velocity = [1, 2, 3]\n\
+                      affine = { material = { mooney_rivlin = { c1 = 3e3, c2 = 1e3 } } }";
+
+#[test]
+fn a_constant_force_is_the_free_fall_of_the_closed_form() {
+    let weight = Vec3::new(0.0, 0.0, -2.0 * 9.81);
+    for kind in [RIGID, AFFINE] {
+        let mut run = stepper(&tumbling(kind));
+        run.apply(0, force(weight)).unwrap();
+        run.advance(1.0, &mut Unwatched).unwrap();
+        let motion = *run.motion(0);
+        let exact = Vec3::new(0.3, -0.2, 1.5 - 0.5 * 9.81);
+        let error = (motion.placement.position - exact).norm();
+        println!("free fall by an applied force, {}: error {error:.1e} m", &kind[..10]);
+        // The motion of the centre is a parabola, on which every stepper is exact: roundings of some hundred steps.
+        assert!(error < 1e-13, "{error}");
+        assert!((motion.velocity.velocity - Vec3::new(0.3, -0.2, 1.5 - 9.81)).norm() < 1e-13);
+        let ledger = run.ledger().unwrap();
+        let work = weight.dot(&motion.placement.position);
+        assert!((ledger.works.iter().sum::<f64>() - work).abs() < 1e-11, "{:?} {work}", ledger.works);
+    }
+}
+
+#[test]
+fn a_torque_turns_a_ball_as_the_closed_form_says() {
+    let text = "world.gravity = [0, 0, 0]\ntime = { end = 1, sample = 0.1 }\n[[body]]\nname = \"b\"\nshape = { sphere = { radius = 0.1 } }\nmass = 2.0";
+    let mut run = stepper(text);
+    let torque = Vec3::new(0.01, -0.02, 0.03);
+    run.apply(0, Applied { torque, ..Applied::default() }).unwrap();
+    run.advance(0.7, &mut Unwatched).unwrap();
+    let inertia = 0.4 * 2.0 * 0.01;
+    let spin = run.motion(0).angular_velocity();
+    assert!((spin - torque * 0.7 / inertia).norm() < 1e-12 * spin.norm(), "{spin}");
+}
+
+#[test]
+fn a_force_at_a_point_is_a_force_and_its_moment() {
+    let point = Vec3::new(0.05, 0.1, -0.15);
+    let pull = Vec3::new(1.0, 2.0, -1.0);
+    for kind in [RIGID, AFFINE] {
+        let mut run = stepper(&tumbling(kind));
+        let start = run.motion(0).placement.position + run.motion(0).placement.gradient * point;
+        run.apply(0, Applied::at_point(pull, &point)).unwrap();
+        run.advance(0.5, &mut Unwatched).unwrap();
+        let end = run.motion(0).placement.position + run.motion(0).placement.gradient * point;
+        // The work of a constant force is the force times the way of its point.
+        let work: f64 = run.ledger().unwrap().works.iter().sum();
+        let error = (work - pull.dot(&(end - start))).abs();
+        println!("work of a force at a point, {}: {work:.9} J, error {error:.1e} J", &kind[..10]);
+        // rtol of a tenth of 1e-9 a step on energies of the order of 2 J.
+        assert!(error < 1e-8, "{error}");
+    }
+}
+
+#[test]
+fn the_ledger_closes_under_a_force_that_switches() {
+    for scene in ["bounce", "elastic-bounce", "hop"] {
+        let scene = Scene::open(scene, &["solver.rtol=1e-7".into()]).unwrap();
+        let mut run = HandStepper::new(scene.built()).unwrap();
+        let weight = run.model().bodies[0].mass.mass * 9.81;
+        let size = run.model().bodies[0].size;
+        let mut exchanged = 0.0_f64;
+        for k in 0..20 {
+            let sign = if k % 2 == 0 { 0.3 } else { -0.2 };
+            let load = Applied {
+                force: Vec3::new(0.1 * sign, 0.0, sign) * weight,
+                moment: Mat3::new(0.1, 0.02, 0.0, 0.0, -0.1, 0.03, 0.0, 0.0, 0.1) * (0.1 * sign * weight * size),
+                torque: Vec3::new(0.0, 0.01, 0.02) * (sign * weight * size),
+            };
+            run.apply(0, load).unwrap();
+            run.advance(f64::from(k + 1) * 0.02, &mut Unwatched).unwrap();
+            let ledger = run.ledger().unwrap();
+            let all = ledger.energies.iter().chain(&ledger.works);
+            exchanged = all.map(|entry| entry.abs()).sum::<f64>().max(exchanged);
+        }
+        let residual = run.ledger().unwrap().residual.abs();
+        println!("{}: residual {residual:.1e} J of {exchanged:.1e} J after 20 switches", scene.name());
+        // The ledger of a long run stays within a hundred times rtol of the energy in play.
+        assert!(residual < 1e-5 * exchanged, "{residual} of {exchanged}");
+    }
+}
+
+/// A pendulum upside down, held by a moment about its pin: θ̈ = (m g l sin θ + τ)/I with τ = −a θ − b θ̇ held over each interval.
+#[test]
+fn a_controlled_pin_holds_a_body_up() {
+    let text = r#"
+        world.gravity = [0, 0, -9.81]
+        time = { end = 10, sample = 0.1 }
+        solver.rtol = 1e-10
+        [[body]]
+        name = "rod"
+        shape = { box = { size = [0.02, 0.02, 1.0] } }
+        mass = 1.0
+        pin = [0, 0, -0.5]
+        orientation = { axis_angle = { axis = [0, 1, 0], angle = 0.001 } }
+    "#;
+    let mut run = stepper(text);
+    let (inertia, stiffness) = ((1.0 + 0.0004) / 12.0 + 0.25, 9.81 * 0.5);
+    let (proportional, derivative, interval) = (12.0, 1.5, 0.01);
+    // The same loop by its closed form: over an interval θ̈ = k² θ + τ/I is solved by cosh and sinh.
+    let rate = f64::sqrt(stiffness / inertia);
+    let (mut angle, mut spin) = (0.001_f64, 0.0_f64);
+    for k in 0..300 {
+        let rotation = run.motion(0).placement.gradient;
+        let (seen, seen_spin) = (rotation[(0, 2)].atan2(rotation[(2, 2)]), run.motion(0).angular_velocity().y);
+        let torque = -proportional * seen - derivative * seen_spin;
+        run.apply(0, Applied { torque: Vec3::new(0.0, torque, 0.0), ..Applied::default() }).unwrap();
+        run.advance(f64::from(k + 1) * interval, &mut Unwatched).unwrap();
+        let held = -proportional * angle - derivative * spin;
+        let (c, s) = ((rate * interval).cosh(), (rate * interval).sinh());
+        let offset = held / (inertia * rate * rate);
+        (angle, spin) = ((angle + offset) * c + spin / rate * s - offset, (angle + offset) * rate * s + spin * c);
+        if k == 20 {
+            let reached = run.motion(0).placement.gradient[(0, 2)].asin();
+            let error = (reached - angle).abs();
+            println!(
+                "inverted pendulum after {} intervals: {reached:.9e} rad, closed form {angle:.9e}, error {error:.1e}",
+                k + 1
+            );
+            // sin θ − θ = θ³/6 of 1e-3 rad: 2e-10 rad, grown by less than the time constants of the loop.
+            assert!(error < 1e-9, "{error}");
+        }
+    }
+    let end = run.motion(0).placement.gradient[(0, 2)].abs();
+    println!("inverted pendulum after 300 intervals: {end:.2e} rad, closed form {:.2e}", angle.abs());
+    assert!((end - angle.abs()).abs() < 1e-9 && end < 1e-5, "it stands: {end}");
+    let without = {
+        let mut run = stepper(text);
+        run.advance(2.2, &mut Unwatched).unwrap();
+        run.motion(0).placement.gradient[(2, 2)]
+    };
+    assert!(without < 0.9, "without the loop it falls: {without}");
+}
+
+#[test]
+fn a_drive_set_by_hand_is_the_drive_of_a_scene() {
+    let open = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        Scene::open("contract-1", &overrides).unwrap()
+    };
+    let scene = open(&[]);
+    let mut run = HandStepper::new(scene.built()).unwrap();
+    let before = run.time();
+    run.set_drive(0, Mat3::from_diagonal(&Vec3::new(2e3, -1e3, -1e3))).unwrap();
+    run.advance(0.05, &mut Unwatched).unwrap();
+    assert!(run.time() > before);
+    let ledger = run.ledger().unwrap();
+    let scale: f64 = ledger.energies.iter().chain(&ledger.works).map(|entry| entry.abs()).sum();
+    println!("contract-1 driven by hand: residual {:.1e} J of {scale:.1e} J", ledger.residual);
+    assert!(ledger.residual.abs() < 1e-3 * scale, "{ledger:?}");
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let mut run = stepper(&tumbling(RIGID));
+    assert_eq!(run.apply(3, Applied::default()), Err(Refusal::Body { index: 3, count: 1 }));
+    let refused = run.apply(0, force(Vec3::new(f64::NAN, 0.0, 0.0)));
+    assert_eq!(refused, Err(Refusal::NotFinite { body: "b".into() }));
+    assert_eq!(run.set_drive(0, Mat3::zeros()), Err(Refusal::NoDrive { body: "b".into() }));
+}
+
+#[test]
+fn stepping_by_hand_without_a_change_makes_the_steps_of_a_run() {
+    let scene = Scene::open("bounce", &["time.end=0.4".into(), "time.sample=0.4".into()]).unwrap();
+    let mut run = HandStepper::new(scene.built()).unwrap();
+    run.advance(0.4, &mut Unwatched).unwrap();
+    let built = scene.built();
+    let ending = gyration_sim::ensemble::run_one(&built.model, built.into(), &built.state).unwrap();
+    let state = run.state();
+    let difference = state.bodies.iter().zip(&ending.state.bodies).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("by hand and in a run: the states differ by {difference:.1e}");
+    // The ledger has an entry more, which has a part in the choice of the first step: the steps differ, and the states by a trace of
+    // the tolerance 1e-6.
+    assert!(difference < 1e-9, "{difference}");
+    let columns = run.columns();
+    let row = run.row().unwrap();
+    let height = columns.iter().find(|(name, _)| name == "ball.z").unwrap().1;
+    assert_eq!(row[height], run.motion(0).placement.position.z);
+    assert!(run.events().iter().all(|event| event.body == 0) && !run.events().is_empty());
+}
