@@ -4,10 +4,14 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// Commands that are planned but not in this version.
 pub const LATER: [&str; 1] = ["calibrate"];
+
+/// How many triangles boundary elements may take.
+pub const TRIANGLES: RangeInclusive<u32> = 80..=10_000;
 
 const STYLES: Styles =
     Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
@@ -123,7 +127,7 @@ pub struct Resistance {
     #[arg(long)]
     pub elements: bool,
     /// About how many triangles boundary elements take [default: 1280]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(80..=10_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(i64::from(*TRIANGLES.start())..=i64::from(*TRIANGLES.end())))]
     pub triangles: Option<u32>,
     /// Near a wall without slip: the plane of this support
     #[arg(long, value_name = "SUPPORT")]

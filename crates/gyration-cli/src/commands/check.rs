@@ -17,15 +17,21 @@ const HEADING: &str = "# The resolved scene: SI units, every default in its plac
 /// Prints what can be said of the scene.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let scene = open(&arguments.scene)?;
-    let found = check::check(&scene.built().model, &scene.built().state);
     let text = if arguments.json {
+        let found = check::check(&scene.built().model, &scene.built().state);
         let value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": found.bodies });
         format!("{value:#}\n")
     } else {
-        in_words(&scene, &found) + &resolved(&scene)?
+        in_full(&scene)?
     };
     output::print(&text)?;
     Ok(code::DONE)
+}
+
+/// What there is to say in words, and the resolved scene.
+pub(crate) fn in_full(scene: &Scene) -> Result<String, CliError> {
+    let found = check::check(&scene.built().model, &scene.built().state);
+    Ok(in_words(scene, &found) + &resolved(scene)?)
 }
 
 /// The resolved scene under a heading; from there on the text is itself a scene.

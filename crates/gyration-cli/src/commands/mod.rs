@@ -1,15 +1,15 @@
 //! The commands, a file each.
 
-mod check;
+pub(crate) mod check;
 mod completions;
 mod export;
-mod modes;
-mod plot;
+pub(crate) mod modes;
+pub(crate) mod plot;
 #[cfg(feature = "view")]
 mod report;
-mod resistance;
-mod run;
-mod scenes;
+pub(crate) mod resistance;
+pub(crate) mod run;
+pub(crate) mod scenes;
 mod schema;
 #[cfg(feature = "study")]
 mod study;

@@ -19,21 +19,30 @@ const LEAST_SEEN: f64 = 5e-4;
 /// Prints the modes of every body.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let scene = open(&arguments.scene)?;
-    let built = scene.built();
-    let bodies = built.model.bodies.iter().enumerate();
-    let mut found = bodies.map(|(index, body)| (body, RestState::of(&built.model, &built.state, index)));
     let text = if arguments.json {
-        let bodies: Vec<Value> = found.map(|(body, state)| in_json(body, &state)).collect();
-        format!("{:#}\n", json!({ "scene": scene.name(), "bodies": bodies }))
+        format!("{:#}\n", all_in_json(&scene))
     } else {
         let title = scene.file().title.clone().unwrap_or_else(|| scene.name().to_owned());
         let mut text = format!("{title}\n{}", assumptions(&scene));
         // Writing to a string does not fail.
-        let _ = found.try_for_each(|(body, state)| write_body(&mut text, body, &state));
+        let _ = found(&scene).try_for_each(|(body, state)| write_body(&mut text, body, &state));
         text
     };
     output::print(&text)?;
     Ok(code::DONE)
+}
+
+/// Each body and its rest state.
+fn found(scene: &Scene) -> impl Iterator<Item = (&Body, Result<RestState, String>)> {
+    let built = scene.built();
+    let bodies = built.model.bodies.iter().enumerate();
+    bodies.map(|(index, body)| (body, RestState::of(&built.model, &built.state, index)))
+}
+
+/// The modes of every body.
+pub(crate) fn all_in_json(scene: &Scene) -> Value {
+    let bodies: Vec<Value> = found(scene).map(|(body, state)| in_json(body, &state)).collect();
+    json!({ "scene": scene.name(), "bodies": bodies })
 }
 
 /// What the modes are about.

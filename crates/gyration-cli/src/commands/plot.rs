@@ -64,10 +64,14 @@ fn of_scene(arguments: &Plot) -> Result<Drawn, CliError> {
             format!("`gyration run {0}` first, then `gyration plot {1}.gyr`", arguments.source, scene.name()),
         ));
     }
+    Ok((what, laws(&scene)?, scene.name().to_owned()))
+}
+
+/// The contact laws of a scene, at its start.
+pub(crate) fn laws(scene: &Scene) -> Result<Figure, CliError> {
     let panels = show::law_panels(&scene.built().model, &scene.built().state)?;
     let title = scene.file().title.clone().unwrap_or_else(|| scene.name().to_owned());
-    let figure = Figure { title, subtitle: "contact laws".to_owned(), panels };
-    Ok((what, figure, scene.name().to_owned()))
+    Ok(Figure { title, subtitle: "contact laws".to_owned(), panels })
 }
 
 fn of_recording(arguments: &Plot) -> Result<Drawn, CliError> {
@@ -76,18 +80,23 @@ fn of_recording(arguments: &Plot) -> Result<Drawn, CliError> {
     }
     let what = if arguments.what.is_empty() { vec![What::Overview] } else { arguments.what.clone() };
     let path = Path::new(&arguments.source);
-    let recording = Recording::open(path)?;
-    let recorded = Recorded::new(&recording)?;
+    let figure = recorded(&Recording::open(path)?, &what, &arguments.measures)?;
+    Ok((what, figure, stem(path)))
+}
+
+/// What is asked of a recording, in one figure.
+pub(crate) fn recorded(recording: &Recording, what: &[What], measures: &[String]) -> Result<Figure, CliError> {
+    let recorded = Recorded::new(recording)?;
     let mut panels = Vec::new();
-    for what in &what {
+    for what in what {
         panels.extend(match quantity(*what) {
-            Some(Quantity::Stroke) => show::strokes(&recorded, &arguments.measures)?,
+            Some(Quantity::Stroke) => show::strokes(&recorded, measures)?,
             Some(quantity) => show::panels(&recorded, quantity)?,
             None if *what == What::Overview => show::overview(&recorded)?,
-            None => recorded_laws(&recording)?,
+            None => recorded_laws(recording)?,
         });
     }
-    Ok((what, show::figure(&recorded, panels), stem(path)))
+    Ok(show::figure(&recorded, panels))
 }
 
 /// The contact laws of a recording, at its start.

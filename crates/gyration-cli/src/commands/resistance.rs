@@ -7,6 +7,7 @@
 
 use crate::arguments::{Resistance, SceneArguments};
 use crate::error::{CliError, code};
+use crate::library::ResistanceOptions;
 use crate::output;
 use crate::summary::plain;
 use gyration::body::Body;
@@ -29,34 +30,50 @@ const ROUNDING: f64 = 1e-13;
 /// Prints the resistance of the bodies.
 pub fn execute(arguments: &Resistance) -> Result<u8, CliError> {
     let (scene, only) = open(arguments)?;
+    let options = ResistanceOptions {
+        wall: arguments.wall.clone(),
+        triangles: arguments.triangles,
+        elements: arguments.elements,
+        frequency: arguments.frequency,
+    };
+    let told = of_bodies(&scene, only.as_deref(), &options)?;
+    output::print(&if arguments.json { format!("{:#}\n", told.json) } else { told.text })?;
+    Ok(code::DONE)
+}
+
+/// The resistances of bodies, in words and in data.
+pub(crate) struct Told {
+    pub text: String,
+    pub json: Value,
+}
+
+/// The resistance of one body of a scene, or of all.
+pub(crate) fn of_bodies(scene: &Scene, only: Option<&str>, options: &ResistanceOptions) -> Result<Told, CliError> {
     let model = &scene.built().model;
-    let named = |body: &&Body| only.as_ref().is_none_or(|name| body.name == *name);
+    let named = |body: &&Body| only.is_none_or(|name| body.name == name);
     let bodies: Vec<(usize, &Body)> = model.bodies.iter().enumerate().filter(|(_, body)| named(body)).collect();
     if bodies.is_empty() {
         let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
         let fix = format!("write one of {}, or the scene alone", names.join(", "));
         return Err(CliError::arguments(format!("the scene has no body {:?}", only.unwrap_or_default()), fix));
     }
-    let wanted = Wanted::of(&scene, arguments)?;
+    let wanted = Wanted::of(scene, options)?;
     let mut text = String::new();
     let mut values = Vec::new();
     for (index, body) in bodies {
-        match arguments.frequency {
+        match options.frequency {
             Some(frequency) => wanted.vibration(body, frequency).map(|found| {
                 values.push(vibration_in_json(body, frequency, &found));
                 write_vibration(&mut text, body, frequency, &found);
             })?,
-            None => wanted.matrix(&scene, index).map(|found| {
+            None => wanted.matrix(scene, index).map(|found| {
                 values.push(found.in_json(body));
                 found.write(&mut text, body, &wanted);
             })?,
         }
     }
-    if arguments.json {
-        text = format!("{:#}\n", json!({ "scene": scene.name(), "viscosity": wanted.viscosity, "bodies": values }));
-    }
-    output::print(&text)?;
-    Ok(code::DONE)
+    let json = json!({ "scene": scene.name(), "viscosity": wanted.viscosity, "bodies": values });
+    Ok(Told { text, json })
 }
 
 /// The scene, and the body named behind a colon.
@@ -83,9 +100,9 @@ struct Wanted {
 }
 
 impl Wanted {
-    fn of(scene: &Scene, arguments: &Resistance) -> Result<Self, CliError> {
+    fn of(scene: &Scene, options: &ResistanceOptions) -> Result<Self, CliError> {
         let model = &scene.built().model;
-        let wall = arguments.wall.as_ref().map(|name| {
+        let wall = options.wall.as_ref().map(|name| {
             let found = model.supports.iter().find(|support| support.name == *name);
             let names: Vec<&str> = model.supports.iter().map(|support| support.name.as_str()).collect();
             let fix = match names.is_empty() {
@@ -99,8 +116,8 @@ impl Wanted {
             viscosity: model.fluid.as_ref().map_or(1.0, |fluid| fluid.viscosity),
             density: model.fluid.as_ref().map_or(0.0, |fluid| fluid.density),
             has_fluid: model.fluid.is_some(),
-            triangles: arguments.triangles.map_or(TRIANGLES, |count| count as usize),
-            by_elements: arguments.elements || arguments.triangles.is_some() || wall.is_some(),
+            triangles: options.triangles.map_or(TRIANGLES, |count| count as usize),
+            by_elements: options.elements || options.triangles.is_some() || wall.is_some(),
             wall: wall.transpose()?,
         })
     }

@@ -34,9 +34,10 @@ pub fn execute(arguments: &Run) -> Result<u8, CliError> {
     let ended = if arguments.resume { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
     watch.finish();
     let ended = ended?;
-    let picture = path.join(PICTURE);
-    if !(matches!(ended, Ended::AlreadyFinished(_)) && picture.exists()) {
-        leave_picture(&path, &picture);
+    if !(matches!(ended, Ended::AlreadyFinished(_)) && path.join(PICTURE).exists())
+        && let Some(warning) = leave_overview(&path)
+    {
+        output::say(&format!("gyration: {warning}"));
     }
     match ended {
         Ended::Ran(summary) => {
@@ -59,33 +60,43 @@ fn exit_code(outcome: &Outcome) -> u8 {
 }
 
 /// The program that runs.
-pub(super) fn provenance() -> Provenance {
+pub(crate) fn provenance() -> Provenance {
     Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: Some(env!("GYRATION_COMMIT").to_owned()) }
 }
 
 /// Where the recording goes; one that is there must be meant to be resumed or replaced.
 fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
-    let numbered = |k: usize| match k {
-        1 => PathBuf::from(format!("{}.gyr", scene.name())),
-        k => PathBuf::from(format!("{}-{k}.gyr", scene.name())),
-    };
-    let path = arguments.output.clone().unwrap_or_else(|| numbered(1));
-    // A link that leads nowhere is something as well.
-    let exists = |path: &PathBuf| path.symlink_metadata().is_ok();
+    let named = || arguments.output.clone().unwrap_or_else(|| numbered(Path::new(""), scene.name(), 1));
     if arguments.resume || arguments.force {
-        return Ok(path);
+        return Ok(named());
     }
-    match (exists(&path), &arguments.output) {
-        (false, _) => Ok(path),
-        (true, None) => {
-            let free = (2..MOST_NAMES).map(numbered).find(|path| !exists(path));
-            free.ok_or_else(|| CliError::arguments("too many recordings of this scene here", "name one with -o DIR"))
-        }
-        (true, Some(_)) => Err(CliError::arguments(
+    match &arguments.output {
+        None => free_name(Path::new(""), scene.name()),
+        Some(path) if exists(path) => Err(CliError::arguments(
             format!("{} exists already", path.display()),
             "go on with it by --resume, replace it by --force, or choose another name",
         )),
+        Some(path) => Ok(path.clone()),
     }
+}
+
+/// The first name of a recording in a folder that nothing has yet.
+pub(crate) fn free_name(folder: &Path, scene: &str) -> Result<PathBuf, CliError> {
+    let free = (1..MOST_NAMES).map(|k| numbered(folder, scene, k)).find(|path| !exists(path));
+    free.ok_or_else(|| CliError::arguments("too many recordings of this scene here", "name one with -o DIR"))
+}
+
+/// The k-th name of a recording of a scene.
+fn numbered(folder: &Path, scene: &str, k: usize) -> PathBuf {
+    match k {
+        1 => folder.join(format!("{scene}.gyr")),
+        k => folder.join(format!("{scene}-{k}.gyr")),
+    }
+}
+
+/// Whether something has this name; a link that leads nowhere is something as well.
+fn exists(path: &Path) -> bool {
+    path.symlink_metadata().is_ok()
 }
 
 /// Removes the recording that is to be replaced, once it is known that the new run has a start within the model.
@@ -97,18 +108,18 @@ fn make_room(arguments: &Run, job: &Job, path: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Draws the overview into the recording; a picture that fails does not make the run fail.
-fn leave_picture(path: &Path, picture: &Path) {
+/// Draws the overview into the recording; a picture that fails does not make the run fail, it gives a warning.
+pub(crate) fn leave_overview(path: &Path) -> Option<String> {
     let draw = || -> Result<(), CliError> {
         let recording = Recording::open(path)?;
         let recorded = Recorded::new(&recording)?;
         let panels = show::overview(&recorded)?;
         let figure = show::figure(&recorded, panels);
-        output::write_file(picture, &figure.draw().render(Format::Svg))
+        output::write_file(&path.join(PICTURE), &figure.draw().render(Format::Svg))
     };
     match draw() {
-        Ok(()) | Err(CliError::Plot(PlotError::Empty { .. })) => {}
-        Err(error) => output::say(&format!("gyration: warning: no {PICTURE}: {error}")),
+        Ok(()) | Err(CliError::Plot(PlotError::Empty { .. })) => None,
+        Err(error) => Some(format!("warning: no {PICTURE}: {error}")),
     }
 }
 
@@ -139,7 +150,7 @@ fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Re
 }
 
 /// The energies [J] of the first row, in the order of the ledger.
-fn starting_energies(path: &Path, summary: &RunSummary) -> Result<Vec<f64>, CliError> {
+pub(crate) fn starting_energies(path: &Path, summary: &RunSummary) -> Result<Vec<f64>, CliError> {
     let recording = Recording::open(path)?;
     let first = |(name, _): &(&str, f64)| Ok(recording.read_rows(&format!("energy_{name}"), 0..1)?.data[0]);
     summary.ledger.energies.iter().map(first).collect()

@@ -20,10 +20,13 @@ pub fn execute(arguments: &Scenes) -> Result<u8, CliError> {
 
 fn text(name: &str) -> Result<&'static str, CliError> {
     let found = gallery().iter().find(|(known, _)| *known == name);
-    let names = || gallery().iter().map(|(known, _)| *known).collect::<Vec<_>>().join(", ");
-    found.map(|(_, text)| *text).ok_or_else(|| {
-        CliError::arguments(format!("the gallery has no scene `{name}`"), format!("choose one of {}", names()))
-    })
+    found.map(|(_, text)| *text).ok_or_else(|| no_such_scene(name))
+}
+
+/// What to choose from.
+pub(crate) fn no_such_scene(name: &str) -> CliError {
+    let names = gallery().iter().map(|(known, _)| *known).collect::<Vec<_>>().join(", ");
+    CliError::arguments(format!("the gallery has no scene `{name}`"), format!("choose one of {names}"))
 }
 
 /// Name and title of each scene, and the sentences at the head of its file.

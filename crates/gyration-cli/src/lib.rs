@@ -1,0 +1,59 @@
+//! The program `gyration`: arguments in, data to stdout, messages to stderr, an exit code for scripts.
+//!
+//! It is a library, so that other ways to it (the Python package) give the very same texts and pictures: [`library`]
+//! is all that they may use.
+//!
+//! ```text
+//! arguments → commands/{run, check, modes, resistance, scenes, export, plot, schema, completions}
+//!                 check: what can be said before a run         plot: pictures of recordings and laws
+//! ```
+//!
+//! No mechanics here: scenes are built by `gyration-scene`, run by `gyration-sim`, kept by `gyration-record`.
+
+#![forbid(unsafe_code)]
+
+mod arguments;
+mod check;
+mod commands;
+mod error;
+pub mod library;
+mod output;
+mod plot;
+mod progress;
+mod summary;
+
+use arguments::{Arguments, LATER};
+use clap::Parser;
+use clap::error::{ContextKind, ContextValue};
+use std::ffi::OsString;
+
+/// The program, from its arguments (the first is its name) to its exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(refusal) => return refuse(&refusal),
+    };
+    match commands::execute(arguments.command) {
+        Ok(code) => code,
+        Err(error) if error.is_closed_pipe() => error::code::DONE,
+        Err(error) => {
+            output::report(&error.to_string());
+            error.code()
+        }
+    }
+}
+
+/// Help and version go to stdout; what cannot be understood to stderr, with exit code 2.
+fn refuse(refusal: &clap::Error) -> u8 {
+    if let Some(ContextValue::String(name)) = refusal.get(ContextKind::InvalidSubcommand)
+        && LATER.contains(&name.as_str())
+    {
+        output::report(&format!(
+            "`gyration {name}` is not in this version yet\n  fix: see `gyration help` for what is"
+        ));
+        return error::code::BAD_INPUT;
+    }
+    // A closed pipe is no failure.
+    let _ = refusal.print();
+    if refusal.use_stderr() { error::code::BAD_INPUT } else { error::code::DONE }
+}
