@@ -34,7 +34,14 @@ pub struct Table {
     rows: u64,
     is_complete: bool,
     /// Held as long as this process writes.
-    _lock: File,
+    lock: File,
+}
+
+impl Drop for Table {
+    /// A process that was forked meanwhile has the file open as well, and with it the lock: closing it here would not do.
+    fn drop(&mut self) {
+        let _ = self.lock.unlock();
+    }
 }
 
 /// A chunk with some of its rows.
@@ -104,7 +111,7 @@ impl Table {
             open: BTreeMap::new(),
             rows: 0,
             is_complete: false,
-            _lock: lock(&folder)?,
+            lock: lock(&folder)?,
             folder,
         })
     }
