@@ -9,6 +9,7 @@
 
 mod answers;
 mod gallery;
+mod package;
 mod python;
 mod steps;
 mod tally;

@@ -1,7 +1,7 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
 use crate::steps::{Steps, succeeds};
-use crate::{answers, gallery, python, root, validate, viewer};
+use crate::{answers, gallery, package, python, root, validate, viewer};
 use std::process::{Command, ExitCode};
 
 /// How much to check.
@@ -80,13 +80,15 @@ fn check_known_answers(steps: &mut Steps) {
     }
 }
 
-/// Tests in files called `python.rs` are ignored unless there is an interpreter with the pinned packages.
+/// Tests in files called `python.rs` are ignored unless there is an interpreter with the pinned packages; those of the Python
+/// package need it installed.
 fn python_tests(steps: &mut Steps) {
     if let Some(interpreter) = python::environment(steps) {
         // The whole workspace again, so that nothing is compiled twice with other features.
         let mut command = cargo();
         command.args(["test", "--workspace", "--test", "python", "--", "--ignored"]);
-        steps.run_tests("Python tests", command.env("GYRATION_PYTHON", interpreter));
+        steps.run_tests("Python tests", command.env("GYRATION_PYTHON", &interpreter));
+        package::tests(steps, &interpreter);
     }
 }
 

@@ -1,0 +1,158 @@
+//! Values of Python and of JSON into each other, and into the text of an override.
+//!
+//! Whatever has `tolist` (arrays and numbers of NumPy) is taken as the list or number that it stands for. A number that is not
+//! finite has no place in JSON: it is left to the scene to refuse, where there is a text to say so, and is refused here else.
+
+use crate::errors;
+use numpy::{PyArray, PyArrayMethods};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use serde_json::{Map, Number, Value};
+
+/// The deepest nesting; a scene needs less than twenty.
+const DEEPEST: usize = 64;
+
+/// JSON as Python's objects.
+pub fn to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::Null => Ok(py.None().into_bound(py)),
+        Value::Bool(value) => value.into_bound_py_any(py),
+        Value::Number(number) => match number.as_i64() {
+            Some(whole) => whole.into_bound_py_any(py),
+            None => number.as_f64().into_bound_py_any(py),
+        },
+        Value::String(text) => text.into_bound_py_any(py),
+        Value::Array(items) => {
+            let items = items.iter().map(|item| to_python(py, item)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, items)?.into_bound_py_any(py)
+        }
+        Value::Object(entries) => object(py, entries),
+    }
+}
+
+/// An object of JSON as a dictionary.
+pub fn object<'py>(py: Python<'py>, entries: &Map<String, Value>) -> PyResult<Bound<'py, PyAny>> {
+    let dict = PyDict::new(py);
+    for (key, value) in entries {
+        dict.set_item(key, to_python(py, value)?)?;
+    }
+    dict.into_bound_py_any(py)
+}
+
+/// What a Python object stands for.
+enum Plain<'py> {
+    Bool(bool),
+    Whole(String),
+    Real(f64),
+    Text(String),
+    List(Vec<Bound<'py, PyAny>>),
+    Table(Vec<(String, Bound<'py, PyAny>)>),
+}
+
+fn plain<'py>(object: &Bound<'py, PyAny>) -> PyResult<Plain<'py>> {
+    if let Ok(value) = object.cast::<PyBool>() {
+        Ok(Plain::Bool(value.is_true()))
+    } else if object.is_instance_of::<PyInt>() {
+        Ok(Plain::Whole(object.str()?.to_string()))
+    } else if object.is_instance_of::<PyFloat>() {
+        Ok(Plain::Real(object.extract()?))
+    } else if object.is_instance_of::<PyString>() {
+        Ok(Plain::Text(object.extract()?))
+    } else if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
+        Ok(Plain::List(object.try_iter()?.collect::<PyResult<_>>()?))
+    } else if let Ok(table) = object.cast::<PyDict>() {
+        let named = |(key, value): (Bound<'py, PyAny>, _)| match key.extract::<String>() {
+            Ok(key) => Ok((key, value)),
+            Err(_) => Err(errors::arguments(format!("the keys of a table are strings, not {key}"))),
+        };
+        Ok(Plain::Table(table.iter().map(named).collect::<PyResult<_>>()?))
+    } else if object.hasattr("tolist")? {
+        plain(&object.call_method0("tolist")?)
+    } else if object.hasattr("__fspath__")? {
+        Ok(Plain::Text(object.call_method0("__fspath__")?.extract()?))
+    } else {
+        let kind = object.get_type().name()?;
+        let fix = "\n  fix: give numbers, strings, booleans, lists, arrays or dictionaries";
+        Err(errors::arguments(format!("a value of type {kind} has no meaning in a scene{fix}")))
+    }
+}
+
+/// A Python object as JSON.
+pub fn from_python(object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    json(object, 0)
+}
+
+fn json(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    check_depth(depth)?;
+    Ok(match plain(object)? {
+        Plain::Bool(value) => value.into(),
+        Plain::Whole(digits) => match digits.parse::<i64>() {
+            Ok(whole) => whole.into(),
+            Err(_) => real(digits.parse().unwrap_or(f64::NAN))?,
+        },
+        Plain::Real(value) => real(value)?,
+        Plain::Text(text) => text.into(),
+        Plain::List(items) => items.iter().map(|item| json(item, depth + 1)).collect::<PyResult<Vec<_>>>()?.into(),
+        Plain::Table(entries) => {
+            let entry = |(key, value): (String, Bound<'_, PyAny>)| Ok((key, json(&value, depth + 1)?));
+            entries.into_iter().map(entry).collect::<PyResult<Map<_, _>>>()?.into()
+        }
+    })
+}
+
+fn real(value: f64) -> PyResult<Value> {
+    let number = Number::from_f64(value).map(Value::Number);
+    number.ok_or_else(|| errors::arguments(format!("{value} is not a finite number\n  fix: give a finite one")))
+}
+
+fn check_depth(depth: usize) -> PyResult<()> {
+    if depth > DEEPEST { Err(errors::arguments("nested too deep: a scene never nests that deep")) } else { Ok(()) }
+}
+
+/// A Python object as a value of TOML on one line.
+pub fn toml(object: &Bound<'_, PyAny>) -> PyResult<String> {
+    inline(object, 0)
+}
+
+fn inline(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<String> {
+    check_depth(depth)?;
+    Ok(match plain(object)? {
+        Plain::Bool(value) => value.to_string(),
+        Plain::Whole(digits) => digits,
+        // Shortest digits that read back the same.
+        Plain::Real(value) if value.is_nan() => "nan".to_owned(),
+        Plain::Real(value) => format!("{value:?}"),
+        // Escapes of JSON are escapes of TOML.
+        Plain::Text(text) => Value::String(text).to_string(),
+        Plain::List(items) => {
+            let items = items.iter().map(|item| inline(item, depth + 1)).collect::<PyResult<Vec<_>>>()?;
+            format!("[{}]", items.join(", "))
+        }
+        Plain::Table(entries) => {
+            let entry = |(key, value): (String, Bound<'_, PyAny>)| {
+                Ok(format!("{} = {}", Value::String(key), inline(&value, depth + 1)?))
+            };
+            format!("{{{}}}", entries.into_iter().map(entry).collect::<PyResult<Vec<_>>>()?.join(", "))
+        }
+    })
+}
+
+/// Edits by dotted key as overrides, `body.die.velocity=[1, 0, 0]`.
+pub fn overrides(edits: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<String>> {
+    let Some(edits) = edits else { return Ok(Vec::new()) };
+    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let key: String =
+            key.extract().map_err(|_| errors::arguments(format!("a dotted key is a string, not {key}")))?;
+        if key.contains('=') {
+            return Err(errors::arguments(format!("{key:?} is not a dotted key\n  fix: write body.die.velocity")));
+        }
+        Ok(format!("{key}={}", toml(&value)?))
+    };
+    edits.iter().map(one).collect()
+}
+
+/// Numbers as an array of NumPy of this shape.
+pub fn array<'py>(py: Python<'py>, numbers: Vec<f64>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
+    Ok(PyArray::from_vec(py, numbers).reshape(shape.to_vec())?.into_any())
+}

@@ -1,0 +1,67 @@
+//! The Python package `gyration`: the engine for NumPy, notebooks and control loops.
+//!
+//! ```text
+//! Scene ─→ run → Recording → arrays, xarray, pandas, Picture, report
+//!      ├─→ Simulation: step, look, apply, step
+//!      ├─→ run_many → Runs: arrays of endings
+//!      ├─→ study → Table: rows of thousands of runs
+//!      └─→ modes, resistance, sensitivities
+//! ```
+//!
+//! A binding and nothing else: what is computed, said or drawn comes from the crates of the workspace, in the words and bytes of
+//! the program. The interpreter's lock is released while the engine computes. The documentation that a user reads stands in
+//! `python/gyration/_gyration.pyi` and `__init__.py`.
+
+mod analysis;
+mod arrays;
+mod convert;
+mod errors;
+mod many;
+mod picture;
+mod recording;
+mod run;
+mod scene;
+mod sensitivities;
+mod simulation;
+mod study;
+mod table;
+mod watch;
+
+use pyo3::prelude::*;
+use std::ffi::OsString;
+
+/// The extension module.
+#[pymodule]
+mod _gyration {
+    #[pymodule_export]
+    use super::analysis::{modes, resistance};
+    #[pymodule_export]
+    use super::many::{Runs, run_many};
+    #[pymodule_export]
+    use super::picture::Picture;
+    #[pymodule_export]
+    use super::program;
+    #[pymodule_export]
+    use super::recording::Recording;
+    #[pymodule_export]
+    use super::scene::{Scene, scene_again, scenes};
+    #[pymodule_export]
+    use super::sensitivities::sensitivities;
+    #[pymodule_export]
+    use super::simulation::{Simulation, simulate};
+    #[pymodule_export]
+    use super::study::{Work, study_rows};
+    #[pymodule_export]
+    use super::table::{Table, studies};
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "the name that Python knows")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}
+
+/// The program `gyration` with these arguments; its exit code.
+#[pyfunction]
+#[pyo3(name = "_main")]
+fn program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| gyration_cli::run(arguments))
+}

@@ -1,0 +1,277 @@
+//! `run_many`: many scenes at once, on all cores, and what they ended with as arrays.
+//!
+//! Runs know nothing of each other: the results are in the order of the scenes and the same on any number of threads. Nothing is
+//! written to disk. A run that cannot begin or has to stop is an entry with its reason.
+
+use crate::convert::array;
+use crate::errors::{self, reason};
+use crate::scene::Scene;
+use crate::watch::Watch;
+use gyration_record::RecordError;
+use gyration_scene::Scene as Built;
+use gyration_sim::events::Event;
+use gyration_sim::rows::Fields;
+use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::collections::HashMap;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::time::Duration;
+
+/// How often the thread of Python looks at signals.
+const EVERY: Duration = Duration::from_millis(50);
+
+/// What many runs ended with, an array a quantity.
+#[pyclass(frozen, module = "gyration", name = "Runs")]
+pub struct Runs {
+    endings: Vec<Ending>,
+    /// The columns kept, in the order in which they came up.
+    columns: Vec<String>,
+}
+
+/// How one run ended.
+struct Ending {
+    outcome: String,
+    reason: Option<String>,
+    time: f64,
+    steps: u64,
+    rejected: u64,
+    evaluations: u64,
+    residual: f64,
+    /// The last row by column.
+    last: Vec<(String, f64)>,
+}
+
+/// Runs scenes and keeps what they ended with: of `keep` the columns at the end, of all columns if it is not given.
+#[pyfunction]
+#[pyo3(signature = (scenes, *, threads=None, keep=None, progress=None))]
+pub fn run_many(
+    py: Python<'_>,
+    scenes: &Bound<'_, PyAny>,
+    threads: Option<usize>,
+    keep: Option<Vec<String>>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Runs> {
+    let scenes = scenes.try_iter()?.map(|scene| Scene::of(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
+    if threads == Some(0) {
+        return Err(errors::arguments(
+            "no thread does no work\n  fix: give `threads` from 1, or leave it out for all cores",
+        ));
+    }
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = threads.unwrap_or(cores).min(scenes.len().max(1));
+    if let Some(keep) = &keep {
+        check_columns(&scenes, keep)?;
+    }
+    let mut watch = Watch::new(progress)?;
+    let endings = py.detach(|| all(&scenes, threads, keep.as_deref(), &mut watch));
+    watch.finish(py)?;
+    let mut columns = keep.unwrap_or_default();
+    if columns.is_empty() {
+        let mut known = std::collections::HashSet::new();
+        let names = endings.iter().flat_map(|ending| ending.last.iter().map(|(name, _)| name));
+        columns = names.filter(|name| known.insert(*name)).cloned().collect();
+    }
+    Ok(Runs { endings, columns })
+}
+
+/// Refuses columns that no scene has.
+fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
+    let mut all: Vec<String> = Vec::new();
+    for scene in scenes {
+        let (model, plan) = (&scene.built().model, RunPlan::from(scene.built()));
+        let (_, order) = Fields::new(model, &plan.extras).arrays(model);
+        if keep.iter().all(|name| order.contains(name)) {
+            return Ok(());
+        }
+        all = order;
+    }
+    match keep.iter().find(|name| !all.contains(*name)) {
+        Some(name) if scenes.len() == 1 || !all.is_empty() => {
+            Err(errors::arguments(format!("no scene has the column `{name}`\n  fix: choose of {}", all.join(", "))))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Runs all on so many threads, while this one looks at signals.
+fn all(scenes: &[Arc<Built>], threads: usize, keep: Option<&[String]>, watch: &mut Watch) -> Vec<Ending> {
+    let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let (send, receive) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            let (send, next, stop) = (send.clone(), &next, &stop);
+            scope.spawn(move || {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(scene) = scenes.get(index).filter(|_| !stop.load(Ordering::Relaxed)) else { return };
+                    // The other end waits until all have been received.
+                    let _ = send.send((index, run_one(scene, keep, stop)));
+                }
+            });
+        }
+        drop(send);
+        let mut endings = Vec::with_capacity(scenes.len());
+        loop {
+            match receive.recv_timeout(EVERY) {
+                Ok(ending) => endings.push(ending),
+                Err(mpsc::RecvTimeoutError::Disconnected) => break,
+                Err(mpsc::RecvTimeoutError::Timeout) => {}
+            }
+            if !watch.ask(endings.len() as f64, scenes.len() as f64) {
+                stop.store(true, Ordering::Relaxed);
+            }
+        }
+        endings.sort_by_key(|(index, _)| *index);
+        endings.into_iter().map(|(_, ending)| ending).collect()
+    })
+}
+
+/// Keeps the last row.
+#[derive(Default)]
+struct Last(Vec<f64>);
+
+impl Sink for Last {
+    fn row(&mut self, _: f64, row: &[f64]) -> Result<(), RecordError> {
+        self.0.clear();
+        self.0.extend_from_slice(row);
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event) -> Result<(), RecordError> {
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+/// Stops when all are to stop.
+struct Together<'a>(&'a AtomicBool);
+
+impl Monitor for Together<'_> {
+    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
+        self.0.load(Ordering::Relaxed).then_some(Reason::Interrupted)
+    }
+}
+
+fn run_one(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Ending {
+    ended(scene, keep, stop).unwrap_or_else(|error| Ending {
+        outcome: "failed".to_owned(),
+        reason: Some(error.to_string()),
+        time: f64::NAN,
+        steps: 0,
+        rejected: 0,
+        evaluations: 0,
+        residual: f64::NAN,
+        last: Vec::new(),
+    })
+}
+
+fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<Ending, RunError> {
+    let job = Job::of(scene, &gyration_cli::library::provenance());
+    let mut last = Last::default();
+    let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
+    simulation.begin(&mut last)?;
+    let outcome = simulation.run(&mut last, &mut Together(stop))?;
+    let (statistics, tally) = (*simulation.statistics(), simulation.tally());
+    let (kind, why) = match &outcome {
+        Outcome::Completed => ("completed".to_owned(), None),
+        Outcome::AtRest { .. } => ("at_rest".to_owned(), None),
+        Outcome::Stopped(stop) => (reason(stop), Some(outcome.in_words())),
+    };
+    Ok(Ending {
+        outcome: kind,
+        reason: why,
+        time: simulation.state().time,
+        steps: statistics.accepted(),
+        rejected: statistics.rejected_error + statistics.rejected_domain + statistics.newton_failures,
+        evaluations: statistics.rate_evaluations,
+        residual: tally.largest_residual / tally.energy_in_play,
+        last: by_column(&job, &last.0, keep),
+    })
+}
+
+/// The numbers of a row by their columns, in the order of the CSV.
+fn by_column(job: &Job, row: &[f64], keep: Option<&[String]>) -> Vec<(String, f64)> {
+    let (arrays, order) = Fields::new(job.model, &job.plan.extras).arrays(job.model);
+    let mut places = HashMap::new();
+    let mut at = 0;
+    for array in &arrays {
+        places.extend(array.columns.iter().zip(at..));
+        at += array.row_len();
+    }
+    let wanted = order.iter().filter(|name| keep.is_none_or(|keep| keep.contains(name)));
+    wanted.filter_map(|name| Some((name.clone(), *row.get(*places.get(name)?)?))).collect()
+}
+
+#[pymethods]
+impl Runs {
+    fn __len__(&self) -> usize {
+        self.endings.len()
+    }
+
+    /// How each run ended: ``completed``, ``at_rest``, the reason of a stop, or ``failed``.
+    #[getter]
+    fn outcome(&self) -> Vec<&str> {
+        self.endings.iter().map(|ending| ending.outcome.as_str()).collect()
+    }
+
+    /// Why each run ended early or failed, in words; None if it did not.
+    #[getter]
+    fn reason(&self) -> Vec<Option<&str>> {
+        self.endings.iter().map(|ending| ending.reason.as_deref()).collect()
+    }
+
+    /// What there is of each run: end ``time`` [s], counters, ``residual`` of the ledger over the energy in play, and columns at the end.
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        let told = ["time", "steps", "rejected", "evaluations", "residual"].map(str::to_owned);
+        told.into_iter().chain(self.columns.iter().cloned()).collect()
+    }
+
+    /// A column as an array, a number a run; NaN where a run does not have it.
+    fn __getitem__<'py>(&self, py: Python<'py>, column: &str) -> PyResult<Bound<'py, PyAny>> {
+        let of = |ending: &Ending| match column {
+            "time" => ending.time,
+            "steps" => ending.steps as f64,
+            "rejected" => ending.rejected as f64,
+            "evaluations" => ending.evaluations as f64,
+            "residual" => ending.residual,
+            _ => ending.last.iter().find(|(name, _)| name == column).map_or(f64::NAN, |(_, value)| *value),
+        };
+        if !self.columns().iter().any(|known| known == column) {
+            let names = self.columns().join(", ");
+            return Err(PyKeyError::new_err(format!("there is no column `{column}`: there are {names}")));
+        }
+        array(py, self.endings.iter().map(of).collect(), &[self.endings.len()])
+    }
+
+    /// All of it as a DataFrame of pandas.
+    fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = PyDict::new(py);
+        columns.set_item("outcome", self.outcome())?;
+        columns.set_item("reason", self.reason())?;
+        for name in self.columns() {
+            columns.set_item(&name, self.__getitem__(py, &name)?)?;
+        }
+        py.import("pandas")?.call_method1("DataFrame", (columns,))
+    }
+
+    fn __repr__(&self) -> String {
+        let mut counts: Vec<(&str, usize)> = Vec::new();
+        for outcome in self.outcome() {
+            match counts.iter_mut().find(|(known, _)| *known == outcome) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((outcome, 1)),
+            }
+        }
+        let counts: Vec<String> = counts.iter().map(|(outcome, count)| format!("{count} {outcome}")).collect();
+        format!("<gyration.Runs {}: {}>", self.endings.len(), counts.join(", "))
+    }
+}

@@ -1,0 +1,261 @@
+//! `Recording`: what a run left on disk, as arrays of NumPy, xarray and pandas, as pictures and as a page.
+
+use crate::convert::{array, object};
+use crate::errors;
+use crate::picture::{Picture, Source};
+use gyration_record::{ArrayInfo, Recording as Inner};
+use gyration_view::{Stored, report};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple, PyType};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tempfile::TempDir;
+
+/// A recording on disk, as it stood when it was opened.
+#[pyclass(frozen, module = "gyration", name = "Recording")]
+pub struct Recording {
+    inner: Inner,
+    /// What the program said at the end of the run, if it was run here.
+    told: Option<String>,
+    /// Removes the folder when nobody needs it any more.
+    kept: Option<Arc<TempDir>>,
+}
+
+impl Recording {
+    /// The recording of a run that has just ended.
+    pub fn of_run(path: &Path, kept: Option<Arc<TempDir>>, told: Option<String>) -> PyResult<Self> {
+        Ok(Self { inner: Inner::open(path).map_err(errors::record)?, told, kept })
+    }
+
+    /// The names of the bodies.
+    fn body_names(&self) -> PyResult<Vec<String>> {
+        Ok(self.inner.labels("body").map_err(errors::record)?.unwrap_or_default())
+    }
+
+    /// A whole array.
+    fn read<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let read = py.detach(|| self.inner.read(name)).map_err(errors::record)?;
+        array(py, read.data, &read.shape)
+    }
+
+    fn column<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let column = py.detach(|| self.inner.column(name)).map_err(errors::record)?;
+        let rows = column.len();
+        array(py, column, &[rows])
+    }
+
+    /// The arrays of numbers.
+    fn numbers(&self) -> impl Iterator<Item = &ArrayInfo> {
+        // Labels have neither unit nor numbers.
+        self.inner
+            .arrays()
+            .iter()
+            .filter(|array| !(array.dims.len() == 1 && array.dims[0] == array.name && array.name != "time"))
+    }
+
+    /// `die.position`: the part of an array that belongs to a body.
+    fn of_body<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let Some((body, name)) = name.rsplit_once('.') else { return Ok(None) };
+        let (bodies, Ok(info)) = (self.body_names()?, self.inner.array(name)) else { return Ok(None) };
+        let (Some(index), Some(axis)) =
+            (bodies.iter().position(|known| known == body), info.dims.iter().position(|dim| dim == "body"))
+        else {
+            return Ok(None);
+        };
+        self.read(py, name)?.call_method1("take", (index, axis)).map(Some)
+    }
+
+    fn no_such(&self, name: &str) -> PyErr {
+        let columns: Vec<&str> = self.inner.columns().collect();
+        let arrays: Vec<&str> = self.numbers().map(|array| array.name.as_str()).collect();
+        PyKeyError::new_err(format!(
+            "the recording has no `{name}`: it has the columns t, {}, and the arrays {} (`BODY.ARRAY` for one body)",
+            columns.join(", "),
+            arrays.join(", ")
+        ))
+    }
+}
+
+#[pymethods]
+impl Recording {
+    /// Opens a recording on disk, finished or not.
+    #[classmethod]
+    fn open(_: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        Ok(Self { inner: Inner::open(&path).map_err(errors::record)?, told: None, kept: None })
+    }
+
+    /// The folder of the recording.
+    #[getter]
+    fn path(&self) -> &Path {
+        self.inner.path()
+    }
+
+    /// All that the recording says of itself: scene, resolved form, version, bodies, outcome, statistics.
+    #[getter]
+    fn attrs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        object(py, self.inner.attributes())
+    }
+
+    /// The kind of end: completed, at_rest, the reason of a stop, or unfinished.
+    #[getter]
+    fn outcome(&self) -> String {
+        match self.inner.attributes().get("outcome") {
+            None => "unfinished".to_owned(),
+            Some(Value::String(kind)) => kind.clone(),
+            Some(outcome) => {
+                let stop = outcome.get("stopped").and_then(|stop| stop.get("reason")).and_then(Value::as_str);
+                let kind = || outcome.as_object().and_then(|entries| entries.keys().next()).cloned();
+                stop.map(str::to_owned).or_else(kind).unwrap_or_default()
+            }
+        }
+    }
+
+    /// What the program says at the end of the run: outcome, steps, ledger, momenta, events; of a recording that was opened, its outcome.
+    #[getter]
+    fn summary(&self) -> String {
+        if let Some(told) = &self.told {
+            return told.clone();
+        }
+        let words = self.inner.attributes().get("outcome_in_words").and_then(Value::as_str);
+        words.unwrap_or("the run has not ended: it is under way, or was interrupted and can be resumed").to_owned()
+    }
+
+    /// Times of the samples [s].
+    #[getter]
+    fn time<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.read(py, "time")
+    }
+
+    /// The names of the bodies, in order.
+    #[getter]
+    fn bodies(&self) -> PyResult<Vec<String>> {
+        self.body_names()
+    }
+
+    /// The names of the columns of the table: ``t``, then ``BODY.x`` [m], ``BODY.P_xx``, ``BODY.vx`` [m/s], …, energies and works [J].
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        std::iter::once("t").chain(self.inner.columns()).map(str::to_owned).collect()
+    }
+
+    /// The arrays by name, each with ``dims``, ``shape``, ``units`` and ``description``.
+    #[getter]
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let arrays = PyDict::new(py);
+        for info in self.numbers() {
+            let described = PyDict::new(py);
+            described.set_item("dims", PyTuple::new(py, &info.dims)?)?;
+            described.set_item("shape", PyTuple::new(py, &info.shape)?)?;
+            described.set_item("units", &info.units)?;
+            described.set_item("description", &info.description)?;
+            arrays.set_item(&info.name, described)?;
+        }
+        Ok(arrays)
+    }
+
+    /// Apexes, closest approaches and lift-offs, each with ``time`` [s], ``kind`` and ``body``.
+    #[getter]
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let (names, kinds) = (self.body_names()?, self.inner.event_kinds());
+        let one = |event: gyration_record::Event| {
+            let described = PyDict::new(py);
+            described.set_item("time", event.time)?;
+            described.set_item("kind", kinds.get(event.kind))?;
+            described.set_item("body", event.body.and_then(|body| names.get(body)))?;
+            Ok(described)
+        };
+        self.inner.events().map_err(errors::record)?.into_iter().map(one).collect()
+    }
+
+    fn __len__(&self) -> usize {
+        self.inner.rows()
+    }
+
+    /// A column (``"die.x"``), an array of all bodies (``"position"``) or of one (``"die.position"``).
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        if name == "t" || self.inner.columns().any(|column| column == name) {
+            return self.column(py, name);
+        }
+        if self.numbers().any(|array| array.name == name) {
+            return self.read(py, name);
+        }
+        self.of_body(py, name)?.ok_or_else(|| self.no_such(name))
+    }
+
+    fn __contains__(&self, py: Python<'_>, name: &str) -> PyResult<bool> {
+        let known = name == "t" || self.inner.columns().any(|column| column == name);
+        Ok(known || self.numbers().any(|array| array.name == name) || self.of_body(py, name)?.is_some())
+    }
+
+    /// The table as a DataFrame of pandas: the columns of the CSV.
+    fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = PyDict::new(py);
+        for name in self.columns() {
+            columns.set_item(&name, self.column(py, &name)?)?;
+        }
+        py.import("pandas")?.call_method1("DataFrame", (columns,))
+    }
+
+    /// All arrays as a Dataset of xarray, with dimensions, units and descriptions.
+    fn to_xarray<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (variables, coordinates) = (PyDict::new(py), PyDict::new(py));
+        for info in self.numbers() {
+            let attributes = PyDict::new(py);
+            attributes.set_item("units", &info.units)?;
+            attributes.set_item("description", &info.description)?;
+            let variable = (PyTuple::new(py, &info.dims)?, self.read(py, &info.name)?, attributes);
+            let into = if info.name == "time" { &coordinates } else { &variables };
+            into.set_item(&info.name, variable)?;
+        }
+        coordinates.set_item("body", (("body",), self.body_names()?))?;
+        let keywords = PyDict::new(py);
+        keywords.set_item("data_vars", variables)?;
+        keywords.set_item("coords", coordinates)?;
+        keywords.set_item("attrs", self.attrs(py)?)?;
+        py.import("xarray")?.call_method("Dataset", (), Some(&keywords))
+    }
+
+    /// A picture of quantities by name: ``overview``, ``strip``, ``height``, ``gap``, ``stretch``, ``forces``, ``energy``, ``stroke``,
+    /// ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name. ``measures`` are the two of ``stroke``.
+    #[pyo3(signature = (*what, measures=None))]
+    fn plot(&self, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {
+        Picture::new(Source::Recording(self.inner.clone(), what, measures.unwrap_or_default()))
+    }
+
+    /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its path.
+    #[pyo3(signature = (path=None))]
+    fn report(&self, py: Python<'_>, path: Option<PathBuf>) -> PyResult<PathBuf> {
+        let path = path.unwrap_or_else(|| self.inner.path().with_extension("html"));
+        let html = self.page(py)?;
+        std::fs::write(&path, html).map_err(|error| errors::write(&path, &error))?;
+        Ok(path)
+    }
+
+    /// The 3-D view in a frame; the overview where the package was built without the page.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        match self.page(py) {
+            Ok(html) => {
+                let quoted = html.replace('&', "&amp;").replace('"', "&quot;");
+                let style = "width: 100%; height: 600px; border: 0";
+                Ok(format!("<iframe style=\"{style}\" srcdoc=\"{quoted}\"></iframe>"))
+            }
+            Err(_) => Ok(Picture::new(Source::Recording(self.inner.clone(), Vec::new(), Vec::new()))?.svg().to_owned()),
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        let (rows, path) = (self.inner.rows(), self.inner.path().display());
+        let temporary = if self.kept.is_some() { ", temporary" } else { "" };
+        format!("<gyration.Recording {path}: {}, {rows} samples{temporary}>", self.outcome())
+    }
+}
+
+impl Recording {
+    /// The report as one page.
+    fn page(&self, py: Python<'_>) -> PyResult<String> {
+        let made = py.detach(|| report(&Stored::open(self.inner.path())?));
+        Ok(made.map_err(errors::view)?.html)
+    }
+}

@@ -1,0 +1,89 @@
+//! A scene into a recording, as `gyration run` does it.
+
+use crate::errors;
+use crate::recording::Recording;
+use crate::watch::Watch;
+use gyration_cli::library;
+use gyration_record::remove;
+use gyration_scene::Scene;
+use gyration_sim::{Job, MemorySink, Recorded, RunSummary, Simulation};
+use pyo3::prelude::*;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tempfile::TempDir;
+
+/// Where a recording is to go.
+pub struct Wanted {
+    /// The folder; none: one that lives as long as the recording is in use.
+    pub output: Option<PathBuf>,
+    /// Go on with what is there.
+    pub resume: bool,
+    /// Replace what is there.
+    pub force: bool,
+}
+
+/// Runs a scene; the lock is not held.
+pub fn run(py: Python<'_>, scene: &Scene, wanted: Wanted, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Recording> {
+    let (path, kept) = place(&wanted, scene.name())?;
+    let mut watch = Watch::new(progress)?;
+    let done = py.detach(|| record(scene, &wanted, &path, &mut watch));
+    watch.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&wanted, &path)))?;
+    let summary = done?;
+    if let Some(warning) = wanted.output.as_ref().and_then(|_| library::leave_overview(&path)) {
+        py.import("warnings")?.call_method1("warn", (warning,))?;
+    }
+    Recording::of_run(&path, kept, summary)
+}
+
+/// The folder of the recording, and what removes it if nobody asked for it.
+fn place(wanted: &Wanted, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>)> {
+    let Some(path) = &wanted.output else {
+        if wanted.resume {
+            return Err(errors::arguments(
+                "there is nothing to resume\n  fix: say with `output` which recording is to go on",
+            ));
+        }
+        let folder = TempDir::with_prefix("gyration-")
+            .map_err(|error| errors::write(Path::new("a temporary folder"), &error))?;
+        return Ok((folder.path().join(format!("{name}.gyr")), Some(Arc::new(folder))));
+    };
+    if path.symlink_metadata().is_ok() && !wanted.resume && !wanted.force {
+        let fix = "go on with it by resume=True, replace it by force=True, or choose another name";
+        return Err(errors::arguments(format!("{} exists already\n  fix: {fix}", path.display())));
+    }
+    Ok((path.clone(), None))
+}
+
+/// The run itself, and what the program would say of it; nothing if it had ended before.
+fn record(scene: &Scene, wanted: &Wanted, path: &Path, watch: &mut Watch) -> PyResult<Option<String>> {
+    let job = Job::of(scene, &library::provenance());
+    let recorded = if wanted.resume {
+        job.resume(path, watch)
+    } else {
+        // What is there goes only if the new run has a start.
+        let start = Simulation::new(job.model, job.start, job.plan);
+        start.and_then(|mut simulation| simulation.begin(&mut MemorySink::default())).map_err(errors::run)?;
+        if wanted.force && path.symlink_metadata().is_ok() {
+            remove(path).map_err(errors::record)?;
+        }
+        job.record(path, watch)
+    };
+    match recorded.map_err(errors::run)? {
+        Recorded::Ran(summary) => Ok(Some(told(scene, path, &summary)?)),
+        Recorded::AlreadyFinished(_) => Ok(None),
+    }
+}
+
+fn told(scene: &Scene, path: &Path, summary: &RunSummary) -> PyResult<String> {
+    library::summary(scene, path, summary).map_err(errors::program)
+}
+
+/// What to do after Ctrl-C.
+fn how_to_go_on(wanted: &Wanted, path: &Path) -> String {
+    match &wanted.output {
+        Some(_) => {
+            format!("the recording is closed; go on with scene.run({:?}, resume=True)", path.display().to_string())
+        }
+        None => "the run was stopped; with `output` it could be resumed".to_owned(),
+    }
+}

@@ -1,0 +1,270 @@
+//! `Scene`: a scene without errors, and what can be done with it.
+
+use crate::convert::{self, from_python, object, overrides, to_python};
+use crate::errors;
+use crate::picture::Picture;
+use crate::recording::Recording;
+use crate::run::{Wanted, run};
+use gyration_cli::library;
+use gyration_scene::{Scene as Inner, gallery};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A scene: bodies, supports, laws, how long to run and how precisely. It has no errors, and does not change: `edit` gives another one.
+#[pyclass(frozen, module = "gyration", name = "Scene")]
+pub struct Scene {
+    pub inner: Arc<Inner>,
+    /// What messages call it, and the folder to which its paths are relative.
+    file: String,
+    base: PathBuf,
+}
+
+impl Scene {
+    /// Reads a text without the lock: a body in a fluid may take a while to be prepared.
+    fn parse(py: Python<'_>, file: String, text: &str, base: PathBuf, overrides: &[String]) -> PyResult<Self> {
+        let inner =
+            py.detach(|| Inner::parse(&file, text, &base, overrides)).map_err(|error| errors::content(&error))?;
+        Ok(Self { inner: Arc::new(inner), file, base })
+    }
+
+    /// The scene that an argument stands for: a scene, a dictionary, a path or the name of one in the gallery.
+    pub fn of(argument: &Bound<'_, PyAny>) -> PyResult<Arc<Inner>> {
+        let py = argument.py();
+        if let Ok(scene) = argument.cast::<Self>() {
+            return Ok(scene.get().inner.clone());
+        }
+        if let Ok(data) = argument.cast::<PyDict>() {
+            return Ok(Self::from_dict(&py.get_type::<Self>(), data, "scene", None, None)?.inner);
+        }
+        let name: PathBuf = argument.extract().map_err(|_| {
+            errors::arguments(format!(
+                "{argument} is no scene\n  fix: give a Scene, a path, a name of the gallery, or a dictionary"
+            ))
+        })?;
+        let opened = py.detach(|| Inner::open(&name.to_string_lossy(), &[]));
+        Ok(Arc::new(opened.map_err(errors::load)?))
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// A scene from a file, TOML or JSON; paths in it are relative to its folder.
+    ///
+    /// ``overrides`` are changes by dotted key, as for :meth:`edit`. Raises ``SceneError`` with everything that is wrong, ``FileError``
+    /// if the file cannot be read.
+    #[classmethod]
+    #[pyo3(signature = (path, overrides=None))]
+    fn from_file(kind: &Bound<'_, PyType>, path: PathBuf, overrides: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let (py, changes) = (kind.py(), convert::overrides(overrides)?);
+        let inner = py.detach(|| Inner::load(&path, &changes)).map_err(errors::load)?;
+        let base = path.parent().unwrap_or(Path::new("")).to_path_buf();
+        Ok(Self { inner: Arc::new(inner), file: path.display().to_string(), base })
+    }
+
+    /// A scene from a text, TOML or JSON. ``name`` is what messages call it, ``base`` the folder of its paths.
+    #[classmethod]
+    #[pyo3(signature = (text, name="scene.toml", base=None, overrides=None))]
+    fn from_text(
+        kind: &Bound<'_, PyType>,
+        text: &str,
+        name: &str,
+        base: Option<PathBuf>,
+        overrides: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let changes = convert::overrides(overrides)?;
+        Self::parse(kind.py(), name.to_owned(), text, base.unwrap_or_default(), &changes)
+    }
+
+    /// A scene from a dictionary of the keys of a scene file. Numbers are in SI units, texts may have units: ``"30 deg"``. Arrays of NumPy
+    /// are lists.
+    #[classmethod]
+    #[pyo3(signature = (data, name="scene", base=None, overrides=None))]
+    fn from_dict(
+        kind: &Bound<'_, PyType>,
+        data: &Bound<'_, PyDict>,
+        name: &str,
+        base: Option<PathBuf>,
+        overrides: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let text = format!("{:#}\n", from_python(data)?);
+        let changes = convert::overrides(overrides)?;
+        Self::parse(kind.py(), format!("{name}.json"), &text, base.unwrap_or_default(), &changes)
+    }
+
+    /// A scene of the built-in gallery by its name, see :func:`scenes`.
+    #[classmethod]
+    #[pyo3(signature = (name, overrides=None))]
+    fn gallery(kind: &Bound<'_, PyType>, name: &str, overrides: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let (py, changes) = (kind.py(), convert::overrides(overrides)?);
+        match gallery().iter().find(|(known, _)| *known == name) {
+            Some((_, text)) => Self::parse(py, format!("{name}.toml"), text, PathBuf::new(), &changes),
+            // Says which there are.
+            None => Err(errors::program(library::no_such_scene(name))),
+        }
+    }
+
+    /// Another scene with changes by dotted key: ``scene.edit({"body.die.velocity": [1, 0, 0]})``.
+    ///
+    /// Items of lists are named by their ``name`` or their index from zero. Numbers are in SI units.
+    #[pyo3(signature = (changes=None, /, **keys))]
+    fn edit(
+        &self,
+        py: Python<'_>,
+        changes: Option<&Bound<'_, PyDict>>,
+        keys: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let mut all = self.inner.overrides().to_vec();
+        all.extend(overrides(changes)?);
+        all.extend(overrides(keys)?);
+        Self::parse(py, self.file.clone(), self.inner.text(), self.base.clone(), &all)
+    }
+
+    /// A value of the resolved scene by its dotted key, in SI units: ``scene["body.die.velocity"]``.
+    fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, find(&self.inner.resolved(), key)?)
+    }
+
+    /// The name of the scene: that of its file without folder and ending.
+    #[getter]
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+
+    /// The title of the scene, if it has one.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.inner.file().title.as_deref()
+    }
+
+    /// The text of the scene as it was read; edits are not in it.
+    #[getter]
+    fn text(&self) -> &str {
+        self.inner.text()
+    }
+
+    /// The edits, ``KEY=VALUE``, in their order.
+    #[getter]
+    fn overrides(&self) -> Vec<String> {
+        self.inner.overrides().to_vec()
+    }
+
+    /// The scene with units resolved to SI, edits made and every default in its place; itself a scene.
+    #[getter]
+    fn resolved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match self.inner.resolved() {
+            Value::Object(entries) => object(py, &entries),
+            other => to_python(py, &other),
+        }
+    }
+
+    /// The names of the bodies, in order.
+    #[getter]
+    fn bodies(&self) -> Vec<String> {
+        self.inner.built().model.bodies.iter().map(|body| body.name.clone()).collect()
+    }
+
+    /// The names of the supports, in order.
+    #[getter]
+    fn supports(&self) -> Vec<String> {
+        self.inner.built().model.supports.iter().map(|support| support.name.clone()).collect()
+    }
+
+    /// What can be said of the scene before it runs, as ``gyration check`` prints it: mass, rest gaps, time scales, whether laws forbid
+    /// touching, resolved form.
+    fn check(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| library::check(&self.inner)).map_err(errors::program)
+    }
+
+    /// Runs the scene into a recording.
+    ///
+    /// ``output`` is its folder; without it the recording lives in a temporary folder, for as long as the object does. ``progress`` is
+    /// True for a line on stderr, or a function of (time [s], end [s]); if it returns False the run stops and can be resumed.
+    /// ``resume`` goes on with the recording that is there, ``force`` replaces it.
+    ///
+    /// A run that ends early for a physical reason raises nothing: see :attr:`Recording.outcome`. Ctrl-C closes the recording at
+    /// the end of a step and raises ``KeyboardInterrupt``. Other threads of Python go on meanwhile.
+    #[pyo3(signature = (output=None, *, progress=None, resume=false, force=false))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        output: Option<PathBuf>,
+        progress: Option<&Bound<'_, PyAny>>,
+        resume: bool,
+        force: bool,
+    ) -> PyResult<Recording> {
+        run(py, &self.inner, Wanted { output, resume, force }, progress)
+    }
+
+    /// The laws of its contacts against distance.
+    fn plot(&self) -> PyResult<Picture> {
+        Picture::of_laws(self.inner.clone())
+    }
+
+    /// For pickle.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String, String, PathBuf, Vec<String>))> {
+        let again = py.import("gyration._gyration")?.getattr("_scene")?;
+        let parts =
+            (self.file.clone(), self.inner.text().to_owned(), self.base.clone(), self.inner.overrides().to_vec());
+        Ok((again, parts))
+    }
+
+    fn __repr__(&self) -> String {
+        let bodies = self.bodies();
+        let title = self.title().map(|title| format!(" {title:?}")).unwrap_or_default();
+        format!("<gyration.Scene {}{title}: {}>", self.inner.name(), bodies.join(", "))
+    }
+}
+
+/// A scene again, from what `__reduce__` gave.
+#[pyfunction]
+#[pyo3(name = "_scene")]
+pub fn scene_again(py: Python<'_>, file: String, text: &str, base: PathBuf, overrides: Vec<String>) -> PyResult<Scene> {
+    Scene::parse(py, file, text, base, &overrides)
+}
+
+/// The names of the built-in gallery.
+#[pyfunction]
+pub fn scenes() -> Vec<&'static str> {
+    gallery().iter().map(|(name, _)| *name).collect()
+}
+
+/// A value of the resolved scene by its dotted key; items of arrays by name, else by index.
+fn find<'a>(resolved: &'a Value, key: &str) -> PyResult<&'a Value> {
+    let mut at = resolved;
+    for (depth, word) in key.split('.').enumerate() {
+        let next = match at {
+            Value::Object(entries) => entries.get(word),
+            Value::Array(items) => {
+                let named = items.iter().find(|item| item.get("name").and_then(Value::as_str) == Some(word));
+                named.or_else(|| items.get(word.parse::<usize>().ok()?))
+            }
+            _ => None,
+        };
+        at = next.ok_or_else(|| {
+            let before = key.split('.').take(depth).collect::<Vec<_>>().join(".");
+            let place = if before.is_empty() { "the scene".to_owned() } else { format!("`{before}`") };
+            pyo3::exceptions::PyKeyError::new_err(format!("{place} has no `{word}`: it has {}", names(at)))
+        })?;
+    }
+    Ok(at)
+}
+
+/// What a value has, in words.
+fn names(value: &Value) -> String {
+    match value {
+        Value::Object(entries) => entries.keys().cloned().collect::<Vec<_>>().join(", "),
+        Value::Array(items) => {
+            let name = |(index, item): (usize, &Value)| {
+                item.get("name").and_then(Value::as_str).map_or(index.to_string(), str::to_owned)
+            };
+            items.iter().enumerate().map(name).collect::<Vec<_>>().join(", ")
+        }
+        other => format!("no parts, it is {other}"),
+    }
+}

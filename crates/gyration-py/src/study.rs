@@ -1,0 +1,217 @@
+//! Studies: the table that one process keeps, and the rows that others may compute for it.
+//!
+//! `Work` is what `gyration.study` is made of: on the threads of this machine it does all of it; an executor of Python takes run
+//! numbers from it and hands back rows as lines of JSON (`python/gyration/_spread.py`). Rows are those of `gyration-study` either
+//! way, so that the table has the same bytes.
+
+use crate::convert::{from_python, overrides};
+use crate::errors;
+use crate::watch::Watch;
+use gyration_study::{Progress, Recordings, Row, Shard, Source, Study, Table, Watcher, execute};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What another process needs to open a study again: name, text, folder, changes.
+type Packed = (String, String, PathBuf, Vec<String>);
+
+/// A study and its table while it is being made.
+#[pyclass(module = "gyration", name = "_Work")]
+pub struct Work {
+    study: Arc<Study>,
+    /// None once it has been closed.
+    table: Option<Table>,
+    missing: Box<dyn Iterator<Item = u64> + Send + Sync>,
+    folder: PathBuf,
+}
+
+/// Opens a study from a path, a name among the ready ones, or a dictionary.
+fn open(source: &Bound<'_, PyAny>, changes: &[String], base: &Path) -> PyResult<Study> {
+    let py = source.py();
+    if let Ok(data) = source.cast::<PyDict>() {
+        let text = format!("{:#}\n", from_python(data)?);
+        return py.detach(|| Study::parse("study.json", &text, base, changes)).map_err(errors::study_file);
+    }
+    let path: PathBuf = source.extract().map_err(|_| {
+        errors::arguments(format!(
+            "{source} is no study\n  fix: give a path, the name of a ready study, or a dictionary"
+        ))
+    })?;
+    py.detach(|| Study::open(&path.to_string_lossy(), changes)).map_err(errors::study_file)
+}
+
+#[pymethods]
+impl Work {
+    #[new]
+    #[pyo3(signature = (source, output, changes, resume, force))]
+    fn new(
+        source: &Bound<'_, PyAny>,
+        output: Option<PathBuf>,
+        changes: Option<&Bound<'_, PyDict>>,
+        resume: &Bound<'_, PyAny>,
+        force: bool,
+    ) -> PyResult<Self> {
+        let study = open(source, &overrides(changes)?, Path::new(""))?;
+        let folder = output.unwrap_or_else(|| PathBuf::from(format!("{}.study", study.name())));
+        let resume = match resume.extract::<bool>() {
+            Ok(resume) => resume,
+            Err(_) if resume.extract::<&str>().is_ok_and(|word| word == "auto") => folder.symlink_metadata().is_ok(),
+            Err(_) => {
+                return Err(errors::arguments(format!("`resume` is {resume}\n  fix: give True, False or \"auto\"")));
+            }
+        };
+        let table = source.py().detach(|| match resume {
+            true => Table::resume(&folder, &study, Shard::WHOLE),
+            false => Table::create(&folder, &study, Shard::WHOLE, force),
+        });
+        let table = table.map_err(errors::study)?;
+        let missing = Box::new(table.missing());
+        Ok(Self { study: Arc::new(study), missing, table: Some(table), folder })
+    }
+
+    #[getter]
+    fn source(&self) -> Packed {
+        let Source { name, text, base, overrides } = self.study.source().clone();
+        (name, text, std::path::absolute(&base).unwrap_or(base), overrides)
+    }
+
+    #[getter]
+    fn path(&self) -> &Path {
+        &self.folder
+    }
+
+    #[getter]
+    fn done(&self) -> u64 {
+        self.table.as_ref().map_or(0, Table::rows)
+    }
+
+    #[getter]
+    fn total(&self) -> u64 {
+        self.study.runs()
+    }
+
+    /// Refuses to have others compute what only this process can keep.
+    fn check_spread(&self) -> PyResult<()> {
+        match self.study.recordings() {
+            Recordings::None => Ok(()),
+            _ => Err(errors::study_said(
+                "the study keeps recordings, which an executor has no place for\n  fix: leave out `recordings`, or the executor",
+            )),
+        }
+    }
+
+    /// Makes what is missing on threads of this process.
+    fn execute(&mut self, py: Python<'_>, threads: Option<usize>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let cores = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        let threads = match threads {
+            None => cores,
+            Some(threads) => NonZeroUsize::new(threads).ok_or_else(|| {
+                errors::arguments("no thread does no work\n  fix: give `threads` from 1, or leave it out for all cores")
+            })?,
+        };
+        let mut watch = Watch::new(progress)?;
+        let Self { study, table, folder, .. } = self;
+        let table = table.as_mut().ok_or_else(closed)?;
+        let done = py.detach(|| execute(study, table, threads, &mut Told(&mut watch)));
+        let message = format!(
+            "finished rows are kept; go on with gyration.study(..., output={:?}, resume=True)",
+            folder.display().to_string()
+        );
+        watch.finish(py).map_err(|error| errors::interrupted(py, error, &message))?;
+        done.map_err(errors::study)?;
+        Ok(())
+    }
+
+    /// The next run numbers that are missing.
+    fn take(&mut self, most: usize) -> Vec<u64> {
+        self.missing.by_ref().take(most).collect()
+    }
+
+    /// Adds the rows of these runs.
+    fn append(&mut self, py: Python<'_>, numbers: Vec<u64>, lines: Vec<String>) -> PyResult<()> {
+        let Self { study, table, .. } = self;
+        let table = table.as_mut().ok_or_else(closed)?;
+        let added = py.detach(|| {
+            let rows: Option<Vec<Row>> = lines.iter().map(|line| Row::from_line(line, study.columns())).collect();
+            // A worker of another version, or of another study.
+            let rows = rows.filter(|rows| rows.iter().map(Row::run).eq(numbers.iter().copied().map(Some)));
+            rows.map(|rows| table.append(&rows))
+        });
+        match added {
+            Some(added) => added.map_err(errors::study),
+            None => Err(errors::study_said(
+                "a worker sent rows that were not asked for: is its version of gyration this one?",
+            )),
+        }
+    }
+
+    /// Writes the table; StudyError if rows are missing.
+    fn finish(&mut self, py: Python<'_>) -> PyResult<()> {
+        let table = self.table.as_mut().ok_or_else(closed)?;
+        match py.detach(|| table.finish()).map_err(errors::study)? {
+            true => Ok(()),
+            false => Err(errors::study_said(&format!(
+                "the study was stopped after {} of {} runs\n  fix: go on with gyration.study(..., output={:?}, resume=True)",
+                self.done(),
+                self.total(),
+                self.folder.display().to_string()
+            ))),
+        }
+    }
+
+    /// Lets go of the table: another one may write to it.
+    fn close(&mut self) {
+        self.table = None;
+    }
+}
+
+fn closed() -> PyErr {
+    errors::study_said("the table has been closed")
+}
+
+/// Tells Python of progress.
+struct Told<'a>(&'a mut Watch);
+
+impl Watcher for Told<'_> {
+    fn look(&mut self, progress: &Progress) -> bool {
+        !self.0.ask(progress.done as f64, progress.total as f64)
+    }
+}
+
+/// The study that this process worked for last.
+static LAST: Mutex<Option<(Packed, Arc<Study>)>> = Mutex::new(None);
+
+/// The rows of some runs as lines of JSON, computed without the lock: what a worker does.
+#[pyfunction]
+#[pyo3(name = "_study_rows")]
+pub fn study_rows(py: Python<'_>, source: Packed, numbers: Vec<u64>) -> PyResult<Vec<String>> {
+    let study = py.detach(|| again(source)).map_err(errors::study_file)?;
+    let mut watch = Watch::new(None)?;
+    let rows = py.detach(|| {
+        let mut rows = Vec::with_capacity(numbers.len());
+        for number in numbers.into_iter().filter(|number| *number < study.runs()) {
+            if !watch.ask(0.0, 1.0) {
+                break;
+            }
+            rows.push(study.row(number).to_line());
+        }
+        rows
+    });
+    watch.finish(py)?;
+    Ok(rows)
+}
+
+fn again(packed: Packed) -> Result<Arc<Study>, gyration_scene::LoadError> {
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((known, study)) = &*last
+        && *known == packed
+    {
+        return Ok(study.clone());
+    }
+    let (name, text, base, overrides) = packed.clone();
+    let study = Arc::new(Study::again(&Source { name, text, base, overrides })?);
+    *last = Some((packed, study.clone()));
+    Ok(study)
+}

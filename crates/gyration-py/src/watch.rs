@@ -1,0 +1,94 @@
+//! Watches a run from Python: Ctrl-C, and whoever wants to know how far it is.
+//!
+//! The run computes without the interpreter's lock; ten times a second it is taken for a moment, to look at signals and to tell
+//! of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are raised when the
+//! recording has been closed.
+
+use gyration_sim::{Monitor, Progress, Reason};
+use pyo3::prelude::*;
+use pyo3::types::PyBool;
+use std::time::{Duration, Instant};
+
+/// How often Python is asked.
+const EVERY: Duration = Duration::from_millis(100);
+
+/// What watches a run.
+pub struct Watch {
+    listener: Listener,
+    asked: Instant,
+    /// What Python raised.
+    raised: Option<PyErr>,
+}
+
+/// Who wants to know how far a run is.
+enum Listener {
+    Nobody,
+    /// A line on Python's stderr.
+    Line,
+    Callback(Py<PyAny>),
+}
+
+impl Watch {
+    /// From what a user gives for `progress`: None, True, or a callable of (time, end).
+    pub fn new(progress: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let listener = match progress {
+            None => Listener::Nobody,
+            Some(flag) if flag.is_instance_of::<PyBool>() => match flag.extract()? {
+                true => Listener::Line,
+                false => Listener::Nobody,
+            },
+            Some(callback) if callback.is_callable() => Listener::Callback(callback.clone().unbind()),
+            Some(other) => {
+                let problem = format!("`progress` is {other}\n  fix: give True, or a function of time and end");
+                return Err(crate::errors::arguments(problem));
+            }
+        };
+        Ok(Self { listener, asked: Instant::now(), raised: None })
+    }
+
+    /// Looks at signals, and tells that it is at `time` of `end`; whether to go on.
+    pub fn ask(&mut self, time: f64, end: f64) -> bool {
+        if self.asked.elapsed() < EVERY {
+            return true;
+        }
+        let answer = Python::attach(|py| {
+            py.check_signals()?;
+            self.tell(py, time, end)
+        });
+        self.asked = Instant::now();
+        answer.unwrap_or_else(|error| {
+            self.raised = Some(error);
+            false
+        })
+    }
+
+    fn tell(&self, py: Python<'_>, time: f64, end: f64) -> PyResult<bool> {
+        match &self.listener {
+            Listener::Nobody => Ok(true),
+            Listener::Line => {
+                let line = format!("\r{:3.0} %  t = {time:.4} of {end} s ", 100.0 * time / end);
+                py.import("sys")?.getattr("stderr")?.call_method1("write", (line,))?;
+                Ok(true)
+            }
+            // Only False says stop: a function that returns nothing goes on.
+            Listener::Callback(callback) => {
+                let answer = callback.bind(py).call1((time, end))?;
+                Ok(!(answer.is_instance_of::<PyBool>() && !answer.extract::<bool>()?))
+            }
+        }
+    }
+
+    /// Ends the line; raises what Python raised meanwhile.
+    pub fn finish(self, py: Python<'_>) -> PyResult<()> {
+        if matches!(self.listener, Listener::Line) {
+            py.import("sys")?.getattr("stderr")?.call_method1("write", ("\r\x1b[K",))?;
+        }
+        self.raised.map_or(Ok(()), Err)
+    }
+}
+
+impl Monitor for Watch {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        (!self.ask(progress.time, progress.end)).then_some(Reason::Interrupted)
+    }
+}

@@ -1,0 +1,54 @@
+"""A small scene that the tests share: a ball that falls, and runs in a moment."""
+
+import pytest
+
+import gyration
+
+BALL = {
+    "title": "A ball",
+    "time": {"end": 0.5, "sample": 0.01},
+    "support": [{"name": "table", "plane": {"origin": [0, 0, 0], "normal": [0, 0, 1]}}],
+    "contact": [{"support": "table", "repulsion": {"alpha": "40 kPa", "nu": 6, "d0": "2 mm"}}],
+    "body": [
+        {
+            "name": "ball",
+            "shape": {"sphere": {"radius": "5 cm"}},
+            "density": 1000,
+            "position": [0, 0, 0.4],
+            "velocity": [0.3, 0, 0],
+        }
+    ],
+}
+
+STUDY = {
+    "title": "A ball thrown along a table without friction",
+    "scene": "bounce",
+    "seed": 1,
+    "repetitions": 20,
+    "set": {"time.end": 0.3, "time.stop_at_rest.speed": 1e-9, "contact.0.friction.beta": 0},
+    "parameter": {
+        "speed": {"key": "body.ball.velocity.0", "values": [0.0, 0.5, 1.0]},
+        # A start below the table is a failure.
+        "height": {"key": "body.ball.position.2", "uniform": {"from": 0.0, "to": 0.5}},
+    },
+    "keep": {"way": {"last": "ball.x"}},
+}
+
+
+@pytest.fixture
+def ball() -> gyration.Scene:
+    return gyration.Scene.from_dict(BALL, name="ball")
+
+
+@pytest.fixture(scope="session")
+def recording() -> gyration.Recording:
+    return gyration.Scene.from_dict(BALL, name="ball").run()
+
+
+def pytest_terminal_summary(terminalreporter):
+    """The sums in the words of Rust's test programs, which `cargo xtask test` reads."""
+    count = {kind: len(terminalreporter.stats.get(kind, [])) for kind in ["passed", "failed", "error", "skipped"]}
+    failed = count["failed"] + count["error"]
+    verdict = "FAILED" if failed else "ok"
+    line = f"test result: {verdict}. {count['passed']} passed; {failed} failed; {count['skipped']} ignored"
+    terminalreporter.write_line(line)

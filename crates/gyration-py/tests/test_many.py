@@ -1,0 +1,44 @@
+"""Many scenes at once: order, threads, failures as entries."""
+
+import numpy as np
+import pytest
+
+import gyration
+
+
+def throws(ball):
+    return [ball.edit({"body.ball.velocity": [0.1 * k, 0, 0]}) for k in range(6)]
+
+
+def test_endings_are_those_of_single_runs_on_any_number_of_threads(ball):
+    scenes = throws(ball)
+    one, three = gyration.run_many(scenes, threads=1), gyration.run_many(scenes, threads=3)
+    assert one.outcome == three.outcome == ["completed"] * 6
+    for column in one.columns:
+        np.testing.assert_array_equal(one[column], three[column])
+    np.testing.assert_array_equal(one["ball.x"], [scene.run()["ball.x"][-1] for scene in scenes])
+    np.testing.assert_allclose(one["ball.x"], 0.05 * np.arange(6), atol=1e-9)
+
+
+def test_failures_are_entries(ball):
+    through = ball.edit({"contact.0.repulsion": {"alpha": 1e-3, "nu": 1, "d0": 1e-3}})
+    runs = gyration.run_many([ball, through, gyration.Scene.gallery("dice").edit({"time.end": 0.01})])
+    assert runs.outcome == ["completed", "gap_closed", "completed"]
+    assert runs.reason[0] is None and "table" in runs.reason[1]
+    assert np.isnan(runs["ball.z"][2]) and np.isfinite(runs["ball.z"][1]) and runs["time"][1] < 0.5
+
+
+def test_columns_are_kept_as_asked(ball):
+    runs = gyration.run_many([ball], keep=["ball.z"])
+    assert runs.columns == ["time", "steps", "rejected", "evaluations", "residual", "ball.z"]
+    with pytest.raises(gyration.ArgumentError, match="no scene has the column `ball.q`"):
+        gyration.run_many([ball], keep=["ball.q"])
+    with pytest.raises(KeyError):
+        runs["ball.x"]
+
+
+def test_a_table_of_endings_is_for_pandas(ball):
+    pytest.importorskip("pandas")
+    table = gyration.run_many(throws(ball)).to_pandas()
+    assert len(table) == 6 and (table["outcome"] == "completed").all()
+    assert len(gyration.run_many([])) == 0

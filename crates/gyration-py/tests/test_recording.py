@@ -1,0 +1,180 @@
+"""Recordings: arrays, tables, pictures, pages; runs that are watched, interrupted and resumed."""
+
+import filecmp
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import gyration
+
+
+def same_files(left, right):
+    """Whether two folders hold the same bytes."""
+    compared = filecmp.dircmp(left, right, ignore=[])
+    files = not (compared.left_only or compared.right_only or compared.diff_files or compared.funny_files)
+    return files and all(same_files(os.path.join(left, name), os.path.join(right, name)) for name in compared.common_dirs)
+
+
+def test_a_run_is_free_fall_until_the_table(recording):
+    assert recording.outcome == "completed"
+    assert len(recording) == 51 and recording.time[-1] == 0.5
+    early = recording["t"] < 0.25
+    exact = 0.4 - 0.5 * 9.81 * recording["t"][early] ** 2
+    # The field of the table reaches far: a few parts in a million of the weight.
+    np.testing.assert_allclose(recording["ball.z"][early], exact, atol=1e-6)
+
+
+def test_arrays_have_names_shapes_and_units(recording):
+    assert recording["position"].shape == (51, 1, 3)
+    np.testing.assert_array_equal(recording["ball.position"][:, 2], recording["ball.z"])
+    assert recording.arrays["velocity"]["units"] == "m/s"
+    assert recording.arrays["placement_gradient"]["dims"] == ("time", "body", "row", "col")
+    assert "energy.kinetic" in recording and "nonsense" not in recording
+    with pytest.raises(KeyError, match="ball.vz"):
+        recording["ball.speed"]
+
+
+def test_pandas_has_the_columns_of_the_csv(recording, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    path = tmp_path / "ball.csv"
+    done = [sys.executable, "-m", "gyration", "export", str(recording.path), "--format", "csv", "-o", str(path)]
+    subprocess.run(done, check=True, capture_output=True)
+    pandas.testing.assert_frame_equal(recording.to_pandas(), pandas.read_csv(path))
+
+
+def test_xarray_has_dimensions_and_units(recording):
+    pytest.importorskip("xarray")
+    dataset = recording.to_xarray()
+    assert dataset.position.dims == ("time", "body", "row")
+    assert dataset.position.units == "m" and list(dataset.body.values) == ["ball"]
+    assert float(dataset.position.sel(body="ball").isel(time=-1, row=2)) == recording["ball.z"][-1]
+
+
+def test_events_are_in_order_of_time(recording):
+    kinds = [event["kind"] for event in recording.events]
+    assert "closest_approach" in kinds
+    times = [event["time"] for event in recording.events]
+    assert times == sorted(times)
+
+
+def test_pictures_are_those_of_the_program(recording, tmp_path):
+    picture = recording.plot("height", "energy")
+    path = tmp_path / "of-the-program.svg"
+    plot = [sys.executable, "-m", "gyration", "plot", str(recording.path), "height", "energy", "-o", str(path)]
+    subprocess.run(plot, check=True, capture_output=True)
+    assert picture.svg == path.read_text() == picture._repr_svg_()
+    for ending, head in [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<svg")]:
+        saved = tmp_path / f"picture.{ending}"
+        picture.save(saved)
+        assert saved.read_bytes().lstrip()[:40].find(head) >= 0
+    with pytest.raises(gyration.ArgumentError, match=".svg, .png or .pdf"):
+        picture.save(tmp_path / "picture.gif")
+    with pytest.raises(gyration.ArgumentError, match="overview"):
+        recording.plot("heigth")
+    with pytest.raises(gyration.PlotError, match="contracts"):
+        recording.plot("stroke")
+
+
+def test_a_notebook_shows_the_view(recording):
+    shown = recording._repr_html_()
+    assert shown.startswith("<iframe") or "<svg" in shown
+
+
+def test_recording_with_output_leaves_the_bytes_of_the_program(ball, tmp_path):
+    source = tmp_path / "ball.json"
+    source.write_text(ball.text)
+    scene = gyration.Scene.from_file(source)
+    mine, theirs = tmp_path / "mine.gyr", tmp_path / "theirs.gyr"
+    scene.run(mine)
+    run = [sys.executable, "-m", "gyration", "run", str(source), "-o", str(theirs), "--quiet"]
+    subprocess.run(run, check=True)
+    assert same_files(mine, theirs)
+    assert gyration.Recording.open(mine).outcome == "completed"
+
+
+def test_what_is_there_is_not_overwritten(ball, tmp_path):
+    path = tmp_path / "ball.gyr"
+    ball.run(path)
+    with pytest.raises(gyration.ArgumentError, match="force=True"):
+        ball.run(path)
+    assert len(ball.edit({"time.end": 0.1}).run(path, force=True)) == 11
+    with pytest.raises(gyration.RunError, match="another scene"):
+        ball.run(path, resume=True)
+
+
+def test_a_temporary_recording_goes_with_its_last_user(ball):
+    recording = ball.run()
+    path = recording.path
+    assert os.path.isdir(path)
+    del recording
+    assert not os.path.exists(path)
+
+
+def test_progress_is_told_and_false_stops_a_run_that_can_be_resumed(tmp_path):
+    scene = gyration.Scene.gallery("bounce").edit({"time.end": 1e4, "time.stop_at_rest": {"speed": 1e-30, "hold": 1e9}})
+    scene = scene.edit({"contact.0.damping.beta": 0.0, "time.sample": 1e-3})
+    told = []
+
+    def progress(time, end):
+        told.append(time)
+        return len(told) < 2
+
+    stopped = scene.run(tmp_path / "long.gyr", progress=progress)
+    assert stopped.outcome == "unfinished" and told == sorted(told)
+    further = scene.run(tmp_path / "long.gyr", progress=lambda time, end: False, resume=True)
+    assert further.time[-1] > stopped.time[-1]
+
+
+def test_an_exception_of_the_callback_is_raised(tmp_path):
+    scene = gyration.Scene.gallery("bounce").edit({"time.end": 1e4, "contact.0.damping.beta": 0.0})
+
+    def progress(time, end):
+        raise LookupError("of the user")
+
+    with pytest.raises(LookupError, match="of the user"):
+        scene.run(progress=progress)
+
+
+def test_ctrl_c_closes_the_recording_and_resuming_leaves_the_same_bytes(tmp_path):
+    scene = gyration.Scene.gallery("bounce").edit({"solver.rtol": 1e-12, "time.sample": 1e-4})
+    whole, broken = tmp_path / "whole.gyr", tmp_path / "broken.gyr"
+    scene.run(whole)
+
+    def interrupt():
+        while not broken.exists():
+            time.sleep(0.001)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    sender = threading.Thread(target=interrupt)
+    sender.start()
+    with pytest.raises(KeyboardInterrupt, match="resume=True"):
+        # Over and over, however fast this machine is: one of the runs is interrupted.
+        while True:
+            scene.run(broken, force=True)
+    sender.join()
+    scene.run(broken, resume=True)
+    assert same_files(whole, broken)
+
+
+def test_the_lock_is_released_while_the_engine_computes():
+    scene = gyration.Scene.gallery("bounce").edit({"contact.0.damping.beta": 0.0, "time.end": 1e4})
+    done = threading.Event()
+    counted = 0
+
+    def run():
+        scene.run(progress=lambda time, end: not done.is_set())
+
+    worker = threading.Thread(target=run)
+    worker.start()
+    # This thread goes on while the other computes; it would hang in a package that keeps the lock.
+    for counted in range(100_000):
+        pass
+    done.set()
+    worker.join()
+    assert counted == 99_999

@@ -1,0 +1,120 @@
+"""Stepping by hand: the state as arrays, applied loads, drives, control loops."""
+
+import numpy as np
+import pytest
+
+import gyration
+from conftest import BALL
+
+FREE = {
+    "world": {"gravity": [0, 0, 0]},
+    "time": {"end": 1.0, "sample": 0.1},
+    "body": [{"name": "box", "shape": {"box": {"size": [0.1, 0.2, 0.3]}}, "mass": 2.0, "velocity": [0, 0, 1]}],
+}
+
+
+def test_arrays_are_refreshed_in_place_and_cannot_be_written(ball):
+    simulation = gyration.Simulation(ball)
+    position, gradient = simulation.position, simulation.P
+    assert position.shape == (1, 3) and gradient.shape == (1, 3, 3)
+    before = position.copy()
+    simulation.advance(0.1)
+    assert position is simulation.position
+    np.testing.assert_allclose(before[0, 2] - position[0, 2], 0.5 * 9.81 * 0.1**2, rtol=1e-6)
+    with pytest.raises(ValueError):
+        position[0, 0] = 1.0
+
+
+def test_a_constant_force_is_gravity():
+    simulation = gyration.Simulation(FREE)
+    simulation.apply("box", force=[0, 0, -2.0 * 9.81])
+    simulation.advance(1.0)
+    # The motion is a parabola, on which the stepper is exact.
+    assert abs(simulation.position[0, 2] - (1 - 0.5 * 9.81)) < 1e-13
+    assert abs(simulation.works()["load"] - simulation.energies()["kinetic"] + 1.0) < 1e-11
+
+
+def test_a_torque_turns(ball):
+    simulation = gyration.Simulation(FREE)
+    simulation.apply(0, torque=[0, 0, 0.01])
+    simulation.advance(0.5)
+    inertia = 2.0 / 12 * (0.1**2 + 0.2**2)
+    np.testing.assert_allclose(simulation.angular_velocity("box"), [0, 0, 0.5 * 0.01 / inertia], rtol=1e-10)
+
+
+def test_a_force_at_a_point_does_the_work_of_its_way():
+    simulation = gyration.Simulation(FREE)
+    point, force = np.array([0.05, 0.1, 0.15]), np.array([1.0, 0.5, -2.0])
+    where = lambda: simulation.position[0] + simulation.P[0] @ point
+    start = where()
+    simulation.apply("box", force=force, at=point)
+    simulation.advance(0.3)
+    np.testing.assert_allclose(simulation.works()["load"], force @ (where() - start), rtol=1e-4)
+
+
+def test_a_loop_holds_a_ball_in_the_air(ball):
+    target, mass = 0.3, ball.resolved["body"][0].get("mass") or 1000 * 4 / 3 * np.pi * 0.05**3
+
+    def hold(simulation):
+        error, speed = target - simulation.position[0, 2], simulation.velocity[0, 2]
+        simulation.apply("ball", force=[0, 0, mass * (9.81 + 100 * error - 20 * speed)])
+
+    simulation = gyration.simulate(ball, 0.005, hold, until=2.0)
+    assert abs(simulation.time - 2.0) < 1e-12
+    # Critically damped at 10 1/s: after 2 s e^-20 (1 + 20) of 0.1 m is left.
+    assert abs(simulation.position[0, 2] - target) < 1e-6
+    assert abs(simulation.energies()["residual"]) < 1e-3 * abs(simulation.works()["load"])
+
+
+def test_a_callback_ends_the_run_with_false(ball):
+    simulation = gyration.simulate(ball, 0.01, lambda simulation: simulation.time < 0.095)
+    assert abs(simulation.time - 0.1) < 1e-12
+
+
+def test_a_drive_is_changed_by_hand():
+    scene = gyration.Scene.gallery("contract-1")
+    simulation = gyration.Simulation(scene)
+    simulation.set_drive("block", np.diag([0.0, 0.0, 500.0]))
+    simulation.advance(0.02)
+    assert simulation.G.shape == (1, 3, 3) and np.isfinite(simulation.G).all()
+    assert simulation.works()["drive"] != 0
+    with pytest.raises(gyration.ArgumentError, match="no drive"):
+        gyration.Simulation(FREE).set_drive("box", np.zeros((3, 3)))
+
+
+def test_columns_and_contact_loads_are_those_of_recordings(ball):
+    simulation = gyration.Simulation(ball)
+    simulation.advance(0.5)
+    recording = ball.run()
+    for column in ["ball.x", "ball.z", "ball.vz", "energy.kinetic"]:
+        # A run ends its steps at the same places but for the end: errors of rtol.
+        np.testing.assert_allclose(simulation[column], recording[column][-1], rtol=1e-3, atol=1e-4)
+    forces = simulation.forces()["ball"]
+    np.testing.assert_allclose(forces["force"], [simulation[f"ball.f{axis}"] for axis in "xyz"], rtol=1e-12)
+    assert forces["moment"].shape == (3, 3)
+    assert np.isclose(simulation.gap[0], simulation["ball.gap"])
+
+
+def test_what_makes_no_sense_is_refused(ball):
+    simulation = gyration.Simulation(ball)
+    for wrong in [
+        lambda: simulation.apply("cube", force=[0, 0, 1]),
+        lambda: simulation.apply(3, force=[0, 0, 1]),
+        lambda: simulation.apply("ball", force=[0, 0, float("nan")]),
+        lambda: simulation.advance(float("inf")),
+        lambda: gyration.simulate(ball, 0.0, print),
+    ]:
+        with pytest.raises(gyration.ArgumentError):
+            wrong()
+    with pytest.raises(KeyError):
+        simulation["ball.speed"]
+
+
+def test_a_run_that_cannot_go_on_says_why_and_stays_where_it_is():
+    # So weak a law does not keep the ball off.
+    data = dict(BALL, contact=[{"support": "table", "repulsion": {"alpha": 1e-3, "nu": 1, "d0": 1e-3}}])
+    simulation = gyration.Simulation(data)
+    with pytest.raises(gyration.RunError) as caught:
+        simulation.advance(1.0)
+    assert caught.value.reason == "gap_closed" and caught.value.body == "ball"
+    assert abs(caught.value.time - simulation.time) < 1e-6

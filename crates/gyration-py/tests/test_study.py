@@ -1,0 +1,162 @@
+"""Studies: the same table whoever computes it; what breaks loses nothing and counts nothing twice."""
+
+import os
+import signal
+import subprocess
+import sys
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+
+import numpy as np
+import pytest
+
+import gyration
+from conftest import STUDY
+
+
+def table_bytes(folder):
+    return (folder / "table.parquet").read_bytes()
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    """The table of threads."""
+    folder = tmp_path_factory.mktemp("reference") / "ball.study"
+    gyration.study(STUDY, folder, threads=2)
+    return table_bytes(folder)
+
+
+def test_a_study_is_a_table_with_a_row_a_run(tmp_path):
+    table = gyration.study(STUDY, tmp_path / "ball.study", threads=1)
+    assert len(table) == 60 and list(table["run"]) == list(range(60))
+    assert set(table["outcome"]) == {"completed", "failed"}
+    np.testing.assert_array_equal(np.unique(table["speed"]), [0.0, 0.5, 1.0])
+    done = np.array([outcome == "completed" for outcome in table["outcome"]])
+    # Nothing pulls along the table: the way is speed times time.
+    np.testing.assert_allclose(table["way"][done], 0.3 * table["speed"][done], atol=1e-9)
+    assert np.isnan(table["way"][~done]).all() and table.units["way"] == "m"
+
+
+def test_failures_are_rows_with_a_reason(tmp_path):
+    table = gyration.study(STUDY, tmp_path / "ball.study")
+    failed = [index for index, outcome in enumerate(table["outcome"]) if outcome == "failed"]
+    assert failed and all(table["height"][index] < 0.05 for index in failed)
+    assert all("table" in table["reason"][index] for index in failed)
+
+
+def test_processes_and_threads_leave_the_same_bytes(tmp_path, reference):
+    with ProcessPoolExecutor(2) as executor:
+        gyration.study(STUDY, tmp_path / "processes.study", executor=executor, batch=7)
+    with ThreadPoolExecutor(3) as executor:
+        gyration.study(STUDY, tmp_path / "threads.study", executor=executor)
+    gyration.study(STUDY, tmp_path / "one.study", threads=1)
+    for name in ["processes", "threads", "one"]:
+        assert table_bytes(tmp_path / f"{name}.study") == reference
+
+
+class Dying(Executor):
+    """A pool in which one worker is killed in the middle of a batch."""
+
+    def __init__(self, after):
+        self.pool = ProcessPoolExecutor(2)
+        self.after, self.count = after, 0
+
+    def submit(self, function, /, *arguments, **keywords):
+        self.count += 1
+        if self.count == self.after:
+            return self.pool.submit(os.kill, next(iter(self.pool._processes)), signal.SIGKILL)
+        return self.pool.submit(function, *arguments, **keywords)
+
+
+def test_a_broken_pool_keeps_what_it_had_and_says_how_to_go_on(tmp_path, reference):
+    folder = tmp_path / "broken.study"
+    executor = Dying(after=9)
+    with pytest.raises(gyration.StudyError, match="resume=True") as caught:
+        gyration.study(STUDY, folder, executor=executor, batch=2)
+    assert isinstance(caught.value.__cause__, BrokenProcessPool | TypeError)
+    kept = gyration.Table.open(folder)["run"]
+    assert len(set(kept)) == len(kept) < 60
+    gyration.study(STUDY, folder, threads=2, resume=True)
+    assert table_bytes(folder) == reference
+
+
+class Forgetful(Executor):
+    """Computes in this process, and cancels a batch."""
+
+    def __init__(self, cancelled):
+        self.cancelled, self.count = cancelled, 0
+
+    def submit(self, function, /, *arguments, **keywords):
+        future = Future()
+        self.count += 1
+        if self.count == self.cancelled:
+            future.cancel()
+            future.set_running_or_notify_cancel()
+        else:
+            future.set_result(function(*arguments, **keywords))
+        return future
+
+
+def test_a_cancelled_future_is_an_error_that_names_the_way_on(tmp_path, reference):
+    folder = tmp_path / "cancelled.study"
+    with pytest.raises(gyration.StudyError, match="CancelledError"):
+        gyration.study(STUDY, folder, executor=Forgetful(4), batch=5)
+    gyration.study(STUDY, folder, executor=Forgetful(0), batch=5, resume="auto")
+    assert table_bytes(folder) == reference
+
+
+def test_rows_that_nobody_asked_for_are_refused(tmp_path):
+    class Lying(Forgetful):
+        def submit(self, function, source, numbers):
+            return super().submit(function, source, [number + 1 for number in numbers])
+
+    with pytest.raises(gyration.StudyError, match="not asked for"):
+        gyration.study(STUDY, tmp_path / "lying.study", executor=Lying(0), batch=3)
+
+
+def test_progress_stops_a_study_that_goes_on_later(tmp_path, reference):
+    folder = tmp_path / "stopped.study"
+    with pytest.raises(gyration.StudyError, match="stopped"):
+        gyration.study(STUDY, folder, executor=Forgetful(0), batch=1, progress=lambda done, total: done < 10)
+    assert len(gyration.Table.open(folder)) < 60
+    gyration.study(STUDY, folder, resume=True)
+    assert table_bytes(folder) == reference
+
+
+def test_what_makes_no_sense_is_refused_with_its_fix(tmp_path):
+    folder = tmp_path / "ball.study"
+    gyration.study(STUDY, folder)
+    for wrong, message in [
+        (lambda: gyration.study(STUDY, folder), "exists already"),
+        (lambda: gyration.study(dict(STUDY, seed=2), folder, resume=True), "table of"),
+        (lambda: gyration.study(STUDY, tmp_path / "no.study", resume=True), "no table"),
+    ]:
+        with pytest.raises(gyration.StudyError, match=message):
+            wrong()
+    with pytest.raises(gyration.StudyError) as caught:
+        gyration.study(dict(STUDY, repetitions=0), tmp_path / "x.study")
+    assert caught.value.diagnostics[0].key == "repetitions"
+    with pytest.raises(gyration.ArgumentError):
+        gyration.study(STUDY, tmp_path / "x.study", threads=0)
+
+
+def test_tables_are_for_pandas_and_polars(tmp_path):
+    table = gyration.study(STUDY, tmp_path / "ball.study")
+    pandas = pytest.importorskip("pandas")
+    frame = table.to_pandas()
+    assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == table.columns and len(frame) == 60
+    polars = pytest.importorskip("polars")
+    assert table.to_polars()["way"].null_count() == sum(outcome == "failed" for outcome in table["outcome"])
+    assert isinstance(table.to_polars(), polars.DataFrame)
+
+
+def test_the_program_leaves_the_same_bytes(tmp_path, reference):
+    import json
+
+    source = tmp_path / "study.json"
+    source.write_text(json.dumps(STUDY))
+    folder = tmp_path / "program.study"
+    command = [sys.executable, "-m", "gyration", "study", str(source), "-o", str(folder), "--quiet"]
+    subprocess.run(command, check=True)
+    gyration.study(source, tmp_path / "package.study")
+    assert table_bytes(folder) == table_bytes(tmp_path / "package.study")
