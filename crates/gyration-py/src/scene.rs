@@ -13,6 +13,9 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// What a scene is made of again elsewhere: its name in messages, text, folder, overrides.
+pub type Packed = (String, String, PathBuf, Vec<String>);
+
 /// A scene: bodies, supports, laws, how long to run and how precisely. It has no errors, and does not change: `edit` gives another one.
 #[pyclass(frozen, module = "gyration", name = "Scene")]
 pub struct Scene {
@@ -204,10 +207,7 @@ impl Scene {
     }
 
     /// For pickle.
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (String, String, PathBuf, Vec<String>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Packed)> {
         let again = py.import("gyration._gyration")?.getattr("_scene")?;
         let parts =
             (self.file.clone(), self.inner.text().to_owned(), self.base.clone(), self.inner.overrides().to_vec());

@@ -73,7 +73,7 @@ impl Watch {
             // Only False says stop: a function that returns nothing goes on.
             Listener::Callback(callback) => {
                 let answer = callback.bind(py).call1((time, end))?;
-                Ok(!(answer.is_instance_of::<PyBool>() && !answer.extract::<bool>()?))
+                Ok(!answer.is_instance_of::<PyBool>() || answer.extract()?)
             }
         }
     }
