@@ -33,7 +33,7 @@ fn deviations((p, n): (f64, usize), (q, m): (f64, usize)) -> f64 {
 
 #[test]
 fn cube_is_fair_and_favours_its_lowest_face_the_more_the_stronger_the_damping() {
-    const THROWS: usize = 400;
+    const THROWS: usize = 800;
     let study = Studied::ready("dice-fairness");
     let of_point = |point: u64| Studied::new(&study, &first(&study, point, THROWS as u64));
     let (weak, strong) = (of_point(0), of_point(study.points() - 1));
@@ -44,10 +44,10 @@ fn cube_is_fair_and_favours_its_lowest_face_the_more_the_stronger_the_damping() 
     }
     let expected = 2.0 * THROWS as f64 / 6.0;
     let chi_square = counts.iter().map(|count| (*count as f64 - expected).powi(2) / expected).sum();
-    println!("800 throws of dice-fairness: {counts:?}");
+    println!("1600 throws of dice-fairness: {counts:?}");
     Answer {
         row: Some(23),
-        case: "study dice-fairness, 400 throws each of the weakest and of the strongest damping",
+        case: "study dice-fairness, 800 throws each of the weakest and of the strongest damping",
         quantity: "χ² of the faces, five degrees of freedom",
         reference: 5.0,
         measured: chi_square,
