@@ -1,4 +1,4 @@
-"""A small scene that the tests share: a ball that falls, and runs in a moment."""
+"""What the tests share: a scene of a ball that falls, and a study of one with the bytes of its table."""
 
 import pytest
 
@@ -43,6 +43,18 @@ def ball() -> gyration.Scene:
 @pytest.fixture(scope="session")
 def recording() -> gyration.Recording:
     return gyration.Scene.from_dict(BALL, name="ball").run()
+
+
+def table_bytes(folder):
+    return (folder / "table.parquet").read_bytes()
+
+
+@pytest.fixture(scope="session")
+def reference(tmp_path_factory):
+    """The table of threads."""
+    folder = tmp_path_factory.mktemp("reference") / "ball.study"
+    gyration.study(STUDY, folder, threads=2)
+    return table_bytes(folder)
 
 
 def pytest_terminal_summary(terminalreporter):

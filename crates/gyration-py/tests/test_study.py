@@ -11,19 +11,7 @@ import numpy as np
 import pytest
 
 import gyration
-from conftest import STUDY
-
-
-def table_bytes(folder):
-    return (folder / "table.parquet").read_bytes()
-
-
-@pytest.fixture(scope="module")
-def reference(tmp_path_factory):
-    """The table of threads."""
-    folder = tmp_path_factory.mktemp("reference") / "ball.study"
-    gyration.study(STUDY, folder, threads=2)
-    return table_bytes(folder)
+from conftest import STUDY, table_bytes
 
 
 def test_a_study_is_a_table_with_a_row_a_run(tmp_path):
