@@ -4,6 +4,7 @@
 //! read without the rest, so that long runs pass through bounded memory.
 
 use crate::Attributes;
+use crate::checkpoint::Checkpoint;
 use crate::disk;
 use crate::error::RecordError;
 use crate::metadata::{ArrayInfo, DataType, Group};
@@ -47,6 +48,15 @@ impl Recording {
     /// The attributes, with this crate's own (`record_…`).
     pub fn attributes(&self) -> &Attributes {
         &self.group.attributes
+    }
+
+    /// The caller's bytes of the last checkpoint, from which a resumed run would go on.
+    ///
+    /// # Errors
+    /// `Corrupt`, `Io`.
+    pub fn checkpoint(&self) -> Result<Vec<u8>, RecordError> {
+        let file = self.path.join(disk::CHECKPOINT);
+        Ok(Checkpoint::decode(&disk::read(&file)?, &file)?.state)
     }
 
     /// All arrays: the growing ones in the order of a row, `time` first, then events, fixed arrays and labels.

@@ -95,7 +95,7 @@ impl Template {
     pub fn by_index(&self, key: &str) -> String {
         let mut at = Some(&self.document.root);
         let word = |word: &str| {
-            let word = word.trim();
+            let word = word.trim().trim_matches('"');
             let items = at.map(Node::items).unwrap_or_default();
             let named = items.iter().position(|item| name_of(item) == Some(word));
             let index = named.or_else(|| word.parse().ok().filter(|index| *index < items.len()));

@@ -170,7 +170,7 @@ fn overrides_change_items_by_name_and_by_index() {
         "solver.method=explicit",
         "time.end=30 s",
         "support.table.plane.origin.2=-0.5",
-        "world.gravity=[0, 0, 0]",
+        "\"world\".gravity=[0, 0, 0]",
     ]);
     let changed = changed.unwrap_or_else(|errors| panic!("{errors}"));
     let built = changed.built();
@@ -190,6 +190,7 @@ fn errors_of_overrides_point_into_their_text() {
         ("body.dye.velocity=[0, 0, 1]", 6, "no item \"dye\"", "did you mean `die`?"),
         ("contact.1.friction.beta=1", 9, "no item \"1\"", "indices run from 0 to 0"),
         ("body..velocity=1", 6, "not a dotted key", ""),
+        ("body.die.gradient_rate.0=1", 10, "no `gradient_rate` is written", "as a whole"),
         ("title.x=1", 7, "leads into a string", "as a whole"),
         ("body.die.velocity=[0, 0", 24, "not valid TOML", ""),
         ("body.die.velocity=[0, 0, \"1 kg\"]", 26, "is in kg", "m/s"),

@@ -129,7 +129,7 @@ impl<'a> Job<'a> {
         let began = Instant::now();
         let mut limited = WallTime { inner: watch, began, most: self.max_wall_time };
         let outcome = simulation.run(&mut sink, &mut limited)?;
-        let summary = RunSummary::of(self.model, &mut simulation, outcome, began.elapsed());
+        let summary = RunSummary::of(self.model, &mut simulation, outcome, Some(began.elapsed()));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
             sink.writer.finish(summary.attributes(), &checkpoint)?;

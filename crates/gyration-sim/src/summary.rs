@@ -22,8 +22,8 @@ pub struct RunSummary {
     pub in_words: String,
     /// Where it ended [s].
     pub time: f64,
-    /// Wall time of this part of the run [s]; not recorded.
-    pub wall_time: f64,
+    /// Wall time of this part of the run [s]; not recorded, and none of a run that is told from its recording.
+    pub wall_time: Option<f64>,
     /// Counters of the solver.
     pub statistics: Value,
     /// The ledger at the end.
@@ -90,7 +90,7 @@ pub struct BodySummary {
 
 impl RunSummary {
     /// The summary of a run that has ended.
-    pub fn of(model: &Model, simulation: &mut Simulation, outcome: Outcome, wall: Duration) -> Self {
+    pub fn of(model: &Model, simulation: &mut Simulation, outcome: Outcome, wall: Option<Duration>) -> Self {
         let state = simulation.state();
         let tally = simulation.tally();
         let none = || Ledger { energies: Vec::new(), works: Vec::new(), residual: f64::NAN };
@@ -116,7 +116,7 @@ impl RunSummary {
             in_words: outcome.in_words(),
             outcome,
             time: state.time,
-            wall_time: wall.as_secs_f64(),
+            wall_time: wall.map(|wall| wall.as_secs_f64()),
             statistics: statistics(simulation),
             ledger: LedgerSummary {
                 initial_energy: tally.initial_energy,

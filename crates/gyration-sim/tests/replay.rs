@@ -9,7 +9,7 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use gyration_scene::Scene;
 use gyration_sim::replay::{Replay, ReplayError, SurfaceCells};
-use gyration_sim::{Job, Provenance, Unwatched};
+use gyration_sim::{Job, Provenance, Reason, Recorded, RunSummary, Unwatched};
 use std::path::{Path, PathBuf};
 
 fn record(scene: &Scene, folder: &Path) -> Recording {
@@ -287,4 +287,44 @@ fn rows_that_are_not_there_are_refused() {
     let recording = gallery("dice", &["time.end=0.02"], folder.path());
     let mut replay = Replay::open(&recording).unwrap();
     assert!(matches!(replay.state(recording.rows()), Err(ReplayError::Record(_))));
+}
+
+#[test]
+fn a_summary_read_back_is_that_of_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, overrides) in SCENES {
+        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        let scene = Scene::open(name, &overrides).unwrap();
+        let path = folder.path().join(format!("{name}.gyr"));
+        let provenance = Provenance { version: "test".into(), commit: None };
+        let Recorded::Ran(told) = Job::of(&scene, &provenance).record(&path, &mut Unwatched).unwrap() else {
+            panic!("{name} had ended before")
+        };
+        let (again, read) = RunSummary::of_recording(&Recording::open(&path).unwrap()).unwrap();
+        let text = |summary: &RunSummary| {
+            let mut value = serde_json::to_value(summary).unwrap();
+            value["wall_time"] = serde_json::Value::Null;
+            value.to_string()
+        };
+        assert_eq!(text(&told), text(&read), "{name}");
+        assert_eq!((again.name(), &again.file().title), (scene.name(), &scene.file().title));
+    }
+}
+
+#[test]
+fn a_recording_that_has_not_ended_is_told_as_far_as_it_has_come() {
+    struct Enough;
+    impl gyration_sim::Monitor for Enough {
+        fn after_step(&mut self, progress: &gyration_sim::Progress) -> Option<Reason> {
+            (progress.time > 0.1).then_some(Reason::Interrupted)
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Scene::open("bounce", &[]).unwrap();
+    let path = folder.path().join("bounce.gyr");
+    let provenance = Provenance { version: "test".into(), commit: None };
+    Job::of(&scene, &provenance).record(&path, &mut Enough).unwrap();
+    let (_, read) = RunSummary::of_recording(&Recording::open(&path).unwrap()).unwrap();
+    assert!(read.time > 0.1 && read.time < scene.built().plan.end);
+    assert!(read.in_words.starts_with("not ended at t = 0.1") && !read.outcome.is_final(), "{}", read.in_words);
 }

@@ -24,7 +24,7 @@ fn run(scene: &Scene) -> (MemorySink, RunSummary) {
     let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
     simulation.begin(&mut sink).unwrap();
     let outcome = simulation.run(&mut sink, &mut Unwatched).unwrap();
-    let summary = RunSummary::of(job.model, &mut simulation, outcome, std::time::Duration::ZERO);
+    let summary = RunSummary::of(job.model, &mut simulation, outcome, None);
     (sink, summary)
 }
 

@@ -5,7 +5,6 @@
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Outcome, Provenance, RunSummary, Simulation, Unwatched};
 use std::path::Path;
-use std::time::Duration;
 
 fn run(text: &str, overrides: &[String]) -> RunSummary {
     let scene = Scene::parse("scene.toml", text, Path::new(""), overrides).unwrap();
@@ -14,7 +13,7 @@ fn run(text: &str, overrides: &[String]) -> RunSummary {
     let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
     simulation.begin(&mut sink).unwrap();
     let outcome = simulation.run(&mut sink, &mut Unwatched).unwrap();
-    RunSummary::of(job.model, &mut simulation, outcome, Duration::ZERO)
+    RunSummary::of(job.model, &mut simulation, outcome, None)
 }
 
 /// The z-momentum with the default steps, and with steps so short that nothing can be missed.

@@ -1,6 +1,6 @@
 //! Overrides, `--set body.die.velocity='[1, 0, 0]'`: changes to the tree before it is checked.
 //!
-//! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero. VALUE is a TOML value; what is
+//! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero; a word in quotes may hold dots. VALUE is a TOML value; what is
 //! none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way are made where there are none,
 //! items of arrays are not. Whatever an override brings is from then on placed in its own text.
 
@@ -52,8 +52,8 @@ fn apply_one(root: &mut Node, setting: &str, text: usize) -> Result<(), Fault> {
     let words = words(&setting[..equals], text)?;
     let value = value(&setting[equals + 1..], text, equals + 1).map_err(Fault::Value)?;
     let mut at = root;
-    for word in &words {
-        at = step(at, word)?;
+    for (index, word) in words.iter().enumerate() {
+        at = step(at, word, words.get(index + 1))?;
     }
     *at = value;
     Ok(())
@@ -62,8 +62,14 @@ fn apply_one(root: &mut Node, setting: &str, text: usize) -> Result<(), Fault> {
 fn words(key: &str, text: usize) -> Result<Vec<Word<'_>>, Fault> {
     let mut words = Vec::new();
     let mut start = 0;
-    for raw in key.split('.') {
-        let name = raw.trim();
+    let mut quoted = false;
+    let outside = |letter: char| {
+        quoted ^= letter == '"';
+        letter == '.' && !quoted
+    };
+    for raw in key.split(outside) {
+        let trimmed = raw.trim();
+        let name = trimmed.strip_prefix('"').and_then(|word| word.strip_suffix('"')).unwrap_or(trimmed);
         let span = Span { text, start, end: start + raw.len() };
         start = span.end + 1;
         if name.is_empty() || words.len() == DEEPEST {
@@ -89,10 +95,14 @@ fn value(raw: &str, text: usize, offset: usize) -> Result<Node, Findings> {
     }
 }
 
-fn step<'a>(at: &'a mut Node, word: &Word<'_>) -> Result<&'a mut Node, Fault> {
+fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Result<&'a mut Node, Fault> {
     let fault = |message: String, help: String| Err(Fault::Key(word.span, message, help));
     match &mut at.value {
         Value::Table(table) => {
+            if next.is_some_and(|next| next.name.parse::<usize>().is_ok()) && !table.contains_key(word.name) {
+                let message = format!("no `{}` is written here, so that it has no items", word.name);
+                return fault(message, format!("set it as a whole first: {} = [1, 0, 0]", word.name));
+            }
             let empty = || Node { value: Value::Table(Table::new()), span: word.span };
             let entry = table.entry(word.name.to_owned());
             Ok(&mut entry.or_insert_with(|| Entry { key_span: word.span, node: empty() }).node)

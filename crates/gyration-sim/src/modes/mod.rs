@@ -45,6 +45,13 @@ pub struct Rest {
     pub(crate) block: Vec<f64>,
 }
 
+impl Rest {
+    /// The body's block of the state, at rest.
+    pub fn block(&self) -> &[f64] {
+        &self.block
+    }
+}
+
 /// Why a body has no rest state, or none was found.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NoRest {

@@ -42,6 +42,14 @@ pub enum ReplayError {
         /// What differs.
         quantity: &'static str,
     },
+    /// Its checkpoint is not understood.
+    #[error("{path}: what the run had reached cannot be told ({reason})")]
+    Checkpoint {
+        /// The recording.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
     /// A row is outside the model.
     #[error("row {row} is outside the model: {source}")]
     Inadmissible {

@@ -8,6 +8,7 @@ mod cells;
 mod error;
 mod rebuild;
 mod snapshot;
+mod summary;
 pub mod vtk;
 mod window;
 
@@ -42,7 +43,7 @@ impl Replay {
     /// # Errors
     /// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed), `Record`.
     pub fn open(recording: &Recording) -> Result<Self, ReplayError> {
-        let model = rebuild::model(recording)?;
+        let model = rebuild::scene(recording)?.built().model.clone();
         Ok(Self { model, window: Window::new(recording), workspace: Workspace::default() })
     }
 

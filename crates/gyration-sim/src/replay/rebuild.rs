@@ -1,4 +1,4 @@
-//! The model of a recording from its attributes.
+//! The scene of a recording from its attributes.
 //!
 //! `resolved` is a scene in JSON with every default in its place, so that later defaults do not matter; `scene`, with
 //! `overrides`, serves where it is missing or not understood. What was built must have the bodies that were recorded:
@@ -15,8 +15,8 @@ use std::path::Path;
 /// Relative difference of masses, centres and Euler tensors that rounding explains: sums over the triangles of a mesh.
 const ROUNDING: f64 = 1e-9;
 
-/// The model of a recording.
-pub(super) fn model(recording: &Recording) -> Result<Model, ReplayError> {
+/// The scene of a recording.
+pub(super) fn scene(recording: &Recording) -> Result<Scene, ReplayError> {
     let path = || recording.path().to_path_buf();
     let beside = recording.path().parent().unwrap_or(Path::new(""));
     let mut first_failure = None;
@@ -24,9 +24,8 @@ pub(super) fn model(recording: &Recording) -> Result<Model, ReplayError> {
         for base in [beside, Path::new("")] {
             match Scene::parse(&name, &text, base, &overrides) {
                 Ok(scene) => {
-                    let model = scene.built().model.clone();
-                    check(recording, &model)?;
-                    return Ok(model);
+                    check(recording, &scene.built().model)?;
+                    return Ok(scene);
                 }
                 Err(errors) => {
                     first_failure.get_or_insert(errors);

@@ -3,10 +3,11 @@
 //!   S_i = S₀ + h Σ_j a_ij (J_j S_j + b_j),   S(t + h) = S₅
 //!
 //! Order 9, L-stable, and exact in the derivatives of what the nodes see. With Z = S − S₀ the equations read
-//! (A⁻¹/h) Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch.
+//! (A⁻¹/h) Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch (`relaxing`).
 //! The rate K = S′ of the step is a polynomial of degree four; how fast its Legendre coefficients κ₀ … κ₄ fall tells how
 //! well the step is resolved. Source: Hairer, Wanner, *Solving Ordinary Differential Equations II*, §IV.5.
 
+use super::relaxing::Equations;
 use nalgebra::{DMatrix, SMatrix};
 use std::ops::Range;
 
@@ -17,7 +18,7 @@ pub(super) const STAGES: usize = 5;
 pub(super) const NODES: [f64; STAGES] =
     [0.057_104_196_114_517_68, 0.276_843_013_638_123_8, 0.583_590_432_368_916_8, 0.860_240_135_656_219_4, 1.0];
 
-type Square = SMatrix<f64, STAGES, STAGES>;
+pub(super) type Square = SMatrix<f64, STAGES, STAGES>;
 
 /// The coefficients of the method, from its nodes.
 #[derive(Debug, Clone)]
@@ -68,20 +69,13 @@ impl Rule {
         let mut increments = vec![DMatrix::zeros(rows, columns); STAGES];
         for (block, range) in blocks.iter().enumerate() {
             let n = range.len();
-            let mut matrix = DMatrix::zeros(STAGES * n, STAGES * n);
-            let mut right = DMatrix::zeros(STAGES * n, columns);
+            let slopes = std::array::from_fn(|i| &stages.slopes[i][block]);
+            let mut solved = DMatrix::zeros(STAGES * n, columns);
             let own = start.rows(range.start, n);
-            for i in 0..STAGES {
-                let slopes = &stages.slopes[i][block];
-                for j in 0..STAGES {
-                    let mut part = matrix.view_mut((i * n, j * n), (n, n));
-                    part.fill_diagonal(self.inverse[(i, j)] / size);
-                }
-                matrix.view_mut((i * n, i * n), (n, n)).zip_apply(slopes, |entry, slope| *entry -= slope);
-                let rate = slopes * own + stages.forcing[i].rows(range.start, n);
-                right.rows_mut(i * n, n).copy_from(&rate);
+            for (i, (slopes, forcing)) in slopes.iter().zip(&stages.forcing).enumerate() {
+                solved.rows_mut(i * n, n).copy_from(&(*slopes * own + forcing.rows(range.start, n)));
             }
-            let solved = matrix.lu().solve(&right)?;
+            Equations::new(self.inverse / size, slopes).solve(&mut solved)?;
             for (i, increment) in increments.iter_mut().enumerate() {
                 increment.rows_mut(range.start, n).copy_from(&solved.rows(i * n, n));
             }
@@ -95,13 +89,12 @@ impl Rule {
         Some(Step { values, rates })
     }
 
-    /// |κ₀| … |κ₄| of one column of the rates, each the largest over the rows, measured in their scales.
-    pub fn coefficients(&self, step: &Step, column: usize, scales: &[f64]) -> [f64; STAGES] {
+    /// |κ₀| … |κ₄| of one column of rates at the nodes, each the largest over the rows, measured in their scales.
+    pub fn coefficients(&self, rates: &[DMatrix<f64>], column: usize, scales: &[f64]) -> [f64; STAGES] {
         let mut sizes = [0.0; STAGES];
         for (row, scale) in scales.iter().enumerate() {
             for (m, size) in sizes.iter_mut().enumerate() {
-                let terms =
-                    step.rates.iter().enumerate().map(|(i, rates)| self.legendre[(m, i)] * rates[(row, column)]);
+                let terms = rates.iter().enumerate().map(|(i, rates)| self.legendre[(m, i)] * rates[(row, column)]);
                 *size = f64::max(*size, terms.sum::<f64>().abs() / scale);
             }
         }

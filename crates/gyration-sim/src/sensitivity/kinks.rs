@@ -10,8 +10,11 @@ use gyration::model::Model;
 
 /// More kinks than that are not followed.
 const MOST: usize = 100_000;
-/// The differences stay nearer to a kink than this part of the way to the next, if they can.
-const NEAR: f64 = 1e-7;
+/// The differences stay nearer to a kink than this part of the mean distance between kinks: by quadratic extrapolation from there,
+/// what is smooth comes out to the third power of it.
+const NEAR: f64 = 1e-5;
+/// And nearer than this part of the smallest distance, which is the length of an edge of a square wave.
+const WITHIN: f64 = 0.05;
 /// A step that ends at a kink misses it by no more than this part of the time.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// How many times as far as a kink moves the differences stay from it.
@@ -53,27 +56,36 @@ impl Kinks {
             let farthest = moves.iter().fold(0.0, |most: f64, moves| most.max(moves.abs()));
             let margin = DISTANCE * farthest * step + f64::EPSILON * end;
             let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(end, f64::min);
-            if margin > NEAR * apart && variation.finer().is_ok() {
+            let mean = end / (times.len() + 1) as f64;
+            if margin > f64::min(NEAR * mean, WITHIN * apart) && variation.finer().is_ok() {
                 continue;
             }
-            if margin > 0.25 * apart {
+            // Those of both ends of an edge have to find room in it.
+            if margin > apart / 6.0 {
                 return Err(Fault::Reason("the kinks of its signals move too far for their distance".into()));
             }
+            variation.keep_step();
             let kinks = times.into_iter().zip(moves).map(|(time, moves)| Kink { time, moves }).collect();
             return Ok(Self { kinks, margin, passed: 0 });
         }
     }
 
-    /// Where to look instead at a time: there, or at two times on its side of a kink that is too near, from which a line leads
-    /// to it. Times with their weights; a kink itself counts as before.
-    pub fn beside(&self, time: f64) -> [(f64, f64); 2] {
+    /// Where to look instead at a time: there, or at three times on its side of a kink that is too near, from which a parabola
+    /// leads to it. Times with their weights; a kink itself counts as before.
+    pub fn beside(&self, time: f64) -> [(f64, f64); 3] {
         let near = |kink: &&Kink| (time - kink.time).abs() < self.margin;
         let first = self.kinks.partition_point(|kink| kink.time < time - self.margin);
-        let Some(kink) = self.kinks[first..].first().filter(near) else { return [(time, 1.0), (time, 0.0)] };
+        let Some(kink) = self.kinks[first..].first().filter(near) else {
+            return [(time, 1.0), (time, 0.0), (time, 0.0)];
+        };
         let side = if self.is_at(kink, time) || time < kink.time { -1.0 } else { 1.0 };
-        let part = 1.0 - side * (time - kink.time) / self.margin;
+        let away = side * (time - kink.time) / self.margin;
         let place = |times: f64| kink.time + side * times * self.margin;
-        [(place(1.0), 1.0 + part), (place(2.0), -part)]
+        [
+            (place(1.0), 0.5 * (away - 2.0) * (away - 3.0)),
+            (place(2.0), -(away - 1.0) * (away - 3.0)),
+            (place(3.0), 0.5 * (away - 1.0) * (away - 2.0)),
+        ]
     }
 
     /// The kink that a step which ends at a time has come to, once: the steps of a run are short about a jump.
@@ -90,8 +102,18 @@ impl Kinks {
 
     /// A step ends at a kink but for rounding.
     fn is_at(&self, kink: &Kink, time: f64) -> bool {
-        (time - kink.time).abs() < ROUNDING * kink.time
+        is_same(kink.time, time)
     }
+}
+
+/// Two times are the same but for rounding.
+fn is_same(one: f64, other: f64) -> bool {
+    (one - other).abs() < ROUNDING * one
+}
+
+/// Whether a step of a run has ended at a kink of a signal.
+pub(super) fn ends_at_kink(model: &Model, from: f64, to: f64) -> bool {
+    next_kink(model, from).is_some_and(|kink| kink <= to || is_same(kink, to))
 }
 
 /// The kinks of all signals of a model up to a time [s].
@@ -106,4 +128,23 @@ fn kinks(model: &Model, end: f64) -> Vec<f64> {
         }
     }
     times
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn beside_a_kink_a_parabola_leads_on_from_its_own_side() {
+        let kinks = Kinks { kinks: vec![Kink { time: 1.0, moves: 1.0 }], margin: 0.01, passed: 0 };
+        let parabola = |t: f64| 3.0 - t + 2.0 * t * t;
+        for time in [0.5, 0.991, 0.999, 1.0, 1.001, 1.009, 1.5] {
+            let places = kinks.beside(time);
+            let value: f64 = places.iter().map(|(place, weight)| weight * parabola(*place)).sum();
+            assert!((value - parabola(time)).abs() < 1e-12, "{time}: {value}");
+            let far = places.iter().filter(|(_, weight)| *weight != 0.0).all(|(place, _)| (place - 1.0).abs() > 0.0099);
+            let own_side = places.iter().all(|(place, _)| (*place > 1.0) == (time > 1.0));
+            assert!(far && own_side, "{time}: {places:?}");
+        }
+    }
 }

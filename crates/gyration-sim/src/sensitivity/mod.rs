@@ -11,11 +11,17 @@
 //! `docs/sensitivities.md`.
 
 mod collocation;
+mod difference;
+mod history;
 mod kinks;
+mod levels;
 mod number;
+mod probe;
 mod quantity;
+mod relaxing;
 mod tangent;
 mod variation;
+mod works;
 
 use crate::outcome::Outcome;
 use crate::ports::RunError;
@@ -150,18 +156,21 @@ impl Sensitivities {
             let before = run.integrator.time();
             let ended = run.advance(&mut sink, &mut Unwatched)?;
             let after = run.integrator.time();
+            if after > before {
+                tangent.record(&run.integrator);
+            }
             for (time, row) in sink.rows.drain(..) {
                 let is_last = ended.is_some() || time >= plan.end;
                 if at == At::End && !(is_last && time >= after) {
                     continue;
                 }
-                tangent.follow(&run.integrator, time);
+                tangent.reach(time);
                 this.note(time, quantities.of_row(&row));
                 this.differentiate(&mut tangent, &mut quantities, &run.integrator);
             }
             if after > before {
-                tangent.follow(&run.integrator, after);
-                tangent.cross(&run.integrator);
+                tangent.go_on();
+                tangent.cross(&run.integrator, before);
             }
             if let Some(outcome) = ended {
                 this.finish(outcome, &tangent, at);
@@ -192,7 +201,7 @@ impl Sensitivities {
         for (derivatives, doubt) in self.derivatives.iter_mut().zip(tangent.doubts()) {
             if let Outcome::Stopped(stop) = &outcome
                 && at == At::End
-                && derivatives.lost.is_none()
+                && derivatives.lost.as_ref().is_none_or(|lost| lost.from >= stop.time)
             {
                 let reason = format!("the run ends there, before its time: {}", stop.what);
                 derivatives.lost = Some(Meaningless { from: stop.time, reason });

@@ -58,7 +58,7 @@ impl Number {
         }
         let value = at.as_f64().ok_or_else(|| match at {
             Value::Object(_) | Value::Array(_) => fault("several numbers stand at this key".into(), choices(at)),
-            _ => fault("what stands at this key is no number".into(), String::new()),
+            _ => fault("what stands at this key is no number".into(), "give the key of a number, as to --set".into()),
         })?;
         let (set_key, set_value) = array.unwrap_or_else(|| (key.to_owned(), at.clone()));
         let mut this = Self { key: key.to_owned(), value, set_key, set_value, inside, in_resolved: false };
@@ -70,11 +70,8 @@ impl Number {
     pub fn is_no_quantity(&self) -> Option<String> {
         let words = || self.key.split('.');
         let [first, last] = [words().next()?, words().next_back()?];
-        if METHOD_TABLES.contains(&first) || METHOD_KEYS.contains(&last) {
-            return Some("it says how the motion is computed or recorded, not how it is".into());
-        }
-        let leaf = self.inside.iter().try_fold(&self.set_value, |at, index| at.get(index))?;
-        (leaf.is_u64() || leaf.is_i64()).then(|| "it is a count, and changes by jumps".into())
+        let is_method = METHOD_TABLES.contains(&first) || METHOD_KEYS.contains(&last);
+        is_method.then(|| "it says how the motion is computed or recorded, not how it is".into())
     }
 
     /// Whether the number has a part in the first state only, not in the equations.

@@ -1,7 +1,7 @@
 //! Quantities by the names of their columns, and how they change: dr/dp = ∂r/∂y S + ∂r/∂p.
 
 use super::SensitivityError;
-use super::tangent::along;
+use super::probe::along;
 use super::variation::{Fault, Variation};
 use crate::rows::{Extras, Fields, RowScratch};
 use gyration::Inadmissible;
@@ -37,7 +37,7 @@ impl Quantities {
         }
         let place = |name: &String| {
             let fault = |help: String| SensitivityError::Quantity { name: name.clone(), help };
-            if name == "energy.residual" {
+            if name == "energy.residual" || name == "work.constraint" {
                 return Err(fault("it is the error of the run, which has no derivative".into()));
             }
             let found = columns.iter().position(|column| column == name);

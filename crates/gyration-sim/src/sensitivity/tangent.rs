@@ -4,15 +4,18 @@
 //!
 //! a column for each number, and one without a number: a perturbation of the start in all directions, whose growth tells how
 //! many digits the motion has left. y comes from the dense output of the run, whose error is that of its steps; the
-//! linear equation takes steps of its own (`collocation`), so that it is resolved where the run is not: a body at rest
-//! takes long steps, and what is varied about it may swing. Works are quadratures by the same nodes.
+//! linear equation takes steps of its own (`collocation`), shorter where the run does not resolve it (a body at rest takes long
+//! steps, and what is varied about it may swing), and over several steps of the run where these are short (`history`). Works
+//! are quadratures by the same nodes (`works`).
 
 use super::collocation::{self, NODES, Rule, STAGES, Stages, Step};
+use super::history::History;
 use super::kinks::Kinks;
+use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
-use super::variation::{Fault, Variation};
+use super::variation::Variation;
 use super::{GROWN, Meaningless};
-use crate::adapter::{ModelSystem, Tolerance};
+use crate::adapter::ModelSystem;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::ports::RunError;
@@ -22,9 +25,6 @@ use gyration::state::State;
 use gyration_ode::{Integrator, System as _};
 use nalgebra::DMatrix;
 
-/// Scales of the state, lengths being gaps: what changes by one of them has changed altogether. A thousandth of the
-/// body's own size and speed counts at least.
-const SCALES: Tolerance = Tolerance { rtol: 10.0, atol: 1e-2 };
 /// The error of a step, as a part of rtol.
 const SHARE: f64 = 0.1;
 /// The error of a step in the perturbation, of which only the growth matters.
@@ -34,32 +34,42 @@ const GROWTH: f64 = 1e-2;
 const NEGLIGIBLE: f64 = 1e-10;
 /// How the size of a step may change.
 const CHANGE: (f64, f64) = (0.2, 4.0);
-/// A step may not be smaller than this part of a step of the run.
-const SMALLEST: f64 = 1e-6;
+/// The run is kept for no more of its steps than that.
+const MOST_STEPS: usize = 100;
+/// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in it may relax
+/// within no time.
+const SMALLEST: f64 = 1e-13;
 /// The equations at a node are those of a time earlier by this part of a step.
 const INSIDE: f64 = 1e-10;
-/// How far from a kink the rates on its sides are taken, as a part of its time: some roundings of it.
-const BESIDE: f64 = 16.0 * f64::EPSILON;
-/// The state is varied along S by this part of its scales.
-const PROBE: f64 = 5e-4;
+
+/// The equations at the nodes of a step.
+#[derive(Default)]
+pub(super) struct Nodes {
+    stages: Stages,
+    /// The state there, just inside of the step.
+    pub states: Vec<State>,
+    /// ∂g/∂p, a column for each number.
+    pub powers: Vec<DMatrix<f64>>,
+}
 
 /// S and W after a time of the run.
 pub(super) struct Tangent<'a> {
-    system: ModelSystem<'a>,
+    pub(super) system: ModelSystem<'a>,
     rule: Rule,
     /// The numbers, with what their kinks do; none for those without a derivative.
-    variations: Vec<Result<(Variation, Kinks), Meaningless>>,
+    pub(super) variations: Vec<Result<(Variation, Kinks), Meaningless>>,
     /// S; the last column is the perturbation.
-    state: DMatrix<f64>,
+    pub(super) state: DMatrix<f64>,
     /// W.
-    works: DMatrix<f64>,
-    time: f64,
+    pub(super) works: DMatrix<f64>,
+    pub(super) time: f64,
     size: f64,
     tolerance: f64,
     follows_works: bool,
+    history: History,
     /// The state at a node, and its scales.
-    at: State,
-    scales: Vec<f64>,
+    pub(super) at: State,
+    pub(super) scales: Vec<f64>,
     /// The largest growth of the perturbation so far.
     growth: f64,
 }
@@ -107,6 +117,7 @@ impl<'a> Tangent<'a> {
             size: f64::INFINITY,
             tolerance: SHARE * plan.tolerance.rtol,
             follows_works: false,
+            history: History::default(),
             at: start.clone(),
             scales,
             growth: 1.0,
@@ -128,10 +139,12 @@ impl<'a> Tangent<'a> {
         self.variations.iter().map(|variation| variation.as_ref().map_or(0.0, |(variation, _)| variation.doubt()))
     }
 
-    /// Looks at the state that has been come to.
+    /// Looks at the state that has been come to, in the last step of the run.
     pub fn look(&mut self, run: &Integrator) {
-        self.at.time = self.time;
-        self.look_at(run);
+        let State { time, bodies, works } = &mut self.at;
+        *time = self.time;
+        run.interpolate(*time, bodies, works);
+        self.settle();
     }
 
     /// The derivatives of quantities by one of the numbers, in the state looked at.
@@ -146,41 +159,69 @@ impl<'a> Tangent<'a> {
         found.map_err(|fault| meaningless(model, self.time, &fault))
     }
 
-    /// Comes to a time within the last step of the run.
-    pub fn follow(&mut self, run: &Integrator, until: f64) {
-        let whole = until - self.time;
-        while self.time < until && self.variations.iter().any(Result::is_ok) {
-            let rest = until - self.time;
-            let mut size = self.size.min(rest);
+    /// Takes down the last step of the run.
+    pub fn record(&mut self, run: &Integrator) {
+        if self.is_followed() {
+            self.history.record(run);
+        }
+    }
+
+    /// Goes on in whole steps as far as the run is known.
+    pub fn go_on(&mut self) {
+        let Some(known) = self.history.end() else { return };
+        if self.history.len() >= MOST_STEPS {
+            return self.reach(known);
+        }
+        while self.is_followed() && self.size <= known - self.time {
+            self.step_to(self.time + self.size);
+        }
+        self.history.forget(self.time);
+    }
+
+    /// Comes to a time up to which the run is known.
+    pub fn reach(&mut self, until: f64) {
+        while self.time < until && self.is_followed() {
+            let (rest, mut size) = (until - self.time, self.size);
             // Two halves rather than a whole and a crumb.
             if size < rest && size > 0.7 * rest {
                 size = 0.5 * rest;
             }
-            let end = if size < rest { self.time + size } else { until };
-            if size < SMALLEST * whole || self.time + size == self.time {
-                return self.lose_all("it changes faster than can be followed".into());
-            }
-            match self.attempt(run, (self.time, end)) {
-                Ok(next) => self.size = next,
-                Err(left) => return self.lose_all(reason(self.system.model(), self.time, &left)),
-            }
+            self.step_to(if size < rest { self.time + size } else { until });
         }
-        self.time = until;
+        self.time = self.time.max(until);
+        self.history.forget(self.time);
+    }
+
+    fn is_followed(&self) -> bool {
+        self.variations.iter().any(Result::is_ok)
+    }
+
+    /// Tries a step to a time; where it comes to none, all is lost.
+    fn step_to(&mut self, end: f64) {
+        let size = end - self.time;
+        if size <= SMALLEST * self.history.step_at(self.time) {
+            return self.lose_all("it changes faster than can be followed".into());
+        }
+        match self.attempt((self.time, end)) {
+            Ok(next) => self.size = next,
+            Err(left) => self.lose_all(reason(self.system.model(), self.time, &left)),
+        }
     }
 
     /// Tries a step, and keeps it if its error is small; gives the size to go on with.
-    fn attempt(&mut self, run: &Integrator, between: (f64, f64)) -> Result<f64, Inadmissible> {
+    fn attempt(&mut self, between: (f64, f64)) -> Result<f64, Inadmissible> {
         let size = between.1 - between.0;
-        let (stages, states, forced_works) = self.stages(run, between)?;
+        let nodes = self.nodes(between)?;
         let blocks = self.system.blocks().to_vec();
-        let Some(step) = self.rule.step(&blocks, &self.state, size, &stages) else { return Ok(CHANGE.0 * size) };
-        let error = self.error(&step, size) / self.tolerance;
+        let Some(step) = self.rule.step(&blocks, &self.state, size, &nodes.stages) else { return Ok(CHANGE.0 * size) };
+        let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
+        let error = self.error(&step, &powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
             let factor = if error.is_finite() { 0.9 * error.powf(-0.1) } else { 0.0 };
             return Ok(size * factor.clamp(CHANGE.0, 0.9));
         }
-        if self.follows_works {
-            self.add_works(&step, size, &states, &forced_works)?;
+        for (node, powers) in powers.iter().enumerate() {
+            self.works += powers * (size * self.rule.weight(node));
         }
         self.state = step.values.into_iter().next_back().unwrap_or_default();
         self.time = between.1;
@@ -188,36 +229,31 @@ impl<'a> Tangent<'a> {
         Ok(size * (0.9 * error.powf(-0.1)).clamp(CHANGE.0, CHANGE.1))
     }
 
-    /// J and b at the nodes of a step, with the states there, and what forces the works.
-    #[expect(clippy::type_complexity, reason = "three lists over the nodes, used once")]
-    fn stages(
-        &mut self,
-        run: &Integrator,
-        (from, to): (f64, f64),
-    ) -> Result<(Stages, Vec<State>, Vec<DMatrix<f64>>), Inadmissible> {
+    /// The equations at the nodes of a step, and the states there.
+    fn nodes(&mut self, (from, to): (f64, f64)) -> Result<Nodes, Inadmissible> {
         let model = self.system.model();
-        let (mut stages, mut states, mut forced) = (Stages::default(), Vec::new(), Vec::new());
+        let mut nodes = Nodes::default();
         for (node, part) in NODES.iter().enumerate() {
             self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
-            self.look_at(run);
+            self.history.at(self.at.time, &mut self.at.bodies);
+            self.settle();
             let mut slopes: Vec<_> =
                 model.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect();
             // A step may end at a kink, behind which the model is another one.
             let inside = self.at.time - INSIDE * (to - from);
             self.system.jacobian(inside, &self.at.bodies, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
-            stages.slopes.push(slopes);
-            stages.forcing.push(forcing);
-            forced.push(forcing_works);
-            states.push(self.at.clone());
+            nodes.stages.slopes.push(slopes);
+            nodes.stages.forcing.push(forcing);
+            nodes.powers.push(forcing_works);
+            nodes.states.push(State { time: inside, ..self.at.clone() });
         }
-        Ok((stages, states, forced))
+        Ok(nodes)
     }
 
-    /// The state of the run at the time of `at`, on its manifold, and its scales.
-    fn look_at(&mut self, run: &Integrator) {
+    /// Puts the state at hand on its manifold, and finds its scales.
+    fn settle(&mut self) {
         let State { time, bodies, works } = &mut self.at;
-        run.interpolate(*time, bodies, works);
         self.system.project(*time, bodies, works);
         fill_scales(&mut self.system, &self.at, &mut self.scales);
     }
@@ -250,96 +286,31 @@ impl<'a> Tangent<'a> {
         (forcing, forcing_works)
     }
 
-    /// The largest error of a step over the columns, each relative to what it has grown to.
-    fn error(&self, step: &Step, size: f64) -> f64 {
+    /// The largest error of a step over the columns, each relative to what it has grown to; works by the energy in play.
+    fn error(&self, step: &Step, powers: &[DMatrix<f64>], size: f64) -> f64 {
         let (n, columns) = self.state.shape();
-        let scales = &self.scales[..n];
-        let largest = |values: &DMatrix<f64>, column: usize| {
-            let parts = scales.iter().enumerate().map(|(row, scale)| values[(row, column)].abs() / scale);
-            // A sum, unlike a maximum, does not lose what is no number.
-            parts.fold(0.0, |most: f64, part| if part > most || part.is_nan() { part } else { most })
-        };
+        let (scales, energies) = self.scales.split_at(n);
         let of_column = |column: usize| {
             let (least, weight, noise) = match self.variations.get(column) {
                 Some(Err(_)) => return 0.0,
                 Some(Ok((variation, _))) => (NEGLIGIBLE / (self.tolerance * variation.scale()), 1.0, variation.noise()),
                 None => (0.0, self.tolerance / GROWTH, 0.0),
             };
-            let end = largest(&step.values[STAGES - 1], column);
-            let grown = largest(&self.state, column).max(end).max(least);
-            let coefficients = self.rule.coefficients(step, column, scales);
-            collocation::error(size, noise, coefficients) * weight / grown + 0.0 * end
+            let end = largest(&step.values[STAGES - 1], column, scales);
+            let grown = largest(&self.state, column, scales).max(end).max(least);
+            let grown = grown.max(largest(&self.works, column, energies));
+            let of_state = self.rule.coefficients(&step.rates, column, scales);
+            let of_works = self.rule.coefficients(powers, column, energies);
+            let error = collocation::error(size, noise, of_state).max(collocation::error(size, noise, of_works));
+            error * weight / grown + 0.0 * end
         };
-        let errors = (0..columns).map(of_column);
-        errors.fold(0.0, |most: f64, error| if error > most || error.is_nan() { error } else { most })
-    }
-
-    /// W of a step: the derivative of the powers along S by differences, and their own.
-    fn add_works(
-        &mut self,
-        step: &Step,
-        size: f64,
-        states: &[State],
-        forced: &[DMatrix<f64>],
-    ) -> Result<(), Inadmissible> {
-        for (node, state) in states.iter().enumerate() {
-            let weight = size * self.rule.weight(node);
-            for column in 0..self.variations.len() {
-                if self.variations[column].is_err() {
-                    continue;
-                }
-                let direction: Vec<f64> = step.values[node].column(column).iter().copied().collect();
-                let along = along(&direction, &self.scales, |part| {
-                    let (mut rates, mut powers) = (vec![0.0; state.bodies.len()], vec![0.0; state.works.len()]);
-                    let bodies: Vec<f64> = state.bodies.iter().zip(&direction).map(|(y, s)| y + part * s).collect();
-                    self.system.rates(state.time, &bodies, &mut rates, &mut powers).map(|()| powers)
-                })?;
-                for (row, value) in along.iter().enumerate() {
-                    self.works[(row, column)] += weight * (value + forced[node][(row, column)]);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Takes S over an instant at which the rates jump, and the instant moves: S⁺ = S⁻ + (f⁻ − f⁺) dt/dp.
-    pub fn cross(&mut self, run: &Integrator) {
-        let here = |variation: &Result<(Variation, Kinks), _>| {
-            variation.as_ref().is_ok_and(|(_, kinks)| kinks.has_come(self.time))
-        };
-        if self.variations.iter().any(here) {
-            self.look(run);
-            if let Err(left) = self.jump() {
-                self.lose_all(reason(self.system.model(), self.time, &left));
-            }
-        }
-    }
-
-    fn jump(&mut self) -> Result<(), Inadmissible> {
-        for (column, variation) in self.variations.iter_mut().enumerate() {
-            let Ok((_, kinks)) = variation else { continue };
-            let Some(kink) = kinks.come_to(self.time) else { continue };
-            let n = self.at.bodies.len();
-            let mut sides =
-                [-1.0, 1.0].map(|side| (kink.time + side * BESIDE * kink.time, vec![0.0; n + self.works.nrows()]));
-            for (time, values) in &mut sides {
-                let (slopes, powers) = values.split_at_mut(n);
-                self.system.rates(*time, &self.at.bodies, slopes, powers)?;
-            }
-            let [before, after] = sides.map(|(_, values)| values);
-            let jump = |i: usize| (before[i] - after[i]) * kink.moves;
-            (0..n).for_each(|row| self.state[(row, column)] += jump(row));
-            (0..self.works.nrows()).for_each(|row| self.works[(row, column)] += jump(n + row));
-        }
-        Ok(())
+        worst((0..columns).map(of_column))
     }
 
     /// Follows the growth of the perturbation; beyond what the digits of the run bear, nothing has a meaning.
     fn note_growth(&mut self) {
         let column = self.state.ncols() - 1;
-        let sizes = self.scales.iter().enumerate().take(self.state.nrows());
-        let grown = sizes.map(|(row, scale)| self.state[(row, column)].abs() / scale).fold(0.0, f64::max);
-        self.growth = self.growth.max(grown);
+        self.growth = self.growth.max(largest(&self.state, column, &self.scales[..self.state.nrows()]));
         let rtol = self.tolerance / SHARE;
         if self.growth * rtol > GROWN {
             self.lose_all(format!(
@@ -350,7 +321,7 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    fn lose_all(&mut self, reason: String) {
+    pub(super) fn lose_all(&mut self, reason: String) {
         let time = self.time;
         for variation in self.variations.iter_mut().filter(|variation| variation.is_ok()) {
             *variation = Err(Meaningless { from: time, reason: reason.clone() });
@@ -358,38 +329,12 @@ impl<'a> Tangent<'a> {
     }
 }
 
-/// The derivative of something along a direction of the state, by differences of fourth order; `evaluate` gives it at a
-/// multiple of the direction.
-pub(super) fn along<E>(
-    direction: &[f64],
-    scales: &[f64],
-    mut evaluate: impl FnMut(f64) -> Result<Vec<f64>, E>,
-) -> Result<Vec<f64>, E> {
-    let size = direction.iter().zip(scales).map(|(part, scale)| part.abs() / scale).fold(0.0, f64::max);
-    if size == 0.0 {
-        return Ok(vec![0.0; evaluate(0.0)?.len()]);
-    }
-    let step = PROBE / size;
-    let [a, b, c, d] = [evaluate(-2.0 * step)?, evaluate(-step)?, evaluate(step)?, evaluate(2.0 * step)?];
-    let at = |i: usize| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * step);
-    Ok((0..a.len()).map(at).collect())
+/// The largest entry of a column, in the scales of its rows; no number if there is one that is none.
+fn largest(values: &DMatrix<f64>, column: usize, scales: &[f64]) -> f64 {
+    worst(scales.iter().enumerate().map(|(row, scale)| values[(row, column)].abs() / scale))
 }
 
-/// The scales of state and works.
-fn fill_scales(system: &mut ModelSystem<'_>, state: &State, scales: &mut [f64]) {
-    let (bodies, works) = scales.split_at_mut(state.bodies.len());
-    system.error_scales(state.time, &state.bodies, &state.works, bodies, works);
-}
-
-fn reason(model: &Model, time: f64, left: &Inadmissible) -> String {
-    Stop::by_inadmissible(model, time, left).what
-}
-
-/// A fault in words.
-pub(super) fn meaningless(model: &Model, time: f64, fault: &Fault) -> Meaningless {
-    let reason = match fault {
-        Fault::Reason(reason) => reason.clone(),
-        Fault::Inadmissible(left) => format!("with a little more or less of it, {}", reason(model, time, left)),
-    };
-    Meaningless { from: time, reason }
+/// The largest of some numbers; none if one of them is none, unlike a maximum.
+fn worst(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |most, number| if number > most || number.is_nan() { number } else { most })
 }

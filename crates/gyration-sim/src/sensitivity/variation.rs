@@ -4,8 +4,10 @@
 //!
 //! The rates are an explicit smooth formula, so that differences of fourth order between models of neighbouring scenes
 //! give ten digits and more. h begins at 1e-4 of the number; where that bends the rates too much, seen from the
-//! difference of h and 2h, it is reduced for good. Where one side is refused, as for a β of zero, all points stand on the other.
+//! difference of h and 2h, it is reduced for good; where the rates jump by a little, it is enlarged. Where one side is refused, as for a β of zero, all points stand on the other.
 
+use super::difference::Difference;
+use super::levels::Levels;
 use super::number::Number;
 use gyration::Inadmissible;
 use gyration::model::Model;
@@ -13,39 +15,23 @@ use gyration::rates::{Workspace, rates};
 use gyration::state::State;
 use gyration_scene::Scene;
 
-/// The first step, as a part of the number.
-const FIRST: f64 = 1e-4;
-/// By how much it is reduced at a time.
-const REDUCTION: f64 = 0.1;
-/// How often: from 1e-4 to 1e-9, where rounding leaves seven digits.
-const LEVELS: usize = 6;
+/// Where smaller steps do not agree with themselves to this part, larger ones are tried.
+const ROUGH: f64 = 1e-4;
+/// Slopes on both sides that differ by this part are compared with those of a smaller step, and so often.
+const LEAN: f64 = 1e-2;
+const COMPARISONS: u32 = 16;
 /// Two derivatives of second order, of h and 2h, may differ by this part: the one of fourth order is then good to its square.
 const BEND: f64 = 1e-5;
 /// What changes its scale by less than this in a second, for a change by the whole number, counts as no effect.
 const NOTHING: f64 = 1e-6;
-/// Differences that are smaller than so many roundings of what is differentiated are rounding.
-const ROUNDINGS: f64 = 1e3;
-
-/// The points of a difference, in steps, with their weights.
-type Stencil = &'static [(f64, f64)];
-
-/// (8 (f₁ − f₋₁) − (f₂ − f₋₂))/12.
-const CENTRAL: Stencil = &[(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// (−25 f₀ + 48 f₁ − 36 f₂ + 16 f₃ − 3 f₄)/12.
-const FORWARD: Stencil =
-    &[(0.0, -25.0 / 12.0), (1.0, 48.0 / 12.0), (2.0, -36.0 / 12.0), (3.0, 16.0 / 12.0), (4.0, -3.0 / 12.0)];
-
 /// What the number's change does.
 #[derive(Debug)]
 pub(super) struct Variation {
-    /// The number.
-    pub number: Number,
-    base: Scene,
-    levels: Vec<Level>,
+    levels: Levels,
     starts_only: bool,
     workspace: Workspace,
-    /// The step in use.
-    at: usize,
+    /// How often slopes on both sides are still compared.
+    comparisons: u32,
     /// The largest derivative so far, in the scales.
     largest: f64,
     /// The part of it in which two estimates may differ.
@@ -54,14 +40,6 @@ pub(super) struct Variation {
     noise: f64,
     /// What is evaluated at each point, one after the other.
     values: Vec<Vec<f64>>,
-}
-
-/// The neighbouring scenes at one step.
-#[derive(Debug)]
-struct Level {
-    step: f64,
-    stencil: Stencil,
-    scenes: Vec<Scene>,
 }
 
 /// A derivative that could not be had.
@@ -88,31 +66,21 @@ impl Variation {
         if let Some(reason) = number.is_no_quantity() {
             return Err(reason);
         }
-        let starts_only = number.starts_only(scene);
-        let mut this = Self {
-            number,
-            base: scene.clone(),
-            levels: Vec::new(),
-            starts_only,
+        Ok(Self {
+            starts_only: number.starts_only(scene),
+            levels: Levels::new(scene, number)?,
             workspace: Workspace::default(),
-            at: 0,
+            comparisons: COMPARISONS,
             largest: 0.0,
             doubt: 0.0,
             noise: 0.0,
             values: Vec::new(),
-        };
-        this.first_level()?;
-        Ok(this)
+        })
     }
 
-    /// The change of the number that counts as one: itself, or a size of the scene where it is zero.
+    /// The change of the number that counts as one.
     pub fn scale(&self) -> f64 {
-        if self.number.value != 0.0 {
-            return self.number.value.abs();
-        }
-        let sizes = self.base.built().model.bodies.iter().map(|body| body.size);
-        let least = sizes.fold(f64::INFINITY, f64::min);
-        if least.is_finite() { least } else { 1.0 }
+        self.levels.scale()
     }
 
     /// Whether the rates do not know the number.
@@ -166,11 +134,11 @@ impl Variation {
                 Ok(found) => {
                     self.largest = self.largest.max(found.largest);
                     if let Some(coarse) = coarse.take_if(|coarse| found.bend > 0.5 * coarse.bend) {
-                        self.at -= 1;
-                        self.doubt = self.doubt.max(coarse.bend / self.largest.max(NOTHING / self.scale()));
-                        return Ok(coarse.derivative);
+                        self.levels.coarser();
+                        return Ok(self.settle_for(coarse, scales, &mut evaluate));
                     }
-                    if found.bend <= BEND * self.largest.max(NOTHING / self.scale()) {
+                    if found.bend <= BEND * self.measure() {
+                        self.compare_sides(found.lean, scales, &mut evaluate);
                         return Ok(found.derivative);
                     }
                     coarse = Some(found);
@@ -191,19 +159,68 @@ impl Variation {
         }
     }
 
+    /// Slopes that differ on both sides however small the step is have no derivative between them; central differences do not
+    /// see that.
+    fn compare_sides(
+        &mut self,
+        lean: f64,
+        scales: &[f64],
+        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
+    ) {
+        if self.comparisons == 0 || lean <= LEAN * self.measure() || self.finer().is_err() {
+            return;
+        }
+        self.comparisons -= 1;
+        if let Ok(finer) = self.evaluate(scales, evaluate)
+            && finer.lean > 0.5 * lean
+        {
+            self.doubt = self.doubt.max(finer.lean / self.measure());
+        }
+        self.levels.coarser();
+    }
+
+    /// The largest derivative so far, or what counts as none.
+    fn measure(&self) -> f64 {
+        self.largest.max(NOTHING / self.scale())
+    }
+
+    /// Makes the best of a derivative that no smaller step improves.
+    ///
+    /// The equations may jump by themselves: boundary elements choose their quadrature by the form. Over longer steps that
+    /// weighs less.
+    fn settle_for(
+        &mut self,
+        mut found: Difference,
+        scales: &[f64],
+        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
+    ) -> Vec<f64> {
+        while found.bend > ROUGH * self.measure() && self.levels.coarser() {
+            match self.evaluate(scales, evaluate) {
+                Ok(coarser) if coarser.bend < 0.5 * found.bend => found = coarser,
+                _ => {
+                    // It has been there before.
+                    self.levels.finer().ok();
+                    break;
+                }
+            }
+        }
+        self.doubt = self.doubt.max(found.bend / self.measure());
+        found.derivative
+    }
+
     /// The derivative at the present step.
     fn evaluate(
         &mut self,
         scales: &[f64],
         evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
     ) -> Result<Difference, Inadmissible> {
-        let level = &self.levels[self.at];
+        let level = self.levels.current();
         self.values.resize_with(level.scenes.len(), Vec::new);
         for (scene, values) in level.scenes.iter().zip(&mut self.values) {
             values.clear();
             evaluate(scene, &mut self.workspace, values)?;
         }
-        let found = Difference::of(level, &self.values, scales);
+        let found = Difference::of((level.step, level.stencil), &self.values, scales);
         self.noise = found.noise;
         Ok(found)
     }
@@ -213,21 +230,9 @@ impl Variation {
         if self.starts_only { 0.0 } else { self.noise }
     }
 
-    /// The first step at which all neighbours are scenes.
-    fn first_level(&mut self) -> Result<(), String> {
-        let mut refused = String::new();
-        for level in 0..LEVELS {
-            for stencil in [CENTRAL, FORWARD] {
-                match self.level(FIRST * REDUCTION.powi(level as i32), stencil) {
-                    Ok(found) => {
-                        self.levels.push(found);
-                        return Ok(());
-                    }
-                    Err(reason) => refused = reason,
-                }
-            }
-        }
-        Err(format!("the scene admits no other value of it: {refused}"))
+    /// h.
+    pub fn step(&self) -> f64 {
+        self.levels.current().step
     }
 
     /// Takes a smaller step from now on.
@@ -235,44 +240,17 @@ impl Variation {
     /// # Errors
     /// If there is none.
     pub fn finer(&mut self) -> Result<(), String> {
-        if self.at + 1 < self.levels.len() {
-            self.at += 1;
-            return Ok(());
-        }
-        let (last, stencil) = (self.levels[self.at].step, self.levels[self.at].stencil);
-        let part = last / self.scale() * REDUCTION;
-        if part < 0.5 * FIRST * REDUCTION.powi(LEVELS as i32 - 1) {
-            return Err("the equations are not smooth in it".into());
-        }
-        let next = self.level(part, stencil)?;
-        self.levels.push(next);
-        self.at += 1;
-        Ok(())
+        self.levels.finer()
     }
 
-    /// h.
-    pub fn step(&self) -> f64 {
-        self.levels[self.at].step
+    /// Never takes a larger step than it has now.
+    pub fn keep_step(&mut self) {
+        self.levels.keep_step();
     }
 
     /// The part of its largest derivative in which two estimates differed, where that was not rounding.
     pub fn doubt(&self) -> f64 {
         self.doubt
-    }
-
-    /// The neighbours at a step, a part of the scale.
-    fn level(&self, part: f64, stencil: Stencil) -> Result<Level, String> {
-        let step = part * self.scale();
-        let scene = |(offset, _): &(f64, f64)| self.number.scene_at(&self.base, self.number.value + offset * step);
-        let scenes = stencil.iter().map(scene).collect::<Result<Vec<_>, _>>()?;
-        let same = |scene: &Scene| {
-            let (other, base) = (&scene.built().model, &self.base.built().model);
-            other.blocks() == base.blocks() && other.works() == base.works() && other.energies() == base.energies()
-        };
-        if !scenes.iter().all(same) {
-            return Err("it changes which equations there are".into());
-        }
-        Ok(Level { step, stencil, scenes })
     }
 
     /// A list of times [s] that each neighbour has, differentiated: the kinks of its signals.
@@ -281,43 +259,5 @@ impl Variation {
             out.extend(times(&scene.built().model));
             Ok(())
         })
-    }
-}
-
-/// A derivative, and how well two estimates of it agree.
-struct Difference {
-    derivative: Vec<f64>,
-    /// The largest entry, in the scales.
-    largest: f64,
-    /// The largest difference of two estimates of lower order, in the scales; none where it is rounding.
-    bend: f64,
-    /// What rounding may make, in the scales.
-    noise: f64,
-}
-
-impl Difference {
-    fn of(level: &Level, values: &[Vec<f64>], scales: &[f64]) -> Self {
-        let length = values.iter().map(Vec::len).min().unwrap_or(0);
-        let at = |i: usize| {
-            let terms = level.stencil.iter().zip(values).map(|((_, weight), values)| weight * values[i]);
-            terms.sum::<f64>() / level.step
-        };
-        let mut this = Self { derivative: (0..length).map(at).collect(), largest: 0.0, bend: 0.0, noise: 0.0 };
-        let magnitude = scales.iter().enumerate().take(length).map(|(i, scale)| values[0][i].abs() / scale);
-        let rounding = ROUNDINGS * f64::EPSILON * magnitude.fold(0.0, f64::max);
-        this.noise = 0.1 * rounding / level.step;
-        for (i, scale) in scales.iter().enumerate().take(length) {
-            // Of the middle and of the whole, or of the first half and the second.
-            let [narrow, wide] = match level.stencil.len() {
-                4 => [(values[2][i] - values[1][i]) / 2.0, (values[3][i] - values[0][i]) / 4.0],
-                _ => [(values[2][i] - values[0][i]) / 2.0, (values[4][i] - values[2][i]) / 2.0],
-            };
-            this.largest = this.largest.max(this.derivative[i].abs() / scale);
-            let apart = (narrow - wide).abs() / scale;
-            if apart > rounding {
-                this.bend = this.bend.max(apart / level.step);
-            }
-        }
-        this
     }
 }

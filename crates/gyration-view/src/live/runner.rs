@@ -52,7 +52,7 @@ fn run_once(shared: &Shared, subject: &Subject, overrides: &[String]) -> Result<
     if is_superseded(&outcome) {
         return Ok(());
     }
-    let summary = RunSummary::of(job.model, &mut simulation, outcome, began.elapsed()).attributes();
+    let summary = RunSummary::of(job.model, &mut simulation, outcome, Some(began.elapsed())).attributes();
     let outcome = summary.get("outcome").cloned().unwrap_or(Value::Null);
     shared.store().finish(json!({ "type": "done", "outcome": outcome, "summary": summary }));
     Ok(())

@@ -1,0 +1,75 @@
+//! The works of the ledger beside S, and what both do at an instant at which the rates jump and that moves with the number.
+//!
+//!   W′ = ∂g/∂y S + ∂g/∂p,      S⁺ = S⁻ + (f⁻ − f⁺) dt/dp,   W⁺ = W⁻ + (g⁻ − g⁺) dt/dp
+//!
+//! Powers g have no exact derivative at hand: they are differentiated along S by differences.
+
+use super::collocation::Step;
+use super::kinks::ends_at_kink;
+use super::probe::{along, reason};
+use super::tangent::{Nodes, Tangent};
+use gyration::Inadmissible;
+use gyration_ode::{Integrator, System as _};
+use nalgebra::DMatrix;
+
+/// How far from a kink the rates on its sides are taken, as a part of its time: some roundings of it.
+const BESIDE: f64 = 16.0 * f64::EPSILON;
+
+impl Tangent<'_> {
+    /// W′ at the nodes of a step, a column for each number.
+    pub(super) fn powers(&mut self, step: &Step, nodes: &Nodes) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
+        let mut all = nodes.powers.clone();
+        for ((powers, state), values) in all.iter_mut().zip(&nodes.states).zip(&step.values) {
+            for column in 0..self.variations.len() {
+                if self.variations[column].is_err() {
+                    continue;
+                }
+                let direction: Vec<f64> = values.column(column).iter().copied().collect();
+                let through = along(&direction, &self.scales, |part| {
+                    let (mut rates, mut powers) = (vec![0.0; state.bodies.len()], vec![0.0; state.works.len()]);
+                    let bodies: Vec<f64> = state.bodies.iter().zip(&direction).map(|(y, s)| y + part * s).collect();
+                    self.system.rates(state.time, &bodies, &mut rates, &mut powers).map(|()| powers)
+                })?;
+                through.iter().enumerate().for_each(|(row, value)| powers[(row, column)] += value);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Comes to the end of a step of the run that ends at a kink, and over it.
+    pub fn cross(&mut self, run: &Integrator, from: f64) {
+        if !ends_at_kink(self.system.model(), from, run.time()) {
+            return;
+        }
+        self.reach(run.time());
+        let moves = self.variations.iter().any(|variation| {
+            let kinks = variation.as_ref().map(|(_, kinks)| kinks);
+            kinks.is_ok_and(|kinks| kinks.has_come(self.time))
+        });
+        if moves {
+            self.look(run);
+            if let Err(left) = self.jump() {
+                self.lose_all(reason(self.system.model(), self.time, &left));
+            }
+        }
+    }
+
+    fn jump(&mut self) -> Result<(), Inadmissible> {
+        for (column, variation) in self.variations.iter_mut().enumerate() {
+            let Ok((_, kinks)) = variation else { continue };
+            let Some(kink) = kinks.come_to(self.time) else { continue };
+            let n = self.at.bodies.len();
+            let mut sides =
+                [-1.0, 1.0].map(|side| (kink.time + side * BESIDE * kink.time, vec![0.0; n + self.works.nrows()]));
+            for (time, values) in &mut sides {
+                let (slopes, powers) = values.split_at_mut(n);
+                self.system.rates(*time, &self.at.bodies, slopes, powers)?;
+            }
+            let [before, after] = sides.map(|(_, values)| values);
+            let jump = |i: usize| (before[i] - after[i]) * kink.moves;
+            (0..n).for_each(|row| self.state[(row, column)] += jump(row));
+            (0..self.works.nrows()).for_each(|row| self.works[(row, column)] += jump(n + row));
+        }
+        Ok(())
+    }
+}

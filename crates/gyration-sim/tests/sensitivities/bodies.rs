@@ -1,0 +1,98 @@
+//! Rigid and deformable bodies on a table, beside differences of runs.
+
+use crate::support::{TIGHT, at_end, disagreement, scene, strings, table};
+
+const BOX: &str = r#"
+    [[body]]
+    name = "box"
+    shape = { box = { size = [0.1, 0.1, 0.2] } }
+    density = 1000
+    position = [0, 0, 0.5]
+    orientation = { axis_angle = { axis = [1, 2, 0], angle = 0.3 } }
+    velocity = [0.3, 0, -1]
+    angular_velocity = [0.1, 2, 0.5]
+"#;
+
+pub fn tumbling() -> String {
+    let laws = table("0.003", ["alpha = 1e4, nu = 6", "beta = 4e3, nu = 4", "beta = 1e4, nu = 4"]);
+    format!("time = {{ end = 0.5, sample = 0.1 }}\n{laws}{BOX}")
+}
+
+#[test]
+fn a_tumbling_box_agrees_with_differences_of_runs() {
+    let keys = [
+        "contact.0.repulsion.alpha",
+        "contact.0.repulsion.nu",
+        "contact.0.damping.beta",
+        "contact.0.friction.beta",
+        "body.box.position.2",
+        "body.box.angular_velocity.1",
+        "body.box.shape.box.size.0",
+        "body.box.density",
+        "body.box.orientation.axis_angle.angle",
+        "support.table.plane.normal.0",
+        "support.table.plane.origin.2",
+    ];
+    let quantities =
+        ["box.x", "box.z", "box.P_xy", "box.vz", "energy.kinetic", "work.damping", "work.friction", "energy.contact"];
+    let worst = disagreement(&tumbling(), &strings(&TIGHT), &keys, &quantities, 1e-4);
+    // S is good to 1e-9 of its largest entries, and some quantities change by a ten-thousandth of them.
+    assert!(worst < 1e-5, "{worst:e}");
+}
+
+const CUBE: &str = r#"
+    [[body]]
+    name = "cube"
+    shape = { box = { size = [0.1, 0.1, 0.1] } }
+    density = 1000
+    affine = { material = { mooney_rivlin = { c1 = 3e3, c2 = 1e3 } }, viscosity = 20 }
+    position = [0, 0, 0.08]
+    velocity = [0.2, 0, -0.5]
+    gradient = [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]
+"#;
+
+fn rubber() -> String {
+    let laws = table("0.005", ["alpha = 1e3, nu = 6", "beta = 100, nu = 4", "beta = 500, nu = 4"]);
+    format!("time = {{ end = 0.15, sample = 0.1 }}\n{laws}{CUBE}")
+}
+
+#[test]
+fn an_incompressible_body_agrees_with_differences_of_runs() {
+    let keys = [
+        "body.cube.affine.material.mooney_rivlin.c1",
+        "body.cube.affine.viscosity",
+        "contact.0.repulsion.nu",
+        "body.cube.gradient.0.1",
+        "body.cube.shape.box.size.2",
+    ];
+    let quantities =
+        ["cube.z", "cube.P_xz", "cube.Pdot_zz", "cube.pressure", "energy.elastic", "work.viscosity", "work.repulsion"];
+    let worst = disagreement(&rubber(), &strings(&TIGHT), &keys, &quantities, 1e-3);
+    assert!(worst < 1e-5, "{worst:e}");
+}
+
+/// det P = 1 along the run, whatever the number: tr(P⁻¹ ∂P/∂p) = 0.
+#[test]
+fn derivatives_of_an_incompressible_body_are_tangent_to_its_constraint() {
+    let places = [
+        "cube.P_xx",
+        "cube.P_xy",
+        "cube.P_xz",
+        "cube.P_yx",
+        "cube.P_yy",
+        "cube.P_yz",
+        "cube.P_zx",
+        "cube.P_zy",
+        "cube.P_zz",
+    ];
+    let found = at_end(&scene(&rubber(), &[]), &["contact.0.repulsion.nu", "body.cube.gradient.0.1"], &places);
+    let matrix = |numbers: &[f64]| nalgebra::Matrix3::from_row_slice(numbers);
+    let inverse = matrix(&found.values[0]).try_inverse().unwrap();
+    for derivatives in &found.derivatives {
+        let slope = matrix(derivatives.at_end().unwrap());
+        let off = (inverse * slope).trace() / slope.norm();
+        println!("off the constraint by {off:e} of {:e}", slope.norm());
+        // rtol = 1e-8, over the run.
+        assert!(off.abs() < 1e-7, "{off:e}");
+    }
+}
