@@ -7,9 +7,6 @@ use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-/// Commands that are planned but not in this version.
-pub const LATER: [&str; 1] = ["calibrate"];
-
 /// How many triangles boundary elements may take.
 pub const TRIANGLES: RangeInclusive<u32> = 80..=10_000;
 
@@ -57,6 +54,9 @@ pub enum Command {
     /// Run a scene many times, with other numbers each, into one table
     #[cfg(feature = "study")]
     Study(Study),
+    /// Find numbers of a scene, as α, β, ν of its contact laws, from measurements
+    #[cfg(feature = "study")]
+    Calibrate(Calibrate),
     /// Print the JSON Schema of a scene
     Schema,
     /// Print the completions of a shell
@@ -284,6 +284,21 @@ pub struct StudyPlot {
     /// Kind of picture [default: by the columns]
     #[arg(long, value_parser = crate::plot::study::Kind::WORDS)]
     pub kind: Option<String>,
+}
+
+/// `gyration calibrate`
+#[cfg(feature = "study")]
+#[derive(Debug, Args)]
+pub struct Calibrate {
+    /// File of measurements
+    #[arg(value_name = "DATA", value_hint = ValueHint::FilePath)]
+    pub data: PathBuf,
+    /// File of the drawing of the fit: .svg, .png or .pdf [default: STEM-fit.svg in the current folder]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// What may be drawn.

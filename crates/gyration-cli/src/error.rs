@@ -6,6 +6,8 @@ use crate::plot::PlotError;
 use gyration_record::RecordError;
 use gyration_scene::LoadError;
 use gyration_sim::RunError;
+#[cfg(feature = "study")]
+use gyration_study::calibration::CalibrationError;
 #[cfg(feature = "view")]
 use gyration_view::ViewError;
 use std::io;
@@ -26,6 +28,10 @@ pub enum CliError {
     /// There is no picture.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// No numbers were found.
+    #[cfg(feature = "study")]
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// Nothing can be shown.
     #[cfg(feature = "view")]
     #[error(transparent)]
@@ -92,6 +98,12 @@ impl CliError {
             Self::Study(error) if error.is_bad_input() => code::BAD_INPUT,
             #[cfg(feature = "study")]
             Self::Study(_) => code::BAD_FILE,
+            #[cfg(feature = "study")]
+            Self::Calibration(CalibrationError::Load(LoadError::Read(_))) => code::BAD_FILE,
+            #[cfg(feature = "study")]
+            Self::Calibration(CalibrationError::Search(_)) => code::ENDED_EARLY,
+            #[cfg(feature = "study")]
+            Self::Calibration(_) => code::BAD_INPUT,
             #[cfg(feature = "view")]
             Self::View(ViewError::Port { .. } | ViewError::NoPage { .. }) => code::BAD_INPUT,
             #[cfg(feature = "view")]

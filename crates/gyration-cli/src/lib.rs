@@ -4,7 +4,7 @@
 //! is all that they may use.
 //!
 //! ```text
-//! arguments → commands/{run, check, modes, resistance, scenes, export, plot, schema, completions}
+//! arguments → commands/{run, check, modes, resistance, study, calibrate, scenes, export, plot, schema, …}
 //!                 check: what can be said before a run         plot: pictures of recordings and laws
 //! ```
 //!
@@ -22,9 +22,8 @@ mod plot;
 mod progress;
 mod summary;
 
-use arguments::{Arguments, LATER};
+use arguments::Arguments;
 use clap::Parser;
-use clap::error::{ContextKind, ContextValue};
 use std::ffi::OsString;
 
 /// The program, from its arguments (the first is its name) to its exit code.
@@ -45,14 +44,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Help and version go to stdout; what cannot be understood to stderr, with exit code 2.
 fn refuse(refusal: &clap::Error) -> u8 {
-    if let Some(ContextValue::String(name)) = refusal.get(ContextKind::InvalidSubcommand)
-        && LATER.contains(&name.as_str())
-    {
-        output::report(&format!(
-            "`gyration {name}` is not in this version yet\n  fix: see `gyration help` for what is"
-        ));
-        return error::code::BAD_INPUT;
-    }
     // A closed pipe is no failure.
     let _ = refusal.print();
     if refusal.use_stderr() { error::code::BAD_INPUT } else { error::code::DONE }

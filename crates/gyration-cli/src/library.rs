@@ -1,7 +1,7 @@
 //! What the program knows how to say and draw, for callers that are not a terminal.
 //!
 //! ```text
-//! Scene → check, modes, resistance (text or JSON)       Recording → picture (SVG, PNG, PDF)
+//! Scene → check, modes, resistance (text or JSON)       Recording, Frame, Fitted → picture (SVG, PNG, PDF)
 //! ```
 //!
 //! Texts and pictures are those of the commands, byte for byte: each function here is what stands between the arguments of a
@@ -12,7 +12,13 @@ use crate::commands;
 use clap::ValueEnum;
 use gyration_record::Recording;
 use gyration_scene::Scene;
+use gyration_sim::replay::ReplayError;
 use gyration_sim::{Provenance, RunSummary};
+#[cfg(feature = "study")]
+use gyration_study::{
+    Frame,
+    calibration::{Calibration, Fitted},
+};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -99,6 +105,42 @@ pub fn laws(scene: &Scene, format: Format) -> Result<Vec<u8>, CliError> {
     Ok(commands::plot::laws(scene)?.draw().render(format))
 }
 
+/// What of a study's table is asked to be seen: the options of `gyration study STUDY plot`.
+#[cfg(feature = "study")]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct StudyPicture {
+    /// The column of the axis to the right.
+    pub x: Option<String>,
+    /// The column of the axis upwards; `NAME=VALUE,VALUE` is a share.
+    pub y: Option<String>,
+    /// The column that colours tell apart.
+    pub colour: Option<String>,
+    /// The kind of picture by its word.
+    pub kind: Option<String>,
+}
+
+/// What `gyration study STUDY plot` draws of the table at a path: what is asked for, else what the study says, else what its columns suggest.
+///
+/// # Errors
+/// [`CliError::Arguments`] where a column or a kind is unknown, or does not suit the picture.
+#[cfg(feature = "study")]
+pub fn study_picture(frame: &Frame, path: &Path, asked: &StudyPicture, format: Format) -> Result<Vec<u8>, CliError> {
+    let drawn = commands::study::plot::drawn(frame, &commands::study::plot::stem(path), asked, None)?;
+    Ok(drawn.draw().render(format))
+}
+
+/// What `gyration calibrate` prints of a fit.
+#[cfg(feature = "study")]
+pub fn fit_in_words(calibration: &Calibration, fitted: &Fitted) -> String {
+    commands::calibrate::in_words(calibration, fitted)
+}
+
+/// What `gyration calibrate` draws of a fit.
+#[cfg(feature = "study")]
+pub fn fit_picture(calibration: &Calibration, fitted: &Fitted, format: Format) -> Vec<u8> {
+    crate::plot::calibration::figure(calibration, fitted).draw().render(format)
+}
+
 fn known(name: &str) -> Result<What, CliError> {
     What::from_str(name, false).map_err(|_| {
         CliError::arguments(format!("there is no plot `{name}`"), format!("choose one of {}", quantities().join(", ")))
@@ -133,6 +175,19 @@ pub fn no_such_scene(name: &str) -> CliError {
 pub fn summary(scene: &Scene, recording: &Path, summary: &RunSummary) -> Result<String, CliError> {
     let start = commands::run::starting_energies(recording, summary)?;
     Ok(crate::summary::in_words(scene, summary, &start))
+}
+
+/// What `gyration run` said of the run that left a recording, without the time that it took.
+///
+/// # Errors
+/// [`CliError::Record`] if the recording cannot be read, [`CliError::Arguments`] if its scene cannot be built again: a file to which
+/// it refers has moved or changed.
+pub fn summary_of_recording(recording: &Recording) -> Result<String, CliError> {
+    let (scene, told) = RunSummary::of_recording(recording).map_err(|error| match error {
+        ReplayError::Record(error) => error.into(),
+        error => CliError::arguments(error.to_string(), "put the file back, or record the scene anew"),
+    })?;
+    summary(&scene, recording.path(), &told)
 }
 
 /// Where `gyration run` puts the recording of a scene if it is not told: `NAME.gyr`, `NAME-2.gyr`, …, in a folder.

@@ -27,11 +27,12 @@ fn steps(summary: &RunSummary) -> String {
     let (explicit, implicit) = (count("explicit_steps"), count("implicit_steps"));
     let rejected = count("rejected_for_error") + count("rejected_for_domain") + count("newton_failures");
     let wall = match summary.wall_time {
-        short if short < 10.0 => format!("{short:.2} s"),
-        long => duration_in_words(long),
+        None => String::new(),
+        Some(short) if short < 10.0 => format!(" in {short:.2} s"),
+        Some(long) => format!(" in {}", duration_in_words(long)),
     };
     format!(
-        "time       {} s simulated in {wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} rejected",
+        "time       {} s simulated{wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} rejected",
         plain(summary.time, 7),
         explicit + implicit,
     )

@@ -39,7 +39,7 @@ fn completions_name_the_commands() {
 #[test]
 fn help_and_version_go_to_stdout() {
     let help = Sandbox::new().done(&["--help"]);
-    assert!(help.stderr.is_empty() && help.stdout.contains("completions") && !help.stdout.contains("calibrate"));
+    assert!(help.stderr.is_empty() && help.stdout.contains("completions") && help.stdout.contains("calibrate"));
     assert!(Sandbox::new().done(&["--version"]).stdout.starts_with("gyration 0."));
 }
 
@@ -58,8 +58,6 @@ fn bad_arguments_are_refused() {
     ] {
         sandbox.refused(2, arguments);
     }
-    let said = sandbox.refused(2, &["calibrate", "ball.toml"]);
-    assert!(said.stderr.contains("not in this version yet"), "{}", said.stderr);
     assert_eq!(sandbox.names(), ["ball.toml"]);
 }
 

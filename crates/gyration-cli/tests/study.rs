@@ -154,6 +154,7 @@ fn bad_input_is_refused_with_its_fix() {
         (2, &["study", "low.toml", "--shard", "4/3"][..], "1 to n"),
         (2, &["study", "low.toml", "--shard", "0/3"], "1 to n"),
         (2, &["study", "low.toml", "--shard", "three"], "K/N"),
+        (2, &["study", "low.toml", "--threads", "100000"], "ask for 1 to 1024"),
         (2, &["study", "low.toml", "--set", "repetitions=0"], "at least 1"),
         (2, &["study", "low.toml", "--set", "parameter.height.key=\"body.bull.position.2\""], "ball"),
         (3, &["study", "law.toml"], "no such file"),
@@ -182,4 +183,9 @@ fn summary_counts_outcomes_and_tells_what_is_kept() {
         assert!(said.contains(words), "{words}: {said}");
     }
     assert!(said.contains("low.study/table.parquet"), "{said}");
+    // A study of nothing but failures is no success.
+    let all = ["parameter.height.uniform.from=\"1 cm\"", "parameter.height.uniform.to=\"2 cm\""];
+    let said =
+        sandbox.refused(1, &["study", "low.toml", "--set", all[0], "--set", all[1], "-o", "all.study", "--quiet"]);
+    assert!(said.stderr.contains("no run could be made"), "{}", said.stderr);
 }

@@ -59,6 +59,31 @@ fn study_draws_what_it_says_and_what_is_asked_for() {
 }
 
 #[test]
+fn the_file_says_what_is_drawn_also_after_the_runs() {
+    let sandbox = studied();
+    // Another picture of the same runs.
+    sandbox.write("balls.toml", &STUDY.replace("y = \"top\"", "x = \"drop\"\ny = \"face=+z,-z\"\ntitle = \"Faces\""));
+    let drawn = sandbox.done(&["study", "balls.toml", "plot", "-o", "-"]).stdout;
+    assert!(drawn.contains("Faces") && drawn.contains("share of face"), "{drawn}");
+    let drawn = sandbox.done(&["study", "balls.toml", "plot", "--set", "plot.title=\"Sides\"", "-o", "-"]).stdout;
+    assert!(drawn.contains("Sides") && !drawn.contains("Faces"), "{drawn}");
+    sandbox.refused(2, &["study", "balls.study", "plot", "--set", "plot.title=\"Sides\""]);
+    // A slip is found before anything runs, and before anything is drawn.
+    for (plot, words) in [
+        ("y = \"tip\"", "a column `tip`, which it will not have"),
+        ("kolor = 3", "unknown field"),
+        ("logarithmic = [\"z\"]", "a logarithmic axis `z`"),
+    ] {
+        sandbox.write("slip.toml", &STUDY.replace("y = \"top\"", plot));
+        let said = sandbox.refused(2, &["study", "slip.toml"]).stderr;
+        assert!(said.contains(words) && said.contains("fix:"), "{said}");
+        assert!(!sandbox.names().contains(&"slip.study".to_owned()));
+    }
+    let said = sandbox.refused(2, &["study", "balls.toml", "plot", "--x", "drop", "--y", "outcome=complete"]).stderr;
+    assert!(said.contains("no run has `complete`") && said.contains("completed"), "{said}");
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused_with_the_fix() {
     let sandbox = studied();
     let refused: [(&[&str], &str); 4] = [

@@ -41,7 +41,7 @@ pub enum StudyError {
         help: &'static str,
     },
     /// The table is of another study, or of another shard.
-    #[error("{path} is a table of {what}\n  fix: give another folder by -o, or replace this one by --force", path = path.display())]
+    #[error("{path} is a table of {what}\n  fix: repeat the --set with which it was made, give another folder by -o, or replace this one by --force", path = path.display())]
     OtherStudy {
         /// The folder.
         path: PathBuf,
@@ -55,7 +55,7 @@ pub enum StudyError {
         path: PathBuf,
     },
     /// A file is not what it should be.
-    #[error("{path} is damaged: {reason}", path = path.display())]
+    #[error("{path} is damaged: {reason}\n  fix: move that file away, if it is of a study; --resume then makes its runs again", path = path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -70,8 +70,8 @@ pub enum StudyError {
         /// n.
         count: u64,
     },
-    /// Shards that cannot be joined.
-    #[error("{path} cannot be joined: {what}\n  fix: {fix}", path = path.display())]
+    /// Shards that cannot be joined, or are in the way.
+    #[error("{path} cannot be used as it is: {what}\n  fix: {fix}", path = path.display())]
     Shards {
         /// The folder.
         path: PathBuf,
@@ -87,6 +87,12 @@ impl StudyError {
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Io { action, path, source }
+    }
+
+    /// A folder that is divided into shards, where one table was meant.
+    pub(crate) fn shards_there(path: &Path) -> Self {
+        let fix = "join them by `gyration study STUDY merge`, go on with one by --shard k/n --resume, or choose another folder by -o";
+        Self::Shards { path: path.to_owned(), what: "it holds shards of a study".into(), fix: fix.into() }
     }
 
     /// A file that is not what it should be.

@@ -17,6 +17,8 @@ use std::time::Duration;
 
 /// Between two looks of a monitor that nothing else calls.
 const LOOK: Duration = Duration::from_millis(100);
+/// Threads at most.
+const MOST_THREADS: usize = 1024;
 /// Rows that wait for the writer at most, per thread.
 const WAITING: usize = 64;
 
@@ -37,6 +39,36 @@ pub struct Progress {
     pub made: u64,
     /// Of these, rows that ended neither completed nor at rest.
     pub early: u64,
+}
+
+/// How many threads compute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Threads {
+    /// None do no work.
+    #[error("no thread does no work")]
+    None,
+    /// So many that the machine would do nothing but change between them.
+    #[error("{0} threads are too many for any machine")]
+    TooMany(usize),
+}
+
+impl Threads {
+    /// As many as are asked for, else one for each processor.
+    ///
+    /// # Errors
+    /// None, or more than any machine has processors for.
+    pub fn asked(threads: Option<usize>) -> Result<NonZeroUsize, Self> {
+        match threads {
+            None => Ok(thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)),
+            Some(threads) if threads > MOST_THREADS => Err(Self::TooMany(threads)),
+            Some(threads) => NonZeroUsize::new(threads).ok_or(Self::None),
+        }
+    }
+
+    /// What to do.
+    pub fn fix(self) -> String {
+        format!("ask for 1 to {MOST_THREADS}, or leave it out for all processors")
+    }
 }
 
 /// Watches nothing.

@@ -8,9 +8,10 @@
 //! table → Frame               columns in memory, for drawing
 //! ```
 //!
-//! Nothing in a table depends on clocks, threads, shards or the order of the runs. No mechanics here: a run is one of
+//! [`calibration`] finds numbers of a scene from measurements. Nothing in a table depends on clocks, threads, shards or the order of the runs. No mechanics here: a run is one of
 //! `gyration-sim`.
 
+pub mod calibration;
 mod column;
 mod error;
 mod execute;
@@ -30,7 +31,7 @@ mod written;
 
 pub use column::{Column, Kind};
 pub use error::StudyError;
-pub use execute::{Progress, Unwatched, Watcher, execute};
+pub use execute::{Progress, Threads, Unwatched, Watcher, execute};
 pub use gallery::studies;
 pub use keep::{Keep, Measure, Pick};
 pub use parameter::{Distribution, Parameter, Steps, Variation};

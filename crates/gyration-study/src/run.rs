@@ -14,7 +14,6 @@ use gyration_sim::{
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
 /// The outcome of a run that could not begin.
 pub const FAILED: &str = "failed";
@@ -127,7 +126,7 @@ impl Study {
         let Both { observer, writer } = sink;
         if let Some(writer) = writer {
             let checkpoint = simulation.checkpoint();
-            let summary = RunSummary::of(model, &mut simulation, outcome, Duration::ZERO);
+            let summary = RunSummary::of(model, &mut simulation, outcome, None);
             writer.finish(summary.attributes(), &checkpoint)?;
         }
         Ok(Some(Ended { ending, kept: observer.finish(), is_early }))

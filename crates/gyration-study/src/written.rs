@@ -24,26 +24,34 @@ pub(crate) fn toml(value: &Json) -> String {
 /// # Errors
 /// Message and fix, if it is neither a number nor a string with a unit that suits a dotted key of a scene.
 pub(crate) fn measured(value: &Json, key: &str) -> Result<f64, (String, String)> {
+    measured_in(value, key, unit_of(key))
+}
+
+/// A number in SI units, of something that messages call `what`.
+///
+/// # Errors
+/// Message and fix, if it is neither a number nor a string with a unit of the dimension of `symbol`.
+pub(crate) fn measured_in(value: &Json, what: &str, symbol: Option<&str>) -> Result<f64, (String, String)> {
     match value {
         Json::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
         // What is beyond the range of numbers has no JSON.
         Json::Null => Err(("expected a finite number".into(), "write a finite number".into())),
-        Json::String(text) => in_unit(text, key),
+        Json::String(text) => in_unit(text, what, symbol),
         _ => Err(("expected a number".into(), "write a number in SI units, or a string with a unit, \"2 cm\"".into())),
     }
 }
 
-fn in_unit(text: &str, key: &str) -> Result<f64, (String, String)> {
+fn in_unit(text: &str, what: &str, symbol: Option<&str>) -> Result<f64, (String, String)> {
     let (number, unit) = parse_quantity(text)
         .map_err(|error| (error.to_string(), "write a number in SI units, or a string such as \"2 cm\"".to_owned()))?;
     let value = number * unit.size;
-    match unit_of(key).and_then(|symbol| Some((symbol, parse_unit(symbol).ok()?))) {
+    match symbol.and_then(|symbol| Some((symbol, parse_unit(symbol).ok()?))) {
         Some((_, wanted)) if wanted.dimension == unit.dimension && value.is_finite() => Ok(value),
         Some((symbol, wanted)) => {
-            let message = format!("\"{text}\" is in {}, and {key} in {symbol} ({})", unit.dimension, wanted.dimension);
+            let message = format!("\"{text}\" is in {}, and {what} in {symbol} ({})", unit.dimension, wanted.dimension);
             Err((message, format!("write a number in {symbol}")))
         }
-        None => Err((format!("\"{text}\" has a unit, and {key} has none"), "write a plain number".into())),
+        None => Err((format!("\"{text}\" has a unit, and {what} has none"), "write a plain number".into())),
     }
 }
 

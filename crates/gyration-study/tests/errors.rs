@@ -82,6 +82,20 @@ fn two_parameters_do_not_set_one_key() {
     refused(text, 6, "parameter.b.key", ["the parameter \"a\" already sets", "one of the two"]);
     let text = "scene = \"ball.toml\"\n[set]\n\"body.ball.density\" = 3\n[parameter.b]\nkey = \"body.ball.density\"\nvalues = [1, 2]\n";
     refused(text, 5, "parameter.b.key", ["[set] already sets", "one of the two"]);
+    // One within the other: the later would hide the earlier.
+    let text = "scene = \"ball.toml\"\n[parameter.a]\nkey = \"body.ball.position.2\"\nvalues = [1, 2]\n\
+                [parameter.b]\nkey = \"body.ball.position\"\nvalues = [[0, 0, 1]]\n";
+    refused(text, 6, "parameter.b.key", ["the parameter \"a\" already sets `body.0.position.2`", "one of the two"]);
+}
+
+#[test]
+fn every_value_of_a_list_is_looked_at() {
+    let text = |values: &str| {
+        format!("scene = \"ball.toml\"\n[parameter.a]\nkey = \"body.ball.density\"\nvalues = {values}\n")
+    };
+    refused(&text("[1000, \"20 m\"]"), 4, "parameter.a.values", ["value 2 of the list", "kg/m"]);
+    refused(&text("[1000, nan]"), 4, "parameter.a.values", ["finite", "finite"]);
+    refused(&text("[1000, true]"), 4, "parameter.a.values", ["value 2 of the list", "number"]);
 }
 
 #[test]

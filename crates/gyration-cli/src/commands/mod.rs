@@ -1,5 +1,7 @@
 //! The commands, a file each.
 
+#[cfg(feature = "study")]
+pub(crate) mod calibrate;
 pub(crate) mod check;
 mod completions;
 mod export;
@@ -12,7 +14,7 @@ pub(crate) mod run;
 pub(crate) mod scenes;
 mod schema;
 #[cfg(feature = "study")]
-mod study;
+pub mod study;
 #[cfg(feature = "view")]
 mod view;
 
@@ -40,6 +42,8 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::View(arguments) => view::execute(&arguments),
         #[cfg(feature = "study")]
         Command::Study(arguments) => study::execute(&arguments),
+        #[cfg(feature = "study")]
+        Command::Calibrate(arguments) => calibrate::execute(&arguments),
         Command::Schema => schema::execute(),
         Command::Completions { shell } => completions::execute(shell),
     }

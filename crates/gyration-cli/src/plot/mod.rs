@@ -7,6 +7,8 @@
 //!
 //! The same recording gives the same bytes: there are neither dates nor names of machines in a picture.
 
+#[cfg(feature = "study")]
+pub mod calibration;
 // Without studies nobody fills areas or names places of an axis.
 #[cfg_attr(not(feature = "study"), allow(dead_code, unused_imports))]
 pub mod chart;

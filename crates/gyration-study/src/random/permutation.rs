@@ -3,8 +3,6 @@
 //! A Feistel network permutes the numbers of an even count of bits; numbers beyond the length are passed on until one falls
 //! within it (cycle walking: Black and Rogaway 2002), after four rounds of the network on average at most.
 
-use super::stream::mix;
-
 /// Rounds of the network: beyond four, what is left of the order is below what a study could see.
 const ROUNDS: u64 = 6;
 
@@ -30,6 +28,13 @@ fn encrypted(number: u64, half: u32, key: u64) -> u64 {
         (left, right) = (right, turned);
     }
     left << half | right
+}
+
+/// The finalizer of SplitMix64 (Stafford's variant 13): each bit of the result depends on each of the argument.
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -77,6 +77,10 @@ pub(crate) fn read(sheet: &mut Sheet) -> Read {
 
 /// The scene that a study names: a path relative to the study's file, or a name of the gallery; none if there is none.
 pub(crate) fn scene(sheet: &mut Sheet, name: &str, base: &Path) -> Option<Result<Template, gyration_scene::LoadError>> {
+    if name.is_empty() {
+        // That it is missing has been said.
+        return None;
+    }
     let beside = base.join(name);
     let opened = if beside.is_file() { Template::load(&beside) } else { Template::open(name) };
     match opened {
@@ -129,15 +133,23 @@ fn dimensions(read: &Read, sheet: &mut Sheet) {
 pub(crate) fn keys_once(read: &Read, template: &Template, sheet: &mut Sheet) {
     let mut seen: BTreeMap<String, String> = BTreeMap::new();
     let plain = |key: &str| template.by_index(key);
+    // A parameter may set a part of what [set] has set, but nothing else may be set above or below another.
+    let hides = |other: &str, owner: &str, key: &str| {
+        let is_within = |inner: &str, outer: &str| inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with('.'));
+        other == key || is_within(other, key) || is_within(key, other) && owner != "[set]"
+    };
     for (key, _) in &read.settings {
         seen.insert(plain(key), "[set]".to_owned());
     }
     for parameter in &read.parameters {
         for key in &parameter.keys {
-            if let Some(other) = seen.insert(plain(key), format!("the parameter \"{}\"", parameter.name)) {
+            let own = plain(key);
+            if let Some((other, owner)) = seen.iter().find(|(other, owner)| hides(other, owner, &own)) {
                 let place = ["parameter", &parameter.name, if parameter.keys.len() == 1 { "key" } else { "keys" }];
-                sheet.note(&place, format!("{other} already sets `{key}`"), "keep one of the two");
+                let what = if *other == own { format!("`{key}`") } else { format!("`{other}`, and this `{key}`") };
+                sheet.note(&place, format!("{owner} already sets {what}"), "keep one of the two");
             }
+            seen.insert(own, format!("the parameter \"{}\"", parameter.name));
         }
     }
 }

@@ -211,6 +211,16 @@ impl Reader<'_> {
             self.note(&["values"], "no values", "write one at least");
             return None;
         }
+        let found: Vec<_> = values.iter().map(|value| self.cells(value)).collect();
+        let is_one_measured = found.iter().any(Result::is_ok);
+        for (index, value) in found.iter().enumerate() {
+            if let Err((message, help)) = value
+                && (is_one_measured || values[index].is_null())
+            {
+                self.note(&["values"], format!("value {} of the list: {message}", index + 1), help.clone());
+                return None;
+            }
+        }
         let numbers = self.numbers(values);
         let cells = |index: usize, value: &Json| match &numbers {
             Some(numbers) => numbers[index].iter().copied().map(Value::Number).collect(),
@@ -220,16 +230,23 @@ impl Reader<'_> {
         Some(Variation::Axis { axis: 0, steps: Steps::Listed(listed.collect()) })
     }
 
+    /// The numbers of a value.
+    ///
+    /// # Errors
+    /// Message and fix, if it is neither a number nor an array of numbers.
+    fn cells(&self, value: &Json) -> Result<Vec<f64>, (String, String)> {
+        match value {
+            Json::Array(items) => {
+                let item = |(k, item): (usize, &Json)| measured(item, &format!("{}.{k}", self.key));
+                items.iter().enumerate().map(item).collect()
+            }
+            value => measured(value, &self.key).map(|number| vec![number]),
+        }
+    }
+
     /// The numbers of the values, if all are numbers, or arrays of equally many.
     fn numbers(&self, values: &[Json]) -> Option<Vec<Vec<f64>>> {
-        let numbers = |value: &Json| match value {
-            Json::Array(items) => {
-                let item = |(k, item): (usize, &Json)| measured(item, &format!("{}.{k}", self.key)).ok();
-                items.iter().enumerate().map(item).collect::<Option<Vec<f64>>>()
-            }
-            value => measured(value, &self.key).ok().map(|number| vec![number]),
-        };
-        let all: Vec<Vec<f64>> = values.iter().map(numbers).collect::<Option<_>>()?;
+        let all: Vec<Vec<f64>> = values.iter().map(|value| self.cells(value).ok()).collect::<Option<_>>()?;
         let is_array = |value: &Json| value.is_array();
         let same = values.iter().all(|value| is_array(value) == is_array(&values[0]))
             && all.iter().all(|numbers| numbers.len() == all[0].len() && !numbers.is_empty());

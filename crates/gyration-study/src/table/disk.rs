@@ -1,7 +1,7 @@
 //! The folder of a table: its lock, its manifest, and files that are put into their place whole.
 
 use super::shard::Shard;
-use super::{LOCK, MANIFEST};
+use super::{LOCK, MANIFEST, RECORDINGS, ROWS, TABLE};
 use crate::error::StudyError;
 use crate::study::Study;
 use serde_json::Value as Json;
@@ -16,6 +16,34 @@ pub(super) fn folder(path: &Path, shard: Shard) -> PathBuf {
 pub(super) fn holds_shards(folder: &Path) -> bool {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries.into_iter().any(|entry| Shard::of_folder(&entry.file_name().to_string_lossy()).is_some())
+}
+
+/// Whether a folder is empty, or all that is in it is what a writer leaves who stops before it has begun.
+pub(super) fn is_begun_only(folder: &Path) -> bool {
+    let is_trace = |entry: fs::DirEntry| {
+        let name = entry.file_name();
+        let is_aside = name.to_string_lossy().starts_with('_') && name.to_string_lossy().ends_with(".tmp");
+        is_aside
+            || name == LOCK
+            || name == ROWS && fs::read_dir(entry.path()).is_ok_and(|mut rows| rows.next().is_none())
+    };
+    fs::read_dir(folder).is_ok_and(|entries| entries.flatten().all(is_trace))
+}
+
+/// Removes a table, and nothing that lies beside it.
+pub(super) fn remove_table(folder: &Path) -> Result<(), StudyError> {
+    // What says that this is a table goes last.
+    for name in [ROWS, RECORDINGS, &format!("_{TABLE}.tmp"), &format!("_{MANIFEST}.tmp"), TABLE, MANIFEST] {
+        let path = folder.join(name);
+        let removed = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        match removed {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(StudyError::io("remove", &path)(error));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// Runs of a chunk: few enough that a table can be looked at while it grows, and that a chunk fits the memory.
@@ -66,6 +94,9 @@ pub(super) fn read_manifest(folder: &Path) -> Result<Json, StudyError> {
     let path = folder.join(MANIFEST);
     match fs::read_to_string(&path) {
         Ok(text) => serde_json::from_str(&text).map_err(|error| StudyError::damaged(&path, error)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound && holds_shards(folder) => {
+            Err(StudyError::shards_there(folder))
+        }
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             Err(StudyError::NoTable { path: folder.to_owned(), help: "\n  fix: leave --resume out" })
         }

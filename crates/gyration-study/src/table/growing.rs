@@ -1,7 +1,7 @@
 //! The table of a study while it grows: which runs are there, journals, chunks, and their joining at the end.
 
 use super::describe::{describe, manifest};
-use super::disk::{chunk_of, folder, holds_shards, is_of, lock, replace_file};
+use super::disk::{chunk_of, folder, holds_shards, is_begun_only, is_of, lock, remove_table, replace_file};
 use super::journal::{self, Journal};
 use super::parquet::{Input, Output};
 use super::shard::Shard;
@@ -54,30 +54,31 @@ struct Open {
 }
 
 impl Table {
-    /// A new table in the folder `path`, or of a shard in a folder in it; with `replace`, one that is there is removed.
+    /// A new table in the folder `path`, or of a shard in a folder in it; with `replace`, one that is there is removed, but nothing beside it.
     ///
     /// # Errors
-    /// [`StudyError::Exists`] if something is there that is not to be replaced, or that is no table.
+    /// [`StudyError::Exists`] if something is there that is not to be replaced, or that is no table, [`StudyError::Shards`] if shards are:
+    /// others may be at work on them.
     pub fn create(path: &Path, study: &Study, shard: Shard, replace: bool) -> Result<Self, StudyError> {
         let folder = folder(path, shard);
         if folder.symlink_metadata().is_ok() {
-            let is_table = folder.join(MANIFEST).is_file() || holds_shards(&folder);
-            let is_empty = fs::read_dir(&folder).is_ok_and(|mut entries| entries.next().is_none());
-            if !(is_empty || replace && is_table) {
+            if holds_shards(&folder) {
+                return Err(StudyError::shards_there(&folder));
+            }
+            if !(is_begun_only(&folder) || replace && folder.join(MANIFEST).is_file()) {
                 return Err(StudyError::Exists { path: folder });
             }
-            if is_table {
-                drop(lock(&folder)?);
-            }
-            fs::remove_dir_all(&folder).map_err(StudyError::io("remove", &folder))?;
+            drop(lock(&folder)?);
+            remove_table(&folder)?;
         }
-        let rows = folder.join(ROWS);
-        fs::create_dir_all(&rows).map_err(StudyError::io("make", &rows))?;
+        fs::create_dir_all(&folder).map_err(StudyError::io("make", &folder))?;
         let table = Self::new(folder, study, shard)?;
         let manifest = format!("{:#}\n", manifest(study, shard));
         replace_file(&table.folder.join(MANIFEST), |path| {
             fs::write(path, &manifest).map_err(StudyError::io("write", path))
         })?;
+        let rows = table.folder.join(ROWS);
+        fs::create_dir_all(&rows).map_err(StudyError::io("make", &rows))?;
         Ok(table)
     }
 
@@ -90,6 +91,10 @@ impl Table {
         is_of(&folder, study, shard)?;
         let mut table = Self::new(folder, study, shard)?;
         if table.folder.join(TABLE).is_file() {
+            let rows = Input::open(&table.file())?.rows();
+            if rows != table.runs {
+                return Err(StudyError::damaged(&table.file(), format!("it has {rows} rows of {}", table.runs)));
+            }
             table.is_complete = true;
             table.rows = table.runs;
             table.remove_rows()?;
@@ -269,6 +274,10 @@ impl Table {
         let journal = self.journal_file(number);
         let (mut rows, _) = journal::read(&journal, &self.columns)?;
         rows.sort_by_key(Row::run);
+        rows.dedup_by_key(|row| row.run());
+        if rows.len() as u64 != self.chunk.min(self.runs - number * self.chunk) {
+            return Err(StudyError::damaged(&journal, "it has not the rows of its chunk"));
+        }
         replace_file(&self.chunk_file(number), |path| {
             let mut output = Output::create(path, &self.columns, &self.description)?;
             rows.into_iter().try_for_each(|row| output.push(row))?;

@@ -13,19 +13,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::vec::IntoIter;
 
+/// EMFILE, of Linux and of the BSDs.
+const TOO_MANY_FILES: i32 = 24;
+/// Shards that a message names at most.
+const MOST_NAMED: usize = 20;
 /// Rows of all shards together that are held at a time.
 const HELD: usize = 1 << 14;
 
 /// Joins the shards in a folder into its `table.parquet`, and returns its path; the shards stay.
 ///
 /// # Errors
-/// [`StudyError::Shards`] if some are missing or unfinished, [`StudyError::OtherStudy`] if one is foreign,
-/// [`StudyError::Exists`] if the table is there and not to be replaced.
+/// [`StudyError::Shards`] if some are missing or unfinished, or the table is there and not to be replaced; [`StudyError::OtherStudy`] if one
+/// is foreign.
 pub fn merge(path: &Path, study: &Study, replace: bool) -> Result<PathBuf, StudyError> {
     let count = count(path)?;
     let target = path.join(TABLE);
     if target.exists() && !replace {
-        return Err(StudyError::Exists { path: target });
+        let fix = "it is as the shards were then; join them again by merge --force".to_owned();
+        return Err(StudyError::Shards { path: path.to_owned(), what: "they are joined already".into(), fix });
     }
     let _lock = lock(path)?;
     let mut shards = inputs(path, study, count)?;
@@ -76,6 +81,9 @@ fn inputs(path: &Path, study: &Study, count: u64) -> Result<Vec<Held>, StudyErro
         let folder = path.join(shard.folder().unwrap_or_default());
         if !folder.join(MANIFEST).is_file() {
             missing.push(number);
+            if missing.len() > MOST_NAMED {
+                break;
+            }
             continue;
         }
         is_of(&folder, study, shard)?;
@@ -84,7 +92,7 @@ fn inputs(path: &Path, study: &Study, count: u64) -> Result<Vec<Held>, StudyErro
             unfinished.push(number);
             continue;
         }
-        held.push(Held::open(table, (HELD / count as usize).max(1))?);
+        held.push(Held::open(table, (HELD / count as usize).max(1)).map_err(|error| too_many(error, path, count))?);
     }
     if missing.is_empty() && unfinished.is_empty() {
         return Ok(held);
@@ -96,14 +104,26 @@ fn inputs(path: &Path, study: &Study, count: u64) -> Result<Vec<Held>, StudyErro
         }
     };
     let how = if missing.is_empty() { " --resume" } else { "" };
-    let fix = format!("run each of them, `gyration study {} --shard {first}/{count}{how}`", study.name());
+    let fix =
+        format!("run each of them with the words that the others were run with, but --shard {first}/{count}{how}");
     Err(StudyError::Shards { path: path.to_owned(), what, fix })
 }
 
+/// All shards are read side by side: of very many, a process may not have all files open.
+fn too_many(error: StudyError, path: &Path, count: u64) -> StudyError {
+    match error {
+        StudyError::Io { source, .. } if source.raw_os_error() == Some(TOO_MANY_FILES) => StudyError::Shards {
+            path: path.to_owned(),
+            what: format!("{count} shards are more files than this process may have open"),
+            fix: format!("allow it more, `ulimit -n {}`", count + 100),
+        },
+        error => error,
+    }
+}
+
 fn listed(numbers: &[u64]) -> String {
-    const MOST: usize = 20;
-    let words: Vec<String> = numbers.iter().take(MOST).map(u64::to_string).collect();
-    format!("{}{}", words.join(", "), if numbers.len() > MOST { ", …" } else { "" })
+    let words: Vec<String> = numbers.iter().take(MOST_NAMED).map(u64::to_string).collect();
+    format!("{}{}", words.join(", "), if numbers.len() > MOST_NAMED { ", …" } else { "" })
 }
 
 /// A shard that is being read.

@@ -1,6 +1,6 @@
 //! `gyration study`: thousands of runs of a scene into one table; shards, and their joining.
 
-mod plot;
+pub mod plot;
 mod summary;
 mod watch;
 
@@ -8,7 +8,7 @@ use super::run::{quoted, shown};
 use crate::arguments::{Study as Arguments, StudyAction};
 use crate::error::{CliError, code};
 use crate::output;
-use gyration_study::{Digest, Shard, Study, Table, execute as make, merge, studies};
+use gyration_study::{Digest, Shard, Study, Table, Threads, execute as make, merge, studies};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -19,7 +19,7 @@ pub fn execute(arguments: &Arguments) -> Result<u8, CliError> {
     let Some(name) = &arguments.study else { return list() };
     // A table is drawn wherever it comes from: its study need not be there.
     if let Some(StudyAction::Plot(wanted)) = &arguments.action {
-        return plot::execute(name, wanted, arguments.output.as_deref());
+        return plot::execute(name, wanted, arguments);
     }
     let study = Study::open(name, &arguments.overrides)?;
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.study", study.name())));
@@ -44,6 +44,9 @@ fn list() -> Result<u8, CliError> {
 /// Makes the runs that are missing.
 fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
     let shard = shard(arguments.shard.as_deref())?;
+    plot::wanted(study)?;
+    let threads = Threads::asked(arguments.threads.map(NonZeroUsize::get))
+        .map_err(|wrong| CliError::arguments(wrong.to_string(), wrong.fix()))?;
     let mut table = match arguments.resume {
         true => Table::resume(path, study, shard)?,
         false => Table::create(path, study, shard, arguments.force)?,
@@ -54,7 +57,6 @@ fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError
         }
         return Ok(code::DONE);
     }
-    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
     let mut watch = Watch::new(!arguments.quiet)?;
     let (began, before) = (Instant::now(), table.rows());
     let made = make(study, &mut table, threads, &mut watch);
@@ -62,12 +64,13 @@ fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError
     let is_complete = made?;
     let made = table.rows() - before;
     if is_complete {
+        let digest = Digest::read(&table.file())?;
         if !arguments.quiet {
             let effort = summary::Effort { runs: made, seconds: began.elapsed().as_secs_f64(), threads: threads.get() };
-            output::say(&summary::in_words(study, &Digest::read(&table.file())?, &effort));
+            output::say(&summary::in_words(study, &digest, &effort));
             output::say(&format!("table      {}", shown(&table.file())));
         }
-        return Ok(code::DONE);
+        return Ok(summary::exit_code(&digest));
     }
     output::say(&format!("gyration: the study was interrupted after {} of {} runs", table.rows(), table.runs()));
     output::say(&format!("gyration: go on with `{}`", resume_command(arguments, path)));

@@ -1,8 +1,10 @@
 //! The table of a study in words: outcomes counted, what is kept by mean and deviation or counted, throughput.
 
+use crate::error::code;
+use crate::output;
 use crate::progress::duration_in_words;
 use crate::summary::plain;
-use gyration_study::{Column, Digest, Kind, Spread, Study};
+use gyration_study::{Column, Digest, FAILED, Kind, Spread, Study};
 
 /// The most different texts that are listed.
 const MOST_LISTED: usize = 12;
@@ -40,6 +42,17 @@ pub fn in_words(study: &Study, digest: &Digest, effort: &Effort) -> String {
         lines.push(format!("time       {}", throughput(effort)));
     }
     lines.join("\n")
+}
+
+/// The exit code of a finished table: a study none of whose runs could be made is no success.
+pub fn exit_code(digest: &Digest) -> u8 {
+    let failed = digest.column("outcome").and_then(|(_, spread)| spread.texts.get(FAILED)).copied().unwrap_or(0);
+    if failed == 0 || failed < digest.rows {
+        return code::DONE;
+    }
+    let reasons = digest.column("reason").map(|(_, spread)| spread.texts.keys().next().cloned()).unwrap_or_default();
+    output::say(&format!("gyration: no run could be made: {}", reasons.unwrap_or_default()));
+    code::ENDED_EARLY
 }
 
 fn throughput(effort: &Effort) -> String {

@@ -8,6 +8,7 @@ use super::statistics::{self, Estimate};
 use super::{Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, kept, painted, palette, references};
 use crate::plot::chart::{Axis, Chart, LINE, Panel, Scale, Series, Shapes};
 use crate::plot::draw::Stroke;
+use std::collections::BTreeSet;
 
 /// With more points than this a curve has no dots.
 const MOST_DOTS: usize = 60;
@@ -89,6 +90,16 @@ fn quantities(table: &Table, measure: &Measure) -> Result<Vec<Quantity>, Unfit> 
                 "leave the kind to the program, or ask for `--kind scatter`",
             )),
         };
+    }
+    let words = || (0..table.len()).filter_map(|run| column.word(run)).collect::<BTreeSet<_>>();
+    let is_face = |value: &str| value.len() == 2 && value.starts_with(['+', '-']) && value.ends_with(['x', 'y', 'z']);
+    for value in &measure.values {
+        // A face may never have come; another word that no run has is a slip.
+        if table.column(value).is_err() && !is_face(value) && !words().contains(value) {
+            let there: Vec<String> = words().into_iter().take(MOST_CURVES).collect();
+            let problem = format!("no run has `{value}` in the column `{}`", column.name);
+            return Err(Unfit::new(problem, format!("it has {}", there.join(", "))));
+        }
     }
     let others: Vec<Option<&Column>> = measure.values.iter().map(|value| table.column(value).ok()).collect();
     let is_hit = |run: usize, word: &str| {
@@ -173,7 +184,7 @@ impl Places {
     }
 }
 
-/// A line, its dots and its intervals; these stand a little beside the dots, lest those of several curves hide each other.
+/// A line, its dots and its intervals; if it has intervals, all stand a little aside, lest those of several curves hide each other.
 fn draw(
     points: &[(f64, Estimate)],
     name: String,
@@ -186,10 +197,11 @@ fn draw(
         Scale::Logarithmic => x * (axis.high / axis.low).powf(beside),
     };
     let ends: Vec<_> = points.iter().map(|(x, e)| [[at(*x), e.low], [at(*x), e.high]]).collect();
-    if ends.iter().any(|[low, high]| high[1] > low[1]) {
+    let has_intervals = ends.iter().any(|[low, high]| high[1] > low[1]);
+    if has_intervals {
         shapes.push(Shapes::Intervals { ends, stroke: Stroke::solid(colour, 0.8) });
     }
-    let line: Vec<_> = points.iter().map(|(x, e)| [*x, e.value]).collect();
+    let line: Vec<_> = points.iter().map(|(x, e)| [if has_intervals { at(*x) } else { *x }, e.value]).collect();
     if points.len() <= MOST_DOTS {
         shapes.push(Shapes::Dots { at: line.clone(), radius: RADIUS, fill: colour });
     }

@@ -1,0 +1,60 @@
+//! The fit as a drawing shows it: curves over the conditions, with the band in which they lie with 95 %.
+//!
+//!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂u
+
+use super::{Calibration, Experiment, Fitted, Kind};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+/// Half of the width of an interval of 95 %, in standard errors.
+const WIDTH: f64 = 1.959_963_984_540_054;
+/// Points of a curve.
+const POINTS: usize = 25;
+/// Points of a curve of runs, which is nearly straight and each of which takes a run.
+const RUNS: usize = 9;
+/// How far a curve goes beyond the conditions, a part of their range.
+const BEYOND: f64 = 0.05;
+
+/// One table and its curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The table.
+    pub experiment: Experiment,
+    /// By condition; with but one condition, that one.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A point of a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// The condition.
+    pub condition: f64,
+    /// What would be measured.
+    pub value: f64,
+    /// Half of the width of the band.
+    pub half_width: f64,
+}
+
+impl Calibration {
+    /// The curves of a fit; points that cannot be computed are left out.
+    pub fn curves(&self, fitted: &Fitted) -> Vec<Curve> {
+        let values: Vec<f64> = fitted.numbers.iter().map(|number| number.value).collect();
+        self.experiments.iter().map(|table| self.curve(table, fitted, &values)).collect()
+    }
+
+    fn curve(&self, table: &Experiment, fitted: &Fitted, values: &[f64]) -> Curve {
+        let low = table.conditions.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = table.conditions.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let beyond = BEYOND * (high - low);
+        let (low, high) = (if low > 0.0 { (low - beyond).max(0.5 * low) } else { low - beyond }, high + beyond);
+        let points = if table.kind == Kind::Drop { RUNS } else { POINTS };
+        let count = if high > low && (table.key.is_some() || table.kind.condition().is_some()) { points } else { 1 };
+        let point = |k: usize| {
+            let condition = low + (high - low) * k as f64 / (count - 1).max(1) as f64;
+            let observed = self.observed(table, condition, values).ok()?;
+            let slopes = nalgebra::DVector::from_vec(self.inward(&observed.slopes, values, 1.0));
+            let variance = slopes.dot(&(&fitted.covariance * &slopes));
+            Some(CurvePoint { condition, value: observed.value, half_width: WIDTH * variance.max(0.0).sqrt() })
+        };
+        Curve { experiment: table.clone(), points: (0..count).into_par_iter().filter_map(point).collect() }
+    }
+}

@@ -1,0 +1,197 @@
+//! What is known of the numbers: values, standard errors, correlations, and what the measurements cannot tell apart.
+//!
+//!   C = (JᵀJ)⁻¹ = V diag(1/s²) Vᵀ,   J = ∂r/∂u = U diag(s) Vᵀ
+//!
+//! with residuals weighted by the deviations of the measurements, which are taken as they are: χ² over the degrees of freedom
+//! says whether they can be right. A direction v of u along which the numbers may move by more than a factor of twenty is not
+//! determined; it is named, and left out of the errors of what it hardly moves.
+
+use super::{Calibration, CalibrationError};
+use nalgebra::DMatrix;
+use rayon::iter::ParallelIterator;
+use serde::Serialize;
+
+/// A direction is determined if the standard error along it is below this (factor e³), in u.
+const LOOSE: f64 = 3.0;
+/// Smaller singular values than this part of the largest are the rounding of the derivatives.
+const ROUNDING: f64 = 1e-8;
+/// The part of a direction that counts as taking part in it.
+const PART: f64 = 0.1;
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fitted {
+    /// The numbers.
+    pub numbers: Vec<FittedNumber>,
+    /// Correlations of their errors, row by row; none with what is not determined.
+    pub correlations: Vec<Vec<Option<f64>>>,
+    /// Σ ((m − y)/σ)².
+    pub chi_squared: f64,
+    /// Measurements less numbers that are determined.
+    pub degrees_of_freedom: usize,
+    /// What is left of each measurement.
+    pub residuals: Vec<Residual>,
+    /// What cannot be told apart.
+    pub undetermined: Vec<Undetermined>,
+    /// How the search ended.
+    pub ending: String,
+    /// How often it computed all measurements.
+    pub evaluations: usize,
+    /// C in u, what is undetermined left out.
+    #[serde(skip)]
+    pub(super) covariance: DMatrix<f64>,
+}
+
+/// A number that was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedNumber {
+    /// Its name in the file.
+    pub name: String,
+    /// The keys of the scene that have it.
+    pub keys: Vec<String>,
+    /// Its value, in SI units.
+    pub value: f64,
+    /// Its standard error; none where it is not determined.
+    pub error: Option<f64>,
+    /// Whether it lies on a bound.
+    pub is_on_bound: bool,
+}
+
+/// A measurement and what was found for it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Residual {
+    /// The table, as `drop.0`.
+    pub table: String,
+    /// The row, from zero.
+    pub row: usize,
+    /// The condition.
+    pub condition: f64,
+    /// What was measured.
+    pub measured: f64,
+    /// Its standard deviation.
+    pub deviation: f64,
+    /// What the scene gives.
+    pub fitted: f64,
+    /// (fitted − measured)/deviation.
+    pub weighted: f64,
+}
+
+/// A combination of numbers that the measurements leave open.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Undetermined {
+    /// The numbers that take part, with dp/p along it, the largest being one.
+    pub direction: Vec<(String, f64)>,
+    /// What that means, in a sentence.
+    pub in_words: String,
+}
+
+impl Calibration {
+    /// Finds the numbers that fit best.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] if the search cannot begin or does not end.
+    pub fn fit(&self) -> Result<Fitted, CalibrationError> {
+        let found = self.search()?;
+        let values = found.values;
+        let slopes = self.weighted_slopes(&values).map_err(CalibrationError::Search)?;
+        let residuals = self.residuals(&values)?;
+        let (rows, count) = (slopes.len(), values.len());
+        let jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
+        let (covariance, open) = covariance(&jacobian);
+        let undetermined: Vec<_> = open.iter().map(|direction| self.undetermined(direction, &values)).collect();
+        let is_open = |index: usize| open.iter().any(|direction| direction[index].abs() > PART);
+        let number = |(index, number): (usize, &super::Number)| {
+            let (_, slope) = number.scale.outward(number.scale.inward(values[index]));
+            FittedNumber {
+                name: number.name.clone(),
+                keys: number.keys.clone(),
+                value: values[index],
+                error: (!is_open(index)).then(|| covariance[(index, index)].sqrt() * slope.abs()),
+                is_on_bound: number.scale.is_on_bound(values[index]),
+            }
+        };
+        let correlation = |i: usize, j: usize| {
+            let size = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+            (!is_open(i) && !is_open(j)).then(|| covariance[(i, j)] / size)
+        };
+        Ok(Fitted {
+            numbers: self.numbers.iter().enumerate().map(number).collect(),
+            correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
+            chi_squared: residuals.iter().map(|residual| residual.weighted * residual.weighted).sum(),
+            degrees_of_freedom: rows.saturating_sub(count - open.len()),
+            residuals,
+            undetermined,
+            ending: found.ending,
+            evaluations: found.evaluations,
+            covariance,
+        })
+    }
+
+    fn residuals(&self, values: &[f64]) -> Result<Vec<Residual>, CalibrationError> {
+        let residual = |(table, row): (&super::Experiment, usize)| {
+            let (condition, measured, deviation) = (table.conditions[row], table.measured[row], table.deviations[row]);
+            let fitted = self.value(table, condition, values).map_err(CalibrationError::Search)?;
+            let weighted = (fitted - measured) / deviation;
+            Ok(Residual { table: table.place(), row, condition, measured, deviation, fitted, weighted })
+        };
+        self.rows().map(residual).collect()
+    }
+
+    fn undetermined(&self, direction: &[f64], values: &[f64]) -> Undetermined {
+        let beside = self.numbers.iter().zip(values);
+        let on_bound: Vec<&str> = beside
+            .clone()
+            .filter(|(number, value)| number.scale.is_on_bound(**value))
+            .map(|(number, _)| number.name.as_str())
+            .collect();
+        // From u to relative changes.
+        let relative = |((number, value), part): ((&super::Number, &f64), &f64)| {
+            let size = if *value == 0.0 { number.scale.size } else { value.abs() };
+            part * number.scale.outward(number.scale.inward(*value)).1 / size
+        };
+        let direction: Vec<f64> =
+            if on_bound.is_empty() { beside.zip(direction).map(relative).collect() } else { direction.to_vec() };
+        let direction = direction.as_slice();
+        let largest =
+            direction.iter().copied().fold(0.0, |most: f64, part| if part.abs() > most.abs() { part } else { most });
+        let taking = self.numbers.iter().zip(direction).filter(|(_, part)| part.abs() > PART * largest.abs());
+        let direction: Vec<(String, f64)> =
+            taking.map(|(number, part)| (number.name.clone(), part / largest)).collect();
+        let in_words = match direction.as_slice() {
+            [(name, _)] if on_bound.contains(&name.as_str()) => {
+                format!(
+                    "`{name}` lies on its bound: what was measured asks for less or more than that, or does not tell it"
+                )
+            }
+            [(name, _)] => format!("what was measured does not tell `{name}`"),
+            parts => {
+                let moves: Vec<String> = parts.iter().map(|(name, part)| format!("{name} ({part:+.3})")).collect();
+                let names: Vec<String> = parts.iter().map(|(name, _)| format!("`{name}`")).collect();
+                format!(
+                    "{} cannot be told apart: changes in the ratio {} leave everything measured as it is (relative changes)",
+                    names.join(" and "),
+                    moves.join(" : ")
+                )
+            }
+        };
+        Undetermined { direction, in_words }
+    }
+}
+
+/// C without the directions that are not determined, and these.
+fn covariance(jacobian: &DMatrix<f64>) -> (DMatrix<f64>, Vec<Vec<f64>>) {
+    let normal = jacobian.transpose() * jacobian;
+    let eigen = normal.symmetric_eigen();
+    let largest = eigen.eigenvalues.iter().fold(0.0, |most: f64, value| most.max(*value));
+    let mut covariance = DMatrix::zeros(jacobian.ncols(), jacobian.ncols());
+    let mut open = Vec::new();
+    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        // s², from a product of J with itself: rounding is that of s² too.
+        if *value > (ROUNDING * largest.sqrt()).powi(2).max(f64::EPSILON * largest) && *value * LOOSE * LOOSE > 1.0 {
+            covariance += vector * vector.transpose() / *value;
+        } else {
+            open.push(vector.iter().copied().collect());
+        }
+    }
+    (covariance, open)
+}

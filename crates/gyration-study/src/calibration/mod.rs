@@ -1,0 +1,166 @@
+//! Numbers of a scene from measurements: α, β, ν of contact laws from what people can measure.
+//!
+//!   min Σ_i ((y_i − m_i(p))/σ_i)²
+//!
+//! m_i are computed with the simulator itself (`observe`): a rebound by a run to its apex, a gap from the exact rest state, the
+//! speed on a slope and the force of pull-off from the balance of forces. Their derivatives come from the sensitivities of
+//! the run, or from differences of what has no run. The least squares are a library's (`fit`); what is known of the numbers
+//! afterwards is in `known`.
+
+mod check;
+mod csv;
+mod curve;
+mod file;
+mod fit;
+mod known;
+mod observe;
+mod read;
+mod scale;
+
+pub use curve::{Curve, CurvePoint};
+pub use known::{Fitted, FittedNumber, Residual, Undetermined};
+
+use gyration_scene::{LoadError, Template};
+use scale::Scale;
+
+/// Measurements, and the scene whose numbers they tell.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    title: Option<String>,
+    name: String,
+    template: Template,
+    settings: Vec<String>,
+    numbers: Vec<Number>,
+    experiments: Vec<Experiment>,
+}
+
+/// A number to find.
+#[derive(Debug, Clone, PartialEq)]
+struct Number {
+    name: String,
+    keys: Vec<String>,
+    start: f64,
+    scale: Scale,
+}
+
+/// What was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Dropped; the rebound was measured.
+    Drop,
+    /// Laid down; the gap was measured.
+    Gap,
+    /// Put on a slope; the speed was measured.
+    Slope,
+    /// Torn off; the force was measured.
+    PullOff,
+}
+
+/// A table of measurements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Experiment {
+    /// What was done.
+    pub kind: Kind,
+    /// Which of its kind, from zero.
+    pub index: usize,
+    /// The body.
+    pub body: String,
+    settings: Vec<String>,
+    /// The key of the condition, where it is a number of the scene.
+    pub key: Option<String>,
+    /// The condition of each row: height, angle, or the number at the key.
+    pub conditions: Vec<f64>,
+    /// What was measured in each row.
+    pub measured: Vec<f64>,
+    /// The standard deviation of each.
+    pub deviations: Vec<f64>,
+}
+
+/// Why no numbers were found.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrationError {
+    /// The file, or what it refers to.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// A measurement that the start of the search cannot explain at all.
+    #[error(
+        "{place}: nothing can be measured where the search begins: {reason}\n  fix: give the numbers under [fit] a `start` at which it can, or mend the scene"
+    )]
+    Start {
+        /// Which table and row.
+        place: String,
+        /// Why.
+        reason: String,
+    },
+    /// The search came to no end.
+    #[error(
+        "the search found no least squares: {0}\n  fix: start it nearer, fit fewer numbers, or look for a measurement that cannot be"
+    )]
+    Search(String),
+}
+
+impl Kind {
+    /// The word of its section in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Drop => "drop",
+            Self::Gap => "gap",
+            Self::Slope => "slope",
+            Self::PullOff => "pull_off",
+        }
+    }
+
+    /// Name and unit of its condition, where that is no number of the scene.
+    pub fn condition(self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Self::Drop => Some(("height", "m")),
+            Self::Slope => Some(("angle", "rad")),
+            Self::Gap | Self::PullOff => None,
+        }
+    }
+
+    /// The unit in which people read its condition, and how many of it are one SI unit.
+    pub fn shown(self) -> Option<(&'static str, f64)> {
+        match self {
+            Self::Slope => Some(("deg", 1f64.to_degrees())),
+            _ => self.condition().map(|(_, unit)| (unit, 1.0)),
+        }
+    }
+
+    /// Name and unit of what is measured.
+    pub fn measured(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Drop => ("rebound", "m"),
+            Self::Gap => ("gap", "m"),
+            Self::Slope => ("speed", "m/s"),
+            Self::PullOff => ("force", "N"),
+        }
+    }
+}
+
+impl Experiment {
+    /// Where it stands in the file.
+    pub fn place(&self) -> String {
+        format!("{}.{}", self.kind.word(), self.index)
+    }
+}
+
+impl Calibration {
+    /// What the file calls itself, or the name of the scene.
+    pub fn title(&self) -> &str {
+        self.title.as_deref().unwrap_or(&self.name)
+    }
+
+    /// The tables of measurements.
+    pub fn experiments(&self) -> &[Experiment] {
+        &self.experiments
+    }
+
+    /// The overrides of a search at some point of it, in the order of the numbers.
+    fn overrides(&self, values: &[f64]) -> Vec<String> {
+        let set = |(number, value): (&Number, &f64)| -> Vec<String> {
+            number.keys.iter().map(|key| format!("{key}={value:?}")).collect()
+        };
+        self.settings.iter().cloned().chain(self.numbers.iter().zip(values).flat_map(set)).collect()
+    }
+}

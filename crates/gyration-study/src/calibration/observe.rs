@@ -1,0 +1,314 @@
+//! What a scene says that would be measured.
+//!
+//! | measured | computed |
+//! |---|---|
+//! | rebound | h + n·(p₀ − p₀(0)) at the first apex behind the first closest approach of a run that starts at rest at a gap h |
+//! | gap | of the rest state, where the exact balance has no force left |
+//! | speed on a slope θ | m g sin θ/c: rest state under g cos θ, c the friction per speed there |
+//! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |
+//!
+//! The laws have no friction at rest: a body slides on every slope, v = (α/β) tan θ where both exponents are the same. The
+//! slope at which "it slides" is that at which it gets as fast as can be seen; so a slope is measured together with a speed.
+
+use super::{Calibration, Experiment, Kind};
+use gyration::balance::{observe, smallest_gap};
+use gyration::model::Model;
+use gyration::rates::Workspace;
+use gyration::state::State;
+use gyration::tensor::Vec3;
+use gyration_record::RecordError;
+use gyration_scene::Scene;
+use gyration_sim::events::{APEX, Event};
+use gyration_sim::modes::rest;
+use gyration_sim::sensitivity::{At, Sensitivities};
+use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink};
+use std::cell::Cell;
+
+/// Points of the first look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
+const POINTS: usize = 160;
+const NEAREST: f64 = 1e-5;
+const FARTHEST: f64 = 10.0;
+/// Steps of the golden section behind that: the maximum is then known to half of the digits, the force to all.
+const SECTIONS: usize = 45;
+/// Step of differences, a part of the number.
+const DIFFERENCE: f64 = 1e-4;
+/// A rebound is looked for over so many times the time of the fall, and this long [s].
+const FALLS: f64 = 4.0;
+const LONGER: f64 = 1.0;
+
+/// What would be measured, and its derivatives by the numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Observed {
+    pub value: f64,
+    pub slopes: Vec<f64>,
+}
+
+impl Calibration {
+    /// What would be measured under a condition.
+    ///
+    /// # Errors
+    /// Why nothing would be, in words.
+    pub(super) fn value(&self, experiment: &Experiment, condition: f64, values: &[f64]) -> Result<f64, String> {
+        match experiment.kind {
+            Kind::Drop => Drop::of(self, experiment, condition, values)?.rebound(),
+            Kind::Gap => rest_gap(&self.scene(experiment, condition, values, &[])?, experiment),
+            Kind::Slope => {
+                let scene = self.scene(experiment, condition, values, &[])?;
+                speed(&self.tilted(experiment, (&scene, condition), values)?, experiment, condition)
+            }
+            Kind::PullOff => pull_off(&self.scene(experiment, condition, values, &[])?, experiment),
+        }
+    }
+
+    /// The same with derivatives: along the run of a drop, else by differences of fourth order of what is known to rounding.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    pub(super) fn observed(&self, experiment: &Experiment, condition: f64, values: &[f64]) -> Result<Observed, String> {
+        if experiment.kind == Kind::Drop
+            && let Some(observed) = Drop::of(self, experiment, condition, values)?.observed(self)?
+        {
+            return Ok(observed);
+        }
+        let value = self.value(experiment, condition, values)?;
+        let slope = |index: usize| {
+            let step =
+                DIFFERENCE * if values[index] == 0.0 { self.numbers[index].scale.size } else { values[index].abs() };
+            let at = |steps: f64| {
+                let mut moved = values.to_vec();
+                moved[index] += steps * step;
+                self.value(experiment, condition, &moved)
+            };
+            Ok((8.0 * (at(1.0)? - at(-1.0)?) - (at(2.0)? - at(-2.0)?)) / (12.0 * step))
+        };
+        Ok(Observed { value, slopes: (0..values.len()).map(slope).collect::<Result<_, String>>()? })
+    }
+
+    /// The scene of a measurement.
+    fn scene(&self, experiment: &Experiment, condition: f64, values: &[f64], more: &[String]) -> Result<Scene, String> {
+        let mut overrides = self.overrides(values);
+        overrides.extend(experiment.settings.iter().cloned());
+        overrides.extend(experiment.key.iter().map(|key| format!("{key}={condition:?}")));
+        overrides.extend(more.iter().cloned());
+        let found = self.template.scene(&overrides);
+        found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
+    }
+
+    /// The scene on a slope, with the part of gravity that presses.
+    fn tilted(&self, experiment: &Experiment, (scene, slope): (&Scene, f64), values: &[f64]) -> Result<Scene, String> {
+        let model = &scene.built().model;
+        let normal = normal(model, body(model, experiment)?)?;
+        let pressing = -normal * (model.gravity.norm() * slope.cos());
+        let gravity = format!("world.gravity=[{:?}, {:?}, {:?}]", pressing.x, pressing.y, pressing.z);
+        self.scene(experiment, slope, values, &[gravity])
+    }
+}
+
+/// The index of the body.
+fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
+    let found = model.bodies.iter().position(|body| body.name == experiment.body);
+    found.ok_or_else(|| format!("there is no body `{}`", experiment.body))
+}
+
+/// The normal of the first support that acts on a body.
+fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
+    let contact = model.bodies[body].contacts.first();
+    let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
+    Ok(model.supports[contact.support].normal)
+}
+
+fn rest_gap(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
+    let built = scene.built();
+    let index = body(&built.model, experiment)?;
+    rest(&built.model, &built.state, index).map(|rest| rest.gap).map_err(|none| none.to_string())
+}
+
+/// The steady speed under the part of gravity along the slope, from the friction per speed in the rest state.
+fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, String> {
+    let built = tilted.built();
+    let (model, index) = (&built.model, body(&built.model, experiment)?);
+    let state = rest(model, &built.state, index).map_err(|none| none.to_string())?;
+    let normal = normal(model, index)?;
+    let level = [Vec3::x(), Vec3::y()].map(|axis| axis - normal * normal.dot(&axis));
+    let along = if level[0].norm() > level[1].norm() { level[0] } else { level[1] }.normalize();
+    let mut still = built.state.clone();
+    still.bodies[model.blocks()[index].clone()].copy_from_slice(state.block());
+    let mut moving = still.clone();
+    let at = velocity(model, index)?;
+    moving.bodies[at..at + 3].copy_from_slice(along.as_slice());
+    let resistance = -(force(model, &moving, index)? - force(model, &still, index)?).dot(&along);
+    let pressing = model.gravity.norm();
+    if resistance > 0.0 {
+        // |g| was multiplied by cos θ.
+        Ok(model.bodies[index].mass.mass * pressing * slope.tan() / resistance)
+    } else {
+        Err(format!("no friction acts on {:?}: on a slope it gets faster for ever", experiment.body))
+    }
+}
+
+/// Where the velocity of a body's centre stands in the state.
+fn velocity(model: &Model, index: usize) -> Result<usize, String> {
+    let (body, block) = (&model.bodies[index], &model.blocks()[index]);
+    if body.pin.is_some() || !body.has_inertia() {
+        return Err(format!("{:?} is pinned or has no inertia", body.name));
+    }
+    Ok(block.start + if body.affine().is_some() { 12 } else { 7 })
+}
+
+fn force(model: &Model, state: &State, index: usize) -> Result<Vec3, String> {
+    let seen = observe(model, &mut Workspace::default(), state, index);
+    seen.map(|seen| seen.contact_force).map_err(|left| left.to_string())
+}
+
+/// The largest force towards the support over all gaps.
+fn pull_off(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
+    let built = scene.built();
+    let (model, index) = (&built.model, body(&built.model, experiment)?);
+    let (normal, at) = (normal(model, index)?, velocity(model, index)?);
+    let start = model.blocks()[index].start;
+    let mut state = built.state.clone();
+    state.bodies[at..at + 3].fill(0.0);
+    let gap = smallest_gap(model, 0.0, index, &state.motion(model, index));
+    let center = Vec3::from_column_slice(&state.bodies[start..start + 3]);
+    let mut pull = |logarithm: f64| -> Result<f64, String> {
+        let moved = center + normal * (logarithm.exp() - gap);
+        state.bodies[start..start + 3].copy_from_slice(moved.as_slice());
+        Ok(-force(model, &state, index)?.dot(&normal))
+    };
+    let size = model.bodies[index].size;
+    let (low, high) = ((NEAREST * size).ln(), (FARTHEST * size).ln());
+    let step = (high - low) / (POINTS - 1) as f64;
+    let (mut best, mut most) = (low, f64::NEG_INFINITY);
+    for k in 0..POINTS {
+        let place = low + k as f64 * step;
+        let force = pull(place)?;
+        if force > most {
+            (best, most) = (place, force);
+        }
+    }
+    if most <= 0.0 || most.is_nan() {
+        return Err(format!("nothing holds {:?} back: there is no adhesion", experiment.body));
+    }
+    let (mut left, mut right) = (best - step, best + step);
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..SECTIONS {
+        let [a, b] = [right - golden * (right - left), left + golden * (right - left)];
+        if pull(a)? > pull(b)? { right = b } else { left = a }
+    }
+    pull(0.5 * (left + right))
+}
+
+/// A body about to be dropped.
+struct Drop {
+    scene: Scene,
+    index: usize,
+    normal: Vec3,
+    height: f64,
+    start: Vec3,
+}
+
+impl Drop {
+    fn of(calibration: &Calibration, experiment: &Experiment, height: f64, values: &[f64]) -> Result<Self, String> {
+        let still = format!("body.{}.velocity=[0.0, 0.0, 0.0]", experiment.body);
+        let first = calibration.scene(experiment, height, values, std::slice::from_ref(&still))?;
+        let (model, state) = (&first.built().model, &first.built().state);
+        let index = body(model, experiment)?;
+        let normal = normal(model, index)?;
+        let motion = state.motion(model, index);
+        if motion.velocity.gradient_rate.norm() > 0.0 {
+            let key = format!("body.{}.angular_velocity", experiment.body);
+            return Err(format!(
+                "it turns or deforms at its start, and is to be released at rest: set = {{ \"{key}\" = [0, 0, 0] }}"
+            ));
+        }
+        let gap = smallest_gap(model, 0.0, index, &motion);
+        let start = motion.placement.position + normal * (height - gap);
+        let fall = (2.0 * height / model.gravity.norm()).sqrt();
+        let end = FALLS * fall + LONGER;
+        let more = [
+            still,
+            format!("body.{}.position=[{:?}, {:?}, {:?}]", experiment.body, start.x, start.y, start.z),
+            format!("time={{ end = {end:?}, sample = {end:?} }}"),
+        ];
+        let scene = calibration.scene(experiment, height, values, &more)?;
+        Ok(Self { scene, index, normal, height, start })
+    }
+
+    /// The time of the apex [s].
+    fn apex(&self) -> Result<f64, String> {
+        let built = self.scene.built();
+        let watch = Watch { body: self.index, touched: Cell::new(false), apex: Cell::new(None) };
+        let mut run = Simulation::new(&built.model, &built.state, RunPlan::from(built)).map_err(|e| e.to_string())?;
+        let (mut sink, mut monitor) = (&watch, &watch);
+        run.begin(&mut sink).map_err(|e| e.to_string())?;
+        let outcome = run.run(&mut sink, &mut monitor).map_err(|e| e.to_string())?;
+        let none = || format!("it does not rebound: {}", outcome.in_words());
+        watch.apex.get().ok_or_else(none)
+    }
+
+    fn rebound(&self) -> Result<f64, String> {
+        Ok(self.at_apex(&[])?.0)
+    }
+
+    /// The rebound with its derivatives by keys; those at a fixed time, since the speed vanishes at the apex.
+    fn at_apex(&self, keys: &[String]) -> Result<(f64, Option<Vec<f64>>), String> {
+        let time = self.apex()?;
+        let overrides = [self.scene.overrides(), &[format!("time={{ end = {time:?}, sample = {time:?} }}")]].concat();
+        let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides);
+        let scene = scene.map_err(|errors| errors.to_string())?;
+        let name = &scene.built().model.bodies[self.index].name;
+        let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
+        let found = Sensitivities::along(&scene, keys, &columns, At::End).map_err(|e| e.to_string())?;
+        let last = found.values.last().ok_or("the run has no end")?;
+        let rise = (Vec3::from_column_slice(last) - self.start).dot(&self.normal);
+        let slope = |row: &[f64]| Vec3::from_column_slice(row).dot(&self.normal);
+        let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().map(slope)).collect();
+        Ok((self.height + rise, slopes))
+    }
+
+    /// None where a number has no sensitivity, or belongs to more than the contacts: to where the body starts, perhaps.
+    fn observed(&self, calibration: &Calibration) -> Result<Option<Observed>, String> {
+        let keys: Vec<String> = calibration.numbers.iter().flat_map(|number| number.keys.clone()).collect();
+        if keys.iter().any(|key| !key.starts_with("contact.")) {
+            return Ok(None);
+        }
+        let (value, Some(by_key)) = self.at_apex(&keys)? else { return Ok(None) };
+        let mut by_key = by_key.into_iter();
+        let slope = |number: &super::Number| by_key.by_ref().take(number.keys.len()).sum();
+        Ok(Some(Observed { value, slopes: calibration.numbers.iter().map(slope).collect() }))
+    }
+}
+
+/// Waits for the apex behind the first touch.
+struct Watch {
+    body: usize,
+    touched: Cell<bool>,
+    apex: Cell<Option<f64>>,
+}
+
+impl Sink for &Watch {
+    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        if event.body == self.body && self.apex.get().is_none() {
+            match event.kind {
+                APEX if self.touched.get() => self.apex.set(Some(event.time)),
+                APEX => {}
+                _ => self.touched.set(true),
+            }
+        }
+        Ok(())
+    }
+
+    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+impl Monitor for &Watch {
+    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
+        self.apex.get().map(|_| Reason::Interrupted)
+    }
+}

@@ -1,0 +1,86 @@
+//! What the search varies in place of a number: its logarithm, or how many times it is as large as at the start; between bounds the logit of
+//! its place. All are without dimension.
+//!
+//!   v = p/|p₀| or ln p;   u = v, or ln((v − a)/(b − v)) between bounds a < v < b
+
+use super::file;
+
+/// How a number is varied.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale {
+    pub kind: file::Scale,
+    /// What counts as a whole change of it on a linear scale: its size at the start, or the way between its bounds.
+    pub size: f64,
+    /// The bounds of the number.
+    pub bounds: Option<[f64; 2]>,
+}
+
+/// Nearer to a bound than this part of the way between them, the number lies on it.
+const ON_BOUND: f64 = 1e-3;
+
+impl Scale {
+    /// u of a number.
+    pub fn inward(&self, number: f64) -> f64 {
+        let value = self.value(number);
+        match self.bounds() {
+            Some([low, high]) => ((value - low) / (high - value)).ln(),
+            None => value,
+        }
+    }
+
+    /// The number, and its derivative by u.
+    pub fn outward(&self, u: f64) -> (f64, f64) {
+        let (value, slope) = match self.bounds() {
+            Some([low, high]) => {
+                let part = 1.0 / (1.0 + (-u).exp());
+                (low + (high - low) * part, (high - low) * part * (1.0 - part))
+            }
+            None => (u, 1.0),
+        };
+        match self.kind {
+            file::Scale::Linear => (value * self.size, slope * self.size),
+            file::Scale::Log => (value.exp(), value.exp() * slope),
+        }
+    }
+
+    /// Whether a number lies on a bound.
+    pub fn is_on_bound(&self, number: f64) -> bool {
+        self.bounds().is_some_and(|[low, high]| {
+            let part = (self.value(number) - low) / (high - low);
+            !(ON_BOUND..=1.0 - ON_BOUND).contains(&part)
+        })
+    }
+
+    fn value(&self, number: f64) -> f64 {
+        match self.kind {
+            file::Scale::Linear => number / self.size,
+            file::Scale::Log => number.ln(),
+        }
+    }
+
+    fn bounds(&self) -> Option<[f64; 2]> {
+        self.bounds.map(|bounds| bounds.map(|bound| self.value(bound)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_come_back_and_slopes_are_derivatives() {
+        for kind in [file::Scale::Log, file::Scale::Linear] {
+            for bounds in [None, Some([0.5, 20.0])] {
+                let scale = Scale { kind, size: 4.0, bounds };
+                for number in [0.7, 3.0, 19.0] {
+                    let u = scale.inward(number);
+                    let (back, slope) = scale.outward(u);
+                    let differences = (scale.outward(u + 1e-6).0 - scale.outward(u - 1e-6).0) / 2e-6;
+                    // Rounding of the differences.
+                    assert!((back - number).abs() < 1e-13 * number);
+                    assert!((slope - differences).abs() < 1e-8 * number, "{slope} {differences}");
+                }
+            }
+        }
+    }
+}

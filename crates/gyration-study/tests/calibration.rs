@@ -1,0 +1,280 @@
+//! Numbers of contact laws from measurements: known ones come back, what cannot be known is named, bad files are refused.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use gyration_study::calibration::{Calibration, Fitted};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// A ball above a table, in a file of its own.
+const BALL: &str = r#"
+    time = { end = 1.0, sample = 0.1 }
+    [[support]]
+    name = "table"
+    plane = {}
+    [[contact]]
+    support = "table"
+    repulsion = { alpha = 40e3, nu = 6, d0 = 2e-3 }
+    damping = { beta = 5e4, nu = 4, d0 = 2e-3 }
+    friction = { beta = 4e4, nu = 6, d0 = 2e-3 }
+    adhesion = { beta = 2e3, nu_attractive = 3, nu_repulsive = 9, d0 = 2e-3 }
+    [[body]]
+    name = "ball"
+    shape = { box = { size = [0.05, 0.05, 0.05] } }
+    density = 1000
+    position = [0, 0, 0.1]
+"#;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::TempDir::new().unwrap();
+    std::fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    folder
+}
+
+fn fit(text: &str) -> Fitted {
+    let folder = folder();
+    Calibration::parse("data.toml", text, folder.path()).unwrap().fit().unwrap()
+}
+
+/// What the scene itself would have measured: residuals of data that are zero.
+fn exact(sections: &str) -> Vec<f64> {
+    let text = format!("scene = \"ball.toml\"\n[fit.a]\nkey = \"contact.0.repulsion.alpha\"\n{sections}");
+    let folder = folder();
+    let calibration = Calibration::parse("data.toml", &text, folder.path()).unwrap();
+    calibration.predictions().unwrap()
+}
+
+/// Measurements of gaps, slopes and pull-off, with these factors on what the scene gives.
+fn measurements(factors: impl Fn(usize) -> f64) -> String {
+    let sections = |numbers: &[Vec<f64>]| {
+        let mut text = String::new();
+        let list = |numbers: &[f64]| format!("{numbers:?}");
+        let deviations = |numbers: &[f64]| list(&numbers.iter().map(|n| 0.01 * n.abs().max(1e-9)).collect::<Vec<_>>());
+        writeln!(text, "[[gap]]\nkey = \"body.ball.density\"\nat = [500, 1000, 4000, 16000]").unwrap();
+        writeln!(text, "gap = {}\ndeviation = {}", list(&numbers[0]), deviations(&numbers[0])).unwrap();
+        writeln!(text, "[[slope]]\nangle = [\"5 deg\", \"15 deg\", \"30 deg\"]").unwrap();
+        writeln!(text, "speed = {}\ndeviation = {}", list(&numbers[1]), deviations(&numbers[1])).unwrap();
+        writeln!(text, "[[pull_off]]\nforce = {}\ndeviation = {}", list(&numbers[2]), deviations(&numbers[2])).unwrap();
+        text
+    };
+    let ones = sections(&[vec![1.0; 4], vec![1.0; 3], vec![1.0; 1]]);
+    let values = exact(&ones);
+    let scaled: Vec<f64> = values.iter().enumerate().map(|(row, value)| value * factors(row)).collect();
+    sections(&[scaled[..4].to_vec(), scaled[4..7].to_vec(), scaled[7..].to_vec()])
+}
+
+const NUMBERS: &str = r#"
+    scene = "ball.toml"
+    [fit.alpha]
+    key = "contact.0.repulsion.alpha"
+    start = "20 kPa"
+    [fit.nu]
+    key = "contact.0.repulsion.nu"
+    start = 5
+    [fit.friction]
+    key = "contact.0.friction.beta"
+    start = 1e4
+    [fit.adhesion]
+    key = "contact.0.adhesion.beta"
+    start = 1e3
+    from = 1
+    to = "1 MPa"
+"#;
+
+#[test]
+fn known_laws_come_back_from_what_they_make_measurable() {
+    let found = fit(&format!("{NUMBERS}\n{}", measurements(|_| 1.0)));
+    for (number, expected) in found.numbers.iter().zip([2e3, 40e3, 4e4, 6.0]) {
+        println!("{} = {} ± {:?}, χ² = {:e}", number.name, number.value, number.error, found.chi_squared);
+        let known = [("adhesion", 2e3), ("alpha", 40e3), ("friction", 4e4), ("nu", 6.0)];
+        let expected = known.iter().find(|(name, _)| *name == number.name).map_or(expected, |(_, value)| *value);
+        // ftol = 1e-10 of χ², which is its own scale here: some 1e-8 of the numbers.
+        assert!((number.value - expected).abs() < 1e-6 * expected, "{}: {}", number.name, number.value);
+    }
+    assert!(found.undetermined.is_empty(), "{:?}", found.undetermined);
+}
+
+#[test]
+fn a_rebound_tells_the_damping() {
+    let text = |rebound: &str| {
+        format!(
+            "scene = \"ball.toml\"\n[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = 2e4\n\
+             [[drop]]\nheight = [0.1, \"30 cm\"]\nrebound = {rebound}\ndeviation = \"1 mm\"\n"
+        )
+    };
+    let sections = "[[drop]]\nheight = [0.1, \"30 cm\"]\nrebound = [0.05, 0.1]\ndeviation = \"1 mm\"\n";
+    let found = fit(&text(&format!("{:?}", exact(sections))));
+    println!("damping {} ± {:?}", found.numbers[0].value, found.numbers[0].error);
+    // The runs are known to 1e-8.
+    assert!((found.numbers[0].value - 5e4).abs() < 1e-6 * 5e4, "{}", found.numbers[0].value);
+}
+
+#[test]
+fn a_body_that_spins_at_its_start_is_not_dropped() {
+    let text = "scene = \"ball.toml\"\nset = { \"body.ball.angular_velocity\" = [0, 1, 0] }\n[fit.damping]\nkey = \"contact.0.damping.beta\"\n\
+                [[drop]]\nheight = 0.1\nrebound = 0.05\ndeviation = 1e-3\n";
+    let folder = folder();
+    let message = Calibration::parse("data.toml", text, folder.path()).unwrap().fit().unwrap_err().to_string();
+    assert!(
+        message.contains("drop.0, row 1") && message.contains("released at rest") && message.contains("fix:"),
+        "{message}"
+    );
+}
+
+#[test]
+fn what_cannot_be_told_apart_is_named() {
+    let sections = measurements(|_| 1.0);
+    let gaps = sections.split("[[slope]]").next().unwrap();
+    let text = format!(
+        "scene = \"ball.toml\"\nset = {{ \"contact.0.adhesion.beta\" = 0 }}\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\n\
+         [fit.reach]\nkey = \"contact.0.repulsion.d0\"\n[fit.damping]\nkey = \"contact.0.damping.beta\"\n{gaps}"
+    );
+    let found = fit(&text);
+    for undetermined in &found.undetermined {
+        println!("{}", undetermined.in_words);
+    }
+    assert_eq!(found.undetermined.len(), 2);
+    assert!(found.numbers.iter().all(|number| number.error.is_none()));
+    // What nothing tells stays where it starts, and α and d0 do not run away along their ridge.
+    let damping = found.numbers.iter().find(|number| number.name == "damping").unwrap().value;
+    assert!((damping / 5e4 - 1.0).abs() < 1e-12, "{damping}");
+    assert!(
+        found.numbers.iter().all(|number| (0.1..10.0).contains(&(number.value / start(&number.name)))),
+        "{:?}",
+        found.numbers
+    );
+    // Only α d0^ν matters: d ln d0 = −d ln α/6.
+    let pair = found.undetermined.iter().find(|open| open.direction.len() == 2).unwrap();
+    let (alpha, reach) = (pair.direction[0].1, pair.direction[1].1);
+    assert!((reach / alpha + 1.0 / 6.0).abs() < 1e-4, "{alpha} {reach}");
+}
+
+/// What the scene of the tests has at a name.
+fn start(name: &str) -> f64 {
+    match name {
+        "alpha" => 40e3,
+        "damping" => 5e4,
+        _ => 2e-3,
+    }
+}
+
+#[test]
+fn a_linear_scale_gives_the_same_number_and_error() {
+    let slopes = exact("[[slope]]\nangle = [0.1, 0.2, 0.3]\nspeed = [1, 1, 1]\ndeviation = 1\n");
+    let text = |scale: &str| {
+        format!(
+            "scene = \"ball.toml\"\n[fit.friction]\nkey = \"contact.0.friction.beta\"\nstart = 3e4\nscale = \"{scale}\"\n\
+             [[slope]]\nangle = [0.1, 0.2, 0.3]\nspeed = {slopes:?}\ndeviation = 1e-3\n"
+        )
+    };
+    let [one, other] = ["log", "linear"].map(|scale| fit(&text(scale)).numbers.remove(0));
+    println!("friction {} ± {:?}, {} ± {:?}", one.value, one.error, other.value, other.error);
+    // Data without errors; the search ends at 1e-10 of χ², which is zero.
+    assert!((one.value - 4e4).abs() < 0.04 && (other.value - 4e4).abs() < 0.04);
+    assert!((one.error.unwrap() / other.error.unwrap() - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_number_that_is_pushed_against_its_bound_is_said_to_lie_on_it() {
+    let slopes = exact("[[slope]]\nangle = [0.1, 0.2, 0.3]\nspeed = [1, 1, 1]\ndeviation = 1\n");
+    let found = fit(&format!(
+        "scene = \"ball.toml\"\n[fit.friction]\nkey = \"contact.0.friction.beta\"\nstart = 2e4\nfrom = 1e4\nto = 3e4\n\
+         [[slope]]\nangle = [0.1, 0.2, 0.3]\nspeed = {slopes:?}\ndeviation = 1e-4\n"
+    ));
+    assert!(found.numbers[0].is_on_bound && (found.numbers[0].value / 3e4 - 1.0).abs() < 1e-3, "{:?}", found.numbers);
+    assert!(
+        found.undetermined.iter().all(|open| open.in_words.contains("lies on its bound")),
+        "{:?}",
+        found.undetermined
+    );
+}
+
+/// Numbers that scatter like a normal distribution: sums of twelve, from a fixed sequence.
+fn scatter(seed: u64) -> impl Fn(usize) -> f64 {
+    move |row| {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(row as u64 + 1);
+        let mut next = || {
+            state ^= state >> 12;
+            state ^= state << 25;
+            state ^= state >> 27;
+            (state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
+        };
+        1.0 + 0.01 * ((0..12).map(|_| next()).sum::<f64>() - 6.0)
+    }
+}
+
+#[test]
+fn standard_errors_cover_the_truth_as_often_as_they_should() {
+    let runs = 64;
+    let exact = exact(
+        "[[gap]]\nkey = \"body.ball.density\"\nat = [500, 1000, 4000, 16000]\ngap = [1, 1, 1, 1]\ndeviation = 1\n",
+    );
+    let (mut within, mut chi_squared) = (0, 0.0);
+    for seed in 0..runs {
+        let factor = scatter(seed + 1);
+        let gaps: Vec<f64> = exact.iter().enumerate().map(|(row, gap)| gap * factor(row)).collect();
+        let deviations: Vec<f64> = exact.iter().map(|gap| 0.01 * gap).collect();
+        let found = fit(&format!(
+            "scene = \"ball.toml\"\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\n[fit.nu]\nkey = \"contact.0.repulsion.nu\"\n\
+             [[gap]]\nkey = \"body.ball.density\"\nat = [500, 1000, 4000, 16000]\ngap = {gaps:?}\ndeviation = {deviations:?}\n"
+        ));
+        chi_squared += found.chi_squared;
+        for (number, truth) in found.numbers.iter().zip([40e3, 6.0f64]) {
+            // On the scale of the search, on which errors are normal.
+            let off = (number.value / truth).ln() * number.value / number.error.unwrap();
+            within += usize::from(off.abs() < 1.0);
+        }
+    }
+    let (share, per_degree) = (within as f64 / 128.0, chi_squared / 128.0);
+    println!("{within} of 128 within one standard error, χ²/dof {per_degree:.3}");
+    // 68.3 % expected; the two numbers of a fit go together: √(0.683·0.317/64) = 6 %, three of them.
+    assert!((share - 0.683).abs() < 0.18, "{share}");
+    // √(2/128) = 12.5 %, three of them.
+    assert!((per_degree - 1.0).abs() < 0.375, "{per_degree}");
+}
+
+#[test]
+fn bad_files_are_refused_with_place_and_fix() {
+    let folder = folder();
+    std::fs::write(folder.path().join("gaps.csv"), "gap, deviation\n1e-3, 1e-5\n2e-3, x\n").unwrap();
+    std::fs::write(folder.path().join("drops.csv"), "hight, rebound\n0.1, 0.05\n").unwrap();
+    let cases = [
+        ("scene = \"ball.toml\"", "[[drop]]\nheight = 0.1\nrebound = 0.2\ndeviation = 1e-3", "row 1: 0.2 m cannot be"),
+        ("scene = \"ball.toml\"", "[[slope]]\nangle = 0.1\nspeed = -0.2\ndeviation = 1e-3", "cannot be"),
+        (
+            "scene = \"ball.toml\"",
+            "[[gap]]\nkey = \"body.ball.dens\"\nat = [1, 2]\ngap = [1e-3, 2e-3]\ndeviation = 1e-5",
+            "no number at `body.ball.dens`",
+        ),
+        ("scene = \"ball.toml\"", "[[gap]]\nat = [1, 2]\ngap = [1e-3, 2e-3]\ndeviation = 1e-5", "write `key`"),
+        ("scene = \"ball.toml\"", "[fit.b]\nkey = \"contact.0.repulsion.alpha\"", "already fitted as \"a\""),
+        (
+            "scene = \"ball.toml\"",
+            "[[gap]]\nset = { \"contact.0.repulsion.alpha\" = 2 }\ngap = 1e-3\ndeviation = 1e-5",
+            "cannot be set for one table",
+        ),
+        ("scene = \"ball.toml\"", "[fit.b]\nkey = \"body.ball.position.0\"", "begins at zero"),
+        ("scene = \"ball.toml\"", "[[drop]]\ntable = \"drops.csv\"\nrebound = 1", "remove one of the two"),
+        ("scene = \"bal.toml\"", "", "no such file"),
+        ("scene = \"ball.toml\"", "[[gap]]\ngap = [1e-3]\ndeviation = 1e-5\ndeviatoin = 2", "deviatoin"),
+        ("scene = \"ball.toml\"", "[[gap]]\ngap = [1e-3]\n", "deviation"),
+        ("scene = \"ball.toml\"", "[[gap]]\ngap = \"3 kg\"\ndeviation = 1e-5", "kg"),
+        ("scene = \"ball.toml\"", "[[gap]]\ngap = 1e-3\ndeviation = 0", "deviations"),
+        ("scene = \"ball.toml\"", "[[gap]]\nbody = \"bal\"\ngap = 1e-3\ndeviation = 1e-5", "did you mean `ball`"),
+        ("scene = \"ball.toml\"", "[[drop]]\nheight = [0.1, 0.2]\nrebound = 0.1\ndeviation = 1e-3", "same length"),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"gaps.csv\"", "gaps.csv:3: deviation is \"x\""),
+        ("scene = \"ball.toml\"", "[[drop]]\ntable = \"drops.csv\"", "drops.csv has the columns hight, rebound"),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"gabs.csv\"", "gabs.csv cannot be read"),
+        ("scene = \"ball.toml\"", "[[slope]]\nangle = \"95 deg\"\nspeed = 1\ndeviation = 1", "no angle that can"),
+        ("scene = \"ball.toml\"", "[[pull_off]]\nforce = \"2 mm\"\ndeviation = 1", "force in N"),
+        ("scene = \"ball.toml\"", "", "cannot tell"),
+        ("scene = \"ball.toml\"", "[fit.b]\nkey = \"contact.0.repulsion.beta\"", "no number at"),
+        ("scene = \"ball.toml\"", "[fit.b]\nkey = \"contact.0.repulsion.nu\"\nfrom = 7\nto = 9", "between the bounds"),
+    ];
+    for (scene, sections, expected) in cases {
+        let text = format!("{scene}\n[fit.a]\nkey = \"contact.0.repulsion.alpha\"\n{sections}\n");
+        let message = Calibration::parse("data.toml", &text, folder.path()).unwrap_err().to_string();
+        assert!(message.contains(expected), "{sections}: {message}");
+        assert!(message.contains("data.toml:") && message.contains("fix:"), "{message}");
+    }
+    assert!(Calibration::load(Path::new("/nowhere/data.toml")).is_err());
+}
