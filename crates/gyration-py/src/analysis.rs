@@ -67,11 +67,16 @@ pub fn resistance<'py>(
     scene: &Bound<'py, PyAny>,
     body: Option<String>,
     wall: Option<String>,
-    triangles: Option<u32>,
+    triangles: Option<i64>,
     elements: bool,
     frequency: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let scene = Scene::of(scene)?;
+    let counted = |count: i64| {
+        let problem = || format!("{count} is no number of triangles\n  fix: give a whole number above zero");
+        u32::try_from(count).map_err(|_| errors::arguments(problem()))
+    };
+    let triangles = triangles.map(counted).transpose()?;
     let options = ResistanceOptions { wall, triangles, elements, frequency };
     let all = py.detach(|| library::resistance(&scene, body.as_deref(), &options)).map_err(errors::program)?;
     let found = PyDict::new(py);

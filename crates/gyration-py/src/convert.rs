@@ -8,6 +8,7 @@ use numpy::{PyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Number, Value};
 
 /// The deepest nesting; a scene needs less than twenty.
@@ -78,14 +79,32 @@ fn plain<'py>(object: &Bound<'py, PyAny>) -> PyResult<Plain<'py>> {
     }
 }
 
-/// A Python object as JSON.
-pub fn from_python(object: &Bound<'_, PyAny>) -> PyResult<Value> {
-    json(object, 0)
+/// A Python object as a text of JSON, lines indented; tables keep their order, which tells the axes of a study.
+pub fn json(object: &Bound<'_, PyAny>) -> PyResult<String> {
+    let text = serde_json::to_string_pretty(&tree(object, 0)?);
+    text.map(|text| text + "\n").map_err(|error| errors::arguments(error.to_string()))
 }
 
-fn json(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+/// JSON whose tables are in order.
+enum Tree {
+    Leaf(Value),
+    List(Vec<Self>),
+    Table(Vec<(String, Self)>),
+}
+
+impl Serialize for Tree {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Leaf(value) => value.serialize(serializer),
+            Self::List(items) => serializer.collect_seq(items),
+            Self::Table(entries) => serializer.collect_map(entries.iter().map(|(key, value)| (key, value))),
+        }
+    }
+}
+
+fn tree(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Tree> {
     check_depth(depth)?;
-    Ok(match plain(object)? {
+    Ok(Tree::Leaf(match plain(object)? {
         Plain::Bool(value) => value.into(),
         Plain::Whole(digits) => match digits.parse::<i64>() {
             Ok(whole) => whole.into(),
@@ -93,12 +112,14 @@ fn json(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         },
         Plain::Real(value) => real(value)?,
         Plain::Text(text) => text.into(),
-        Plain::List(items) => items.iter().map(|item| json(item, depth + 1)).collect::<PyResult<Vec<_>>>()?.into(),
-        Plain::Table(entries) => {
-            let entry = |(key, value): (String, Bound<'_, PyAny>)| Ok((key, json(&value, depth + 1)?));
-            entries.into_iter().map(entry).collect::<PyResult<Map<_, _>>>()?.into()
+        Plain::List(items) => {
+            return Ok(Tree::List(items.iter().map(|item| tree(item, depth + 1)).collect::<PyResult<_>>()?));
         }
-    })
+        Plain::Table(entries) => {
+            let entry = |(key, value): (String, Bound<'_, PyAny>)| Ok((key, tree(&value, depth + 1)?));
+            return Ok(Tree::Table(entries.into_iter().map(entry).collect::<PyResult<_>>()?));
+        }
+    }))
 }
 
 fn real(value: f64) -> PyResult<Value> {
@@ -150,6 +171,20 @@ pub fn overrides(edits: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<String>> {
         Ok(format!("{key}={}", toml(&value)?))
     };
     edits.iter().map(one).collect()
+}
+
+/// Longest that an object is shown in a message.
+const SHOWN: usize = 80;
+
+/// An object as messages show it: on one line, and not for ever.
+pub fn shown(object: &Bound<'_, PyAny>) -> String {
+    let text = object.repr().map_or_else(|_| "an object".to_owned(), |text| text.to_string());
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let line = words.join(" ");
+    match line.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line,
+    }
 }
 
 /// Numbers as an array of NumPy of this shape.

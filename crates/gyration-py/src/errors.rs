@@ -7,7 +7,7 @@ use gyration_cli::library::CliError;
 use gyration_record::RecordError;
 use gyration_scene::{LoadError, SceneError, SceneErrors};
 use gyration_sim::{RunError, Stop};
-use gyration_study::StudyError;
+use gyration_study::{StudyError, Threads};
 use gyration_view::ViewError;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -32,6 +32,11 @@ fn nothing(_: &Bound<'_, PyAny>) -> PyResult<()> {
 /// Arguments that make no sense.
 pub fn arguments(problem: impl AsRef<str>) -> PyErr {
     raise("ArgumentError", problem.as_ref(), nothing)
+}
+
+/// A number of threads that makes no sense.
+pub fn threads(wrong: Threads) -> PyErr {
+    arguments(format!("{wrong}\n  fix: {}", wrong.fix()))
 }
 
 /// A scene that is wrong, or cannot be read.

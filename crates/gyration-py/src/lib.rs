@@ -6,6 +6,7 @@
 //!      ├─→ run_many → Runs: arrays of endings
 //!      ├─→ study → Table: rows of thousands of runs
 //!      └─→ modes, resistance, sensitivities
+//! measurements ─→ calibrate → Fit: numbers of a scene, their errors
 //! ```
 //!
 //! A binding and nothing else: what is computed, said or drawn comes from the crates of the workspace, in the words and bytes of
@@ -14,9 +15,11 @@
 
 mod analysis;
 mod arrays;
+mod calibration;
 mod convert;
 mod errors;
 mod many;
+mod parcel;
 mod picture;
 mod recording;
 mod run;
@@ -26,6 +29,7 @@ mod simulation;
 mod study;
 mod table;
 mod watch;
+mod worker;
 
 use pyo3::prelude::*;
 use std::ffi::OsString;
@@ -35,6 +39,8 @@ use std::ffi::OsString;
 mod _gyration {
     #[pymodule_export]
     use super::analysis::{modes, resistance};
+    #[pymodule_export]
+    use super::calibration::{Fit, calibrate};
     #[pymodule_export]
     use super::many::{Runs, run_many};
     #[pymodule_export]
@@ -50,9 +56,11 @@ mod _gyration {
     #[pymodule_export]
     use super::simulation::{Simulation, simulate};
     #[pymodule_export]
-    use super::study::{Work, study_rows};
+    use super::study::Work;
     #[pymodule_export]
     use super::table::{Table, studies};
+    #[pymodule_export]
+    use super::worker::study_rows;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "the name that Python knows")]

@@ -12,6 +12,8 @@ use gyration_scene::Scene as Built;
 use gyration_sim::events::Event;
 use gyration_sim::rows::Fields;
 use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink};
+use gyration_study::Threads;
+use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -52,18 +54,12 @@ struct Ending {
 pub fn run_many(
     py: Python<'_>,
     scenes: &Bound<'_, PyAny>,
-    threads: Option<usize>,
+    threads: Option<i64>,
     keep: Option<Vec<String>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Runs> {
     let scenes = scenes.try_iter()?.map(|scene| Scene::of(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
-    if threads == Some(0) {
-        return Err(errors::arguments(
-            "no thread does no work\n  fix: give `threads` from 1, or leave it out for all cores",
-        ));
-    }
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = threads.unwrap_or(cores).min(scenes.len().max(1));
+    let threads = workers(threads)?.get().min(scenes.len().max(1));
     if let Some(keep) = &keep {
         check_columns(&scenes, keep)?;
     }
@@ -77,6 +73,11 @@ pub fn run_many(
         columns = names.filter(|name| known.insert(*name)).cloned().collect();
     }
     Ok(Runs { endings, columns })
+}
+
+/// How many threads are asked for, all cores if that is left open; fewer than none are none.
+pub fn workers(threads: Option<i64>) -> PyResult<NonZeroUsize> {
+    Threads::asked(threads.map(|count| usize::try_from(count).unwrap_or(0))).map_err(errors::threads)
 }
 
 /// Refuses columns that no scene has.
@@ -235,13 +236,20 @@ impl Runs {
         told.into_iter().chain(self.columns.iter().cloned()).collect()
     }
 
-    /// A column as an array, a number a run; NaN where a run does not have it.
+    /// A column as an array, a number a run: NaN where a run does not have it; counters are whole numbers.
     fn __getitem__<'py>(&self, py: Python<'py>, column: &str) -> PyResult<Bound<'py, PyAny>> {
+        let counter = |of: fn(&Ending) -> u64| {
+            let counts: Vec<i64> = self.endings.iter().map(|ending| of(ending) as i64).collect();
+            Ok(PyArray1::from_vec(py, counts).into_any())
+        };
+        match column {
+            "steps" => return counter(|ending| ending.steps),
+            "rejected" => return counter(|ending| ending.rejected),
+            "evaluations" => return counter(|ending| ending.evaluations),
+            _ => {}
+        }
         let of = |ending: &Ending| match column {
             "time" => ending.time,
-            "steps" => ending.steps as f64,
-            "rejected" => ending.rejected as f64,
-            "evaluations" => ending.evaluations as f64,
             "residual" => ending.residual,
             _ => ending.last.iter().find(|(name, _)| name == column).map_or(f64::NAN, |(_, value)| *value),
         };

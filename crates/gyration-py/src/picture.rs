@@ -1,9 +1,11 @@
 //! `Picture`: a drawing that shows itself in a notebook and can be saved.
 
 use crate::errors;
-use gyration_cli::library::{self, CliError, Format};
+use gyration_cli::library::{self, CliError, Format, StudyPicture};
 use gyration_record::Recording;
 use gyration_scene::Scene;
+use gyration_study::Frame;
+use gyration_study::calibration::{Calibration, Fitted};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,6 +23,10 @@ pub enum Source {
     Recording(Recording, Vec<String>, Vec<String>),
     /// The laws of a scene.
     Laws(Arc<Scene>),
+    /// A fit to measurements.
+    Fit(Arc<Calibration>, Arc<Fitted>),
+    /// Columns of the table of a study, which lies at this path.
+    Study(Arc<Frame>, PathBuf, StudyPicture),
 }
 
 impl Source {
@@ -28,6 +34,8 @@ impl Source {
         match self {
             Self::Recording(recording, what, measures) => library::picture(recording, what, measures, format),
             Self::Laws(scene) => library::laws(scene, format),
+            Self::Fit(calibration, fitted) => Ok(library::fit_picture(calibration, fitted, format)),
+            Self::Study(frame, path, asked) => library::study_picture(frame, path, asked, format),
         }
     }
 }
@@ -76,6 +84,8 @@ impl Picture {
             }
             Source::Recording(recording, what, _) => format!("{} of {}", what.join(", "), recording.path().display()),
             Source::Laws(scene) => format!("laws of {}", scene.name()),
+            Source::Fit(calibration, _) => format!("fit of {}", calibration.title()),
+            Source::Study(_, path, _) => format!("table of {}", path.display()),
         };
         format!("<gyration.Picture: {what}>")
     }

@@ -3,6 +3,7 @@
 use crate::convert::{array, object};
 use crate::errors;
 use crate::picture::{Picture, Source};
+use gyration_cli::library;
 use gyration_record::{ArrayInfo, Recording as Inner};
 use gyration_view::{Stored, report};
 use pyo3::exceptions::PyKeyError;
@@ -112,14 +113,17 @@ impl Recording {
         }
     }
 
-    /// What the program says at the end of the run: outcome, steps, ledger, momenta, events; of a recording that was opened, its outcome.
+    /// What the program says at the end of the run: outcome, steps, ledger, momenta, events. Of a recording that was opened it is the same,
+    /// without the wall time, which nothing records; of one that has not ended, as far as it has come.
     #[getter]
-    fn summary(&self) -> String {
+    fn summary(&self, py: Python<'_>) -> String {
         if let Some(told) = &self.told {
             return told.clone();
         }
-        let words = self.inner.attributes().get("outcome_in_words").and_then(Value::as_str);
-        words.unwrap_or("the run has not ended: it is under way, or was interrupted and can be resumed").to_owned()
+        py.detach(|| library::summary_of_recording(&self.inner)).unwrap_or_else(|error| {
+            let words = self.inner.attributes().get("outcome_in_words").and_then(Value::as_str);
+            format!("{}\nthe rest cannot be told: {error}", words.unwrap_or("the run has not ended"))
+        })
     }
 
     /// Times of the samples [s].
@@ -245,11 +249,26 @@ impl Recording {
         }
     }
 
+    /// For pickle: another process opens what is on disk.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (PathBuf,))> {
+        if self.kept.is_some() {
+            let problem = "a recording in a temporary folder goes with this process";
+            return Err(errors::arguments(format!("{problem}\n  fix: run the scene with `output`")));
+        }
+        opener(py, "Recording", self.inner.path())
+    }
+
     fn __repr__(&self) -> String {
         let (rows, path) = (self.inner.rows(), self.inner.path().display());
         let temporary = if self.kept.is_some() { ", temporary" } else { "" };
         format!("<gyration.Recording {path}: {}, {rows} samples{temporary}>", self.outcome())
     }
+}
+
+/// How another process opens this again.
+pub fn opener<'py>(py: Python<'py>, class: &str, path: &Path) -> PyResult<(Bound<'py, PyAny>, (PathBuf,))> {
+    let path = std::path::absolute(path).map_err(|error| errors::write(path, &error))?;
+    Ok((py.import("gyration._gyration")?.getattr(class)?.getattr("open")?, (path,)))
 }
 
 impl Recording {

@@ -1,6 +1,6 @@
 //! `Scene`: a scene without errors, and what can be done with it.
 
-use crate::convert::{self, from_python, object, overrides, to_python};
+use crate::convert::{self, json, object, overrides, shown, to_python};
 use crate::errors;
 use crate::picture::Picture;
 use crate::recording::Recording;
@@ -10,6 +10,7 @@ use gyration_scene::{Scene as Inner, gallery};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use serde_json::Value;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -26,6 +27,13 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// What it is made of, for whoever works in another folder: name, text, folder, edits.
+    fn parts(&self) -> Packed {
+        let base = if self.base.as_os_str().is_empty() { Path::new(".") } else { &self.base };
+        let base = std::path::absolute(base).unwrap_or_else(|_| self.base.clone());
+        (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides().to_vec())
+    }
+
     /// Reads a text without the lock: a body in a fluid may take a while to be prepared.
     fn parse(py: Python<'_>, file: String, text: &str, base: PathBuf, overrides: &[String]) -> PyResult<Self> {
         let inner =
@@ -44,7 +52,8 @@ impl Scene {
         }
         let name: PathBuf = argument.extract().map_err(|_| {
             errors::arguments(format!(
-                "{argument} is no scene\n  fix: give a Scene, a path, a name of the gallery, or a dictionary"
+                "{} is no scene\n  fix: give a Scene, a path, a name of the gallery, or a dictionary",
+                shown(argument)
             ))
         })?;
         let opened = py.detach(|| Inner::open(&name.to_string_lossy(), &[]));
@@ -92,7 +101,7 @@ impl Scene {
         base: Option<PathBuf>,
         overrides: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let text = format!("{:#}\n", from_python(data)?);
+        let text = json(data)?;
         let changes = convert::overrides(overrides)?;
         Self::parse(kind.py(), format!("{name}.json"), &text, base.unwrap_or_default(), &changes)
     }
@@ -206,12 +215,22 @@ impl Scene {
         Picture::of_laws(self.inner.clone())
     }
 
+    /// Whether it is made of the same: text, edits, name, folder.
+    fn __eq__(&self, other: &Self) -> bool {
+        self.parts() == other.parts()
+    }
+
+    /// Without the folder: as seen from elsewhere it has another name.
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (&self.file, self.inner.text(), self.inner.overrides()).hash(&mut hasher);
+        hasher.finish()
+    }
+
     /// For pickle.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Packed)> {
         let again = py.import("gyration._gyration")?.getattr("_scene")?;
-        let parts =
-            (self.file.clone(), self.inner.text().to_owned(), self.base.clone(), self.inner.overrides().to_vec());
-        Ok((again, parts))
+        Ok((again, self.parts()))
     }
 
     fn __repr__(&self) -> String {

@@ -4,15 +4,15 @@
 //! sees the new state in it, and takes a copy for the old one.
 
 use crate::arrays::Arrays;
-use crate::convert::array;
+use crate::convert::{array, shown};
 use crate::errors;
 use crate::scene::Scene;
 use crate::watch::Watch;
 use gyration::load::{Applied, Loads};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene as Built;
-use gyration_sim::HandStepper;
 use gyration_sim::events::EVENT_KINDS;
+use gyration_sim::{HandStepper, Reason};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -34,33 +34,34 @@ impl Simulation {
     /// The index of a body given by name or number.
     fn index(&self, body: &Bound<'_, PyAny>) -> PyResult<usize> {
         let bodies = &self.stepper.model().bodies;
+        let names = || bodies.iter().map(|known| known.name.as_str()).collect::<Vec<_>>().join(", ");
         if let Ok(name) = body.extract::<String>() {
             let found = bodies.iter().position(|known| known.name == name);
-            let names = || bodies.iter().map(|known| known.name.as_str()).collect::<Vec<_>>().join(", ");
             return found.ok_or_else(|| {
                 errors::arguments(format!("the scene has no body {name:?}\n  fix: write one of {}", names()))
             });
         }
-        let index: usize = body.extract()?;
-        match index < bodies.len() {
-            true => Ok(index),
-            false => {
-                Err(errors::arguments(format!("the scene has {} bodies: there is no number {index}", bodies.len())))
-            }
-        }
+        let index = body.extract().ok().filter(|index| *index < bodies.len());
+        index.ok_or_else(|| {
+            let problem = format!("the scene has no body {}", shown(body));
+            errors::arguments(format!("{problem}\n  fix: write one of {}, or its number from 0", names()))
+        })
     }
 
-    /// Lets the stepper go on without the lock; then shows the new state, whether it came to its end or not.
-    fn go(&mut self, py: Python<'_>, until: Option<f64>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let mut watch = Watch::new(progress)?;
+    /// Lets the stepper go on without the lock; then shows the new state, whether it came to its end or not. False if `progress` has
+    /// stopped it before.
+    fn go(&mut self, py: Python<'_>, until: Option<f64>, watch: &mut Watch) -> PyResult<bool> {
         let stepper = &mut self.stepper;
         let stepped = py.detach(|| match until {
-            Some(until) => stepper.advance(until, &mut watch),
+            Some(until) => stepper.advance(until, watch),
             None => stepper.step(),
         });
         self.arrays.refresh(py, &self.stepper);
-        watch.finish(py)?;
-        stepped.map_err(|stop| errors::stopped(&stop))
+        match stepped {
+            Ok(()) => Ok(!watch.is_over()),
+            Err(stop) if stop.reason == Reason::Interrupted => Ok(false),
+            Err(stop) => Err(errors::stopped(&stop)),
+        }
     }
 }
 
@@ -141,11 +142,12 @@ impl Simulation {
 
     /// Makes one step of the solver; returns the time reached [s].
     fn step(&mut self, py: Python<'_>) -> PyResult<f64> {
-        self.go(py, None, None)?;
+        self.go(py, None, &mut Watch::new(None)?)?;
         Ok(self.time())
     }
 
-    /// Steps to a time [s], on which a step ends; returns it. ``progress`` is as in :meth:`Scene.run`.
+    /// Steps to a time [s], on which a step ends; returns the time reached. ``progress`` is True for a line on stderr, or a function of
+    /// (time [s], until [s]) that stops by returning False; it cannot look at the simulation, which is under way.
     ///
     /// Raises ``RunError`` if the run cannot go on; the state stays that of the last step.
     #[pyo3(signature = (until, *, progress=None))]
@@ -153,7 +155,10 @@ impl Simulation {
         if !until.is_finite() {
             return Err(errors::arguments(format!("`until` is {until}\n  fix: give a time in seconds")));
         }
-        self.go(py, Some(until), progress)?;
+        let mut watch = Watch::new(progress)?;
+        let gone = self.go(py, Some(until), &mut watch);
+        watch.finish(py)?;
+        gone?;
         Ok(self.time())
     }
 
@@ -166,18 +171,21 @@ impl Simulation {
     fn apply(
         &mut self,
         body: &Bound<'_, PyAny>,
-        force: Option<[f64; 3]>,
-        moment: Option<[[f64; 3]; 3]>,
-        torque: Option<[f64; 3]>,
-        at: Option<[f64; 3]>,
+        force: Option<&Bound<'_, PyAny>>,
+        moment: Option<&Bound<'_, PyAny>>,
+        torque: Option<&Bound<'_, PyAny>>,
+        at: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let index = self.index(body)?;
-        let force = force.map_or(Vec3::zeros(), Vec3::from);
+        let given = |name, object: Option<&_>| object.map(|object| vector(name, object)).transpose();
+        let force = given("force", force)?.unwrap_or_default();
         let center = self.stepper.model().bodies[index].mass.center;
-        let mut load = at
-            .map_or(Applied { force, ..Applied::default() }, |at| Applied::at_point(force, &(Vec3::from(at) - center)));
-        load.moment += moment.map_or(Mat3::zeros(), matrix);
-        load.torque = torque.map_or(Vec3::zeros(), Vec3::from);
+        let mut load = match given("at", at)? {
+            None => Applied { force, ..Applied::default() },
+            Some(at) => Applied::at_point(force, &(at - center)),
+        };
+        load.moment += moment.map(|moment| matrix("moment", moment)).transpose()?.unwrap_or_default();
+        load.torque = given("torque", torque)?.unwrap_or_default();
         self.stepper.apply(index, load).map_err(|refusal| errors::arguments(refusal.to_string()))?;
         self.applied[index] = load;
         Ok(())
@@ -185,9 +193,9 @@ impl Simulation {
 
     /// Puts a constant drive Q [Pa], (3, 3), in the place of the drive that the scene gives in time; feedback stays. The work is
     /// ``works()["drive"]``.
-    fn set_drive(&mut self, body: &Bound<'_, PyAny>, drive: [[f64; 3]; 3]) -> PyResult<()> {
-        let index = self.index(body)?;
-        self.stepper.set_drive(index, matrix(drive)).map_err(|refusal| errors::arguments(refusal.to_string()))
+    fn set_drive(&mut self, body: &Bound<'_, PyAny>, drive: &Bound<'_, PyAny>) -> PyResult<()> {
+        let (index, drive) = (self.index(body)?, matrix("drive", drive)?);
+        self.stepper.set_drive(index, drive).map_err(|refusal| errors::arguments(refusal.to_string()))
     }
 
     /// Energies [J] by name, and the ``residual`` of the ledger.
@@ -274,11 +282,24 @@ impl Simulation {
     }
 }
 
-fn matrix(rows: [[f64; 3]; 3]) -> Mat3 {
-    Mat3::from_fn(|row, column| rows[row][column])
+/// A vector in three numbers.
+fn vector(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Vec3> {
+    let numbers: PyResult<[f64; 3]> = object.extract();
+    numbers.map(Vec3::from).map_err(|_| unfit(name, object, "three numbers"))
 }
 
-/// Steps a scene with a callback at the beginning of each control interval; False from it ends the run.
+/// A matrix in three rows.
+fn matrix(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Mat3> {
+    let rows: PyResult<[[f64; 3]; 3]> = object.extract();
+    rows.map(|rows| Mat3::from_fn(|row, column| rows[row][column]))
+        .map_err(|_| unfit(name, object, "three rows of three numbers"))
+}
+
+fn unfit(name: &str, object: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
+    errors::arguments(format!("`{name}` is {}\n  fix: give {wanted}", shown(object)))
+}
+
+/// Steps a scene with a callback at the beginning of each control interval; False from it, or from ``progress``, ends the run.
 #[pyfunction]
 #[pyo3(signature = (scene, dt, callback, until=None, *, progress=None))]
 pub fn simulate(
@@ -294,17 +315,31 @@ pub fn simulate(
     }
     let simulation = Py::new(py, Simulation::new(py, scene)?)?;
     let end = until.unwrap_or_else(|| simulation.borrow(py).end());
+    let mut watch = Watch::new(progress)?.until(end);
+    let done = intervals(py, &simulation, (dt, end), callback, &mut watch);
+    watch.finish(py)?;
+    done.map(|()| simulation)
+}
+
+/// Control intervals up to the end, or until somebody has had enough.
+fn intervals(
+    py: Python<'_>,
+    simulation: &Py<Simulation>,
+    (dt, end): (f64, f64),
+    callback: &Bound<'_, PyAny>,
+    watch: &mut Watch,
+) -> PyResult<()> {
     // Multiplied, not accumulated; an interval that rounding alone keeps from the end is the last one.
-    for interval in 0_u64.. {
-        if interval as f64 * dt >= end * (1.0 - 1e-12) {
-            break;
-        }
-        let answer = callback.call1((&simulation,))?;
+    for interval in (0_u64..).take_while(|interval| (*interval as f64 * dt) < end * (1.0 - 1e-12)) {
+        let answer = callback.call1((simulation,))?;
         if answer.is_instance_of::<PyBool>() && !answer.extract::<bool>()? {
             break;
         }
         let next = ((interval + 1) as f64 * dt).min(end);
-        simulation.borrow_mut(py).go(py, Some(next), progress)?;
+        // What the callback left running may hold the simulation: that is an error, not a wait.
+        if !simulation.bind(py).try_borrow_mut()?.go(py, Some(next), watch)? {
+            break;
+        }
     }
-    Ok(simulation)
+    Ok(())
 }

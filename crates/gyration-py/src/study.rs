@@ -1,21 +1,21 @@
 //! Studies: the table that one process keeps, and the rows that others may compute for it.
 //!
 //! `Work` is what `gyration.study` is made of: on the threads of this machine it does all of it; an executor of Python takes run
-//! numbers from it and hands back rows as lines of JSON (`python/gyration/_spread.py`). Rows are those of `gyration-study` either
-//! way, so that the table has the same bytes.
+//! numbers from it and hands back what `worker` makes of them (`python/gyration/_spread.py`). Rows are those of `gyration-study`
+//! either way, so that the table has the same bytes.
 
-use crate::convert::{from_python, overrides};
+use crate::convert::{json, overrides, shown};
 use crate::errors;
+use crate::many::workers;
+use crate::parcel::{Parcel, unpack};
 use crate::watch::Watch;
-use gyration_study::{Progress, Recordings, Row, Shard, Source, Study, Table, Watcher, execute};
+use crate::worker::Packed;
+use gyration_study::{Progress, Row, Shard, Source, Study, Table, Watcher, execute};
 use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyDict;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
-
-/// What another process needs to open a study again: name, text, folder, changes.
-type Packed = (String, String, PathBuf, Vec<String>);
+use std::sync::Arc;
 
 /// A study and its table while it is being made.
 #[pyclass(module = "gyration", name = "_Work")]
@@ -31,12 +31,13 @@ pub struct Work {
 fn open(source: &Bound<'_, PyAny>, changes: &[String], base: &Path) -> PyResult<Study> {
     let py = source.py();
     if let Ok(data) = source.cast::<PyDict>() {
-        let text = format!("{:#}\n", from_python(data)?);
+        let text = json(data)?;
         return py.detach(|| Study::parse("study.json", &text, base, changes)).map_err(errors::study_file);
     }
     let path: PathBuf = source.extract().map_err(|_| {
         errors::arguments(format!(
-            "{source} is no study\n  fix: give a path, the name of a ready study, or a dictionary"
+            "{} is no study\n  fix: give a path, the name of a ready study, or a dictionary",
+            shown(source)
         ))
     })?;
     py.detach(|| Study::open(&path.to_string_lossy(), changes)).map_err(errors::study_file)
@@ -59,7 +60,10 @@ impl Work {
             Ok(resume) => resume,
             Err(_) if resume.extract::<&str>().is_ok_and(|word| word == "auto") => folder.symlink_metadata().is_ok(),
             Err(_) => {
-                return Err(errors::arguments(format!("`resume` is {resume}\n  fix: give True, False or \"auto\"")));
+                return Err(errors::arguments(format!(
+                    "`resume` is {}\n  fix: give True, False or \"auto\"",
+                    shown(resume)
+                )));
             }
         };
         let table = source.py().detach(|| match resume {
@@ -92,25 +96,9 @@ impl Work {
         self.study.runs()
     }
 
-    /// Refuses to have others compute what only this process can keep.
-    fn check_spread(&self) -> PyResult<()> {
-        match self.study.recordings() {
-            Recordings::None => Ok(()),
-            _ => Err(errors::study_said(
-                "the study keeps recordings, which an executor has no place for\n  fix: leave out `recordings`, or the executor",
-            )),
-        }
-    }
-
     /// Makes what is missing on threads of this process.
-    fn execute(&mut self, py: Python<'_>, threads: Option<usize>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let cores = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        let threads = match threads {
-            None => cores,
-            Some(threads) => NonZeroUsize::new(threads).ok_or_else(|| {
-                errors::arguments("no thread does no work\n  fix: give `threads` from 1, or leave it out for all cores")
-            })?,
-        };
+    fn execute(&mut self, py: Python<'_>, threads: Option<i64>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let threads = workers(threads)?;
         let mut watch = Watch::new(progress)?;
         let Self { study, table, folder, .. } = self;
         let table = table.as_mut().ok_or_else(closed)?;
@@ -129,15 +117,25 @@ impl Work {
         self.missing.by_ref().take(most).collect()
     }
 
-    /// Adds the rows of these runs.
-    fn append(&mut self, py: Python<'_>, numbers: Vec<u64>, lines: Vec<String>) -> PyResult<()> {
+    /// Adds the rows of these runs, and before them their recordings: no row is there without its recording.
+    fn append(
+        &mut self,
+        py: Python<'_>,
+        numbers: Vec<u64>,
+        lines: Vec<String>,
+        recordings: Vec<Parcel<PyBackedBytes>>,
+    ) -> PyResult<()> {
         let Self { study, table, .. } = self;
         let table = table.as_mut().ok_or_else(closed)?;
         let added = py.detach(|| {
             let rows: Option<Vec<Row>> = lines.iter().map(|line| Row::from_line(line, study.columns())).collect();
             // A worker of another version, or of another study.
             let rows = rows.filter(|rows| rows.iter().map(Row::run).eq(numbers.iter().copied().map(Some)));
-            rows.map(|rows| table.append(&rows))
+            let rows = rows.filter(|_| recordings.iter().all(|(run, _)| numbers.contains(run)));
+            rows.map(|rows| {
+                recordings.iter().try_for_each(|parcel| unpack(&table.recordings(), parcel))?;
+                table.append(&rows)
+            })
         });
         match added {
             Some(added) => added.map_err(errors::study),
@@ -178,40 +176,4 @@ impl Watcher for Told<'_> {
     fn look(&mut self, progress: &Progress) -> bool {
         !self.0.ask(progress.done as f64, progress.total as f64)
     }
-}
-
-/// The study that this process worked for last.
-static LAST: Mutex<Option<(Packed, Arc<Study>)>> = Mutex::new(None);
-
-/// The rows of some runs as lines of JSON, computed without the lock: what a worker does.
-#[pyfunction]
-#[pyo3(name = "_study_rows")]
-pub fn study_rows(py: Python<'_>, source: Packed, numbers: Vec<u64>) -> PyResult<Vec<String>> {
-    let study = py.detach(|| again(source)).map_err(errors::study_file)?;
-    let mut watch = Watch::new(None)?;
-    let rows = py.detach(|| {
-        let mut rows = Vec::with_capacity(numbers.len());
-        for number in numbers.into_iter().filter(|number| *number < study.runs()) {
-            if !watch.ask(0.0, 1.0) {
-                break;
-            }
-            rows.push(study.row(number).to_line());
-        }
-        rows
-    });
-    watch.finish(py)?;
-    Ok(rows)
-}
-
-fn again(packed: Packed) -> Result<Arc<Study>, gyration_scene::LoadError> {
-    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((known, study)) = &*last
-        && *known == packed
-    {
-        return Ok(study.clone());
-    }
-    let (name, text, base, overrides) = packed.clone();
-    let study = Arc::new(Study::again(&Source { name, text, base, overrides })?);
-    *last = Some((packed, study.clone()));
-    Ok(study)
 }

@@ -2,18 +2,22 @@
 
 use crate::convert::{array, object};
 use crate::errors;
+use crate::picture::{Picture, Source};
+use crate::recording::opener;
+use gyration_cli::library::StudyPicture;
 use gyration_study::{Data, Frame, FrameColumn, studies as ready};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The rows of a study: one a run, with the parameters, the outcome and what was kept.
 #[pyclass(frozen, module = "gyration", name = "Table")]
 pub struct Table {
     path: PathBuf,
-    frame: Frame,
+    frame: Arc<Frame>,
 }
 
 /// The names of the ready studies.
@@ -50,7 +54,7 @@ impl Table {
     #[classmethod]
     pub fn open(kind: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let frame = kind.py().detach(|| Frame::read(&path)).map_err(errors::study)?;
-        Ok(Self { path, frame })
+        Ok(Self { path, frame: Arc::new(frame) })
     }
 
     /// The folder of the table.
@@ -118,6 +122,34 @@ impl Table {
             columns.set_item(&found.column.name, cells)?;
         }
         polars.call_method1("DataFrame", (columns,))
+    }
+
+    /// A picture of the table, as ``gyration study STUDY plot`` draws it.
+    ///
+    /// ``x`` and ``y`` are columns, ``y`` also the share of the runs with one of some values: ``"face=+z,-z"``. ``colour`` is the column that
+    /// colours tell apart, ``kind`` is ``"histogram"``, ``"curve"`` (means or shares with intervals of 95 %), ``"map"`` or ``"scatter"``. What is
+    /// not given is what the study's ``[plot]`` says, else what suits its columns.
+    #[pyo3(signature = (x=None, y=None, *, colour=None, color=None, kind=None))]
+    fn plot(
+        &self,
+        py: Python<'_>,
+        x: Option<String>,
+        y: Option<String>,
+        colour: Option<String>,
+        color: Option<String>,
+        kind: Option<String>,
+    ) -> PyResult<Picture> {
+        if colour.is_some() && color.is_some() {
+            return Err(errors::arguments("`colour` and `color` are the same\n  fix: give one of them"));
+        }
+        let asked = StudyPicture { x, y, colour: colour.or(color), kind };
+        let source = Source::Study(self.frame.clone(), self.path.clone(), asked);
+        py.detach(|| Picture::new(source))
+    }
+
+    /// For pickle: another process opens what is on disk.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (PathBuf,))> {
+        opener(py, "Table", &self.path)
     }
 
     fn __repr__(&self) -> String {

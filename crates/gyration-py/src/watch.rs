@@ -4,6 +4,7 @@
 //! of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are raised when the
 //! recording has been closed.
 
+use crate::convert::shown;
 use gyration_sim::{Monitor, Progress, Reason};
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
@@ -16,6 +17,10 @@ const EVERY: Duration = Duration::from_millis(100);
 pub struct Watch {
     listener: Listener,
     asked: Instant,
+    /// Of what it tells the end, if not of the part that is under way [s].
+    end: Option<f64>,
+    /// Whether somebody wanted no more.
+    is_over: bool,
     /// What Python raised.
     raised: Option<PyErr>,
 }
@@ -39,11 +44,17 @@ impl Watch {
             },
             Some(callback) if callback.is_callable() => Listener::Callback(callback.clone().unbind()),
             Some(other) => {
-                let problem = format!("`progress` is {other}\n  fix: give True, or a function of time and end");
+                let problem =
+                    format!("`progress` is {}\n  fix: give True, or a function of time and end", shown(other));
                 return Err(crate::errors::arguments(problem));
             }
         };
-        Ok(Self { listener, asked: Instant::now(), raised: None })
+        Ok(Self { listener, asked: Instant::now(), end: None, is_over: false, raised: None })
+    }
+
+    /// One that watches the parts of something that ends then [s].
+    pub fn until(self, end: f64) -> Self {
+        Self { end: Some(end), ..self }
     }
 
     /// Looks at signals, and tells that it is at `time` of `end`; whether to go on.
@@ -56,10 +67,17 @@ impl Watch {
             self.tell(py, time, end)
         });
         self.asked = Instant::now();
-        answer.unwrap_or_else(|error| {
+        let goes_on = answer.unwrap_or_else(|error| {
             self.raised = Some(error);
             false
-        })
+        });
+        self.is_over |= !goes_on;
+        goes_on
+    }
+
+    /// Whether somebody wanted no more, though it may have been at the end of the last step.
+    pub fn is_over(&self) -> bool {
+        self.is_over
     }
 
     fn tell(&self, py: Python<'_>, time: f64, end: f64) -> PyResult<bool> {
@@ -89,6 +107,6 @@ impl Watch {
 
 impl Monitor for Watch {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
-        (!self.ask(progress.time, progress.end)).then_some(Reason::Interrupted)
+        (!self.ask(progress.time, self.end.unwrap_or(progress.end))).then_some(Reason::Interrupted)
     }
 }

@@ -1,5 +1,8 @@
 """What the tests share: a scene of a ball that falls, and a study of one with the bytes of its table."""
 
+import filecmp
+import os
+
 import pytest
 
 import gyration
@@ -43,6 +46,13 @@ def ball() -> gyration.Scene:
 @pytest.fixture(scope="session")
 def recording() -> gyration.Recording:
     return gyration.Scene.from_dict(BALL, name="ball").run()
+
+
+def same_files(left, right):
+    """Whether two folders hold the same bytes."""
+    compared = filecmp.dircmp(left, right, ignore=[])
+    files = not (compared.left_only or compared.right_only or compared.diff_files or compared.funny_files)
+    return files and all(same_files(os.path.join(left, name), os.path.join(right, name)) for name in compared.common_dirs)
 
 
 def table_bytes(folder):

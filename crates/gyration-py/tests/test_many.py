@@ -16,6 +16,7 @@ def test_endings_are_those_of_single_runs_on_any_number_of_threads(ball):
     assert one.outcome == three.outcome == ["completed"] * 6
     for column in one.columns:
         np.testing.assert_array_equal(one[column], three[column])
+    assert one["steps"].dtype == np.int64 and (one["steps"] > 0).all()
     np.testing.assert_array_equal(one["ball.x"], [scene.run()["ball.x"][-1] for scene in scenes])
     np.testing.assert_allclose(one["ball.x"], 0.05 * np.arange(6), atol=1e-9)
 
@@ -28,6 +29,20 @@ def test_failures_are_entries(ball):
     assert np.isnan(runs["ball.z"][2]) and np.isfinite(runs["ball.z"][1]) and runs["time"][1] < 0.5
 
 
+def test_a_run_that_cannot_begin_is_an_entry_that_failed(ball):
+    # No number holds the square of this speed; the scene itself has no error.
+    beyond = ball.edit({"body.ball.velocity": [1e200, 0, 0]})
+    runs = gyration.run_many([beyond, ball])
+    assert runs.outcome == ["failed", "completed"] and runs.reason[1] is None
+    with pytest.raises(gyration.RunError) as caught:
+        beyond.run()
+    assert runs.reason[0] == str(caught.value) and "energy is not finite" in runs.reason[0]
+    for column in runs.columns:
+        assert np.isnan(runs[column][0]) or runs[column][0] == 0, column
+        assert np.isfinite(runs[column][1]), column
+    assert "1 failed, 1 completed" in repr(runs)
+
+
 def test_columns_are_kept_as_asked(ball):
     runs = gyration.run_many([ball], keep=["ball.z"])
     assert runs.columns == ["time", "steps", "rejected", "evaluations", "residual", "ball.z"]
@@ -35,6 +50,9 @@ def test_columns_are_kept_as_asked(ball):
         gyration.run_many([ball], keep=["ball.q"])
     with pytest.raises(KeyError):
         runs["ball.x"]
+    for threads in [0, -1]:
+        with pytest.raises(gyration.ArgumentError, match="fix: "):
+            gyration.run_many([ball], threads=threads)
 
 
 def test_a_table_of_endings_is_for_pandas(ball):

@@ -1,7 +1,8 @@
 """Recordings: arrays, tables, pictures, pages; runs that are watched, interrupted and resumed."""
 
-import filecmp
 import os
+import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -12,13 +13,7 @@ import numpy as np
 import pytest
 
 import gyration
-
-
-def same_files(left, right):
-    """Whether two folders hold the same bytes."""
-    compared = filecmp.dircmp(left, right, ignore=[])
-    files = not (compared.left_only or compared.right_only or compared.diff_files or compared.funny_files)
-    return files and all(same_files(os.path.join(left, name), os.path.join(right, name)) for name in compared.common_dirs)
+from conftest import same_files
 
 
 def test_a_run_is_free_fall_until_the_table(recording):
@@ -81,6 +76,50 @@ def test_pictures_are_those_of_the_program(recording, tmp_path):
         recording.plot("stroke")
 
 
+def test_a_picture_of_every_kind_is_drawn_or_refused_with_a_reason(recording):
+    crawler = gyration.Scene.gallery("crawl").edit({"time.end": 0.5}).run()
+    kinds = ["overview", "strip", "height", "gap", "stretch", "forces", "energy", "stroke", "distance", "cost", "drive", "laws"]
+    for kind in kinds:
+        assert crawler.plot(kind).svg.startswith("<svg"), kind
+    assert crawler.plot().svg == crawler.plot("overview").svg
+    assert crawler.plot("stroke", measures=["P_xx", "G_zz"]).svg != crawler.plot("stroke").svg
+    # A rigid ball has no shape to speak of.
+    missing = {kind for kind in kinds if not is_drawn(recording, kind)}
+    assert missing == {"stretch", "stroke", "cost", "drive"}
+    with pytest.raises(gyration.PlotError, match="no measure `P_qq`"):
+        crawler.plot("stroke", measures=["P_qq", "G_zz"])
+    with pytest.raises(gyration.ArgumentError, match=", ".join(kinds[:3])):
+        crawler.plot("everything")
+
+
+def is_drawn(recording, kind):
+    try:
+        return recording.plot(kind).svg.startswith("<svg")
+    except gyration.PlotError as refusal:
+        assert "no body of the recording" in str(refusal)
+        return False
+
+
+def test_the_summary_of_an_opened_recording_is_that_of_its_run(ball, tmp_path):
+    told = ball.run(tmp_path / "ball.gyr").summary
+    read = gyration.Recording.open(tmp_path / "ball.gyr").summary
+    # How long it took stands nowhere.
+    assert re.sub(r"simulated in .*", "simulated", told) == read
+    assert "outcome    completed" in read and "residual" in read and "momentum" in read
+
+
+def test_the_summary_of_a_recording_whose_mesh_is_gone_says_what_is_missing(tmp_path):
+    (tmp_path / "here").mkdir()
+    (tmp_path / "here" / "corner.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+    body = {"name": "corner", "shape": {"mesh": {"file": "corner.obj"}}, "density": 1000}
+    scene = gyration.Scene.from_dict({"time": {"end": 0.1, "sample": 0.1}, "body": [body]}, base=tmp_path / "here")
+    scene.run(tmp_path / "here" / "corner.gyr")
+    assert "momentum" in gyration.Recording.open(tmp_path / "here" / "corner.gyr").summary
+    (tmp_path / "here" / "corner.obj").unlink()
+    read = gyration.Recording.open(tmp_path / "here" / "corner.gyr").summary
+    assert read.startswith("completed\nthe rest cannot be told") and "corner.obj" in read
+
+
 def test_a_notebook_shows_the_view(recording):
     shown = recording._repr_html_()
     assert shown.startswith("<iframe") or "<svg" in shown
@@ -108,6 +147,15 @@ def test_what_is_there_is_not_overwritten(ball, tmp_path):
         ball.run(path, resume=True)
 
 
+def test_recordings_on_disk_travel_to_other_processes(ball, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    packed = pickle.dumps(ball.run("ball.gyr"))
+    monkeypatch.chdir("/")
+    assert pickle.loads(packed)["ball.z"][0] == 0.4
+    with pytest.raises(gyration.ArgumentError, match="with `output`"):
+        pickle.dumps(ball.run())
+
+
 def test_a_temporary_recording_goes_with_its_last_user(ball):
     recording = ball.run()
     path = recording.path
@@ -127,6 +175,7 @@ def test_progress_is_told_and_false_stops_a_run_that_can_be_resumed(tmp_path):
 
     stopped = scene.run(tmp_path / "long.gyr", progress=progress)
     assert stopped.outcome == "unfinished" and told == sorted(told)
+    assert "not ended at t = " in gyration.Recording.open(stopped.path).summary
     further = scene.run(tmp_path / "long.gyr", progress=lambda time, end: False, resume=True)
     assert further.time[-1] > stopped.time[-1]
 
@@ -151,13 +200,18 @@ def test_ctrl_c_closes_the_recording_and_resuming_leaves_the_same_bytes(tmp_path
             time.sleep(0.001)
         os.kill(os.getpid(), signal.SIGINT)
 
+    # What is started in the background of a shell ignores the signal.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     sender = threading.Thread(target=interrupt)
     sender.start()
-    with pytest.raises(KeyboardInterrupt, match="resume=True"):
-        # Over and over, however fast this machine is: one of the runs is interrupted.
-        while True:
-            scene.run(broken, force=True)
-    sender.join()
+    try:
+        with pytest.raises(KeyboardInterrupt, match="resume=True"):
+            # Over and over, however fast this machine is: one of the runs is interrupted.
+            for _ in range(1000):
+                scene.run(broken, force=True)
+        sender.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
     scene.run(broken, resume=True)
     assert same_files(whole, broken)
 

@@ -88,6 +88,7 @@ def test_a_missing_file_is_a_file_error():
 def test_scenes_travel_to_other_processes(ball):
     edited = ball.edit({"time.end": 0.1})
     again = pickle.loads(pickle.dumps(edited))
+    assert again == edited and hash(again) == hash(edited) and again != ball
     assert again.resolved == edited.resolved and again.name == edited.name
 
 

@@ -71,6 +71,28 @@ def test_a_callback_ends_the_run_with_false(ball):
     assert abs(simulation.time - 0.1) < 1e-12
 
 
+def test_progress_stops_a_step_on_the_way_and_it_can_go_on(ball):
+    endless = ball.edit({"time.end": 1e6, "solver.rtol": 1e-10})
+    simulation = gyration.Simulation(endless)
+    reached = simulation.advance(1e6, progress=lambda time, until: False)
+    assert 0 < reached == simulation.time < 1e6
+    assert simulation.advance(reached + 0.1) == simulation.time
+    stopped = gyration.simulate(endless, 1e5, lambda simulation: None, progress=lambda time, until: False)
+    assert stopped.time < 1e5
+
+
+def test_progress_of_a_loop_is_told_over_all_its_intervals(ball):
+    told = []
+
+    def progress(time, end):
+        told.append((time, end))
+        return False
+
+    # Intervals that are short against the time between two tellings.
+    stopped = gyration.simulate(ball, 1e-3, lambda simulation: None, until=1e5, progress=progress)
+    assert len(told) == 1 and told[0][1] == 1e5 and abs(stopped.time - told[0][0]) < 1e-2
+
+
 def test_a_drive_is_changed_by_hand():
     scene = gyration.Scene.gallery("contract-1")
     simulation = gyration.Simulation(scene)
@@ -100,14 +122,31 @@ def test_what_makes_no_sense_is_refused(ball):
     for wrong in [
         lambda: simulation.apply("cube", force=[0, 0, 1]),
         lambda: simulation.apply(3, force=[0, 0, 1]),
+        lambda: simulation.apply(-1, force=[0, 0, 1]),
+        lambda: simulation.apply(None, force=[0, 0, 1]),
+        lambda: simulation.apply("ball", force=[0, 1]),
+        lambda: simulation.apply("ball", force="down"),
+        lambda: simulation.apply("ball", moment=[1, 2, 3]),
+        lambda: simulation.apply("ball", torque=np.zeros((3, 3))),
+        lambda: simulation.apply("ball", force=[0, 0, 1], at=[1j, 0, 0]),
+        lambda: simulation.set_drive("ball", 3.0),
+        lambda: simulation.angular_velocity("cube"),
         lambda: simulation.apply("ball", force=[0, 0, float("nan")]),
         lambda: simulation.advance(float("inf")),
         lambda: gyration.simulate(ball, 0.0, print),
     ]:
-        with pytest.raises(gyration.ArgumentError):
+        with pytest.raises(gyration.ArgumentError, match="fix: |finite"):
             wrong()
     with pytest.raises(KeyError):
         simulation["ball.speed"]
+    # Nothing of all that was applied.
+    assert simulation.works().get("load", 0.0) == 0.0
+
+
+def test_a_long_object_is_told_in_short(ball):
+    with pytest.raises(gyration.ArgumentError) as caught:
+        gyration.Simulation(ball).apply("ball", force=np.zeros(1000).tolist())
+    assert len(str(caught.value)) < 200 and "\n  fix: give three numbers" in str(caught.value)
 
 
 def test_a_run_that_cannot_go_on_says_why_and_stays_where_it_is():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gyration
-from conftest import STUDY, table_bytes
+from conftest import STUDY, same_files, table_bytes
 
 
 def test_a_study_is_a_table_with_a_row_a_run(tmp_path):
@@ -40,6 +40,62 @@ def test_processes_and_threads_leave_the_same_bytes(tmp_path, reference):
     gyration.study(STUDY, tmp_path / "one.study", threads=1)
     for name in ["processes", "threads", "one"]:
         assert table_bytes(tmp_path / f"{name}.study") == reference
+
+
+@pytest.mark.parametrize("which", ["all", "failures"])
+def test_recordings_come_back_from_processes_as_threads_leave_them(tmp_path, which):
+    study = dict(STUDY, recordings=which, repetitions=4)
+    # One law is so weak that the ball reaches the table: such a run ends early.
+    laws = [{"alpha": 1e-3, "nu": 1, "d0": 1e-3}, {"alpha": 4e4, "nu": 6, "d0": 2e-3}]
+    study["set"] = {**STUDY["set"], "contact.0.damping.beta": 0}
+    study["parameter"] = {**STUDY["parameter"], "law": {"key": "contact.0.repulsion", "values": laws}}
+    gyration.study(study, tmp_path / "threads.study", threads=2)
+    with ProcessPoolExecutor(2) as executor:
+        gyration.study(study, tmp_path / "processes.study", executor=executor)
+    left, right = tmp_path / "threads.study" / "recordings", tmp_path / "processes.study" / "recordings"
+    outcomes = gyration.Table.open(tmp_path / "threads.study")["outcome"]
+    kept = {"failed": False, "completed": which == "all", "gap_closed": True}
+    wanted = [f"run-{run:06}.gyr" for run, outcome in enumerate(outcomes) if kept[outcome]]
+    assert set(outcomes) == set(kept) and sorted(os.listdir(left)) == wanted
+    assert same_files(left, right)
+    assert table_bytes(tmp_path / "threads.study") == table_bytes(tmp_path / "processes.study")
+    assert gyration.Recording.open(right / wanted[0]).outcome in ("completed", "gap_closed")
+
+
+def test_a_recording_that_a_broken_study_has_left_is_replaced(tmp_path):
+    study, folder = dict(STUDY, recordings="all", repetitions=2), tmp_path / "ball.study"
+    kept = []
+
+    def progress(done, total):
+        kept.append(done)
+        return False
+
+    with pytest.raises(gyration.StudyError, match="stopped"):
+        gyration.study(study, folder, executor=Forgetful(0), batch=1, progress=progress)
+    last = folder / "recordings" / "run-000005.gyr"
+    for half in [last.with_name("run-000005.gyr.arriving"), last.with_name("run-000004.gyr.arriving")]:
+        half.mkdir()
+        (half / "zarr.json").write_text("{")
+    gyration.study(study, folder, executor=Forgetful(0), resume=True)
+    gyration.study(study, tmp_path / "whole.study", threads=1)
+    assert same_files(folder / "recordings", tmp_path / "whole.study" / "recordings")
+
+
+def test_batches_are_small_where_recordings_are_large():
+    from gyration._spread import BYTES, next_size
+
+    megabyte = [("position", bytes(10**6))]
+    assert next_size(8, 8, 0.1, []) == 64 and next_size(1000, 1000, 0.1, []) == 8000
+    assert next_size(1000, 1000, 1e-3, [(run, megabyte) for run in range(1000)]) == int(BYTES / 1e6)
+    assert next_size(1, 1, 60.0, []) == 1
+
+
+def test_the_order_of_a_dictionary_is_the_order_of_the_axes(tmp_path):
+    axes = {"z": {"key": "body.ball.velocity.0", "values": [0, 1]}, "a": {"key": "body.ball.velocity.1", "values": [2, 3]}}
+    keep = {"way": {"last": "ball.x"}, "across": {"last": "ball.y"}}
+    table = gyration.study({"scene": "bounce", "set": {"time.end": 0.01}, "parameter": axes, "keep": keep}, tmp_path / "axes.study")
+    assert table.columns[3:5] == ["z", "a"] and table.columns[-2:] == ["way", "across"]
+    assert list(table["z"]) == [0, 0, 1, 1] and list(table["a"]) == [2, 3, 2, 3]
 
 
 class Dying(Executor):
@@ -126,6 +182,37 @@ def test_what_makes_no_sense_is_refused_with_its_fix(tmp_path):
     assert caught.value.diagnostics[0].key == "repetitions"
     with pytest.raises(gyration.ArgumentError):
         gyration.study(STUDY, tmp_path / "x.study", threads=0)
+
+
+def test_a_picture_of_a_table_is_that_of_the_program(tmp_path):
+    folder = tmp_path / "ball.study"
+    table = gyration.study(STUDY, folder)
+    plot = [sys.executable, "-m", "gyration", "study", str(folder), "plot", "-o", "-"]
+    for options, picture in [
+        ([], table.plot()),
+        (["--x", "height"], table.plot("height")),
+        (["--x", "height", "--y", "way", "--colour", "speed", "--kind", "scatter"],
+         table.plot("height", "way", color="speed", kind="scatter")),
+        (["--x", "speed", "--y", "outcome=failed"], table.plot(x="speed", y="outcome=failed")),
+    ]:  # fmt: skip
+        drawn = subprocess.run([*plot, *options], capture_output=True, check=True).stdout.decode()
+        assert picture.svg == drawn == picture._repr_svg_()
+    table.plot().save(tmp_path / "ball.png")
+    assert (tmp_path / "ball.png").read_bytes().startswith(b"\x89PNG")
+    # Also of the Parquet file alone, and of a table under way.
+    assert gyration.Table.open(folder / "table.parquet").plot().svg == table.plot().svg
+
+
+def test_a_picture_that_a_table_has_not_is_refused(tmp_path):
+    table = gyration.study(STUDY, tmp_path / "ball.study")
+    for wrong, message in [
+        (lambda: table.plot("heigth"), "its columns are"),
+        (lambda: table.plot(kind="pie"), "histogram, curve, map, scatter"),
+        (lambda: table.plot(kind="map"), "no such axis"),
+        (lambda: table.plot(colour="speed", color="way"), "are the same"),
+    ]:
+        with pytest.raises(gyration.ArgumentError, match=message):
+            wrong()
 
 
 def test_tables_are_for_pandas_and_polars(tmp_path):

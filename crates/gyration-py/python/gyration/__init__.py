@@ -17,6 +17,7 @@ Lengths are in m, masses in kg, times in s, forces in N, angles in rad. Vectors 
 :func:`modes`        rest states and the small motions about them
 :func:`resistance`   forces on a body in a viscous fluid
 :func:`sensitivities` derivatives of what is recorded by any number of a scene
+:func:`calibrate`    numbers of the laws from measurements, with their errors
 ==================  =====================================================================
 """
 
@@ -31,6 +32,7 @@ from gyration._errors import (
     StudyError,
 )
 from gyration._gyration import (
+    Fit,
     Picture,
     Recording,
     Runs,
@@ -38,6 +40,7 @@ from gyration._gyration import (
     Simulation,
     Table,
     __version__,
+    calibrate,
     modes,
     resistance,
     run_many,
@@ -53,6 +56,7 @@ __all__ = [
     "Diagnostic",
     "Error",
     "FileError",
+    "Fit",
     "Picture",
     "PlotError",
     "Recording",
@@ -64,6 +68,7 @@ __all__ = [
     "StudyError",
     "Table",
     "__version__",
+    "calibrate",
     "modes",
     "resistance",
     "run_many",

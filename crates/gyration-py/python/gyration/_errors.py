@@ -1,6 +1,6 @@
 """What goes wrong, as exceptions; the messages are those of the program `gyration`."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 
 class Diagnostic(NamedTuple):
@@ -57,12 +57,6 @@ class PlotError(Error):
 
 
 class StudyError(Error):
-    """A study that cannot begin or go on."""
+    """A study that cannot begin or go on; measurements that tell no numbers."""
 
     diagnostics: list[Diagnostic] = []
-
-
-def _restore(kind: type, message: str, attributes: dict[str, Any]) -> Exception:
-    error: Exception = kind(message)
-    error.__dict__.update(attributes)
-    return error

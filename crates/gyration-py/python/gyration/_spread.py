@@ -1,7 +1,8 @@
 """Spreads the runs of a study over an executor: batches of run numbers out, finished rows back.
 
-The process that calls keeps the table; whoever works for it gets the study and some numbers, and returns their rows as texts. A row
-depends on the study and its number alone, so that it does not matter who computes it, or whether it was tried before.
+The process that calls keeps the table; whoever works for it gets the study and some numbers, and returns their rows as texts, and the
+recordings that the study wants as bytes: it may have no disk in common with the caller. A row depends on the study and its number alone,
+so that it does not matter who computes it, or whether it was tried before.
 """
 
 from __future__ import annotations
@@ -21,12 +22,25 @@ SECONDS = 1.0
 """How long a batch takes, about, if its size is not given [s]."""
 LARGEST = 10_000
 """Runs in a batch, at most: its rows come back as one message."""
+BYTES = 4e6
+"""What the recordings of a batch come to, about: all that wait to be written are held in memory."""
+
+Recordings = list[tuple[int, list[tuple[str, bytes]]]]
+"""Of each run its number and the files of its recording."""
 
 
-def rows(source: tuple[str, str, str, list[str]], numbers: list[int]) -> tuple[list[str], float]:
-    """The rows of these runs as lines of JSON, and how long they took [s]; this is what a worker does."""
+def rows(source: tuple[str, str, str, list[str]], numbers: list[int]) -> tuple[list[str], Recordings, float]:
+    """The rows of these runs as lines of JSON, their recordings, and how long it took [s]; this is what a worker does."""
     began = time.perf_counter()
-    return _gyration._study_rows(source, numbers), time.perf_counter() - began
+    lines, recordings = _gyration._study_rows(source, numbers)
+    return lines, recordings, time.perf_counter() - began
+
+
+def next_size(size: int, runs: int, seconds: float, recordings: Recordings) -> int:
+    """How many runs the next batch has, after one of so many runs."""
+    weight = sum(len(content) for _, files in recordings for _, content in files)
+    batches = max(seconds / SECONDS, weight / BYTES, 1e-6)
+    return max(1, min(LARGEST, int(runs / batches), 8 * size))
 
 
 def told(work: Any, progress: bool | Callable[[float, float], Any] | None) -> bool:
@@ -44,7 +58,6 @@ def spread(
     """Has the missing rows computed by an executor; rows are in the table, on disk, as soon as they are back."""
     if batch is not None and batch < 1:
         raise ArgumentError(f"a batch of {batch} runs is none\n  fix: give `batch` from 1, or leave it out")
-    work.check_spread()
     back: queue.SimpleQueue[Any] = queue.SimpleQueue()
     waiting: dict[Any, list[int]] = {}
     size = batch or 1
@@ -67,14 +80,14 @@ def spread(
                 continue
             numbers = waiting.pop(future)
             try:
-                lines, seconds = future.result()
+                lines, recordings, seconds = future.result()
             except Exception as error:
                 raise given_up(work, error) from error
-            work.append(numbers, lines)
+            work.append(numbers, lines, recordings)
             if not told(work, progress):
                 return
             if batch is None:
-                size = max(1, min(LARGEST, int(len(numbers) * SECONDS / max(seconds, 1e-6)), 8 * size))
+                size = next_size(size, len(numbers), seconds, recordings)
     finally:
         for future in waiting:
             future.cancel()

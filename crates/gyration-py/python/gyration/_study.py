@@ -32,7 +32,8 @@ def study(
 
     The runs are computed on ``threads`` of this process, on all cores if it is not given; or by an ``executor`` with the interface of
     ``concurrent.futures``: ``ProcessPoolExecutor``, ``client.get_executor()`` of Dask, ``MPIPoolExecutor`` of mpi4py, those of Ray and
-    Parsl. It gets batches of ``batch`` runs, or of what takes about a second. The table has the same bytes whoever computes it.
+    Parsl. It gets batches of ``batch`` runs, or of what takes about a second. The table has the same bytes whoever computes it, and so
+    have the recordings that the study keeps: workers send them back.
 
     ``resume=True`` goes on with a table that is there, ``resume="auto"`` does so if there is one, ``force=True`` replaces it.
     ``progress`` is True for a line on stderr, or a function of (runs done, runs in all), which stops by returning False. A run that
