@@ -8,7 +8,7 @@ use crate::steps::Steps;
 use crate::test::cargo;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 /// A scene as the program lists it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +31,7 @@ fn picture_path(name: &str) -> PathBuf {
 /// Runs the scenes named, or all, draws their strips and writes the page.
 pub fn run(names: &[&str]) -> ExitCode {
     let mut steps = Steps::default();
-    match list() {
+    match list(program()) {
         Err(reason) => steps.complain(reason),
         Ok(entries) => {
             for entry in entries.iter().filter(|entry| names.is_empty() || names.contains(&entry.name.as_str())) {
@@ -50,7 +50,7 @@ pub fn run(names: &[&str]) -> ExitCode {
 
 /// Complains about a page that is not the one that the scenes give, and about pictures that are missing.
 pub fn check(steps: &mut Steps) {
-    let entries = match list() {
+    let entries = match tested_program().and_then(list) {
         Ok(entries) => entries,
         Err(reason) => return steps.complain(reason),
     };
@@ -80,18 +80,26 @@ fn draw(steps: &mut Steps, name: &str) {
 }
 
 /// The program, built for speed.
-fn program() -> std::process::Command {
+fn program() -> Command {
     let mut command = cargo();
     command.args(["run", "--release", "--quiet", "--package", "gyration-cli", "--"]);
     command
 }
 
+/// The program that the tests of the workspace have built; of one package alone all would be compiled again, with other features.
+fn tested_program() -> Result<Command, String> {
+    let built = cargo().args(["build", "--quiet", "--workspace", "--bin", "gyration"]).status();
+    if built.is_ok_and(|status| status.success()) {
+        Ok(Command::new(crate::target_directory().join("debug").join(crate::PROGRAM)))
+    } else {
+        Err("`gyration` cannot be built".into())
+    }
+}
+
 /// The scenes, as the program lists them.
-fn list() -> Result<Vec<Entry>, String> {
-    let mut command = cargo();
-    // As the tests have built it.
-    command.args(["run", "--quiet", "--package", "gyration-cli", "--", "scenes"]);
-    let output = command.output().map_err(|error| format!("`gyration scenes` cannot be started: {error}"))?;
+fn list(mut command: Command) -> Result<Vec<Entry>, String> {
+    let output =
+        command.arg("scenes").output().map_err(|error| format!("`gyration scenes` cannot be started: {error}"))?;
     if !output.status.success() {
         return Err(format!("`gyration scenes`: {}", String::from_utf8_lossy(&output.stderr)));
     }

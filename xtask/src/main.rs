@@ -47,6 +47,9 @@ fn main() -> ExitCode {
     }
 }
 
+/// The file of the program.
+const PROGRAM: &str = if cfg!(windows) { "gyration.exe" } else { "gyration" };
+
 /// The root of the repository.
 fn root() -> PathBuf {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -5,7 +5,7 @@
 
 use crate::python::{is_root, refresh_package_lists};
 use crate::steps::{Steps, succeeds};
-use crate::{root, target_directory};
+use crate::{PROGRAM, root, target_directory};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -24,7 +24,7 @@ pub fn tests(steps: &mut Steps) {
     steps.run("types and lints of the viewer", npm().args(["run", "--silent", "check"]));
     // Some tests look at the bundle itself.
     steps.run("build the page", npm().args(["run", "--silent", "build"]));
-    let program = target_directory().join("debug").join(if cfg!(windows) { "gyration.exe" } else { "gyration" });
+    let program = target_directory().join("debug").join(PROGRAM);
     let mut command = npm();
     // No colours: the output is read.
     command.arg("test").env("GYRATION_BIN", program).env("GYRATION_CHROMIUM", browser).env("NO_COLOR", "1");
