@@ -10,9 +10,16 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Number, Value};
+use std::path::{Path, PathBuf};
 
 /// The deepest nesting; a scene needs less than twenty.
 const DEEPEST: usize = 64;
+
+/// A folder as whoever works in another one knows it.
+pub fn elsewhere(base: &Path) -> PathBuf {
+    let here = if base.as_os_str().is_empty() { Path::new(".") } else { base };
+    std::path::absolute(here).unwrap_or_else(|_| base.to_owned())
+}
 
 /// JSON as Python's objects.
 pub fn to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
@@ -39,6 +46,18 @@ pub fn object<'py>(py: Python<'py>, entries: &Map<String, Value>) -> PyResult<Bo
         dict.set_item(key, to_python(py, value)?)?;
     }
     dict.into_bound_py_any(py)
+}
+
+/// Whether what a callback returned asks to stop: False does, of Python or of NumPy, as comparisons of arrays have it. A function that
+/// returns nothing goes on.
+#[pyfunction]
+#[pyo3(name = "_says_stop")]
+pub fn says_stop(answer: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let is_boolean = answer.is_instance_of::<PyBool>() || {
+        let kind = answer.get_type();
+        kind.module()? == "numpy" && ["bool", "bool_"].iter().any(|name| kind.name().is_ok_and(|own| own == *name))
+    };
+    Ok(is_boolean && !answer.is_truthy()?)
 }
 
 /// What a Python object stands for.

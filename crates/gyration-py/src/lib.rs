@@ -42,6 +42,8 @@ mod _gyration {
     #[pymodule_export]
     use super::calibration::{Fit, calibrate};
     #[pymodule_export]
+    use super::convert::says_stop;
+    #[pymodule_export]
     use super::many::{Runs, run_many};
     #[pymodule_export]
     use super::picture::Picture;

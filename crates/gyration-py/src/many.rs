@@ -17,7 +17,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -63,12 +63,12 @@ pub fn run_many(
     if let Some(keep) = &keep {
         check_columns(&scenes, keep)?;
     }
-    let mut watch = Watch::new(progress)?;
+    let mut watch = Watch::new(progress)?.of_runs();
     let endings = py.detach(|| all(&scenes, threads, keep.as_deref(), &mut watch));
     watch.finish(py)?;
     let mut columns = keep.unwrap_or_default();
     if columns.is_empty() {
-        let mut known = std::collections::HashSet::new();
+        let mut known = HashSet::new();
         let names = endings.iter().flat_map(|ending| ending.last.iter().map(|(name, _)| name));
         columns = names.filter(|name| known.insert(*name)).cloned().collect();
     }
@@ -84,22 +84,24 @@ pub fn workers(threads: Option<i64>) -> PyResult<NonZeroUsize> {
 fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
     let mut all: Vec<String> = Vec::new();
     for scene in scenes {
-        let (model, plan) = (&scene.built().model, RunPlan::from(scene.built()));
-        let (_, order) = Fields::new(model, &plan.extras).arrays(model);
-        if keep.iter().all(|name| order.contains(name)) {
+        if keep.iter().all(|name| all.contains(name)) {
             return Ok(());
         }
-        all = order;
+        let (model, plan) = (&scene.built().model, RunPlan::from(scene.built()));
+        let (_, order) = Fields::new(model, &plan.extras).arrays(model);
+        let known: HashSet<&String> = all.iter().collect();
+        let new: Vec<String> = order.into_iter().filter(|name| !known.contains(name)).collect();
+        all.extend(new);
     }
     match keep.iter().find(|name| !all.contains(*name)) {
-        Some(name) if scenes.len() == 1 || !all.is_empty() => {
+        Some(name) if !scenes.is_empty() => {
             Err(errors::arguments(format!("no scene has the column `{name}`\n  fix: choose of {}", all.join(", "))))
         }
         _ => Ok(()),
     }
 }
 
-/// Runs all on so many threads, while this one looks at signals.
+/// Runs all on so many threads, while this one looks at signals; those that are not begun when all are to stop are told as such.
 fn all(scenes: &[Arc<Built>], threads: usize, keep: Option<&[String]>, watch: &mut Watch) -> Vec<Ending> {
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (send, receive) = mpsc::channel();
@@ -116,19 +118,23 @@ fn all(scenes: &[Arc<Built>], threads: usize, keep: Option<&[String]>, watch: &m
             });
         }
         drop(send);
-        let mut endings = Vec::with_capacity(scenes.len());
+        let mut endings: Vec<Option<Ending>> = scenes.iter().map(|_| None).collect();
+        let mut done = 0;
         loop {
             match receive.recv_timeout(EVERY) {
-                Ok(ending) => endings.push(ending),
+                Ok((index, ending)) => {
+                    endings[index] = Some(ending);
+                    done += 1;
+                }
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
                 Err(mpsc::RecvTimeoutError::Timeout) => {}
             }
-            if !watch.ask(endings.len() as f64, scenes.len() as f64) {
+            if !watch.ask(f64::from(done), scenes.len() as f64) {
                 stop.store(true, Ordering::Relaxed);
             }
         }
-        endings.sort_by_key(|(index, _)| *index);
-        endings.into_iter().map(|(_, ending)| ending).collect()
+        let not_begun = || Ending::nothing("interrupted", "stopped before it began".to_owned());
+        endings.into_iter().map(|ending| ending.unwrap_or_else(not_begun)).collect()
     })
 }
 
@@ -162,16 +168,23 @@ impl Monitor for Together<'_> {
 }
 
 fn run_one(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Ending {
-    ended(scene, keep, stop).unwrap_or_else(|error| Ending {
-        outcome: "failed".to_owned(),
-        reason: Some(error.to_string()),
-        time: f64::NAN,
-        steps: 0,
-        rejected: 0,
-        evaluations: 0,
-        residual: f64::NAN,
-        last: Vec::new(),
-    })
+    ended(scene, keep, stop).unwrap_or_else(|error| Ending::nothing("failed", error.to_string()))
+}
+
+impl Ending {
+    /// That of a run that did not take place.
+    fn nothing(outcome: &str, reason: String) -> Self {
+        Self {
+            outcome: outcome.to_owned(),
+            reason: Some(reason),
+            time: f64::NAN,
+            steps: 0,
+            rejected: 0,
+            evaluations: 0,
+            residual: f64::NAN,
+            last: Vec::new(),
+        }
+    }
 }
 
 fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<Ending, RunError> {
@@ -180,6 +193,8 @@ fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<En
     let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
     simulation.begin(&mut last)?;
     let outcome = simulation.run(&mut last, &mut Together(stop))?;
+    // What is stopped has no last row of its own.
+    simulation.record_last(&mut last)?.ok();
     let (statistics, tally) = (*simulation.statistics(), simulation.tally());
     let (kind, why) = match &outcome {
         Outcome::Completed => ("completed".to_owned(), None),

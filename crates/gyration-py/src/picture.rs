@@ -9,6 +9,7 @@ use gyration_study::calibration::{Calibration, Fitted};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tempfile::TempDir;
 
 /// A drawing; in a notebook it shows itself.
 #[pyclass(frozen, module = "gyration", name = "Picture")]
@@ -19,8 +20,8 @@ pub struct Picture {
 
 /// What is drawn.
 pub enum Source {
-    /// Quantities of a recording, and the measures of `stroke`.
-    Recording(Recording, Vec<String>, Vec<String>),
+    /// A recording, what keeps its folder, the quantities, and the measures of `stroke`.
+    Recording(Recording, Option<Arc<TempDir>>, [Vec<String>; 2]),
     /// The laws of a scene.
     Laws(Arc<Scene>),
     /// A fit to measurements.
@@ -32,7 +33,7 @@ pub enum Source {
 impl Source {
     fn render(&self, format: Format) -> Result<Vec<u8>, CliError> {
         match self {
-            Self::Recording(recording, what, measures) => library::picture(recording, what, measures, format),
+            Self::Recording(recording, _, [what, measures]) => library::picture(recording, what, measures, format),
             Self::Laws(scene) => library::laws(scene, format),
             Self::Fit(calibration, fitted) => Ok(library::fit_picture(calibration, fitted, format)),
             Self::Study(frame, path, asked) => library::study_picture(frame, path, asked, format),
@@ -79,10 +80,12 @@ impl Picture {
 
     fn __repr__(&self) -> String {
         let what = match &self.source {
-            Source::Recording(recording, what, _) if what.is_empty() => {
+            Source::Recording(recording, _, [what, _]) if what.is_empty() => {
                 format!("overview of {}", recording.path().display())
             }
-            Source::Recording(recording, what, _) => format!("{} of {}", what.join(", "), recording.path().display()),
+            Source::Recording(recording, _, [what, _]) => {
+                format!("{} of {}", what.join(", "), recording.path().display())
+            }
             Source::Laws(scene) => format!("laws of {}", scene.name()),
             Source::Fit(calibration, _) => format!("fit of {}", calibration.title()),
             Source::Study(_, path, _) => format!("table of {}", path.display()),

@@ -1,15 +1,17 @@
 //! `Recording`: what a run left on disk, as arrays of NumPy, xarray and pandas, as pictures and as a page.
 
-use crate::convert::{array, object};
+use crate::convert::{array as numpy, object};
 use crate::errors;
 use crate::picture::{Picture, Source};
 use gyration_cli::library;
-use gyration_record::{ArrayInfo, Recording as Inner};
+use gyration_record::{Array, ArrayInfo, Recording as Inner};
 use gyration_view::{Stored, report};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 use serde_json::Value;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -38,13 +40,13 @@ impl Recording {
     /// A whole array.
     fn read<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let read = py.detach(|| self.inner.read(name)).map_err(errors::record)?;
-        array(py, read.data, &read.shape)
+        numpy(py, read.data, &read.shape)
     }
 
     fn column<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let column = py.detach(|| self.inner.column(name)).map_err(errors::record)?;
         let rows = column.len();
-        array(py, column, &[rows])
+        numpy(py, column, &[rows])
     }
 
     /// The arrays of numbers.
@@ -56,16 +58,18 @@ impl Recording {
             .filter(|array| !(array.dims.len() == 1 && array.dims[0] == array.name && array.name != "time"))
     }
 
-    /// `die.position`: the part of an array that belongs to a body.
-    fn of_body<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+    /// `die.position`: the array of which a part belongs to a body, which of the bodies it is, and along which axis they stand.
+    fn of_body<'a>(&self, name: &'a str) -> PyResult<Option<(&'a str, usize, usize)>> {
         let Some((body, name)) = name.rsplit_once('.') else { return Ok(None) };
         let (bodies, Ok(info)) = (self.body_names()?, self.inner.array(name)) else { return Ok(None) };
-        let (Some(index), Some(axis)) =
-            (bodies.iter().position(|known| known == body), info.dims.iter().position(|dim| dim == "body"))
-        else {
-            return Ok(None);
-        };
-        self.read(py, name)?.call_method1("take", (index, axis)).map(Some)
+        let index = bodies.iter().position(|known| known == body);
+        let axis = info.dims.iter().position(|dim| dim == "body");
+        Ok(index.zip(axis).map(|(index, axis)| (name, index, axis)))
+    }
+
+    /// Quantities, and the measures of `stroke`; the recording stays on disk as long as its picture.
+    fn picture(&self, what: [Vec<String>; 2]) -> PyResult<Picture> {
+        Picture::new(Source::Recording(self.inner.clone(), self.kept.clone(), what))
     }
 
     fn no_such(&self, name: &str) -> PyErr {
@@ -185,19 +189,30 @@ impl Recording {
         if self.numbers().any(|array| array.name == name) {
             return self.read(py, name);
         }
-        self.of_body(py, name)?.ok_or_else(|| self.no_such(name))
+        let (array, index, axis) = self.of_body(name)?.ok_or_else(|| self.no_such(name))?;
+        self.read(py, array)?.call_method1("take", (index, axis))
     }
 
-    fn __contains__(&self, py: Python<'_>, name: &str) -> PyResult<bool> {
+    fn __contains__(&self, name: &str) -> PyResult<bool> {
         let known = name == "t" || self.inner.columns().any(|column| column == name);
-        Ok(known || self.numbers().any(|array| array.name == name) || self.of_body(py, name)?.is_some())
+        Ok(known || self.numbers().any(|array| array.name == name) || self.of_body(name)?.is_some())
     }
 
     /// The table as a DataFrame of pandas: the columns of the CSV.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let columns = PyDict::new(py);
-        for name in self.columns() {
-            columns.set_item(&name, self.column(py, &name)?)?;
+        columns.set_item("t", self.time(py)?)?;
+        // Each array is read once.
+        let mut read: HashMap<&str, Array> = HashMap::new();
+        for (name, array, place) in self.inner.column_places() {
+            let whole = match read.entry(array) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => new.insert(py.detach(|| self.inner.read(array)).map_err(errors::record)?),
+            };
+            let stride = whole.shape.iter().skip(1).product();
+            let column: Vec<f64> = whole.data.iter().skip(place).step_by(stride).copied().collect();
+            let rows = column.len();
+            columns.set_item(name, numpy(py, column, &[rows])?)?;
         }
         py.import("pandas")?.call_method1("DataFrame", (columns,))
     }
@@ -224,14 +239,22 @@ impl Recording {
     /// A picture of quantities by name: ``overview``, ``strip``, ``height``, ``gap``, ``stretch``, ``forces``, ``energy``, ``stroke``,
     /// ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name. ``measures`` are the two of ``stroke``.
     #[pyo3(signature = (*what, measures=None))]
-    fn plot(&self, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {
-        Picture::new(Source::Recording(self.inner.clone(), what, measures.unwrap_or_default()))
+    fn plot(&self, py: Python<'_>, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {
+        py.detach(|| self.picture([what, measures.unwrap_or_default()]))
     }
 
-    /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its path.
+    /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its path, beside the
+    /// recording if none is given, or in the current folder for one that is temporary.
     #[pyo3(signature = (path=None))]
     fn report(&self, py: Python<'_>, path: Option<PathBuf>) -> PyResult<PathBuf> {
-        let path = path.unwrap_or_else(|| self.inner.path().with_extension("html"));
+        let beside = || {
+            let path = self.inner.path().with_extension("html");
+            match (&self.kept, path.file_name()) {
+                (Some(_), Some(name)) => PathBuf::from(name),
+                _ => path,
+            }
+        };
+        let path = path.unwrap_or_else(beside);
         let html = self.page(py)?;
         std::fs::write(&path, html).map_err(|error| errors::write(&path, &error))?;
         Ok(path)
@@ -245,7 +268,7 @@ impl Recording {
                 let style = "width: 100%; height: 600px; border: 0";
                 Ok(format!("<iframe style=\"{style}\" srcdoc=\"{quoted}\"></iframe>"))
             }
-            Err(_) => Ok(Picture::new(Source::Recording(self.inner.clone(), Vec::new(), Vec::new()))?.svg().to_owned()),
+            Err(_) => Ok(self.picture([Vec::new(), Vec::new()])?.svg().to_owned()),
         }
     }
 

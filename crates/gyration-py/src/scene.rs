@@ -29,8 +29,7 @@ pub struct Scene {
 impl Scene {
     /// What it is made of, for whoever works in another folder: name, text, folder, edits.
     fn parts(&self) -> Packed {
-        let base = if self.base.as_os_str().is_empty() { Path::new(".") } else { &self.base };
-        let base = std::path::absolute(base).unwrap_or_else(|_| self.base.clone());
+        let base = convert::elsewhere(&self.base);
         (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides().to_vec())
     }
 
@@ -211,8 +210,8 @@ impl Scene {
     }
 
     /// The laws of its contacts against distance.
-    fn plot(&self) -> PyResult<Picture> {
-        Picture::of_laws(self.inner.clone())
+    fn plot(&self, py: Python<'_>) -> PyResult<Picture> {
+        py.detach(|| Picture::of_laws(self.inner.clone()))
     }
 
     /// Whether it is made of the same: text, edits, name, folder.

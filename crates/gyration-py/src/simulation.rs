@@ -4,7 +4,7 @@
 //! sees the new state in it, and takes a copy for the old one.
 
 use crate::arrays::Arrays;
-use crate::convert::{array, shown};
+use crate::convert::{array, says_stop, shown};
 use crate::errors;
 use crate::scene::Scene;
 use crate::watch::Watch;
@@ -16,7 +16,7 @@ use gyration_sim::{HandStepper, Reason};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict};
+use pyo3::types::PyDict;
 use std::sync::Arc;
 
 /// A run stepped by hand.
@@ -331,8 +331,7 @@ fn intervals(
 ) -> PyResult<()> {
     // Multiplied, not accumulated; an interval that rounding alone keeps from the end is the last one.
     for interval in (0_u64..).take_while(|interval| (*interval as f64 * dt) < end * (1.0 - 1e-12)) {
-        let answer = callback.call1((simulation,))?;
-        if answer.is_instance_of::<PyBool>() && !answer.extract::<bool>()? {
+        if says_stop(&callback.call1((simulation,))?)? {
             break;
         }
         let next = ((interval + 1) as f64 * dt).min(end);

@@ -4,7 +4,7 @@
 //! numbers from it and hands back what `worker` makes of them (`python/gyration/_spread.py`). Rows are those of `gyration-study`
 //! either way, so that the table has the same bytes.
 
-use crate::convert::{json, overrides, shown};
+use crate::convert::{elsewhere, json, overrides, shown};
 use crate::errors;
 use crate::many::workers;
 use crate::parcel::{Parcel, unpack};
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A study and its table while it is being made.
-#[pyclass(module = "gyration", name = "_Work")]
+#[pyclass(module = "gyration", name = "_Work", weakref)]
 pub struct Work {
     study: Arc<Study>,
     /// None once it has been closed.
@@ -58,7 +58,7 @@ impl Work {
         let folder = output.unwrap_or_else(|| PathBuf::from(format!("{}.study", study.name())));
         let resume = match resume.extract::<bool>() {
             Ok(resume) => resume,
-            Err(_) if resume.extract::<&str>().is_ok_and(|word| word == "auto") => folder.symlink_metadata().is_ok(),
+            Err(_) if resume.extract::<&str>().is_ok_and(|word| word == "auto") => Table::is_begun(&folder),
             Err(_) => {
                 return Err(errors::arguments(format!(
                     "`resume` is {}\n  fix: give True, False or \"auto\"",
@@ -78,7 +78,7 @@ impl Work {
     #[getter]
     fn source(&self) -> Packed {
         let Source { name, text, base, overrides } = self.study.source().clone();
-        (name, text, std::path::absolute(&base).unwrap_or(base), overrides)
+        (name, text, elsewhere(&base), overrides, self.study.fingerprint().to_owned())
     }
 
     #[getter]
@@ -99,7 +99,7 @@ impl Work {
     /// Makes what is missing on threads of this process.
     fn execute(&mut self, py: Python<'_>, threads: Option<i64>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let threads = workers(threads)?;
-        let mut watch = Watch::new(progress)?;
+        let mut watch = Watch::new(progress)?.of_runs();
         let Self { study, table, folder, .. } = self;
         let table = table.as_mut().ok_or_else(closed)?;
         let done = py.detach(|| execute(study, table, threads, &mut Told(&mut watch)));
@@ -129,7 +129,7 @@ impl Work {
         let table = table.as_mut().ok_or_else(closed)?;
         let added = py.detach(|| {
             let rows: Option<Vec<Row>> = lines.iter().map(|line| Row::from_line(line, study.columns())).collect();
-            // A worker of another version, or of another study.
+            // What has passed through somebody's hands is not what a worker made.
             let rows = rows.filter(|rows| rows.iter().map(Row::run).eq(numbers.iter().copied().map(Some)));
             let rows = rows.filter(|_| recordings.iter().all(|(run, _)| numbers.contains(run)));
             rows.map(|rows| {
@@ -140,7 +140,7 @@ impl Work {
         match added {
             Some(added) => added.map_err(errors::study),
             None => Err(errors::study_said(
-                "a worker sent rows that were not asked for: is its version of gyration this one?",
+                "a worker sent rows that were not asked for\n  fix: give it the version of gyration that is here",
             )),
         }
     }
@@ -162,6 +162,13 @@ impl Work {
     /// Lets go of the table: another one may write to it.
     fn close(&mut self) {
         self.table = None;
+    }
+
+    /// Leaves the table to the process from which this one was forked.
+    fn disown(&mut self) {
+        if let Some(table) = self.table.take() {
+            table.disown();
+        }
     }
 }
 

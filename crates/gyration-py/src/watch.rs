@@ -4,7 +4,7 @@
 //! of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are raised when the
 //! recording has been closed.
 
-use crate::convert::shown;
+use crate::convert::{says_stop, shown};
 use gyration_sim::{Monitor, Progress, Reason};
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
@@ -19,6 +19,8 @@ pub struct Watch {
     asked: Instant,
     /// Of what it tells the end, if not of the part that is under way [s].
     end: Option<f64>,
+    /// Whether what it tells are numbers of runs, not times.
+    counts: bool,
     /// Whether somebody wanted no more.
     is_over: bool,
     /// What Python raised.
@@ -34,7 +36,7 @@ enum Listener {
 }
 
 impl Watch {
-    /// From what a user gives for `progress`: None, True, or a callable of (time, end).
+    /// From what a user gives for `progress`: None, True, or a callable of (time, end), or of (runs done, runs in all).
     pub fn new(progress: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let listener = match progress {
             None => Listener::Nobody,
@@ -49,7 +51,7 @@ impl Watch {
                 return Err(crate::errors::arguments(problem));
             }
         };
-        Ok(Self { listener, asked: Instant::now(), end: None, is_over: false, raised: None })
+        Ok(Self { listener, asked: Instant::now(), end: None, counts: false, is_over: false, raised: None })
     }
 
     /// One that watches the parts of something that ends then [s].
@@ -57,8 +59,16 @@ impl Watch {
         Self { end: Some(end), ..self }
     }
 
-    /// Looks at signals, and tells that it is at `time` of `end`; whether to go on.
+    /// One that watches how many runs are done.
+    pub fn of_runs(self) -> Self {
+        Self { counts: true, ..self }
+    }
+
+    /// Looks at signals, and tells that it is at `time` of `end`; whether to go on. Who wanted no more is not asked again.
     pub fn ask(&mut self, time: f64, end: f64) -> bool {
+        if self.is_over {
+            return false;
+        }
         if self.asked.elapsed() < EVERY {
             return true;
         }
@@ -84,15 +94,15 @@ impl Watch {
         match &self.listener {
             Listener::Nobody => Ok(true),
             Listener::Line => {
-                let line = format!("\r{:3.0} %  t = {time:.4} of {end} s ", 100.0 * time / end);
+                let done = 100.0 * time / end;
+                let line = match self.counts {
+                    true => format!("\r{done:3.0} %  {time} of {end} runs "),
+                    false => format!("\r{done:3.0} %  t = {time:.4} of {end} s "),
+                };
                 py.import("sys")?.getattr("stderr")?.call_method1("write", (line,))?;
                 Ok(true)
             }
-            // Only False says stop: a function that returns nothing goes on.
-            Listener::Callback(callback) => {
-                let answer = callback.bind(py).call1((time, end))?;
-                Ok(!answer.is_instance_of::<PyBool>() || answer.extract()?)
-            }
+            Listener::Callback(callback) => Ok(!says_stop(&callback.bind(py).call1((time, end))?)?),
         }
     }
 

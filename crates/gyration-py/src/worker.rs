@@ -10,6 +10,7 @@
 use crate::errors;
 use crate::parcel::{Parcel, pack};
 use crate::watch::Watch;
+use gyration_scene::LoadError;
 use gyration_study::{Recordings, Source, Study, StudyError, Worker};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -17,8 +18,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// What another process needs to open a study again: name, text, folder, changes.
-pub type Packed = (String, String, PathBuf, Vec<String>);
+/// What another process needs to open a study again: name, text, folder, changes; and the word that tells it from every other, with
+/// the files that it refers to and the version of the program.
+pub type Packed = (String, String, PathBuf, Vec<String>, String);
 
 /// The study that this process worked for last.
 static LAST: Mutex<Option<(Packed, Arc<Study>)>> = Mutex::new(None);
@@ -30,7 +32,10 @@ type Made<Bytes> = (Vec<String>, Vec<Parcel<Bytes>>);
 #[pyfunction]
 #[pyo3(name = "_study_rows")]
 pub fn study_rows(py: Python<'_>, source: Packed, numbers: Vec<u64>) -> PyResult<Made<Py<PyBytes>>> {
-    let study = py.detach(|| again(source)).map_err(errors::study_file)?;
+    let study = py.detach(|| again(source)).map_err(|wrong| match wrong {
+        Wrong::File(error) => errors::study_file(error),
+        Wrong::Other => errors::study_said(OTHER),
+    })?;
     let folder = match study.recordings() {
         Recordings::None => None,
         Recordings::Failures | Recordings::All => Some(temporary()?),
@@ -64,16 +69,29 @@ fn make(study: &Study, numbers: &[u64], folder: Option<&Path>, watch: &mut Watch
     Ok((lines, parcels))
 }
 
+/// What a worker says whose files are not the caller's.
+const OTHER: &str = "a worker finds another study than the one whose table this is: its files, or its version of gyration, differ\n  \
+     fix: give all workers the same scene files and the same version; a scene that was changed meanwhile makes another study";
+
+/// Why a study cannot be opened again.
+enum Wrong {
+    File(LoadError),
+    Other,
+}
+
 /// The study, from what was sent; workers are asked about one study over and over.
-fn again(packed: Packed) -> Result<Arc<Study>, gyration_scene::LoadError> {
+fn again(packed: Packed) -> Result<Arc<Study>, Wrong> {
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((known, study)) = &*last
         && *known == packed
     {
         return Ok(study.clone());
     }
-    let (name, text, base, overrides) = packed.clone();
-    let study = Arc::new(Study::again(&Source { name, text, base, overrides })?);
+    let (name, text, base, overrides, fingerprint) = packed.clone();
+    let study = Arc::new(Study::again(&Source { name, text, base, overrides }).map_err(Wrong::File)?);
+    if study.fingerprint() != fingerprint {
+        return Err(Wrong::Other);
+    }
     *last = Some((packed, study.clone()));
     Ok(study)
 }

@@ -55,6 +55,31 @@ def test_columns_are_kept_as_asked(ball):
             gyration.run_many([ball], threads=threads)
 
 
+def test_columns_may_be_of_different_scenes(ball):
+    die = gyration.Scene.gallery("dice").edit({"time.end": 0.01})
+    runs = gyration.run_many([ball, die], keep=["ball.x", "die.x"])
+    assert np.isfinite([runs["ball.x"][0], runs["die.x"][1]]).all()
+    assert np.isnan([runs["ball.x"][1], runs["die.x"][0]]).all()
+    with pytest.raises(gyration.ArgumentError, match="(?s)no scene has the column `cube.x`.*ball.z.*die.z"):
+        gyration.run_many([ball, die], keep=["ball.x", "cube.x"])
+
+
+def test_what_is_stopped_keeps_its_place(ball):
+    asked = []
+
+    def progress(done, total):
+        asked.append(done)
+        return np.bool_(False)
+
+    long = [ball.edit({"time.end": 1e9, "time.sample": 1e9, "body.ball.velocity": [k, 0, 0]}) for k in range(5)]
+    runs = gyration.run_many(long, threads=2, progress=progress)
+    # Who has had enough is not asked again.
+    assert len(asked) == 1 and len(runs) == 5 and runs.outcome == ["interrupted"] * 5
+    begun = np.isfinite(runs["time"])
+    np.testing.assert_allclose(runs["ball.x"][begun], (np.arange(5) * runs["time"])[begun], rtol=1e-6)
+    assert begun[:2].all() and not begun[2:].any() and "before it began" in runs.reason[4]
+
+
 def test_a_table_of_endings_is_for_pandas(ball):
     pytest.importorskip("pandas")
     table = gyration.run_many(throws(ball)).to_pandas()

@@ -164,6 +164,15 @@ def test_a_temporary_recording_goes_with_its_last_user(ball):
     assert not os.path.exists(path)
 
 
+def test_a_picture_outlives_its_temporary_recording(ball, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    picture = ball.run().plot("height")
+    picture.save("height.png")
+    assert (tmp_path / "height.png").read_bytes().startswith(b"\x89PNG")
+    report = ball.run().report()
+    assert report.name == "ball.html" and (tmp_path / "ball.html").read_text().startswith("<!")
+
+
 def test_progress_is_told_and_false_stops_a_run_that_can_be_resumed(tmp_path):
     scene = gyration.Scene.gallery("bounce").edit({"time.end": 1e4, "time.stop_at_rest": {"speed": 1e-30, "hold": 1e9}})
     scene = scene.edit({"contact.0.damping.beta": 0.0, "time.sample": 1e-3})

@@ -71,6 +71,11 @@ def test_a_callback_ends_the_run_with_false(ball):
     assert abs(simulation.time - 0.1) < 1e-12
 
 
+def test_a_comparison_of_arrays_ends_the_run(ball):
+    simulation = gyration.simulate(ball, 0.01, lambda now: now.position[0, 2] > 0.3)
+    assert 0.1 < simulation.time < 0.2
+
+
 def test_progress_stops_a_step_on_the_way_and_it_can_go_on(ball):
     endless = ball.edit({"time.end": 1e6, "solver.rtol": 1e-10})
     simulation = gyration.Simulation(endless)

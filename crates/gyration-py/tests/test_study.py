@@ -1,5 +1,6 @@
 """Studies: the same table whoever computes it; what breaks loses nothing and counts nothing twice."""
 
+import json
 import os
 import signal
 import subprocess
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 
 import gyration
-from conftest import STUDY, same_files, table_bytes
+from conftest import BALL, STUDY, same_files, table_bytes
 
 
 def test_a_study_is_a_table_with_a_row_a_run(tmp_path):
@@ -151,11 +152,113 @@ def test_a_cancelled_future_is_an_error_that_names_the_way_on(tmp_path, referenc
 
 def test_rows_that_nobody_asked_for_are_refused(tmp_path):
     class Lying(Forgetful):
-        def submit(self, function, source, numbers):
-            return super().submit(function, source, [number + 1 for number in numbers])
+        def submit(self, function, source, numbers, attempt):
+            return super().submit(function, source, [number + 1 for number in numbers], attempt)
 
     with pytest.raises(gyration.StudyError, match="not asked for"):
         gyration.study(STUDY, tmp_path / "lying.study", executor=Lying(0), batch=3)
+
+
+def scene_file(path, speed):
+    """A scene of a ball as a file, and the study of one run that names it as a neighbour."""
+    ball = gyration.Scene.from_dict(BALL, name="ball").edit({"body.ball.velocity": [speed, 0, 0]})
+    path.write_text(json.dumps(ball.resolved))
+    return {"scene": path.name, "set": {"time.end": 0.1}, "keep": {"way": {"last": "ball.x"}}}
+
+
+def test_a_pool_that_lives_on_takes_the_scene_as_it_is_now(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    ways = []
+    with ProcessPoolExecutor(1) as executor:
+        for speed in (1.0, 2.0):
+            study = scene_file(tmp_path / "ball.json", speed)
+            table = gyration.study(study, tmp_path / f"{speed}.study", executor=executor)
+            ways.append(table["way"][0])
+    np.testing.assert_allclose(ways, [0.1, 0.2], atol=1e-9)
+
+
+def test_a_worker_that_finds_another_scene_refuses(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    study = scene_file(tmp_path / "ball.json", 1.0)
+
+    class Meanwhile(Forgetful):
+        def submit(self, function, /, *arguments, **keywords):
+            scene_file(tmp_path / "ball.json", 2.0)
+            return super().submit(function, *arguments, **keywords)
+
+    with pytest.raises(gyration.StudyError, match="another study"):
+        gyration.study(study, tmp_path / "ball.study", executor=Meanwhile(0))
+    assert not list((tmp_path / "ball.study" / "rows").iterdir())
+
+
+def test_workers_in_another_folder_find_the_scene(tmp_path, monkeypatch):
+    class Elsewhere(Forgetful):
+        def submit(self, function, /, *arguments, **keywords):
+            here = os.getcwd()
+            os.chdir("/")
+            try:
+                return super().submit(function, *arguments, **keywords)
+            finally:
+                os.chdir(here)
+
+    monkeypatch.chdir(tmp_path)
+    study = scene_file(tmp_path / "ball.json", 1.0)
+    (tmp_path / "way.json").write_text(json.dumps(study))
+    for index, source in enumerate([study, "way.json"]):
+        table = gyration.study(source, tmp_path / f"{index}.study", executor=Elsewhere(0))
+        np.testing.assert_allclose(table["way"], [0.1], atol=1e-9)
+
+
+def test_as_many_batches_wait_as_there_are_workers_for():
+    from gyration._spread import AHEAD, EACH, ELASTIC, Room
+
+    class Pool:
+        _max_workers = 100
+
+    class Client:
+        threads = {"a": 2, "b": 2}
+
+        def nthreads(self):
+            return self.threads
+
+    class Dask:
+        _client = Client()
+
+    assert Room(Pool()).now() == EACH * 100 and Room(object()).now() == AHEAD
+    dask = Room(Dask())
+    assert dask.now() == max(AHEAD, ELASTIC * 4)
+    Client.threads = {str(worker): 8 for worker in range(50)}
+    # For a while what was counted last is believed.
+    assert dask.now() == max(AHEAD, ELASTIC * 4)
+    dask.counted -= 60
+    assert dask.now() == ELASTIC * 400
+
+
+def test_ctrl_c_says_how_to_go_on(tmp_path, reference):
+    folder = tmp_path / "stopped.study"
+
+    def progress(done, total):
+        if done >= 10:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt, match="resume=True"):
+        gyration.study(STUDY, folder, executor=Forgetful(0), batch=1, progress=progress)
+    gyration.study(STUDY, folder, resume=True)
+    assert table_bytes(folder) == reference
+
+
+def test_an_empty_folder_is_begun_automatically(tmp_path, reference):
+    (tmp_path / "empty.study").mkdir()
+    gyration.study(STUDY, tmp_path / "empty.study", resume="auto")
+    assert table_bytes(tmp_path / "empty.study") == reference
+
+
+@pytest.mark.parametrize("executor", [None, "here"])
+def test_a_comparison_of_arrays_stops_a_study(tmp_path, executor):
+    runs = {"executor": Forgetful(0), "batch": 1} if executor else {"threads": 1}
+    many = dict(STUDY, repetitions=10_000)
+    with pytest.raises(gyration.StudyError, match="stopped"):
+        gyration.study(many, tmp_path / "s.study", **runs, progress=lambda done, total: np.float64(done) < 10)
 
 
 def test_progress_stops_a_study_that_goes_on_later(tmp_path, reference):
@@ -226,8 +329,6 @@ def test_tables_are_for_pandas_and_polars(tmp_path):
 
 
 def test_the_program_leaves_the_same_bytes(tmp_path, reference):
-    import json
-
     source = tmp_path / "study.json"
     source.write_text(json.dumps(STUDY))
     folder = tmp_path / "program.study"

@@ -5,6 +5,14 @@ mod common;
 use common::{BALL, Row, TABLE, TIME, assert_error, errors};
 
 #[test]
+fn a_study_is_told_from_a_scene() {
+    let text = format!("{TIME}{BALL}\n[§keep]\nz = {{ last = \"ball.z\" }}\n");
+    assert_error(&text, "keep", "unknown key \"keep\"", "key of studies, which `gyration study` takes");
+    // Elsewhere the word is one like any other.
+    assert_error(&format!("{TIME}{BALL}§keep = 1\n"), "body.ball.keep", "unknown key \"keep\"", "known keys");
+}
+
+#[test]
 fn structure_errors_stand_at_their_place() {
     let rows: &[Row] = &[
         ("§colour = 1", "body.ball.colour", "unknown key \"colour\"", "known keys"),

@@ -236,7 +236,10 @@ impl<'a> Simulation<'a> {
     }
 
     /// Records the state after the last step, unless it was just sampled.
-    fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+    ///
+    /// # Errors
+    /// [`RunError::Record`] if the row cannot be stored; within, a stop if the state is outside the model.
+    pub fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
         if self.recorded >= self.integrator.time() {
             return Ok(Ok(()));
         }

@@ -25,6 +25,7 @@ use crate::estimate::largest_share;
 use crate::motion::{Mat12, Motion, inner_work, right_sides};
 use crate::panel::{Panel, Vec3};
 use crate::surface::Surface;
+use crate::threads::on_own_threads;
 use crate::wall::{Plane, Wall};
 
 /// Bytes of matrices that are taken unless said otherwise: 16,000 unknowns, some 10,000 triangles of a smooth surface.
@@ -89,6 +90,10 @@ impl Surface {
     /// layer indefinite; a mesh so coarse that a motion is not resisted.
     pub fn resistance(&self, options: &Options) -> Result<Resistance, StokesError> {
         self.check(options)?;
+        on_own_threads(|| self.resistance_here(options))
+    }
+
+    fn resistance_here(&self, options: &Options) -> Result<Resistance, StokesError> {
         let panels = Panel::all(self);
         let normals = node_normals(&panels, self.node_count, Weight::Angle);
         let wall = options.wall.as_ref().map(|plane| Wall::new(plane, &panels)).transpose()?;

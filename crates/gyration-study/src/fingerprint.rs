@@ -1,8 +1,10 @@
 //! A word that tells a study from every other one with other rows: title, drawing, comments and layout of the files do not
 //! count.
 
+use crate::parameter::{Parameter, Steps, Variation};
 use crate::random::hash;
 use crate::read::Read;
+use crate::value::Value;
 use gyration_scene::{Scene, Template};
 use serde_json::{Value as Json, json};
 use std::path::Path;
@@ -18,6 +20,7 @@ pub(crate) fn fingerprint(read: &Read, template: &Template, scene: &Scene) -> St
     let written = template.written();
     collect(&written, template.base(), &mut files);
     collect(&scene.resolved(), template.base(), &mut files);
+    parameters.iter().for_each(|parameter| collect_listed(parameter, template.base(), &mut files));
     let told = json!({
         "version": env!("CARGO_PKG_VERSION"),
         "seed": seed,
@@ -33,6 +36,19 @@ pub(crate) fn fingerprint(read: &Read, template: &Template, scene: &Scene) -> St
         "files": files,
     });
     format!("{:032x}", hash(told.to_string().as_bytes()))
+}
+
+/// Hashes of the files that values of an axis refer to: texts, or texts within tables, that are names of files.
+fn collect_listed(parameter: &Parameter, base: &Path, files: &mut Vec<String>) {
+    let Variation::Axis { steps: Steps::Listed(listed), .. } = &parameter.variation else { return };
+    for text in listed.iter().flat_map(|(_, cells)| cells).filter_map(Value::text) {
+        // A text stands alone, tables are written as TOML.
+        for name in std::iter::once(text).chain(text.split('"').skip(1).step_by(2)) {
+            if let Ok(bytes) = std::fs::read(base.join(name)) {
+                files.push(format!("{name} {:032x}", hash(&bytes)));
+            }
+        }
+    }
 }
 
 /// Hashes of the files that a scene refers to.

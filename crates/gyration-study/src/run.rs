@@ -121,6 +121,10 @@ impl Study {
         if is_interrupted(&outcome) && !limits.is_over {
             return Ok(None);
         }
+        if limits.is_over {
+            // A run that is interrupted may go on, and has no last row; this one has ended.
+            simulation.record_last(&mut sink.observer).map_err(recorded)?.ok();
+        }
         let ending = ending(&simulation, &outcome, limits.is_over);
         let is_early = matches!(outcome, Outcome::Stopped(_));
         let Both { observer, writer } = sink;

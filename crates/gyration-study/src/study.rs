@@ -103,9 +103,16 @@ impl Study {
         if let Some(Ok(template)) = &template {
             read::keys_once(&read, template, &mut sheet);
         }
-        // What is wrong with the study may be what is wrong with its scene.
-        let (true, Some(template)) = (sheet.is_sound(), template) else { return Err(sheet.refused().into()) };
-        let template = template?;
+        let template = match (template, sheet.is_sound()) {
+            (Some(template), true) => template?,
+            // What is wrong with the study may be what is wrong with its scene.
+            (template, _) => {
+                if let Some(Ok(template)) = template {
+                    look_further(&template, &read, &mut sheet);
+                }
+                return Err(sheet.refused().into());
+            }
+        };
         let dice = dice(&read);
         let values = values(&read, &dice, place(&read, 0));
         let overrides = overrides_of(&read, &values);
@@ -220,6 +227,16 @@ fn not_found(name: &str) -> LoadError {
     let names = gallery::studies().iter().map(|(name, _)| *name);
     let help = format!("nor a study that is ready; {}", fix(name, names, "there are"));
     ReadError::Missing { path: PathBuf::from(name), help }.into()
+}
+
+/// Notes what else is wrong with a study: keys and columns that its scene does not have, as far as its sound parts tell.
+fn look_further(template: &Template, read: &Read, sheet: &mut Sheet) {
+    let dice = Dice { seed: read.seed, sampling: Sampling::Random, repetitions: 1, sobol: Sobol::new(0) };
+    let first = vec![0; read.axes.len().max(1)];
+    let values: Vec<_> = read.parameters.iter().map(|p| p.at(&dice, place(read, 0), &first)).collect();
+    if let Ok(Some(scene)) = read::probe(template, read, &overrides_of(read, &values), sheet) {
+        columns(read, &scene, sheet);
+    }
 }
 
 fn dice(read: &Read) -> Dice {

@@ -148,6 +148,80 @@ fn what_cannot_be_told_apart_is_named() {
     assert!((reach / alpha + 1.0 / 6.0).abs() < 1e-4, "{alpha} {reach}");
 }
 
+#[test]
+fn a_number_that_is_told_beside_one_that_is_not_has_its_whole_error() {
+    // Seen from a gap of 1 m, α and ν are almost one number: what two gaps tell of ν leaves α open by more than a factor of twenty.
+    let at = "at = [500, 1000]";
+    let sections = format!("[[gap]]\nkey = \"body.ball.density\"\n{at}\ngap = [1, 1]\ndeviation = 1\n");
+    let gaps = exact(&sections);
+    let far = "set = { \"contact.0.adhesion.beta\" = 0 }\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\nstart = 2.56e-12\n\
+               [fit.nu]\nkey = \"contact.0.repulsion.nu\"\n";
+    let fitted = |factors: [f64; 2]| {
+        let measured = [gaps[0] * factors[0], gaps[1] * factors[1]];
+        let deviations = [0.01 * gaps[0], 0.01 * gaps[1]];
+        fit(&format!(
+            "scene = \"ball.toml\"\n{}[[gap]]\nkey = \"body.ball.density\"\n{at}\ngap = {measured:?}\ndeviation = {deviations:?}\n",
+            far.replace("= 0 }", "= 0, \"contact.0.repulsion.d0\" = 1 }"),
+        ))
+    };
+    let found = fitted([1.0, 1.0]);
+    let nu = |found: &Fitted| found.numbers.iter().find(|number| number.name == "nu").unwrap().clone();
+    println!("{:?} {:?}", found.numbers, found.undetermined);
+    assert_eq!(found.degrees_of_freedom, 0);
+    assert!(found.numbers.iter().any(|number| number.name == "alpha" && number.error.is_none()));
+    let [open] = &found.undetermined[..] else { panic!("{:?}", found.undetermined) };
+    assert!(open.direction.iter().map(|(name, _)| name.as_str()).eq(["alpha"]));
+    // What each measurement does to it when it changes by a tenth of its deviation.
+    let moved = [[1.001, 1.0], [1.0, 1.001]].map(|factors| 10.0 * (nu(&fitted(factors)).value - nu(&found).value));
+    let (error, expected) = (nu(&found).error.unwrap(), moved[0].hypot(moved[1]));
+    println!("ν {} ± {error}, by moving the measurements {expected}", nu(&found).value);
+    // The steps are a tenth of an error of a percent of a nonlinear law.
+    assert!((error / expected - 1.0).abs() < 0.05, "{error} {expected}");
+}
+
+#[test]
+fn the_largest_pull_is_found_however_short_its_reach() {
+    let pulls: Vec<f64> = ["1e-5", "1e-7", "1e-9", "1e-12"]
+        .iter()
+        .map(|reach| {
+            let set = format!("set = {{ \"contact.0.adhesion.d0\" = {reach}, \"contact.0.repulsion.d0\" = 1e-30 }}");
+            let fit = "[fit.a]\nkey = \"contact.0.friction.beta\"";
+            let text = format!("scene = \"ball.toml\"\n{set}\n{fit}\n[[pull_off]]\nforce = 1\ndeviation = 1\n");
+            Calibration::parse("data.toml", &text, folder().path()).unwrap().predictions().unwrap()[0]
+        })
+        .collect();
+    println!("pulls {pulls:?} N");
+    // Of a flat face: β A max(x⁻³ − x⁻⁹), at x⁶ = 3, whatever d₀; its sides add the part d₀ over 5 cm.
+    let exact = 2e3 * 0.05f64.powi(2) * (3f64.powf(-0.5) - 3f64.powf(-1.5));
+    assert!(pulls.iter().all(|pull| (pull / exact - 1.0).abs() < 1e-3), "{pulls:?} {exact}");
+}
+
+#[test]
+fn a_rebound_has_derivatives_by_contacts_and_by_other_numbers_and_on_a_slope() {
+    for slope in [0.0, 0.1f64] {
+        let normal = format!("\"support.table.plane.normal\" = [{:?}, 0, {:?}]", slope.sin(), slope.cos());
+        let round = "\"body.ball.shape\" = { sphere = { radius = 0.025 } }";
+        let sections = "[[drop]]\nheight = [0.1, 0.2, 0.3]\nrebound = [0.01, 0.01, 0.01]\ndeviation = \"1 mm\"\n";
+        let text = |rebounds: &[f64], starts: [f64; 2]| {
+            format!(
+                "scene = \"ball.toml\"\nset = {{ {normal}, {round} }}\n[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = {:?}\n\
+                 [fit.density]\nkey = \"body.ball.density\"\nstart = {:?}\n{}",
+                starts[0],
+                starts[1],
+                sections.replace("[0.01, 0.01, 0.01]", &format!("{rebounds:?}"))
+            )
+        };
+        let folder = folder();
+        let exact = Calibration::parse("data.toml", &text(&[0.01; 3], [5e4, 1000.0]), folder.path()).unwrap();
+        let found = fit(&text(&exact.predictions().unwrap(), [4e4, 900.0]));
+        println!("slope {slope}: {:?} after {} evaluations", found.numbers, found.evaluations);
+        // Runs and differences of them are known to some 1e-6; the two are correlated.
+        for (number, truth) in found.numbers.iter().zip([5e4, 1000.0]) {
+            assert!((number.value / truth - 1.0).abs() < 1e-4, "{number:?}");
+        }
+    }
+}
+
 /// What the scene of the tests has at a name.
 fn start(name: &str) -> f64 {
     match name {

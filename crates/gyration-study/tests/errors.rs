@@ -54,6 +54,18 @@ fn impossible_distributions_are_refused() {
 }
 
 #[test]
+fn what_is_wrong_with_a_study_and_with_its_scene_comes_at_once() {
+    let text = "scene = \"ball.toml\"\nsead = 1\n[parameter.p]\nkey = \"body.ball.densty\"\nvalues = [1, 2]\n\
+        [parameter.q]\nkey = \"body.ball.density\"\nuniform = { from = 2, to = 1 }\n[keep]\nz = { last = \"ball.zz\" }\n";
+    let found: Vec<_> = errors(text).into_iter().map(|error| (error.line, error.key)).collect();
+    let keys = ["sead", "parameter.p.key", "parameter.q.uniform.to", "keep.z"];
+    for key in keys {
+        assert!(found.iter().any(|(_, found)| found == key), "{key}: {found:?}");
+    }
+    assert_eq!(found.len(), keys.len(), "{found:?}");
+}
+
+#[test]
 fn impossible_directions_are_refused() {
     let spin = "key = \"body.ball.velocity\"\n";
     let text = parameter(&format!("{spin}direction = {{ magnitude = -1 }}"));
@@ -101,7 +113,7 @@ fn every_value_of_a_list_is_looked_at() {
 #[test]
 fn axes_that_vary_together_are_of_one_length() {
     let axis = |name: &str, values: &str, with: &str| {
-        format!("[parameter.{name}]\nkey = \"body.ball.velocity.{name}\"\nvalues = {values}\n{with}\n")
+        format!("[parameter.{name}]\nkey = \"body.ball.position.{name}\"\nvalues = {values}\n{with}\n")
     };
     let text = format!("scene = \"ball.toml\"\n{}{}", axis("0", "[1, 2]", ""), axis("1", "[1, 2, 3]", "with = \"0\""));
     refused(&text, 9, "parameter.1.with", ["it has 3 values, and \"0\" has 2", "as many"]);
@@ -141,11 +153,15 @@ fn numbers_of_runs_are_checked() {
     refused(&with("seed = -1"), 2, "seed", ["at least 0", "0"]);
     refused(&with("sampling = \"halton\""), 2, "sampling", ["not known", "sobol"]);
     refused(&with("sead = 1"), 2, "sead", ["unknown key", "seed"]);
+    refused(&with("body = []"), 2, "body", ["unknown key", "key of scenes, which `gyration run` takes"]);
+    refused(&with("fit = {}"), 2, "fit", ["unknown key", "`gyration calibrate`"]);
     let rotations: String =
         (0..8).map(|k| format!("[parameter.p{k}]\nkey = \"body.{k}.orientation\"\nrotation = \"uniform\"\n")).collect();
-    let bodies = "[set]\n";
-    let text = format!("scene = \"ball.toml\"\nsampling = \"sobol\"\n{bodies}{rotations}");
-    refused(&text, 2, "sampling", ["24 dimensions", "latin_hypercube"]);
+    let errors = errors(&format!("scene = \"ball.toml\"\nsampling = \"sobol\"\n{rotations}"));
+    let sampling = errors.iter().find(|error| error.key == "sampling").unwrap();
+    assert!(sampling.message.contains("24 dimensions") && sampling.help.contains("latin_hypercube"), "{sampling}");
+    // The scene has one body, that of the index 0.
+    assert_eq!(errors.len(), 8);
 }
 
 #[test]

@@ -132,6 +132,21 @@ fn recordings_are_left_of_those_that_are_asked_for() {
     }
 }
 
+#[test]
+fn what_is_kept_of_a_run_with_too_many_steps_is_of_its_last_one() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("brick.toml"), BRICK).unwrap();
+    let text = "scene = \"brick.toml\"\nmax_steps = 40\n[set]\n\"body.brick.angular_velocity\" = [2e3, 0, 1]\n\
+                \"body.brick.velocity\" = [1, 0, 0]\n[keep]\nway = { change = \"brick.x\" }\n";
+    let study = Study::parse("s.toml", text, folder.path(), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let row: std::collections::BTreeMap<String, _> =
+        study.columns().iter().map(|column| column.name.clone()).zip(study.row(0).values).collect();
+    assert_eq!(row["outcome"].text(), Some("step_limit"));
+    let (way, time) = (row["way"].number().unwrap(), row["time"].number().unwrap());
+    println!("{way} m in {time} s");
+    assert!(time > 0.0 && (way / time - 1.0).abs() < 1e-6, "{way} {time}");
+}
+
 fn has_ended(path: &Path) {
     let recording = Recording::open(path).unwrap();
     assert!(recording.attributes().contains_key("outcome") && recording.rows() > 0);

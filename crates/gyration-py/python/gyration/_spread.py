@@ -7,9 +7,11 @@ so that it does not matter who computes it, or whether it was tried before.
 
 from __future__ import annotations
 
+import os
 import queue
 import sys
 import time
+import uuid
 from collections.abc import Callable
 from typing import Any
 
@@ -17,7 +19,13 @@ from gyration import _gyration
 from gyration._errors import ArgumentError, StudyError
 
 AHEAD = 64
-"""Batches that wait with the executor at any time: enough for every worker to have a next one."""
+"""Batches that wait with the executor at any time, at least."""
+EACH = 4
+"""Batches that wait for each worker of a pool: enough to have a next one."""
+ELASTIC = 16
+"""The same for a thread of Dask, whose clusters grow as long as what waits takes much longer than five seconds."""
+COUNTED = 5.0
+"""How long the number of Dask's threads is believed [s]."""
 SECONDS = 1.0
 """How long a batch takes, about, if its size is not given [s]."""
 LARGEST = 10_000
@@ -25,12 +33,17 @@ LARGEST = 10_000
 BYTES = 4e6
 """What the recordings of a batch come to, about: all that wait to be written are held in memory."""
 
+Source = tuple[str, str, os.PathLike[str], list[str], str]
+"""A study as another process opens it."""
 Recordings = list[tuple[int, list[tuple[str, bytes]]]]
 """Of each run its number and the files of its recording."""
 
 
-def rows(source: tuple[str, str, str, list[str]], numbers: list[int]) -> tuple[list[str], Recordings, float]:
-    """The rows of these runs as lines of JSON, their recordings, and how long it took [s]; this is what a worker does."""
+def rows(source: Source, numbers: list[int], attempt: str) -> tuple[list[str], Recordings, float]:
+    """The rows of these runs as lines of JSON, their recordings, and how long it took [s]; this is what a worker does.
+
+    Dask takes a call with the same arguments for the same call: `attempt` tells one from another, lest an old failure be the answer.
+    """
     began = time.perf_counter()
     lines, recordings = _gyration._study_rows(source, numbers)
     return lines, recordings, time.perf_counter() - began
@@ -46,10 +59,28 @@ def next_size(size: int, runs: int, seconds: float, recordings: Recordings) -> i
 def told(work: Any, progress: bool | Callable[[float, float], Any] | None) -> bool:
     """Tells how many rows there are; whether to go on."""
     if callable(progress):
-        return progress(work.done, work.total) is not False
+        return not _gyration._says_stop(progress(work.done, work.total))
     if progress:
         sys.stderr.write(f"\r{work.done} of {work.total} runs ")
     return True
+
+
+class Room:
+    """How many batches are to wait with an executor."""
+
+    def __init__(self, executor: Any) -> None:
+        self.executor = executor
+        self.ahead = max(AHEAD, EACH * (getattr(executor, "_max_workers", None) or 1))
+        self.counted = float("-inf")
+
+    def now(self) -> int:
+        """As many now: workers of Dask come and go."""
+        client = getattr(self.executor, "_client", None)
+        if client is not None and hasattr(client, "nthreads") and time.monotonic() - self.counted >= COUNTED:
+            threads = sum(client.nthreads().values())
+            self.ahead = max(AHEAD, ELASTIC * threads)
+            self.counted = time.monotonic()
+        return self.ahead
 
 
 def spread(
@@ -60,13 +91,16 @@ def spread(
         raise ArgumentError(f"a batch of {batch} runs is none\n  fix: give `batch` from 1, or leave it out")
     back: queue.SimpleQueue[Any] = queue.SimpleQueue()
     waiting: dict[Any, list[int]] = {}
-    size = batch or 1
-    ahead = max(AHEAD, 4 * (getattr(executor, "_max_workers", None) or 1))
+    size, source, attempt, room = batch or 1, work.source, uuid.uuid4().hex, Room(executor)
     try:
         while True:
+            try:
+                ahead = room.now()
+            except Exception as error:
+                raise given_up(work, error) from error
             while len(waiting) < ahead and (numbers := work.take(size)):
                 try:
-                    future = executor.submit(rows, work.source, numbers)
+                    future = executor.submit(rows, source, numbers, attempt)
                 except Exception as error:
                     raise given_up(work, error) from error
                 waiting[future] = numbers
@@ -88,6 +122,8 @@ def spread(
                 return
             if batch is None:
                 size = next_size(size, len(numbers), seconds, recordings)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"finished rows are kept; {way_on(work)}") from None
     finally:
         for future in waiting:
             future.cancel()
@@ -99,5 +135,10 @@ def given_up(work: Any, error: Exception) -> StudyError:
     """What to raise when the executor breaks."""
     return StudyError(
         f"the executor gave up after {work.done} of {work.total} runs: {type(error).__name__}: {error}\n"
-        f"  fix: nothing is lost; go on with gyration.study(..., output={str(work.path)!r}, resume=True)"
+        f"  fix: nothing is lost; {way_on(work)}"
     )
+
+
+def way_on(work: Any) -> str:
+    """What to do for the rest of the runs."""
+    return f"go on with gyration.study(..., output={str(work.path)!r}, resume=True)"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import weakref
 from collections.abc import Callable
 from typing import Any, Literal
 
@@ -10,6 +11,19 @@ from gyration import _gyration
 from gyration._spread import spread
 
 __all__ = ["study"]
+
+_at_work: weakref.WeakSet[_gyration._Work] = weakref.WeakSet()
+"""The studies that this process is making."""
+
+
+def _disown() -> None:
+    """Lets go of what belongs to the process from which this one was forked: its tables are locked as long as it lives, not longer."""
+    for work in list(_at_work):
+        work.disown()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_disown)
 
 
 def study(
@@ -41,6 +55,7 @@ def study(
     to go on.
     """
     work = _gyration._Work(source, output, changes, resume, force)
+    _at_work.add(work)
     try:
         if executor is None:
             work.execute(threads, progress)

@@ -24,7 +24,8 @@ pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Sup
         let [x, y, z] = support.normal.into();
         let message =
             format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
-        let help = format!("move it by more than {:.6e} m along the normal [{x}, {y}, {z}]", gap.min(0.0).abs());
+        let lift = if gap < 0.0 { format!("by more than {:.6e} m ", -gap) } else { "a little ".into() };
+        let help = format!("move it {lift}along the normal [{x}, {y}, {z}]: forces of short range keep bodies apart");
         judge.note(&placed.key.key("position"), message, help);
     }
 }

@@ -110,7 +110,8 @@ impl Walker<'_> {
             let place = key.key(name);
             match fields.get(name) {
                 None => {
-                    let help = suggest::fix(name, fields.keys().map(String::as_str), what);
+                    let elsewhere = if *key == Key::root() { of_another_file(name) } else { None };
+                    let help = elsewhere.unwrap_or_else(|| suggest::fix(name, fields.keys().map(String::as_str), what));
                     self.findings.at(entry.key_span, &place, format!("unknown key \"{name}\""), help);
                 }
                 Some(field) => self.visit(&entry.node, &place, field),
@@ -167,6 +168,19 @@ impl Walker<'_> {
             Rule::Shared(_) | Rule::Unknown => "a value".to_owned(),
         }
     }
+}
+
+/// The kinds of file, the command that takes each, and the keys at their roots that no other kind has.
+const FILES: [(&str, &str, &[&str]); 3] = [
+    ("scenes", "run", &["world", "time", "solver", "support", "contact", "body", "fluid"]),
+    ("studies", "study", &["seed", "repetitions", "sampling", "recordings", "parameter", "keep", "plot"]),
+    ("measurements", "calibrate", &["fit", "drop", "gap", "slope", "pull_off"]),
+];
+
+/// The fix for a key at the root that belongs to another kind of file.
+fn of_another_file(name: &str) -> Option<String> {
+    let (files, command, _) = FILES.iter().find(|(.., keys)| keys.contains(&name))?;
+    Some(format!("it is a key of {files}, which `gyration {command}` takes"))
 }
 
 /// One of some words, or a table with one of some keys.

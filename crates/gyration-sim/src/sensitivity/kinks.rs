@@ -48,17 +48,32 @@ impl Kinks {
         if times.len() >= MOST {
             return Err(Fault::Reason(format!("its signals have more than {MOST} kinks")));
         }
-        if variation.times(|model| kinks(model, end))?.iter().all(|moves| *moves == 0.0) {
+        let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(end, f64::min);
+        let movement = |variation: &mut Variation| {
+            let mut part = false;
+            let moves = variation.times(|model| {
+                let moved = kinks(model, end);
+                part |= !are_as_many(&times, &moved, end - WITHIN * apart);
+                moved
+            });
+            moves.map(|moves| (moves, part))
+        };
+        let (moves, part) = movement(variation)?;
+        if !part && moves.iter().all(|moves| *moves == 0.0) {
             return Ok(Self::default());
         }
         loop {
-            let (moves, step) = (variation.times(|model| kinks(model, end))?, variation.step());
+            let ((moves, part), step) = (movement(variation)?, variation.step());
             let farthest = moves.iter().fold(0.0, |most: f64, moves| most.max(moves.abs()));
             let margin = DISTANCE * farthest * step + f64::EPSILON * end;
-            let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(end, f64::min);
             let mean = end / (times.len() + 1) as f64;
-            if margin > f64::min(NEAR * mean, WITHIN * apart) && variation.finer().is_ok() {
+            if (part || margin > f64::min(NEAR * mean, WITHIN * apart)) && variation.finer().is_ok() {
                 continue;
+            }
+            if part {
+                return Err(Fault::Reason(
+                    "two of its signals have a kink at the same time, and one of them moves".into(),
+                ));
             }
             // Those of both ends of an edge have to find room in it.
             if margin > apart / 6.0 {
@@ -109,6 +124,12 @@ impl Kinks {
 /// Two times are the same but for rounding.
 fn is_same(one: f64, other: f64) -> bool {
     (one - other).abs() < ROUNDING * one
+}
+
+/// Whether two lists of kinks have as many, but for those that come over the end or go: later than `late`.
+fn are_as_many(one: &[f64], other: &[f64], late: f64) -> bool {
+    let both = one.len().min(other.len());
+    one[both..].iter().chain(&other[both..]).all(|time| *time > late)
 }
 
 /// Whether a step of a run has ended at a kink of a signal.

@@ -24,8 +24,10 @@ mod variation;
 mod works;
 
 use crate::outcome::Outcome;
+use crate::plan::RunPlan;
 use crate::ports::RunError;
 use crate::record::{MemorySink, Unwatched};
+use crate::rows::Extras;
 use crate::run::Simulation;
 use gyration_ode::Integrator;
 use gyration_scene::Scene;
@@ -142,7 +144,8 @@ impl Sensitivities {
             derivatives: vec![Derivatives::default(); keys.len()],
             growth: 1.0,
         };
-        let plan: crate::plan::RunPlan = built.into();
+        // Rows with the columns that the quantities know.
+        let plan = RunPlan { extras: Extras::default(), ..built.into() };
         let mut run = Simulation::new(model, &built.state, plan)?;
         let vary = |number| Variation::new(scene, number).map_err(|reason| Meaningless { from: 0.0, reason });
         let variations = numbers.into_iter().map(vary).collect();

@@ -1,6 +1,9 @@
 //! Driven and prescribed contraction, beside differences of runs: signals with kinks that move.
 
 use crate::support::{TIGHT, disagreement, strings, table};
+use gyration_scene::Scene;
+use gyration_sim::sensitivity::{At, Sensitivities};
+use std::path::Path;
 
 const CRAWLER: &str = r#"
     [[body]]
@@ -76,6 +79,26 @@ fn a_prescribed_contraction_keeps_its_volume_while_it_varies() {
     let quantities = ["crawler.x", "crawler.P_xx", "crawler.P_zz", "crawler.pressure", "work.drive"];
     let worst = disagreement(&text, &strings(&TIGHT), &keys, &quantities, 2e-4);
     assert!(worst < 2e-7, "{worst:e}");
+}
+
+#[test]
+fn a_kink_that_leaves_another_one_is_told() {
+    let ramp = "{ ramp = { from = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], to = [[1, 0, 0], [0, 1, 0], [0, 0, 1.1]], duration = 0.1 } }";
+    let scene = |other: &str| {
+        let still = "{ constant = { value = [[-1, 0, 0], [0, -1, 0], [0, 0, -1]] } }";
+        let sum =
+            format!("prescribed = {{ sum = [{still}, {ramp}, {}] }}", ramp.replace("0.1 }", &format!("{other} }}")));
+        let text = driven(&sum).replace("c2 = 1000 }", "c2 = 1000, bulk = 1e5 }");
+        Scene::parse("kinks", &text, Path::new(""), &[]).unwrap()
+    };
+    let keys = strings(&["body.crawler.contractile.prescribed.sum.1.ramp.duration"]);
+    let by_duration = |scene: &Scene| {
+        let found = Sensitivities::along(scene, &keys, &strings(&["crawler.z"]), At::End).unwrap();
+        found.derivatives[0].clone()
+    };
+    let lost = by_duration(&scene("0.1")).lost.unwrap();
+    assert!(lost.reason.contains("kink at the same time"), "{lost}");
+    assert_eq!(by_duration(&scene("0.12")).lost, None);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂u
 
 use super::{Calibration, Experiment, Fitted, Kind};
+use gyration_stokes::on_own_threads;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// Half of the width of an interval of 95 %, in standard errors.
@@ -38,7 +39,7 @@ impl Calibration {
     /// The curves of a fit; points that cannot be computed are left out.
     pub fn curves(&self, fitted: &Fitted) -> Vec<Curve> {
         let values: Vec<f64> = fitted.numbers.iter().map(|number| number.value).collect();
-        self.experiments.iter().map(|table| self.curve(table, fitted, &values)).collect()
+        on_own_threads(|| self.experiments.iter().map(|table| self.curve(table, fitted, &values)).collect())
     }
 
     fn curve(&self, table: &Experiment, fitted: &Fitted, values: &[f64]) -> Curve {

@@ -12,7 +12,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 const BAD: f64 = 1e100;
 /// The standard deviation, in u, with which the start counts as a measurement of each number: what nothing else tells stays there, and
 /// what is told with a standard error σ moves by σ²/10⁶ of its way at most.
-const START: f64 = 1e3;
+pub(super) const START: f64 = 1e3;
 /// Digits to which the search goes: those of the derivatives.
 const TOLERANCE: f64 = 1e-10;
 

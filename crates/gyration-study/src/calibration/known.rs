@@ -3,20 +3,23 @@
 //!   C = (JᵀJ)⁻¹ = V diag(1/s²) Vᵀ,   J = ∂r/∂u = U diag(s) Vᵀ
 //!
 //! with residuals weighted by the deviations of the measurements, which are taken as they are: χ² over the degrees of freedom
-//! says whether they can be right. A direction v of u along which the numbers may move by more than a factor of twenty is not
-//! determined; it is named, and left out of the errors of what it hardly moves.
+//! says whether they can be right. Along a direction v that tells less than the start counts (`fit`) nothing is fitted: it is left
+//! out of C and of what is counted. A number has no error where that would be a factor of twenty or more, or where a direction that
+//! is not fitted, followed so far, moves it by more than its error.
 
+use super::fit::START;
 use super::{Calibration, CalibrationError};
+use gyration_stokes::on_own_threads;
 use nalgebra::DMatrix;
 use rayon::iter::ParallelIterator;
 use serde::Serialize;
 
-/// A direction is determined if the standard error along it is below this (factor e³), in u.
+/// A number is told if its standard error is below this (factor e³), on the scale on which it is varied.
 const LOOSE: f64 = 3.0;
+/// A direction that moves a number by less is said not to move it: its derivatives are no better.
+const NOISE: f64 = 1e-5;
 /// Smaller singular values than this part of the largest are the rounding of the derivatives.
 const ROUNDING: f64 = 1e-8;
-/// The part of a direction that counts as taking part in it.
-const PART: f64 = 0.1;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,7 +30,7 @@ pub struct Fitted {
     pub correlations: Vec<Vec<Option<f64>>>,
     /// Σ ((m − y)/σ)².
     pub chi_squared: f64,
-    /// Measurements less numbers that are determined.
+    /// Measurements less directions in which numbers were fitted.
     pub degrees_of_freedom: usize,
     /// What is left of each measurement.
     pub residuals: Vec<Residual>,
@@ -37,7 +40,7 @@ pub struct Fitted {
     pub ending: String,
     /// How often it computed all measurements.
     pub evaluations: usize,
-    /// C in u, what is undetermined left out.
+    /// C in u, without the directions in which nothing was fitted.
     #[serde(skip)]
     pub(super) covariance: DMatrix<f64>,
 }
@@ -91,22 +94,44 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError`] if the search cannot begin or does not end.
     pub fn fit(&self) -> Result<Fitted, CalibrationError> {
+        on_own_threads(|| self.fit_here())
+    }
+
+    fn fit_here(&self) -> Result<Fitted, CalibrationError> {
         let found = self.search()?;
         let values = found.values;
         let slopes = self.weighted_slopes(&values).map_err(CalibrationError::Search)?;
         let residuals = self.residuals(&values)?;
         let (rows, count) = (slopes.len(), values.len());
         let jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
-        let (covariance, open) = covariance(&jacobian);
-        let undetermined: Vec<_> = open.iter().map(|direction| self.undetermined(direction, &values)).collect();
-        let is_open = |index: usize| open.iter().any(|direction| direction[index].abs() > PART);
+        let Directions { covariance, all } = Directions::of(&jacobian);
+        let scales: Vec<f64> =
+            self.numbers.iter().zip(&values).map(|(number, value)| number.scale.slope(*value)).collect();
+        let error = |index: usize| covariance[(index, index)].sqrt();
+        // Whether a direction keeps a number from being told, or is itself not told by that number.
+        let opens = |direction: &Direction, index: usize| match direction.spread {
+            Some(spread) => direction.along[index].abs() * spread * scales[index] > LOOSE,
+            None => direction.along[index].abs() * LOOSE > error(index).max(NOISE),
+        };
+        let is_open = |index: usize| {
+            self.numbers[index].scale.is_on_bound(values[index])
+                || error(index) * scales[index] > LOOSE
+                || all.iter().any(|direction| opens(direction, index))
+        };
+        let undetermined = |direction: &Direction| {
+            let taking: Vec<bool> = (0..count).map(|index| opens(direction, index)).collect();
+            let is_any = direction.spread.is_none() || taking.contains(&true);
+            is_any.then(|| self.undetermined((&direction.along, &taking), &values))
+        };
+        let undetermined: Vec<_> = all.iter().filter_map(undetermined).collect();
+        let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
         let number = |(index, number): (usize, &super::Number)| {
             let (_, slope) = number.scale.outward(number.scale.inward(values[index]));
             FittedNumber {
                 name: number.name.clone(),
                 keys: number.keys.clone(),
                 value: values[index],
-                error: (!is_open(index)).then(|| covariance[(index, index)].sqrt() * slope.abs()),
+                error: (!is_open(index)).then(|| error(index) * slope.abs()),
                 is_on_bound: number.scale.is_on_bound(values[index]),
             }
         };
@@ -118,7 +143,7 @@ impl Calibration {
             numbers: self.numbers.iter().enumerate().map(number).collect(),
             correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
             chi_squared: residuals.iter().map(|residual| residual.weighted * residual.weighted).sum(),
-            degrees_of_freedom: rows.saturating_sub(count - open.len()),
+            degrees_of_freedom: rows.saturating_sub(fitted_directions),
             residuals,
             undetermined,
             ending: found.ending,
@@ -137,7 +162,8 @@ impl Calibration {
         self.rows().map(residual).collect()
     }
 
-    fn undetermined(&self, direction: &[f64], values: &[f64]) -> Undetermined {
+    /// What a direction leaves open: the numbers that take part, and the one that moves most.
+    fn undetermined(&self, (direction, taking): (&[f64], &[bool]), values: &[f64]) -> Undetermined {
         let beside = self.numbers.iter().zip(values);
         let on_bound: Vec<&str> = beside
             .clone()
@@ -154,9 +180,10 @@ impl Calibration {
         let direction = direction.as_slice();
         let largest =
             direction.iter().copied().fold(0.0, |most: f64, part| if part.abs() > most.abs() { part } else { most });
-        let taking = self.numbers.iter().zip(direction).filter(|(_, part)| part.abs() > PART * largest.abs());
+        let parts = self.numbers.iter().zip(direction).zip(taking);
+        let named = parts.filter(|((_, part), taking)| **taking || part.abs() == largest.abs());
         let direction: Vec<(String, f64)> =
-            taking.map(|(number, part)| (number.name.clone(), part / largest)).collect();
+            named.map(|((number, part), _)| (number.name.clone(), part / largest)).collect();
         let in_words = match direction.as_slice() {
             [(name, _)] if on_bound.contains(&name.as_str()) => {
                 format!(
@@ -178,20 +205,38 @@ impl Calibration {
     }
 }
 
-/// C without the directions that are not determined, and these.
-fn covariance(jacobian: &DMatrix<f64>) -> (DMatrix<f64>, Vec<Vec<f64>>) {
-    let normal = jacobian.transpose() * jacobian;
-    let eigen = normal.symmetric_eigen();
-    let largest = eigen.eigenvalues.iter().fold(0.0, |most: f64, value| most.max(*value));
-    let mut covariance = DMatrix::zeros(jacobian.ncols(), jacobian.ncols());
-    let mut open = Vec::new();
-    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-        // s², from a product of J with itself: rounding is that of s² too.
-        if *value > (ROUNDING * largest.sqrt()).powi(2).max(f64::EPSILON * largest) && *value * LOOSE * LOOSE > 1.0 {
-            covariance += vector * vector.transpose() / *value;
-        } else {
-            open.push(vector.iter().copied().collect());
+/// A direction in u.
+struct Direction {
+    along: Vec<f64>,
+    /// 1/s, the standard error along it; none where nothing was fitted.
+    spread: Option<f64>,
+}
+
+/// The eigenvectors of JᵀJ, and C from those along which something was fitted.
+struct Directions {
+    covariance: DMatrix<f64>,
+    all: Vec<Direction>,
+}
+
+impl Directions {
+    fn of(jacobian: &DMatrix<f64>) -> Self {
+        let normal = jacobian.transpose() * jacobian;
+        let eigen = normal.symmetric_eigen();
+        let largest = eigen.eigenvalues.iter().fold(0.0, |most: f64, value| most.max(*value));
+        // s², from a product of J with itself: rounding is that of s² too. The start counts as a measurement.
+        let least = (ROUNDING * ROUNDING * largest).max(f64::EPSILON * largest).max(1.0 / (START * START));
+        let mut covariance = DMatrix::zeros(jacobian.ncols(), jacobian.ncols());
+        let mut all = Vec::new();
+        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+            let is_fitted = *value > least;
+            if is_fitted {
+                covariance += vector * vector.transpose() / *value;
+            }
+            all.push(Direction {
+                along: vector.iter().copied().collect(),
+                spread: is_fitted.then(|| 1.0 / value.sqrt()),
+            });
         }
+        Self { covariance, all }
     }
-    (covariance, open)
 }

@@ -11,6 +11,7 @@
 //! slope at which "it slides" is that at which it gets as fast as can be seen; so a slope is measured together with a speed.
 
 use super::{Calibration, Experiment, Kind};
+use crate::observe::Layout;
 use gyration::balance::{observe, smallest_gap};
 use gyration::model::Model;
 use gyration::rates::Workspace;
@@ -24,14 +25,19 @@ use gyration_sim::sensitivity::{At, Sensitivities};
 use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink};
 use std::cell::Cell;
 
-/// Points of the first look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
+/// Points of a look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
 const POINTS: usize = 160;
 const NEAREST: f64 = 1e-5;
 const FARTHEST: f64 = 10.0;
+/// How often the look goes on to gaps as many times smaller or larger: to 1e-17 sizes.
+const LOOKS: usize = 3;
 /// Steps of the golden section behind that: the maximum is then known to half of the digits, the force to all.
 const SECTIONS: usize = 45;
 /// Step of differences, a part of the number.
 const DIFFERENCE: f64 = 1e-4;
+/// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along it would
+/// change is then of the order of rounding.
+const LEVEL: f64 = 1e-14;
 /// A rebound is looked for over so many times the time of the fall, and this long [s].
 const FALLS: f64 = 4.0;
 const LONGER: f64 = 1.0;
@@ -65,12 +71,10 @@ impl Calibration {
     /// # Errors
     /// Why there is none, in words.
     pub(super) fn observed(&self, experiment: &Experiment, condition: f64, values: &[f64]) -> Result<Observed, String> {
-        if experiment.kind == Kind::Drop
-            && let Some(observed) = Drop::of(self, experiment, condition, values)?.observed(self)?
-        {
-            return Ok(observed);
-        }
-        let value = self.value(experiment, condition, values)?;
+        let (value, known) = match experiment.kind {
+            Kind::Drop => Drop::of(self, experiment, condition, values)?.observed(self)?,
+            _ => (self.value(experiment, condition, values)?, vec![None; values.len()]),
+        };
         let slope = |index: usize| {
             let step =
                 DIFFERENCE * if values[index] == 0.0 { self.numbers[index].scale.size } else { values[index].abs() };
@@ -81,7 +85,8 @@ impl Calibration {
             };
             Ok((8.0 * (at(1.0)? - at(-1.0)?) - (at(2.0)? - at(-2.0)?)) / (12.0 * step))
         };
-        Ok(Observed { value, slopes: (0..values.len()).map(slope).collect::<Result<_, String>>()? })
+        let slopes = known.into_iter().enumerate().map(|(index, known)| known.map_or_else(|| slope(index), Ok));
+        Ok(Observed { value, slopes: slopes.collect::<Result<_, String>>()? })
     }
 
     /// The scene of a measurement.
@@ -176,19 +181,28 @@ fn pull_off(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
         Ok(-force(model, &state, index)?.dot(&normal))
     };
     let size = model.bodies[index].size;
-    let (low, high) = ((NEAREST * size).ln(), (FARTHEST * size).ln());
-    let step = (high - low) / (POINTS - 1) as f64;
-    let (mut best, mut most) = (low, f64::NEG_INFINITY);
-    for k in 0..POINTS {
-        let place = low + k as f64 * step;
-        let force = pull(place)?;
-        if force > most {
-            (best, most) = (place, force);
+    let (mut low, span) = ((NEAREST * size).ln(), (FARTHEST / NEAREST).ln());
+    let step = span / (POINTS - 1) as f64;
+    let mut found = None;
+    for _ in 0..LOOKS {
+        let forces = (0..POINTS).map(|k| pull(low + k as f64 * step)).collect::<Result<Vec<_>, _>>()?;
+        let best = (0..POINTS).fold(0, |best, k| if forces[k] > forces[best] { k } else { best });
+        if forces[best] <= 0.0 || forces[best].is_nan() {
+            return Err(format!("nothing holds {:?} back: there is no adhesion", experiment.body));
         }
+        if (1..POINTS - 1).contains(&best) {
+            found = Some(low + best as f64 * step);
+            break;
+        }
+        // Two points are looked at once more, lest the largest stand at the seam.
+        low += if best == 0 { 2.0 * step - span } else { span - 2.0 * step };
     }
-    if most <= 0.0 || most.is_nan() {
-        return Err(format!("nothing holds {:?} back: there is no adhesion", experiment.body));
-    }
+    let Some(best) = found else {
+        let name = &experiment.body;
+        return Err(format!(
+            "the pull on {name:?} has no largest value between any gaps that it could be torn off from"
+        ));
+    };
     let (mut left, mut right) = (best - step, best + step);
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     for _ in 0..SECTIONS {
@@ -234,11 +248,13 @@ impl Drop {
         Ok(Self { scene, index, normal, height, start })
     }
 
-    /// The time of the apex [s].
-    fn apex(&self) -> Result<f64, String> {
+    /// The time of the apex [s], and where the centre of mass is then.
+    fn apex(&self) -> Result<(f64, Vec3), String> {
         let built = self.scene.built();
-        let watch = Watch { body: self.index, touched: Cell::new(false), apex: Cell::new(None) };
-        let mut run = Simulation::new(&built.model, &built.state, RunPlan::from(built)).map_err(|e| e.to_string())?;
+        let plan = RunPlan::from(built);
+        let place = Layout::new(&built.model, &plan).position + 3 * self.index;
+        let watch = Watch { body: self.index, place, touched: Cell::new(false), apex: Cell::new(None) };
+        let mut run = Simulation::new(&built.model, &built.state, plan).map_err(|e| e.to_string())?;
         let (mut sink, mut monitor) = (&watch, &watch);
         run.begin(&mut sink).map_err(|e| e.to_string())?;
         let outcome = run.run(&mut sink, &mut monitor).map_err(|e| e.to_string())?;
@@ -247,12 +263,17 @@ impl Drop {
     }
 
     fn rebound(&self) -> Result<f64, String> {
-        Ok(self.at_apex(&[])?.0)
+        Ok(self.height_at(self.apex()?.1))
+    }
+
+    /// The gap with which the body started, and the rise of its centre of mass since.
+    fn height_at(&self, center: Vec3) -> f64 {
+        self.height + (center - self.start).dot(&self.normal)
     }
 
     /// The rebound with its derivatives by keys; those at a fixed time, since the speed vanishes at the apex.
-    fn at_apex(&self, keys: &[String]) -> Result<(f64, Option<Vec<f64>>), String> {
-        let time = self.apex()?;
+    fn at_apex(&self, keys: &[String]) -> Result<(f64, Vec<Option<f64>>), String> {
+        let (time, _) = self.apex()?;
         let overrides = [self.scene.overrides(), &[format!("time={{ end = {time:?}, sample = {time:?} }}")]].concat();
         let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides);
         let scene = scene.map_err(|errors| errors.to_string())?;
@@ -260,30 +281,47 @@ impl Drop {
         let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
         let found = Sensitivities::along(&scene, keys, &columns, At::End).map_err(|e| e.to_string())?;
         let last = found.values.last().ok_or("the run has no end")?;
-        let rise = (Vec3::from_column_slice(last) - self.start).dot(&self.normal);
         let slope = |row: &[f64]| Vec3::from_column_slice(row).dot(&self.normal);
         let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().map(slope)).collect();
-        Ok((self.height + rise, slopes))
+        Ok((self.height_at(Vec3::from_column_slice(last)), slopes))
     }
 
-    /// None where a number has no sensitivity, or belongs to more than the contacts: to where the body starts, perhaps.
-    fn observed(&self, calibration: &Calibration) -> Result<Option<Observed>, String> {
-        let keys: Vec<String> = calibration.numbers.iter().flat_map(|number| number.keys.clone()).collect();
-        if keys.iter().any(|key| !key.starts_with("contact.")) {
-            return Ok(None);
+    /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more than the contacts,
+    /// to where the body starts perhaps, or if the body does not rebound straight up, so that its speed along the normal does not
+    /// vanish at the apex.
+    fn observed(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
+        let gravity = self.scene.built().model.gravity;
+        let is_level = -gravity.dot(&self.normal) > (1.0 - LEVEL) * gravity.norm();
+        let of_contact = |number: &super::Number| is_level && number.keys.iter().all(|key| key.starts_with("contact."));
+        let keys: Vec<String> = calibration
+            .numbers
+            .iter()
+            .filter(|number| of_contact(number))
+            .flat_map(|number| number.keys.clone())
+            .collect();
+        if keys.is_empty() {
+            return Ok((self.rebound()?, vec![None; calibration.numbers.len()]));
         }
-        let (value, Some(by_key)) = self.at_apex(&keys)? else { return Ok(None) };
+        let (value, by_key) = self.at_apex(&keys)?;
         let mut by_key = by_key.into_iter();
-        let slope = |number: &super::Number| by_key.by_ref().take(number.keys.len()).sum();
-        Ok(Some(Observed { value, slopes: calibration.numbers.iter().map(slope).collect() }))
+        let slope = |number: &super::Number| match of_contact(number) {
+            true => {
+                let own: Vec<Option<f64>> = by_key.by_ref().take(number.keys.len()).collect();
+                own.into_iter().sum()
+            }
+            false => None,
+        };
+        Ok((value, calibration.numbers.iter().map(slope).collect()))
     }
 }
 
 /// Waits for the apex behind the first touch.
 struct Watch {
     body: usize,
+    /// Where its centre of mass stands in a row.
+    place: usize,
     touched: Cell<bool>,
-    apex: Cell<Option<f64>>,
+    apex: Cell<Option<(f64, Vec3)>>,
 }
 
 impl Sink for &Watch {
@@ -292,12 +330,21 @@ impl Sink for &Watch {
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        if event.body == self.body && self.apex.get().is_none() {
-            match event.kind {
-                APEX if self.touched.get() => self.apex.set(Some(event.time)),
-                APEX => {}
-                _ => self.touched.set(true),
-            }
+        if event.body == self.body && event.kind != APEX {
+            self.touched.set(true);
+        }
+        Ok(())
+    }
+
+    fn wants_event_rows(&self) -> bool {
+        true
+    }
+
+    fn event_row(&mut self, event: &Event, row: &[f64]) -> Result<(), RecordError> {
+        let is_apex = event.body == self.body && event.kind == APEX && self.touched.get();
+        if is_apex && self.apex.get().is_none() {
+            let center = Vec3::from_column_slice(&row[self.place..self.place + 3]);
+            self.apex.set(Some((event.time, center)));
         }
         Ok(())
     }

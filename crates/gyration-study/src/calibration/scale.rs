@@ -43,6 +43,12 @@ impl Scale {
         }
     }
 
+    /// dv/du at a number: one, or less between bounds.
+    pub fn slope(&self, number: f64) -> f64 {
+        let value = self.value(number);
+        self.bounds().map_or(1.0, |[low, high]| (value - low) * (high - value) / (high - low))
+    }
+
     /// Whether a number lies on a bound.
     pub fn is_on_bound(&self, number: f64) -> bool {
         self.bounds().is_some_and(|[low, high]| {

@@ -3,8 +3,9 @@
 use super::Read;
 use gyration_scene::sheet::Sheet;
 use gyration_scene::{Fault, Scene, SceneErrors, Template};
+use std::collections::BTreeSet;
 
-/// The scene of the first run; if a value of it is not possible, that of the scene alone.
+/// The scene of the first run; if a value of it is not possible, that of the scene alone, and without what the study sets wrongly.
 ///
 /// A value that is not possible may be meant: that run fails alone. A key, a kind of value or a unit is wrong in all runs.
 ///
@@ -20,17 +21,18 @@ pub(crate) fn probe(
         Ok(scene) => return Ok(Some(scene)),
         Err(errors) => errors,
     };
-    let mut is_blamed = false;
+    let mut blamed = BTreeSet::new();
     for error in errors.as_slice().iter().filter(|error| error.fault != Fault::Value) {
         let Some(index) = error.overriding else { continue };
         let (place, key) = owner(read, index);
         let place: Vec<&str> = place.iter().map(String::as_str).collect();
         let key = if error.key.is_empty() { key } else { error.key.clone() };
         sheet.note(&place, format!("{key}: {}", error.message), error.help.clone());
-        is_blamed = true;
+        blamed.insert(index);
     }
-    if is_blamed {
-        return Ok(None);
+    if !blamed.is_empty() {
+        let rest = overrides.iter().enumerate().filter(|(index, _)| !blamed.contains(index));
+        return Ok(template.scene(&rest.map(|(_, text)| text.clone()).collect::<Vec<_>>()).ok());
     }
     let settings = &overrides[..read.settings.len()];
     match template.scene(settings) {

@@ -120,12 +120,18 @@ impl Frame {
         if path.is_file() {
             return Self::of_files(&[path.to_owned()], &[]);
         }
-        let (mut files, mut journals) = (Vec::new(), Vec::new());
-        collect(path, &mut files, &mut journals)?;
-        if files.is_empty() && journals.is_empty() {
-            return Err(StudyError::NoTable { path: path.to_owned(), help: "" });
+        loop {
+            let (mut files, mut journals) = (Vec::new(), Vec::new());
+            collect(path, &mut files, &mut journals)?;
+            if files.is_empty() && journals.is_empty() {
+                return Err(StudyError::NoTable { path: path.to_owned(), help: "" });
+            }
+            let read = Self::of_files(&files, &journals);
+            // Of a table under way a journal may have become a chunk meanwhile, and the chunks one file: they are listed again.
+            if read.is_ok() || files.iter().chain(&journals).all(|file| file.exists()) {
+                return read;
+            }
         }
-        Self::of_files(&files, &journals)
     }
 
     fn of_files(files: &[PathBuf], journals: &[PathBuf]) -> Result<Self, StudyError> {

@@ -33,14 +33,14 @@ pub struct Table {
     /// Rows that it has.
     rows: u64,
     is_complete: bool,
-    /// Held as long as this process writes.
-    lock: File,
+    /// Held as long as this process writes; none if it is another's.
+    lock: Option<File>,
 }
 
 impl Drop for Table {
     /// A process that was forked meanwhile has the file open as well, and with it the lock: closing it here would not do.
     fn drop(&mut self) {
-        let _ = self.lock.unlock();
+        let _ = self.lock.as_ref().map(File::unlock);
     }
 }
 
@@ -61,6 +61,7 @@ impl Table {
     /// others may be at work on them.
     pub fn create(path: &Path, study: &Study, shard: Shard, replace: bool) -> Result<Self, StudyError> {
         let folder = folder(path, shard);
+        let mut held = None;
         if folder.symlink_metadata().is_ok() {
             if holds_shards(&folder) {
                 return Err(StudyError::shards_there(&folder));
@@ -68,11 +69,13 @@ impl Table {
             if !(is_begun_only(&folder) || replace && folder.join(MANIFEST).is_file()) {
                 return Err(StudyError::Exists { path: folder });
             }
-            drop(lock(&folder)?);
+            // It stays with us while the old table goes and the new one comes.
+            held = Some(lock(&folder)?);
             remove_table(&folder)?;
         }
         fs::create_dir_all(&folder).map_err(StudyError::io("make", &folder))?;
-        let table = Self::new(folder, study, shard)?;
+        let held = held.map_or_else(|| lock(&folder), Ok)?;
+        let table = Self::new(folder, study, shard, held);
         let manifest = format!("{:#}\n", manifest(study, shard));
         replace_file(&table.folder.join(MANIFEST), |path| {
             fs::write(path, &manifest).map_err(StudyError::io("write", path))
@@ -82,6 +85,11 @@ impl Table {
         Ok(table)
     }
 
+    /// Whether something is at `path` to go on with.
+    pub fn is_begun(path: &Path) -> bool {
+        [MANIFEST, TABLE].iter().any(|name| path.join(name).is_file())
+    }
+
     /// Goes on with a table of the same study and shard.
     ///
     /// # Errors
@@ -89,7 +97,8 @@ impl Table {
     pub fn resume(path: &Path, study: &Study, shard: Shard) -> Result<Self, StudyError> {
         let folder = folder(path, shard);
         is_of(&folder, study, shard)?;
-        let mut table = Self::new(folder, study, shard)?;
+        let held = lock(&folder)?;
+        let mut table = Self::new(folder, study, shard, held);
         if table.folder.join(TABLE).is_file() {
             let rows = Input::open(&table.file())?.rows();
             if rows != table.runs {
@@ -104,9 +113,9 @@ impl Table {
         Ok(table)
     }
 
-    fn new(folder: PathBuf, study: &Study, shard: Shard) -> Result<Self, StudyError> {
+    fn new(folder: PathBuf, study: &Study, shard: Shard, lock: File) -> Self {
         let runs = shard.runs(study.runs());
-        Ok(Self {
+        Self {
             shard,
             columns: study.columns().to_vec(),
             description: describe(study),
@@ -116,9 +125,16 @@ impl Table {
             open: BTreeMap::new(),
             rows: 0,
             is_complete: false,
-            lock: lock(&folder)?,
+            lock: Some(lock),
             folder,
-        })
+        }
+    }
+
+    /// Leaves the table to the process from which this one was forked: its lock is let go of here and held there, so that it ends with
+    /// that process, and nothing is written.
+    pub fn disown(mut self) {
+        drop(self.lock.take());
+        std::mem::forget(self);
     }
 
     /// The folder of this table or shard.

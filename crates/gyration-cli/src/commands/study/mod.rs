@@ -55,7 +55,7 @@ fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError
         if !arguments.quiet {
             output::say(&format!("{} is complete. Nothing was done.", shown(table.folder())));
         }
-        return Ok(code::DONE);
+        return Ok(summary::exit_code(&Digest::read(&table.file())?));
     }
     let mut watch = Watch::new(!arguments.quiet)?;
     let (began, before) = (Instant::now(), table.rows());
@@ -92,12 +92,13 @@ fn shard(text: Option<&str>) -> Result<Shard, CliError> {
 fn join(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
     let began = Instant::now();
     let file = merge(path, study, arguments.force)?;
+    let digest = Digest::read(&file)?;
     if !arguments.quiet {
         let effort = summary::Effort { runs: 0, seconds: began.elapsed().as_secs_f64(), threads: 1 };
-        output::say(&summary::in_words(study, &Digest::read(&file)?, &effort));
+        output::say(&summary::in_words(study, &digest, &effort));
         output::say(&format!("table      {}", shown(&file)));
     }
-    Ok(code::DONE)
+    Ok(summary::exit_code(&digest))
 }
 
 /// The command by which an interrupted study goes on.

@@ -67,9 +67,9 @@ pub(crate) fn wanted(study: &Study) -> Result<Request, CliError> {
             return Err(CliError::arguments(problem, format!("its columns are {}", columns.join(", "))));
         }
     }
-    if let Some(axis) = request.logarithmic.iter().find(|axis| !["x", "y"].contains(&axis.as_str())) {
+    if let Some(axis) = request.logarithmic.iter().find(|axis| !Request::AXES.contains(&axis.as_str())) {
         let problem = format!("[plot] of {} has a logarithmic axis `{axis}`", study.name());
-        return Err(CliError::arguments(problem, "write \"x\", \"y\", or both"));
+        return Err(CliError::arguments(problem, "write some of \"x\", \"y\", \"colour\""));
     }
     Ok(request)
 }

@@ -5,7 +5,7 @@
 
 use super::request::Measure;
 use super::statistics::{self, Estimate};
-use super::{Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, kept, painted, palette, references};
+use super::{Column, HEIGHT, Request, Table, Unfit, Values, axis_or, kept, painted, palette, references};
 use crate::plot::chart::{Axis, Chart, LINE, Panel, Scale, Series, Shapes};
 use crate::plot::draw::Stroke;
 use std::collections::BTreeSet;
@@ -117,12 +117,20 @@ fn quantities(table: &Table, measure: &Measure) -> Result<Vec<Quantity>, Unfit> 
 fn groups(table: &Table, request: &Request, x: &Column) -> Result<Vec<(String, Vec<usize>)>, Unfit> {
     let column = match &request.colour {
         Some(name) => Some(table.column(name)?),
-        None => table.of(Role::Axis).find(|column| column.name != x.name),
+        None => table.axes().into_iter().find(|column| column.role != x.role),
     };
     let Some(column) = column else { return Ok(vec![(String::new(), (0..table.len()).collect())]) };
+    let (levels, labels): (Vec<f64>, Vec<String>) = column.labels().into_iter().unzip();
+    let word = |run: usize| match &column.values {
+        Values::Numbers(values) => {
+            let at = column.level(&levels, values[run])?;
+            Some(labels[at].clone())
+        }
+        _ => column.word(run),
+    };
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
     for run in 0..table.len() {
-        let Some(word) = column.word(run) else { continue };
+        let Some(word) = word(run) else { continue };
         let unit = if column.unit.is_empty() { String::new() } else { format!(" {}", column.unit) };
         let name = format!("{} = {word}{unit}", column.name);
         match groups.iter_mut().find(|(known, _)| *known == name) {
@@ -156,7 +164,7 @@ impl Places {
         let mut runs: Vec<(f64, Vec<usize>)> = levels.iter().map(|level| (*level, Vec::new())).collect();
         for run in 0..count {
             let level = match &column.values {
-                Values::Numbers(values) => levels.binary_search_by(|level| level.total_cmp(&values[run])).ok(),
+                Values::Numbers(values) => column.level(&levels, values[run]),
                 _ => column.word(run).and_then(|word| categories.iter().position(|other| *other == word)),
             };
             if let Some(level) = level {

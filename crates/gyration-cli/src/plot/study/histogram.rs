@@ -38,14 +38,18 @@ pub fn panels(table: &Table, request: &Request) -> Result<Vec<Panel>, Unfit> {
             let x = column.axis(values.iter().copied());
             let bins = Bins::of(values);
             let of_group = |(title, runs): &Group| {
-                of_numbers(&bins, title, &runs.iter().map(|run| values[*run]).collect::<Vec<_>>(), (&x, height))
+                let values: Vec<f64> = runs.iter().map(|run| values[*run]).collect();
+                of_numbers(&bins, title, (&values, &values), (&x, height))
             };
             Ok(groups.iter().map(of_group).collect())
         }
         Values::Lists(lists) => {
             let values: Vec<f64> = lists.iter().flatten().copied().collect();
             let x = Axis::linear(&column.name, &column.unit, values.iter().copied());
-            Ok(vec![of_numbers(&Bins::of(&values), "", &values, (&x, HEIGHT))])
+            // The numbers of a run depend on each other: the interval is that of the runs.
+            let of_run = |list: &Vec<f64>| statistics::mean(list).value;
+            let means: Vec<f64> = lists.iter().map(of_run).collect();
+            Ok(vec![of_numbers(&Bins::of(&values), "", (&values, &means), (&x, HEIGHT))])
         }
     }
 }
@@ -55,8 +59,8 @@ fn groups(table: &Table, request: &Request) -> Result<Vec<Group>, Unfit> {
     let all = || vec![(String::new(), (0..table.len()).collect())];
     let column = match &request.colour {
         Some(name) => table.column(name)?,
-        None => match table.of(super::Role::Axis).next() {
-            Some(axis) => axis,
+        None => match table.axes().first() {
+            Some(axis) => *axis,
             None => return Ok(all()),
         },
     };
@@ -141,7 +145,8 @@ impl Bins {
     }
 }
 
-fn of_numbers(bins: &Bins, title: &str, values: &[f64], (x, height): (&Axis, f64)) -> Panel {
+/// Bars of values, and the mean of those of which each run has one.
+fn of_numbers(bins: &Bins, title: &str, (values, by_run): (&[f64], &[f64]), (x, height): (&Axis, f64)) -> Panel {
     let counts = bins.count(values);
     let most = counts.iter().copied().max().unwrap_or(1);
     let y = Axis::exact("runs", "", 0.0, 1.05 * most as f64);
@@ -149,9 +154,9 @@ fn of_numbers(bins: &Bins, title: &str, values: &[f64], (x, height): (&Axis, f64
     let bar = |(k, count): (usize, &usize)| [[edge(k), 0.0], [edge(k + 1), *count as f64]];
     let corners = counts.iter().enumerate().filter(|(_, count)| **count > 0).map(bar).collect();
     let x = Axis { low: x.low.min(edge(0)), high: x.high.max(edge(bins.count)), ..x.clone() };
-    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    let mean = statistics::mean(&finite);
-    let remarks = vec![format!("{} values", finite.len()), format!("mean {}", in_words(&mean))];
+    let finite = |values: &[f64]| -> Vec<f64> { values.iter().copied().filter(|value| value.is_finite()).collect() };
+    let mean = statistics::mean(&finite(by_run));
+    let remarks = vec![format!("{} values", finite(values).len()), format!("mean {}", in_words(&mean))];
     let shapes = vec![Shapes::Areas { corners, fill: color::series(0) }];
     painted(Chart { title: title.to_owned(), x, y, series: Vec::new(), remarks, height }, shapes)
 }

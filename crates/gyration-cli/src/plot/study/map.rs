@@ -4,9 +4,11 @@
 //! most frequent word is shown, or the mean of the numbers; of a list it is the change from its first number to its last.
 
 use super::request::Measure;
-use super::{Column, Request, Table, Unfit, Values, axis_or, kept, painted, palette, references, swatch};
+use super::{
+    Column, Request, Table, Unfit, Values, axis_or, coloured_by, heading, kept, painted, palette, references, swatch,
+};
 use crate::plot::chart::{Axis, Chart, Panel, Scale, Series, Shapes};
-use crate::plot::draw::{Color, Point};
+use crate::plot::draw::Point;
 use std::collections::BTreeMap;
 
 /// Height of the frame [pt].
@@ -23,29 +25,30 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
     };
     let column = table.column(&shown.column)?;
     let cells = cells(&x, &y, table.len());
+    let name = request.colour.as_ref().unwrap_or(&column.name);
+    let of_numbers = |values: &[f64]| {
+        let means = means(&cells, values);
+        let shown = means.iter().flatten().copied();
+        of_numbers(&cells, &means, &coloured_by(request, (name, &column.unit), shown))
+    };
     let (mut shapes, mut series) = match &column.values {
-        Values::Words(words) if shown.values.is_empty() => of_words(&cells, &column.categories(), words),
+        Values::Words(words) if shown.values.is_empty() => of_words(&cells, (name, &column.categories()), words),
         Values::Words(words) => {
             let hit = |word: &Option<String>| {
                 word.as_ref().map_or(f64::NAN, |word| f64::from(u8::from(shown.values.contains(word))))
             };
-            of_numbers(&cells, &words.iter().map(hit).collect::<Vec<_>>())
+            of_numbers(&words.iter().map(hit).collect::<Vec<_>>())
         }
-        Values::Numbers(values) => of_numbers(&cells, values),
+        Values::Numbers(values) => of_numbers(values),
         Values::Lists(lists) => {
             let change = |list: &Vec<f64>| list.last().zip(list.first()).map_or(f64::NAN, |(last, first)| last - first);
-            of_numbers(&cells, &lists.iter().map(change).collect::<Vec<_>>())
+            of_numbers(&lists.iter().map(change).collect::<Vec<_>>())
         }
     };
     references(request, &mut shapes, &mut series);
-    let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
-    series.insert(0, swatch(format!("{}{unit}", request.colour.as_ref().unwrap_or(&column.name)), NOTHING));
     let chart = Chart { title: String::new(), x: x.axis(), y: y.axis(), series, remarks: Vec::new(), height: HEIGHT };
     Ok(painted(chart, shapes))
 }
-
-/// The sample of a heading in a legend.
-const NOTHING: Color = Color { rgb: [0xFF; 3], opacity: 0.0 };
 
 /// A parameter and the edges of its cells.
 struct Edges<'a> {
@@ -75,7 +78,7 @@ impl<'a> Edges<'a> {
     }
 
     fn place(&self, run: usize) -> Option<usize> {
-        self.levels.binary_search_by(|level| level.total_cmp(&self.numbers[run])).ok()
+        self.column.level(&self.levels, self.numbers[run])
     }
 
     fn axis(&self) -> Axis {
@@ -104,11 +107,10 @@ fn cells(x: &Edges, y: &Edges, count: usize) -> Vec<Cell> {
 }
 
 /// Cells of one colour each, in rows: neighbours of a row are joined.
-fn areas(cells: &[Cell], index: impl Fn(&Cell) -> Option<usize>) -> BTreeMap<usize, Vec<[Point; 2]>> {
+fn areas(cells: &[Cell], colours: impl Iterator<Item = Option<usize>>) -> BTreeMap<usize, Vec<[Point; 2]>> {
     let mut areas: BTreeMap<usize, Vec<[Point; 2]>> = BTreeMap::new();
     let mut previous = None;
-    for cell in cells {
-        let colour = index(cell);
+    for (cell, colour) in cells.iter().zip(colours) {
         if let Some(colour) = colour {
             let row = areas.entry(colour).or_default();
             let joins = |last: &[Point; 2]| last[1] == [cell.corners[0][0], cell.corners[1][1]];
@@ -124,7 +126,7 @@ fn areas(cells: &[Cell], index: impl Fn(&Cell) -> Option<usize>) -> BTreeMap<usi
 
 type Painted = (Vec<Shapes>, Vec<Series>);
 
-fn of_words(cells: &[Cell], names: &[String], words: &[Option<String>]) -> Painted {
+fn of_words(cells: &[Cell], (title, names): (&str, &[String]), words: &[Option<String>]) -> Painted {
     let most_frequent = |cell: &Cell| {
         let mut counts = vec![0; names.len()];
         let places = cell.runs.iter().filter_map(|run| words[*run].as_ref());
@@ -132,19 +134,24 @@ fn of_words(cells: &[Cell], names: &[String], words: &[Option<String>]) -> Paint
         let most = counts.iter().copied().max().filter(|most| *most > 0)?;
         counts.iter().position(|count| *count == most)
     };
-    let areas = areas(cells, most_frequent);
+    let areas = areas(cells, cells.iter().map(most_frequent));
     let shapes = |(index, corners)| Shapes::Areas { corners, fill: palette::category(index) };
     let entry = |(index, name): (usize, &String)| swatch(name.clone(), palette::category(index));
-    (areas.into_iter().map(shapes).collect(), names.iter().enumerate().map(entry).collect())
+    let legend = std::iter::once(heading(title)).chain(names.iter().enumerate().map(entry));
+    (areas.into_iter().map(shapes).collect(), legend.collect())
 }
 
-fn of_numbers(cells: &[Cell], values: &[f64]) -> Painted {
+/// The mean of the numbers of each cell, where it has some.
+fn means(cells: &[Cell], values: &[f64]) -> Vec<Option<f64>> {
     let mean = |cell: &Cell| {
         let here: Vec<f64> = cell.runs.iter().map(|run| values[*run]).filter(|value| value.is_finite()).collect();
         (!here.is_empty()).then(|| here.iter().sum::<f64>() / here.len() as f64)
     };
-    let palette = palette::Palette::of(cells.iter().filter_map(mean));
-    let areas = areas(cells, |cell| mean(cell).map(|value| palette.shade(value)));
+    cells.iter().map(mean).collect()
+}
+
+fn of_numbers(cells: &[Cell], means: &[Option<f64>], palette: &palette::Palette) -> Painted {
+    let areas = areas(cells, means.iter().map(|mean| palette.shade((*mean)?)));
     let shapes = |(shade, corners)| Shapes::Areas { corners, fill: palette.colour(shade) };
     (areas.into_iter().map(shapes).collect(), palette.legend())
 }

@@ -76,18 +76,20 @@ pub fn figure(table: &Table, request: &Request) -> Result<Figure, Unfit> {
 
 /// The kind of picture that suits the columns.
 fn kind_of(table: &Table, request: &Request) -> Kind {
-    let is = |name: &Option<String>, role: Role| {
-        name.as_deref().and_then(|name| table.column(name).ok()).is_some_and(|column| column.role == role)
+    let axis = |name: &Option<String>| match table.column(name.as_deref()?).ok()?.role {
+        Role::Axis(axis) => Some(axis),
+        _ => None,
     };
+    let (x, y) = (axis(&request.x), axis(&request.y));
     let measure = request.y.as_deref().map(Measure::read);
     let measured = measure.as_ref().and_then(|measure| table.column(&measure.column).ok());
     if measured.or_else(|| kept(table).ok()).is_some_and(|column| matches!(column.values, Values::Lists(_))) {
         return Kind::Scatter;
     }
-    let axes = table.of(Role::Axis).count();
+    let axes = table.axes().len();
     match (&request.x, &request.y) {
-        (Some(_), Some(_)) if is(&request.x, Role::Axis) && is(&request.y, Role::Axis) => Kind::Map,
-        (Some(_), _) if is(&request.x, Role::Axis) => Kind::Curve,
+        (Some(_), Some(_)) if x.is_some() && y.is_some() && x != y => Kind::Map,
+        (Some(_), _) if x.is_some() => Kind::Curve,
         (Some(_), Some(_)) => Kind::Scatter,
         (Some(_), None) => Kind::Histogram,
         (None, Some(_)) if axes > 0 => Kind::Curve,
@@ -105,12 +107,23 @@ fn kept(table: &Table) -> Result<&Column, Unfit> {
 /// The column of a name, or the axis of the grid of this index.
 fn axis_or<'a>(table: &'a Table, name: Option<&str>, index: usize) -> Result<&'a Column, Unfit> {
     let missing = || Unfit::new("the study has no such axis of a grid", "say which columns: --x NAME --y NAME");
-    name.map_or_else(|| table.of(Role::Axis).nth(index).ok_or_else(missing), |name| table.column(name))
+    name.map_or_else(|| table.axes().get(index).copied().ok_or_else(missing), |name| table.column(name))
 }
 
 /// The entry of an area or of dots in a legend.
 fn swatch(name: impl Into<String>, color: Color) -> Series {
     Series { name: name.into(), points: Vec::new(), stroke: Stroke::solid(color, SWATCH), arrows: false }
+}
+
+/// The entry of a legend that says what the next ones are.
+fn heading(name: impl Into<String>) -> Series {
+    swatch(name, Color { rgb: [0xFF; 3], opacity: 0.0 })
+}
+
+/// The colours of numbers, of this name and unit.
+fn coloured_by(request: &Request, what: (&str, &str), values: impl Iterator<Item = f64>) -> palette::Palette {
+    let logarithmic = request.is_logarithmic("colour") || request.is_logarithmic("color");
+    if logarithmic { palette::Palette::logarithmic(what, values) } else { palette::Palette::of(what, values) }
 }
 
 /// What is known from elsewhere, above everything else: lines, or dots in a ring.

@@ -1,7 +1,8 @@
-//! Colours of a number: from light to dark where it has one sign, through white where it has both.
+//! Colours of a number: from light to dark where it has one sign, through white where it has both; evenly, or by its logarithm.
 
-use super::swatch;
-use crate::plot::chart::{Series, extremes, ticks};
+use super::{heading, swatch};
+use crate::plot::chart::ticks::Tick;
+use crate::plot::chart::{Axis, Scale, Series, extremes};
 use crate::plot::draw::{Color, color};
 
 /// Light to dark in even steps of lightness, told apart by all readers.
@@ -25,30 +26,40 @@ const SMALLEST_SIDE: f64 = 0.1;
 /// Into how many colours the range is divided: cells of one colour are one path.
 const SHADES: usize = 64;
 
+/// About how many entries a legend has.
+const ENTRIES: usize = 8;
+
 /// A range of numbers and its colours.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Palette {
-    low: f64,
-    high: f64,
+    axis: Axis,
     colours: [Color; 5],
 }
 
 impl Palette {
     /// The palette of values; symmetric about zero where they have both signs.
-    pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
+    pub fn of((name, unit): (&str, &str), values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = extremes(values).unwrap_or((0.0, 1.0));
         let (low, high) = if high > low { (low, high) } else { (low - 0.5, high + 0.5) };
         if low < 0.0 && high > 0.0 && high.min(-low) > SMALLEST_SIDE * high.max(-low) {
             let most = high.max(-low);
-            return Self { low: -most, high: most, colours: TWO_SIDED };
+            return Self { axis: Axis::exact(name, unit, -most, most), colours: TWO_SIDED };
         }
-        Self { low, high, colours: SEQUENCE }
+        Self { axis: Axis::exact(name, unit, low, high), colours: SEQUENCE }
     }
 
-    /// The index of the colour of a value.
-    pub fn shade(&self, value: f64) -> usize {
-        let place = (value - self.low) / (self.high - self.low);
-        ((place * SHADES as f64) as usize).min(SHADES - 1)
+    /// The palette of the logarithms of those values that have one.
+    pub fn logarithmic((name, unit): (&str, &str), values: impl IntoIterator<Item = f64>) -> Self {
+        let (low, high) = extremes(values.into_iter().filter(|value| *value > 0.0)).unwrap_or((0.1, 10.0));
+        let (low, high) = if high > low { (low, high) } else { (low / 2.0, high * 2.0) };
+        let axis = Axis { scale: Scale::Logarithmic, ..Axis::exact(name, unit, low, high) };
+        Self { axis, colours: SEQUENCE }
+    }
+
+    /// The index of the colour of a value; none where it has none.
+    pub fn shade(&self, value: f64) -> Option<usize> {
+        let place = self.axis.place(value);
+        place.is_finite().then(|| ((place * SHADES as f64) as usize).min(SHADES - 1))
     }
 
     /// The colour of an index.
@@ -67,13 +78,14 @@ impl Palette {
         Color::new(mixed(0), mixed(1), mixed(2))
     }
 
-    /// Entries of a legend: round values with their colours, from the largest.
+    /// Entries of a legend: name and unit, then round values with their colours, from the largest.
     pub fn legend(&self) -> Vec<Series> {
-        let entry = |tick: &ticks::Tick| {
-            let colour = self.at((tick.value - self.low) / (self.high - self.low));
-            tick.label.as_ref().map(|words| swatch(words.clone(), colour))
+        let ticks = self.axis.ticks(ENTRIES);
+        let entry = |tick: &Tick| {
+            let words = tick.label.as_ref()?;
+            Some(swatch(words.clone(), self.at(self.axis.place(tick.value))))
         };
-        ticks::linear(self.low, self.high, 8).iter().rev().filter_map(entry).collect()
+        std::iter::once(heading(self.axis.label())).chain(ticks.iter().rev().filter_map(entry)).collect()
     }
 }
 
@@ -94,16 +106,33 @@ mod tests {
 
     #[test]
     fn a_larger_number_is_darker_where_there_is_one_sign() {
-        let palette = Palette::of([2.0, 5.0]);
+        let palette = Palette::of(("speed", "m/s"), [2.0, 5.0]);
         let lights: Vec<f64> = (0..SHADES).map(|shade| lightness(palette.colour(shade))).collect();
         assert!(lights.windows(2).all(|pair| pair[0] > pair[1]), "{lights:?}");
     }
 
     #[test]
     fn zero_is_white_where_there_are_both_signs() {
-        let palette = Palette::of([-1.0, 3.0]);
-        assert!(lightness(palette.colour(palette.shade(0.0))) > 235.0);
-        assert!(palette.shade(-3.0) == 0 && palette.shade(3.0) == SHADES - 1);
+        let palette = Palette::of(("speed", "m/s"), [-1.0, 3.0]);
+        assert!(lightness(palette.colour(palette.shade(0.0).unwrap())) > 235.0);
+        assert_eq!([-3.0, 3.0, f64::NAN].map(|value| palette.shade(value)), [Some(0), Some(SHADES - 1), None]);
+    }
+
+    #[test]
+    fn equal_factors_are_equal_steps_of_colour_where_asked() {
+        let palette = Palette::logarithmic(("time", "s"), [0.0, 1e-3, 1.0, 1e3, -2.0]);
+        assert_eq!([1e-3, 1.0, 1e3].map(|value| palette.shade(value)), [Some(0), Some(SHADES / 2), Some(SHADES - 1)]);
+        assert_eq!([0.0, -2.0].map(|value| palette.shade(value)), [None, None]);
+        let legend: Vec<String> = palette.legend().into_iter().map(|entry| entry.name).collect();
+        assert_eq!(legend[..2], ["time [s]", "10^{3}"]);
+        assert_eq!(legend.len(), 8);
+    }
+
+    #[test]
+    fn a_legend_is_short_and_has_a_name() {
+        let legend: Vec<String> =
+            Palette::of(("gap", "m"), [1.2e-4, 3.9e-4]).legend().into_iter().map(|entry| entry.name).collect();
+        assert_eq!(legend[..2], ["gap [µm]", "350"], "{legend:?}");
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //! x = "damping"                       # a column
 //! y = "face=first"                    # a column, or the share of the runs in which it has one of some values
 //! colour = "speed"                    # a column
-//! logarithmic = ["x"]                 # axes, beside those that the grid makes so
+//! logarithmic = ["x", "colour"]       # axes, beside those that the grid makes so
 //! title = "…"
 //! reference = [{ name = "measured", points = [[0.1, 0.2], [0.3, 0.4]], line = false }]
 //! ```
@@ -52,7 +52,7 @@ pub struct Request {
     /// The column that colours tell.
     #[serde(alias = "color")]
     pub colour: Option<String>,
-    /// Axes to be logarithmic: "x", "y".
+    /// What is to be logarithmic: "x", "y", "colour".
     pub logarithmic: Vec<String>,
     /// What stands above.
     pub title: Option<String>,
@@ -102,6 +102,9 @@ impl Request {
             reference: if own { self.reference } else { other.reference },
         }
     }
+
+    /// The words under `logarithmic`.
+    pub const AXES: [&str; 4] = ["x", "y", "colour", "color"];
 
     /// Whether an axis is asked to be logarithmic.
     pub fn is_logarithmic(&self, axis: &str) -> bool {

@@ -1,7 +1,10 @@
 //! A dot a run, or as many as its list is long: what depends on chance, and bifurcation diagrams.
 
 use super::request::Measure;
-use super::{Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, kept, painted, palette, references, swatch};
+use super::{
+    Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, coloured_by, heading, kept, painted, palette,
+    references, swatch,
+};
 use crate::plot::chart::{Axis, Chart, Panel, Scale, Series, Shapes};
 use crate::plot::draw::{Point, color};
 use std::collections::BTreeMap;
@@ -28,7 +31,7 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
     }
     let radius = if points.len() > MANY { 0.6 } else { 1.6 };
     let (mut shapes, mut series) = match &request.colour {
-        Some(name) => coloured(&points, table.column(name)?, radius)?,
+        Some(name) => coloured(&points, table.column(name)?, (request, radius))?,
         None => {
             let at = points.iter().map(|(_, point)| *point).collect();
             (vec![Shapes::Dots { at, radius, fill: color::series(0) }], Vec::new())
@@ -62,7 +65,7 @@ fn points(x: &Column, y: &Column, run: usize) -> Vec<(usize, Point)> {
 
 type Painted = (Vec<Shapes>, Vec<Series>);
 
-fn coloured(points: &[(usize, Point)], column: &Column, radius: f64) -> Result<Painted, Unfit> {
+fn coloured(points: &[(usize, Point)], column: &Column, (request, radius): (&Request, f64)) -> Result<Painted, Unfit> {
     let mut dots: BTreeMap<usize, Vec<Point>> = BTreeMap::new();
     match &column.values {
         Values::Words(words) => {
@@ -74,12 +77,15 @@ fn coloured(points: &[(usize, Point)], column: &Column, radius: f64) -> Result<P
             }
             let shapes = |(index, at)| Shapes::Dots { at, radius, fill: palette::category(index) };
             let entry = |(index, name): (usize, &String)| swatch(name.clone(), palette::category(index));
-            Ok((dots.into_iter().map(shapes).collect(), names.iter().enumerate().map(entry).collect()))
+            let legend = std::iter::once(heading(&column.name)).chain(names.iter().enumerate().map(entry));
+            Ok((dots.into_iter().map(shapes).collect(), legend.collect()))
         }
         Values::Numbers(values) => {
-            let palette = palette::Palette::of(values.iter().copied());
-            for (run, point) in points.iter().filter(|(run, _)| values[*run].is_finite()) {
-                dots.entry(palette.shade(values[*run])).or_default().push(*point);
+            let palette = coloured_by(request, (&column.name, &column.unit), values.iter().copied());
+            for (run, point) in points {
+                if let Some(shade) = palette.shade(values[*run]) {
+                    dots.entry(shade).or_default().push(*point);
+                }
             }
             let shapes = |(shade, at)| Shapes::Dots { at, radius, fill: palette.colour(shade) };
             Ok((dots.into_iter().map(shapes).collect(), palette.legend()))

@@ -1,6 +1,6 @@
 //! A table of a study on disk, as pictures see it.
 //!
-//! The columns of a parameter with an axis are axes of the grid, in its order; lists and integers become numbers. A
+//! The columns of a parameter with an axis are along that axis of the grid; lists and integers become numbers. A
 //! table that tells nothing of its study has no axes: then `--x` says what goes to the right.
 
 use super::{Column, Request, Role, Table, Unfit, Values};
@@ -17,8 +17,7 @@ impl Table {
         let role = |name: &str| {
             let own = parameters.iter().find(|parameter| parameter.columns.iter().any(|column| column == name));
             match own {
-                Some(parameter) if parameter.axis.is_some() => Role::Axis,
-                Some(_) => Role::Random,
+                Some(parameter) => parameter.axis.map_or(Role::Random, Role::Axis),
                 None if ACCOUNT.contains(&name) => Role::Account,
                 None => Role::Kept,
             }

@@ -4,7 +4,9 @@
 //! parameters that the grid goes through, so that their values return.
 
 use super::Unfit;
+use crate::plot::chart::ticks::short;
 use crate::plot::chart::{Axis, Scale};
+use std::collections::BTreeMap;
 
 /// A table of runs.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,8 +33,8 @@ pub struct Column {
 /// Where a column comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// A parameter of the grid.
-    Axis,
+    /// A parameter of the grid, along this axis; several share one if they vary together.
+    Axis(usize),
     /// A random parameter.
     Random,
     /// What was kept of the runs.
@@ -51,6 +53,9 @@ pub enum Values {
     /// Several numbers a run.
     Lists(Vec<Vec<f64>>),
 }
+
+/// Digits of a number behind its first one, in a legend, if they are enough.
+const DIGITS: usize = 3;
 
 /// The faces of a box, in their order.
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
@@ -74,6 +79,20 @@ impl Table {
             let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
             Unfit::new(format!("the table has no column `{name}`"), format!("its columns are {}", names.join(", ")))
         })
+    }
+
+    /// A column for each axis of the grid, in their order: of those that vary together the one with the most values.
+    pub fn axes(&self) -> Vec<&Column> {
+        let mut axes: BTreeMap<usize, &Column> = BTreeMap::new();
+        let values = |column: &Column| column.levels().len().max(column.categories().len());
+        for column in &self.columns {
+            let Role::Axis(axis) = column.role else { continue };
+            let known = axes.entry(axis).or_insert(column);
+            if values(column) > values(known) {
+                *known = column;
+            }
+        }
+        axes.into_values().collect()
     }
 
     /// The columns of a role.
@@ -101,7 +120,7 @@ impl Column {
     pub fn word(&self, run: usize) -> Option<String> {
         match &self.values {
             Values::Words(words) => words[run].clone(),
-            Values::Numbers(values) => (!values[run].is_nan()).then(|| crate::plot::chart::ticks::short(values[run])),
+            Values::Numbers(values) => (!values[run].is_nan()).then(|| short(values[run])),
             Values::Lists(_) => None,
         }
     }
@@ -118,11 +137,29 @@ impl Column {
 
     /// The different numbers, from the smallest.
     pub fn levels(&self) -> Vec<f64> {
-        let mut levels: Vec<f64> = self.numbers().unwrap_or_default().to_vec();
+        // There is one zero.
+        let mut levels: Vec<f64> = self.numbers().unwrap_or_default().iter().map(|value| value + 0.0).collect();
         levels.retain(|value| value.is_finite());
         levels.sort_unstable_by(f64::total_cmp);
         levels.dedup();
         levels
+    }
+
+    /// Which of the levels a number is.
+    pub fn level(&self, levels: &[f64], number: f64) -> Option<usize> {
+        levels.binary_search_by(|level| level.total_cmp(&(number + 0.0))).ok()
+    }
+
+    /// The different numbers in words that tell them apart, in as few digits as do, from the smallest.
+    pub fn labels(&self) -> Vec<(f64, String)> {
+        let levels = self.levels();
+        let rounded = |value: f64, digits: usize| format!("{value:.digits$e}").parse().unwrap_or(value);
+        let words = |digits| -> Vec<String> { levels.iter().map(|level| short(rounded(*level, digits))).collect() };
+        // They are in order, and so are they rounded.
+        let are_apart = |words: &Vec<String>| words.windows(2).all(|pair| pair[0] != pair[1]);
+        let exact = || levels.iter().map(f64::to_string).collect();
+        let words = (DIGITS..2 * DIGITS).map(words).find(are_apart).unwrap_or_else(exact);
+        levels.iter().copied().zip(words).collect()
     }
 
     /// The scale on which the levels are even.
@@ -150,7 +187,7 @@ mod tests {
     use super::*;
 
     fn column(values: Values) -> Column {
-        Column { name: "c".into(), unit: String::new(), role: Role::Axis, values }
+        Column { name: "c".into(), unit: String::new(), role: Role::Axis(0), values }
     }
 
     #[test]
@@ -159,6 +196,23 @@ mod tests {
         assert_eq!(column(Values::Numbers(vec![1.0, 2.0, 3.0])).scale(), Scale::Linear);
         assert_eq!(column(Values::Numbers(vec![1.0, 2.0])).scale(), Scale::Linear);
         assert_eq!(column(Values::Numbers(vec![0.0, 1.0, 10.0])).scale(), Scale::Linear);
+    }
+
+    #[test]
+    fn zero_is_one_level_whatever_its_sign() {
+        let column = column(Values::Numbers(vec![0.0, -0.0, 1.0, f64::NAN]));
+        assert_eq!(column.levels(), [0.0, 1.0]);
+        assert_eq!([0.0, -0.0, 1.0, 2.0].map(|x| column.level(&column.levels(), x)), [Some(0), Some(0), Some(1), None]);
+    }
+
+    #[test]
+    fn numbers_are_told_apart_in_few_digits() {
+        let labels = |values: &[f64]| -> Vec<String> {
+            column(Values::Numbers(values.to_vec())).labels().into_iter().map(|(_, words)| words).collect()
+        };
+        assert_eq!(labels(&[0.1 + 0.2, 0.014_125_375_446, 2.0]), ["0.01413", "0.3", "2"]);
+        assert_eq!(labels(&[1.0, 1.0001, 1.0]), ["1", "1.0001"]);
+        assert_eq!(labels(&[1.0, 1.0 + 1e-12]), ["1", "1.000000000001"]);
     }
 
     #[test]

@@ -20,8 +20,8 @@ fn table(columns: Vec<Column>) -> Table {
 fn grid() -> Table {
     let axis = |values: [f64; 4]| values.into_iter().flat_map(|value| [value, value]).collect();
     table(vec![
-        numbers("height", Role::Axis, axis([1.0, 1.0, 2.0, 2.0])),
-        numbers("spin", Role::Axis, axis([5.0, 6.0, 5.0, 6.0])),
+        numbers("height", Role::Axis(0), axis([1.0, 1.0, 2.0, 2.0])),
+        numbers("spin", Role::Axis(1), axis([5.0, 6.0, 5.0, 6.0])),
         words("face", &["+z", "+z", "-z", "-z", "+z", "-z", "+x", ""]),
         numbers("last", Role::Kept, vec![1.0, 3.0, 2.0, 2.0, 4.0, 4.0, 5.0, f64::NAN]),
     ])
@@ -59,6 +59,35 @@ fn about(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 #[test]
+fn parameters_that_vary_together_are_one_axis() {
+    let table = table(vec![
+        numbers("level", Role::Axis(0), vec![0.0, 0.0, 0.0]),
+        numbers("downhill", Role::Axis(0), vec![1.0, 2.0, 3.0]),
+        numbers("pressing", Role::Axis(0), vec![9.0, 8.0, 7.0]),
+        numbers("speed", Role::Kept, vec![1.0, 2.0, 4.0]),
+    ]);
+    for x in [None, Some("downhill".to_owned()), Some("pressing".to_owned())] {
+        let request = Request { x: x.clone(), ..Request::default() };
+        assert_eq!(kind_of(&table, &request), Kind::Curve);
+        let figure = figure(&table, &request).unwrap();
+        let chart = &field(&figure).chart;
+        assert_eq!((chart.series.len(), chart.series[0].points.len()), (1, 3), "{x:?}");
+        assert_eq!(chart.x.name, x.unwrap_or("downhill".into()));
+    }
+}
+
+#[test]
+fn the_mean_of_lists_is_over_runs() {
+    let lists = vec![vec![1.0; 50], vec![3.0; 50]];
+    let column = Column { values: Values::Lists(lists), ..numbers("peaks", Role::Kept, Vec::new()) };
+    let request = Request { kind: Some(Kind::Histogram), ..Request::default() };
+    let figure = figure(&table(vec![column]), &request).unwrap();
+    // Two values, 1 and 3: t = 12.7 with one degree of freedom.
+    let remarks = &field(&figure).chart.remarks;
+    assert_eq!(remarks[..], ["100 values", "mean 2 ± 13"], "{remarks:?}");
+}
+
+#[test]
 fn share_of_a_face_is_that_of_the_runs_which_have_one() {
     let request = Request { x: Some("height".into()), y: Some("face=+z,-z".into()), ..Request::default() };
     let figure = figure(&grid(), &Request { colour: Some("spin".into()), ..request }).unwrap();
@@ -87,8 +116,8 @@ fn two_columns_may_be_asked_to_agree() {
 fn cells_of_a_row_with_one_colour_are_one_area() {
     let request = Request { colour: Some("last".into()), ..Request::default() };
     let table = table(vec![
-        numbers("a", Role::Axis, vec![1.0, 2.0, 4.0, 1.0, 2.0, 4.0]),
-        numbers("b", Role::Axis, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
+        numbers("a", Role::Axis(0), vec![1.0, 2.0, 4.0, 1.0, 2.0, 4.0]),
+        numbers("b", Role::Axis(1), vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
         words("last", &["up", "up", "down", "up", "down", "down"]),
     ]);
     let figure = figure(&table, &request).unwrap();

@@ -1,0 +1,68 @@
+"""Processes that are forked from one that has been at work, as those of `multiprocessing` are on some systems."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import gyration
+from conftest import STUDY, table_bytes
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+
+def resistance_of(length):
+    die = gyration.Scene.gallery("dice").edit({"body.die.shape.box.size.0": length})
+    return float(np.asarray(gyration.resistance(die, "die")["matrix"])[0, 0])
+
+
+def test_boundary_elements_are_computed_in_forked_processes():
+    # The threads that share the work have begun here, and are not there in the others.
+    here = [resistance_of(length) for length in (0.01, 0.012)]
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        # Another shape: what is known already needs no threads.
+        assert pool.apply_async(resistance_of, (0.012,)).get(timeout=120) == here[1]
+        assert pool.apply_async(resistance_of, (0.013,)).get(timeout=120) > here[1]
+
+
+SCRIPT = """
+import os, signal, sys, time
+from concurrent.futures import ProcessPoolExecutor
+import multiprocessing, gyration
+from conftest import STUDY
+
+def progress(done, total):
+    if done >= 10:
+        print("\\n".join(str(process.pid) for process in multiprocessing.active_children()), flush=True)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("fork")) as executor:
+    gyration.study(STUDY, sys.argv[1], executor=executor, batch=2, progress=progress)
+"""
+
+
+def test_a_table_is_free_when_its_process_has_been_killed(tmp_path, reference):
+    folder, script = tmp_path / "killed.study", tmp_path / "killed.py"
+    script.write_text(textwrap.dedent(SCRIPT))
+    environment = {**os.environ, "PYTHONPATH": os.path.dirname(__file__)}
+    # The workers outlive it and keep the pipe: what it says is read from a file.
+    with open(tmp_path / "said", "w+") as said:
+        killed = subprocess.run([sys.executable, script, folder], stdout=said, env=environment, timeout=120)
+        assert killed.returncode == -signal.SIGKILL
+        said.seek(0)
+        workers = [int(line) for line in said.read().split()]
+    try:
+        assert workers and all(os.kill(worker, 0) is None for worker in workers)
+        assert 10 <= len(gyration.Table.open(folder)) < 60
+        gyration.study(STUDY, folder, resume=True)
+        assert table_bytes(folder) == reference
+    finally:
+        for worker in workers:
+            try:
+                os.kill(worker, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
