@@ -188,4 +188,6 @@ fn summary_counts_outcomes_and_tells_what_is_kept() {
     let said =
         sandbox.refused(1, &["study", "low.toml", "--set", all[0], "--set", all[1], "-o", "all.study", "--quiet"]);
     assert!(said.stderr.contains("no run could be made"), "{}", said.stderr);
+    let again = ["study", "low.toml", "--set", all[0], "--set", all[1], "-o", "all.study", "--quiet", "--resume"];
+    assert!(sandbox.refused(1, &again).stderr.contains("no run could be made"));
 }

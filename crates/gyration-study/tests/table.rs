@@ -5,9 +5,34 @@
 mod common;
 
 use common::{complete, sandbox, study};
-use gyration_study::{Frame, Row, Shard, StudyError, Table, Value, merge};
+use gyration_study::{Frame, Row, Shard, Study, StudyError, Table, Value, merge};
 use std::fs;
 use std::path::Path;
+
+#[test]
+fn a_file_that_only_a_later_run_names_belongs_to_the_study() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    let corner = "0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n";
+    let mesh = |name: &str, scale: f64| {
+        let number = |word: &str| word.parse::<f64>().unwrap() * scale;
+        let vertices: String =
+            corner.lines().map(|line| format!("v {:?}\n", line.split(' ').map(number).collect::<Vec<_>>())).collect();
+        let vertices = vertices.replace(['[', ']', ','], "");
+        fs::write(folder.join(name), format!("{vertices}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")).unwrap();
+    };
+    let fingerprint = |values: &str| {
+        let text = format!("scene = \"ball.toml\"\n[parameter.shape]\nkey = \"body.ball.shape\"\nvalues = {values}\n");
+        Study::parse("s.toml", &text, folder, &[]).unwrap_or_else(|error| panic!("{error}")).fingerprint().to_owned()
+    };
+    let values = "[{ mesh = { file = \"a.obj\" } }, { mesh = { file = \"b.obj\" } }]";
+    mesh("a.obj", 1.0);
+    mesh("b.obj", 2.0);
+    let before = fingerprint(values);
+    assert_eq!(before, fingerprint(values));
+    mesh("b.obj", 3.0);
+    assert_ne!(before, fingerprint(values));
+}
 
 #[test]
 fn replacing_a_table_leaves_shards_and_other_files_alone() {

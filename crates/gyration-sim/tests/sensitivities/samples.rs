@@ -37,6 +37,17 @@ fn derivatives_at_samples_agree_with_differences_of_runs() {
 }
 
 #[test]
+fn values_are_those_of_their_columns_whatever_else_is_recorded() {
+    let along = |more: &str| {
+        let overrides = [strings(&TIGHT), strings(&["time.end=0.1", more])].concat();
+        let keys = strings(&["contact.0.damping.beta"]);
+        let found = Sensitivities::along(&scene(&tumbling(), &overrides), &keys, &strings(&QUANTITIES), At::End);
+        found.unwrap().values
+    };
+    assert_eq!(along("time.sample=0.1"), along("record={ quantities = [\"rotation\", \"affine_moment\"] }"));
+}
+
+#[test]
 fn derivatives_converge_as_the_tolerance_goes_down() {
     let keys = ["contact.0.damping.beta", "body.box.angular_velocity.1"];
     let derivatives = |rtol: f64| -> Vec<f64> {
