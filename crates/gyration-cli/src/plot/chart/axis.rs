@@ -41,6 +41,19 @@ pub fn extremes(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
+/// A unit with its powers raised: `m/s^2` as `Label::new` reads it.
+pub fn raised(unit: &str) -> String {
+    let mut words = String::new();
+    let mut parts = unit.split('^');
+    words += parts.next().unwrap_or_default();
+    for part in parts {
+        let end = part.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(part.len());
+        let (power, rest) = part.split_at(end);
+        words += &format!("^{{{power}}}{rest}");
+    }
+    words
+}
+
 impl Axis {
     /// An axis from `low` to `high` without any margin.
     pub fn exact(name: &str, unit: &str, low: f64, high: f64) -> Self {
@@ -96,7 +109,7 @@ impl Axis {
         if self.unit.is_empty() {
             return self.name.clone();
         }
-        format!("{} [{}{}]", self.name, self.prefix().1, self.unit)
+        format!("{} [{}{}]", self.name, self.prefix().1, raised(&self.unit))
     }
 
     /// At most about `count` ticks with words.
@@ -131,6 +144,12 @@ mod tests {
         let ticks = axis.ticks(4);
         assert_eq!(ticks[1].label.as_deref(), Some("5"));
         assert!((ticks[1].value - 0.005).abs() < 1e-15);
+    }
+
+    #[test]
+    fn powers_of_units_are_raised() {
+        assert_eq!(Axis::exact("density", "kg/m^3", 0.0, 1e3).label(), "density [kg/m^{3}]");
+        assert_eq!(["m", "kg m^2/s", "1/s", "m^-2 s^-10"].map(raised), ["m", "kg m^{2}/s", "1/s", "m^{-2} s^{-10}"]);
     }
 
     #[test]

@@ -10,7 +10,7 @@ mod legend;
 mod shapes;
 pub mod ticks;
 
-pub use axis::{Axis, Scale, extremes};
+pub use axis::{Axis, Scale, extremes, raised};
 pub use figure::{Figure, Panel};
 pub use legend::Legend;
 pub use shapes::{Field, Shapes};

@@ -6,7 +6,7 @@
 use super::request::Measure;
 use super::statistics::{self, Estimate};
 use super::{Column, HEIGHT, Request, Table, Unfit, Values, axis_or, kept, painted, palette, references};
-use crate::plot::chart::{Axis, Chart, LINE, Panel, Scale, Series, Shapes};
+use crate::plot::chart::{Axis, Chart, LINE, Panel, Scale, Series, Shapes, raised};
 use crate::plot::draw::Stroke;
 use std::collections::BTreeSet;
 
@@ -131,7 +131,7 @@ fn groups(table: &Table, request: &Request, x: &Column) -> Result<Vec<(String, V
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
     for run in 0..table.len() {
         let Some(word) = word(run) else { continue };
-        let unit = if column.unit.is_empty() { String::new() } else { format!(" {}", column.unit) };
+        let unit = if column.unit.is_empty() { String::new() } else { format!(" {}", raised(&column.unit)) };
         let name = format!("{} = {word}{unit}", column.name);
         match groups.iter_mut().find(|(known, _)| *known == name) {
             Some((_, runs)) => runs.push(run),

@@ -4,7 +4,7 @@
 //! power of ten; whole numbers of a small range have a bin each.
 
 use super::{HEIGHT, Measure, Request, Table, Unfit, Values, kept, painted, palette, statistics};
-use crate::plot::chart::{Axis, Chart, DASHED, LINE, Panel, Series, Shapes, extremes, ticks};
+use crate::plot::chart::{Axis, Chart, DASHED, LINE, Panel, Series, Shapes, extremes, raised, ticks};
 use crate::plot::draw::{Stroke, color};
 
 /// With more groups than this the picture is not divided by groups.
@@ -67,7 +67,7 @@ fn groups(table: &Table, request: &Request) -> Result<Vec<Group>, Unfit> {
     let mut groups: Vec<Group> = Vec::new();
     for run in 0..table.len() {
         let Some(word) = column.word(run) else { continue };
-        let title = format!("{} = {word} {}", column.name, column.unit);
+        let title = format!("{} = {word} {}", column.name, raised(&column.unit));
         match groups.iter_mut().find(|(known, _)| *known == title) {
             Some((_, runs)) => runs.push(run),
             None => groups.push((title, vec![run])),
