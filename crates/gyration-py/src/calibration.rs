@@ -93,7 +93,7 @@ impl Fit {
         self.fitted.chi_squared
     }
 
-    /// Measurements less numbers that are determined.
+    /// Measurements less directions in which numbers were fitted.
     #[getter]
     fn degrees_of_freedom(&self) -> usize {
         self.fitted.degrees_of_freedom

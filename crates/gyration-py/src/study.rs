@@ -10,7 +10,7 @@ use crate::many::workers;
 use crate::parcel::{Parcel, unpack};
 use crate::watch::Watch;
 use crate::worker::Packed;
-use gyration_study::{Progress, Row, Shard, Source, Study, Table, Watcher, execute};
+use gyration_study::{Held, Progress, Row, Shard, Source, Study, Table, Watcher, execute};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyDict;
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A study and its table while it is being made.
-#[pyclass(module = "gyration", name = "_Work", weakref)]
+#[pyclass(module = "gyration", name = "_Work")]
 pub struct Work {
     study: Arc<Study>,
     /// None once it has been closed.
@@ -164,16 +164,27 @@ impl Work {
         self.table = None;
     }
 
-    /// Leaves the table to the process from which this one was forked.
-    fn disown(&mut self) {
-        if let Some(table) = self.table.take() {
-            table.disown();
-        }
+    /// Its lock, which can be asked for anything while the study is at work.
+    #[getter]
+    fn lock(&self) -> PyResult<Lock> {
+        self.table.as_ref().map(|table| Lock(table.held())).ok_or_else(closed)
     }
 }
 
 fn closed() -> PyErr {
     errors::study_said("the table has been closed")
+}
+
+/// The lock of a table.
+#[pyclass(frozen, module = "gyration", name = "_Lock", weakref)]
+pub struct Lock(Held);
+
+#[pymethods]
+impl Lock {
+    /// Leaves it to the process from which this one was forked.
+    fn leave(&self) {
+        self.0.leave();
+    }
 }
 
 /// Tells Python of progress.

@@ -30,35 +30,62 @@ def test_boundary_elements_are_computed_in_forked_processes():
 
 
 SCRIPT = """
-import os, signal, sys, time
+import os, signal, sys, threading, time
 from concurrent.futures import ProcessPoolExecutor
 import multiprocessing, gyration
 from conftest import STUDY
 
-def progress(done, total):
-    if done >= 10:
-        print("\\n".join(str(process.pid) for process in multiprocessing.active_children()), flush=True)
-        os.kill(os.getpid(), signal.SIGKILL)
+def die():
+    print("\\n".join(str(process.pid) for process in multiprocessing.active_children()), flush=True)
+    os.kill(os.getpid(), signal.SIGKILL)
 
-with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("fork")) as executor:
-    gyration.study(STUDY, sys.argv[1], executor=executor, batch=2, progress=progress)
+def spread(done, total):
+    if done >= 10:
+        die()
+
+def beside(done, total):
+    begun.set()
+    # Until that process dies, in the middle of what holds the table.
+    while True:
+        time.sleep(0.01)
+
+fork = multiprocessing.get_context("fork")
+if sys.argv[2] == "spread":
+    with ProcessPoolExecutor(2, mp_context=fork) as executor:
+        gyration.study(STUDY, sys.argv[1], executor=executor, batch=2, progress=spread)
+else:
+    begun = threading.Event()
+    options = {"changes": {"repetitions": 100_000}, "threads": 1, "progress": beside}
+    threading.Thread(target=gyration.study, args=(STUDY, sys.argv[1]), kwargs=options, daemon=True).start()
+    begun.wait()
+    process = fork.Process(target=time.sleep, args=(100,))
+    process.start()
+    time.sleep(0.5)
+    die()
 """
 
 
-def test_a_table_is_free_when_its_process_has_been_killed(tmp_path, reference):
+@pytest.mark.parametrize("how", ["spread", "beside"])
+def test_a_table_is_free_when_its_process_has_been_killed(tmp_path, reference, how):
     folder, script = tmp_path / "killed.study", tmp_path / "killed.py"
     script.write_text(textwrap.dedent(SCRIPT))
     environment = {**os.environ, "PYTHONPATH": os.path.dirname(__file__)}
     # The workers outlive it and keep the pipe: what it says is read from a file.
     with open(tmp_path / "said", "w+") as said:
-        killed = subprocess.run([sys.executable, script, folder], stdout=said, env=environment, timeout=120)
+        killed = subprocess.run([sys.executable, script, folder, how], stdout=said, env=environment, timeout=120)
         assert killed.returncode == -signal.SIGKILL
         said.seek(0)
         workers = [int(line) for line in said.read().split()]
     try:
         assert workers and all(os.kill(worker, 0) is None for worker in workers)
-        assert 10 <= len(gyration.Table.open(folder)) < 60
-        gyration.study(STUDY, folder, resume=True)
+        if how == "beside":
+            with pytest.raises(gyration.StudyError, match="another study"):
+                gyration.study(STUDY, folder, resume=True)
+            # It is free: nobody else writes to it.
+            gyration.study(STUDY, folder, force=True)
+        else:
+            assert 10 <= len(gyration.Table.open(folder)) < 60
+            gyration.study(STUDY, folder, resume=True)
         assert table_bytes(folder) == reference
     finally:
         for worker in workers:

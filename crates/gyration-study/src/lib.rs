@@ -37,7 +37,7 @@ pub use keep::{Keep, Measure, Pick};
 pub use parameter::{Distribution, Parameter, Steps, Variation};
 pub use run::{FAILED, STEP_LIMIT, Worker};
 pub use study::{Recordings, Sampling, Source, Study};
-pub use table::{Data, Described, Digest, Frame, FrameColumn, Shard, Spread, Table, merge};
+pub use table::{Data, Described, Digest, Frame, FrameColumn, Held, Shard, Spread, Table, merge};
 pub use value::{Row, Value};
 
 /// The JSON Schema of a study.

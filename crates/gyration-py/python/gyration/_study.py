@@ -12,18 +12,18 @@ from gyration._spread import spread
 
 __all__ = ["study"]
 
-_at_work: weakref.WeakSet[_gyration._Work] = weakref.WeakSet()
-"""The studies that this process is making."""
+_locks: weakref.WeakSet[_gyration._Lock] = weakref.WeakSet()
+"""Those of the tables that this process is making."""
 
 
-def _disown() -> None:
-    """Lets go of what belongs to the process from which this one was forked: its tables are locked as long as it lives, not longer."""
-    for work in list(_at_work):
-        work.disown()
+def _leave() -> None:
+    """Leaves the locks to the process from which this one was forked: its tables are locked as long as it lives, not longer."""
+    for lock in list(_locks):
+        lock.leave()
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_disown)
+    os.register_at_fork(after_in_child=_leave)
 
 
 def study(
@@ -55,7 +55,8 @@ def study(
     to go on.
     """
     work = _gyration._Work(source, output, changes, resume, force)
-    _at_work.add(work)
+    lock = work.lock
+    _locks.add(lock)
     try:
         if executor is None:
             work.execute(threads, progress)

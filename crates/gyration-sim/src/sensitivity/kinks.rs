@@ -48,12 +48,12 @@ impl Kinks {
         if times.len() >= MOST {
             return Err(Fault::Reason(format!("its signals have more than {MOST} kinks")));
         }
-        let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(end, f64::min);
+        let apart = nearest(&times, end);
         let movement = |variation: &mut Variation| {
             let mut part = false;
             let moves = variation.times(|model| {
                 let moved = kinks(model, end);
-                part |= !are_as_many(&times, &moved, end - WITHIN * apart);
+                part |= !are_as_many(&times, &moved, end - WITHIN * apart) || nearest(&moved, end) < WITHIN * apart;
                 moved
             });
             moves.map(|moves| (moves, part))
@@ -124,6 +124,11 @@ impl Kinks {
 /// Two times are the same but for rounding.
 fn is_same(one: f64, other: f64) -> bool {
     (one - other).abs() < ROUNDING * one
+}
+
+/// The smallest distance of two kinks [s]; that of a single one is the end.
+fn nearest(times: &[f64], end: f64) -> f64 {
+    times.windows(2).map(|pair| pair[1] - pair[0]).fold(end, f64::min)
 }
 
 /// Whether two lists of kinks have as many, but for those that come over the end or go: later than `late`.

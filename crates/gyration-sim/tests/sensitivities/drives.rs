@@ -83,22 +83,27 @@ fn a_prescribed_contraction_keeps_its_volume_while_it_varies() {
 
 #[test]
 fn a_kink_that_leaves_another_one_is_told() {
-    let ramp = "{ ramp = { from = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], to = [[1, 0, 0], [0, 1, 0], [0, 0, 1.1]], duration = 0.1 } }";
-    let scene = |other: &str| {
+    let ramp = |to: f64, duration: f64| {
+        format!(
+            "{{ ramp = {{ from = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], to = [[1, 0, 0], [0, 1, 0], [0, 0, {to:?}]], duration = {duration:?} }} }}"
+        )
+    };
+    let by_duration = |other: f64, end: f64| {
         let still = "{ constant = { value = [[-1, 0, 0], [0, -1, 0], [0, 0, -1]] } }";
-        let sum =
-            format!("prescribed = {{ sum = [{still}, {ramp}, {}] }}", ramp.replace("0.1 }", &format!("{other} }}")));
+        let sum = format!("prescribed = {{ sum = [{still}, {}, {}] }}", ramp(1.1, 0.1), ramp(1.3, other));
         let text = driven(&sum).replace("c2 = 1000 }", "c2 = 1000, bulk = 1e5 }");
-        Scene::parse("kinks", &text, Path::new(""), &[]).unwrap()
+        let scene = Scene::parse("kinks", &text, Path::new(""), &[format!("time.end={end:?}")]).unwrap();
+        let keys = strings(&["body.crawler.contractile.prescribed.sum.1.ramp.duration"]);
+        let mut found = Sensitivities::along(&scene, &keys, &strings(&["crawler.z"]), At::End).unwrap();
+        found.derivatives.remove(0)
     };
-    let keys = strings(&["body.crawler.contractile.prescribed.sum.1.ramp.duration"]);
-    let by_duration = |scene: &Scene| {
-        let found = Sensitivities::along(scene, &keys, &strings(&["crawler.z"]), At::End).unwrap();
-        found.derivatives[0].clone()
-    };
-    let lost = by_duration(&scene("0.1")).lost.unwrap();
-    assert!(lost.reason.contains("kink at the same time"), "{lost}");
-    assert_eq!(by_duration(&scene("0.12")).lost, None);
+    // Also where it looks as if one had come over the end.
+    for end in [0.15, 0.104] {
+        let lost = by_duration(0.1, end).lost.unwrap();
+        assert!(lost.reason.contains("kink at the same time"), "{lost}");
+    }
+    assert_eq!(by_duration(0.12, 0.15).lost, None);
+    assert_eq!(by_duration(0.15, 0.15).lost, None);
 }
 
 #[test]

@@ -123,7 +123,16 @@ impl Calibration {
             let is_any = direction.spread.is_none() || taking.contains(&true);
             is_any.then(|| self.undetermined((&direction.along, &taking), &values))
         };
-        let undetermined: Vec<_> = all.iter().filter_map(undetermined).collect();
+        let mut undetermined: Vec<_> = all.iter().filter_map(undetermined).collect();
+        for index in (0..count).filter(|index| is_open(*index)) {
+            let is_named =
+                |open: &Undetermined| open.direction.iter().any(|(name, _)| *name == self.numbers[index].name);
+            if !undetermined.iter().any(is_named) {
+                let alone: Vec<bool> = (0..count).map(|other| other == index).collect();
+                let along: Vec<f64> = alone.iter().map(|own| f64::from(u8::from(*own))).collect();
+                undetermined.push(self.undetermined((&along, &alone), &values));
+            }
+        }
         let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
         let number = |(index, number): (usize, &super::Number)| {
             let (_, slope) = number.scale.outward(number.scale.inward(values[index]));

@@ -29,8 +29,8 @@ use std::cell::Cell;
 const POINTS: usize = 160;
 const NEAREST: f64 = 1e-5;
 const FARTHEST: f64 = 10.0;
-/// How often the look goes on to gaps as many times smaller or larger: to 1e-17 sizes.
-const LOOKS: usize = 3;
+/// How often it is looked for: to 1e-11 sizes. Smaller gaps are rounding of the places of body and support.
+const LOOKS: usize = 2;
 /// Steps of the golden section behind that: the maximum is then known to half of the digits, the force to all.
 const SECTIONS: usize = 45;
 /// Step of differences, a part of the number.
@@ -186,7 +186,8 @@ fn pull_off(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
     let mut found = None;
     for _ in 0..LOOKS {
         let forces = (0..POINTS).map(|k| pull(low + k as f64 * step)).collect::<Result<Vec<_>, _>>()?;
-        let best = (0..POINTS).fold(0, |best, k| if forces[k] > forces[best] { k } else { best });
+        let best =
+            (0..POINTS).fold(0, |best, k| if forces[best].is_nan() || forces[k] > forces[best] { k } else { best });
         if forces[best] <= 0.0 || forces[best].is_nan() {
             return Err(format!("nothing holds {:?} back: there is no adhesion", experiment.body));
         }

@@ -120,17 +120,21 @@ impl Frame {
         if path.is_file() {
             return Self::of_files(&[path.to_owned()], &[]);
         }
+        let mut before = None;
         loop {
             let (mut files, mut journals) = (Vec::new(), Vec::new());
-            collect(path, &mut files, &mut journals)?;
-            if files.is_empty() && journals.is_empty() {
-                return Err(StudyError::NoTable { path: path.to_owned(), help: "" });
-            }
-            let read = Self::of_files(&files, &journals);
-            // Of a table under way a journal may have become a chunk meanwhile, and the chunks one file: they are listed again.
-            if read.is_ok() || files.iter().chain(&journals).all(|file| file.exists()) {
+            let listed = collect(path, &mut files, &mut journals);
+            let read = listed.and_then(|()| match files.is_empty() && journals.is_empty() {
+                true => Err(StudyError::NoTable { path: path.to_owned(), help: "" }),
+                false => Self::of_files(&files, &journals),
+            });
+            // Of a table under way a journal may have become a chunk meanwhile, and the chunks one file: they are listed again
+            // until that tells nothing new.
+            let now = Some((files, journals));
+            if read.is_ok() || now == before {
                 return read;
             }
+            before = now;
         }
     }
 

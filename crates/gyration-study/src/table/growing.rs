@@ -2,6 +2,7 @@
 
 use super::describe::{describe, manifest};
 use super::disk::{chunk_of, folder, holds_shards, is_begun_only, is_of, lock, remove_table, replace_file};
+use super::held::Held;
 use super::journal::{self, Journal};
 use super::parquet::{Input, Output};
 use super::shard::Shard;
@@ -33,14 +34,13 @@ pub struct Table {
     /// Rows that it has.
     rows: u64,
     is_complete: bool,
-    /// Held as long as this process writes; none if it is another's.
-    lock: Option<File>,
+    /// Held as long as this process writes.
+    held: Held,
 }
 
 impl Drop for Table {
-    /// A process that was forked meanwhile has the file open as well, and with it the lock: closing it here would not do.
     fn drop(&mut self) {
-        let _ = self.lock.as_ref().map(File::unlock);
+        self.held.release();
     }
 }
 
@@ -125,16 +125,14 @@ impl Table {
             open: BTreeMap::new(),
             rows: 0,
             is_complete: false,
-            lock: Some(lock),
+            held: Held::new(lock),
             folder,
         }
     }
 
-    /// Leaves the table to the process from which this one was forked: its lock is let go of here and held there, so that it ends with
-    /// that process, and nothing is written.
-    pub fn disown(mut self) {
-        drop(self.lock.take());
-        std::mem::forget(self);
+    /// Its lock, for whoever is forked while the table is at work.
+    pub fn held(&self) -> Held {
+        self.held.clone()
     }
 
     /// The folder of this table or shard.

@@ -18,6 +18,7 @@ mod digest;
 mod disk;
 mod frame;
 mod growing;
+mod held;
 mod journal;
 mod merge;
 mod parquet;
@@ -26,6 +27,7 @@ mod shard;
 pub use digest::{Digest, Spread};
 pub use frame::{Data, Described, Frame, FrameColumn};
 pub use growing::Table;
+pub use held::Held;
 pub use merge::merge;
 pub use shard::Shard;
 

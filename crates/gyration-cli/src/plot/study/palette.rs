@@ -80,7 +80,11 @@ impl Palette {
 
     /// Entries of a legend: name and unit, then round values with their colours, from the largest.
     pub fn legend(&self) -> Vec<Series> {
-        let ticks = self.axis.ticks(ENTRIES);
+        let mut ticks = self.axis.ticks(ENTRIES);
+        if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
+            // A range too short for powers of ten.
+            ticks = Axis { scale: Scale::Linear, ..self.axis.clone() }.ticks(ENTRIES / 2);
+        }
         let entry = |tick: &Tick| {
             let words = tick.label.as_ref()?;
             Some(swatch(words.clone(), self.at(self.axis.place(tick.value))))
@@ -126,6 +130,8 @@ mod tests {
         let legend: Vec<String> = palette.legend().into_iter().map(|entry| entry.name).collect();
         assert_eq!(legend[..2], ["time [s]", "10^{3}"]);
         assert_eq!(legend.len(), 8);
+        let narrow = Palette::logarithmic(("time", "s"), [2.1, 4.9]).legend();
+        assert!(narrow.len() > 2, "{narrow:?}");
     }
 
     #[test]
