@@ -15,6 +15,7 @@ mod fit;
 mod known;
 mod observe;
 mod read;
+mod rebound;
 mod scale;
 
 pub use curve::{Curve, CurvePoint};

@@ -10,20 +10,15 @@
 //! The laws have no friction at rest: a body slides on every slope, v = (α/β) tan θ where both exponents are the same. The
 //! slope at which "it slides" is that at which it gets as fast as can be seen; so a slope is measured together with a speed.
 
+use super::rebound::Drop;
 use super::{Calibration, Experiment, Kind};
-use crate::observe::Layout;
 use gyration::balance::{observe, smallest_gap};
 use gyration::model::Model;
 use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration::tensor::Vec3;
-use gyration_record::RecordError;
 use gyration_scene::Scene;
-use gyration_sim::events::{APEX, Event};
 use gyration_sim::modes::rest;
-use gyration_sim::sensitivity::{At, Sensitivities};
-use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink};
-use std::cell::Cell;
 
 /// Points of a look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
 const POINTS: usize = 160;
@@ -35,12 +30,6 @@ const LOOKS: usize = 2;
 const SECTIONS: usize = 45;
 /// Step of differences, a part of the number.
 const DIFFERENCE: f64 = 1e-4;
-/// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along it would
-/// change is then of the order of rounding.
-const LEVEL: f64 = 1e-14;
-/// A rebound is looked for over so many times the time of the fall, and this long [s].
-const FALLS: f64 = 4.0;
-const LONGER: f64 = 1.0;
 
 /// What would be measured, and its derivatives by the numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +79,13 @@ impl Calibration {
     }
 
     /// The scene of a measurement.
-    fn scene(&self, experiment: &Experiment, condition: f64, values: &[f64], more: &[String]) -> Result<Scene, String> {
+    pub(super) fn scene(
+        &self,
+        experiment: &Experiment,
+        condition: f64,
+        values: &[f64],
+        more: &[String],
+    ) -> Result<Scene, String> {
         let mut overrides = self.overrides(values);
         overrides.extend(experiment.settings.iter().cloned());
         overrides.extend(experiment.key.iter().map(|key| format!("{key}={condition:?}")));
@@ -110,13 +105,13 @@ impl Calibration {
 }
 
 /// The index of the body.
-fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
+pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
     let found = model.bodies.iter().position(|body| body.name == experiment.body);
     found.ok_or_else(|| format!("there is no body `{}`", experiment.body))
 }
 
 /// The normal of the first support that acts on a body.
-fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
+pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
     let contact = model.bodies[body].contacts.first();
     let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
     Ok(model.supports[contact.support].normal)
@@ -211,152 +206,4 @@ fn pull_off(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
         if pull(a)? > pull(b)? { right = b } else { left = a }
     }
     pull(0.5 * (left + right))
-}
-
-/// A body about to be dropped.
-struct Drop {
-    scene: Scene,
-    index: usize,
-    normal: Vec3,
-    height: f64,
-    start: Vec3,
-}
-
-impl Drop {
-    fn of(calibration: &Calibration, experiment: &Experiment, height: f64, values: &[f64]) -> Result<Self, String> {
-        let still = format!("body.{}.velocity=[0.0, 0.0, 0.0]", experiment.body);
-        let first = calibration.scene(experiment, height, values, std::slice::from_ref(&still))?;
-        let (model, state) = (&first.built().model, &first.built().state);
-        let index = body(model, experiment)?;
-        let normal = normal(model, index)?;
-        let motion = state.motion(model, index);
-        if motion.velocity.gradient_rate.norm() > 0.0 {
-            let key = format!("body.{}.angular_velocity", experiment.body);
-            return Err(format!(
-                "it turns or deforms at its start, and is to be released at rest: set = {{ \"{key}\" = [0, 0, 0] }}"
-            ));
-        }
-        let gap = smallest_gap(model, 0.0, index, &motion);
-        let start = motion.placement.position + normal * (height - gap);
-        let fall = (2.0 * height / model.gravity.norm()).sqrt();
-        let end = FALLS * fall + LONGER;
-        let more = [
-            still,
-            format!("body.{}.position=[{:?}, {:?}, {:?}]", experiment.body, start.x, start.y, start.z),
-            format!("time={{ end = {end:?}, sample = {end:?} }}"),
-        ];
-        let scene = calibration.scene(experiment, height, values, &more)?;
-        Ok(Self { scene, index, normal, height, start })
-    }
-
-    /// The time of the apex [s], and where the centre of mass is then.
-    fn apex(&self) -> Result<(f64, Vec3), String> {
-        let built = self.scene.built();
-        let plan = RunPlan::from(built);
-        let place = Layout::new(&built.model, &plan).position + 3 * self.index;
-        let watch = Watch { body: self.index, place, touched: Cell::new(false), apex: Cell::new(None) };
-        let mut run = Simulation::new(&built.model, &built.state, plan).map_err(|e| e.to_string())?;
-        let (mut sink, mut monitor) = (&watch, &watch);
-        run.begin(&mut sink).map_err(|e| e.to_string())?;
-        let outcome = run.run(&mut sink, &mut monitor).map_err(|e| e.to_string())?;
-        let none = || format!("it does not rebound: {}", outcome.in_words());
-        watch.apex.get().ok_or_else(none)
-    }
-
-    fn rebound(&self) -> Result<f64, String> {
-        Ok(self.height_at(self.apex()?.1))
-    }
-
-    /// The gap with which the body started, and the rise of its centre of mass since.
-    fn height_at(&self, center: Vec3) -> f64 {
-        self.height + (center - self.start).dot(&self.normal)
-    }
-
-    /// The rebound with its derivatives by keys; those at a fixed time, since the speed vanishes at the apex.
-    fn at_apex(&self, keys: &[String]) -> Result<(f64, Vec<Option<f64>>), String> {
-        let (time, _) = self.apex()?;
-        let overrides = [self.scene.overrides(), &[format!("time={{ end = {time:?}, sample = {time:?} }}")]].concat();
-        let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides);
-        let scene = scene.map_err(|errors| errors.to_string())?;
-        let name = &scene.built().model.bodies[self.index].name;
-        let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
-        let found = Sensitivities::along(&scene, keys, &columns, At::End).map_err(|e| e.to_string())?;
-        let last = found.values.last().ok_or("the run has no end")?;
-        let slope = |row: &[f64]| Vec3::from_column_slice(row).dot(&self.normal);
-        let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().map(slope)).collect();
-        Ok((self.height_at(Vec3::from_column_slice(last)), slopes))
-    }
-
-    /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more than the contacts,
-    /// to where the body starts perhaps, or if the body does not rebound straight up, so that its speed along the normal does not
-    /// vanish at the apex.
-    fn observed(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
-        let gravity = self.scene.built().model.gravity;
-        let is_level = -gravity.dot(&self.normal) > (1.0 - LEVEL) * gravity.norm();
-        let of_contact = |number: &super::Number| is_level && number.keys.iter().all(|key| key.starts_with("contact."));
-        let keys: Vec<String> = calibration
-            .numbers
-            .iter()
-            .filter(|number| of_contact(number))
-            .flat_map(|number| number.keys.clone())
-            .collect();
-        if keys.is_empty() {
-            return Ok((self.rebound()?, vec![None; calibration.numbers.len()]));
-        }
-        let (value, by_key) = self.at_apex(&keys)?;
-        let mut by_key = by_key.into_iter();
-        let slope = |number: &super::Number| match of_contact(number) {
-            true => {
-                let own: Vec<Option<f64>> = by_key.by_ref().take(number.keys.len()).collect();
-                own.into_iter().sum()
-            }
-            false => None,
-        };
-        Ok((value, calibration.numbers.iter().map(slope).collect()))
-    }
-}
-
-/// Waits for the apex behind the first touch.
-struct Watch {
-    body: usize,
-    /// Where its centre of mass stands in a row.
-    place: usize,
-    touched: Cell<bool>,
-    apex: Cell<Option<(f64, Vec3)>>,
-}
-
-impl Sink for &Watch {
-    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
-        Ok(())
-    }
-
-    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        if event.body == self.body && event.kind != APEX {
-            self.touched.set(true);
-        }
-        Ok(())
-    }
-
-    fn wants_event_rows(&self) -> bool {
-        true
-    }
-
-    fn event_row(&mut self, event: &Event, row: &[f64]) -> Result<(), RecordError> {
-        let is_apex = event.body == self.body && event.kind == APEX && self.touched.get();
-        if is_apex && self.apex.get().is_none() {
-            let center = Vec3::from_column_slice(&row[self.place..self.place + 3]);
-            self.apex.set(Some((event.time, center)));
-        }
-        Ok(())
-    }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
-
-impl Monitor for &Watch {
-    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
-        self.apex.get().map(|_| Reason::Interrupted)
-    }
 }

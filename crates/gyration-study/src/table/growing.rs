@@ -75,7 +75,7 @@ impl Table {
         }
         fs::create_dir_all(&folder).map_err(StudyError::io("make", &folder))?;
         let held = held.map_or_else(|| lock(&folder), Ok)?;
-        let table = Self::new(folder, study, shard, held);
+        let table = Self::new(held, folder, study, shard);
         let manifest = format!("{:#}\n", manifest(study, shard));
         replace_file(&table.folder.join(MANIFEST), |path| {
             fs::write(path, &manifest).map_err(StudyError::io("write", path))
@@ -97,8 +97,7 @@ impl Table {
     pub fn resume(path: &Path, study: &Study, shard: Shard) -> Result<Self, StudyError> {
         let folder = folder(path, shard);
         is_of(&folder, study, shard)?;
-        let held = lock(&folder)?;
-        let mut table = Self::new(folder, study, shard, held);
+        let mut table = Self::new(lock(&folder)?, folder, study, shard);
         if table.folder.join(TABLE).is_file() {
             let rows = Input::open(&table.file())?.rows();
             if rows != table.runs {
@@ -113,7 +112,7 @@ impl Table {
         Ok(table)
     }
 
-    fn new(folder: PathBuf, study: &Study, shard: Shard, lock: File) -> Self {
+    fn new(lock: File, folder: PathBuf, study: &Study, shard: Shard) -> Self {
         let runs = shard.runs(study.runs());
         Self {
             shard,
