@@ -109,6 +109,35 @@ fn a_rebound_tells_the_damping() {
 }
 
 #[test]
+fn rebounds_from_short_impacts_tell_the_damping() {
+    let steel = "time = { end = 1, sample = 0.01 }\n[[support]]\nname = \"t\"\nplane = {}\n[[contact]]\nsupport = \"t\"\n\
+                 repulsion = { alpha = 1e4, nu = 6, d0 = 1e-4 }\ndamping = { beta = 2e4, nu = 4, d0 = 1e-4 }\n[[body]]\nname = \"b\"\n\
+                 shape = { sphere = { radius = 0.05 } }\ndensity = 2500\nposition = [0, 0, 0.5]\n";
+    let folder = tempfile::TempDir::new().unwrap();
+    std::fs::write(folder.path().join("steel.toml"), steel).unwrap();
+    let text = |start: f64, rebounds: &[f64]| {
+        format!(
+            "scene = \"steel.toml\"\n[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = {start:?}\n\
+             [[drop]]\nheight = [0.2, 0.35, 0.5]\nrebound = {rebounds:?}\ndeviation = 0.002\n"
+        )
+    };
+    let calibration =
+        |start: f64, rebounds: &[f64]| Calibration::parse("data.toml", &text(start, rebounds), folder.path()).unwrap();
+    let rebounds = calibration(6e4, &[0.1; 3]).predictions().unwrap();
+    let found = calibration(2e4, &rebounds).fit().unwrap();
+    println!("{rebounds:?}: {:?}", found.numbers);
+    assert!((found.numbers[0].value / 6e4 - 1.0).abs() < 1e-6, "{:?}", found.numbers);
+    // By what moves each rebound by a tenth of its deviation.
+    let moved = (0..3).map(|row| {
+        let rebounds: Vec<f64> = (0..3).map(|k| rebounds[k] + if k == row { 2e-4 } else { 0.0 }).collect();
+        10.0 * (calibration(6e4, &rebounds).fit().unwrap().numbers[0].value - 6e4)
+    });
+    let (error, expected) = (found.numbers[0].error.unwrap(), moved.map(|moved| moved * moved).sum::<f64>().sqrt());
+    println!("± {error}, by moving the measurements {expected}");
+    assert!((error / expected - 1.0).abs() < 0.02, "{error} {expected}");
+}
+
+#[test]
 fn a_body_that_spins_at_its_start_is_not_dropped() {
     let text = "scene = \"ball.toml\"\nset = { \"body.ball.angular_velocity\" = [0, 1, 0] }\n[fit.damping]\nkey = \"contact.0.damping.beta\"\n\
                 [[drop]]\nheight = 0.1\nrebound = 0.05\ndeviation = 1e-3\n";

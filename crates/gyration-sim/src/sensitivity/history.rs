@@ -72,6 +72,21 @@ impl History {
         piece.map_or(0.0, |piece| piece.to - piece.from)
     }
 
+    /// How far a step from one time towards another may go, if none of the steps of the run that it passes is shorter than it by more than a
+    /// factor: where the run looks closely, an impact may stand between the nodes of a long step, and none of them sees it.
+    pub fn limit(&self, (from, to): (f64, f64), factor: f64) -> f64 {
+        let first = self.steps.partition_point(|piece| piece.to <= from);
+        let mut limit = to;
+        for piece in self.steps.range(first..).take_while(|piece| piece.from < to) {
+            if piece.from >= limit {
+                break;
+            }
+            // To its beginning at least: what it has to say concerns no one before.
+            limit = limit.min((from + factor * (piece.to - piece.from)).max(piece.from));
+        }
+        if limit > from { limit } else { to }
+    }
+
     /// y at a time.
     pub fn at(&self, time: f64, y: &mut [f64]) {
         let Some(piece) = self.piece(time) else { return };
@@ -106,6 +121,20 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_step_does_not_pass_over_short_ones() {
+        let piece = |from: f64, to: f64| Piece { from, to, values: Vec::new() };
+        let steps = [piece(0.0, 1.0), piece(1.0, 1.01), piece(1.01, 1.02), piece(1.02, 2.0)];
+        let history = History { steps: steps.into(), spare: Vec::new() };
+        // Up to the first short one, then no more than five of them; behind them as far as wanted.
+        for (from, to, expected) in
+            [(0.0, 2.0, 1.0), (0.0, 0.5, 0.5), (1.0, 2.0, 1.05), (1.019, 2.0, 1.069), (1.02, 2.0, 2.0)]
+        {
+            let limit = history.limit((from, to), 5.0);
+            assert!((limit - expected).abs() < 1e-12, "{from} to {to}: {limit}");
+        }
+    }
 
     #[test]
     fn polynomials_come_back_from_their_values() {

@@ -34,6 +34,9 @@ const GROWTH: f64 = 1e-2;
 const NEGLIGIBLE: f64 = 1e-10;
 /// How the size of a step may change.
 const CHANGE: (f64, f64) = (0.2, 4.0);
+/// A step may be so many times as long as the shortest step of the run that it passes: several of its nodes then stand where the run
+/// found something to look at.
+const SPAN: f64 = 8.0;
 /// The run is kept for no more of its steps than that.
 const MOST_STEPS: usize = 100;
 /// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in it may relax
@@ -196,13 +199,16 @@ impl<'a> Tangent<'a> {
         self.variations.iter().any(Result::is_ok)
     }
 
-    /// Tries a step to a time; where it comes to none, all is lost.
-    fn step_to(&mut self, end: f64) {
+    /// Tries a step towards a time; where it comes to none, all is lost.
+    fn step_to(&mut self, wanted: f64) {
+        let end = self.history.limit((self.time, wanted), SPAN);
         let size = end - self.time;
         if size <= SMALLEST * self.history.step_at(self.time) {
             return self.lose_all("it changes faster than can be followed".into());
         }
         match self.attempt((self.time, end)) {
+            // What kept it short may be over behind it.
+            Ok(next) if self.time == end && end < wanted => self.size = self.size.max(next),
             Ok(next) => self.size = next,
             Err(left) => self.lose_all(reason(self.system.model(), self.time, &left)),
         }

@@ -5,6 +5,7 @@ mod bodies;
 mod closed_forms;
 mod drives;
 mod fluid;
+mod impacts;
 mod meaningless;
 mod samples;
 mod support;
