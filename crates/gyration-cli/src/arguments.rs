@@ -281,7 +281,7 @@ pub struct StudyPlot {
     /// Column that colours tell apart
     #[arg(long, visible_alias = "color", value_name = "COLUMN")]
     pub colour: Option<String>,
-    /// Kind of picture [default: by the columns]
+    /// Kind of picture; with this, --x or --y the study's own columns no longer count [default: what the study says, or by the columns]
     #[arg(long, value_parser = crate::plot::study::Kind::WORDS)]
     pub kind: Option<String>,
 }

@@ -51,7 +51,10 @@ fn in_unit(text: &str, what: &str, symbol: Option<&str>) -> Result<f64, (String,
             let message = format!("\"{text}\" is in {}, and {what} in {symbol} ({})", unit.dimension, wanted.dimension);
             Err((message, format!("write a number in {symbol}")))
         }
-        None => Err((format!("\"{text}\" has a unit, and {what} has none"), "write a plain number".into())),
+        None => {
+            let help = "write a plain number; or mend the key, if it is one that has a unit";
+            Err((format!("\"{text}\" has a unit, and {what} has none"), help.into()))
+        }
     }
 }
 

@@ -134,6 +134,7 @@ impl Walker<'_> {
             let message = format!("must be {condition}, found {}{unit}", short(number));
             let range = match (least, most) {
                 (Some(least), Some(most)) => format!("write a number from {least:?} to {most:?}{unit}"),
+                _ if number.is_nan() => "write the number itself".to_owned(),
                 _ => format!("write a number that is {condition}"),
             };
             self.findings.look_at(Fault::Value);

@@ -49,13 +49,18 @@ impl Calibration {
         let (low, high) = (if low > 0.0 { (low - beyond).max(0.5 * low) } else { low - beyond }, high + beyond);
         let points = if table.kind == Kind::Drop { RUNS } else { POINTS };
         let count = if high > low && (table.key.is_some() || table.kind.condition().is_some()) { points } else { 1 };
-        let point = |k: usize| {
-            let condition = low + (high - low) * k as f64 / (count - 1).max(1) as f64;
+        let even = (0..count).map(|k| low + (high - low) * k as f64 / (count - 1).max(1) as f64);
+        // Through what was measured, as long as that is little.
+        let own = table.conditions.iter().copied().filter(|_| count > 1 && table.conditions.len() <= points);
+        let mut conditions: Vec<f64> = even.chain(own).collect();
+        conditions.sort_unstable_by(f64::total_cmp);
+        conditions.dedup();
+        let point = |condition: f64| {
             let observed = self.observed(table, condition, values).ok()?;
             let slopes = nalgebra::DVector::from_vec(self.inward(&observed.slopes, values, 1.0));
             let variance = slopes.dot(&(&fitted.covariance * &slopes));
             Some(CurvePoint { condition, value: observed.value, half_width: WIDTH * variance.max(0.0).sqrt() })
         };
-        Curve { experiment: table.clone(), points: (0..count).into_par_iter().filter_map(point).collect() }
+        Curve { experiment: table.clone(), points: conditions.into_par_iter().filter_map(point).collect() }
     }
 }

@@ -128,6 +128,12 @@ fn number(sheet: &mut Sheet, name: &str, resolved: Option<&Json>) -> Option<Numb
             sheet.note(&place, format!("the scene has no number at `{key}`"), help);
             return None;
         }
+        // How a run is computed and recorded is nothing to be measured.
+        if ["time.", "solver.", "record."].iter().any(|table| key.starts_with(table)) {
+            let help = "fit numbers of bodies, supports and laws";
+            sheet.note(&place, format!("`{key}` says how the scene is run, and no measurement tells it"), help);
+            return None;
+        }
         own = own.or(found);
     }
     let mut given = |word: &str, value: Option<Json>| match value.map(|value| measured(&value, &keys[0])) {

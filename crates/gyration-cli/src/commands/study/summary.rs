@@ -27,7 +27,7 @@ pub fn in_words(study: &Study, digest: &Digest, effort: &Effort) -> String {
     }
     let points = study.points();
     let grid =
-        if points > 1 { format!(": {points} points, {} repetitions", study.repetitions()) } else { String::new() };
+        if points > 1 { format!(": {points} points, {}", repetitions(study.repetitions())) } else { String::new() };
     lines.push(format!("runs       {}{grid}", digest.rows));
     if let Some((_, spread)) = digest.column("outcome") {
         lines.push(format!("outcomes   {}", counted(spread)));
@@ -42,6 +42,10 @@ pub fn in_words(study: &Study, digest: &Digest, effort: &Effort) -> String {
         lines.push(format!("time       {}", throughput(effort)));
     }
     lines.join("\n")
+}
+
+fn repetitions(count: u64) -> String {
+    if count == 1 { "1 repetition".to_owned() } else { format!("{count} repetitions") }
 }
 
 /// The exit code of a finished table: a study none of whose runs could be made is no success.

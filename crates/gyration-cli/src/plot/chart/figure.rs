@@ -5,7 +5,7 @@
 use super::frame::{self, BELOW, NAME_SIZE, words_at};
 use super::legend::SIZE;
 use super::{Chart, Field, Legend, Shapes};
-use crate::plot::draw::{Anchor, Drawing, Label, Rect, Text, color};
+use crate::plot::draw::{Anchor, Drawing, Label, Rect, Text, color, font};
 use crate::plot::strip::Strip;
 
 /// Width of a page [pt]: fits between the margins of A4 and letter paper.
@@ -99,12 +99,27 @@ impl Figure {
             y += TITLE_SIZE;
             drawing.text(Text { bold: true, ..line(&self.title, y, TITLE_SIZE) });
         }
-        if !self.subtitle.is_empty() {
-            y += 1.6 * SIZE;
-            drawing.text(Text { color: color::GREY, ..line(&self.subtitle, y, SIZE) });
+        for (number, words) in in_lines(&self.subtitle).iter().enumerate() {
+            y += if number == 0 { 1.6 } else { 1.3 } * SIZE;
+            drawing.text(Text { color: color::GREY, ..line(words, y, SIZE) });
         }
         y + 0.5 * MARGIN
     }
+}
+
+/// Words in lines as wide as the page.
+fn in_lines(words: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split(' ').filter(|word| !word.is_empty()) {
+        match lines.last_mut() {
+            Some(line) if font::width(&format!("{line} {word}"), SIZE, false) < WIDTH - 2.0 * MARGIN => {
+                *line += " ";
+                *line += word;
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 /// Draws a chart below `y`; returns where it ends.
@@ -122,4 +137,20 @@ fn draw_chart(
     frame::draw((chart, shapes), drawing, area, with_words);
     legend.draw(drawing, [area.right() + BESIDE, area.y]);
     area.bottom() + if with_words { BELOW + 0.5 * NAME_SIZE } else { BETWEEN }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_subtitles_are_broken_between_words() {
+        assert_eq!(in_lines("came to rest"), ["came to rest"]);
+        assert!(in_lines("").is_empty());
+        let words =
+            "stopped at t = 1.234567 s: the smallest gap between the body and its support has closed ".repeat(3);
+        let lines = in_lines(&words);
+        assert!(lines.len() > 1 && lines.iter().all(|line| font::width(line, SIZE, false) < WIDTH), "{lines:?}");
+        assert_eq!(lines.join(" "), words.trim());
+    }
 }

@@ -156,7 +156,14 @@ fn of_numbers(bins: &Bins, title: &str, (values, by_run): (&[f64], &[f64]), (x, 
     let x = Axis { low: x.low.min(edge(0)), high: x.high.max(edge(bins.count)), ..x.clone() };
     let finite = |values: &[f64]| -> Vec<f64> { values.iter().copied().filter(|value| value.is_finite()).collect() };
     let mean = statistics::mean(&finite(by_run));
-    let remarks = vec![format!("{} values", finite(values).len()), format!("mean {}", in_words(&mean))];
+    let remarks = vec![
+        format!("{} values", finite(values).len()),
+        format!(
+            "mean {}{}",
+            in_words(&mean),
+            if x.unit.is_empty() { String::new() } else { format!(" {}", raised(&x.unit)) }
+        ),
+    ];
     let shapes = vec![Shapes::Areas { corners, fill: color::series(0) }];
     painted(Chart { title: title.to_owned(), x, y, series: Vec::new(), remarks, height }, shapes)
 }

@@ -5,7 +5,8 @@
 
 use super::request::Measure;
 use super::{
-    Column, Request, Table, Unfit, Values, axis_or, coloured_by, heading, kept, painted, palette, references, swatch,
+    Column, Request, Role, Table, Unfit, Values, axis_or, coloured_by, heading, kept, left_out, painted, palette,
+    references, swatch,
 };
 use crate::plot::chart::{Axis, Chart, Panel, Scale, Series, Shapes};
 use crate::plot::draw::Point;
@@ -26,10 +27,13 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
     let column = table.column(&shown.column)?;
     let cells = cells(&x, &y, table.len());
     let name = request.colour.as_ref().unwrap_or(&column.name);
-    let of_numbers = |values: &[f64]| {
+    let mut without = 0;
+    let mut of_numbers = |values: &[f64]| -> Result<Painted, Unfit> {
         let means = means(&cells, values);
-        let shown = means.iter().flatten().copied();
-        of_numbers(&cells, &means, &coloured_by(request, (name, &column.unit), shown))
+        let shown: Vec<f64> = means.iter().flatten().copied().collect();
+        let palette = coloured_by(request, (name, &column.unit), shown)?;
+        without = means.iter().flatten().filter(|mean| palette.shade(**mean).is_none()).count();
+        Ok(of_numbers(&cells, &means, &palette))
     };
     let (mut shapes, mut series) = match &column.values {
         Values::Words(words) if shown.values.is_empty() => of_words(&cells, (name, &column.categories()), words),
@@ -37,17 +41,17 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
             let hit = |word: &Option<String>| {
                 word.as_ref().map_or(f64::NAN, |word| f64::from(u8::from(shown.values.contains(word))))
             };
-            of_numbers(&words.iter().map(hit).collect::<Vec<_>>())
+            of_numbers(&words.iter().map(hit).collect::<Vec<_>>())?
         }
-        Values::Numbers(values) => of_numbers(values),
+        Values::Numbers(values) => of_numbers(values)?,
         Values::Lists(lists) => {
             let change = |list: &Vec<f64>| list.last().zip(list.first()).map_or(f64::NAN, |(last, first)| last - first);
-            of_numbers(&lists.iter().map(change).collect::<Vec<_>>())
+            of_numbers(&lists.iter().map(change).collect::<Vec<_>>())?
         }
     };
     references(request, &mut shapes, &mut series);
-    let chart = Chart { title: String::new(), x: x.axis(), y: y.axis(), series, remarks: Vec::new(), height: HEIGHT };
-    Ok(painted(chart, shapes))
+    let remarks = left_out(without);
+    Ok(painted(Chart { title: String::new(), x: x.axis(), y: y.axis(), series, remarks, height: HEIGHT }, shapes))
 }
 
 /// A parameter and the edges of its cells.
@@ -67,6 +71,12 @@ impl<'a> Edges<'a> {
                 "a map needs two axes of numbers: --x NAME --y NAME, or another --kind",
             ));
         };
+        if !matches!(column.role, Role::Axis(_)) && 2 * levels.len() > numbers.len() {
+            return Err(Unfit::new(
+                format!("`{}` has hardly a value twice: there are no cells of a map", column.name),
+                "a map needs two axes of the grid; for random numbers there is --kind scatter",
+            ));
+        }
         let even = |value: f64| if column.scale() == Scale::Logarithmic { value.ln() } else { value };
         let back = |value: f64| if column.scale() == Scale::Logarithmic { value.exp() } else { value };
         let places: Vec<f64> = levels.iter().map(|level| even(*level)).collect();

@@ -67,11 +67,10 @@ pub fn figure(table: &Table, request: &Request) -> Result<Figure, Unfit> {
         Kind::Scatter => vec![scatter::panel(table, request)?],
     };
     let title = request.title.clone().unwrap_or_else(|| table.title.clone());
-    let failures = match table.failures() {
-        0 => String::new(),
-        failed => format!(", {failed} of them failed"),
-    };
-    Ok(Figure { title, subtitle: format!("{} runs{failures}", table.len()), panels })
+    let told = [(table.failures(), "failed"), (table.early(), "ended early")];
+    let told: Vec<String> =
+        told.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {count} of them {what}")).collect();
+    Ok(Figure { title, subtitle: format!("{} runs{}", table.len(), told.concat()), panels })
 }
 
 /// The kind of picture that suits the columns.
@@ -121,9 +120,31 @@ fn heading(name: impl Into<String>) -> Series {
 }
 
 /// The colours of numbers, of this name and unit.
-fn coloured_by(request: &Request, what: (&str, &str), values: impl Iterator<Item = f64>) -> palette::Palette {
-    let logarithmic = request.is_logarithmic("colour") || request.is_logarithmic("color");
-    if logarithmic { palette::Palette::logarithmic(what, values) } else { palette::Palette::of(what, values) }
+///
+/// # Errors
+/// [`Unfit`] if they are to be logarithmic, and none is above zero.
+fn coloured_by(request: &Request, what: (&str, &str), values: Vec<f64>) -> Result<palette::Palette, Unfit> {
+    if request.is_logarithmic("colour") || request.is_logarithmic("color") {
+        with_logarithms(what.0, &values)?;
+        return Ok(palette::Palette::logarithmic(what, values));
+    }
+    Ok(palette::Palette::of(what, values))
+}
+
+/// Refuses numbers of which none has a logarithm.
+fn with_logarithms(name: &str, values: &[f64]) -> Result<(), Unfit> {
+    match values.iter().any(|value| *value > 0.0) {
+        true => Ok(()),
+        false => Err(Unfit::new(
+            format!("no number of `{name}` is above zero: none has a logarithm"),
+            "leave it out of `logarithmic`",
+        )),
+    }
+}
+
+/// The remark on what a logarithmic scale leaves out.
+fn left_out(count: usize) -> Vec<String> {
+    if count == 0 { Vec::new() } else { vec![format!("{count} left out: not above zero")] }
 }
 
 /// What is known from elsewhere, above everything else: lines, or dots in a ring.

@@ -2,8 +2,8 @@
 
 use super::request::Measure;
 use super::{
-    Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, coloured_by, heading, kept, painted, palette,
-    references, swatch,
+    Column, HEIGHT, Request, Role, Table, Unfit, Values, axis_or, coloured_by, heading, kept, left_out, painted,
+    palette, references, swatch, with_logarithms,
 };
 use crate::plot::chart::{Axis, Chart, Panel, Scale, Series, Shapes};
 use crate::plot::draw::{Point, color};
@@ -39,14 +39,20 @@ pub fn panel(table: &Table, request: &Request) -> Result<Panel, Unfit> {
     };
     references(request, &mut shapes, &mut series);
     let beside = || request.reference.iter().flat_map(|reference| &reference.points);
-    let axis = |column: &Column, side: &str, k: usize| {
-        let values = points.iter().map(|(_, point)| point[k]).chain(beside().map(|point| point[k]));
-        let logarithmic = request.is_logarithmic(side) || column.scale() == Scale::Logarithmic;
-        let make = if logarithmic { Axis::logarithmic } else { Axis::linear };
-        make(&column.name, &column.unit, values)
+    let axis = |column: &Column, side: &str, k: usize| -> Result<Axis, Unfit> {
+        let own: Vec<f64> = points.iter().map(|(_, point)| point[k]).collect();
+        let values = own.iter().copied().chain(beside().map(|point| point[k]));
+        if request.is_logarithmic(side) || column.scale() == Scale::Logarithmic {
+            with_logarithms(&column.name, &own)?;
+            return Ok(Axis::logarithmic(&column.name, &column.unit, values));
+        }
+        Ok(Axis::linear(&column.name, &column.unit, values))
     };
-    let (x, y) = (axis(x, "x", 0), axis(y, "y", 1));
-    Ok(painted(Chart { title: String::new(), x, y, series, remarks: Vec::new(), height: HEIGHT }, shapes))
+    let (x, y) = (axis(x, "x", 0)?, axis(y, "y", 1)?);
+    let is_out = |axis: &Axis, value: f64| axis.scale == Scale::Logarithmic && value <= 0.0;
+    let without = points.iter().filter(|(_, point)| is_out(&x, point[0]) || is_out(&y, point[1])).count();
+    let remarks = left_out(without);
+    Ok(painted(Chart { title: String::new(), x, y, series, remarks, height: HEIGHT }, shapes))
 }
 
 /// The dots of a run; a list goes with a number, or with a list of the same length.
@@ -81,7 +87,7 @@ fn coloured(points: &[(usize, Point)], column: &Column, (request, radius): (&Req
             Ok((dots.into_iter().map(shapes).collect(), legend.collect()))
         }
         Values::Numbers(values) => {
-            let palette = coloured_by(request, (&column.name, &column.unit), values.iter().copied());
+            let palette = coloured_by(request, (&column.name, &column.unit), values.clone())?;
             for (run, point) in points {
                 if let Some(shade) = palette.shade(values[*run]) {
                     dots.entry(shade).or_default().push(*point);

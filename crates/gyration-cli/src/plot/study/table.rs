@@ -102,8 +102,17 @@ impl Table {
 
     /// How many runs failed.
     pub fn failures(&self) -> usize {
+        self.outcomes(|word| word == "failed")
+    }
+
+    /// How many runs had to stop before their end.
+    pub fn early(&self) -> usize {
+        self.outcomes(|word| !["completed", "at_rest", "failed"].contains(&word))
+    }
+
+    fn outcomes(&self, is_meant: impl Fn(&str) -> bool) -> usize {
         let Some(Values::Words(words)) = self.column("outcome").ok().map(|column| &column.values) else { return 0 };
-        words.iter().filter(|word| word.as_deref() == Some("failed")).count()
+        words.iter().flatten().filter(|word| is_meant(word)).count()
     }
 }
 

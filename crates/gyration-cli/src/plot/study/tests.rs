@@ -84,7 +84,7 @@ fn the_mean_of_lists_is_over_runs() {
     let figure = figure(&table(vec![column]), &request).unwrap();
     // Two values, 1 and 3: t = 12.7 with one degree of freedom.
     let remarks = &field(&figure).chart.remarks;
-    assert_eq!(remarks[..], ["100 values", "mean 2 ± 13"], "{remarks:?}");
+    assert_eq!(remarks[..], ["100 values", "mean 2 ± 13 m"], "{remarks:?}");
 }
 
 #[test]
@@ -155,6 +155,43 @@ fn what_does_not_suit_is_told_with_what_there_is() {
     let problem = figure(&grid(), &ask("face", "height", Kind::Map)).unwrap_err().to_string();
     assert!(problem.contains("two axes of numbers"), "{problem}");
     assert!(figure(&table(vec![words("face", &["", ""])]), &ask("face", "face", Kind::Scatter)).is_err());
+}
+
+#[test]
+fn a_logarithmic_scale_says_what_it_leaves_out() {
+    let request = |x: &str, kind| Request {
+        kind: Some(kind),
+        x: Some(x.into()),
+        y: Some("spin".into()),
+        colour: Some("last".into()),
+        logarithmic: vec!["x".into(), "colour".into()],
+        ..Request::default()
+    };
+    let mut table = grid();
+    table.columns[3] = numbers("last", Role::Kept, vec![0.0, 0.0, 2.0, 2.0, 4.0, 4.0, 5.0, f64::NAN]);
+    let remarks = |figure: &Figure| field(figure).chart.remarks.clone();
+    assert_eq!(remarks(&figure(&table, &request("height", Kind::Map)).unwrap()), ["1 left out: not above zero"]);
+    let change = vec![-1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    table.columns.push(numbers("change", Role::Kept, change));
+    assert_eq!(remarks(&figure(&table, &request("change", Kind::Scatter)).unwrap()), ["2 left out: not above zero"]);
+    table.columns[3] = numbers("last", Role::Kept, vec![-1.0; 8]);
+    for kind in [Kind::Map, Kind::Scatter] {
+        let problem = figure(&table, &request("height", kind)).unwrap_err().to_string();
+        assert!(problem.contains("`last` is above zero") && problem.contains("logarithmic"), "{problem}");
+    }
+}
+
+#[test]
+fn runs_that_ended_early_are_counted() {
+    let mut table = grid();
+    table.columns.push(Column {
+        name: "outcome".into(),
+        ..words("", &["completed", "failed", "gap_closed", "step_limit", "at_rest", "completed", "completed", "failed"])
+    });
+    assert_eq!(
+        figure(&table, &Request::default()).unwrap().subtitle,
+        "8 runs, 2 of them failed, 2 of them ended early"
+    );
 }
 
 #[test]
