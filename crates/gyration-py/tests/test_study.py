@@ -2,7 +2,6 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -109,7 +108,7 @@ class Dying(Executor):
     def submit(self, function, /, *arguments, **keywords):
         self.count += 1
         if self.count == self.after:
-            return self.pool.submit(os.kill, next(iter(self.pool._processes)), signal.SIGKILL)
+            return self.pool.submit(os.abort)
         return self.pool.submit(function, *arguments, **keywords)
 
 
@@ -118,7 +117,7 @@ def test_a_broken_pool_keeps_what_it_had_and_says_how_to_go_on(tmp_path, referen
     executor = Dying(after=9)
     with pytest.raises(gyration.StudyError, match="resume=True") as caught:
         gyration.study(STUDY, folder, executor=executor, batch=2)
-    assert isinstance(caught.value.__cause__, BrokenProcessPool | TypeError)
+    assert isinstance(caught.value.__cause__, BrokenProcessPool)
     kept = gyration.Table.open(folder)["run"]
     assert len(set(kept)) == len(kept) < 60
     gyration.study(STUDY, folder, threads=2, resume=True)

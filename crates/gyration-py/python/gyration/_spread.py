@@ -13,6 +13,7 @@ import sys
 import time
 import uuid
 from collections.abc import Callable
+from concurrent.futures import BrokenExecutor
 from typing import Any
 
 from gyration import _gyration
@@ -101,6 +102,8 @@ def spread(
             while len(waiting) < ahead and (numbers := work.take(size)):
                 try:
                     future = executor.submit(rows, source, numbers, attempt)
+                except BrokenExecutor:
+                    raise
                 except Exception as error:
                     raise given_up(work, error) from error
                 waiting[future] = numbers
@@ -115,6 +118,8 @@ def spread(
             numbers = waiting.pop(future)
             try:
                 lines, recordings, seconds = future.result()
+            except BrokenExecutor:
+                raise
             except Exception as error:
                 raise given_up(work, error) from error
             work.append(numbers, lines, recordings)
@@ -124,6 +129,10 @@ def spread(
                 size = next_size(size, len(numbers), seconds, recordings)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"finished rows are kept; {way_on(work)}") from None
+    except BrokenExecutor as error:
+        # It ends its futures by itself, and some do not bear that another one cancels them meanwhile.
+        waiting.clear()
+        raise given_up(work, error) from error
     finally:
         for future in waiting:
             future.cancel()
