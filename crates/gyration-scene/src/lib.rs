@@ -8,8 +8,8 @@
 //! key and fix ([`SceneErrors`]); a file that cannot be read at all is a [`ReadError`]. The types of the file are in
 //! [`mod@file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
 
+mod assemble;
 pub mod boundary;
-mod build;
 mod check;
 pub mod deforming;
 mod document;
@@ -29,7 +29,7 @@ mod template;
 mod tree;
 pub mod units;
 
-pub use build::{Built, Plan, Record, StopAtRest};
+pub use assemble::{Built, Plan, Record, StopAtRest};
 pub use error::{Fault, LoadError, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::gallery;

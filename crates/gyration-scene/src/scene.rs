@@ -1,6 +1,6 @@
 //! A scene: read → check → build, all errors at once.
 
-use crate::build::Built;
+use crate::assemble::Built;
 use crate::error::{LoadError, SceneErrors};
 use crate::file::SceneFile;
 use crate::template::Template;

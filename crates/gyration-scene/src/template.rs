@@ -3,7 +3,7 @@
 //! [`Scene::parse`] is [`Template::parse`] and [`Template::scene`]; the errors are the same either way. A study opens a
 //! scene thousands of times, each with other numbers.
 
-use crate::build::{Setting, build, salvage};
+use crate::assemble::{Setting, assemble, salvage};
 use crate::check::{Draft, Judge, RULES, structure, values};
 use crate::document::{Document, Findings};
 use crate::error::{Fault, LoadError, ReadError, SceneErrors};
@@ -79,7 +79,7 @@ impl Template {
         let mut judge = Judge { document: &document, findings: &mut findings };
         values(&draft, &mut judge);
         let setting = Setting::new(&draft, &document, &self.base);
-        let built = build(&mut draft, &setting, &mut judge);
+        let built = assemble(&mut draft, &setting, &mut judge);
         salvage(&document, &setting, &mut findings);
         match (draft.complete(), built) {
             (Some(file), Some(built)) if findings.is_empty() => {

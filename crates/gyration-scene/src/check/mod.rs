@@ -2,7 +2,7 @@
 //!
 //! `structure` walks the tree along `rule`, which is the JSON Schema of the file's types in a form that is quick to
 //! walk. Each section, support, contact and body that passes is deserialized into a [`Draft`] and goes on to `values`
-//! and to `build`, so that a misspelt key in one body does not hide a missing support of another.
+//! and to `assemble`, so that a misspelt key in one body does not hide a missing support of another.
 
 mod draft;
 mod rule;

@@ -106,10 +106,10 @@ impl Plan {
     }
 }
 
-/// Builds what a draft describes; none if anything about it, or before it, was found wrong.
+/// Assembles what a draft describes; none if anything about it, or before it, was found wrong.
 ///
 /// Fills in what the file leaves to be derived (`resolve`).
-pub(crate) fn build(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'_>) -> Option<Built> {
+pub(crate) fn assemble(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'_>) -> Option<Built> {
     let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, setting, judge)).collect();
     let around = draft.fluid.as_ref().map(|written| fluid::fluid(written, setting, judge));
     let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
