@@ -16,7 +16,6 @@ mod document;
 mod error;
 pub mod file;
 mod gallery;
-pub mod geometry;
 mod key;
 pub mod quantity;
 mod read;

@@ -1,36 +1,11 @@
-//! The inputs that fuzzing has found worth keeping, read again: by the ordinary compiler, without the fuzzer.
-//!
-//! They stand in `fuzz/corpus`, a folder for each target; what is asked of a reader stands beside the targets.
+//! The scenes that fuzzing has found worth keeping, read again: by the ordinary compiler, without the fuzzer.
 
-#[path = "../../../fuzz/fuzz_targets/common/mesh.rs"]
-mod mesh;
+#[path = "../../../fuzz/fuzz_targets/common/replay.rs"]
+mod replay;
 #[path = "../../../fuzz/fuzz_targets/common/scene.rs"]
 mod scene;
 
-use std::path::{Path, PathBuf};
-
-/// The inputs of a target and their paths, by name.
-fn inputs(target: &str) -> Vec<(PathBuf, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus").join(target);
-    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let path = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap_or_else(|error| panic!("{error}")).path();
-    let mut paths: Vec<PathBuf> = entries.map(path).collect();
-    paths.sort();
-    assert!(paths.len() >= 10, "{}: only {} inputs", folder.display(), paths.len());
-    let read = |path: PathBuf| match std::fs::read(&path) {
-        Ok(bytes) => (path, bytes),
-        Err(error) => panic!("{}: {error}", path.display()),
-    };
-    paths.into_iter().map(read).collect()
-}
-
-/// Reads every input of a target, and names the one that a panic comes from.
-fn replay(target: &str, check: impl Fn(&[u8])) {
-    for (path, bytes) in inputs(target) {
-        println!("{}", path.display());
-        check(&bytes);
-    }
-}
+use replay::replay;
 
 #[test]
 fn scenes_of_the_corpus_are_read_or_refused_with_a_place() {
@@ -40,11 +15,4 @@ fn scenes_of_the_corpus_are_read_or_refused_with_a_place() {
             scene::check(text);
         }
     });
-}
-
-#[test]
-fn meshes_of_the_corpus_are_sound_or_refused_in_words() {
-    for format in ["stl", "obj", "ply"] {
-        replay(format, |bytes| mesh::check(&format!("fuzz.{format}"), bytes));
-    }
 }

@@ -2,7 +2,6 @@
 
 use gyration::body::BodyKind;
 use gyration::tensor::Mat3;
-use gyration_scene::geometry::{MeshError, parse_mesh};
 use gyration_scene::{Scene, SceneErrors, gallery};
 use proptest::prelude::*;
 use std::path::Path;
@@ -254,24 +253,6 @@ fn files_with_very_many_names_end_soon() {
     let text = format!("[time]\nend = 1\nsample = 1\n{supports}{contacts}{bodies}");
     let Err(errors) = read("a.toml", &text, &[]) else { panic!("taken") };
     assert!(errors.to_string().contains("more than 1000000"), "{errors}");
-}
-
-/// Took hours: a fan was tried from each of the corners.
-#[test]
-fn polygons_of_very_many_corners_end_soon() {
-    let count = 50_000;
-    let corner = |k: usize| (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
-    let vertices: String = (0..count).map(corner).map(|(y, x)| format!("v {x} {y} 0\n")).collect();
-    let face: String = (1..=count).map(|k| format!(" {k}")).collect();
-    let read = |text: String| parse_mesh(Path::new("disk.obj"), text.as_bytes(), 1.0);
-    let cone: String = (1..=count).map(|k| format!("f {} {k} {}\n", k % count + 1, count + 1)).collect();
-    let Err(MeshError::NotABody { fault, .. }) = read(format!("{vertices}f{face}\n")) else {
-        panic!("a disk is taken")
-    };
-    assert!(fault.to_string().contains("not closed"), "{fault}");
-    let mesh = read(format!("{vertices}v 0 0 -1\nf{face}\n{cone}")).unwrap_or_else(|error| panic!("{error}"));
-    // A third of the area of the base, which is that of the circle to 1e-8.
-    assert!((mesh.mass_properties(1.0).volume / (std::f64::consts::PI / 3.0) - 1.0).abs() < 1e-8);
 }
 
 /// The exponents of a unit overflowed.

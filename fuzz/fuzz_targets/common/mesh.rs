@@ -1,6 +1,6 @@
 //! What a mesh reader owes whatever bytes it gets: a body that is sound, or an error in words.
 
-use gyration_scene::geometry::parse_mesh;
+use gyration_geometry::parse_mesh;
 use std::path::Path;
 
 /// Reads the bytes as the file of this name.

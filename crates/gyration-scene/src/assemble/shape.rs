@@ -3,7 +3,6 @@
 use super::orientation::orientation;
 use crate::check::Judge;
 use crate::file;
-use crate::geometry::{self, MeshError};
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::shape::{
@@ -11,6 +10,7 @@ use gyration::shape::{
     Union,
 };
 use gyration::tensor::Vec3;
+use gyration_geometry::{MeshError, hull, read_mesh};
 use std::path::Path;
 
 /// Where shapes come from and where complaints go.
@@ -61,14 +61,14 @@ impl Maker<'_, '_> {
 
     fn hull(&mut self, polyhedron: &file::Polyhedron, key: &Key) -> Option<Polyhedron> {
         let points: Vec<Vec3> = polyhedron.vertices.iter().map(si).collect();
-        let made = geometry::hull(&points);
+        let made = hull(&points);
         made.map_err(|error| self.judge.note(&key.key("vertices"), error.to_string(), "give points that span a volume"))
             .ok()
     }
 
     fn mesh(&mut self, mesh: &file::Mesh, key: &Key) -> Option<Polyhedron> {
         let path = self.base.join(&mesh.file);
-        let read = geometry::read_mesh(&path, mesh.scale.value());
+        let read = read_mesh(&path, mesh.scale.value());
         read.map_err(|error| {
             let help = match error {
                 MeshError::Unreadable { .. } => "the path is relative to the folder of the scene",

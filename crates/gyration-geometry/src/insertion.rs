@@ -22,7 +22,7 @@ use robust::{Coord3D, orient3d};
 const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 
 /// Points about which signs of volumes are asked.
-pub(super) struct Cloud(pub Vec<Coord3D<f64>>);
+pub(crate) struct Cloud(pub Vec<Coord3D<f64>>);
 
 /// A triangle of a hull under way.
 struct Face {
@@ -42,7 +42,7 @@ struct Hull {
 
 impl Cloud {
     /// The points in units of a power of two near their size, which is exact and keeps products of coordinates in range.
-    pub(super) fn new(points: &[Vec3]) -> Self {
+    pub(crate) fn new(points: &[Vec3]) -> Self {
         let size = points.iter().map(|point| point.amax()).fold(0.0, f64::max);
         let unit = size.log2().ceil().exp2();
         let scaled = |value: f64| if (value / unit).abs() < SMALLEST { 0.0 } else { value / unit };
@@ -50,13 +50,13 @@ impl Cloud {
     }
 
     /// The exact sign of (b−a) × (c−a) · (p−a): positive if p sees the triangle.
-    pub(super) fn height(&self, [a, b, c]: [usize; 3], p: usize) -> f64 {
+    pub(crate) fn height(&self, [a, b, c]: [usize; 3], p: usize) -> f64 {
         // The crate's sign is positive below.
         -orient3d(self.0[a], self.0[b], self.0[c], self.0[p])
     }
 
     /// The triangles of the hull of some of the points, which do not lie in a plane.
-    pub(super) fn triangles(&self, chosen: &[usize]) -> Vec<[usize; 3]> {
+    pub(crate) fn triangles(&self, chosen: &[usize]) -> Vec<[usize; 3]> {
         let mut hull = Hull::default();
         let first = self.first_tetrahedron(chosen).map(|corners| hull.add(corners));
         self.distribute(&mut hull, chosen.iter().copied(), &first);
@@ -141,7 +141,7 @@ impl Cloud {
     }
 
     /// The vertices at which at least three faces meet; others lie within a face or an edge.
-    pub(super) fn corners(&self, triangles: &[[usize; 3]]) -> Vec<usize> {
+    pub(crate) fn corners(&self, triangles: &[[usize; 3]]) -> Vec<usize> {
         let mut faces_at = vec![Vec::<[usize; 3]>::new(); self.0.len()];
         for &triangle in triangles {
             for vertex in triangle {

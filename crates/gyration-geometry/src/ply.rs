@@ -6,12 +6,12 @@
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 
-use super::fault::{FileFault, Place, Trouble, finite};
-use super::ply_header::{Element, Encoding, Header, Scalar, read_header};
-use super::polygon::add_polygon;
+use crate::fault::{FileFault, Place, Trouble, finite};
+use crate::ply_header::{Element, Encoding, Header, Scalar, read_header};
+use crate::polygon::add_polygon;
 
 /// Reads a PLY file.
-pub(super) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     let header = read_header(bytes)?;
     let mut values = Values::after(&header, bytes);
     let mut mesh = Polyhedron::default();

@@ -6,7 +6,7 @@
 
 use gyration::tensor::Vec3;
 
-use super::fault::{FileFault, Place, Trouble};
+use crate::fault::{FileFault, Place, Trouble};
 
 /// Turned-over area that is rounding, relative to that of the polygon; 1e-7 is single precision.
 const TURNED_OVER: f64 = 1e-6;
@@ -15,7 +15,7 @@ const TURNED_OVER: f64 = 1e-6;
 const MOST_TRIED: usize = 64;
 
 /// Adds the triangles of the polygon with the given corners, all valid indices of `vertices`.
-pub(super) fn add_polygon(
+pub(crate) fn add_polygon(
     corners: &[usize],
     vertices: &[Vec3],
     triangles: &mut Vec<[usize; 3]>,

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use gyration::shape::{Polyhedron, PolyhedronError};
 
-use super::fault::FileFault;
-use super::{obj, ply, stl};
+use crate::fault::FileFault;
+use crate::{obj, ply, stl};
 
 /// Largest mesh file that is read \[bytes\]: ten million triangles of binary STL.
 pub const MAX_MESH_BYTES: u64 = 512 << 20;

@@ -1,13 +1,11 @@
 //! Mesh files and hulls: every format gives the same cube, every way of being broken is refused with its place.
 
-#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic as the tests themselves may")]
-
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gyration::shape::{Polyhedron, PolyhedronError};
 use gyration::tensor::Vec3;
-use gyration_scene::geometry::{MAX_MESH_BYTES, MeshError, Place, Trouble, read_mesh};
+use gyration_geometry::{MAX_MESH_BYTES, MeshError, Place, Trouble, parse_mesh, read_mesh};
 use tempfile::TempDir;
 
 /// Faces of the unit cube [0,1]³, corners by the bits of x, y, z; counter-clockwise from outside.
@@ -443,4 +441,22 @@ fn garbage_is_refused_without_a_panic() {
             }
         }
     }
+}
+
+/// Took hours: a fan was tried from each of the corners.
+#[test]
+fn polygons_of_very_many_corners_end_soon() {
+    let count = 50_000;
+    let corner = |k: usize| (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+    let vertices: String = (0..count).map(corner).map(|(y, x)| format!("v {x} {y} 0\n")).collect();
+    let face: String = (1..=count).map(|k| format!(" {k}")).collect();
+    let read = |text: String| parse_mesh(Path::new("disk.obj"), text.as_bytes(), 1.0);
+    let cone: String = (1..=count).map(|k| format!("f {} {k} {}\n", k % count + 1, count + 1)).collect();
+    let Err(MeshError::NotABody { fault, .. }) = read(format!("{vertices}f{face}\n")) else {
+        panic!("a disk is taken")
+    };
+    assert!(fault.to_string().contains("not closed"), "{fault}");
+    let mesh = read(format!("{vertices}v 0 0 -1\nf{face}\n{cone}")).unwrap_or_else(|error| panic!("{error}"));
+    // A third of the area of the base, which is that of the circle to 1e-8.
+    assert!((mesh.mass_properties(1.0).volume / (std::f64::consts::PI / 3.0) - 1.0).abs() < 1e-8);
 }

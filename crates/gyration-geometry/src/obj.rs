@@ -6,11 +6,11 @@
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 
-use super::fault::{FileFault, Place, Trouble, coordinate};
-use super::polygon::add_polygon;
+use crate::fault::{FileFault, Place, Trouble, coordinate};
+use crate::polygon::add_polygon;
 
 /// Reads an OBJ file.
-pub(super) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     let mut mesh = Polyhedron::default();
     let mut corners = Vec::new();
     for (index, line) in String::from_utf8_lossy(bytes).lines().enumerate() {

@@ -4,7 +4,7 @@
 //! where a tolerance loses corners. Before that, points that span no volume are refused; behind it, vertices that lie
 //! within a face or an edge are left out.
 
-use super::insertion::Cloud;
+use crate::insertion::Cloud;
 use gyration::shape::Polyhedron;
 use gyration::tensor::{Mat3, Vec3};
 

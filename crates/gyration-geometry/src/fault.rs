@@ -87,24 +87,24 @@ pub enum Trouble {
 
 impl Trouble {
     /// The trouble at a place.
-    pub(super) fn at(self, place: Place) -> FileFault {
+    pub(crate) fn at(self, place: Place) -> FileFault {
         FileFault { place, trouble: self }
     }
 
     /// Something unexpected; long text is cut.
-    pub(super) fn unexpected(expected: &'static str, found: &str) -> Self {
+    pub(crate) fn unexpected(expected: &'static str, found: &str) -> Self {
         Self::Unexpected { expected, found: found.chars().take(40).collect() }
     }
 }
 
 /// The finite number that a word of a text stands for.
-pub(super) fn coordinate(word: Option<&str>, place: Place) -> Result<f64, FileFault> {
+pub(crate) fn coordinate(word: Option<&str>, place: Place) -> Result<f64, FileFault> {
     let word = word.ok_or(Trouble::Truncated { expected: "a coordinate" }.at(place))?;
     let value = word.parse().map_err(|_| Trouble::unexpected("a number", word).at(place))?;
     finite(value, place)
 }
 
 /// The value, if it is finite.
-pub(super) fn finite(value: f64, place: Place) -> Result<f64, FileFault> {
+pub(crate) fn finite(value: f64, place: Place) -> Result<f64, FileFault> {
     if value.is_finite() { Ok(value) } else { Err(Trouble::NotFinite { value }.at(place)) }
 }

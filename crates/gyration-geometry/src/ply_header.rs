@@ -1,10 +1,10 @@
 //! The header of a PLY file: its format, and which elements with which properties follow.
 
-use super::fault::{FileFault, Place, Trouble};
+use crate::fault::{FileFault, Place, Trouble};
 
 /// How the values behind the header are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(crate) enum Encoding {
     Text,
     LittleEndian,
     BigEndian,
@@ -12,7 +12,7 @@ pub(super) enum Encoding {
 
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scalar {
+pub(crate) enum Scalar {
     I8,
     U8,
     I16,
@@ -25,7 +25,7 @@ pub(super) enum Scalar {
 
 /// A property of an element.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Property {
+pub(crate) struct Property {
     pub name: String,
     /// The type of the number of values before them, for a list.
     pub count: Option<Scalar>,
@@ -34,7 +34,7 @@ pub(super) struct Property {
 
 /// A kind of record.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Element {
+pub(crate) struct Element {
     pub name: String,
     pub count: u64,
     pub properties: Vec<Property>,
@@ -44,7 +44,7 @@ pub(super) struct Element {
 
 /// The header and where it ends.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Header {
+pub(crate) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
     pub bytes: usize,
@@ -90,7 +90,7 @@ impl Element {
 }
 
 /// Reads the header, up to and with the line `end_header`.
-pub(super) fn read_header(bytes: &[u8]) -> Result<Header, FileFault> {
+pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, FileFault> {
     let mut lines = HeaderLines { bytes, offset: 0, number: 0 };
     let first = lines.next_line()?;
     if first != "ply" {

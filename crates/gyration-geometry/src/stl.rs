@@ -7,7 +7,7 @@
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 
-use super::fault::{FileFault, Place, Trouble, coordinate, finite};
+use crate::fault::{FileFault, Place, Trouble, coordinate, finite};
 
 /// Bytes before the first triangle.
 const HEADER: usize = 84;
@@ -15,7 +15,7 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// Reads an STL file; every triangle has its own three vertices.
-pub(super) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     let announced = bytes.get(80..HEADER).map(|word| u32_at(word, 0));
     let is_exactly_binary = announced.is_some_and(|count| bytes.len() == HEADER + TRIANGLE * count as usize);
     let looks_like_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
