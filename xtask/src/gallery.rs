@@ -107,6 +107,11 @@ fn list(mut command: Command) -> Result<Vec<Entry>, String> {
     if entries.is_empty() { Err("`gyration scenes` lists nothing".into()) } else { Ok(entries) }
 }
 
+/// The names of the scenes that a program lists.
+pub fn names(program: Command) -> Result<Vec<String>, String> {
+    Ok(list(program)?.into_iter().map(|entry| entry.name).collect())
+}
+
 /// Entries from a listing: `name  title`, then indented lines; an empty line ends it.
 fn entries(listing: &str) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();

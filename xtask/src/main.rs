@@ -3,12 +3,15 @@
 //! `test` is the one test command: format, lints, documentation, every test of the workspace, those of the viewer in a
 //! browser, the Python tests, the table of known answers and, where cargo-deny is installed, licences and advisories.
 //! `validate` runs the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery`
-//! runs the scenes, draws their pictures and writes `docs/gallery.md`.
+//! runs the scenes, draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the same
+//! recordings.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
 mod answers;
+mod compare;
 mod gallery;
+mod json;
 mod package;
 mod python;
 mod steps;
@@ -26,7 +29,8 @@ usage: cargo xtask CHORE
   test           run every check; the last line is `N passed, N failed`
   test --fast    the same without documentation, viewer, Python and cargo-deny
   validate       run the problems with a known answer and rewrite docs/known-answers.md
-  gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md";
+  gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md
+  compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -36,6 +40,7 @@ fn main() -> ExitCode {
         ["test", "--fast"] => test::run(test::Extent::Fast),
         ["validate"] => validate::run(),
         ["gallery", names @ ..] => gallery::run(names),
+        ["compare", old, new, scenes @ ..] => compare::run(old, new, scenes),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             ExitCode::SUCCESS

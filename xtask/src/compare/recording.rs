@@ -1,0 +1,184 @@
+//! Comparing two recordings of one scene: every array byte by byte, and the attributes.
+//!
+//! Arrays and their sizes stand in the group's `zarr.json`; chunks are plain little-endian numbers, cut along the first
+//! dimension only, so that the files of an array, one behind the other, are the array. Left out are the checkpoint,
+//! which belongs to one version of the program, and the attributes that tell where the numbers come from.
+
+use crate::json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::path::Path;
+
+/// Attributes that two versions may have otherwise: what the text of a scene means stands in `resolved`.
+const PROVENANCE: [&str; 3] = ["version", "commit", "scene"];
+
+/// What is not the same in two recordings: one line each.
+pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
+    let (groups, none) = ([group(old)?, group(new)?], BTreeMap::new());
+    let [attributes, arrays] = [&["attributes"][..], &["consolidated_metadata", "metadata"]].map(|path| {
+        groups.each_ref().map(|group| {
+            path.iter().try_fold(group, |value, key| value.get(key)).and_then(Value::entries).unwrap_or(&none)
+        })
+    });
+    let mut lines = Vec::new();
+    for name in union(attributes).into_iter().filter(|name| !PROVENANCE.contains(name)) {
+        match attributes.map(|attributes| attributes.get(name)) {
+            [Some(_), None] => lines.push(format!("attribute {name}: only in the old one")),
+            [None, Some(_)] => lines.push(format!("attribute {name}: only in the new one")),
+            [old, new] if old != new => lines.push(format!("attribute {name}: differs")),
+            _ => {}
+        }
+    }
+    for name in union(arrays) {
+        lines.extend(match arrays.map(|arrays| arrays.get(name)) {
+            [Some(_), None] => Some(format!("{name}: only in the old one")),
+            [None, Some(_)] => Some(format!("{name}: only in the new one")),
+            [Some(before), Some(after)] => {
+                let contents = [old, new].map(|folder| contents(&folder.join(name)));
+                let [old, new] = contents;
+                array_difference([before, after], &old?, &new?).map(|told| format!("{name}: {told}"))
+            }
+            [None, None] => None,
+        });
+    }
+    Ok(lines)
+}
+
+fn group(folder: &Path) -> Result<Value, String> {
+    let path = folder.join("zarr.json");
+    let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Value::parse(&text).ok_or_else(|| format!("{}: no JSON", path.display()))
+}
+
+fn union([old, new]: [&BTreeMap<String, Value>; 2]) -> BTreeSet<&str> {
+    old.keys().chain(new.keys()).map(String::as_str).collect()
+}
+
+/// The chunks of an array, one behind the other.
+fn contents(folder: &Path) -> Result<Vec<u8>, String> {
+    let told = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut chunks = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(told)? {
+        let entry = entry.map_err(told)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if let Some(key) = name.strip_prefix('c') {
+            let numbers: Vec<usize> = key.split('.').filter_map(|number| number.parse().ok()).collect();
+            chunks.push((numbers, entry.path()));
+        }
+    }
+    chunks.sort();
+    let mut bytes = Vec::new();
+    for (_, path) in chunks {
+        bytes.extend(std::fs::read(path).map_err(told)?);
+    }
+    Ok(bytes)
+}
+
+/// In what an array differs from its older self; none if it does not.
+fn array_difference(metadata: [&Value; 2], old: &[u8], new: &[u8]) -> Option<String> {
+    let [before, after] = metadata.map(|metadata| metadata.get("data_type").and_then(Value::text));
+    let mut told = Vec::new();
+    if metadata[0] != metadata[1] {
+        told.push("the metadata differ".to_owned());
+    }
+    if old != new {
+        told.push(match (before, after) {
+            (Some("float64"), Some("float64")) => {
+                numbers(old, new, |bytes: [u8; 8]| f64::from_le_bytes(bytes)).to_string()
+            }
+            (Some("int32"), Some("int32")) => {
+                numbers(old, new, |bytes: [u8; 4]| i32::from_le_bytes(bytes).into()).to_string()
+            }
+            _ => "the bytes differ".to_owned(),
+        });
+    }
+    (!told.is_empty()).then(|| told.join("; "))
+}
+
+/// How far two arrays of numbers are apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Apart {
+    /// Entries that are not the same bytes, those that only one array has among them.
+    entries: usize,
+    /// Entries of the longer array.
+    of: usize,
+    /// Largest |a − b|.
+    absolute: f64,
+    /// Largest |a − b| / max(|a|, |b|).
+    relative: f64,
+}
+
+impl fmt::Display for Apart {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { entries, of, absolute, relative } = self;
+        write!(formatter, "{entries} of {of} entries, by {absolute:.2e} at most, relatively {relative:.2e}")
+    }
+}
+
+fn numbers<const N: usize>(old: &[u8], new: &[u8], number: impl Fn([u8; N]) -> f64) -> Apart {
+    let (old, new) = (old.as_chunks::<N>().0, new.as_chunks::<N>().0);
+    let of = old.len().max(new.len());
+    let mut apart = Apart { entries: old.len().abs_diff(new.len()), of, absolute: 0.0, relative: 0.0 };
+    for (a, b) in old.iter().zip(new).filter(|(a, b)| a != b) {
+        let (a, b) = (number(*a), number(*b));
+        let distance = (a - b).abs();
+        apart.entries += 1;
+        // `max` passes over what is no number.
+        apart.absolute = apart.absolute.max(distance);
+        apart.relative = apart.relative.max(distance / a.abs().max(b.abs()));
+    }
+    apart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::path::PathBuf;
+
+    fn bytes(numbers: &[f64]) -> Vec<u8> {
+        numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+    }
+
+    /// A recording of one array in two chunks.
+    fn recording(name: &str, numbers: [&[f64]; 2], attributes: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("xtask-compare-{}-{name}", std::process::id()));
+        let metadata = r#"{"gap": {"data_type": "float64", "shape": [3]}}"#;
+        fs::create_dir_all(folder.join("gap")).unwrap();
+        for (index, numbers) in numbers.iter().enumerate() {
+            fs::write(folder.join(format!("gap/c.{}", 9 + index)), bytes(numbers)).unwrap();
+        }
+        let group = format!(r#"{{"attributes": {attributes}, "consolidated_metadata": {{"metadata": {metadata}}}}}"#);
+        fs::write(folder.join("zarr.json"), group).unwrap();
+        folder
+    }
+
+    #[test]
+    fn numbers_that_differ_are_told_with_how_much() {
+        let old = recording("old", [&[1.0, 2.0], &[3.0]], r#"{"commit": "a", "events": {"apex": 2}}"#);
+        let new = recording("new", [&[1.0, 2.5], &[3.0]], r#"{"commit": "b", "events": {"apex": 3}}"#);
+        let same = differences(&old, &old);
+        let found = differences(&old, &new);
+        fs::remove_dir_all(old).unwrap();
+        fs::remove_dir_all(new).unwrap();
+        assert_eq!(same, Ok(Vec::new()));
+        let gap = "gap: 1 of 3 entries, by 5.00e-1 at most, relatively 2.00e-1";
+        assert_eq!(found, Ok(vec!["attribute events: differs".to_owned(), gap.to_owned()]));
+    }
+
+    #[test]
+    fn a_sign_of_zero_is_a_difference_and_so_is_a_missing_end() {
+        let f64s = |old: &[f64], new: &[f64]| numbers(&bytes(old), &bytes(new), f64::from_le_bytes);
+        assert_eq!(f64s(&[0.0], &[-0.0]).entries, 1);
+        assert_eq!(f64s(&[1.0, 2.0], &[1.0]), Apart { entries: 1, of: 2, absolute: 0.0, relative: 0.0 });
+        assert_eq!(f64s(&[f64::NAN, 1.0], &[1.0, 2.0]), Apart { entries: 2, of: 2, absolute: 1.0, relative: 0.5 });
+    }
+
+    #[test]
+    fn chunks_follow_one_another_by_number_not_by_name() {
+        let folder = recording("order", [&[1.0], &[2.0]], "{}");
+        let found = contents(&folder.join("gap"));
+        fs::remove_dir_all(folder).unwrap();
+        assert_eq!(found, Ok(bytes(&[1.0, 2.0])));
+    }
+}
