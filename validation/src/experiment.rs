@@ -12,7 +12,7 @@ use gyration_ode::Options;
 use gyration_scene::{Recorded, Scene};
 use gyration_sim::events::Event;
 use gyration_sim::rows::{Extras, Fields};
-use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched};
+use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Tolerance, Unwatched, complete};
 use std::ops::Range;
 use std::path::Path;
 
@@ -64,7 +64,8 @@ impl Experiment {
     /// # Panics
     /// If the scene has errors.
     pub fn of_scene(text: &str) -> Self {
-        let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).and_then(complete);
+        let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
         Self::of(&scene)
     }
 
@@ -74,7 +75,7 @@ impl Experiment {
     /// If the gallery has no such scene, or an override is wrong.
     pub fn of_gallery(name: &str, overrides: &[&str]) -> Self {
         let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-        Self::of(&Scene::open(name, &overrides).unwrap_or_else(|errors| panic!("{errors}")))
+        Self::of(&gyration_sim::open(name, &overrides).unwrap_or_else(|errors| panic!("{errors}")))
     }
 
     fn of(scene: &Scene) -> Self {

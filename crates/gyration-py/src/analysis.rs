@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 /// The rest state of each body and the small motions about it, a dictionary a body.
 #[pyfunction]
 pub fn modes<'py>(py: Python<'py>, scene: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
-    let scene = Scene::of(scene)?;
+    let scene = Scene::ready(scene)?;
     let all = py.detach(|| library::modes(&scene));
     let found = PyDict::new(py);
     for body in list(&all, "bodies") {

@@ -58,7 +58,7 @@ pub fn run_many(
     keep: Option<Vec<String>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Runs> {
-    let scenes = scenes.try_iter()?.map(|scene| Scene::of(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
+    let scenes = scenes.try_iter()?.map(|scene| Scene::ready(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
     let threads = workers(threads)?.get().min(scenes.len().max(1));
     if let Some(keep) = &keep {
         check_columns(&scenes, keep)?;

@@ -33,11 +33,16 @@ impl Scene {
         (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides().to_vec())
     }
 
-    /// Reads a text without the lock: a body in a fluid may take a while to be prepared.
+    /// Reads a text without the lock: a mesh may take a while.
     fn parse(py: Python<'_>, file: String, text: &str, base: PathBuf, overrides: &[String]) -> PyResult<Self> {
         let inner =
             py.detach(|| Inner::parse(&file, text, &base, overrides)).map_err(|error| errors::content(&error))?;
         Ok(Self { inner: Arc::new(inner), file, base })
+    }
+
+    /// The same, ready to run: with the resistances that boundary elements tell.
+    pub fn ready(argument: &Bound<'_, PyAny>) -> PyResult<Arc<Inner>> {
+        completed(argument.py(), Self::of(argument)?)
     }
 
     /// The scene that an argument stands for: a scene, a dictionary, a path or the name of one in the gallery.
@@ -206,7 +211,8 @@ impl Scene {
         resume: bool,
         force: bool,
     ) -> PyResult<Recording> {
-        run(py, &self.inner, Wanted { output, resume, force }, progress)
+        let scene = completed(py, self.inner.clone())?;
+        run(py, &scene, Wanted { output, resume, force }, progress)
     }
 
     /// The laws of its contacts against distance.
@@ -237,6 +243,15 @@ impl Scene {
         let title = self.title().map(|title| format!(" {title:?}")).unwrap_or_default();
         format!("<gyration.Scene {}{title}: {}>", self.inner.name(), bodies.join(", "))
     }
+}
+
+/// A scene ready to run; without the lock, since boundary elements may take a while.
+fn completed(py: Python<'_>, scene: Arc<Inner>) -> PyResult<Arc<Inner>> {
+    if scene.unknown_forms().is_empty() {
+        return Ok(scene);
+    }
+    let found = py.detach(|| gyration_sim::complete((*scene).clone()));
+    Ok(Arc::new(found.map_err(|error| errors::content(&error))?))
 }
 
 /// A scene again, from what `__reduce__` gave.

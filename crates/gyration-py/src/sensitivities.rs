@@ -22,7 +22,7 @@ pub fn sensitivities<'py>(
     quantities: Vec<String>,
     at: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let scene = Scene::of(scene)?;
+    let scene = Scene::ready(scene)?;
     let when = match at {
         "end" => At::End,
         "samples" => At::Samples,

@@ -69,7 +69,7 @@ impl Simulation {
 impl Simulation {
     #[new]
     fn new(py: Python<'_>, scene: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let scene = Scene::of(scene)?;
+        let scene = Scene::ready(scene)?;
         let stepper = py.detach(|| HandStepper::new(scene.built())).map_err(errors::run)?;
         let bodies = stepper.model().bodies.len();
         let arrays = Arrays::new(py, bodies)?;

@@ -4,14 +4,14 @@
 //! text → tree (TOML or JSON, with places) → overrides → structure (JSON Schema) → values → model, state, plan
 //! ```
 //!
-//! [`Scene::open`] does all of it; [`Template`] reads a text once for many scenes. Everything that is wrong with a scene comes at once, with file, line, column, dotted
-//! key and fix ([`SceneErrors`]); a file that cannot be read at all is a [`ReadError`]. The types of the file are in
-//! [`mod@file`]; their units and defaults are decided here and nowhere else. This crate integrates nothing.
+//! [`Scene::open`] does all of it; [`Template`] reads a text once for many scenes. Everything that is wrong with a scene
+//! comes at once, with file, line, column, dotted key and fix ([`SceneErrors`]); a file that cannot be read at all is a
+//! [`ReadError`]. The types of the file are in [`mod@file`]; their units and defaults are decided here and nowhere else.
+//! This crate integrates nothing, and computes no flow: resistances that only boundary elements tell are asked for when a
+//! scene is to be run ([`Scene::complete`]).
 
 mod assemble;
-pub mod boundary;
 mod check;
-pub mod deforming;
 mod document;
 mod error;
 pub mod file;
@@ -27,11 +27,13 @@ mod table;
 mod template;
 mod tree;
 pub mod units;
+mod unknown;
 
-pub use assemble::{Built, Plan, Record, StopAtRest};
+pub use assemble::{Built, Plan, Record, StopAtRest, TRIANGLES};
 pub use error::{Fault, LoadError, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::gallery;
 pub use scene::Scene;
 pub use schema::{schema, schema_of};
 pub use template::{Template, unit_of};
+pub use unknown::UnknownForm;

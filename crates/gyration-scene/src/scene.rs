@@ -4,6 +4,7 @@ use crate::assemble::Built;
 use crate::error::{LoadError, SceneErrors};
 use crate::file::SceneFile;
 use crate::template::Template;
+use crate::unknown::Unknown;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -16,6 +17,7 @@ pub struct Scene {
     pub(crate) overrides: Vec<String>,
     pub(crate) file: SceneFile,
     pub(crate) built: Built,
+    pub(crate) unknown: Option<Box<Unknown>>,
 }
 
 impl Scene {
@@ -72,7 +74,8 @@ impl Scene {
         &self.file
     }
 
-    /// The model, its first state and the plan of the run.
+    /// The model, its first state and the plan of the run. Nothing runs while forms are unknown
+    /// ([`Scene::unknown_forms`]).
     pub fn built(&self) -> &Built {
         &self.built
     }

@@ -13,6 +13,7 @@ use crate::read;
 use crate::scene::Scene;
 use crate::suggest;
 use crate::tree::Node;
+use crate::unknown::Unknown;
 use std::path::{Path, PathBuf};
 
 /// A scene whose text is read.
@@ -82,9 +83,10 @@ impl Template {
         let built = assemble(&mut draft, &setting, &mut judge);
         salvage(&document, &setting, &mut findings);
         match (draft.complete(), built) {
-            (Some(file), Some(built)) if findings.is_empty() => {
+            (Some(file), Some((built, forms))) if findings.is_empty() => {
                 let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
-                Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built })
+                let unknown = (!forms.is_empty()).then(|| Box::new(Unknown { forms, document }));
+                Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built, unknown })
             }
             _ => Err(document.settle(findings)),
         }

@@ -72,7 +72,7 @@ impl Study {
     pub fn attempt(&self, run: u64, worker: &Worker) -> Result<Option<Row>, StudyError> {
         let place = self.place(run);
         let values = self.values(place);
-        let ended = match self.template.scene(&self.overrides(&values)) {
+        let ended = match self.scene_with(&values) {
             Ok(scene) => self.ended(run, &scene, worker)?,
             Err(errors) => Some(self.failed(first_of(&errors))),
         };

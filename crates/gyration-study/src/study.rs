@@ -19,7 +19,7 @@ use crate::read::{self, Read};
 use crate::value::Value;
 use gyration_scene::sheet::{Sheet, fix};
 use gyration_scene::{LoadError, ReadError, Scene, SceneErrors, Template};
-use gyration_sim::RunPlan;
+use gyration_sim::{RunPlan, complete};
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
 
@@ -196,21 +196,26 @@ impl Study {
         &self.fingerprint
     }
 
-    /// The scene of a run; `run` < [`Study::runs`].
+    /// The scene of a run, ready to run; `run` < [`Study::runs`].
     ///
     /// # Errors
     /// What is wrong with the values of this run.
     pub fn scene_of(&self, run: u64) -> Result<Scene, SceneErrors> {
-        self.template.scene(&self.overrides(&self.values(self.place(run))))
+        self.scene_with(&self.values(self.place(run)))
+    }
+
+    /// The scene with these values, ready to run.
+    pub(crate) fn scene_with(&self, values: &[(String, Vec<Value>)]) -> Result<Scene, SceneErrors> {
+        complete(self.template.scene(&self.overrides(values))?)
+    }
+
+    pub(crate) fn overrides(&self, values: &[(String, Vec<Value>)]) -> Vec<String> {
+        overrides_of(&self.read, values)
     }
 
     /// The value of each parameter in a run as TOML, and its cells.
     pub(crate) fn values(&self, place: Place) -> Vec<(String, Vec<Value>)> {
         values(&self.read, &self.dice, place)
-    }
-
-    pub(crate) fn overrides(&self, values: &[(String, Vec<Value>)]) -> Vec<String> {
-        overrides_of(&self.read, values)
     }
 
     pub(crate) fn place(&self, run: u64) -> Place {

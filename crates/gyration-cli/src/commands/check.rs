@@ -7,8 +7,10 @@ use crate::check::{self, BodyCheck, KindCheck, LawCheck, ModeCheck, PairCheck, R
 use crate::error::{CliError, code};
 use crate::output;
 use crate::summary::{plain, vector};
-use gyration_scene::Scene;
+use gyration_scene::{LoadError, Scene};
+use gyration_sim::completed;
 use serde_json::json;
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// Stands above the resolved scene, a comment of TOML.
@@ -18,7 +20,7 @@ const HEADING: &str = "# The resolved scene: SI units, every default in its plac
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let scene = open(&arguments.scene)?;
     let text = if arguments.json {
-        let found = check::check(&scene.built().model, &scene.built().state);
+        let found = survey(&scene)?;
         let value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": found.bodies });
         format!("{value:#}\n")
     } else {
@@ -28,9 +30,16 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     Ok(code::DONE)
 }
 
+/// What can be said of a scene. Only the rest state of a body that deforms takes its resistance in the fluid.
+fn survey(scene: &Scene) -> Result<SceneCheck, CliError> {
+    let deforms = scene.unknown_forms().iter().any(|form| form.resolution.is_some());
+    let scene = if deforms { completed(scene).map_err(LoadError::from)? } else { Cow::Borrowed(scene) };
+    Ok(check::check(&scene.built().model, &scene.built().state))
+}
+
 /// What there is to say in words, and the resolved scene.
 pub(crate) fn in_full(scene: &Scene) -> Result<String, CliError> {
-    let found = check::check(&scene.built().model, &scene.built().state);
+    let found = survey(scene)?;
     Ok(in_words(scene, &found) + &resolved(scene)?)
 }
 

@@ -54,6 +54,11 @@ fn open(arguments: &SceneArguments) -> Result<Scene, CliError> {
     Ok(Scene::open(&arguments.scene, &arguments.overrides)?)
 }
 
+/// Opens the scene of the arguments, ready to run: with the resistances that boundary elements tell.
+fn ready(arguments: &SceneArguments) -> Result<Scene, CliError> {
+    Ok(gyration_sim::open(&arguments.scene, &arguments.overrides)?)
+}
+
 /// The name of a file or directory without folder and ending.
 fn stem(path: &Path) -> String {
     // `.` and `..` have no name of their own.

@@ -1,6 +1,6 @@
 //! `gyration modes`: the rest state of each body, and the small motions about it.
 
-use super::open;
+use super::ready;
 use crate::arguments::Check;
 use crate::check::{KindCheck, ModeCheck, RestState, ShapeCheck};
 use crate::error::{CliError, code};
@@ -18,7 +18,7 @@ const LEAST_SEEN: f64 = 5e-4;
 
 /// Prints the modes of every body.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
-    let scene = open(&arguments.scene)?;
+    let scene = ready(&arguments.scene)?;
     let text = if arguments.json {
         format!("{:#}\n", all_in_json(&scene))
     } else {

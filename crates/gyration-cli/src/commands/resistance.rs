@@ -15,9 +15,9 @@ use gyration::fluid::FixedForm;
 use gyration::fluid::memory::vibration::{Vibration, vibration};
 use gyration::load::Mat12;
 use gyration::shape::{Shape, Sphere};
-use gyration::tensor::{Mat3, Vec3};
-use gyration_scene::Scene;
-use gyration_scene::boundary::{BoundaryElements, TRIANGLES, boundary_resistance};
+use gyration::tensor::Mat3;
+use gyration_scene::{Scene, TRIANGLES};
+use gyration_sim::resistance::{BoundaryElements, Wall, boundary_resistance};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -95,8 +95,8 @@ struct Wanted {
     triangles: usize,
     /// By boundary elements, whatever the shape.
     by_elements: bool,
-    /// A point of the wall and its normal.
-    wall: Option<(Vec3, Vec3)>,
+    /// A wall, in axes of space.
+    wall: Option<Wall>,
 }
 
 impl Wanted {
@@ -109,7 +109,10 @@ impl Wanted {
                 true => "add a [[support]] with that name: its plane is the wall".to_owned(),
                 false => format!("write one of {}", names.join(", ")),
             };
-            let wall = found.map(|support| (support.origin + support.motion.displacement(0.0), support.normal));
+            let wall = found.map(|support| Wall {
+                point: support.origin + support.motion.displacement(0.0),
+                normal: support.normal,
+            });
             wall.ok_or_else(|| CliError::arguments(format!("the scene has no support {name:?} for a wall"), fix))
         });
         Ok(Self {
@@ -138,7 +141,7 @@ impl Wanted {
             center,
             gradient: placement.gradient,
             // In axes of space about the centre of mass.
-            wall: self.wall.map(|(point, normal)| (point - placement.position, normal)),
+            wall: self.wall.map(|wall| Wall { point: wall.point - placement.position, ..wall }),
         };
         let found = boundary_resistance(&body.shape, &elements).map_err(|error| {
             let fix = "take another shape, another number of triangles, or another place beside the wall";

@@ -1,6 +1,6 @@
 //! `gyration run`: a scene into a recording.
 
-use super::open;
+use super::ready;
 use crate::arguments::Run;
 use crate::error::{CliError, code};
 use crate::output;
@@ -24,7 +24,7 @@ const MOST_NAMES: usize = 10_000;
 
 /// Runs the scene; the exit code tells whether it reached its end.
 pub fn execute(arguments: &Run) -> Result<u8, CliError> {
-    let scene = open(&arguments.scene)?;
+    let scene = ready(&arguments.scene)?;
     let path = directory(arguments, &scene)?;
     let job = Job::of(&scene, &provenance());
     if !arguments.resume {

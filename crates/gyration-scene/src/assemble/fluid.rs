@@ -5,20 +5,18 @@
 use super::setting::Setting;
 use super::signal::{Maker, first_fault, not_finite};
 use super::start::matrix;
-use crate::boundary::{BoundaryElements, BoundaryResistance, NoResistance, TRIANGLES, boundary_resistance};
 use crate::check::{Judge, Placed};
-use crate::deforming::{DeformingSurface, TOLERANCE};
 use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
 use crate::key::Key;
 use crate::quantity::si;
 use crate::table::read_vectors;
-use gyration::body::BodyKind;
-use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory, Resolution, SurfaceForm};
+use crate::unknown::{FIX, UnknownForm, no_surface};
+use gyration::body::{Body as Moving, BodyKind};
+use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory, Resolution};
 use gyration::mass::MassProperties;
 use gyration::shape::{Shape, Sphere};
 use gyration::signal::{Signal, Wave};
 use gyration::tensor::{Mat3, Vec3};
-use std::sync::Arc;
 
 /// The fluid of a scene; notes what is wrong with it.
 pub(super) fn fluid(written: &Written, setting: &Setting, judge: &mut Judge<'_>) -> Option<Fluid> {
@@ -211,52 +209,39 @@ impl Immersed<'_> {
         }
     }
 
-    /// What the fluid meets.
+    /// What the fluid meets, or what stands in for it; notes a shape without a surface.
     fn form(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
-        match (self.shape.semi_axes(), self.kind) {
-            (Some(semi_axes), BodyKind::Rigid(_)) => {
-                let matrix = FixedForm::of_ellipsoid(&semi_axes);
-                Some(Form::Fixed(Box::new(FixedForm::shifted(&matrix, &-self.mass.center))))
+        let rigid = matches!(self.kind, BodyKind::Rigid(_));
+        let Some(semi_axes) = self.shape.semi_axes() else {
+            if let Some(message) = no_surface(self.shape) {
+                judge.note(&self.placed.key.key("shape"), message, FIX);
+                return None;
             }
-            (Some(semi_axes), _) => Some(Form::Ellipsoid(semi_axes)),
-            (None, BodyKind::Rigid(_)) => {
-                let triangles = written.triangles.map_or(TRIANGLES, |triangles| triangles as usize);
-                let elements =
-                    BoundaryElements { triangles, center: self.mass.center, gradient: Mat3::identity(), wall: None };
-                let found = self.resolved(boundary_resistance(self.shape, &elements), judge)?;
-                Some(Form::Fixed(Box::new(FixedForm { matrix: found.matrix, error: found.error })))
-            }
-            (None, _) => self.table(written, judge),
+            return Some(asked(written, !rigid, 0).stand_in());
+        };
+        if !rigid {
+            return Some(Form::Ellipsoid(semi_axes));
         }
+        let matrix = FixedForm::of_ellipsoid(&semi_axes);
+        Some(Form::Fixed(Box::new(FixedForm::shifted(&matrix, &-self.mass.center))))
     }
+}
 
-    /// What the fluid meets of a body that deforms and is no ellipsoid.
-    fn table(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
-        let surface = DeformingSurface::new(self.shape, written.triangles.map_or(TRIANGLES, |given| given as usize));
-        // The first of many, by which a surface that has none is found before the run.
-        self.resolved(surface.resistance(&Mat3::identity()), judge)?;
-        let resolution = Resolution { tolerance: written.tolerance.unwrap_or(TOLERANCE), spacing: written.spacing };
-        let table = surface.table(resolution);
-        if table.is_none() {
-            let help = "write a shape that has a volume, or leave `inclusion` out";
-            judge.note(&self.placed.key.key("shape"), "the body has no extent in some direction", help);
-        }
-        Some(Form::Surface(SurfaceForm(Arc::new(table?))))
-    }
+/// About how many triangles a surface is divided into, unless said otherwise.
+pub const TRIANGLES: usize = 1280;
+/// The largest relative error of the power by interpolation, unless said otherwise: about that of so many flat triangles.
+const TOLERANCE: f64 = 1e-2;
 
-    /// A resistance by boundary elements; notes why there is none.
-    fn resolved(
-        &self,
-        found: Result<BoundaryResistance, NoResistance>,
-        judge: &mut Judge<'_>,
-    ) -> Option<BoundaryResistance> {
-        found
-            .map_err(|error| {
-                let help = "write another shape, a mesh that is closed and even, or leave `inclusion` out";
-                judge.note(&self.placed.key.key("shape"), error.to_string(), help);
-            })
-            .ok()
-    }
+/// The form of a body that only boundary elements tell.
+pub(super) fn unknown(written: &Body, body: &Moving, index: usize) -> Option<UnknownForm> {
+    let inclusion = written.inclusion.as_ref().filter(|_| body.shape.semi_axes().is_none())?;
+    Some(asked(inclusion, !matches!(body.kind, BodyKind::Rigid(_)), index))
+}
+
+fn asked(written: &WrittenInclusion, deforms: bool, body: usize) -> UnknownForm {
+    let triangles = written.triangles.map_or(TRIANGLES, |triangles| triangles as usize);
+    let resolution = Resolution { tolerance: written.tolerance.unwrap_or(TOLERANCE), spacing: written.spacing };
+    UnknownForm { body, triangles, resolution: deforms.then_some(resolution) }
 }
 
 /// Notes errors and spacings of a table that are out of all proportion.

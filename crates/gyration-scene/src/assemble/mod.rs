@@ -21,12 +21,14 @@ mod signal;
 mod start;
 mod support;
 
+pub use fluid::TRIANGLES;
 pub(crate) use salvage::salvage;
 pub(crate) use setting::Setting;
 
 use crate::check::{Draft, Judge};
 use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
+use crate::unknown::UnknownForm;
 use body::Solid;
 use gyration::model::Model;
 use gyration::state::{Start, State};
@@ -106,10 +108,15 @@ impl Plan {
     }
 }
 
-/// Assembles what a draft describes; none if anything about it, or before it, was found wrong.
+/// Assembles what a draft describes, with the forms that it leaves open; none if anything about it, or before it, was
+/// found wrong.
 ///
 /// Fills in what the file leaves to be derived (`resolve`).
-pub(crate) fn assemble(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'_>) -> Option<Built> {
+pub(crate) fn assemble(
+    draft: &mut Draft,
+    setting: &Setting,
+    judge: &mut Judge<'_>,
+) -> Option<(Built, Vec<UnknownForm>)> {
     let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, setting, judge)).collect();
     let around = draft.fluid.as_ref().map(|written| fluid::fluid(written, setting, judge));
     let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
@@ -131,5 +138,7 @@ pub(crate) fn assemble(draft: &mut Draft, setting: &Setting, judge: &mut Judge<'
     }
     let state = State::start(&model, &starts);
     let record = draft.record.as_ref().map(Record::new).unwrap_or_default();
-    Some(Built { model, state, plan, record })
+    let forms = draft.bodies.iter().zip(&model.bodies).enumerate();
+    let forms = forms.filter_map(|(index, (written, body))| fluid::unknown(&written.value, body, index)).collect();
+    Some((Built { model, state, plan, record }, forms))
 }

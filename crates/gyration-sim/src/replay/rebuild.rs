@@ -5,6 +5,7 @@
 //! a mesh may have changed behind its name.
 
 use super::error::ReplayError;
+use crate::resistance::complete;
 use gyration::body::Body;
 use gyration::model::Model;
 use gyration_record::{Attributes, Recording};
@@ -22,7 +23,7 @@ pub(super) fn scene(recording: &Recording) -> Result<Scene, ReplayError> {
     let mut first_failure = None;
     for (name, text, overrides) in texts(recording.attributes()) {
         for base in [beside, Path::new("")] {
-            match Scene::parse(&name, &text, base, &overrides) {
+            match Scene::parse(&name, &text, base, &overrides).and_then(complete) {
                 Ok(scene) => {
                     check(recording, &scene.built().model)?;
                     return Ok(scene);

@@ -4,6 +4,7 @@
 //! `--set` does; an item of a vector or a matrix brings its whole array along, which need not stand in the file.
 
 use super::SensitivityError;
+use crate::resistance::complete;
 use gyration_scene::Scene;
 use serde_json::Value;
 
@@ -102,6 +103,7 @@ impl Number {
             let all = [scene.overrides(), &[setting]].concat();
             Scene::parse("scene", scene.text(), scene.base(), &all)
         };
+        let found = found.and_then(complete);
         found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
     }
 }

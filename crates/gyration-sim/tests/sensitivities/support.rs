@@ -1,11 +1,12 @@
 //! Scenes on a table, and derivatives by differences of runs.
 
 use gyration_scene::Scene;
+use gyration_sim::complete;
 use gyration_sim::sensitivity::{At, Sensitivities};
 use std::path::Path;
 
 pub fn scene(text: &str, overrides: &[String]) -> Scene {
-    Scene::parse("scene.toml", text, Path::new("scenes"), overrides).unwrap()
+    Scene::parse("scene.toml", text, Path::new("scenes"), overrides).and_then(complete).unwrap()
 }
 
 /// A table with the laws of its surface: repulsion, damping and friction, by their strength and exponent.

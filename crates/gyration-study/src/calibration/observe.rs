@@ -18,6 +18,7 @@ use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_scene::Scene;
+use gyration_sim::complete;
 use gyration_sim::modes::rest;
 
 /// Points of a look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
@@ -90,7 +91,7 @@ impl Calibration {
         overrides.extend(experiment.settings.iter().cloned());
         overrides.extend(experiment.key.iter().map(|key| format!("{key}={condition:?}")));
         overrides.extend(more.iter().cloned());
-        let found = self.template.scene(&overrides);
+        let found = self.template.scene(&overrides).and_then(complete);
         found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
     }
 

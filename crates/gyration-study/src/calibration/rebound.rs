@@ -9,7 +9,7 @@ use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::{APEX, Event};
 use gyration_sim::sensitivity::{At, Sensitivities};
-use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink};
+use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink, complete};
 use std::cell::Cell;
 
 /// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along it would
@@ -82,7 +82,7 @@ impl Drop {
     fn at_apex(&self, keys: &[String]) -> Result<(f64, Vec<Option<f64>>), String> {
         let (time, _) = self.apex()?;
         let overrides = [self.scene.overrides(), &[format!("time={{ end = {time:?}, sample = {time:?} }}")]].concat();
-        let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides);
+        let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides).and_then(complete);
         let scene = scene.map_err(|errors| errors.to_string())?;
         let name = &scene.built().model.bodies[self.index].name;
         let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));

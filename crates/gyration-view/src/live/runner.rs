@@ -5,7 +5,7 @@ use crate::blob;
 use crate::header::Header;
 use gyration::body::BodyKind;
 use gyration_record::{Layout, RecordError};
-use gyration_scene::{Recorded, Scene};
+use gyration_scene::Recorded;
 use gyration_sim::events::Event;
 use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunSummary, Simulation, Sink, limit_in_words};
 use serde_json::{Value, json};
@@ -31,7 +31,7 @@ pub(super) fn run(shared: &Shared, subject: &Subject) {
 
 /// Runs the scene once, or says in words why not.
 fn run_once(shared: &Shared, subject: &Subject, overrides: &[String]) -> Result<(), String> {
-    let scene = Scene::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
+    let scene = gyration_sim::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
     let mut job = Job::of(&scene, &subject.provenance);
     // Bodies that deform are coloured by their stress, which is recorded on request only.
     if job.model.bodies.iter().any(|body| !matches!(body.kind, BodyKind::Rigid(_))) {

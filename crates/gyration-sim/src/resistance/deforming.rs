@@ -1,20 +1,18 @@
 //! The resistance of a body that deforms, of any shape: boundary elements over the images of its surface.
 //!
 //! Which images, and how exact it is between them, is the matter of `gyration::fluid::Table`; here is what computes one
-//! matrix. The triangles are those of the undeformed shape, taken along, so that matrices of neighbouring forms have the same small error.
+//! matrix. The triangles are those of the undeformed shape, taken along, so that matrices of neighbouring forms have the
+//! same small error.
 
-use crate::boundary::{BoundaryElements, BoundaryResistance, NoResistance, boundary_resistance};
+use super::elements::{BoundaryElements, BoundaryResistance, NoResistance, boundary_resistance};
 use gyration::fluid::{Resistance, Resolution, Table};
 use gyration::load::Mat12;
 use gyration::shape::Shape;
 use gyration::tensor::{Mat3, Vec3};
 
-/// The largest error that the elements may tell of themselves. Beyond it, the terms that their correction for curvature leaves out are
-/// no longer small against it, and the estimate means little.
+/// The largest error that the elements may tell of themselves. Beyond it, the terms that their correction for curvature
+/// leaves out are no longer small against it, and the estimate means little.
 const MOST_OF_ELEMENTS: f64 = 0.1;
-
-/// The largest relative error of the power by interpolation, unless said otherwise: about that of 1,280 flat triangles.
-pub const TOLERANCE: f64 = 1e-2;
 
 /// A shape as boundary elements see it.
 #[derive(Debug, Clone)]

@@ -1,8 +1,8 @@
 //! The resistance of a shape in a viscous fluid, by boundary elements over its triangulation.
 //!
-//! The matrix is a number of the model, as a mass is: it is computed when a scene is built, and kept for the next scene that has the
-//! same surface. Boxes and polyhedra are divided into triangles of like size, of which they consist; on any other shape the corners lie on the true
-//! surface, whose rise above the triangles is added to first order (`gyration_stokes`).
+//! The matrix is a number of the model, as a mass is, and is kept for the next model that has the same surface. Boxes and
+//! polyhedra are divided into triangles of like size, of which they consist; on any other shape the corners lie on the
+//! true surface, whose rise above the triangles is added to first order (`gyration_stokes`).
 
 use gyration::load::Mat12;
 use gyration::shape::{Shape, Triangulation};
@@ -19,12 +19,18 @@ pub struct BoundaryElements {
     pub center: Vec3,
     /// P: the resistance is that of the image of the shape, in the axes of its image.
     pub gradient: Mat3,
-    /// A plane wall without slip: a point of it, from the image of the centre, and its normal into the fluid.
-    pub wall: Option<(Vec3, Vec3)>,
+    /// A plane wall without slip.
+    pub wall: Option<Wall>,
 }
 
-/// How many triangles are taken unless said otherwise.
-pub const TRIANGLES: usize = 1280;
+/// A plane wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// A point of it, from the image of the centre \[m\].
+    pub point: Vec3,
+    /// Its normal into the fluid.
+    pub normal: Vec3,
+}
 
 /// A resistance matrix for viscosity 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +49,9 @@ pub enum NoResistance {
     /// A union or a set of points.
     #[error("a {0} has no single closed surface: give it as a `mesh` of one closed surface")]
     NoSurface(&'static str),
+    /// There is no volume, and so no ellipsoid to compare with.
+    #[error("the body has no extent in some direction")]
+    Flat,
     /// The surface is not one that a flow can be computed around.
     #[error("boundary elements: {0}")]
     Surface(#[from] StokesError),
@@ -84,7 +93,7 @@ pub fn boundary_resistance(shape: &Shape, elements: &BoundaryElements) -> Result
     drop(kept);
     let points: Vec<[f64; 3]> = mesh.points.iter().map(|point| (*point).into()).collect();
     let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|triangle| triangle.map(|corner| corner as u32)).collect();
-    let wall = elements.wall.map(|(point, normal)| Plane { point: point.into(), normal: normal.into() });
+    let wall = elements.wall.map(|Wall { point, normal }| Plane { point: point.into(), normal: normal.into() });
     let options = Options { faces, wall, ..Options::default() };
     let found = Surface::new(&points, &triangles)?.resistance(&options)?;
     let matrix = Mat12::from_fn(|row, column| found.matrix[row][column]);
@@ -102,7 +111,7 @@ fn key(mesh: &Triangulation, faces: Faces, elements: &BoundaryElements) -> Key {
     let mut key = vec![u64::from(faces == Faces::Flat), mesh.points.len() as u64];
     key.extend(mesh.points.iter().flat_map(vector));
     key.extend(mesh.triangles.iter().flatten().map(|corner| *corner as u64));
-    if let Some((point, normal)) = &elements.wall {
+    if let Some(Wall { point, normal }) = &elements.wall {
         key.extend(vector(point).into_iter().chain(vector(normal)));
     }
     key
