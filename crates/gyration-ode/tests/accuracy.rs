@@ -1,8 +1,8 @@
 //! Smooth problems against their closed forms, in every method: what a tolerance buys.
 
-mod common;
-
-use common::{Problem, barrier, barrier_energy, distance, kepler, oscillator, perihelion, run, short, with};
+use crate::common::{
+    self, Problem, barrier, barrier_energy, distance, kepler, oscillator, perihelion, run, short, with,
+};
 use gyration_ode::{Cause, Failure, Integrator, Limit, Method, Options};
 
 const METHODS: [Method; 3] = [Method::Auto, Method::Explicit, Method::Implicit];

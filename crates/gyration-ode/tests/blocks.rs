@@ -1,9 +1,6 @@
 //! Blocks of the Jacobian: a shorthand for structure, not another problem.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{Problem, distance, run, with};
+use crate::common::{Problem, distance, run, with};
 use gyration_ode::Method;
 use nalgebra::DMatrix;
 use proptest::prelude::*;

@@ -1,11 +1,8 @@
 //! Crossings within steps, against the closed form of the motion.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::f64::consts::PI;
 
-use common::{oscillator, with};
+use crate::common::{oscillator, with};
 use gyration_ode::{Direction, Integrator, Method, find_crossing};
 
 /// The first crossing in the whole of the last step.

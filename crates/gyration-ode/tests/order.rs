@@ -1,9 +1,6 @@
 //! The order of every method and of its interpolant, measured with steps of fixed size.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{Problem, distance, fixed, kepler, perihelion, short, slopes};
+use crate::common::{self, Problem, distance, fixed, kepler, perihelion, short, slopes};
 use gyration_ode::{Integrator, Method, Options};
 
 /// Kepler's equation by Newton's method: the state at time t.

@@ -1,9 +1,6 @@
 //! A run continued from its checkpoint, and a run that is sampled, make the steps of a plain run to the last bit.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{Problem, barrier, kepler, perihelion, with};
+use crate::common::{self, Problem, barrier, kepler, perihelion, with};
 use gyration_ode::{Integrator, Memory, MemoryError, Method, Options, Stepper};
 
 const METHODS: [Method; 3] = [Method::Auto, Method::Explicit, Method::Implicit];

@@ -1,8 +1,6 @@
 //! Stiff problems with known answers, for the implicit stepper and for the choice between the two.
 
-mod common;
-
-use common::{Problem, rejections, run, short, with};
+use crate::common::{self, Problem, rejections, run, short, with};
 use gyration_ode::{Method, Options, Stepper};
 use nalgebra::DMatrix;
 

@@ -1,9 +1,6 @@
 //! The choice between the steppers: which of them works, and how often it changes.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{Problem, barrier, kepler, oscillator, perihelion, run, with};
+use crate::common::{Problem, barrier, kepler, oscillator, perihelion, run, with};
 use gyration_ode::{Integrator, Limit, Method, Options, Stepper};
 
 #[test]

@@ -1,5 +1,4 @@
 //! Runs that their caller steps: what is applied acts as what a scene gives, the ledger closes, a loop can be closed.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration::load::Applied;
 use gyration::tensor::{Mat3, Vec3};

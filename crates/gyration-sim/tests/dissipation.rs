@@ -1,5 +1,4 @@
 //! What contraction and viscosity take at every step, in a run and in a resumed one.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration_record::Recording;
 use gyration_scene::Scene;

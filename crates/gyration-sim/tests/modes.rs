@@ -1,5 +1,4 @@
 //! Rest states and small motions about them, against closed forms.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia};

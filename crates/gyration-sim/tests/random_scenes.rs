@@ -2,15 +2,13 @@
 //!
 //! Sizes from 1e-4 to 1e3 m, masses from 1e-6 to 1e6 kg, exponents from 1 to 12, all shapes, several supports, laws
 //! present or absent, in proportions that make sense (`random/laws.rs`). A case is a number:
-//! `GYRATION_CASES=1000..5000 cargo test --release -p gyration-sim --test random_scenes` runs others than those of the
+//! `GYRATION_CASES=1000..5000 cargo test --release -p gyration-sim --test tests random_scenes` runs others than those of the
 //! ordinary tests, and `GYRATION_DUMP=FOLDER` writes the scenes there.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod random;
-
+use crate::random;
+use crate::random::verdict::{Seen, run};
 use gyration_scene::Scene;
 use gyration_sim::{Outcome, Reason};
-use random::verdict::{Seen, run};
 use std::collections::BTreeMap;
 use std::ops::Range;
 

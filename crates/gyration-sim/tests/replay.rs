@@ -1,7 +1,5 @@
 //! A recording brought back to life agrees with the run that left it.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set its scene has failed")]
-
 use gyration::balance::observe;
 use gyration::rates::Workspace;
 use gyration::shape::Triangulation;

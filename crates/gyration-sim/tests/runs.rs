@@ -1,5 +1,4 @@
 //! Runs as a whole: determinism, resumption, sampling, events, outcomes.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration_record::Recording;
 use gyration_scene::Scene;

@@ -1,7 +1,5 @@
 //! The surfaces in a recording: what a reader finds of them, and what they cost.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set its scene has failed")]
-
 use gyration_record::Recording;
 use gyration_scene::Scene;
 use gyration_sim::{Job, Provenance, Unwatched};

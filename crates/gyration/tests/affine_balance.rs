@@ -1,5 +1,4 @@
 //! Relations that the balance of an affine body obeys, whatever it is made of.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration::affine::{AffineBalance, AffineBody, AnisotropicFriction, Gyration, Viscosity};
 use gyration::mass::MassProperties;

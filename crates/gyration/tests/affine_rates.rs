@@ -1,8 +1,6 @@
 //! Relations that the rates of affine bodies obey, whatever the scene: exact Jacobian, power balance, dissipation, objectivity.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod moving;
-
+use crate::moving::*;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, RigidInertia};
 use gyration::contact::AreaMeasure;
@@ -14,7 +12,6 @@ use gyration::rates::Workspace;
 use gyration::shape::{Cuboid, Shape};
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3};
-use moving::*;
 use proptest::prelude::*;
 
 const MEASURES: [AreaMeasure; 3] =

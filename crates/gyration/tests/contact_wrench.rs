@@ -1,5 +1,4 @@
 //! The wrench of a contact on a rigid body is that of the general resultant, and so are its derivatives.
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
 
 use gyration::contact::{
     Adhesion, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, ContactSlopes, ContactWrench, Damping,

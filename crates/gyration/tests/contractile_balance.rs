@@ -1,5 +1,4 @@
 //! The balance of a contractile body against its equations as they are written, whatever the way in which they are solved.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration::affine::{AffineBody, Gyration, Viscosity};
 use gyration::contractile::{Command, Contraction, Decomposition, Pull, Source, Spin};

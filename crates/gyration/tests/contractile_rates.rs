@@ -1,8 +1,6 @@
 //! Relations that the rates of contractile bodies obey: exact Jacobian, power balance, dissipation, known limits.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod moving;
-
+use crate::moving::*;
 use gyration::body::{Affine, Body, BodyKind, Contractile};
 use gyration::contact::AreaMeasure;
 use gyration::contractile::{Contraction, Feedback, Measure, Source, Spin};
@@ -15,7 +13,6 @@ use gyration::rates::Workspace;
 use gyration::signal::{Signal, Wave};
 use gyration::state::{Start, State};
 use gyration::tensor::{Mat3, Vec3};
-use moving::*;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 

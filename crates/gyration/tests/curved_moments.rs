@@ -3,8 +3,6 @@
 //! The reference values come from `validation/oracles/curved_moments.py`, which integrates in another order, with the
 //! azimuth in closed form. Errors are relative to ∫ |κ| |X|ⁿ dA, of which lower bounds are used.
 
-#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic as the tests themselves may")]
-
 use std::collections::BTreeMap;
 
 use gyration::surface::curved::{ConeWall, Disk, Hemisphere};

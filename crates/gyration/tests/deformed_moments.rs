@@ -3,12 +3,8 @@
 //! The quadrature knows nothing of the rules under test: it maps a parameter rectangle onto each patch and halves panels
 //! of Gauss points until nothing changes. Errors are relative to ∫ |κ| k |X|ⁿ dA.
 
-#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic as the tests themselves may")]
-
-mod deformed;
-
-use deformed::quadrature::{OrientedSum, errors, integrate};
-use deformed::{Case, cases, cofactor};
+use crate::deformed::quadrature::{OrientedSum, errors, integrate};
+use crate::deformed::{self, Case, cases, cofactor};
 use gyration::surface::{MomentPlan, MomentRequest, Moments, OrientedMoments};
 
 /// The largest errors of one case: of the moments per deformed area by order, of the pairs by order, of the fourth power.

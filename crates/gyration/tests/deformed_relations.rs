@@ -1,11 +1,7 @@
 //! Relations that moments of deformed surfaces obey whatever the surface: rotations, growth, traces, derivatives by P, areas.
 
-#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic as the tests themselves may")]
-
-mod deformed;
-
-use deformed::charts::charts;
-use deformed::{Numbers, SHAPES, cofactor, field_above, surface};
+use crate::deformed::charts::charts;
+use crate::deformed::{Numbers, SHAPES, cofactor, field_above, surface};
 use gyration::surface::{GapField, Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments, Surface};
 use gyration::tensor::{Mat3, Vec3};
 

@@ -1,8 +1,6 @@
 //! Moments over flat facets against values of 400-digit arithmetic (`validation/oracles/facet_moments.py`), against
 //! closed forms, and as relations.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
-
 use gyration::surface::facets::Facets;
 use gyration::surface::power::LineKernel;
 use gyration::surface::{GapField, Kernel, MomentRequest, Moments};

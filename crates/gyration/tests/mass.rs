@@ -4,15 +4,13 @@
 
 #![allow(clippy::excessive_precision, reason = "references keep the digits they were computed with")]
 
-mod solids;
-
+use crate::solids::{
+    DENSITY, approximated, assert_close, corner_tetrahedron, cuboid, difference, points, rotation, solids, union_of,
+};
 use gyration::mass::{MassError, MassProperties};
 use gyration::shape::{Cone, MassPoint, Part, Points, Polyhedron, Shape, Sphere, Union};
 use gyration::tensor::{Mat3, Vec3};
 use proptest::prelude::*;
-use solids::{
-    DENSITY, approximated, assert_close, corner_tetrahedron, cuboid, difference, points, rotation, solids, union_of,
-};
 
 #[test]
 fn closed_forms_agree_with_integrated_sections() {

@@ -1,8 +1,9 @@
 //! Relations that the rates of rigid bodies obey, whatever the scene: exact Jacobian, power balance, dissipation.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod moving;
-
+use crate::moving::{
+    self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, controlled, evaluate,
+    immersed, remembered, shapes, supports,
+};
 use gyration::balance::{kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, RigidInertia};
 use gyration::contact::AreaMeasure;
@@ -14,10 +15,6 @@ use gyration::rates::Workspace;
 use gyration::shape::Shape;
 use gyration::state::{RigidStart, State, Turn};
 use gyration::tensor::Vec3;
-use moving::{
-    Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, controlled, evaluate, immersed,
-    remembered, shapes, supports,
-};
 use proptest::prelude::*;
 
 /// A body under everything that may act on a rigid one.

@@ -1,9 +1,10 @@
 //! What every shape answers besides its mass: faults, extent, surface, sharpest feature, picture.
 
-mod solids;
-
 use std::f64::consts::TAU;
 
+use crate::solids::{
+    DENSITY, approximated, assert_close, corner_tetrahedron, cuboid, difference, points, rotation, solids,
+};
 use gyration::shape::{
     Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Feature, MassPoint, Outline, Part, Points, Polyhedron, PolyhedronError,
     SILHOUETTE_POINTS, Shape, ShapeError, Sphere, Torus, Union,
@@ -11,7 +12,6 @@ use gyration::shape::{
 use gyration::surface::GapField;
 use gyration::tensor::Vec3;
 use nalgebra::Rotation3;
-use solids::{DENSITY, approximated, assert_close, corner_tetrahedron, cuboid, difference, points, rotation, solids};
 
 #[test]
 fn valid_shapes_pass_and_have_possible_mass_properties() {

@@ -1,13 +1,11 @@
 //! The triangles that show a shape: closed, outward, on the true surface, and as many as asked for.
 
 #[allow(dead_code, reason = "what compares masses is not needed here")]
-mod solids;
-
 use std::collections::BTreeMap;
 
+use crate::solids::{points, solids};
 use gyration::shape::{Capsule, Cone, Cylinder, Shape, Torus, Triangulation};
 use gyration::tensor::Vec3;
-use solids::{points, solids};
 
 /// Needles, plates and rings that a spacing alone would not serve.
 fn slender() -> Vec<Shape> {

@@ -1,4 +1,5 @@
 //! Problems for the tests of the steppers, made from closures, and a driver.
+
 #![allow(dead_code, clippy::unwrap_used)]
 
 use std::ops::Range;

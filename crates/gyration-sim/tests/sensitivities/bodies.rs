@@ -1,6 +1,6 @@
 //! Rigid and deformable bodies on a table, beside differences of runs.
 
-use crate::support::{TIGHT, at_end, disagreement, scene, strings, table};
+use crate::sensitivities::support::{TIGHT, at_end, disagreement, scene, strings, table};
 
 const BOX: &str = r#"
     [[body]]

@@ -1,6 +1,6 @@
 //! Closed forms: free fall, a rest gap, the precession of a free top, an oscillation.
 
-use crate::support::{at_end, close, scene};
+use crate::sensitivities::support::{at_end, close, scene};
 use std::f64::consts::PI;
 
 #[test]

@@ -1,6 +1,6 @@
 //! Driven and prescribed contraction, beside differences of runs: signals with kinks that move.
 
-use crate::support::{TIGHT, disagreement, strings, table};
+use crate::sensitivities::support::{TIGHT, disagreement, strings, table};
 use gyration_scene::Scene;
 use gyration_sim::sensitivity::{At, Sensitivities};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Bodies in a fluid: without inertia, with memory, with a resistance by boundary elements.
 
-use crate::support::{TIGHT, at_end, close, disagreement, scene, strings};
+use crate::sensitivities::support::{TIGHT, at_end, close, disagreement, scene, strings};
 
 /// The first quantity by each of the numbers.
 fn first(found: &gyration_sim::sensitivity::Sensitivities) -> Vec<f64> {

@@ -1,6 +1,6 @@
 //! Impacts that are over within a few hundred-thousandths of the time between them: no step may pass over one.
 
-use crate::support::{TIGHT, at_end, by_differences, scene, strings};
+use crate::sensitivities::support::{TIGHT, at_end, by_differences, scene, strings};
 
 /// A ball that falls from a height above the table, at rest; the run ends on its way up again.
 fn falling(radius: f64, height: f64, laws: &str) -> String {

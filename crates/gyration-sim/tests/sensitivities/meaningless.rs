@@ -1,7 +1,7 @@
 //! Where there is no derivative: each reason, with the number that it belongs to and the time from which it holds.
 
-use crate::bodies::tumbling;
-use crate::support::{at_end, scene, strings};
+use crate::sensitivities::bodies::tumbling;
+use crate::sensitivities::support::{at_end, scene, strings};
 use gyration_sim::sensitivity::{At, Meaningless, Sensitivities, SensitivityError};
 
 const BALL: &str = r#"

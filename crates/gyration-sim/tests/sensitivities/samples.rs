@@ -1,7 +1,7 @@
 //! Derivatives at all samples, and what becomes of them as the tolerance goes down.
 
-use crate::bodies::tumbling;
-use crate::support::{TIGHT, at_end, scene, strings};
+use crate::sensitivities::bodies::tumbling;
+use crate::sensitivities::support::{TIGHT, at_end, scene, strings};
 use gyration_sim::sensitivity::{At, Sensitivities};
 
 const QUANTITIES: [&str; 5] = ["box.x", "box.z", "box.P_xy", "energy.kinetic", "work.damping"];

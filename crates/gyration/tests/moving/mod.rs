@@ -1,4 +1,5 @@
 //! Bodies under everything that may act on them, and relations that all rates obey.
+
 #![allow(dead_code, reason = "each test uses a part of this")]
 
 pub mod any_form;

@@ -1,5 +1,4 @@
 //! The run loop: what it sees within long steps, and what it does not hold up.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Outcome, Provenance, Simulation, Unwatched};

@@ -1,0 +1,15 @@
+//! Whole runs through the public face: a module a subject. `no_allocation` is a program of its own, for its allocator.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+mod by_hand;
+mod dissipation;
+mod modes;
+mod random;
+mod random_scenes;
+mod replay;
+mod run_loop;
+mod runs;
+mod sensitivities;
+mod short_range;
+mod surfaces;
