@@ -1,12 +1,9 @@
 //! A viscous box that drives itself anisotropically on a floor, under three laws, against the equations written once more (`independent`).
 
-mod independent;
-mod soft;
-
+use crate::independent::contracting::{ContractingBox, MORE};
+use crate::independent::{Power, SoftBox, Stuff, gauss, integrate};
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Experiment, Run, largest};
-use independent::contracting::{ContractingBox, MORE};
-use independent::{Power, SoftBox, Stuff, gauss, integrate};
 
 const END: f64 = 0.4;
 const DRAG: f64 = 60.0;

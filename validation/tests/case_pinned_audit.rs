@@ -5,12 +5,10 @@
 //! Pulled at by a spring with a dashpot, a couple, gravity, a linear friction and a gyroscopic load. The last does no work:
 //! the ledger closes without it.
 
-mod soft;
-
+use crate::soft::{self, derivatives, size};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Recorded;
 use gyration_validation::{Case, Experiment, largest};
-use soft::{derivatives, size};
 
 const SPACING: f64 = 5e-4;
 const SIZE: [f64; 3] = [0.10, 0.08, 0.06];

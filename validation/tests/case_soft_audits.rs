@@ -5,12 +5,10 @@
 //!
 //! S, N, K, P and Ṗ are those of the recording, φ that of its ledger; derivatives are central differences of eighth order.
 
-mod soft;
-
+use crate::soft::{derivatives, size, thrown_box};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Recorded;
 use gyration_validation::{Case, Run, largest};
-use soft::{derivatives, size, thrown_box};
 
 const VOLUME: f64 = 0.10 * 0.08 * 0.06;
 const SPACING: f64 = 5e-5;

@@ -3,12 +3,10 @@
 //! Incompressible rubber with viscosity in the measure `deformed_area`; compressible foam with Newtonian friction in
 //! `deformed_area_potential`. Both strike the plane with corners and edges, under repulsion, damping and friction.
 
-mod independent;
-mod soft;
-
+use crate::independent::{Numbers, Power, SoftBox, Stuff, gauss, integrate};
+use crate::soft;
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Run, largest};
-use independent::{Numbers, Power, SoftBox, Stuff, gauss, integrate};
 
 /// A problem in both languages.
 struct Problem {

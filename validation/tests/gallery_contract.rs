@@ -6,10 +6,8 @@
 //!
 //! Source: derived in `docs/theory-contractile.md`.
 
-mod independent;
-
+use crate::independent::{Equations, integrate};
 use gyration_validation::{Case, Experiment, Run, largest};
-use independent::{Equations, integrate};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn case(name: &'static str, source: &'static str) -> Case {

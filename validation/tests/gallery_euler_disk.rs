@@ -1,11 +1,8 @@
 //! The scene `euler-disk`: it goes round at the steady rate of its inclination, faster and faster, and ends in finite time.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod spinning;
-
+use crate::spinning::{Spinning, falls_to, mean};
 use gyration_sim::Outcome;
 use gyration_validation::{Answer, Experiment, largest};
-use spinning::{Spinning, falls_to, mean};
 
 const GRAVITY: f64 = 9.81;
 const RADIUS: f64 = 0.0375;

@@ -7,13 +7,11 @@
 //! The last: P = R U, U = I + ε e; skw L = Ṙ Rᵀ − ωε²/(1 − ε²), sym L = εω/(1 − ε²) across the axes, of which a body without couple has
 //! skw L = (a² − b²)/(a² + b²) sym L = 2ε/(1 + ε²) sym L (Jeffery, in a fluid at rest). The third axis does not count.
 
-mod independent;
-
+use crate::independent::Equations as _;
+use crate::independent::inclusion::{Particle, directions};
+use crate::independent::integrate;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_validation::{Case, Experiment, Turning, largest, passage, threshold};
-use independent::Equations as _;
-use independent::inclusion::{Particle, directions};
-use independent::integrate;
 use std::f64::consts::{PI, TAU};
 
 /// Drag along and across the axis of a spheroid, 6πη times the radius of its equator: Happel and Brenner, §5-11.

@@ -1,9 +1,7 @@
 //! The scene `rattleback`: clockwise it reverses, anticlockwise it does not.
 
-mod spinning;
-
+use crate::spinning::{Spinning, falls_to};
 use gyration_validation::Experiment;
-use spinning::{Spinning, falls_to};
 
 #[test]
 fn rattleback_spun_clockwise_turns_round() {

@@ -1,5 +1,4 @@
 //! The scene `rocking-block`: swings whose period depends on their amplitude as Housner's does.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration_sim::Outcome;
 use gyration_validation::{Answer, Experiment, Run, largest};

@@ -11,10 +11,8 @@
 //! The field is not a point: the rubbing of the patch, of mean square radius 2Rd/(ν−2), takes spin at the rate
 //! k = (β/α) m g 2Rd/((ν−2) C), and λ with it.
 
-mod spinning;
-
+use crate::spinning::Spinning;
 use gyration_validation::{Answer, Experiment, Run};
-use spinning::Spinning;
 use std::f64::consts::PI;
 
 const GRAVITY: f64 = 9.81;

@@ -4,10 +4,8 @@
 //! tip is free to slide, the centre stays on its vertical and I₁ is about the centre; friction decides between the two, and
 //! while the top is fast both are m g l/(I₃ω₃) to leading order.
 
-mod spinning;
-
+use crate::spinning::{Spinning, mean};
 use gyration_validation::{Answer, Experiment, largest};
-use spinning::{Spinning, mean};
 use std::f64::consts::PI;
 
 const GRAVITY: f64 = 9.81;

@@ -4,13 +4,11 @@
 //!
 //! Linear and angular momentum and the energy stay. det P is a cubic of t: with P₀ = I and Ṗ₀ = −I it vanishes at t = 1 s.
 
-mod soft;
-
+use crate::soft::{self, alone, body, spread};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Recorded;
 use gyration_sim::{Outcome, Reason};
 use gyration_validation::{Case, largest};
-use soft::{alone, body, spread};
 
 const SOURCE: &str = "P = P₀ + t Ṗ₀";
 const TOLERANCES: (f64, f64) = (1e-10, 1e-12);

@@ -2,11 +2,9 @@
 //!
 //! L = γ e₁⊗e₂ has tr(L²) = 0, so that the constraint asks for no pressure; any a⊗b with a·b = 0 will do, and any mass.
 
-mod soft;
-
+use crate::soft::{self, alone, body, spread};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_validation::{Case, largest};
-use soft::{alone, body, spread};
 
 const FREE: &str = "material = { mooney_rivlin = { c1 = 0, c2 = 0 } }";
 

@@ -6,11 +6,9 @@
 //!
 //! It is reached from the round sphere by viscosity, which a rigid rotation does not feel; ω is that at the end.
 
-mod soft;
-
+use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;
 use gyration_validation::Case;
-use soft::{alone, body};
 
 const SPIN: f64 = 30.0;
 

@@ -7,11 +7,9 @@
 //! A body starts at rest with P = I + a M. After ten periods T of the reference the phase of x = M·P tells the frequency:
 //! x = A cos ωt at t = 10T, φ = atan2(−ẋ/ω, x), ω = (20π + φ)/t. The period of a large vibration differs by a² only.
 
-mod soft;
-
+use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Experiment};
-use soft::{alone, body};
 use std::f64::consts::TAU;
 
 const AMPLITUDE: f64 = 1e-5;

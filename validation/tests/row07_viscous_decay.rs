@@ -3,11 +3,9 @@
 //! Four samples of x = A e^−δt cos(ω_d t + φ), spaced by h, give both: x_{k+1} = 2e^−δh cos(ω_d h) x_k − e^−2δh x_{k−1}.
 //! Newton's viscosity η is μ = 2η; ζ slows the breathing alone, δ = 3ζV/(2j).
 
-mod soft;
-
+use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;
 use gyration_validation::Case;
-use soft::{alone, body};
 
 /// Decay rate and frequency of M·P, from samples spaced by about a fifth of a period.
 fn decay(shape: &str, affine: &str, mode: &Mat3, spacing: f64) -> (f64, f64) {

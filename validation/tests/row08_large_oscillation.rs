@@ -5,11 +5,9 @@
 //! With l = mean + half·sin θ the singular ends go, and the midpoint rule in θ converges as for a periodic function.
 //! W(m) − W(l) = (m − l)[c₁(m + l − 2/(ml)) + c₂(2 − (m + l)/(m²l²))], without cancellation at m.
 
-mod soft;
-
+use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Experiment, Run, largest};
-use soft::{alone, body};
 use std::f64::consts::PI;
 
 const C1: f64 = 3000.0;

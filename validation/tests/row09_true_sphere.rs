@@ -7,11 +7,9 @@
 //!
 //! so that k = 2.66562; the affine sphere has ω²R²ρ/μ = 10.
 
-mod soft;
-
+use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;
 use gyration_validation::Case;
-use soft::{alone, body};
 
 /// The determinant of the two conditions, j₂ and kj₂′ in closed form.
 fn determinant(k: f64) -> f64 {

@@ -3,8 +3,7 @@
 //! Undeformed it is the same in all three measures; on a sphere that is blown up to λR, `deformed_area` gives f(λR), and
 //! `reference_area` f(λR)/λ².
 
-mod soft;
-
+use crate::soft;
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Experiment};
 use std::f64::consts::PI;

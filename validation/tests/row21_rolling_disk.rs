@@ -10,10 +10,8 @@
 //!
 //! and the energy falls as (t_end − t)^n with n = 1/(1 + q): 1/2 for (ν, ν_d) = (6, 4), 3/4 for (6, 6).
 
-mod spinning;
-
+use crate::spinning::{Spinning, falls_to, mean};
 use gyration_validation::{Answer, Experiment, Run};
-use spinning::{Spinning, falls_to, mean};
 
 const ROW: Option<u32> = Some(21);
 const GRAVITY: f64 = 9.81;

@@ -8,10 +8,8 @@
 //! h = 0.01 m the height of its centre of mass. Source of the phenomenon: G. T. Walker, Quart. J. Pure Appl. Math. 28
 //! (1896) 175.
 
-mod spinning;
-
+use crate::spinning::{Spinning, falls_to};
 use gyration_validation::{Answer, Experiment, largest};
-use spinning::{Spinning, falls_to};
 
 const ROW: Option<u32> = Some(22);
 /// J_xy = −I_xy [kg m²].

@@ -3,12 +3,10 @@
 //! Without a material there is none at all; rubber has none in the limit ρ → 0, in which it follows G at once: the deviation
 //! is of the first order in ρ.
 
-mod soft;
-
+use crate::soft::{CUBE, entry, size};
 use gyration::tensor::Mat3;
 use gyration_sim::{Outcome, Reason};
 use gyration_validation::{Case, Experiment};
-use soft::{CUBE, entry, size};
 
 const DRAG: f64 = 50.0;
 const END: f64 = 0.4;

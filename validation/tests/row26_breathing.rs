@@ -4,12 +4,9 @@
 //!
 //! The scalar equation is integrated in the test by extrapolation, apart from the program.
 
-mod independent;
-mod soft;
-
+use crate::independent::{Equations, integrate};
+use crate::soft::{BALL, CUBE};
 use gyration_validation::{Case, Experiment, largest};
-use independent::{Equations, integrate};
-use soft::{BALL, CUBE};
 
 const DRAG: f64 = 40.0;
 const AMPLITUDE: f64 = 900.0;

@@ -3,11 +3,9 @@
 //! Once through the works that the program integrates, and once through differences of eighth order of recorded energies, with
 //! the powers put together from recorded P, Ṗ, G, V_G and Q.
 
-mod soft;
-
+use crate::soft::{BALL, derivatives};
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Experiment, Run, largest};
-use soft::{BALL, derivatives};
 
 const DRAG: f64 = 30.0;
 const VISCOSITY: f64 = 25.0;

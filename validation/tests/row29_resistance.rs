@@ -3,12 +3,10 @@
 //!   drag 6πηRU,   couple 8πηR³Ω,   stress 5ηE of a sphere held in a strain,   −4ηṘ/R of one that grows
 //!   spheroids: Happel and Brenner §4-26, Lamb §339;   any ellipsoid: Carlson's R_F and R_D, and averages over a sphere (`independent`)
 
-mod independent;
-
+use crate::independent::inclusion::{Averages, carlson_d, carlson_f, stress};
 use gyration::fluid::Ellipsoid;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_validation::{Case, Experiment, largest};
-use independent::inclusion::{Averages, carlson_d, carlson_f, stress};
 use std::f64::consts::PI;
 
 const VISCOSITY: f64 = 1.3;

@@ -5,12 +5,10 @@
 //!
 //! Sources: Gao, Hu, Ponte Castañeda, *J. Fluid Mech.* 687 (2011) 209; the equations once more, integrated apart from the program (`independent`).
 
-mod independent;
-
+use crate::independent::inclusion::{Averages, Particle, directions};
+use crate::independent::integrate;
 use gyration::tensor::Vec3;
 use gyration_validation::{Case, Experiment, largest};
-use independent::inclusion::{Averages, Particle, directions};
-use independent::integrate;
 
 /// The scene `tank-tread` at another G, until it is steady.
 fn treading(capillary: f64, end: f64) -> Experiment {

@@ -80,13 +80,13 @@ fn check_known_answers(steps: &mut Steps) {
     }
 }
 
-/// Tests in files called `python.rs` are ignored unless there is an interpreter with the pinned packages; those of the Python
+/// Tests in modules called `python` are ignored unless there is an interpreter with the pinned packages; those of the Python
 /// package need it installed.
 fn python_tests(steps: &mut Steps) {
     if let Some(interpreter) = python::environment(steps) {
         // The whole workspace again, so that nothing is compiled twice with other features.
         let mut command = cargo();
-        command.args(["test", "--workspace", "--test", "python", "--", "--ignored"]);
+        command.args(["test", "--workspace", "--test", "tests", "--", "--ignored", "python::"]);
         steps.run_tests("Python tests", command.env("GYRATION_PYTHON", &interpreter));
         package::tests(steps, &interpreter);
     }

@@ -3,11 +3,7 @@
 //! The crate gltf, which refuses documents that the specification does not allow, reads it; what a player shows is computed
 //! from its nodes and channels once more, without anything of the exporter.
 
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod common;
-
-use common::Sandbox;
+use crate::common::Sandbox;
 use gltf::animation::util::ReadOutputs;
 use gyration_record::Recording;
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};

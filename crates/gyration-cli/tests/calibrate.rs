@@ -1,10 +1,6 @@
 //! `gyration calibrate`: numbers, drawing and exit codes.
-#![cfg(feature = "study")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
-use common::Sandbox;
+use crate::common::Sandbox;
 use serde_json::Value;
 
 const BLOCK: &str = r#"

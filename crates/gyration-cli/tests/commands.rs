@@ -1,10 +1,6 @@
 //! Commands that need no recording: gallery, schema, completions, help, check.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{BALL, Sandbox, soft_ball};
+use crate::common::{BALL, Sandbox, soft_ball};
 use serde_json::Value;
 
 #[test]

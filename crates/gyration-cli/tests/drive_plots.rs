@@ -1,10 +1,6 @@
 //! `gyration plot` and the summary of `run` for bodies that drive themselves.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{BALL, Sandbox, soft_ball};
+use crate::common::{BALL, Sandbox, soft_ball};
 use serde_json::Value;
 
 /// A box that stretches and shears itself out of phase: it gets somewhere.

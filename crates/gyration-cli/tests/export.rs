@@ -1,10 +1,6 @@
 //! `gyration export` and `gyration plot`: columns, formats, stdout, the same bytes for the same recording.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{BALL, Sandbox};
+use crate::common::{self, BALL, Sandbox};
 use std::fs;
 use std::io::Read;
 use std::process::Stdio;

@@ -3,14 +3,10 @@
 //! Needs a Python with the packages of `xtask/python-requirements.txt`, named by the environment variable GYRATION_PYTHON:
 //!
 //! ```text
-//! GYRATION_PYTHON=target/python/bin/python cargo test -p gyration-cli --test python -- --ignored
+//! GYRATION_PYTHON=target/python/bin/python cargo test -p gyration-cli --test tests -- --ignored python::
 //! ```
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set its scene has failed")]
-
-mod common;
-
-use common::Sandbox;
+use crate::common::Sandbox;
 use std::path::Path;
 use std::process::Command;
 

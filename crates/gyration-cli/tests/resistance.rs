@@ -1,10 +1,6 @@
 //! `gyration resistance`: matrices of shapes, in a fluid or without one, near a wall, at a frequency.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::Sandbox;
+use crate::common::Sandbox;
 use serde_json::Value;
 use std::f64::consts::PI;
 

@@ -1,10 +1,6 @@
 //! A run that is killed or interrupted goes on to the same bytes as one that is not.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{BALL, Said, Sandbox, assert_same_bytes, tree};
+use crate::common::{BALL, Said, Sandbox, assert_same_bytes, tree};
 use gyration_record::Recording;
 use serde_json::Value;
 use std::path::Path;

@@ -1,10 +1,6 @@
 //! `gyration run`: names, exit codes, what is printed where, what is left on disk.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{BALL, Said, Sandbox, assert_same_bytes, tree};
+use crate::common::{BALL, Said, Sandbox, assert_same_bytes, tree};
 use serde_json::Value;
 use std::fs;
 use std::process::Stdio;

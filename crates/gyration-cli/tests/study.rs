@@ -1,11 +1,6 @@
 //! Studies: killed, interrupted and divided ones end with the same table as one that is not.
 
-#![cfg(feature = "study")]
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{Said, Sandbox};
+use crate::common::{Said, Sandbox};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};

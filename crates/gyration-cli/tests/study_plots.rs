@@ -1,11 +1,6 @@
 //! `gyration study STUDY plot`: pictures of a table.
 
-#![cfg(feature = "study")]
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::Sandbox;
+use crate::common::Sandbox;
 
 /// Two heights, a random speed: six runs.
 const STUDY: &str = r#"

@@ -2,12 +2,7 @@
 //!
 //! A program built without the page says how to get it; then that is what these tests see.
 
-#![cfg(feature = "view")]
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::Sandbox;
+use crate::common::Sandbox;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};

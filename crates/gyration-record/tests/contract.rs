@@ -1,8 +1,6 @@
 //! What is written is read, exported and protected as the contract says.
 
-mod common;
-
-use common::{attributes, checkpoint, event, finished, layout, row, time, tree, write_to};
+use crate::common::{attributes, checkpoint, event, finished, layout, row, time, tree, write_to};
 use gyration_record::{Attributes, Event, RecordError, Recording, Writer, export, remove};
 use serde_json::{Value, json};
 use std::fs;

@@ -3,11 +3,7 @@
 //! The child is this program, called with the path in an environment variable. Moments of the kills come from a
 //! fixed sequence; where in the work they fall depends on the machine, and nothing is asserted about that.
 
-#![allow(clippy::unwrap_used, reason = "a test that cannot set its scene has failed")]
-
-mod common;
-
-use common::{attributes, checkpoint, layout, row, time, tree, write_to};
+use crate::common::{attributes, checkpoint, layout, row, time, tree, write_to};
 use gyration_record::{Attributes, Recording, Writer};
 use serde_json::json;
 use std::path::Path;
@@ -60,7 +56,7 @@ fn killed_runs_resume_to_the_same_bytes() {
     let (mut kills, mut moved, mut random) = (0, 0, 12345_u64);
     loop {
         let mut child = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "child", "--ignored", "--quiet"])
+            .args(["--exact", "kill::child", "--ignored", "--quiet"])
             .env(PATH, &path)
             .stdout(Stdio::null())
             .spawn()

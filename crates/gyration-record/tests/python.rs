@@ -3,14 +3,10 @@
 //! Needs a Python with xarray, zarr ≥ 3 and numpy, named by the environment variable GYRATION_PYTHON:
 //!
 //! ```text
-//! GYRATION_PYTHON=venv/bin/python cargo test -p gyration-record --test python -- --ignored
+//! GYRATION_PYTHON=venv/bin/python cargo test -p gyration-record --test tests -- --ignored python::
 //! ```
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot set its scene has failed")]
-
-mod common;
-
-use common::{checkpoint, finished, layout, write_to};
+use crate::common::{checkpoint, finished, layout, write_to};
 use gyration_record::{Attributes, Recording, Writer, export};
 use std::fs::File;
 use std::path::Path;

@@ -1,9 +1,6 @@
 //! What a deformable body in a scene becomes: materials, friction, loads, start, resolved form.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{BLOCK, assert_resolves_to_itself, block, start};
+use crate::common::{BLOCK, assert_resolves_to_itself, block, start};
 use gyration::affine::{Gyration, Viscosity};
 use gyration::body::{Affine, BodyKind};
 use gyration::load::Couple;

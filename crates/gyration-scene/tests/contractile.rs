@@ -1,9 +1,6 @@
 //! What a contractile body in a scene becomes: signals, feedback, contraction, start, resolved form.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{BLOCK, assert_resolves_to_itself, block, start};
+use crate::common::{BLOCK, assert_resolves_to_itself, block, start};
 use gyration::body::{BodyKind, Contractile};
 use gyration::contractile::{Feedback, Measure, Source, Spin};
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};

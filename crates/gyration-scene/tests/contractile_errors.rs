@@ -1,8 +1,6 @@
 //! What can be wrong with a contractile body, each at its exact place (`§`), with the fix.
 
-mod common;
-
-use common::{BALL, Row, TABLE, TIME, assert_error, errors};
+use crate::common::{BALL, Row, TABLE, TIME, assert_error, errors};
 use gyration_scene::Scene;
 use std::path::Path;
 

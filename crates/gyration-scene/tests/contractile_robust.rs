@@ -1,8 +1,6 @@
 //! Whatever contracts an incompressible body, its start is projected once and then stays: resolved scenes are fixed points.
 
-mod common;
-
-use common::{assert_resolves_to_itself, start};
+use crate::common::{assert_resolves_to_itself, start};
 use gyration::tensor::Mat3;
 use gyration_scene::Scene;
 use proptest::prelude::*;

@@ -1,8 +1,6 @@
 //! Tables of drives and of prescribed contractions: what is wrong with one is said with its file and line, and the fix.
 
-mod common;
-
-use common::{BALL, TIME};
+use crate::common::{BALL, TIME};
 use gyration_scene::{Scene, SceneErrors};
 use std::fs;
 

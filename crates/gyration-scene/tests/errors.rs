@@ -1,8 +1,6 @@
 //! Every kind of error, at its exact place. In a row `§` stands right before the place that the error must point to.
 
-mod common;
-
-use common::{BALL, Row, TABLE, TIME, assert_error, errors};
+use crate::common::{BALL, Row, TABLE, TIME, assert_error, errors};
 
 #[test]
 fn a_study_is_told_from_a_scene() {

@@ -1,5 +1,4 @@
 //! What a scene becomes: gallery, defaults, units, JSON, resolved form, overrides, model and first state.
-#![allow(clippy::unwrap_used)]
 
 use gyration::body::BodyKind;
 use gyration::support::SupportMotion;

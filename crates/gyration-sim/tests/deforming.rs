@@ -1,7 +1,5 @@
 //! The resistance of a shape that deforms: what is interpolated against what is computed, at forms that are no nodes.
 
-#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic as the tests themselves may")]
-
 use gyration::fluid::{Resolution, largest_error};
 use gyration::shape::{Cuboid, Shape};
 use gyration::tensor::{Mat3, Vec3};

@@ -1,7 +1,6 @@
 //! Ellipsoids against the closed form: accuracy, and what the estimate of the error is worth.
 
-mod reference;
-
+use crate::reference;
 use gyration_stokes::{Faces, Options, Resistance, StokesError, Surface};
 
 const SHAPES: [[f64; 3]; 4] = [[2.0, 1.0, 1.0], [1.0, 0.5, 0.2], [5.0, 1.0, 1.0], [1.3, 0.8, 1.0]];

@@ -1,12 +1,8 @@
 //! What holds for any body: symmetry, scales, turning, change of centre, threads, edges.
 
-#![allow(clippy::unwrap_used, reason = "a body that is refused is a failed test")]
-
-mod reference;
-
+use crate::reference::{self, Mat12};
 use gyration_stokes::{Faces, Options, Surface};
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use reference::Mat12;
 
 /// A lopsided body: no symmetry to hide behind.
 fn pear() -> Surface {

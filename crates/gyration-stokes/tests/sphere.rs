@@ -1,7 +1,6 @@
 //! A sphere against its closed forms: 6πR, 8πR³, 3V a strain, 4 Ṙ/R an area, and the traction of each.
 
-mod reference;
-
+use crate::reference;
 use gyration_stokes::{Faces, Options, Surface};
 use std::f64::consts::PI;
 

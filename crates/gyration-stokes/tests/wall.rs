@@ -1,11 +1,7 @@
 //! A sphere near a plane wall: Brenner's series towards it, Faxén's expansion along it, and what a growing sphere feels.
 
-#![allow(clippy::unwrap_used, reason = "a body that is refused is a failed test")]
-
-mod reference;
-
+use crate::reference::{self, Mat12};
 use gyration_stokes::{Options, Plane, StokesError, Surface};
-use reference::Mat12;
 use std::f64::consts::PI;
 
 const WALL: Plane = Plane { point: [0.0; 3], normal: [0.0, 0.0, 2.0] };

@@ -1,5 +1,4 @@
 //! Numbers of contact laws from measurements: known ones come back, what cannot be known is named, bad files are refused.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use gyration_study::calibration::{Calibration, Fitted};
 use std::fmt::Write as _;

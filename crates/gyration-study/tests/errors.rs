@@ -1,10 +1,6 @@
 //! What is wrong with a study is told at once, each with its place and its fix.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::sandbox;
+use crate::common::{self, sandbox};
 use gyration_scene::{LoadError, SceneError};
 use gyration_study::Study;
 

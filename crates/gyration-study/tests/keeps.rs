@@ -1,7 +1,5 @@
 //! What is kept of a run, against closed forms of free motion.
 
-#![allow(clippy::unwrap_used)]
-
 use gyration_record::Recording;
 use gyration_study::{Shard, Study, Table, Unwatched, Value, execute};
 use std::collections::BTreeMap;

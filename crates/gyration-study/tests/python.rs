@@ -1,10 +1,6 @@
 //! Tables as pandas, pyarrow and polars read them. Needs GYRATION_PYTHON: a Python with all three.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{complete, sandbox, study};
+use crate::common::{complete, sandbox, study};
 use gyration_study::{Row, Shard, Table};
 use std::path::Path;
 use std::process::Command;

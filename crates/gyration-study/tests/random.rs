@@ -1,11 +1,7 @@
 //! The randomness of a run depends on the seed, its number and the name of the parameter alone, and has the distribution
 //! that is asked for.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::sandbox;
+use crate::common::sandbox;
 use gyration_study::{Row, Study, Value};
 use std::f64::consts::TAU;
 

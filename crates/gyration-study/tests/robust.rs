@@ -1,10 +1,6 @@
 //! No text makes the reader of studies panic, and no journal the reader of rows.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{STUDY, sandbox, study};
+use crate::common::{STUDY, sandbox, study};
 use gyration_study::{Row, Study};
 use proptest::prelude::*;
 

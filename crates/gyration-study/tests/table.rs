@@ -1,10 +1,6 @@
 //! The table of a study has the same bytes whoever makes it, in whatever order, however often it is interrupted.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{complete, sandbox, study};
+use crate::common::{self, complete, sandbox, study};
 use gyration_study::{Frame, Row, Shard, Study, StudyError, Table, Value, merge};
 use std::fs;
 use std::path::Path;

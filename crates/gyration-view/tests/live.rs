@@ -1,10 +1,6 @@
 //! A scene runs as it is watched: pages get every row, steer the run, and cannot slow it.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{FALL, Served, doubles, provenance, singles};
+use crate::common::{FALL, Served, doubles, provenance, singles};
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Simulation, Unwatched};
 use gyration_view::{Live, Source};

@@ -1,10 +1,6 @@
 //! A recording on disk is served as it stands, and only to its own page.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
-use common::{FALL, Served, doubles, record, singles};
+use crate::common::{FALL, Served, doubles, record, singles};
 use gyration_record::Recording;
 use gyration_view::{Source, Stored};
 

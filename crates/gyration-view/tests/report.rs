@@ -1,11 +1,7 @@
 //! A report is one file that holds the whole recording and needs nothing else. Without the page there is none to make.
 
-#![allow(clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::{FALL, doubles, record, singles};
 use base64::Engine as _;
-use common::{FALL, doubles, record, singles};
 use gyration_record::Recording;
 use gyration_view::{Stored, page, report};
 use serde_json::Value;

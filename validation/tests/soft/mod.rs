@@ -1,4 +1,5 @@
 //! What the tests of bodies that deform share: scenes of one body, and matrices in and out of them.
+
 #![allow(dead_code, reason = "each test uses a part of this")]
 
 use gyration::tensor::Mat3;

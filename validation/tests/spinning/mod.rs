@@ -1,6 +1,7 @@
 //! What the tests of spinning bodies read off a run: the axis of a body and its angular velocity.
 //!
 //! The axis is the image P e_z of the shape's axis; ω is the axial vector of Ṗ Pᵀ.
+
 #![allow(dead_code, reason = "each test uses a part of this")]
 
 use gyration::tensor::{Mat3, Vec3};

@@ -3,8 +3,6 @@
 //! Every number follows from its place, so that a reader in any language can check it.
 
 #![allow(dead_code, reason = "each test uses some of it")]
-#![allow(clippy::unwrap_used, reason = "a test that cannot set its scene has failed")]
-
 use gyration_record::{ArraySpec, Attributes, Dimension, Event, FixedArray, Layout, RecordError, Writer};
 use std::collections::BTreeMap;
 use std::fs;

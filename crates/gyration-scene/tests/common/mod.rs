@@ -1,4 +1,5 @@
 //! Pieces of scenes, and the check that an error stands at its mark.
+
 // Each test takes what it needs.
 #![allow(dead_code)]
 

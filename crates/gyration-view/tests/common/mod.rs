@@ -1,4 +1,5 @@
 //! What these tests share: recordings of small scenes, a server in a thread, and a browser's part of HTTP.
+
 #![allow(dead_code, clippy::unwrap_used, reason = "each test program uses a part of this")]
 
 use gyration_scene::Scene;

@@ -1,0 +1,21 @@
+//! The program `gyration` as its users start it: a module a subject.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+mod animation;
+#[cfg(feature = "study")]
+mod calibrate;
+mod commands;
+mod common;
+mod drive_plots;
+mod export;
+mod python;
+mod resistance;
+mod resume;
+mod run;
+#[cfg(feature = "study")]
+mod study;
+#[cfg(feature = "study")]
+mod study_plots;
+#[cfg(feature = "view")]
+mod view;

@@ -1,0 +1,16 @@
+//! Reading scenes through the public face: a module a subject.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+mod affine;
+mod affine_errors;
+mod common;
+mod contractile;
+mod contractile_errors;
+mod contractile_robust;
+mod contractile_tables;
+mod corpus;
+mod errors;
+mod robust;
+mod scenes;
+mod together;

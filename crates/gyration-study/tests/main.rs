@@ -1,0 +1,12 @@
+//! Studies and calibrations through the public face: a module a subject.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+mod calibration;
+mod common;
+mod errors;
+mod keeps;
+mod python;
+mod random;
+mod robust;
+mod table;

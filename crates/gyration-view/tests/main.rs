@@ -1,0 +1,8 @@
+//! What pages get, through the public face: a module a subject.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
+
+mod common;
+mod live;
+mod recording;
+mod report;
