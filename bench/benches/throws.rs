@@ -9,7 +9,7 @@
 use gyration::state::State;
 use gyration_bench::die::{BETA, Die, SIDE};
 use gyration_bench::processor_seconds;
-use gyration_sim::ensemble::{Ending, run_one};
+use gyration_ode::Statistics;
 use gyration_sim::{MemorySink, Outcome, Simulation, Unwatched};
 
 fn main() {
@@ -49,8 +49,26 @@ impl Series {
     }
 }
 
+/// How a throw ended.
+struct Ending {
+    outcome: Outcome,
+    state: State,
+    statistics: Statistics,
+    /// How many events of each kind.
+    events: [u64; 3],
+}
+
 fn end(die: &Die, start: &State) -> Ending {
-    run_one(&die.model, die.plan, start).expect("the start is admissible")
+    let (simulation, outcome) = run(die, start, &mut MemorySink::default());
+    let (statistics, events) = (*simulation.statistics(), simulation.tally().events);
+    Ending { outcome, state: simulation.state(), statistics, events }
+}
+
+fn run<'a>(die: &'a Die, start: &State, sink: &mut MemorySink) -> (Simulation<'a>, Outcome) {
+    let mut simulation = Simulation::new(&die.model, start, die.plan).expect("the start is admissible");
+    simulation.begin(sink).expect("memory");
+    let outcome = simulation.run(sink, &mut Unwatched).expect("memory");
+    (simulation, outcome)
 }
 
 /// Throws a second against the part of faces that change from one tolerance to the next.
@@ -109,9 +127,7 @@ fn restitutions(gap: f64, damping: f64) {
 /// The rows of a run, and the time of its first apex after a closest approach.
 fn record(die: &Die, start: &State) -> (Vec<(f64, Vec<f64>)>, f64) {
     let mut sink = MemorySink::default();
-    let mut simulation = Simulation::new(&die.model, start, die.plan).expect("the start is admissible");
-    simulation.begin(&mut sink).expect("memory");
-    simulation.run(&mut sink, &mut Unwatched).expect("memory");
+    run(die, start, &mut sink);
     let touch = sink.events.iter().find(|event| event.kind == 1).map_or(f64::INFINITY, |event| event.time);
     let apex = sink.events.iter().find(|event| event.kind == 0 && event.time > touch);
     (sink.rows, apex.map_or(f64::INFINITY, |event| event.time))

@@ -12,9 +12,7 @@ use gyration::state::State;
 use gyration_bench::near_table;
 use gyration_bench::soft::{cube_over_table, material};
 use gyration_ode::{Integrator, Method, Options};
-use gyration_record::RecordError;
 use gyration_sim::adapter::ModelSystem;
-use gyration_sim::events::Event;
 use gyration_sim::rows::Extras;
 use gyration_sim::{RunPlan, Simulation, Sink, Tolerance, Unwatched};
 use std::time::Instant;
@@ -46,19 +44,7 @@ fn by_integrator(model: &Model, start: &State, method: Method, rtol: f64) -> Rea
 /// Keeps nothing.
 struct Nowhere;
 
-impl Sink for Nowhere {
-    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event) -> Result<(), RecordError> {
-        Ok(())
-    }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
+impl Sink for Nowhere {}
 
 /// By a whole run: horizon, events, ledger, a row at the end.
 fn by_simulation(model: &Model, start: &State, method: Method, rtol: f64) -> Reached {

@@ -17,5 +17,5 @@ mod tumbling;
 pub use answer::{Answer, Case, largest};
 pub use experiment::{Experiment, Run};
 pub use facet::FacetBody;
-pub use studied::Studied;
+pub use studied::{Studied, TWO};
 pub use tumbling::{Turning, passage, threshold};

@@ -1,7 +1,11 @@
 //! Some runs of a ready study, in memory.
 
 use gyration_study::{Row, Study, Value};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use gyration_threads::in_order;
+use std::num::NonZeroUsize;
+
+/// As many as run beside the other tests.
+pub const TWO: NonZeroUsize = NonZeroUsize::MIN.saturating_add(1);
 
 /// Runs of a study, in the order in which they were asked for.
 #[derive(Debug, Clone)]
@@ -13,24 +17,9 @@ pub struct Studied {
 impl Studied {
     /// Runs some of a study's runs, on two threads.
     pub fn new(study: &Study, runs: &[u64]) -> Self {
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut rows = Vec::new();
-            loop {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                let Some(run) = runs.get(index) else { return rows };
-                rows.push((index, study.row(*run)));
-            }
-        };
-        let mut rows = std::thread::scope(|scope| {
-            let other = scope.spawn(work);
-            let mut rows = work();
-            rows.extend(other.join().unwrap_or_else(|_| panic!("a run failed")));
-            rows
-        });
-        rows.sort_by_key(|(index, _)| *index);
+        let rows = in_order(runs, TWO, |run| study.row(*run));
         let columns = study.columns().iter().map(|column| column.name.clone()).collect();
-        Self { columns, rows: rows.into_iter().map(|(_, row)| row).collect() }
+        Self { columns, rows }
     }
 
     /// A ready study.

@@ -15,7 +15,8 @@ use gyration::rates::Workspace;
 use gyration::state::{RigidStart, State};
 use gyration::tensor::Vec3;
 use gyration_sim::{MemorySink, Monitor, Outcome, Progress, Reason, Simulation};
-use gyration_validation::{Answer, Experiment};
+use gyration_threads::in_order;
+use gyration_validation::{Answer, Experiment, TWO};
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 const ROW: Option<u32> = Some(23);
@@ -150,20 +151,13 @@ fn nearly_flat(die: &Experiment, throw: u64) -> State {
     start(die, &mut random, orientation, 1.0)
 }
 
-/// How many of so many throws end on each face; on two threads, in any order.
+/// How many of so many throws end on each face.
 fn count(die: &Experiment, start: impl Fn(&Experiment, u64) -> State + Sync, throws: u64) -> [u64; 6] {
-    let half = |first: u64| {
-        let mut counts = [0; 6];
-        for number in (first..throws).step_by(2) {
-            counts[throw(die, &start(die, number))] += 1;
-        }
-        counts
-    };
-    let halves = std::thread::scope(|scope| {
-        let other = scope.spawn(|| half(1));
-        [half(0), other.join().unwrap_or_else(|_| panic!("a throw failed"))]
-    });
-    std::array::from_fn(|face| halves[0][face] + halves[1][face])
+    let mut counts = [0; 6];
+    for face in in_order(0..throws, TWO, |number| throw(die, &start(die, number))) {
+        counts[face] += 1;
+    }
+    counts
 }
 
 /// χ² of the counts against six equal chances.

@@ -9,10 +9,9 @@ use crate::scene::Scene;
 use crate::watch::Watch;
 use gyration_record::RecordError;
 use gyration_scene::Scene as Built;
-use gyration_sim::events::Event;
 use gyration_sim::rows::Fields;
 use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink};
-use gyration_study::Threads;
+use gyration_threads::{Threads, share};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -20,12 +19,7 @@ use pyo3::types::PyDict;
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::time::Duration;
-
-/// How often the thread of Python looks at signals.
-const EVERY: Duration = Duration::from_millis(50);
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What many runs ended with, an array a quantity.
 #[pyclass(frozen, module = "gyration", name = "Runs")]
@@ -59,7 +53,7 @@ pub fn run_many(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Runs> {
     let scenes = scenes.try_iter()?.map(|scene| Scene::ready(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
-    let threads = workers(threads)?.get().min(scenes.len().max(1));
+    let threads = workers(threads)?.min(NonZeroUsize::new(scenes.len()).unwrap_or(NonZeroUsize::MIN));
     if let Some(keep) = &keep {
         check_columns(&scenes, keep)?;
     }
@@ -102,40 +96,22 @@ fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
 }
 
 /// Runs all on so many threads, while this one looks at signals; those that are not begun when all are to stop are told as such.
-fn all(scenes: &[Arc<Built>], threads: usize, keep: Option<&[String]>, watch: &mut Watch) -> Vec<Ending> {
-    let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            let (send, next, stop) = (send.clone(), &next, &stop);
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(scene) = scenes.get(index).filter(|_| !stop.load(Ordering::Relaxed)) else { return };
-                    // The other end waits until all have been received.
-                    let _ = send.send((index, run_one(scene, keep, stop)));
-                }
-            });
+fn all(scenes: &[Arc<Built>], threads: NonZeroUsize, keep: Option<&[String]>, watch: &mut Watch) -> Vec<Ending> {
+    let stop = AtomicBool::new(false);
+    let mut endings: Vec<Option<Ending>> = scenes.iter().map(|_| None).collect();
+    let mut done = 0;
+    let run = |(index, scene): (usize, &Arc<Built>)| Some((index, run_one(scene, keep, &stop)));
+    share(scenes.iter().enumerate(), threads, &stop, run, |ended| {
+        for (index, ending) in ended {
+            endings[index] = Some(ending);
+            done += 1;
         }
-        drop(send);
-        let mut endings: Vec<Option<Ending>> = scenes.iter().map(|_| None).collect();
-        let mut done = 0;
-        loop {
-            match receive.recv_timeout(EVERY) {
-                Ok((index, ending)) => {
-                    endings[index] = Some(ending);
-                    done += 1;
-                }
-                Err(mpsc::RecvTimeoutError::Disconnected) => break,
-                Err(mpsc::RecvTimeoutError::Timeout) => {}
-            }
-            if !watch.ask(f64::from(done), scenes.len() as f64) {
-                stop.store(true, Ordering::Relaxed);
-            }
+        if !watch.ask(f64::from(done), scenes.len() as f64) {
+            stop.store(true, Ordering::Relaxed);
         }
-        let not_begun = || Ending::nothing("interrupted", "stopped before it began".to_owned());
-        endings.into_iter().map(|ending| ending.unwrap_or_else(not_begun)).collect()
-    })
+    });
+    let not_begun = || Ending::nothing("interrupted", "stopped before it began".to_owned());
+    endings.into_iter().map(|ending| ending.unwrap_or_else(not_begun)).collect()
 }
 
 /// Keeps the last row.
@@ -146,14 +122,6 @@ impl Sink for Last {
     fn row(&mut self, _: f64, row: &[f64]) -> Result<(), RecordError> {
         self.0.clear();
         self.0.extend_from_slice(row);
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event) -> Result<(), RecordError> {
-        Ok(())
-    }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
         Ok(())
     }
 }

@@ -274,16 +274,8 @@ impl HandStepper {
 struct Noted(Vec<Event>);
 
 impl Sink for Noted {
-    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
-        Ok(())
-    }
-
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         self.0.push(*event);
-        Ok(())
-    }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
         Ok(())
     }
 }

@@ -10,7 +10,6 @@
 pub mod adapter;
 mod aside;
 mod by_hand;
-pub mod ensemble;
 pub mod events;
 mod horizon;
 pub mod modes;

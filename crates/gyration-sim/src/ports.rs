@@ -7,19 +7,25 @@ use gyration_ode::{MemoryError, Statistics, StepReport};
 use gyration_record::RecordError;
 use std::path::PathBuf;
 
-/// Where rows, events and checkpoints go.
+/// Where rows, events and checkpoints go; what is left out goes nowhere.
 pub trait Sink {
     /// One sample, flattened in the order of `rows::Fields::arrays`.
     ///
     /// # Errors
     /// Whatever keeps it from being stored.
-    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError>;
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        let _ = (time, row);
+        Ok(())
+    }
 
     /// One event.
     ///
     /// # Errors
     /// Whatever keeps it from being stored.
-    fn event(&mut self, event: &Event) -> Result<(), RecordError>;
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        let _ = event;
+        Ok(())
+    }
 
     /// Whether [`Sink::event_row`] is to be called.
     fn wants_event_rows(&self) -> bool {
@@ -39,7 +45,10 @@ pub trait Sink {
     ///
     /// # Errors
     /// Whatever keeps it from being stored.
-    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError>;
+    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+        let _ = checkpoint;
+        Ok(())
+    }
 }
 
 /// What the run says of itself after each step, and whether it is to go on.

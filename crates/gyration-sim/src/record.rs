@@ -302,10 +302,6 @@ impl Sink for MemorySink {
         self.events.push(*event);
         Ok(())
     }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        Ok(())
-    }
 }
 
 impl Outcome {

@@ -148,10 +148,6 @@ impl Sink for Nowhere {
         self.events += 1;
         Ok(())
     }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        Ok(())
-    }
 }
 
 /// Stops after the first events, when all scratch has been used.

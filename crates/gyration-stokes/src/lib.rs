@@ -30,12 +30,10 @@ mod panel;
 mod resistance;
 mod rule;
 mod surface;
-mod threads;
 mod wall;
 
 pub use error::StokesError;
 pub use mesh::MAX_REFINEMENTS;
 pub use resistance::{DEFAULT_MAX_BYTES, Faces, Options, Resistance};
 pub use surface::Surface;
-pub use threads::on_own_threads;
 pub use wall::Plane;

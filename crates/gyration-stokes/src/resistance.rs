@@ -25,8 +25,8 @@ use crate::estimate::largest_share;
 use crate::motion::{Mat12, Motion, inner_work, right_sides};
 use crate::panel::{Panel, Vec3};
 use crate::surface::Surface;
-use crate::threads::on_own_threads;
 use crate::wall::{Plane, Wall};
+use gyration_threads::on_own_threads;
 
 /// Bytes of matrices that are taken unless said otherwise: 16,000 unknowns, some 10,000 triangles of a smooth surface.
 pub const DEFAULT_MAX_BYTES: u64 = 5 << 29;

@@ -259,8 +259,4 @@ impl Sink for Both {
     fn event_row(&mut self, event: &Event, row: &[f64]) -> Result<(), RecordError> {
         self.observer.event_row(event, row)
     }
-
-    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        self.observer.step_end(checkpoint)
-    }
 }

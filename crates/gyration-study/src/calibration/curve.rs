@@ -3,7 +3,7 @@
 //!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂u
 
 use super::{Calibration, Experiment, Fitted, Kind};
-use gyration_stokes::on_own_threads;
+use gyration_threads::on_own_threads;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// Half of the width of an interval of 95 %, in standard errors.

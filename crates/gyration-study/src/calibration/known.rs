@@ -9,7 +9,7 @@
 
 use super::fit::START;
 use super::{Calibration, CalibrationError};
-use gyration_stokes::on_own_threads;
+use gyration_threads::on_own_threads;
 use nalgebra::DMatrix;
 use rayon::iter::ParallelIterator;
 use serde::Serialize;

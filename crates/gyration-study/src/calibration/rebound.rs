@@ -132,10 +132,6 @@ struct Watch {
 }
 
 impl Sink for &Watch {
-    fn row(&mut self, _: f64, _: &[f64]) -> Result<(), RecordError> {
-        Ok(())
-    }
-
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         if event.body == self.body && event.kind != APEX {
             self.touched.set(true);
@@ -153,10 +149,6 @@ impl Sink for &Watch {
             let center = Vec3::from_column_slice(&row[self.place..self.place + 3]);
             self.apex.set(Some((event.time, center)));
         }
-        Ok(())
-    }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
         Ok(())
     }
 }

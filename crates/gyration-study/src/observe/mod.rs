@@ -128,8 +128,4 @@ impl Sink for Observer {
         }
         Ok(())
     }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        Ok(())
-    }
 }

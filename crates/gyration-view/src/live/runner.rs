@@ -105,14 +105,6 @@ impl Sink for FirstRow {
         self.0 = Some((time, row.to_vec()));
         Ok(())
     }
-
-    fn event(&mut self, _: &Event) -> Result<(), RecordError> {
-        Ok(())
-    }
-
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        Ok(())
-    }
 }
 
 /// Publishes rows and events.

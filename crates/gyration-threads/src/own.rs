@@ -1,4 +1,4 @@
-//! The threads that share the work.
+//! Rayon in a process that may have been forked.
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::process;

@@ -1,0 +1,37 @@
+//! How many threads compute.
+
+use std::num::NonZeroUsize;
+use std::thread;
+
+/// Threads at most.
+const MOST: usize = 1024;
+
+/// A number of threads that makes no sense.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Threads {
+    /// None do no work.
+    #[error("no thread does no work")]
+    None,
+    /// So many that the machine would do nothing but change between them.
+    #[error("{0} threads are too many for any machine")]
+    TooMany(usize),
+}
+
+impl Threads {
+    /// As many as are asked for, else one for each processor.
+    ///
+    /// # Errors
+    /// None, or more than any machine has processors for.
+    pub fn asked(threads: Option<usize>) -> Result<NonZeroUsize, Self> {
+        match threads {
+            None => Ok(thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)),
+            Some(threads) if threads > MOST => Err(Self::TooMany(threads)),
+            Some(threads) => NonZeroUsize::new(threads).ok_or(Self::None),
+        }
+    }
+
+    /// What to do.
+    pub fn fix(self) -> String {
+        format!("ask for 1 to {MOST}, or leave it out for all processors")
+    }
+}
