@@ -1,14 +1,15 @@
 //! What may be written after `gyration`.
 
 use clap::builder::styling::{AnsiColor, Styles};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use gyration_plot::Quantity;
+#[cfg(feature = "study")]
+use gyration_plot::study::Kind;
+use gyration_sim::resistance::TRIANGLES_ALLOWED;
 use std::num::NonZeroUsize;
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
-
-/// How many triangles boundary elements may take.
-pub const TRIANGLES: RangeInclusive<u32> = 80..=10_000;
 
 const STYLES: Styles =
     Styles::styled().header(AnsiColor::Green.on_default().bold()).usage(AnsiColor::Green.on_default().bold());
@@ -127,7 +128,7 @@ pub struct Resistance {
     #[arg(long)]
     pub elements: bool,
     /// About how many triangles boundary elements take [default: 1280]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(i64::from(*TRIANGLES.start())..=i64::from(*TRIANGLES.end())))]
+    #[arg(long, value_name = "N", value_parser = triangles())]
     pub triangles: Option<u32>,
     /// Near a wall without slip: the plane of this support
     #[arg(long, value_name = "SUPPORT")]
@@ -181,8 +182,8 @@ pub struct Plot {
     #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath)]
     pub source: String,
     /// What to draw, below each other [default: overview of a recording, laws of a scene]
-    #[arg(value_name = "WHAT")]
-    pub what: Vec<What>,
+    #[arg(value_name = "WHAT", value_parser = quantity())]
+    pub what: Vec<Quantity>,
     /// File to write: .svg, .png or .pdf; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
@@ -282,7 +283,7 @@ pub struct StudyPlot {
     #[arg(long, visible_alias = "color", value_name = "COLUMN")]
     pub colour: Option<String>,
     /// Kind of picture; with this, --x or --y the study's own columns no longer count [default: what the study says, or by the columns]
-    #[arg(long, value_parser = crate::plot::study::Kind::WORDS)]
+    #[arg(long, value_parser = Kind::WORDS)]
     pub kind: Option<String>,
 }
 
@@ -301,31 +302,13 @@ pub struct Calibrate {
     pub json: bool,
 }
 
-/// What may be drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum What {
-    /// All that the recording has
-    Overview,
-    /// Outlines at successive times, from the side; bodies that spin on the spot from above
-    Strip,
-    /// Heights of the centres of mass
-    Height,
-    /// Smallest distances to a support
-    Gap,
-    /// Principal stretches of bodies that deform
-    Stretch,
-    /// Forces of contact
-    Forces,
-    /// Energies, works and the residual of their balance
-    Energy,
-    /// Two measures of bodies that contract against each other, and the area that the last cycle encloses
-    Stroke,
-    /// Level distances of the centres of mass from their starts, and lengths of their paths
-    Distance,
-    /// Cost of transport of bodies that contract: work of the drive by weight and distance
-    Cost,
-    /// Where the work of the drive goes, and its power
-    Drive,
-    /// Tractions and resistances against distance, forces on bodies, gaps of rest
-    Laws,
+/// Reads the name of a quantity; help lists all of them.
+fn quantity() -> impl TypedValueParser<Value = Quantity> {
+    let named = |quantity: Quantity| PossibleValue::new(quantity.name()).help(quantity.description());
+    PossibleValuesParser::new(Quantity::ALL.map(named)).try_map(|name| Quantity::of_name(&name))
+}
+
+/// Reads how many triangles boundary elements take.
+fn triangles() -> impl TypedValueParser<Value = u32> {
+    clap::value_parser!(u32).range(i64::from(*TRIANGLES_ALLOWED.start())..=i64::from(*TRIANGLES_ALLOWED.end()))
 }

@@ -2,16 +2,16 @@
 //!
 //! 1: the run ended early; 2: bad arguments or scene; 3: the scene file or the recording cannot be read or written.
 
-use crate::plot::PlotError;
+use gyration_plot::PlotError;
 use gyration_record::RecordError;
-use gyration_scene::LoadError;
+use gyration_scene::{LoadError, NotInGallery, NotToml};
 use gyration_sim::RunError;
+use gyration_sim::resistance::NoSuchResistance;
 #[cfg(feature = "study")]
 use gyration_study::calibration::CalibrationError;
 #[cfg(feature = "view")]
 use gyration_view::ViewError;
 use std::io;
-use std::path::PathBuf;
 
 /// A failure of the program.
 #[derive(Debug, thiserror::Error)]
@@ -48,17 +48,15 @@ pub enum CliError {
         /// What to do.
         fix: String,
     },
-    /// A file cannot be written.
-    #[error("cannot write {path}: {source}", path = path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
+    /// There is no such scene in the gallery.
+    #[error(transparent)]
+    Gallery(#[from] NotInGallery),
+    /// There is no such resistance.
+    #[error(transparent)]
+    Resistance(#[from] NoSuchResistance),
     /// The resolved scene has no form in TOML.
-    #[error("the resolved scene cannot be written as TOML: {0}; take it from `gyration check SCENE --json`")]
-    Resolved(toml::ser::Error),
+    #[error(transparent)]
+    Resolved(#[from] NotToml),
     /// Stdout cannot be written; a closed pipe is no error.
     #[error("cannot write to stdout: {0}")]
     Stdout(#[from] io::Error),
@@ -90,9 +88,12 @@ impl CliError {
     /// The exit code that tells it to scripts.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } | Self::Resolved(_) => code::BAD_INPUT,
+            Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } => code::BAD_INPUT,
+            Self::Gallery(_) | Self::Resistance(_) | Self::Resolved(_) => code::BAD_INPUT,
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
-            Self::Plot(PlotError::Nothing { .. } | PlotError::Measure { .. }) => code::BAD_INPUT,
+            Self::Plot(PlotError::Nothing { .. } | PlotError::Measure { .. } | PlotError::Arguments { .. }) => {
+                code::BAD_INPUT
+            }
             Self::Record(RecordError::AlreadyExists { .. }) => code::BAD_INPUT,
             #[cfg(feature = "study")]
             Self::Study(error) if error.is_bad_input() => code::BAD_INPUT,
@@ -112,7 +113,6 @@ impl CliError {
             | Self::Record(_)
             | Self::Run(_)
             | Self::Plot(_)
-            | Self::Write { .. }
             | Self::Stdout(_)
             | Self::Signal(_) => code::BAD_FILE,
         }

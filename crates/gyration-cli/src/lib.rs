@@ -1,30 +1,28 @@
 //! The program `gyration`: arguments in, data to stdout, messages to stderr, an exit code for scripts.
 //!
-//! It is a library, so that other ways to it (the Python package) give the very same texts and pictures: [`library`]
-//! is all that they may use.
+//! It is a library, so that the Python package installs the same program: [`run`] and [`provenance`] are all of it.
 //!
 //! ```text
-//! arguments → commands/{run, check, modes, resistance, study, calibrate, scenes, export, plot, schema, …}
-//!                 check: what can be said before a run         plot: pictures of recordings and laws
+//! arguments → commands/{run, check, modes, resistance, study, calibrate, scenes, export, plot, schema, …} → output
 //! ```
 //!
-//! No mechanics here: scenes are built by `gyration-scene`, run by `gyration-sim`, kept by `gyration-record`.
+//! No mechanics here: scenes are built by `gyration-scene`, run and surveyed by `gyration-sim`, kept by `gyration-record`, drawn
+//! by `gyration-plot`, shown by `gyration-view`.
 
 #![forbid(unsafe_code)]
 
 mod arguments;
-mod check;
 mod commands;
 mod error;
-pub mod library;
 mod output;
-mod plot;
 mod progress;
-mod summary;
+mod provenance;
 
 use arguments::Arguments;
 use clap::Parser;
 use std::ffi::OsString;
+
+pub use provenance::provenance;
 
 /// The program, from its arguments (the first is its name) to its exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {

@@ -5,7 +5,7 @@
 
 use crate::error::{CliError, code};
 use crate::output;
-use crate::summary::plain;
+use gyration_sim::format::{duration, significant};
 use gyration_sim::{Monitor, Progress, Reason, limit_in_words};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -108,33 +108,10 @@ impl Bar {
         self.bar.set_prefix(format!("t = {time:.4} of {end} s"));
         self.bar.set_message(format!(
             "{} s/s, {} left, step {:.1e} s limited by {limit}",
-            plain(self.rate, 3),
-            duration_in_words(remaining),
+            significant(self.rate, 3),
+            duration(remaining),
             progress.step.end - progress.step.start,
         ));
         self.bar.set_position((TICKS as f64 * time / end) as u64);
-    }
-}
-
-/// A duration in two units at most; a question mark where it cannot be told.
-pub fn duration_in_words(seconds: f64) -> String {
-    if !seconds.is_finite() {
-        return "?".to_owned();
-    }
-    let whole = seconds.round() as u64;
-    match whole {
-        0..60 => format!("{whole} s"),
-        60..3600 => format!("{} min {} s", whole / 60, whole % 60),
-        _ => format!("{} h {} min", whole / 3600, whole / 60 % 60),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations_have_two_units() {
-        assert_eq!([3.2, 75.0, 7300.0, f64::INFINITY].map(duration_in_words), ["3 s", "1 min 15 s", "2 h 1 min", "?"]);
     }
 }

@@ -3,7 +3,8 @@
 use crate::convert::{array, object, to_python};
 use crate::errors;
 use crate::scene::Scene;
-use gyration_cli::library::{self, ResistanceOptions};
+use gyration_sim::resistance::{ResistanceOptions, Resistances};
+use gyration_sim::survey::modes_in_json;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyComplex, PyDict};
@@ -13,7 +14,7 @@ use serde_json::{Map, Value};
 #[pyfunction]
 pub fn modes<'py>(py: Python<'py>, scene: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::ready(scene)?;
-    let all = py.detach(|| library::modes(&scene));
+    let all = py.detach(|| modes_in_json(&scene));
     let found = PyDict::new(py);
     for body in list(&all, "bodies") {
         let described = PyDict::new(py);
@@ -78,7 +79,8 @@ pub fn resistance<'py>(
     };
     let triangles = triangles.map(counted).transpose()?;
     let options = ResistanceOptions { wall, triangles, elements, frequency };
-    let all = py.detach(|| library::resistance(&scene, body.as_deref(), &options)).map_err(errors::program)?;
+    let found = py.detach(|| Resistances::of(&scene, body.as_deref(), &options));
+    let all = found.map_err(|error| errors::arguments(error.to_string()))?.to_json(scene.name());
     let found = PyDict::new(py);
     for described in list(&all, "bodies") {
         let told = describe_resistance(py, described)?;

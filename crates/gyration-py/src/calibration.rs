@@ -2,8 +2,7 @@
 
 use crate::convert::{array, json, object};
 use crate::errors;
-use crate::picture::{Picture, Source};
-use gyration_cli::library;
+use crate::picture::{Picture, PictureSource};
 use gyration_study::calibration::{Calibration, CalibrationError, Fitted};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -116,13 +115,13 @@ impl Fit {
 
     /// The measurements, the curves that fit them and the bands in which they lie with 95 %.
     fn plot(&self, py: Python<'_>) -> PyResult<Picture> {
-        let source = Source::Fit(Arc::clone(&self.calibration), Arc::clone(&self.fitted));
+        let source = PictureSource::Fit(Arc::clone(&self.calibration), Arc::clone(&self.fitted));
         py.detach(|| Picture::new(source))
     }
 
     /// What the program prints.
     fn __str__(&self) -> String {
-        library::fit_in_words(&self.calibration, &self.fitted)
+        self.fitted.text(&self.calibration)
     }
 
     fn __repr__(&self) -> String {

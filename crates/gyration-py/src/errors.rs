@@ -3,7 +3,7 @@
 //! The classes are Python's (`gyration/_errors.py`): an extension for all versions of Python cannot derive from built-in
 //! exceptions.
 
-use gyration_cli::library::CliError;
+use gyration_plot::PlotError;
 use gyration_record::RecordError;
 use gyration_scene::{LoadError, SceneError, SceneErrors};
 use gyration_sim::{RunError, Stop};
@@ -101,15 +101,11 @@ pub fn reason(stop: &Stop) -> String {
     serde_json::to_value(stop.reason).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
-/// What the program would say.
-pub fn program(error: CliError) -> PyErr {
+/// A picture that cannot be drawn or written.
+pub fn plot(error: PlotError) -> PyErr {
     match error {
-        CliError::Scene(error) => load(error),
-        CliError::Record(error) => record(error),
-        CliError::Run(error) => run(error),
-        CliError::Plot(error) => raise("PlotError", &error.to_string(), nothing),
-        CliError::Write { .. } => raise("FileError", &error.to_string(), nothing),
-        error => arguments(error.to_string()),
+        PlotError::Arguments { .. } => arguments(error.to_string()),
+        error => raise("PlotError", &error.to_string(), nothing),
     }
 }
 

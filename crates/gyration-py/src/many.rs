@@ -156,7 +156,7 @@ impl Ending {
 }
 
 fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<Ending, RunError> {
-    let job = Job::of(scene, &gyration_cli::library::provenance());
+    let job = Job::of(scene, &gyration_cli::provenance());
     let mut last = Last::default();
     let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
     simulation.begin(&mut last)?;

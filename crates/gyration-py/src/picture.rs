@@ -1,8 +1,9 @@
 //! `Picture`: a drawing that shows itself in a notebook and can be saved.
 
 use crate::errors;
-use gyration_cli::library::{self, CliError, Format, StudyPicture};
-use gyration_record::Recording;
+use gyration_plot::study::{Request, of_table};
+use gyration_plot::{Figure, Format, PlotError, Quantity, calibration};
+use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
 use gyration_study::Frame;
 use gyration_study::calibration::{Calibration, Fitted};
@@ -14,37 +15,56 @@ use tempfile::TempDir;
 /// A drawing; in a notebook it shows itself.
 #[pyclass(frozen, module = "gyration", name = "Picture")]
 pub struct Picture {
-    source: Source,
+    source: PictureSource,
     svg: String,
 }
 
 /// What is drawn.
-pub enum Source {
-    /// A recording, what keeps its folder, the quantities, and the measures of `stroke`.
-    Recording(Recording, Option<Arc<TempDir>>, [Vec<String>; 2]),
+pub enum PictureSource {
+    /// A recording.
+    Recording {
+        /// The recording.
+        recording: Recording,
+        /// What keeps its folder.
+        kept: Option<Arc<TempDir>>,
+        /// What is drawn; the overview if there is nothing.
+        quantities: Vec<String>,
+        /// The measures of `stroke`.
+        measures: Vec<String>,
+    },
     /// The laws of a scene.
     Laws(Arc<Scene>),
     /// A fit to measurements.
     Fit(Arc<Calibration>, Arc<Fitted>),
     /// Columns of the table of a study, which lies at this path.
-    Study(Arc<Frame>, PathBuf, StudyPicture),
+    Study(Arc<Frame>, PathBuf, Request),
 }
 
-impl Source {
-    fn render(&self, format: Format) -> Result<Vec<u8>, CliError> {
+impl PictureSource {
+    fn figure(&self) -> Result<Figure, PlotError> {
         match self {
-            Self::Recording(recording, _, [what, measures]) => library::picture(recording, what, measures, format),
-            Self::Laws(scene) => library::laws(scene, format),
-            Self::Fit(calibration, fitted) => Ok(library::fit_picture(calibration, fitted, format)),
-            Self::Study(frame, path, asked) => library::study_picture(frame, path, asked, format),
+            Self::Recording { recording, quantities, measures, .. } => {
+                let named = quantities.iter().map(|name| Quantity::of_name(name));
+                let mut quantities = named.collect::<Result<Vec<_>, _>>()?;
+                if quantities.is_empty() {
+                    quantities.push(Quantity::Overview);
+                }
+                gyration_plot::of_recording(recording, &quantities, measures)
+            }
+            Self::Laws(scene) => gyration_plot::laws(scene),
+            Self::Fit(calibration, fitted) => Ok(calibration::figure(calibration, fitted)),
+            Self::Study(frame, path, request) => {
+                let stem = path.file_stem().map_or("study".into(), |stem| stem.to_string_lossy());
+                of_table(frame, &stem, request.clone(), None)
+            }
         }
     }
 }
 
 impl Picture {
     /// Draws.
-    pub fn new(source: Source) -> PyResult<Self> {
-        let bytes = source.render(Format::Svg).map_err(errors::program)?;
+    pub fn new(source: PictureSource) -> PyResult<Self> {
+        let bytes = source.figure().map_err(errors::plot)?.render(Format::Svg);
         Ok(Self { source, svg: String::from_utf8_lossy(&bytes).into_owned() })
     }
 
@@ -55,7 +75,7 @@ impl Picture {
 
     /// The laws of a scene.
     pub fn of_laws(scene: Arc<Scene>) -> PyResult<Self> {
-        Self::new(Source::Laws(scene))
+        Self::new(PictureSource::Laws(scene))
     }
 }
 
@@ -69,9 +89,9 @@ impl Picture {
 
     /// Writes it; the ending of the path says how.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let format = library::format(&path).map_err(errors::program)?;
-        let written = py.detach(|| library::write_picture(&path, &self.source.render(format)?));
-        written.map_err(errors::program)
+        let format = Format::of_path(&path).map_err(errors::plot)?;
+        let bytes = py.detach(|| Ok(self.source.figure()?.render(format))).map_err(errors::plot)?;
+        write_file(&path, &bytes).map_err(errors::record)
     }
 
     fn _repr_svg_(&self) -> &str {
@@ -80,15 +100,13 @@ impl Picture {
 
     fn __repr__(&self) -> String {
         let what = match &self.source {
-            Source::Recording(recording, _, [what, _]) if what.is_empty() => {
-                format!("overview of {}", recording.path().display())
+            PictureSource::Recording { recording, quantities, .. } => {
+                let what = if quantities.is_empty() { "overview".to_owned() } else { quantities.join(", ") };
+                format!("{what} of {}", recording.path().display())
             }
-            Source::Recording(recording, _, [what, _]) => {
-                format!("{} of {}", what.join(", "), recording.path().display())
-            }
-            Source::Laws(scene) => format!("laws of {}", scene.name()),
-            Source::Fit(calibration, _) => format!("fit of {}", calibration.title()),
-            Source::Study(_, path, _) => format!("table of {}", path.display()),
+            PictureSource::Laws(scene) => format!("laws of {}", scene.name()),
+            PictureSource::Fit(calibration, _) => format!("fit of {}", calibration.title()),
+            PictureSource::Study(_, path, _) => format!("table of {}", path.display()),
         };
         format!("<gyration.Picture: {what}>")
     }

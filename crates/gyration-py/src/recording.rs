@@ -2,9 +2,10 @@
 
 use crate::convert::{array as numpy, object};
 use crate::errors;
-use crate::picture::{Picture, Source};
-use gyration_cli::library;
+use crate::picture::{Picture, PictureSource};
 use gyration_record::{Array, ArrayInfo, Recording as Inner};
+use gyration_sim::RunSummary;
+use gyration_sim::replay::ReplayError;
 use gyration_view::{Stored, report};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -68,8 +69,9 @@ impl Recording {
     }
 
     /// Quantities, and the measures of `stroke`; the recording stays on disk as long as its picture.
-    fn picture(&self, what: [Vec<String>; 2]) -> PyResult<Picture> {
-        Picture::new(Source::Recording(self.inner.clone(), self.kept.clone(), what))
+    fn picture(&self, quantities: Vec<String>, measures: Vec<String>) -> PyResult<Picture> {
+        let (recording, kept) = (self.inner.clone(), self.kept.clone());
+        Picture::new(PictureSource::Recording { recording, kept, quantities, measures })
     }
 
     fn no_such(&self, name: &str) -> PyErr {
@@ -124,9 +126,17 @@ impl Recording {
         if let Some(told) = &self.told {
             return told.clone();
         }
-        py.detach(|| library::summary_of_recording(&self.inner)).unwrap_or_else(|error| {
+        let text = || -> Result<String, ReplayError> {
+            let (scene, summary) = RunSummary::of_recording(&self.inner)?;
+            Ok(summary.text(&scene, &summary.energies_at_start(&self.inner)?))
+        };
+        py.detach(text).unwrap_or_else(|error| {
             let words = self.inner.attributes().get("outcome_in_words").and_then(Value::as_str);
-            format!("{}\nthe rest cannot be told: {error}", words.unwrap_or("the run has not ended"))
+            let fix = match error {
+                ReplayError::Record(_) => "",
+                _ => "\n  fix: put the file back, or record the scene anew",
+            };
+            format!("{}\nthe rest cannot be told: {error}{fix}", words.unwrap_or("the run has not ended"))
         })
     }
 
@@ -240,7 +250,7 @@ impl Recording {
     /// ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name. ``measures`` are the two of ``stroke``.
     #[pyo3(signature = (*what, measures=None))]
     fn plot(&self, py: Python<'_>, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {
-        py.detach(|| self.picture([what, measures.unwrap_or_default()]))
+        py.detach(|| self.picture(what, measures.unwrap_or_default()))
     }
 
     /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its path, beside the
@@ -268,7 +278,7 @@ impl Recording {
                 let style = "width: 100%; height: 600px; border: 0";
                 Ok(format!("<iframe style=\"{style}\" srcdoc=\"{quoted}\"></iframe>"))
             }
-            Err(_) => Ok(self.picture([Vec::new(), Vec::new()])?.svg().to_owned()),
+            Err(_) => Ok(self.picture(Vec::new(), Vec::new())?.svg().to_owned()),
         }
     }
 

@@ -3,8 +3,8 @@
 use crate::errors;
 use crate::recording::Recording;
 use crate::watch::Watch;
-use gyration_cli::library;
-use gyration_record::remove;
+use gyration_plot::leave_overview;
+use gyration_record::{Recording as Stored, remove};
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Recorded, RunSummary, Simulation};
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use tempfile::TempDir;
 
 /// Where a recording is to go.
-pub struct Wanted {
+pub struct RecordOptions {
     /// The folder; none: one that lives as long as the recording is in use.
     pub output: Option<PathBuf>,
     /// Go on with what is there.
@@ -23,22 +23,27 @@ pub struct Wanted {
 }
 
 /// Runs a scene; the lock is not held.
-pub fn run(py: Python<'_>, scene: &Scene, wanted: Wanted, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Recording> {
-    let (path, kept) = place(&wanted, scene.name())?;
+pub fn run(
+    py: Python<'_>,
+    scene: &Scene,
+    options: RecordOptions,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Recording> {
+    let (path, kept) = place(&options, scene.name())?;
     let mut watch = Watch::new(progress)?;
-    let done = py.detach(|| record(scene, &wanted, &path, &mut watch));
-    watch.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&wanted, &path)))?;
+    let done = py.detach(|| record(scene, &options, &path, &mut watch));
+    watch.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&options, &path)))?;
     let summary = done?;
-    if let Some(warning) = wanted.output.as_ref().and_then(|_| library::leave_overview(&path)) {
+    if let Some(warning) = options.output.as_ref().and_then(|_| leave_overview(&path)) {
         py.import("warnings")?.call_method1("warn", (warning,))?;
     }
     Recording::of_run(&path, kept, summary)
 }
 
 /// The folder of the recording, and what removes it if nobody asked for it.
-fn place(wanted: &Wanted, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>)> {
-    let Some(path) = &wanted.output else {
-        if wanted.resume {
+fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>)> {
+    let Some(path) = &options.output else {
+        if options.resume {
             return Err(errors::arguments(
                 "there is nothing to resume\n  fix: say with `output` which recording is to go on",
             ));
@@ -47,7 +52,7 @@ fn place(wanted: &Wanted, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>
             .map_err(|error| errors::write(Path::new("a temporary folder"), &error))?;
         return Ok((folder.path().join(format!("{name}.gyr")), Some(Arc::new(folder))));
     };
-    if path.symlink_metadata().is_ok() && !wanted.resume && !wanted.force {
+    if path.symlink_metadata().is_ok() && !options.resume && !options.force {
         let fix = "go on with it by resume=True, replace it by force=True, or choose another name";
         return Err(errors::arguments(format!("{} exists already\n  fix: {fix}", path.display())));
     }
@@ -55,15 +60,15 @@ fn place(wanted: &Wanted, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>
 }
 
 /// The run itself, and what the program would say of it; nothing if it had ended before.
-fn record(scene: &Scene, wanted: &Wanted, path: &Path, watch: &mut Watch) -> PyResult<Option<String>> {
-    let job = Job::of(scene, &library::provenance());
-    let recorded = if wanted.resume {
+fn record(scene: &Scene, options: &RecordOptions, path: &Path, watch: &mut Watch) -> PyResult<Option<String>> {
+    let job = Job::of(scene, &gyration_cli::provenance());
+    let recorded = if options.resume {
         job.resume(path, watch)
     } else {
         // What is there goes only if the new run has a start.
         let start = Simulation::new(job.model, job.start, job.plan);
         start.and_then(|mut simulation| simulation.begin(&mut MemorySink::default())).map_err(errors::run)?;
-        if wanted.force && path.symlink_metadata().is_ok() {
+        if options.force && path.symlink_metadata().is_ok() {
             remove(path).map_err(errors::record)?;
         }
         job.record(path, watch)
@@ -75,12 +80,13 @@ fn record(scene: &Scene, wanted: &Wanted, path: &Path, watch: &mut Watch) -> PyR
 }
 
 fn told(scene: &Scene, path: &Path, summary: &RunSummary) -> PyResult<String> {
-    library::summary(scene, path, summary).map_err(errors::program)
+    let start = Stored::open(path).and_then(|stored| summary.energies_at_start(&stored)).map_err(errors::record)?;
+    Ok(summary.text(scene, &start))
 }
 
 /// What to do after Ctrl-C.
-fn how_to_go_on(wanted: &Wanted, path: &Path) -> String {
-    match &wanted.output {
+fn how_to_go_on(options: &RecordOptions, path: &Path) -> String {
+    match &options.output {
         Some(_) => {
             format!("the recording is closed; go on with scene.run({:?}, resume=True)", path.display().to_string())
         }

@@ -4,9 +4,9 @@ use crate::convert::{self, json, object, overrides, shown, to_python};
 use crate::errors;
 use crate::picture::Picture;
 use crate::recording::Recording;
-use crate::run::{Wanted, run};
-use gyration_cli::library;
-use gyration_scene::{Scene as Inner, gallery};
+use crate::run::{RecordOptions, run};
+use gyration_scene::{Scene as Inner, gallery, gallery_scene};
+use gyration_sim::survey::Survey;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use serde_json::Value;
@@ -115,11 +115,8 @@ impl Scene {
     #[pyo3(signature = (name, overrides=None))]
     fn gallery(kind: &Bound<'_, PyType>, name: &str, overrides: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let (py, changes) = (kind.py(), convert::overrides(overrides)?);
-        match gallery().iter().find(|(known, _)| *known == name) {
-            Some((_, text)) => Self::parse(py, format!("{name}.toml"), text, PathBuf::new(), &changes),
-            // Says which there are.
-            None => Err(errors::program(library::no_such_scene(name))),
-        }
+        let text = gallery_scene(name).map_err(|unknown| errors::arguments(unknown.to_string()))?;
+        Self::parse(py, format!("{name}.toml"), text, PathBuf::new(), &changes)
     }
 
     /// Another scene with changes by dotted key: ``scene.edit({"body.die.velocity": [1, 0, 0]})``.
@@ -191,7 +188,8 @@ impl Scene {
     /// What can be said of the scene before it runs, as ``gyration check`` prints it: mass, rest gaps, time scales, whether laws forbid
     /// touching, resolved form.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| library::check(&self.inner)).map_err(errors::program)
+        let survey = py.detach(|| Survey::of(&self.inner)).map_err(|error| errors::content(&error))?;
+        survey.text(&self.inner).map_err(|error| errors::arguments(error.to_string()))
     }
 
     /// Runs the scene into a recording.
@@ -212,7 +210,7 @@ impl Scene {
         force: bool,
     ) -> PyResult<Recording> {
         let scene = completed(py, self.inner.clone())?;
-        run(py, &scene, Wanted { output, resume, force }, progress)
+        run(py, &scene, RecordOptions { output, resume, force }, progress)
     }
 
     /// The laws of its contacts against distance.

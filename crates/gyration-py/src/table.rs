@@ -2,9 +2,9 @@
 
 use crate::convert::{array, object};
 use crate::errors;
-use crate::picture::{Picture, Source};
+use crate::picture::{Picture, PictureSource};
 use crate::recording::opener;
-use gyration_cli::library::StudyPicture;
+use gyration_plot::study::{Kind, Request};
 use gyration_study::{Data, Frame, FrameColumn, studies as ready};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyKeyError;
@@ -142,8 +142,9 @@ impl Table {
         if colour.is_some() && color.is_some() {
             return Err(errors::arguments("`colour` and `color` are the same\n  fix: give one of them"));
         }
-        let asked = StudyPicture { x, y, colour: colour.or(color), kind };
-        let source = Source::Study(self.frame.clone(), self.path.clone(), asked);
+        let kind = kind.as_deref().map(Kind::of_word).transpose().map_err(errors::plot)?;
+        let request = Request { x, y, colour: colour.or(color), kind, ..Request::default() };
+        let source = PictureSource::Study(self.frame.clone(), self.path.clone(), request);
         py.detach(|| Picture::new(source))
     }
 

@@ -20,6 +20,7 @@ mod checkpoint;
 mod disk;
 mod error;
 pub mod export;
+mod file;
 mod layout;
 mod metadata;
 mod recording;
@@ -32,6 +33,7 @@ mod crash_tests;
 
 pub use disk::remove;
 pub use error::RecordError;
+pub use file::{cannot_write, replace_file, write_file};
 pub use layout::{ArraySpec, Dimension, FixedArray, Layout, chunk_rows_for};
 pub use metadata::ArrayInfo;
 pub use recording::{Array, Recording};

@@ -173,3 +173,8 @@ pub enum LoadError {
     #[error(transparent)]
     Content(#[from] SceneErrors),
 }
+
+/// The resolved scene has no form in TOML.
+#[derive(Debug, thiserror::Error)]
+#[error("the resolved scene cannot be written as TOML: {0}; take it from `gyration check SCENE --json`")]
+pub struct NotToml(#[from] toml::ser::Error);

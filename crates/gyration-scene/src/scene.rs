@@ -1,7 +1,7 @@
 //! A scene: read → check → build, all errors at once.
 
 use crate::assemble::Built;
-use crate::error::{LoadError, SceneErrors};
+use crate::error::{LoadError, NotToml, SceneErrors};
 use crate::file::SceneFile;
 use crate::template::Template;
 use crate::unknown::Unknown;
@@ -54,6 +54,11 @@ impl Scene {
         &self.name
     }
 
+    /// Its title; its name if it has none.
+    pub fn title(&self) -> &str {
+        self.file.title.as_deref().unwrap_or(&self.name)
+    }
+
     /// Its text, verbatim.
     pub fn text(&self) -> &str {
         &self.text
@@ -84,5 +89,12 @@ impl Scene {
     pub fn resolved(&self) -> Value {
         // The file's types hold strings, finite numbers, arrays and tables only, all of which JSON has.
         serde_json::to_value(&self.file).unwrap_or_default()
+    }
+    /// The resolved form in TOML.
+    ///
+    /// # Errors
+    /// [`NotToml`] if it has none.
+    pub fn to_toml(&self) -> Result<String, NotToml> {
+        Ok(toml::to_string(&self.file)?)
     }
 }

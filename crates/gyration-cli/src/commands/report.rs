@@ -4,6 +4,7 @@ use super::stem;
 use crate::arguments::Report;
 use crate::error::{CliError, code};
 use crate::output;
+use gyration_record::write_file;
 use gyration_view::{Stored, report};
 use std::path::PathBuf;
 
@@ -13,7 +14,7 @@ pub fn execute(arguments: &Report) -> Result<u8, CliError> {
     let made = report(&stored)?;
     let default = || PathBuf::from(format!("{}.html", stem(&arguments.recording)));
     let path = arguments.output.clone().unwrap_or_else(default);
-    output::write_file(&path, made.html.as_bytes())?;
+    write_file(&path, made.html.as_bytes())?;
     let samples = match made.samples {
         (kept, all) if kept == all => format!("{all} samples"),
         (kept, all) => format!("{kept} of {all} samples, to keep it small"),

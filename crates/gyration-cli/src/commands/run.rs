@@ -4,21 +4,16 @@ use super::ready;
 use crate::arguments::Run;
 use crate::error::{CliError, code};
 use crate::output;
-use crate::plot::PlotError;
-use crate::plot::draw::Format;
-use crate::plot::recorded::Recorded;
-use crate::plot::show;
 use crate::progress::Watch;
-use crate::summary;
+use crate::provenance::provenance;
+use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, Recording, remove};
 use gyration_scene::Scene;
-use gyration_sim::{Job, MemorySink, Outcome, Provenance, Reason, Recorded as Ended, RunSummary, Simulation};
+use gyration_sim::{Job, MemorySink, Outcome, Reason, Recorded as Ended, RunSummary, Simulation};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The picture that every run leaves.
-const PICTURE: &str = "overview.svg";
 /// Names tried for a recording without `-o`.
 const MOST_NAMES: usize = 10_000;
 
@@ -34,7 +29,7 @@ pub fn execute(arguments: &Run) -> Result<u8, CliError> {
     let ended = if arguments.resume { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
     watch.finish();
     let ended = ended?;
-    if !(matches!(ended, Ended::AlreadyFinished(_)) && path.join(PICTURE).exists())
+    if !(matches!(ended, Ended::AlreadyFinished(_)) && path.join(OVERVIEW).exists())
         && let Some(warning) = leave_overview(&path)
     {
         output::say(&format!("gyration: {warning}"));
@@ -59,11 +54,6 @@ fn exit_code(outcome: &Outcome) -> u8 {
     }
 }
 
-/// The program that runs.
-pub(crate) fn provenance() -> Provenance {
-    Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: Some(env!("GYRATION_COMMIT").to_owned()) }
-}
-
 /// Where the recording goes; one that is there must be meant to be resumed or replaced.
 fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
     let named = || arguments.output.clone().unwrap_or_else(|| numbered(Path::new(""), scene.name(), 1));
@@ -81,7 +71,7 @@ fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
 }
 
 /// The first name of a recording in a folder that nothing has yet.
-pub(crate) fn free_name(folder: &Path, scene: &str) -> Result<PathBuf, CliError> {
+fn free_name(folder: &Path, scene: &str) -> Result<PathBuf, CliError> {
     let free = (1..MOST_NAMES).map(|k| numbered(folder, scene, k)).find(|path| !exists(path));
     free.ok_or_else(|| CliError::arguments("too many recordings of this scene here", "name one with -o DIR"))
 }
@@ -108,24 +98,9 @@ fn make_room(arguments: &Run, job: &Job, path: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Draws the overview into the recording; a picture that fails does not make the run fail, it gives a warning.
-pub(crate) fn leave_overview(path: &Path) -> Option<String> {
-    let draw = || -> Result<(), CliError> {
-        let recording = Recording::open(path)?;
-        let recorded = Recorded::new(&recording)?;
-        let panels = show::overview(&recorded)?;
-        let figure = show::figure(&recorded, panels);
-        output::write_file(&path.join(PICTURE), &figure.draw().render(Format::Svg))
-    };
-    match draw() {
-        Ok(()) | Err(CliError::Plot(PlotError::Empty { .. })) => None,
-        Err(error) => Some(format!("warning: no {PICTURE}: {error}")),
-    }
-}
-
 fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Result<(), CliError> {
-    let start = starting_energies(path, summary)?;
-    let picture = shown(&path.join(PICTURE));
+    let start = summary.energies_at_start(&Recording::open(path)?)?;
+    let picture = shown(&path.join(OVERVIEW));
     if arguments.json {
         let names = summary.ledger.energies.iter().map(|(name, _)| (*name).to_owned());
         let start: Attributes = names.zip(start.iter().map(|value| json!(value))).collect();
@@ -135,7 +110,7 @@ fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Re
         }
         output::offer(&format!("{value:#}\n"))?;
     } else if !arguments.quiet {
-        output::say(&summary::in_words(scene, summary, &start));
+        output::say(&summary.text(scene, &start));
         output::say(&format!("recording  {}\npicture    {picture}", shown(path)));
     }
     let Outcome::Stopped(_) = &summary.outcome else { return Ok(()) };
@@ -147,13 +122,6 @@ fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Re
         output::say(&format!("gyration: go on with `{}`", resume_command(arguments, path)));
     }
     Ok(())
-}
-
-/// The energies [J] of the first row, in the order of the ledger.
-pub(crate) fn starting_energies(path: &Path, summary: &RunSummary) -> Result<Vec<f64>, CliError> {
-    let recording = Recording::open(path)?;
-    let first = |(name, _): &(&str, f64)| Ok(recording.read_rows(&format!("energy_{name}"), 0..1)?.data[0]);
-    summary.ledger.energies.iter().map(first).collect()
 }
 
 fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Result<(), CliError> {

@@ -3,7 +3,7 @@
 use crate::arguments::Scenes;
 use crate::error::{CliError, code};
 use crate::output;
-use gyration_scene::{Scene, gallery};
+use gyration_scene::{Scene, gallery, gallery_scene};
 use std::fmt::Write as _;
 
 /// Width of the lines of a description [letters].
@@ -13,20 +13,9 @@ const WIDTH: usize = 88;
 pub fn execute(arguments: &Scenes) -> Result<u8, CliError> {
     match &arguments.name {
         None => output::print(&list())?,
-        Some(name) => output::print(text(name)?)?,
+        Some(name) => output::print(gallery_scene(name)?)?,
     }
     Ok(code::DONE)
-}
-
-fn text(name: &str) -> Result<&'static str, CliError> {
-    let found = gallery().iter().find(|(known, _)| *known == name);
-    found.map(|(_, text)| *text).ok_or_else(|| no_such_scene(name))
-}
-
-/// What to choose from.
-pub(crate) fn no_such_scene(name: &str) -> CliError {
-    let names = gallery().iter().map(|(known, _)| *known).collect::<Vec<_>>().join(", ");
-    CliError::arguments(format!("the gallery has no scene `{name}`"), format!("choose one of {names}"))
 }
 
 /// Name and title of each scene, and the sentences at the head of its file.

@@ -1,9 +1,9 @@
 //! `gyration view`: a recording, or a scene that runs as it is watched, on a page of a local server.
 
-use super::run::provenance;
 use crate::arguments::View;
 use crate::error::{CliError, code};
 use crate::output;
+use crate::provenance::provenance;
 use gyration_scene::Scene;
 use gyration_view::{Live, Server, Source, Stored, page};
 use std::path::Path;

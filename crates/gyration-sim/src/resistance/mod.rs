@@ -3,9 +3,14 @@
 //!
 //! [`complete`] computes what a scene leaves open; whoever runs a scene, or looks for its small motions, calls it.
 
+mod bodies;
 mod deforming;
 mod elements;
 
+pub use bodies::{
+    BodyResistance, NoSuchResistance, ResistanceMatrix, ResistanceOptions, Resistances, Response, TRIANGLES_ALLOWED,
+    Vibration,
+};
 pub use deforming::DeformingSurface;
 pub use elements::{BoundaryElements, BoundaryResistance, NoResistance, Wall, boundary_resistance};
 

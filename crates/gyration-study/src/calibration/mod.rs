@@ -17,6 +17,7 @@ mod observe;
 mod read;
 mod rebound;
 mod scale;
+mod text;
 
 pub use curve::{Curve, CurvePoint};
 pub use known::{Fitted, FittedNumber, Residual, Undetermined};

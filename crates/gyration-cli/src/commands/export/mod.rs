@@ -6,7 +6,7 @@ use super::stem;
 use crate::arguments::{Export, ExportFormat};
 use crate::error::{CliError, code};
 use crate::output;
-use gyration_record::{Recording, export};
+use gyration_record::{RecordError, Recording, cannot_write, export, replace_file};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -25,16 +25,16 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
     }
     let what = match format {
         ExportFormat::Csv => {
-            output::in_place(&path, |partial| write_csv(&recording, partial))?;
+            replace_file(&path, |partial| write_csv(&recording, partial))?;
             format!("{} samples", recording.rows())
         }
         ExportFormat::Npz => {
-            output::in_place(&path, |partial| Ok(export::npz(&recording, partial)?))?;
+            replace_file(&path, |partial| export::npz(&recording, partial))?;
             format!("{} samples", recording.rows())
         }
         ExportFormat::Gltf => {
             let mut keys = 0;
-            output::in_place(&path, |partial| {
+            replace_file(&path, |partial| {
                 keys = export::gltf(&recording, partial)?;
                 Ok(())
             })?;
@@ -66,8 +66,8 @@ fn to_stdout(recording: &Recording, format: ExportFormat) -> Result<u8, CliError
     Ok(code::DONE)
 }
 
-fn write_csv(recording: &Recording, path: &Path) -> Result<(), CliError> {
-    let failed = output::cannot_write(path);
+fn write_csv(recording: &Recording, path: &Path) -> Result<(), RecordError> {
+    let failed = cannot_write(path);
     let mut out = BufWriter::new(File::create(path).map_err(&failed)?);
     export::csv(recording, &mut out)?;
     out.flush().map_err(failed)

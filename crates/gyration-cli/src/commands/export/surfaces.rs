@@ -6,7 +6,7 @@
 use crate::error::CliError;
 use crate::output;
 use gyration_record::export::vtk::{Entry, pvd};
-use gyration_record::{RecordError, Recording};
+use gyration_record::{RecordError, Recording, cannot_write, replace_file};
 use gyration_sim::replay::ReplayError;
 use gyration_sim::replay::vtk::SurfaceSeries;
 use std::fs::{self, File};
@@ -22,12 +22,12 @@ pub fn write(recording: &Recording, list: &Path, every: usize) -> Result<String,
     refuse_foreign(&folder)?;
     let partial = with_ending(&folder, ".part");
     discard(&partial)?;
-    fs::create_dir(&partial).map_err(output::cannot_write(&partial))?;
+    fs::create_dir(&partial).map_err(cannot_write(&partial))?;
     let mut rows: Vec<usize> = (0..recording.rows()).step_by(every).collect();
     rows.extend(recording.rows().checked_sub(1).filter(|last| last % every > 0));
     let written = write_samples(recording, &rows, &partial).and_then(|written| {
         discard(&folder)?;
-        fs::rename(&partial, &folder).map_err(output::cannot_write(&folder))?;
+        fs::rename(&partial, &folder).map_err(cannot_write(&folder))?;
         Ok(written)
     });
     if written.is_err() {
@@ -36,8 +36,8 @@ pub fn write(recording: &Recording, list: &Path, every: usize) -> Result<String,
     let (mut entries, cells) = written?;
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     entries.iter_mut().for_each(|entry| entry.file = format!("{name}/{}", entry.file));
-    output::in_place(list, |partial| {
-        let failed = output::cannot_write(list);
+    replace_file(list, |partial| {
+        let failed = cannot_write(list);
         let mut out = BufWriter::new(File::create(partial).map_err(&failed)?);
         pvd(&entries, &mut out).and_then(|()| out.flush()).map_err(failed)
     })?;
@@ -108,9 +108,9 @@ fn refuse_foreign(folder: &Path) -> Result<(), CliError> {
 }
 
 /// Removes a folder of ours, if it is there.
-fn discard(folder: &Path) -> Result<(), CliError> {
+fn discard(folder: &Path) -> Result<(), RecordError> {
     if folder.symlink_metadata().is_err() {
         return Ok(());
     }
-    fs::remove_dir_all(folder).map_err(output::cannot_write(folder))
+    fs::remove_dir_all(folder).map_err(cannot_write(folder))
 }

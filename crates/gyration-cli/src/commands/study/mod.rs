@@ -1,6 +1,6 @@
 //! `gyration study`: thousands of runs of a scene into one table; shards, and their joining.
 
-pub mod plot;
+mod plot;
 mod summary;
 mod watch;
 
@@ -8,6 +8,7 @@ use super::run::{quoted, shown};
 use crate::arguments::{Study as Arguments, StudyAction};
 use crate::error::{CliError, code};
 use crate::output;
+use gyration_plot::study::Request;
 use gyration_study::{Digest, Shard, Study, Table, execute as make, merge, studies};
 use gyration_threads::Threads;
 use std::num::NonZeroUsize;
@@ -45,7 +46,7 @@ fn list() -> Result<u8, CliError> {
 /// Makes the runs that are missing.
 fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
     let shard = shard(arguments.shard.as_deref())?;
-    plot::wanted(study)?;
+    Request::of_study(study)?;
     let threads = Threads::asked(arguments.threads.map(NonZeroUsize::get))
         .map_err(|wrong| CliError::arguments(wrong.to_string(), wrong.fix()))?;
     let mut table = match arguments.resume {

@@ -2,8 +2,7 @@
 
 use crate::error::code;
 use crate::output;
-use crate::progress::duration_in_words;
-use crate::summary::plain;
+use gyration_sim::format::{duration, significant};
 use gyration_study::{Column, Digest, FAILED, Kind, Spread, Study};
 
 /// The most different texts that are listed.
@@ -63,13 +62,13 @@ fn throughput(effort: &Effort) -> String {
     let rate = effort.runs as f64 / effort.seconds;
     let threads = match effort.threads {
         1 => "on one thread".to_owned(),
-        count => format!("on {count} threads, {} each", plain(rate / count as f64, 3)),
+        count => format!("on {count} threads, {} each", significant(rate / count as f64, 3)),
     };
     let time = match effort.seconds {
-        seconds if seconds < 10.0 => format!("{} s", plain(seconds, 2)),
-        seconds => duration_in_words(seconds),
+        seconds if seconds < 10.0 => format!("{} s", significant(seconds, 2)),
+        seconds => duration(seconds),
     };
-    format!("{time}: {} runs/s {threads}", plain(rate, 3))
+    format!("{time}: {} runs/s {threads}", significant(rate, 3))
 }
 
 /// A kept column in a few words: counts, or mean ± standard deviation and the range.
@@ -82,8 +81,8 @@ fn told(column: &Column, spread: &Spread) -> String {
     }
     let unit = column.unit.as_deref().filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
     let lists = if column.kind == Kind::List { ", in lists" } else { "" };
-    let range = format!("{} to {}", plain(spread.least, 4), plain(spread.greatest, 4));
-    format!("{} ± {}{unit} ({range}){lists}", plain(spread.mean, 5), plain(spread.deviation(), 3))
+    let range = format!("{} to {}", significant(spread.least, 4), significant(spread.greatest, 4));
+    format!("{} ± {}{unit} ({range}){lists}", significant(spread.mean, 5), significant(spread.deviation(), 3))
 }
 
 /// How often each text occurs, the most frequent first.

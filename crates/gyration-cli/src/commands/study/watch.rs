@@ -2,8 +2,8 @@
 
 use crate::error::CliError;
 use crate::output;
-use crate::progress::{duration_in_words, interruption};
-use crate::summary::plain;
+use crate::progress::interruption;
+use gyration_sim::format::{duration, significant};
 use gyration_study::{Progress, Watcher};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -76,6 +76,6 @@ impl Bar {
         self.bar.set_position(done);
         self.bar.set_prefix(format!("{done} of {total} runs"));
         let early = if early == 0 { String::new() } else { format!(", {early} ended early") };
-        self.bar.set_message(format!("{} runs/s, {} left{early}", plain(rate, 3), duration_in_words(remaining)));
+        self.bar.set_message(format!("{} runs/s, {} left{early}", significant(rate, 3), duration(remaining)));
     }
 }

@@ -1,0 +1,16 @@
+//! Charts: series over two axes, with ticks and a legend beside them.
+//!
+//! A chart knows nothing of recordings or scenes. Legends stand to the right of the frame, so that they never cover
+//! data.
+
+mod axis;
+pub mod frame;
+mod legend;
+mod series;
+mod shapes;
+pub mod ticks;
+
+pub use axis::{Axis, Scale, extremes, raised};
+pub use legend::{Legend, SIZE as LEGEND_SIZE};
+pub use series::{Chart, DASH_DOTTED, DASHED, DOTTED, LINE, Series};
+pub use shapes::{Field, Shapes};

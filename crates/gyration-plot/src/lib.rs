@@ -1,0 +1,32 @@
+//! Pictures: of recordings, of contact laws, of the tables of studies, of fits to measurements.
+//!
+//! ```text
+//! recording, scene → show (which quantities) → figure: charts and strips (how they are laid out) → draw (marks on a page) → SVG, PNG, PDF
+//! table of a study → study (how often, how on average, where) ↗
+//! ```
+//!
+//! The same recording gives the same bytes: there are neither dates nor names of machines in a picture. Nothing is written
+//! but where [`leave_overview`] is asked to.
+
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "study")]
+pub mod calibration;
+// Without studies nobody fills areas or names places of an axis.
+#[cfg_attr(not(feature = "study"), allow(dead_code, unused_imports))]
+mod chart;
+mod cycle;
+mod draw;
+mod error;
+mod figure;
+mod recorded;
+mod show;
+mod strip;
+#[cfg(feature = "study")]
+pub mod study;
+mod thin;
+
+pub use draw::Format;
+pub use error::PlotError;
+pub use figure::Figure;
+pub use show::{OVERVIEW, Quantity, laws, leave_overview, of_recording};

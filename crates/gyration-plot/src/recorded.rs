@@ -1,0 +1,226 @@
+//! What pictures need of a recording: bodies and supports as they were described, and samples thinned to what can be seen.
+
+use crate::draw::Point;
+use crate::error::PlotError;
+use crate::thin::Thinner;
+use gyration::support::{Support, SupportMotion};
+use gyration::tensor::{Mat3, Vec3};
+use gyration_record::Recording;
+use gyration_record::export::bodies_with_outlines;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+
+/// A recording with its descriptions.
+#[derive(Debug)]
+pub struct Recorded<'a> {
+    /// The recording.
+    pub recording: &'a Recording,
+    /// The bodies, in order.
+    pub bodies: Vec<BodyPicture>,
+    /// The supports, in order.
+    pub supports: Vec<Support>,
+    /// Acceleration of gravity [m/s²].
+    pub gravity: Vec3,
+}
+
+/// What a drawing needs of a body.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct BodyPicture {
+    /// Its name.
+    pub name: String,
+    /// The word of the scene for how it may deform.
+    pub kind: String,
+    /// Its mass [kg].
+    pub mass: f64,
+    /// The largest side of its bounding box [m].
+    pub size: f64,
+    /// Its wireframe.
+    pub outline: Wireframe,
+    /// Points whose projected hull is the projected body, relative to the centre of mass [m].
+    #[serde(deserialize_with = "vectors")]
+    pub silhouette: Vec<Vec3>,
+    /// V of a body that contracts [m³].
+    #[serde(default)]
+    pub volume: Option<f64>,
+    /// The period of what drives it [s], if that repeats itself.
+    #[serde(default)]
+    pub period: Option<f64>,
+}
+
+impl BodyPicture {
+    /// Whether P may be more than a rotation.
+    pub fn deforms(&self) -> bool {
+        self.kind != "rigid"
+    }
+
+    /// Whether it drives itself.
+    pub fn contracts(&self) -> bool {
+        self.kind == "contractile"
+    }
+}
+
+/// Lines of a body.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+pub struct Wireframe {
+    /// Points relative to the centre of mass [m].
+    #[serde(deserialize_with = "vectors")]
+    pub points: Vec<Vec3>,
+    /// Lines through points, by index.
+    pub polylines: Vec<Vec<usize>>,
+}
+
+#[derive(Deserialize)]
+struct SupportPicture {
+    name: String,
+    origin: [f64; 3],
+    normal: [f64; 3],
+    motion: Option<MotionPicture>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum MotionPicture {
+    Velocity([f64; 3]),
+    Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
+}
+
+impl From<SupportPicture> for Support {
+    fn from(picture: SupportPicture) -> Self {
+        let motion = match picture.motion {
+            None => SupportMotion::Fixed,
+            Some(MotionPicture::Velocity(velocity)) => SupportMotion::Velocity(velocity.into()),
+            Some(MotionPicture::Oscillate { direction, amplitude, frequency, phase }) => {
+                SupportMotion::Oscillation { direction: direction.into(), amplitude, frequency, phase }
+            }
+        };
+        Self { name: picture.name, origin: picture.origin.into(), normal: picture.normal.into(), motion }
+    }
+}
+
+/// Points from rows of three numbers.
+fn vectors<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec3>, D::Error> {
+    let rows = Vec::<[f64; 3]>::deserialize(from)?;
+    Ok(rows.into_iter().map(Vec3::from).collect())
+}
+
+/// Where a body is at a sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Centre of mass [m].
+    pub position: Vec3,
+    /// Placement gradient.
+    pub gradient: Mat3,
+}
+
+impl<'a> Recorded<'a> {
+    /// Reads the descriptions.
+    ///
+    /// # Errors
+    /// [`PlotError::Attribute`] if one is missing or is not what it should be.
+    pub fn new(recording: &'a Recording) -> Result<Self, PlotError> {
+        let supports: Vec<SupportPicture> = attribute(recording, "supports")?;
+        Ok(Self {
+            recording,
+            bodies: described(recording, "bodies", &bodies_with_outlines(recording.attributes()))?,
+            supports: supports.into_iter().map(Support::from).collect(),
+            gravity: attribute::<[f64; 3]>(recording, "gravity")?.into(),
+        })
+    }
+
+    /// The direction against gravity; the first support's normal without gravity, z without either.
+    pub fn up(&self) -> Vec3 {
+        let against = -self.gravity;
+        if against.norm() > 0.0 {
+            return against.normalize();
+        }
+        self.supports.first().map_or(Vec3::z(), |support| support.normal)
+    }
+
+    /// Whether there is an array of this name.
+    pub fn has(&self, array: &str) -> bool {
+        self.recording.array(array).is_ok()
+    }
+
+    /// The time of the first and of the last sample [s].
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn span(&self) -> Result<(f64, f64), PlotError> {
+        let rows = self.recording.rows();
+        if rows == 0 {
+            return Err(PlotError::Empty { path: self.recording.path().to_path_buf() });
+        }
+        let time = |row: usize| Ok::<_, PlotError>(self.recording.read_rows("time", row..row + 1)?.data[0]);
+        Ok((time(0)?, time(rows - 1)?))
+    }
+
+    /// Lines over time: `value(row, k)` of line k, from the rows of the named arrays.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn lines(
+        &self,
+        arrays: &[&str],
+        count: usize,
+        value: impl Fn(&[&[f64]], usize) -> f64,
+    ) -> Result<Vec<Vec<Point>>, PlotError> {
+        let mut thinners = self.thinners(count);
+        self.each_row(arrays, |time, row| {
+            thinners.iter_mut().enumerate().for_each(|(k, thinner)| thinner.push(time, value(row, k)));
+        })?;
+        Ok(thinners.into_iter().map(Thinner::finish).collect())
+    }
+
+    /// So many lines to be filled, sample by sample.
+    pub fn thinners(&self, count: usize) -> Vec<Thinner> {
+        vec![Thinner::new(self.recording.rows()); count]
+    }
+
+    /// Goes once through the samples: the time [s] and the rows of the named arrays.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn each_row(&self, arrays: &[&str], mut each: impl FnMut(f64, &[&[f64]])) -> Result<(), PlotError> {
+        for rows in self.recording.chunks() {
+            let times = self.recording.read_rows("time", rows.clone())?.data;
+            let read = |name: &&str| self.recording.read_rows(name, rows.clone());
+            let chunk = arrays.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+            for (index, time) in times.iter().enumerate() {
+                let row_of = |data: &'_ [f64]| {
+                    let stride = data.len() / times.len();
+                    index * stride..(index + 1) * stride
+                };
+                let row: Vec<&[f64]> = chunk.iter().map(|array| &array.data[row_of(&array.data)]).collect();
+                each(*time, &row);
+            }
+        }
+        Ok(())
+    }
+
+    /// The time of a sample and where every body is then.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn poses(&self, row: usize) -> Result<(f64, Vec<Pose>), PlotError> {
+        let read = |name: &str| self.recording.read_rows(name, row..row + 1);
+        let (time, positions, gradients) = (read("time")?, read("position")?, read("placement_gradient")?);
+        let poses = positions.data.chunks_exact(3).zip(gradients.data.chunks_exact(9));
+        let poses =
+            poses.map(|(p, g)| Pose { position: Vec3::from_column_slice(p), gradient: Mat3::from_row_slice(g) });
+        Ok((time.data[0], poses.collect()))
+    }
+}
+
+/// An attribute of the recording in a type of ours.
+fn attribute<T: DeserializeOwned>(recording: &Recording, name: &'static str) -> Result<T, PlotError> {
+    described(recording, name, recording.attributes().get(name).unwrap_or(&Value::Null))
+}
+
+fn described<T: DeserializeOwned>(recording: &Recording, name: &'static str, value: &Value) -> Result<T, PlotError> {
+    T::deserialize(value).map_err(|error| PlotError::Attribute {
+        path: recording.path().to_path_buf(),
+        name,
+        reason: error.to_string(),
+    })
+}

@@ -1,0 +1,230 @@
+//! The contact laws of a scene: force per area against distance for every law, and the force on each body.
+//!
+//! Both over logarithmic axes, where a power of the gap is a straight line, as in the slides. Central laws are
+//! tractions [Pa], viscous ones resistances per speed [Pa s/m]. Attraction is drawn dashed, with its sign reversed.
+
+use super::bodies::{MOST_LINES, MOST_NAMES};
+use crate::chart::ticks::length_in_words;
+use crate::chart::{Axis, Chart, DASHED, DOTTED, Series, extremes};
+use crate::draw::color;
+use crate::error::PlotError;
+use crate::figure::Panel;
+use gyration::contact::{Action, Contact, ContactLaw, LawKind};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_sim::survey::{Approach, RestGap};
+
+const HEIGHT: f64 = 170.0;
+/// Points along the curve of a law.
+const POINTS: usize = 241;
+/// The gaps drawn reach from and to this factor of the gaps of rest.
+const AROUND_REST: f64 = 10.0;
+/// The values drawn reach so far below and above those at the gaps of rest.
+const AROUND_VALUES: (f64, f64) = (1e-5, 1e7);
+/// Without a gap of rest, so many decades below the largest value are drawn.
+const MOST_DECADES: f64 = 14.0;
+
+/// Charts of the laws and of the forces that they make.
+///
+/// # Errors
+/// [`PlotError::Nothing`] without contacts.
+pub fn law_panels(model: &Model, start: &State) -> Result<Vec<Panel>, PlotError> {
+    let pairs = pairs(model, start);
+    if pairs.is_empty() {
+        return Err(PlotError::Nothing { what: "laws", reason: "no contact is given between a body and a support" });
+    }
+    let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap).collect();
+    let gaps = Gaps { axis: gap_axis(&pairs), rests };
+    let charts =
+        [law_chart(model, &gaps, &CENTRAL), law_chart(model, &gaps, &VISCOUS), force_chart(model, &pairs, &gaps)];
+    Ok(charts.into_iter().flatten().map(Panel::Chart).collect())
+}
+
+/// A body and a support that act on each other.
+struct Pair<'a> {
+    body: usize,
+    support: usize,
+    approach: Approach<'a>,
+    rests: Vec<RestGap>,
+}
+
+fn pairs<'a>(model: &'a Model, start: &State) -> Vec<Pair<'a>> {
+    let mut pairs = Vec::new();
+    for body in 0..model.bodies.len().min(MOST_LINES) {
+        for support in 0..model.supports.len() {
+            if let Some(approach) = Approach::new(model, start, body, support).filter(Approach::acts) {
+                pairs.push(Pair { body, support, rests: approach.rests(), approach });
+            }
+        }
+    }
+    pairs
+}
+
+/// From well below the nearest gap of rest to well above the farthest; without any, by the sizes of the bodies.
+fn gap_axis(pairs: &[Pair]) -> Axis {
+    let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap);
+    let sizes = pairs.iter().map(|pair| pair.approach.size()).flat_map(|size| [1e-3 * size, size]);
+    let (low, high) = extremes(rests)
+        .map_or_else(|| extremes(sizes).unwrap_or((1e-3, 1.0)), |(low, high)| (low / AROUND_REST, high * AROUND_REST));
+    let axis = Axis::logarithmic("distance", "m", [low, high]);
+    Axis { low, high, ..axis }
+}
+
+/// The gaps that are drawn, and those of rest.
+struct Gaps {
+    axis: Axis,
+    rests: Vec<f64>,
+}
+
+impl Gaps {
+    fn sampled(&self) -> impl Iterator<Item = f64> + '_ {
+        let Axis { low, high, .. } = self.axis;
+        (0..POINTS).map(move |k| low * (high / low).powf(k as f64 / (POINTS - 1) as f64))
+    }
+}
+
+/// The different contacts of the model with the name of their support.
+fn contacts(model: &Model) -> Vec<&Contact> {
+    let mut contacts: Vec<&Contact> = Vec::new();
+    for contact in model.bodies.iter().flat_map(|body| &body.contacts) {
+        if !contacts.contains(&contact) {
+            contacts.push(contact);
+        }
+    }
+    contacts
+}
+
+/// One of the two charts of laws.
+struct Laws {
+    title: &'static str,
+    name: &'static str,
+    unit: &'static str,
+    central: bool,
+}
+
+const CENTRAL: Laws = Laws { title: "Tractions of the central laws", name: "traction", unit: "Pa", central: true };
+const VISCOUS: Laws =
+    Laws { title: "Resistances of the viscous laws", name: "traction per speed", unit: "Pa s/m", central: false };
+
+fn law_chart(model: &Model, gaps: &Gaps, laws: &Laws) -> Option<Chart> {
+    let contacts = contacts(model);
+    let several = contacts.len() > 1;
+    let acting =
+        |law: &&ContactLaw| law.terms().iter().flatten().any(|term| (term.action == Action::Central) == laws.central);
+    let mut series = Vec::new();
+    for (index, contact) in contacts.iter().enumerate() {
+        for law in contact.laws().iter().filter(acting) {
+            let of = if several { format!(" ({})", model.supports[contact.support].name) } else { String::new() };
+            let hue = hue(law.kind()) + if several { index } else { 0 };
+            series.extend(law_series(law, &of, hue, gaps));
+        }
+    }
+    chart([laws.title, laws.name, laws.unit], gaps, series)
+}
+
+/// The colour of a kind of law.
+fn hue(kind: LawKind) -> usize {
+    match kind {
+        LawKind::Repulsion => 0,
+        LawKind::Damping => 1,
+        LawKind::Friction => 2,
+        LawKind::Adhesion => 3,
+    }
+}
+
+/// A law's factor over the gap; where it is negative, its magnitude in a dashed line.
+fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &Gaps) -> Vec<Series> {
+    let kind = law.kind().name();
+    let points: Vec<[f64; 2]> = gaps.sampled().map(|gap| [gap, law.factor(gap)]).collect();
+    let name = match law {
+        ContactLaw::Adhesion(law) => {
+            format!("{kind}{of}: {}, {}", law.attractive_exponent, law.repulsive_exponent)
+        }
+        _ => format!("{kind}{of}: ν = {}", law.leading_exponent()),
+    };
+    let mut series = by_sign(name, points, hue);
+    // Friction is often given the numbers of damping: its line must not hide the other.
+    if law.kind() == LawKind::Friction {
+        series.iter_mut().for_each(|line| line.stroke.dash = DASHED);
+    }
+    series
+}
+
+/// The positive part in a solid line, the negative one with its sign reversed in a dashed line.
+fn by_sign(name: String, points: Vec<[f64; 2]>, hue: usize) -> Vec<Series> {
+    let part = |sign: f64| -> Vec<[f64; 2]> {
+        points.iter().map(|[x, y]| [*x, if sign * y > 0.0 { sign * y } else { f64::NAN }]).collect()
+    };
+    let (pushing, pulling) = (part(1.0), part(-1.0));
+    let drawn = |points: &[[f64; 2]]| points.iter().any(|point| point[1].is_finite());
+    let mut series = Vec::new();
+    if drawn(&pulling) {
+        let name = if name.is_empty() { String::new() } else { format!("{name}, pulling") };
+        series.push(Series::solid(name, pulling, hue).dashed(DASHED));
+    }
+    if drawn(&pushing) {
+        series.insert(0, Series::solid(name, pushing, hue));
+    }
+    series
+}
+
+/// The force of the central laws on each body, its weight, and the gaps at which they balance.
+fn force_chart(model: &Model, pairs: &[Pair], gaps: &Gaps) -> Option<Chart> {
+    let several_supports = model.supports.len() > 1;
+    let mut series = Vec::new();
+    for (index, pair) in pairs.iter().enumerate() {
+        let force = |gap: f64| [gap, pair.approach.force(gap).unwrap_or(f64::NAN)];
+        let of = if several_supports { format!(" on {}", model.supports[pair.support].name) } else { String::new() };
+        let named = series.len() < MOST_NAMES;
+        let name = if named { format!("{}{of}", model.bodies[pair.body].name) } else { String::new() };
+        series.extend(by_sign(name, gaps.sampled().map(force).collect(), index));
+    }
+    let title = "Force of the central laws on a body at its first orientation";
+    let mut chart = chart([title, "force", "N"], gaps, series)?;
+    if pairs.len() <= MOST_NAMES {
+        // Marks do not decide the range; weights outside of it are not drawn.
+        let (low, high) = (chart.y.low, chart.y.high);
+        let marks = pairs.iter().enumerate().flat_map(|(index, pair)| balance_marks(pair, index, gaps));
+        chart.series.extend(marks.filter(|mark| (low..=high).contains(&mark.points[1][1])));
+    }
+    Some(chart)
+}
+
+/// The weight as a level line, named once, and each gap of rest as an upright one below it.
+fn balance_marks(pair: &Pair, hue: usize, gaps: &Gaps) -> Vec<Series> {
+    let weight = pair.approach.weight;
+    let mut marks = Vec::new();
+    if weight > 0.0 {
+        marks.push(Series::level(if hue == 0 { "weight" } else { "" }, weight, &gaps.axis));
+    }
+    for rest in &pair.rests {
+        let points = vec![[rest.gap, f64::MIN_POSITIVE], [rest.gap, weight.abs()]];
+        let kind = if rest.stable { "" } else { " (unstable)" };
+        let mut mark = Series::solid(format!("rest gap {}{kind}", length_in_words(rest.gap)), points, hue);
+        mark.stroke.width = 0.9;
+        if !rest.stable {
+            mark.stroke.color = color::GREY;
+        }
+        marks.push(mark.dashed(DOTTED));
+    }
+    marks
+}
+
+/// A chart with title, name and unit of its upward axis; none without anything to draw.
+fn chart([title, name, unit]: [&str; 3], gaps: &Gaps, series: Vec<Series>) -> Option<Chart> {
+    let (low, high) = range(gaps, &series)?;
+    let y = Axis::logarithmic(name, unit, [low, high]);
+    Some(Chart { title: title.into(), x: gaps.axis.clone(), y, series, remarks: Vec::new(), height: HEIGHT })
+}
+
+/// The values that are drawn: some decades around those at the gaps of rest, as far as there are any.
+fn range(gaps: &Gaps, series: &[Series]) -> Option<(f64, f64)> {
+    let points = || series.iter().flat_map(|series| &series.points).filter(|point| point[1] > 0.0);
+    let (least, most) = extremes(points().map(|point| point[1]))?;
+    let near = |gap: f64| points().filter(move |point| (point[0] / gap).ln().abs() < 0.1).map(|point| point[1]);
+    let typical = extremes(gaps.rests.iter().flat_map(|gap| near(*gap)));
+    Some(match typical {
+        Some((low, high)) => (least.max(AROUND_VALUES.0 * low), most.min(AROUND_VALUES.1 * high)),
+        None => (least.max(most * 10f64.powf(-MOST_DECADES)), most),
+    })
+}

@@ -1,0 +1,101 @@
+//! Measures of a body by their names: those of the columns of the CSV without the body, and two that have no column.
+//!
+//!   G_xz, P_zz, Pdot_xx; x, vx, fx; gap, pressure; V_xx and Q_xx, of contraction velocity and drive
+
+use crate::error::PlotError;
+use crate::recorded::Recorded;
+
+/// Letters before the underscore, and the array of matrices that they stand for.
+const MATRICES: [(&str, &str); 5] = [
+    ("G", "contraction"),
+    ("P", "placement_gradient"),
+    ("Pdot", "gradient_rate"),
+    ("V", "contraction_velocity"),
+    ("Q", "drive"),
+];
+/// Letters before the component, and the array of vectors.
+const VECTORS: [(&str, &str); 3] = [("", "position"), ("v", "velocity"), ("f", "contact_force")];
+const SCALARS: [&str; 2] = ["gap", "pressure"];
+const AXES: [char; 3] = ['x', 'y', 'z'];
+
+/// A number that a recording has of each body at each sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// The name with its indices lowered.
+    pub label: String,
+    /// The unit; empty for a pure number.
+    pub unit: String,
+    /// Where it is recorded.
+    pub array: &'static str,
+    /// Numbers of a body in a row of the array, and which of them it is.
+    place: (usize, usize),
+}
+
+impl Measure {
+    /// The measure of this name.
+    ///
+    /// # Errors
+    /// [`PlotError::Measure`] if there is none, or if it is not recorded.
+    pub fn named(recorded: &Recorded, name: &str) -> Result<Self, PlotError> {
+        let found = matrix(name).or_else(|| vector(name)).or_else(|| scalar(name));
+        let recorded_as = found.and_then(|(array, place, label)| {
+            let unit = &recorded.recording.array(array).ok()?.units;
+            let unit = if unit == "1" { String::new() } else { unit.clone() };
+            Some(Self { label, unit, array, place })
+        });
+        recorded_as.ok_or_else(|| PlotError::Measure { name: name.to_owned() })
+    }
+
+    /// Entry k, row by row, of a matrix by the letters of its name.
+    pub fn entry(recorded: &Recorded, letters: &str, k: usize) -> Result<Self, PlotError> {
+        Self::named(recorded, &format!("{letters}_{}{}", AXES[k / 3], AXES[k % 3]))
+    }
+
+    /// Its value for a body, from a row of its array.
+    pub fn of(&self, row: &[f64], body: usize) -> f64 {
+        let (stride, offset) = self.place;
+        row[stride * body + offset]
+    }
+}
+
+type Found = (&'static str, (usize, usize), String);
+
+fn axis(letter: char) -> Option<usize> {
+    AXES.iter().position(|axis| *axis == letter)
+}
+
+fn matrix(name: &str) -> Option<Found> {
+    let (letters, indices) = name.split_once('_')?;
+    let (_, array) = MATRICES.iter().find(|(known, _)| *known == letters)?;
+    let [row, col] = indices.chars().collect::<Vec<char>>()[..] else { return None };
+    Some((array, (9, 3 * axis(row)? + axis(col)?), format!("{letters}_{{{indices}}}")))
+}
+
+fn vector(name: &str) -> Option<Found> {
+    let component = axis(name.chars().last()?)?;
+    let (letters, array) = VECTORS.iter().find(|(known, _)| *known == &name[..name.len() - 1])?;
+    let label = if letters.is_empty() { name.to_owned() } else { format!("{letters}_{{{}}}", AXES[component]) };
+    Some((array, (3, component), label))
+}
+
+fn scalar(name: &str) -> Option<Found> {
+    let array = SCALARS.into_iter().find(|known| *known == name)?;
+    Some((array, (1, 0), name.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_columns() {
+        assert_eq!(matrix("G_xz"), Some(("contraction", (9, 2), "G_{xz}".to_owned())));
+        assert_eq!(matrix("Pdot_zy"), Some(("gradient_rate", (9, 7), "Pdot_{zy}".to_owned())));
+        assert_eq!(vector("z"), Some(("position", (3, 2), "z".to_owned())));
+        assert_eq!(vector("vx"), Some(("velocity", (3, 0), "v_{x}".to_owned())));
+        assert_eq!(scalar("gap"), Some(("gap", (1, 0), "gap".to_owned())));
+        for name in ["", "G", "G_", "G_x", "G_xxx", "G_xw", "H_xx", "ux", "é", "G_é", "gaps"] {
+            assert!(matrix(name).or_else(|| vector(name)).or_else(|| scalar(name)).is_none(), "{name}");
+        }
+    }
+}

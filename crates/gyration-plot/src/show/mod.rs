@@ -1,0 +1,142 @@
+//! What a figure shows: the quantities that a user may ask for, and the figure of several of them.
+
+mod bodies;
+mod cost;
+mod distance;
+mod drive;
+mod effort;
+mod energy;
+mod forces;
+mod laws;
+mod measure;
+mod motion;
+mod quantity;
+mod stretch;
+mod stroke;
+mod trace;
+
+use crate::Format;
+use crate::error::PlotError;
+use crate::figure::{Figure, Panel};
+use crate::recorded::Recorded;
+use crate::strip::Strip;
+use gyration_record::{Recording, write_file};
+use gyration_scene::Scene;
+use gyration_sim::replay::{Replay, ReplayError};
+use std::path::Path;
+
+pub use quantity::Quantity;
+
+/// The picture that every run leaves in its recording.
+pub const OVERVIEW: &str = "overview.svg";
+
+/// What is asked of a recording, in one figure; `measures` are those of strokes.
+///
+/// # Errors
+/// [`PlotError`] where the recording cannot be read or does not have a quantity.
+pub fn of_recording(recording: &Recording, quantities: &[Quantity], measures: &[String]) -> Result<Figure, PlotError> {
+    let recorded = Recorded::new(recording)?;
+    let mut all = Vec::new();
+    for quantity in quantities {
+        all.extend(panels(&recorded, *quantity, measures)?);
+    }
+    Ok(figure(&recorded, all))
+}
+
+/// The contact laws of a scene, at its start.
+///
+/// # Errors
+/// [`PlotError::Nothing`] without contacts.
+pub fn laws(scene: &Scene) -> Result<Figure, PlotError> {
+    let panels = laws::law_panels(&scene.built().model, &scene.built().state)?;
+    Ok(Figure { title: scene.title().to_owned(), subtitle: "contact laws".to_owned(), panels })
+}
+
+/// Draws the overview into the recording; a picture that fails does not make the run fail, it gives a warning.
+pub fn leave_overview(path: &Path) -> Option<String> {
+    let draw = || -> Result<(), PlotError> {
+        let figure = of_recording(&Recording::open(path)?, &[Quantity::Overview], &[])?;
+        Ok(write_file(&path.join(OVERVIEW), &figure.render(Format::Svg))?)
+    };
+    match draw() {
+        Ok(()) | Err(PlotError::Empty { .. }) => None,
+        Err(error) => Some(format!("warning: no {OVERVIEW}: {error}")),
+    }
+}
+
+/// The panels of one quantity.
+fn panels(recorded: &Recorded, quantity: Quantity, measures: &[String]) -> Result<Vec<Panel>, PlotError> {
+    let charts = match quantity {
+        Quantity::Overview => return overview(recorded),
+        Quantity::Strip => return Ok(vec![Panel::Strip(Strip::of(recorded)?)]),
+        Quantity::Laws => return laws_of(recorded.recording),
+        Quantity::Height => vec![motion::height(recorded)?],
+        Quantity::Gap => vec![motion::gap(recorded)?],
+        Quantity::Stretch => stretch::charts(recorded)?,
+        Quantity::Forces => vec![forces::chart(recorded)?],
+        Quantity::Energy => energy::charts(recorded)?,
+        Quantity::Stroke => stroke::charts(recorded, measures)?,
+        Quantity::Distance => vec![distance::chart(recorded)?],
+        Quantity::Cost => vec![cost::chart(recorded)?],
+        Quantity::Drive => drive::charts(recorded)?,
+    };
+    Ok(charts.into_iter().map(Panel::Chart).collect())
+}
+
+/// The contact laws of a recording, at its start.
+fn laws_of(recording: &Recording) -> Result<Vec<Panel>, PlotError> {
+    let mut replay = Replay::open(recording).map_err(no_replay)?;
+    let start = replay.state(0).map_err(no_replay)?;
+    laws::law_panels(replay.model(), &start)
+}
+
+fn no_replay(problem: ReplayError) -> PlotError {
+    match problem {
+        ReplayError::Record(error) => error.into(),
+        problem => PlotError::arguments(
+            problem.to_string(),
+            "plot the scene file instead, which knows its folder: `gyration plot SCENE laws`",
+        ),
+    }
+}
+
+/// Everything that the recording has; how far bodies get where some drive themselves.
+fn overview(recorded: &Recorded) -> Result<Vec<Panel>, PlotError> {
+    let mut all = Vec::new();
+    let order = [
+        Quantity::Strip,
+        Quantity::Height,
+        Quantity::Distance,
+        Quantity::Gap,
+        Quantity::Stretch,
+        Quantity::Forces,
+        Quantity::Energy,
+        Quantity::Stroke,
+    ];
+    let contracts = recorded.bodies.iter().any(|body| body.contracts());
+    for quantity in order.into_iter().filter(|quantity| contracts || *quantity != Quantity::Distance) {
+        match panels(recorded, quantity, &[]) {
+            Ok(panels) => all.extend(panels),
+            Err(PlotError::Nothing { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(all)
+}
+
+/// A figure of a recording under its title and outcome.
+fn figure(recorded: &Recorded, panels: Vec<Panel>) -> Figure {
+    let text = |name: &str| {
+        let attribute = recorded.recording.attributes().get(name);
+        attribute.and_then(serde_json::Value::as_str).unwrap_or_default().to_owned()
+    };
+    let title = match text("title") {
+        title if title.is_empty() => text("scene_name"),
+        title => title,
+    };
+    let subtitle = match text("outcome_in_words") {
+        outcome if outcome.is_empty() => "not finished".to_owned(),
+        outcome => outcome,
+    };
+    Figure { title, subtitle, panels }
+}

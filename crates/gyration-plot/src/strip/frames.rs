@@ -1,0 +1,187 @@
+//! The times of a strip, and what is seen at each of them.
+
+use super::ground::{Ground, Site};
+use super::silhouette::Silhouette;
+use super::view::{self, View, ViewCriteria};
+use crate::draw::Point;
+use crate::error::PlotError;
+use crate::recorded::{Pose, Recorded};
+use gyration::support::Support;
+use gyration::tensor::{Mat3, Vec3};
+
+/// Samples by which the motion is judged.
+const PROBES: usize = 400;
+/// Times in a picture for all of them: as many of these as leave the bodies room.
+const STROBE_TIMES: [usize; 4] = [16, 12, 9, 7];
+/// Pictures of one time each: a number that fills rows of many lengths.
+pub const FRAMES: usize = 12;
+/// Bodies drawn at most.
+const MOST_BODIES: usize = 60;
+/// A centre that has moved less than this fraction of the size has not moved to the eye.
+const VISIBLE: f64 = 0.02;
+/// Half the side of a patch of a support, as a fraction of the largest body's size.
+const PATCH: f64 = 0.8;
+
+/// What is seen at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outlines {
+    /// When [s].
+    pub time: f64,
+    /// The bodies.
+    pub bodies: Vec<Silhouette>,
+    /// The supports.
+    pub grounds: Vec<Ground>,
+}
+
+/// Outlines at successive times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    /// The times, in order.
+    pub frames: Vec<Outlines>,
+    /// Whether all times share one picture.
+    pub shared: bool,
+    /// The way of each centre.
+    pub paths: Vec<Vec<Point>>,
+    /// Bodies that are not drawn.
+    pub left_out: usize,
+}
+
+/// A body that is sampled, at one time.
+struct Probe {
+    time: f64,
+    poses: Vec<Pose>,
+}
+
+impl Strip {
+    /// The strip of a recording.
+    ///
+    /// # Errors
+    /// [`PlotError`] where it cannot be read or has no samples.
+    pub fn of(recorded: &Recorded) -> Result<Self, PlotError> {
+        recorded.span()?;
+        let probes = probes(recorded)?;
+        let view = View::of(&motion(recorded, &probes), recorded.up());
+        let moving = until_rest(recorded, &probes);
+        let frames = |count: usize| -> Vec<Outlines> {
+            evenly(count, moving + 1).map(|index| frame(recorded, &probes[index], &view)).collect()
+        };
+        let path = |body: usize| probes.iter().map(|probe| view.project(&probe.poses[body].position)).collect();
+        let bodies = recorded.bodies.len().min(MOST_BODIES);
+        let still = !supports_move(recorded, &probes);
+        let strobe = STROBE_TIMES.into_iter().filter(|_| still).find_map(|count| {
+            let kept = without_overlaps(frames(count));
+            // Where a third of the times had to be left out, the rest does not tell the motion.
+            (kept.len() * 3 >= 2 * count.min(moving + 1) && kept.len() > 3).then_some(kept)
+        });
+        Ok(Self {
+            shared: strobe.is_some(),
+            frames: strobe.unwrap_or_else(|| frames(FRAMES)),
+            paths: (0..bodies).map(path).collect(),
+            left_out: recorded.bodies.len() - bodies,
+        })
+    }
+}
+
+/// So many indices below `length`, evenly, with the first and the last.
+fn evenly(count: usize, length: usize) -> impl Iterator<Item = usize> {
+    let count = count.min(length).max(1);
+    let last = length.saturating_sub(1);
+    (0..count).map(move |k| if count == 1 { last } else { (k * last + (count - 1) / 2) / (count - 1) })
+}
+
+fn probes(recorded: &Recorded) -> Result<Vec<Probe>, PlotError> {
+    let rows = recorded.recording.rows();
+    let probe = |row: usize| recorded.poses(row).map(|(time, poses)| Probe { time, poses });
+    evenly(PROBES, rows).map(probe).collect()
+}
+
+fn motion(recorded: &Recorded, probes: &[Probe]) -> ViewCriteria {
+    let bodies = 0..recorded.bodies.len().min(MOST_BODIES);
+    let path = |body: usize| probes.iter().map(|probe| probe.poses[body].position).collect::<Vec<Vec3>>();
+    let turns = probes.windows(2).flat_map(|pair| {
+        let turn = |body: usize| view::turn(&pair[0].poses[body].gradient, &pair[1].poses[body].gradient);
+        bodies.clone().map(turn).collect::<Vec<Vec3>>()
+    });
+    let strains = |body: usize| {
+        let stretches: Vec<Mat3> = probes.iter().map(|probe| view::left_stretch(&probe.poses[body].gradient)).collect();
+        let mean = stretches.iter().sum::<Mat3>() / stretches.len().max(1) as f64;
+        stretches.into_iter().map(move |stretch| stretch - mean)
+    };
+    ViewCriteria {
+        paths: bodies.clone().map(path).collect(),
+        turns: turns.collect(),
+        strains: bodies.clone().filter(|body| recorded.bodies[*body].deforms()).flat_map(strains).collect(),
+        normals: recorded.supports.iter().map(|support| support.normal).collect(),
+        size: recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max),
+    }
+}
+
+/// Whether a support moves to the eye.
+fn supports_move(recorded: &Recorded, probes: &[Probe]) -> bool {
+    let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
+    let height = |support: &Support, probe: &Probe| support.gap(&Vec3::zeros(), probe.time);
+    recorded.supports.iter().any(|support| {
+        let heights = probes.iter().map(|probe| height(support, probe) - height(support, &probes[0]));
+        heights.fold(0.0, |largest: f64, height| largest.max(height.abs())) > VISIBLE * size
+    })
+}
+
+/// The probe from which on nothing moves to the eye; the last if something moves to the end.
+fn until_rest(recorded: &Recorded, probes: &[Probe]) -> usize {
+    let Some(last) = probes.last() else { return 0 };
+    let moved = |probe: &Probe| {
+        recorded.bodies.iter().zip(probe.poses.iter().zip(&last.poses)).any(|(body, (pose, end))| {
+            let shift = (pose.position - end.position).norm() / body.size;
+            // The points of the surface move by half of the size times the change of the gradient.
+            shift.max(0.5 * (pose.gradient - end.gradient).norm()) > VISIBLE
+        })
+    };
+    let still = probes.iter().rposition(moved).map_or(0, |index| index + 1);
+    // A little of the rest is shown as well.
+    (still + probes.len() / 20).min(probes.len() - 1)
+}
+
+fn frame(recorded: &Recorded, probe: &Probe, view: &View) -> Outlines {
+    let bodies = recorded.bodies.iter().zip(&probe.poses).take(MOST_BODIES).enumerate();
+    let bodies: Vec<Silhouette> = bodies.map(|(index, (body, pose))| Silhouette::of(index, body, pose, view)).collect();
+    let mean = probe.poses.iter().map(|pose| pose.position).sum::<Vec3>() / probe.poses.len().max(1) as f64;
+    let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
+    let site = Site { mean, half_side: PATCH * size };
+    let ground = |support| Ground::of(support, probe.time, &site, view);
+    Outlines { time: probe.time, bodies, grounds: recorded.supports.iter().filter_map(ground).collect() }
+}
+
+/// The frames in which no body covers much of itself at a time before; the first and the last are among them.
+fn without_overlaps(frames: Vec<Outlines>) -> Vec<Outlines> {
+    /// Centres nearer than this fraction of the size cover each other.
+    const ROOM: f64 = 0.55;
+    let covers = |a: &Outlines, b: &Outlines| {
+        a.bodies.iter().zip(&b.bodies).any(|(a, b)| {
+            let distance = (a.center[0] - b.center[0]).hypot(a.center[1] - b.center[1]);
+            distance < ROOM * a.size.max(b.size)
+        })
+    };
+    let mut kept: Vec<Outlines> = Vec::new();
+    let mut frames = frames.into_iter();
+    let last = frames.next_back();
+    for frame in frames.by_ref() {
+        let free = |other: &Outlines| !covers(other, &frame);
+        if kept.iter().all(free) && last.as_ref().is_none_or(free) {
+            kept.push(frame);
+        }
+    }
+    kept.extend(last);
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_are_even_and_hold_both_ends() {
+        assert_eq!(evenly(3, 11).collect::<Vec<_>>(), [0, 5, 10]);
+        assert_eq!(evenly(10, 3).collect::<Vec<_>>(), [0, 1, 2]);
+        assert_eq!(evenly(5, 1).collect::<Vec<_>>(), [0]);
+    }
+}

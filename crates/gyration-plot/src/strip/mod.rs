@@ -1,0 +1,12 @@
+//! Strips: the outlines of bodies at successive times, to scale.
+//!
+//! Where the bodies leave room for one another and the supports stand still, all times share one picture, as under a
+//! stroboscope; otherwise each time has a picture of its own.
+
+mod frames;
+mod ground;
+mod paint;
+mod silhouette;
+mod view;
+
+pub use frames::Strip;

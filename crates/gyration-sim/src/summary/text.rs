@@ -1,0 +1,175 @@
+//! The summary of a run for people: outcome, steps, ledger, momenta, events.
+
+use super::{BodySummary, LedgerSummary, RunSummary};
+use crate::format::{duration, significant, vector};
+use gyration_record::{RecordError, Recording};
+use gyration_scene::Scene;
+use serde_json::Value;
+use std::fmt::Write as _;
+
+/// Bodies whose momenta are listed.
+const MOST_BODIES: usize = 8;
+
+impl RunSummary {
+    /// The summary as lines of text, as `gyration run` prints it; `start` are the energies [J] at t = 0, in the order of the ledger.
+    pub fn text(&self, scene: &Scene, start: &[f64]) -> String {
+        let mut text = format!("{}\noutcome    {}\n", scene.title(), self.in_words);
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{}", steps(self));
+        text += &ledger(&self.ledger, start);
+        text += &dissipation(&self.ledger);
+        text += &bodies(&self.bodies);
+        text += &events(&self.events);
+        text.trim_end().to_owned()
+    }
+
+    /// The energies [J] of the first row of its recording, in the order of the ledger.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn energies_at_start(&self, recording: &Recording) -> Result<Vec<f64>, RecordError> {
+        let first = |(name, _): &(&str, f64)| Ok(recording.read_rows(&format!("energy_{name}"), 0..1)?.data[0]);
+        self.ledger.energies.iter().map(first).collect()
+    }
+}
+
+fn steps(summary: &RunSummary) -> String {
+    let count = |name: &str| summary.statistics.get(name).and_then(Value::as_u64).unwrap_or(0);
+    let (explicit, implicit) = (count("explicit_steps"), count("implicit_steps"));
+    let rejected = count("rejected_for_error") + count("rejected_for_domain") + count("newton_failures");
+    let wall = match summary.wall_time {
+        None => String::new(),
+        Some(short) if short < 10.0 => format!(" in {short:.2} s"),
+        Some(long) => format!(" in {}", duration(long)),
+    };
+    format!(
+        "time       {} s simulated{wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} rejected",
+        significant(summary.time, 7),
+        explicit + implicit,
+    )
+}
+
+/// A residual below this fraction of the energies is their own rounding.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The ledger as a table, and how well it closes; `start` are the energies at t = 0, in the order of the ledger.
+fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
+    let mut text = format!("energy [J]  {:>26} {:>16}\n", "at t = 0", "at the end");
+    let end: f64 = ledger.energies.iter().map(|(_, value)| value).sum();
+    let energies = ledger.energies.iter().map(|(name, value)| (*name, *value)).zip(start);
+    for ((name, value), start) in energies {
+        let _ = writeln!(text, "  {name:<19} {:>16} {:>16}", number(*start), number(value));
+    }
+    let _ = writeln!(text, "  {:<19} {:>16} {:>16}", "sum", number(ledger.initial_energy), number(end));
+    for (name, value) in &ledger.works {
+        let _ = writeln!(text, "  {:<36} {:>16}", format!("work of {name}"), number(*value));
+    }
+    let _ = writeln!(text, "  {:<36} {:>16}", "residual", number(ledger.residual));
+    let relative = ledger.largest_residual / ledger.energy_in_play;
+    let total: f64 = ledger.energies.iter().map(|(_, value)| value.abs()).sum();
+    let relative = if ledger.largest_residual <= ROUNDING * total {
+        ", the rounding of the energies".to_owned()
+    } else if relative.is_finite() {
+        format!(", {relative:.1e} of the energy in play")
+    } else {
+        String::new()
+    };
+    let _ = writeln!(text, "  the balance closes to {:.1e} J{relative}", ledger.largest_residual);
+    text
+}
+
+/// What a body's own losses took, and the least that one of them took in a step [J].
+struct Loss {
+    name: &'static str,
+    taken: f64,
+    least: f64,
+}
+
+/// What the drive did and what was lost within the bodies, and whether each loss is one at every step.
+fn dissipation(ledger: &LedgerSummary) -> String {
+    let loss = |(name, least): &(&'static str, f64)| {
+        ledger.work(name).map(|work| Loss { name, taken: -work + 0.0, least: *least })
+    };
+    let losses: Vec<Loss> = ledger.least_dissipation.iter().filter_map(loss).collect();
+    let lost = |loss: &Loss| format!("lost {} J", significant(loss.taken, 5));
+    let words = match (ledger.work("drive"), &losses[..]) {
+        (None, []) => return String::new(),
+        (None, [only]) => format!("{:<10} {}", only.name, lost(only)),
+        (drive, losses) => {
+            let did = drive.map(|work| format!("did {} J", significant(work, 5)));
+            let lost = losses.iter().map(|loss| format!("{} {}", loss.name, lost(loss)));
+            format!("{:<10} {}", "drive", did.into_iter().chain(lost).collect::<Vec<_>>().join(", "))
+        }
+    };
+    format!("{words}{}\n", verdict(&losses, ledger.energy_in_play))
+}
+
+/// Whether losses are losses at every step; a gain is told beside the energy in play [J].
+fn verdict(losses: &[Loss], in_play: f64) -> String {
+    let least = losses.iter().map(|loss| loss.least).fold(f64::INFINITY, f64::min);
+    let subject = match losses {
+        [] => return String::new(),
+        [_] => "it dissipates",
+        _ => "both dissipate",
+    };
+    if least >= 0.0 {
+        return format!("; {subject} at every step (least {least:.1e} J)");
+    }
+    if -least <= ROUNDING * in_play {
+        return format!("; {subject} at every step up to rounding (least {least:.1e} J)");
+    }
+    let relative = -least / in_play;
+    format!("; {subject} but for the error of a step (least {least:.1e} J, {relative:.1e} of the energy in play)")
+}
+
+fn bodies(bodies: &[BodySummary]) -> String {
+    let mut text = String::from("at the end\n");
+    for body in bodies.iter().take(MOST_BODIES) {
+        let gap = body.gap.map(|gap| format!(", gap {} m", significant(gap, 5))).unwrap_or_default();
+        let _ = writeln!(text, "  {:<20} at {} m{gap}", body.name, vector(&body.position));
+        let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "", vector(&body.linear_momentum));
+        let _ = writeln!(text, "  {:<20} angular momentum {} kg m²/s", "", vector(&body.angular_momentum));
+        let [first, second, third] = &body.affine_momentum;
+        let rows = [vector(first), vector(second), vector(third)].join(" ");
+        let _ = writeln!(text, "  {:<20} affine momentum {rows} kg m²/s", "");
+    }
+    if let Some(more) = bodies.len().checked_sub(MOST_BODIES).filter(|more| *more > 0) {
+        let _ = writeln!(text, "  and {more} more");
+    }
+    text
+}
+
+fn events(events: &Value) -> String {
+    let counts = events.as_object().into_iter().flatten();
+    let counts: Vec<String> = counts
+        .filter_map(|(kind, count)| Some((kind, count.as_u64().filter(|count| *count > 0)?)))
+        .map(|(kind, count)| format!("{count} {}", kind.replace('_', " ")))
+        .collect();
+    if counts.is_empty() { String::new() } else { format!("events     {}\n", counts.join(", ")) }
+}
+
+/// Seven digits, in a column.
+fn number(value: f64) -> String {
+    format!("{value:.6e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn losses_are_told_with_whether_they_are_losses_at_every_step() {
+        let loss = |name, least| Loss { name, taken: 1.0, least };
+        let both = [loss("contraction", 1e-9), loss("viscosity", 0.0)];
+        assert_eq!(verdict(&both, 4.0), "; both dissipate at every step (least 0.0e0 J)");
+        assert_eq!(verdict(&both[..1], 4.0), "; it dissipates at every step (least 1.0e-9 J)");
+        let rounding = verdict(&[loss("viscosity", -1e-16)], 4.0);
+        assert_eq!(rounding, "; it dissipates at every step up to rounding (least -1.0e-16 J)");
+        let gained = verdict(&[loss("viscosity", -2e-9)], 4.0);
+        assert!(
+            gained.ends_with("but for the error of a step (least -2.0e-9 J, 5.0e-10 of the energy in play)"),
+            "{gained}"
+        );
+        assert_eq!(verdict(&[], 4.0), "");
+    }
+}

@@ -1,0 +1,140 @@
+//! What the survey says of each body: beside every support, and where it rests.
+
+use super::kind::KindSurvey;
+use super::laws::LawSurvey;
+use super::mass::MassSurvey;
+use super::modes::RestState;
+use super::rest::{Approach, RestGap};
+use crate::resistance::completed;
+use gyration::body::Body;
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_scene::{Scene, SceneErrors};
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::borrow::Cow;
+
+/// What can be said of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Survey {
+    /// The bodies, in order.
+    pub bodies: Vec<BodySurvey>,
+}
+
+/// What can be said of one body.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodySurvey {
+    /// Its name.
+    pub name: String,
+    /// The largest side of its bounding box [m].
+    pub size: f64,
+    /// How it may deform, and what it is made of.
+    pub kind: KindSurvey,
+    /// Mass properties.
+    pub mass: MassSurvey,
+    /// Where a body that deforms rests, how much it is deformed there, and how it moves about that state.
+    pub rest_state: Option<RestState>,
+    /// Why a body that deforms has no rest state, in words.
+    pub no_rest_state_because: Option<String>,
+    /// What it has to do with each support; empty for mass points.
+    pub supports: Vec<PairSurvey>,
+}
+
+/// What can be said of a body and a support.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairSurvey {
+    /// Name of the support.
+    pub support: String,
+    /// Smallest distance at the start [m].
+    pub initial_gap: f64,
+    /// The part of the weight that presses on the support, −m g·n [N].
+    pub weight: f64,
+    /// The laws between the two; empty if they do not act on each other.
+    pub laws: Vec<LawSurvey>,
+    /// Whether one of the laws forbids touching.
+    pub forbids_touching: bool,
+    /// Gaps at which the central laws carry the weight, ascending: with the orientation of the start, and with its P if the body
+    /// deforms.
+    pub rests: Vec<RestGap>,
+    /// Why no such gap is given, in words: something else holds the body too.
+    pub no_rest_because: Option<&'static str>,
+}
+
+/// Where one body rests, and how it moves about that state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodyModes {
+    /// Its name.
+    pub name: String,
+    /// How it may deform, and what it is made of.
+    pub kind: KindSurvey,
+    /// Its rest state, with the modes.
+    pub rest_state: Option<RestState>,
+    /// Why it has none, in words.
+    pub no_rest_state_because: Option<String>,
+}
+
+/// The modes of every body of a scene.
+pub fn modes(scene: &Scene) -> Vec<BodyModes> {
+    let (model, start) = (&scene.built().model, &scene.built().state);
+    let of = |(index, body): (usize, &Body)| {
+        let (rest_state, no_rest_state_because) = rest_state(model, start, index);
+        BodyModes { name: body.name.clone(), kind: KindSurvey::of(body), rest_state, no_rest_state_because }
+    };
+    model.bodies.iter().enumerate().map(of).collect()
+}
+
+/// What `gyration modes --json` prints of a scene.
+pub fn modes_in_json(scene: &Scene) -> Value {
+    json!({ "scene": scene.name(), "bodies": modes(scene) })
+}
+
+/// The rest state of a body, or why there is none.
+fn rest_state(model: &Model, start: &State, index: usize) -> (Option<RestState>, Option<String>) {
+    match RestState::of(model, start, index) {
+        Ok(state) => (Some(state), None),
+        Err(reason) => (None, Some(reason)),
+    }
+}
+
+impl Survey {
+    /// The survey of a scene in its first state. Only the rest state of a body that deforms takes its resistance in the fluid.
+    ///
+    /// # Errors
+    /// Why a surface has no resistance.
+    pub fn of(scene: &Scene) -> Result<Self, SceneErrors> {
+        let deforms = scene.unknown_forms().iter().any(|form| form.resolution.is_some());
+        let scene = if deforms { completed(scene)? } else { Cow::Borrowed(scene) };
+        let (model, start) = (&scene.built().model, &scene.built().state);
+        Ok(Self { bodies: (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect() })
+    }
+}
+
+fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
+    let body = &model.bodies[index];
+    let pair = |support: usize| {
+        let approach = Approach::new(model, start, index, support)?;
+        let contacts = body.contacts.iter().filter(|contact| contact.support == support);
+        let laws = contacts.flat_map(|contact| contact.laws());
+        let laws: Vec<LawSurvey> = laws.map(|law| LawSurvey::of(law, &body.shape)).collect();
+        Some(PairSurvey {
+            support: model.supports[support].name.clone(),
+            initial_gap: approach.initial_gap,
+            weight: approach.weight,
+            forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
+            laws,
+            rests: approach.rests(),
+            no_rest_because: approach.no_rest_because,
+        })
+    };
+    let deforms = body.affine().is_some();
+    let (rest_state, no_rest_state_because) = if deforms { rest_state(model, start, index) } else { (None, None) };
+    BodySurvey {
+        name: body.name.clone(),
+        size: body.size,
+        kind: KindSurvey::of(body),
+        rest_state,
+        no_rest_state_because,
+        mass: MassSurvey::of(&body.mass),
+        supports: (0..model.supports.len()).filter_map(pair).collect(),
+    }
+}

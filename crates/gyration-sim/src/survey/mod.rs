@@ -1,0 +1,25 @@
+//! The survey of a scene: what can be said before it runs.
+//!
+//! ```text
+//! Model, State → Survey: mass properties, rest gaps and time scales over supports, rest states and modes, verdicts on laws
+//!                Survey → text (what `gyration check` prints), JSON
+//! ```
+//!
+//! Nothing here steps in time, and nothing is written anywhere.
+
+mod bodies;
+mod contraction;
+mod kind;
+mod laws;
+mod mass;
+mod modes;
+mod rest;
+mod text;
+
+pub use bodies::{BodyModes, BodySurvey, PairSurvey, Survey, modes, modes_in_json};
+pub use kind::KindSurvey;
+pub use laws::LawSurvey;
+pub use mass::MassSurvey;
+pub use modes::{ModeSurvey, RestState, ShapeSurvey};
+pub use rest::{Approach, RestGap};
+pub use text::write_rest;

@@ -1,0 +1,113 @@
+//! Rest states and the small motions about them, in a form to print.
+
+use crate::modes::{Mode, ModeShape, Motion, modes, rest};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::Mat3;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Where a body rests, and how it moves about that state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RestState {
+    /// p₀ of the centre of mass [m].
+    pub position: [f64; 3],
+    /// P, row by row.
+    pub gradient: [[f64; 3]; 3],
+    /// Principal stretches, the largest first.
+    pub stretches: [f64; 3],
+    /// π [Pa] of an incompressible body.
+    pub pressure: Option<f64>,
+    /// Smallest distance to a support that acts on it [m].
+    pub gap: Option<f64>,
+    /// The small motions: unstable, free, creeping, oscillating ones, each by frequency.
+    pub modes: Vec<ModeSurvey>,
+}
+
+/// A small motion about rest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModeSurvey {
+    /// "oscillates", "creeps", "free" or "unstable".
+    pub motion: &'static str,
+    /// What moves how, in words.
+    pub in_words: String,
+    /// ω/2π [Hz]; 0 where it does not oscillate.
+    pub frequency_hz: f64,
+    /// ω [rad/s].
+    pub frequency: f64,
+    /// δ of the two eigenvalues −δ ± iω [1/s], the slower one first; negative where the motion grows.
+    pub decay_rates: [f64; 2],
+    /// ζ; none of free and unstable motions.
+    pub damping_ratio: Option<f64>,
+    /// How the body moves.
+    pub shape: ShapeSurvey,
+    /// The part of the motion a quarter of a period ahead, if its points do not move in step.
+    pub quadrature: Option<ShapeSurvey>,
+}
+
+/// A shape: of the points at half the body's size from its centre the fastest moves by one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ShapeSurvey {
+    /// δp₀.
+    pub translation: [f64; 3],
+    /// δP [1/m], row by row.
+    pub gradient: [[f64; 3]; 3],
+}
+
+/// Parts of an eigenvalue below this part of it are rounding.
+const ROUNDING: f64 = 1e-10;
+
+impl RestState {
+    /// Of the body of this index.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    pub fn of(model: &Model, start: &State, body: usize) -> Result<Self, String> {
+        let rest = rest(model, start, body).map_err(|reason| reason.to_string())?;
+        let found = modes(model, start, body, &rest).map_err(|reason| reason.to_string())?;
+        Ok(Self {
+            position: rest.placement.position.into(),
+            gradient: rows(&rest.placement.gradient),
+            stretches: rest.stretches.into(),
+            pressure: rest.pressure,
+            gap: rest.gap.is_finite().then_some(rest.gap),
+            modes: found.iter().map(ModeSurvey::of).collect(),
+        })
+    }
+}
+
+impl ModeSurvey {
+    fn of(mode: &Mode) -> Self {
+        let largest = mode.eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max);
+        let clean = |rate: f64| if rate.abs() <= ROUNDING * largest { 0.0 } else { rate };
+        let decay_rates = match mode.motion {
+            Motion::Oscillates => mode.decay_rates().map(clean),
+            _ => mode.decay_rates(),
+        };
+        Self {
+            motion: match mode.motion {
+                Motion::Oscillates => "oscillates",
+                Motion::Creeps => "creeps",
+                Motion::Free => "free",
+                Motion::Grows => "unstable",
+            },
+            in_words: mode.in_words.clone(),
+            frequency_hz: mode.frequency() / TAU,
+            frequency: mode.frequency(),
+            decay_rates,
+            damping_ratio: mode.damping_ratio().map(|ratio| if ratio <= ROUNDING { 0.0 } else { ratio }),
+            shape: ShapeSurvey::of(&mode.shape),
+            quadrature: mode.quadrature.as_ref().map(ShapeSurvey::of),
+        }
+    }
+}
+
+impl ShapeSurvey {
+    fn of(shape: &ModeShape) -> Self {
+        Self { translation: shape.translation.into(), gradient: rows(&shape.gradient) }
+    }
+}
+
+fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]))
+}

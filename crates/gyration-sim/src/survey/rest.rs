@@ -1,0 +1,258 @@
+//! Where a body rests over a support, and how fast it gets there.
+//!
+//! The body is moved along the support's normal without turning. At a gap d the central laws push with F(d) [N]; it
+//! rests where F(d) = W, W = −m g·n, and stably so where k = −F'(d) > 0. There, with the resistances c (along n) and
+//! c_t (across) of damping and friction,
+//!
+//!   period 2π/ω, ω² = k/m;   damping ratio ζ = c/(2 m ω);   decay time 1/(ζω) for ζ < 1, of the slower of two
+//!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
+//!
+//! F comes from the loads of the contacts without velocity, k, c and c_t from their derivatives. With adhesion there may be several
+//! such gaps, or none. A body that something else holds too, a pin, a spring, another support, rests elsewhere: no
+//! such gap is then given, but the reason why not. A body that deforms keeps the P of its start here; where it really
+//! rests, deformed by its weight, is its rest state (`modes`).
+
+use gyration::body::Body;
+use gyration::contact::{
+    Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
+};
+use gyration::load::{LoadSlopes, Loads};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::surface::{GapField, Surface};
+use gyration::tensor::{Mat3, Vec3};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Gaps between these fractions of the size are searched for a balance.
+const SEARCHED: (f64, f64) = (1e-9, 1e3);
+/// Trial gaps in a decade; two balances nearer than that would be missed.
+const TRIALS_PER_DECADE: f64 = 25.0;
+/// Halvings of a bracket: a step of the search is halved to below rounding.
+const HALVINGS: usize = 60;
+
+/// A gap at which the weight is carried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RestGap {
+    /// d [m].
+    pub gap: f64,
+    /// Whether the body comes back to it.
+    pub stable: bool,
+    /// k = −F'(d) [N/m].
+    pub stiffness: f64,
+    /// Period of the oscillation about it without damping [s]; none where it is not stable.
+    pub period: Option<f64>,
+    /// ζ, the part of the critical damping; none without damping or where it is not stable.
+    pub damping_ratio: Option<f64>,
+    /// Time in which the oscillation, or what is left of it, falls to 1/e [s].
+    pub damping_time: Option<f64>,
+    /// Time in which sliding falls to 1/e [s]; none without friction.
+    pub friction_time: Option<f64>,
+}
+
+/// A body that approaches a support along its normal, in the orientation of the start.
+#[derive(Debug, Clone)]
+pub struct Approach<'a> {
+    surface: &'a Surface,
+    contacts: Vec<&'a Contact>,
+    /// n.
+    normal: Vec3,
+    /// Pᵀn.
+    direction: Vec3,
+    /// How the surface is deformed, if the body may be.
+    deformation: Option<Deformation>,
+    /// Height of the centre of mass less the gap [m].
+    depth: f64,
+    mass: f64,
+    size: f64,
+    /// W = −m g·n [N].
+    pub weight: f64,
+    /// Smallest distance at the start [m].
+    pub initial_gap: f64,
+    /// Why the balance on this support alone does not tell where the body rests.
+    pub no_rest_because: Option<&'static str>,
+}
+
+impl<'a> Approach<'a> {
+    /// Of a body to a support; none for mass points.
+    pub fn new(model: &'a Model, start: &State, body: usize, support: usize) -> Option<Self> {
+        let motion = start.motion(model, body);
+        let (body, plane) = (&model.bodies[body], &model.supports[support]);
+        let surface = body.surface.as_ref()?;
+        let direction = motion.placement.gradient.tr_mul(&plane.normal);
+        let height = plane.gap(&motion.placement.position, start.time);
+        let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
+        Some(Self {
+            surface,
+            contacts: body.contacts.iter().filter(|contact| contact.support == support).collect(),
+            normal: plane.normal,
+            direction,
+            deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
+            depth: height - initial_gap,
+            mass: body.mass.mass,
+            size: body.size,
+            weight: -body.mass.mass * model.gravity.dot(&plane.normal),
+            initial_gap,
+            no_rest_because: held_otherwise(body),
+        })
+    }
+
+    /// Whether any law acts.
+    pub fn acts(&self) -> bool {
+        self.contacts.iter().any(|contact| !contact.laws().is_empty())
+    }
+
+    /// The largest side of the body [m].
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// F(d) of the central laws [N]; none where it cannot be computed.
+    pub fn force(&self, gap: f64) -> Option<f64> {
+        let mut scratch = ContactScratch::default();
+        let meeting = self.meeting(gap);
+        let loads = self.contacts.iter().map(|contact| ContactLoads::integrate(contact, &meeting, &mut scratch));
+        let total = loads.map(|loads| loads.ok().map(|loads| loads.total())).sum::<Option<Loads>>()?;
+        Some(total.force.dot(&self.normal)).filter(|force| force.is_finite())
+    }
+
+    /// The body at a gap, without velocity.
+    fn meeting(&self, gap: f64) -> Meeting<'a> {
+        Meeting {
+            surface: self.surface,
+            field: GapField { height: self.depth + gap, direction: self.direction },
+            motion: RelativeMotion { normal: self.normal, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() },
+            deformation: self.deformation,
+        }
+    }
+
+    /// ∂f/∂p₀ [N/m] and ∂f/∂ṗ₀ [N s/m] of all laws; none where they are not numbers.
+    fn slopes(&self, gap: f64) -> Option<(Mat3, Mat3)> {
+        let (mut scratch, meeting) = (ContactScratch::default(), self.meeting(gap));
+        let mut slopes = LoadSlopes::default();
+        for contact in &self.contacts {
+            ContactSlopes::integrate(contact, &meeting, &mut scratch).ok()?.add_to(&mut slopes);
+        }
+        let force = |by: &gyration::load::Mat12| -> Mat3 { by.fixed_view::<3, 3>(0, 0).into_owned() };
+        let (by_place, by_rate) = (force(&slopes.by_place), force(&slopes.by_rate));
+        (by_place.iter().chain(by_rate.iter()).all(|entry| entry.is_finite())).then_some((by_place, by_rate))
+    }
+
+    /// All gaps at which the weight is carried, ascending; none for a body that is held otherwise as well.
+    pub fn rests(&self) -> Vec<RestGap> {
+        if !self.acts() || self.no_rest_because.is_some() {
+            return Vec::new();
+        }
+        let (low, high) = (SEARCHED.0 * self.size, SEARCHED.1 * self.size);
+        let count = (TRIALS_PER_DECADE * (high / low).log10()).ceil() as usize;
+        let gap = |k: usize| low * (high / low).powf(k as f64 / count as f64);
+        let balance = |gap: f64| Some(self.force(gap)? - self.weight);
+        let mut rests = Vec::new();
+        let mut previous = None;
+        for k in 0..=count {
+            let here = balance(gap(k)).map(|value| (gap(k), value));
+            if let (Some(before), Some(here)) = (previous, here)
+                && crosses(before, here)
+                && let Some(root) = bisect(before, here, balance)
+            {
+                rests.extend(self.rest_at(root));
+            }
+            previous = here;
+        }
+        rests
+    }
+
+    fn rest_at(&self, gap: f64) -> Option<RestGap> {
+        let (by_place, by_rate) = self.slopes(gap)?;
+        // Any direction across the normal.
+        let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
+        let along = |matrix: &Mat3, direction: &Vec3| 0.0 - direction.dot(&(matrix * direction));
+        let stiffness = along(&by_place, &self.normal);
+        let normal_resistance = along(&by_rate, &self.normal);
+        let tangential_resistance = along(&by_rate, &across);
+        let stable = stiffness > 0.0;
+        let frequency = stable.then(|| (stiffness / self.mass).sqrt());
+        let damped = frequency.filter(|_| normal_resistance > 0.0);
+        let ratio = damped.map(|frequency| normal_resistance / (2.0 * self.mass * frequency));
+        Some(RestGap {
+            gap,
+            stable,
+            stiffness,
+            period: frequency.map(|frequency| TAU / frequency),
+            damping_ratio: ratio,
+            damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
+            friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
+        })
+    }
+}
+
+/// What holds a body besides a single support, in words.
+fn held_otherwise(body: &Body) -> Option<&'static str> {
+    let acts = |contact: &&Contact| contact.laws().iter().flat_map(|law| law.terms()).flatten().any(acts);
+    let mut supports = body.contacts.iter().filter(acts).map(|contact| contact.support);
+    let first = supports.next();
+    if body.pin.is_some() {
+        Some("a pin holds the body as well")
+    } else if !body.springs.is_empty() {
+        Some("springs pull at the body as well")
+    } else if supports.any(|support| Some(support) != first) {
+        Some("the laws of other supports act on the body as well")
+    } else {
+        None
+    }
+}
+
+fn acts(term: Term) -> bool {
+    term.coefficient != 0.0
+}
+
+/// Whether the balance changes its sign; a zero counts with what follows, so that it is found once.
+fn crosses(before: (f64, f64), here: (f64, f64)) -> bool {
+    (before.1 > 0.0) != (here.1 > 0.0)
+}
+
+/// The root between two gaps, by halving in ln d.
+fn bisect(before: (f64, f64), here: (f64, f64), balance: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let (mut low, mut high) = (before.0, here.0);
+    let positive_below = before.1 > 0.0;
+    for _ in 0..HALVINGS {
+        let middle = (low * high).sqrt();
+        if (balance(middle)? > 0.0) == positive_below { low = middle } else { high = middle }
+    }
+    Some((low * high).sqrt())
+}
+
+/// The time constant [s] of an oscillator of angular frequency ω [rad/s] and damping ratio ζ, that of its slowest part.
+fn decay_time(frequency: f64, ratio: f64) -> f64 {
+    if ratio < 1.0 {
+        return 1.0 / (ratio * frequency);
+    }
+    // ζ − √(ζ²−1) without cancellation.
+    (ratio + (ratio * ratio - 1.0).sqrt()) / frequency
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decay_is_that_of_the_slowest_part() {
+        let frequency = 3.0;
+        assert!((decay_time(frequency, 0.5) - 2.0 / 3.0).abs() < 1e-15);
+        // From both sides of critical damping, where two roots meet as a square root.
+        let (below, above) = (decay_time(frequency, 1.0 - 1e-12), decay_time(frequency, 1.0 + 1e-12));
+        assert!((below - above).abs() < 1e-5);
+        // Far beyond, the body creeps with c/k = 2ζ/ω.
+        assert!((decay_time(frequency, 1e9) / (2e9 / frequency) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn halving_finds_the_root_of_a_falling_and_of_a_rising_balance() {
+        for sign in [1.0, -1.0] {
+            let balance = |gap: f64| Some(sign * (2.0 - gap));
+            let root = bisect((0.5, balance(0.5).unwrap()), (30.0, balance(30.0).unwrap()), balance);
+            // Sixty halvings of ln 60 leave rounding.
+            assert!((root.unwrap() - 2.0).abs() < 1e-14);
+        }
+    }
+}
