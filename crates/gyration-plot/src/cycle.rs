@@ -32,13 +32,13 @@ impl Cycle {
 
 /// Watches values pass and keeps those at one time.
 #[derive(Debug, Clone)]
-pub struct Mark<const N: usize> {
+pub struct AtTime<const N: usize> {
     time: f64,
     previous: Option<(f64, [f64; N])>,
     found: Option<[f64; N]>,
 }
 
-impl<const N: usize> Mark<N> {
+impl<const N: usize> AtTime<N> {
     /// For the values at a time [s].
     pub fn at(time: f64) -> Self {
         Self { time, previous: None, found: None }
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn marks_lie_on_the_chord_between_samples() {
-        let mut mark = Mark::at(1.5);
+        let mut mark = AtTime::at(1.5);
         let reached: Vec<bool> = (0..4).map(|k| mark.push(f64::from(k), [f64::from(k * k)])).collect();
         assert_eq!(reached, [false, false, true, false]);
         assert_eq!((mark.found(), mark.last(), mark.since()), (Some([2.5]), Some([9.0]), Some([6.5])));

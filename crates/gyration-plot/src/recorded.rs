@@ -13,7 +13,7 @@ use serde_json::Value;
 
 /// A recording with its descriptions.
 #[derive(Debug)]
-pub struct Recorded<'a> {
+pub struct RecordedScene<'a> {
     /// The recording.
     pub recording: &'a Recording,
     /// The bodies, in order.
@@ -113,7 +113,7 @@ pub struct Pose {
     pub gradient: Mat3,
 }
 
-impl<'a> Recorded<'a> {
+impl<'a> RecordedScene<'a> {
     /// Reads the descriptions.
     ///
     /// # Errors

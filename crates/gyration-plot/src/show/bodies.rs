@@ -3,7 +3,7 @@
 use crate::chart::{Axis, Chart, Series};
 use crate::draw::Point;
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 
 /// Bodies with a line of their own in a chart.
 pub const MOST_LINES: usize = 40;
@@ -15,7 +15,7 @@ pub const MOST_CHARTS: usize = 6;
 pub const THIN: f64 = 0.7;
 
 /// Indices of the bodies that contract, for a quantity that only they have.
-pub fn contracting_bodies(recorded: &Recorded, what: &'static str) -> Result<Vec<usize>, PlotError> {
+pub fn contracting_bodies(recorded: &RecordedScene, what: &'static str) -> Result<Vec<usize>, PlotError> {
     let all = recorded.bodies.iter().enumerate();
     let bodies: Vec<usize> = all.filter(|(_, body)| body.contracts()).map(|(index, _)| index).collect();
     if bodies.is_empty() {
@@ -25,7 +25,7 @@ pub fn contracting_bodies(recorded: &Recorded, what: &'static str) -> Result<Vec
 }
 
 /// A series for each body, named in the legend if they are few.
-pub fn body_series(recorded: &Recorded, indices: &[usize], lines: Vec<Vec<Point>>) -> (Vec<Series>, Vec<String>) {
+pub fn body_series(recorded: &RecordedScene, indices: &[usize], lines: Vec<Vec<Point>>) -> (Vec<Series>, Vec<String>) {
     let names = |k: usize| if k < MOST_NAMES { recorded.bodies[indices[k]].name.clone() } else { String::new() };
     let lines = lines.into_iter().enumerate();
     let mut series: Vec<Series> = lines.map(|(k, points)| Series::solid(names(k), points, indices[k])).collect();
@@ -45,12 +45,12 @@ pub fn values(series: &[Series]) -> impl Iterator<Item = f64> + '_ {
 }
 
 /// Indices of the bodies that have lines of their own.
-pub fn drawn_bodies(recorded: &Recorded) -> Vec<usize> {
+pub fn drawn_bodies(recorded: &RecordedScene) -> Vec<usize> {
     (0..recorded.bodies.len().min(MOST_LINES)).collect()
 }
 
 /// The level axis of charts over time.
-pub fn time_axis(recorded: &Recorded) -> Result<Axis, PlotError> {
+pub fn time_axis(recorded: &RecordedScene) -> Result<Axis, PlotError> {
     let (start, end) = recorded.span()?;
     Ok(Axis::exact("time", "s", start, end))
 }

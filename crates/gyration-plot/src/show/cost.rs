@@ -10,9 +10,9 @@ use super::bodies::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
 use super::distance::{Level, NOWHERE};
 use super::effort::{self, ARRAYS, Driven, Works};
 use crate::chart::{Axis, Chart, DASHED, Series, extremes};
-use crate::cycle::{Cycle, Mark, rounded};
+use crate::cycle::{AtTime, Cycle, rounded};
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 use crate::thin::Thinner;
 use gyration::tensor::Vec3;
 
@@ -23,7 +23,7 @@ const SOME_WAY: f64 = 0.02;
 const WIDE: f64 = 20.0;
 
 /// The chart.
-pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
+pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let nothing = |reason: &'static str| Err(PlotError::Nothing { what: "cost", reason });
     let mut driven = Driven::all(recorded, "cost")?;
     driven.truncate(MOST_LINES);
@@ -50,7 +50,7 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
 }
 
 /// Where each body started.
-fn starts(recorded: &Recorded, driven: &[Driven]) -> Result<Vec<Vec3>, PlotError> {
+fn starts(recorded: &RecordedScene, driven: &[Driven]) -> Result<Vec<Vec3>, PlotError> {
     let (_, poses) = recorded.poses(0)?;
     Ok(driven.iter().map(|it| poses[it.body].position).collect())
 }
@@ -65,12 +65,12 @@ struct Way {
 }
 
 impl Way {
-    fn all(recorded: &Recorded, level: &Level, driven: &[Driven]) -> Result<Vec<Self>, PlotError> {
+    fn all(recorded: &RecordedScene, level: &Level, driven: &[Driven]) -> Result<Vec<Self>, PlotError> {
         let (starts, span) = (starts(recorded, driven)?, recorded.span()?);
         let mut farthest = vec![0.0; driven.len()];
         let mark =
-            |it: &Driven| Cycle::last(recorded.bodies[it.body].period, span).map(|cycle| Mark::<2>::at(cycle.start));
-        let mut marks: Vec<Option<Mark<2>>> = driven.iter().map(mark).collect();
+            |it: &Driven| Cycle::last(recorded.bodies[it.body].period, span).map(|cycle| AtTime::<2>::at(cycle.start));
+        let mut marks: Vec<Option<AtTime<2>>> = driven.iter().map(mark).collect();
         recorded.each_row(&["position"], |time, row| {
             for (k, it) in driven.iter().enumerate() {
                 let parts = level.parts(&(Vec3::from_column_slice(&row[0][3 * it.body..][..3]) - starts[k]));
@@ -80,7 +80,7 @@ impl Way {
                 }
             }
         })?;
-        let gained = |mark: &Option<Mark<2>>| mark.as_ref().and_then(Mark::since).map(|[a, b]| a.hypot(b));
+        let gained = |mark: &Option<AtTime<2>>| mark.as_ref().and_then(AtTime::since).map(|[a, b]| a.hypot(b));
         let ways = farthest.into_iter().zip(&marks);
         Ok(ways.map(|(farthest, mark)| Self { farthest, gained: gained(mark).unwrap_or(farthest) }).collect())
     }
@@ -96,13 +96,14 @@ struct Spent {
 }
 
 impl Spent {
-    fn read(recorded: &Recorded, level: &Level, driven: &[Driven], farthest: &[f64]) -> Result<Self, PlotError> {
+    fn read(recorded: &RecordedScene, level: &Level, driven: &[Driven], farthest: &[f64]) -> Result<Self, PlotError> {
         let (starts, span) = (starts(recorded, driven)?, recorded.span()?);
         let weights: Vec<f64> =
             driven.iter().map(|it| recorded.bodies[it.body].mass * recorded.gravity.norm()).collect();
         let cycle = |it: &Driven| Cycle::last(recorded.bodies[it.body].period, span);
         // Distances along the two level directions, and W⁺.
-        let mut marks: Vec<Option<Mark<3>>> = driven.iter().map(|it| cycle(it).map(|c| Mark::at(c.start))).collect();
+        let mut marks: Vec<Option<AtTime<3>>> =
+            driven.iter().map(|it| cycle(it).map(|c| AtTime::at(c.start))).collect();
         let mut works = vec![Works::default(); driven.len()];
         let mut thinners = recorded.thinners(2 * driven.len());
         recorded.each_row(&[ARRAYS[0], ARRAYS[1], "position"], |time, row| {
@@ -121,14 +122,14 @@ impl Spent {
         })?;
         let mut lines = [Vec::new(), Vec::new()];
         thinners.into_iter().map(Thinner::finish).enumerate().for_each(|(k, line)| lines[k % 2].push(line));
-        let cost = |(mark, weight): (&Option<Mark<3>>, &f64)| {
+        let cost = |(mark, weight): (&Option<AtTime<3>>, &f64)| {
             let [a, b, work] = mark.as_ref()?.since()?;
             Some(work / (weight * a.hypot(b)))
         };
         Ok(Self { lines, by_cycle: marks.iter().zip(&weights).map(cost).collect(), works })
     }
 
-    fn chart(self, recorded: &Recorded, driven: &[Driven]) -> Result<Chart, PlotError> {
+    fn chart(self, recorded: &RecordedScene, driven: &[Driven]) -> Result<Chart, PlotError> {
         let bodies: Vec<usize> = driven.iter().map(|it| it.body).collect();
         let [spent, net] = self.lines;
         let (mut series, mut remarks) = body_series(recorded, &bodies, spent);

@@ -8,10 +8,10 @@
 use super::bodies::{MOST_NAMES, body_series, drawn_bodies, time_axis, values};
 use crate::chart::ticks::length_in_words;
 use crate::chart::{Axis, Chart, DASHED, DOTTED, Series, extremes};
-use crate::cycle::{Cycle, Mark, rounded};
+use crate::cycle::{AtTime, Cycle, rounded};
 use crate::draw::Point;
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 use crate::thin::Thinner;
 use gyration::tensor::Vec3;
 
@@ -61,12 +61,12 @@ struct Travels {
 }
 
 impl Travels {
-    fn read(recorded: &Recorded, level: &Level) -> Result<Self, PlotError> {
+    fn read(recorded: &RecordedScene, level: &Level) -> Result<Self, PlotError> {
         let bodies = drawn_bodies(recorded);
         let span = recorded.span()?;
         let cycles: Vec<Option<Cycle>> =
             bodies.iter().map(|body| Cycle::last(recorded.bodies[*body].period, span)).collect();
-        let mut marks: Vec<Option<Mark<2>>> = cycles.iter().map(|c| c.map(|c| Mark::at(c.start))).collect();
+        let mut marks: Vec<Option<AtTime<2>>> = cycles.iter().map(|c| c.map(|c| AtTime::at(c.start))).collect();
         let mut thinners = recorded.thinners(3 * bodies.len());
         // The start of each body, its last displacement, and its path.
         let mut tracks: Vec<Option<(Vec3, [f64; 2], f64)>> = vec![None; bodies.len()];
@@ -90,12 +90,12 @@ impl Travels {
         for (k, thinner) in thinners.into_iter().map(Thinner::finish).enumerate() {
             lines[k % 3].push(thinner);
         }
-        let by_cycle = marks.iter().map(|mark| mark.as_ref().and_then(Mark::since)).collect();
+        let by_cycle = marks.iter().map(|mark| mark.as_ref().and_then(AtTime::since)).collect();
         Ok(Self { bodies, lines, by_cycle })
     }
 
     /// The largest displacement along a direction [m], of the bodies that contract, if there are any.
-    fn reach(&self, recorded: &Recorded, direction: usize) -> f64 {
+    fn reach(&self, recorded: &RecordedScene, direction: usize) -> f64 {
         let contracts = |body: &usize| recorded.bodies[*body].contracts();
         let any = self.bodies.iter().any(contracts);
         let counts = self.bodies.iter().zip(&self.lines[direction]).filter(|(body, _)| !any || contracts(body));
@@ -109,7 +109,7 @@ fn farthest(line: &[Point]) -> f64 {
 }
 
 /// The chart.
-pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
+pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let level = Level::to(&recorded.up());
     let travels = Travels::read(recorded, &level)?;
     let reach = [0, 1].map(|direction| travels.reach(recorded, direction));
@@ -144,7 +144,7 @@ pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
 }
 
 /// What the last cycle of each body gained, along the direction in which it gained more.
-fn cycles_in_words(recorded: &Recorded, travels: &Travels, names: &[String; 2]) -> Vec<String> {
+fn cycles_in_words(recorded: &RecordedScene, travels: &Travels, names: &[String; 2]) -> Vec<String> {
     let mut words = Vec::new();
     let alone = travels.bodies.len() == 1;
     for (body, gained) in travels.bodies.iter().zip(&travels.by_cycle) {

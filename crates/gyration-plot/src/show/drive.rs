@@ -8,10 +8,10 @@
 use super::bodies::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
 use super::effort::{self, ARRAYS, Driven, Works};
 use crate::chart::{Axis, Chart, DASHED, DOTTED, LINE, Series};
-use crate::cycle::{Cycle, Mark, rounded};
+use crate::cycle::{AtTime, Cycle, rounded};
 use crate::draw::{Point, Stroke, color};
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 use crate::thin::Thinner;
 
 const HEIGHT: f64 = 150.0;
@@ -32,7 +32,7 @@ const TAKERS: [(&str, &str, usize); 8] = [
 ];
 
 /// Works, and below them the power.
-pub fn charts(recorded: &Recorded) -> Result<Vec<Chart>, PlotError> {
+pub fn charts(recorded: &RecordedScene) -> Result<Vec<Chart>, PlotError> {
     let driven = Driven::all(recorded, "drive")?;
     let ledger = ledger(recorded)?;
     let power = power(recorded, &driven, ledger.x.clone())?;
@@ -40,7 +40,7 @@ pub fn charts(recorded: &Recorded) -> Result<Vec<Chart>, PlotError> {
 }
 
 /// The work of the drive and what became of it.
-fn ledger(recorded: &Recorded) -> Result<Chart, PlotError> {
+fn ledger(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let takers: Vec<_> = TAKERS.iter().copied().filter(|(array, _, _)| recorded.has(array)).collect();
     let stores = ["kinetic", "gravity", "elastic", "contact", "load"].map(|name| format!("energy_{name}"));
     let stores = stores.iter().map(String::as_str).filter(|array| recorded.has(array));
@@ -82,13 +82,13 @@ fn most(line: &[Point]) -> f64 {
 }
 
 /// The power of each drive, and its mean over the last cycle.
-fn power(recorded: &Recorded, driven: &[Driven], x: Axis) -> Result<Chart, PlotError> {
+fn power(recorded: &RecordedScene, driven: &[Driven], x: Axis) -> Result<Chart, PlotError> {
     let drawn = &driven[..driven.len().min(MOST_LINES)];
     let span = recorded.span()?;
     let mut works = vec![Works::default(); driven.len()];
     let cycles: Vec<Option<Cycle>> =
         drawn.iter().map(|it| Cycle::last(recorded.bodies[it.body].period, span)).collect();
-    let mut marks: Vec<Option<Mark<1>>> = cycles.iter().map(|c| c.map(|c| Mark::at(c.start))).collect();
+    let mut marks: Vec<Option<AtTime<1>>> = cycles.iter().map(|c| c.map(|c| AtTime::at(c.start))).collect();
     let mut thinners = recorded.thinners(drawn.len());
     recorded.each_row(&ARRAYS, |time, row| {
         for (k, it) in driven.iter().enumerate() {
@@ -110,7 +110,7 @@ fn power(recorded: &Recorded, driven: &[Driven], x: Axis) -> Result<Chart, PlotE
         series[0].name = "power of the drive".into();
     }
     for ((body, cycle), mark) in bodies.iter().zip(&cycles).zip(&marks).take(MOST_NAMES) {
-        if let (Some(cycle), Some([work])) = (cycle, mark.as_ref().and_then(Mark::since)) {
+        if let (Some(cycle), Some([work])) = (cycle, mark.as_ref().and_then(AtTime::since)) {
             let of = if alone { "mean".to_owned() } else { recorded.bodies[*body].name.clone() };
             remarks.push(format!("{of}: {} W in the last cycle", rounded(work / cycle.period)));
         }

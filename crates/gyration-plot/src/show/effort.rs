@@ -8,7 +8,7 @@
 use super::bodies::contracting_bodies;
 use crate::cycle::rounded;
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 
 /// Arrays that the power is made of.
 pub const ARRAYS: [&str; 2] = ["drive", "contraction_velocity"];
@@ -29,7 +29,7 @@ impl Driven {
     ///
     /// # Errors
     /// [`PlotError::Nothing`] without any; [`PlotError::Attribute`] if the recording does not tell their volumes.
-    pub fn all(recorded: &Recorded, what: &'static str) -> Result<Vec<Self>, PlotError> {
+    pub fn all(recorded: &RecordedScene, what: &'static str) -> Result<Vec<Self>, PlotError> {
         let driven = |body: usize| {
             let volume = recorded.bodies[body].volume.ok_or_else(|| PlotError::Attribute {
                 path: recorded.recording.path().to_path_buf(),
@@ -75,7 +75,7 @@ impl Works {
 }
 
 /// A remark where the works of all bodies [J] miss the ledger's.
-pub fn sampling(recorded: &Recorded, works: &[Works]) -> Result<Option<String>, PlotError> {
+pub fn sampling(recorded: &RecordedScene, works: &[Works]) -> Result<Option<String>, PlotError> {
     let last = recorded.recording.rows() - 1;
     let ledger = recorded.recording.read_rows("work_drive", last..last + 1)?.data[0];
     let (net, positive) = works.iter().fold((0.0, 0.0), |sum, works| (sum.0 + works.net, sum.1 + works.positive));

@@ -4,7 +4,7 @@ use super::bodies::{time_axis, values};
 use crate::chart::{Axis, Chart, DASH_DOTTED, DASHED, DOTTED, LINE, Series};
 use crate::draw::{Stroke, color};
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 
 const HEIGHT: f64 = 130.0;
 const RESIDUAL_HEIGHT: f64 = 60.0;
@@ -37,7 +37,7 @@ const WORKS: [(&str, &str, usize); 11] = [
 ];
 
 /// Energies and works over time, and below them the residual.
-pub fn charts(recorded: &Recorded) -> Result<Vec<Chart>, PlotError> {
+pub fn charts(recorded: &RecordedScene) -> Result<Vec<Chart>, PlotError> {
     let present = |entries: &[(&'static str, &'static str, usize)]| {
         entries.iter().copied().filter(|(array, _, _)| recorded.has(array)).collect::<Vec<_>>()
     };

@@ -8,7 +8,7 @@ use crate::chart::ticks::short;
 use crate::chart::{Axis, Chart, DOTTED, Scale, Series, extremes};
 use crate::draw::Point;
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 use gyration::tensor::Vec3;
 
 const HEIGHT: f64 = 120.0;
@@ -23,7 +23,7 @@ struct Forces {
 }
 
 /// Normal and tangential force of each body.
-pub fn chart(recorded: &Recorded) -> Result<Chart, PlotError> {
+pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let normal = common_normal(recorded);
     let forces = Forces::read(recorded, &normal)?;
     let most = largest(&forces.normal).max(largest(&forces.tangential));
@@ -49,7 +49,7 @@ fn largest(lines: &[Vec<Point>]) -> f64 {
 }
 
 impl Forces {
-    fn read(recorded: &Recorded, normal: &Vec3) -> Result<Self, PlotError> {
+    fn read(recorded: &RecordedScene, normal: &Vec3) -> Result<Self, PlotError> {
         let bodies = drawn_bodies(recorded);
         let count = bodies.len();
         let part = |row: &[&[f64]], k: usize| {
@@ -72,7 +72,7 @@ impl Forces {
     }
 
     /// A solid line for each normal force, a dotted one for each tangential force, and remarks.
-    fn series(&self, recorded: &Recorded, most: f64) -> (Vec<Series>, Vec<String>) {
+    fn series(&self, recorded: &RecordedScene, most: f64) -> (Vec<Series>, Vec<String>) {
         let (mut series, remarks) = body_series(recorded, &self.bodies, self.normal.clone());
         let alone = series.len() == 1;
         if alone {
@@ -96,7 +96,7 @@ impl Forces {
 }
 
 /// How far samples are apart: peaks of shorter impacts are not seen whole.
-fn sampling(recorded: &Recorded) -> Result<String, PlotError> {
+fn sampling(recorded: &RecordedScene) -> Result<String, PlotError> {
     let times = recorded.recording.read_rows("time", 0..recorded.recording.rows().min(2))?.data;
     let spacing = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
     Ok(format!("sampled every {} s", short(spacing)))
@@ -112,7 +112,7 @@ fn axis(series: &[Series], weight: f64, most: f64) -> Axis {
 }
 
 /// The normal that all supports share, else the direction against gravity.
-fn common_normal(recorded: &Recorded) -> Vec3 {
+fn common_normal(recorded: &RecordedScene) -> Vec3 {
     let up = recorded.up();
     let Some(first) = recorded.supports.first() else { return up };
     let same = recorded.supports.iter().all(|support| (support.normal - first.normal).norm() < 1e-9);

@@ -1,6 +1,7 @@
 //! What a figure shows: the quantities that a user may ask for, and the figure of several of them.
 
 mod bodies;
+mod component;
 mod cost;
 mod distance;
 mod drive;
@@ -8,17 +9,16 @@ mod effort;
 mod energy;
 mod forces;
 mod laws;
-mod measure;
 mod motion;
 mod quantity;
 mod stretch;
 mod stroke;
 mod trace;
 
-use crate::Format;
+use crate::draw::Format;
 use crate::error::PlotError;
 use crate::figure::{Figure, Panel};
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 use crate::strip::Strip;
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
@@ -35,7 +35,7 @@ pub const OVERVIEW: &str = "overview.svg";
 /// # Errors
 /// [`PlotError`] where the recording cannot be read or does not have a quantity.
 pub fn of_recording(recording: &Recording, quantities: &[Quantity], measures: &[String]) -> Result<Figure, PlotError> {
-    let recorded = Recorded::new(recording)?;
+    let recorded = RecordedScene::new(recording)?;
     let mut all = Vec::new();
     for quantity in quantities {
         all.extend(panels(&recorded, *quantity, measures)?);
@@ -65,7 +65,7 @@ pub fn leave_overview(path: &Path) -> Option<String> {
 }
 
 /// The panels of one quantity.
-fn panels(recorded: &Recorded, quantity: Quantity, measures: &[String]) -> Result<Vec<Panel>, PlotError> {
+fn panels(recorded: &RecordedScene, quantity: Quantity, measures: &[String]) -> Result<Vec<Panel>, PlotError> {
     let charts = match quantity {
         Quantity::Overview => return overview(recorded),
         Quantity::Strip => return Ok(vec![Panel::Strip(Strip::of(recorded)?)]),
@@ -101,7 +101,7 @@ fn no_replay(problem: ReplayError) -> PlotError {
 }
 
 /// Everything that the recording has; how far bodies get where some drive themselves.
-fn overview(recorded: &Recorded) -> Result<Vec<Panel>, PlotError> {
+fn overview(recorded: &RecordedScene) -> Result<Vec<Panel>, PlotError> {
     let mut all = Vec::new();
     let order = [
         Quantity::Strip,
@@ -125,7 +125,7 @@ fn overview(recorded: &Recorded) -> Result<Vec<Panel>, PlotError> {
 }
 
 /// A figure of a recording under its title and outcome.
-fn figure(recorded: &Recorded, panels: Vec<Panel>) -> Figure {
+fn figure(recorded: &RecordedScene, panels: Vec<Panel>) -> Figure {
     let text = |name: &str| {
         let attribute = recorded.recording.attributes().get(name);
         attribute.and_then(serde_json::Value::as_str).unwrap_or_default().to_owned()

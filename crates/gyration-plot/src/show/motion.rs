@@ -3,7 +3,7 @@
 use super::bodies::{body_series, drawn_bodies, time_axis, values, without_idle_names};
 use crate::chart::{Axis, Chart, extremes};
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 
 /// Height of a chart of one quantity [pt].
 const HEIGHT: f64 = 110.0;
@@ -11,7 +11,7 @@ const HEIGHT: f64 = 110.0;
 const WIDE: f64 = 20.0;
 
 /// Height of the centres of mass over the origin, against gravity.
-pub fn height(recorded: &Recorded) -> Result<Chart, PlotError> {
+pub fn height(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let up = recorded.up();
     let bodies = drawn_bodies(recorded);
     let along = |row: &[&[f64]], k: usize| {
@@ -26,7 +26,7 @@ pub fn height(recorded: &Recorded) -> Result<Chart, PlotError> {
 }
 
 /// Smallest distance of each body to a support.
-pub fn gap(recorded: &Recorded) -> Result<Chart, PlotError> {
+pub fn gap(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let bodies = drawn_bodies(recorded);
     let lines = recorded.lines(&["gap"], bodies.len(), |row, k| row[0][bodies[k]])?;
     let has_gap = |line: &Vec<[f64; 2]>| line.iter().any(|point| point[1].is_finite());

@@ -7,7 +7,7 @@ use super::bodies::{MOST_CHARTS, time_axis, values};
 use crate::chart::{Axis, Chart, DOTTED, LINE, Series};
 use crate::draw::{Point, Stroke, color};
 use crate::error::PlotError;
-use crate::recorded::{BodyPicture, Recorded};
+use crate::recorded::{BodyPicture, RecordedScene};
 use gyration::tensor::Mat3;
 
 const HEIGHT: f64 = 95.0;
@@ -17,7 +17,7 @@ const KEPT: f64 = 1e-6;
 const VOLUME: usize = 3;
 
 /// The charts, one below another.
-pub fn charts(recorded: &Recorded) -> Result<Vec<Chart>, PlotError> {
+pub fn charts(recorded: &RecordedScene) -> Result<Vec<Chart>, PlotError> {
     let deforming = |(_, body): &(usize, &BodyPicture)| body.deforms();
     let bodies: Vec<usize> = recorded.bodies.iter().enumerate().filter(deforming).map(|(index, _)| index).collect();
     if bodies.is_empty() {

@@ -5,13 +5,13 @@
 //! behind. Without a period the whole recording is one curve, closed by its chord.
 
 use super::bodies::{MOST_CHARTS, contracting_bodies};
-use super::measure::Measure;
+use super::component::Component;
 use super::trace::Trace;
 use crate::chart::{Axis, Chart, DASHED, LINE, Series, extremes};
-use crate::cycle::{Cycle, Mark, rounded};
+use crate::cycle::{AtTime, Cycle, rounded};
 use crate::draw::{Stroke, color};
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 
 const HEIGHT: f64 = 210.0;
 /// Cycles drawn before the last.
@@ -22,12 +22,12 @@ const VARIES: f64 = 1e-6;
 const OPEN: f64 = 0.01;
 
 /// The charts, with these two measures, or with those between which the stroke encloses most.
-pub fn charts(recorded: &Recorded, names: &[String]) -> Result<Vec<Chart>, PlotError> {
+pub fn charts(recorded: &RecordedScene, names: &[String]) -> Result<Vec<Chart>, PlotError> {
     let bodies = contracting_bodies(recorded, "stroke")?;
     let mut charts = Vec::new();
     for body in bodies.iter().take(MOST_CHARTS) {
         let measures = match names {
-            [across, upwards] => [Measure::named(recorded, across)?, Measure::named(recorded, upwards)?],
+            [across, upwards] => [Component::named(recorded, across)?, Component::named(recorded, upwards)?],
             [] => default_measures(recorded, *body)?,
             _ => return Err(PlotError::Measure { name: names.join(",") }),
         };
@@ -43,20 +43,20 @@ pub fn charts(recorded: &Recorded, names: &[String]) -> Result<Vec<Chart>, PlotE
 /// The two entries of G between which the stroke encloses the largest area.
 ///
 /// Where none encloses any, the two that vary most; where only one varies, it and the entry of P that varies most.
-fn default_measures(recorded: &Recorded, body: usize) -> Result<[Measure; 2], PlotError> {
+fn default_measures(recorded: &RecordedScene, body: usize) -> Result<[Component; 2], PlotError> {
     let entries = Entries::read(recorded, body)?;
     let (contraction, placement) = entries.ranges.split_at(9);
     if let Some((across, upwards)) = entries.largest_loop() {
-        return Ok([Measure::entry(recorded, "G", across)?, Measure::entry(recorded, "G", upwards)?]);
+        return Ok([Component::entry(recorded, "G", across)?, Component::entry(recorded, "G", upwards)?]);
     }
     let nothing = PlotError::Nothing { what: "stroke", reason: "the contraction never changes" };
     let Some(first) = largest(contraction, None).filter(|k| contraction[*k] > 0.0) else { return Err(nothing) };
     let second = largest(contraction, Some(first)).filter(|k| contraction[*k] > VARIES * contraction[first]);
     let upwards = match second {
-        Some(second) => Measure::entry(recorded, "G", second)?,
-        None => Measure::entry(recorded, "P", largest(placement, None).unwrap_or(first))?,
+        Some(second) => Component::entry(recorded, "G", second)?,
+        None => Component::entry(recorded, "P", largest(placement, None).unwrap_or(first))?,
     };
-    Ok([Measure::entry(recorded, "G", first)?, upwards])
+    Ok([Component::entry(recorded, "G", first)?, upwards])
 }
 
 /// The index of the largest number but one; of equal ones the first.
@@ -75,7 +75,7 @@ struct Entries {
 }
 
 impl Entries {
-    fn read(recorded: &Recorded, body: usize) -> Result<Self, PlotError> {
+    fn read(recorded: &RecordedScene, body: usize) -> Result<Self, PlotError> {
         let (first, last) = recorded.span()?;
         let start = Cycle::last(recorded.bodies[body].period, (first, last)).map_or(first, |cycle| cycle.start);
         let mut limits = [(f64::INFINITY, f64::NEG_INFINITY); 18];
@@ -126,9 +126,9 @@ fn encloses(area: f64, ranges: [f64; 2], samples: usize) -> bool {
 
 /// A body in the plane of two measures.
 struct Plane<'a> {
-    recorded: &'a Recorded<'a>,
+    recorded: &'a RecordedScene<'a>,
     body: usize,
-    measures: [Measure; 2],
+    measures: [Component; 2],
 }
 
 /// What is drawn in it.
@@ -166,7 +166,7 @@ impl Plane<'_> {
         let (start, period) = cycle.map_or((first, f64::INFINITY), |cycle| (cycle.start, cycle.period));
         let from = if cycle.is_some() { first.max(start - MOST_CYCLES * period) } else { first };
         let (mut last, mut before) = (Trace::new(ranges), Trace::new(ranges));
-        let mut mark = Mark::at(start);
+        let mut mark = AtTime::at(start);
         self.recorded.each_row(&self.arrays(), |time, row| {
             let point = self.point(row);
             if !point.iter().all(|value| value.is_finite()) {
@@ -209,7 +209,7 @@ impl Plane<'_> {
             series.push(Series { name: "closed by its chord".into(), points: chord, stroke, arrows: false });
         }
         let [across, upwards] = &self.measures;
-        let axis = |measure: &Measure, k: usize| {
+        let axis = |measure: &Component, k: usize| {
             let values = series.iter().flat_map(|series| &series.points).map(|point| point[k]);
             Axis::linear(&measure.label, &measure.unit, values)
         };

@@ -5,7 +5,7 @@ use super::silhouette::Silhouette;
 use super::view::{self, View, ViewCriteria};
 use crate::draw::Point;
 use crate::error::PlotError;
-use crate::recorded::{Pose, Recorded};
+use crate::recorded::{Pose, RecordedScene};
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
 
@@ -57,7 +57,7 @@ impl Strip {
     ///
     /// # Errors
     /// [`PlotError`] where it cannot be read or has no samples.
-    pub fn of(recorded: &Recorded) -> Result<Self, PlotError> {
+    pub fn of(recorded: &RecordedScene) -> Result<Self, PlotError> {
         recorded.span()?;
         let probes = probes(recorded)?;
         let view = View::of(&motion(recorded, &probes), recorded.up());
@@ -89,13 +89,13 @@ fn evenly(count: usize, length: usize) -> impl Iterator<Item = usize> {
     (0..count).map(move |k| if count == 1 { last } else { (k * last + (count - 1) / 2) / (count - 1) })
 }
 
-fn probes(recorded: &Recorded) -> Result<Vec<Probe>, PlotError> {
+fn probes(recorded: &RecordedScene) -> Result<Vec<Probe>, PlotError> {
     let rows = recorded.recording.rows();
     let probe = |row: usize| recorded.poses(row).map(|(time, poses)| Probe { time, poses });
     evenly(PROBES, rows).map(probe).collect()
 }
 
-fn motion(recorded: &Recorded, probes: &[Probe]) -> ViewCriteria {
+fn motion(recorded: &RecordedScene, probes: &[Probe]) -> ViewCriteria {
     let bodies = 0..recorded.bodies.len().min(MOST_BODIES);
     let path = |body: usize| probes.iter().map(|probe| probe.poses[body].position).collect::<Vec<Vec3>>();
     let turns = probes.windows(2).flat_map(|pair| {
@@ -117,7 +117,7 @@ fn motion(recorded: &Recorded, probes: &[Probe]) -> ViewCriteria {
 }
 
 /// Whether a support moves to the eye.
-fn supports_move(recorded: &Recorded, probes: &[Probe]) -> bool {
+fn supports_move(recorded: &RecordedScene, probes: &[Probe]) -> bool {
     let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
     let height = |support: &Support, probe: &Probe| support.gap(&Vec3::zeros(), probe.time);
     recorded.supports.iter().any(|support| {
@@ -127,7 +127,7 @@ fn supports_move(recorded: &Recorded, probes: &[Probe]) -> bool {
 }
 
 /// The probe from which on nothing moves to the eye; the last if something moves to the end.
-fn until_rest(recorded: &Recorded, probes: &[Probe]) -> usize {
+fn until_rest(recorded: &RecordedScene, probes: &[Probe]) -> usize {
     let Some(last) = probes.last() else { return 0 };
     let moved = |probe: &Probe| {
         recorded.bodies.iter().zip(probe.poses.iter().zip(&last.poses)).any(|(body, (pose, end))| {
@@ -141,7 +141,7 @@ fn until_rest(recorded: &Recorded, probes: &[Probe]) -> usize {
     (still + probes.len() / 20).min(probes.len() - 1)
 }
 
-fn frame(recorded: &Recorded, probe: &Probe, view: &View) -> Outlines {
+fn frame(recorded: &RecordedScene, probe: &Probe, view: &View) -> Outlines {
     let bodies = recorded.bodies.iter().zip(&probe.poses).take(MOST_BODIES).enumerate();
     let bodies: Vec<Silhouette> = bodies.map(|(index, (body, pose))| Silhouette::of(index, body, pose, view)).collect();
     let mean = probe.poses.iter().map(|pose| pose.position).sum::<Vec3>() / probe.poses.len().max(1) as f64;

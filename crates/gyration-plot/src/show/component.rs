@@ -3,7 +3,7 @@
 //!   G_xz, P_zz, Pdot_xx; x, vx, fx; gap, pressure; V_xx and Q_xx, of contraction velocity and drive
 
 use crate::error::PlotError;
-use crate::recorded::Recorded;
+use crate::recorded::RecordedScene;
 
 /// Letters before the underscore, and the array of matrices that they stand for.
 const MATRICES: [(&str, &str); 5] = [
@@ -20,67 +20,74 @@ const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// A number that a recording has of each body at each sample.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measure {
+pub struct Component {
     /// The name with its indices lowered.
     pub label: String,
     /// The unit; empty for a pure number.
     pub unit: String,
     /// Where it is recorded.
     pub array: &'static str,
-    /// Numbers of a body in a row of the array, and which of them it is.
-    place: (usize, usize),
+    /// Numbers of a body in a row of the array.
+    stride: usize,
+    /// Which of them it is.
+    offset: usize,
 }
 
-impl Measure {
-    /// The measure of this name.
+impl Component {
+    /// The component of this name.
     ///
     /// # Errors
     /// [`PlotError::Measure`] if there is none, or if it is not recorded.
-    pub fn named(recorded: &Recorded, name: &str) -> Result<Self, PlotError> {
-        let found = matrix(name).or_else(|| vector(name)).or_else(|| scalar(name));
-        let recorded_as = found.and_then(|(array, place, label)| {
-            let unit = &recorded.recording.array(array).ok()?.units;
-            let unit = if unit == "1" { String::new() } else { unit.clone() };
-            Some(Self { label, unit, array, place })
-        });
-        recorded_as.ok_or_else(|| PlotError::Measure { name: name.to_owned() })
+    pub fn named(recorded: &RecordedScene, name: &str) -> Result<Self, PlotError> {
+        let with_unit = |found: Self| {
+            let unit = recorded.recording.array(found.array).ok()?.units.as_str();
+            Some(Self { unit: if unit == "1" { String::new() } else { unit.to_owned() }, ..found })
+        };
+        find(name).and_then(with_unit).ok_or_else(|| PlotError::Measure { name: name.to_owned() })
     }
 
     /// Entry k, row by row, of a matrix by the letters of its name.
-    pub fn entry(recorded: &Recorded, letters: &str, k: usize) -> Result<Self, PlotError> {
+    pub fn entry(recorded: &RecordedScene, letters: &str, k: usize) -> Result<Self, PlotError> {
         Self::named(recorded, &format!("{letters}_{}{}", AXES[k / 3], AXES[k % 3]))
     }
 
     /// Its value for a body, from a row of its array.
     pub fn of(&self, row: &[f64], body: usize) -> f64 {
-        let (stride, offset) = self.place;
-        row[stride * body + offset]
+        row[self.stride * body + self.offset]
+    }
+
+    /// Before its unit is known.
+    fn of_array(array: &'static str, stride: usize, offset: usize, label: String) -> Self {
+        Self { label, unit: String::new(), array, stride, offset }
     }
 }
 
-type Found = (&'static str, (usize, usize), String);
+fn find(name: &str) -> Option<Component> {
+    matrix(name).or_else(|| vector(name)).or_else(|| scalar(name))
+}
 
 fn axis(letter: char) -> Option<usize> {
     AXES.iter().position(|axis| *axis == letter)
 }
 
-fn matrix(name: &str) -> Option<Found> {
+fn matrix(name: &str) -> Option<Component> {
     let (letters, indices) = name.split_once('_')?;
     let (_, array) = MATRICES.iter().find(|(known, _)| *known == letters)?;
     let [row, col] = indices.chars().collect::<Vec<char>>()[..] else { return None };
-    Some((array, (9, 3 * axis(row)? + axis(col)?), format!("{letters}_{{{indices}}}")))
+    let label = format!("{letters}_{{{indices}}}");
+    Some(Component::of_array(array, 9, 3 * axis(row)? + axis(col)?, label))
 }
 
-fn vector(name: &str) -> Option<Found> {
+fn vector(name: &str) -> Option<Component> {
     let component = axis(name.chars().last()?)?;
     let (letters, array) = VECTORS.iter().find(|(known, _)| *known == &name[..name.len() - 1])?;
     let label = if letters.is_empty() { name.to_owned() } else { format!("{letters}_{{{}}}", AXES[component]) };
-    Some((array, (3, component), label))
+    Some(Component::of_array(array, 3, component, label))
 }
 
-fn scalar(name: &str) -> Option<Found> {
+fn scalar(name: &str) -> Option<Component> {
     let array = SCALARS.into_iter().find(|known| *known == name)?;
-    Some((array, (1, 0), name.to_owned()))
+    Some(Component::of_array(array, 1, 0, name.to_owned()))
 }
 
 #[cfg(test)]
@@ -89,13 +96,14 @@ mod tests {
 
     #[test]
     fn names_are_those_of_the_columns() {
-        assert_eq!(matrix("G_xz"), Some(("contraction", (9, 2), "G_{xz}".to_owned())));
-        assert_eq!(matrix("Pdot_zy"), Some(("gradient_rate", (9, 7), "Pdot_{zy}".to_owned())));
-        assert_eq!(vector("z"), Some(("position", (3, 2), "z".to_owned())));
-        assert_eq!(vector("vx"), Some(("velocity", (3, 0), "v_{x}".to_owned())));
-        assert_eq!(scalar("gap"), Some(("gap", (1, 0), "gap".to_owned())));
+        let found = |name: &str| find(name).map(|it| (it.array, it.stride, it.offset, it.label));
+        assert_eq!(found("G_xz"), Some(("contraction", 9, 2, "G_{xz}".to_owned())));
+        assert_eq!(found("Pdot_zy"), Some(("gradient_rate", 9, 7, "Pdot_{zy}".to_owned())));
+        assert_eq!(found("z"), Some(("position", 3, 2, "z".to_owned())));
+        assert_eq!(found("vx"), Some(("velocity", 3, 0, "v_{x}".to_owned())));
+        assert_eq!(found("gap"), Some(("gap", 1, 0, "gap".to_owned())));
         for name in ["", "G", "G_", "G_x", "G_xxx", "G_xw", "H_xx", "ux", "é", "G_é", "gaps"] {
-            assert!(matrix(name).or_else(|| vector(name)).or_else(|| scalar(name)).is_none(), "{name}");
+            assert!(find(name).is_none(), "{name}");
         }
     }
 }
