@@ -14,6 +14,7 @@
 mod arguments;
 mod commands;
 mod error;
+mod input;
 mod output;
 mod progress;
 mod provenance;

@@ -1,6 +1,6 @@
-//! Watching a run: a bar on the terminal that says what limits the step, and Ctrl-C.
+//! Watching what takes long: a bar on the terminal, and Ctrl-C.
 //!
-//! The first Ctrl-C (or SIGTERM) lets the run end with a checkpoint, the second ends the program at once: what was
+//! The first Ctrl-C (or SIGTERM) lets a run end with a checkpoint, the second ends the program at once: what was
 //! flushed is on disk and can be resumed too.
 
 use crate::error::{CliError, code};
@@ -20,45 +20,56 @@ const AVERAGED: Duration = Duration::from_secs(5);
 /// Ticks of the bar's length.
 const TICKS: u64 = 1000;
 
-/// Watches a run.
-pub struct Watch {
-    bar: Option<Bar>,
+/// A bar, and whether Ctrl-C has come.
+pub struct Terminal {
+    bar: Option<ProgressBar>,
+    drawn: Instant,
     interrupted: Arc<AtomicBool>,
 }
 
-struct Bar {
-    bar: ProgressBar,
-    drawn: Instant,
-    /// Wall and simulated time [s] at the beginning of the present average.
-    since: (Instant, f64),
-    /// Simulated seconds a second.
-    rate: f64,
-}
-
-impl Watch {
+impl Terminal {
     /// Begins to listen for Ctrl-C, and to draw a bar if it is wanted and stderr is a terminal.
     ///
     /// # Errors
     /// [`CliError::Signal`].
     pub fn new(with_bar: bool) -> Result<Self, CliError> {
         let interrupted = interruption()?;
-        let bar = (with_bar && stderr().is_terminal()).then(Bar::new);
-        Ok(Self { bar, interrupted })
+        let bar = (with_bar && stderr().is_terminal()).then(bar);
+        Ok(Self { bar, drawn: Instant::now(), interrupted })
+    }
+
+    /// Lets the bar be drawn anew, if there is one and the last time is long enough ago.
+    pub fn draw(&mut self, draw: impl FnOnce(&ProgressBar, Instant)) {
+        let now = Instant::now();
+        if let Some(bar) = self.bar.as_ref().filter(|_| now - self.drawn >= REFRESH) {
+            self.drawn = now;
+            draw(bar, now);
+        }
+    }
+
+    /// Whether Ctrl-C has come.
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
     }
 
     /// Removes the bar.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
-            bar.bar.finish_and_clear();
+            bar.finish_and_clear();
         }
     }
 }
 
+fn bar() -> ProgressBar {
+    let template = if output::colored() { "{prefix} {wide_bar:.cyan} {msg}" } else { "{prefix} {wide_bar} {msg}" };
+    let bar = ProgressBar::with_draw_target(Some(TICKS), ProgressDrawTarget::stderr());
+    // A template of ours is well-formed; were it not, the plain bar would do.
+    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
+
 /// Listens for Ctrl-C: true after the first; the second ends the program at once.
-///
-/// # Errors
-/// [`CliError::Signal`].
-pub fn interruption() -> Result<Arc<AtomicBool>, CliError> {
+fn interruption() -> Result<Arc<AtomicBool>, CliError> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     ctrlc::set_handler(move || {
@@ -69,49 +80,51 @@ pub fn interruption() -> Result<Arc<AtomicBool>, CliError> {
     Ok(interrupted)
 }
 
-impl Monitor for Watch {
-    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
-        if let Some(bar) = &mut self.bar {
-            bar.update(progress);
-        }
-        self.interrupted.load(Ordering::Relaxed).then_some(Reason::Interrupted)
+/// Watches a run: its bar says what limits the step.
+pub struct RunProgress {
+    terminal: Terminal,
+    /// Wall and simulated time [s] at the beginning of the present average.
+    since: (Instant, f64),
+}
+
+impl RunProgress {
+    /// Begins to watch.
+    ///
+    /// # Errors
+    /// [`CliError::Signal`].
+    pub fn new(with_bar: bool) -> Result<Self, CliError> {
+        Ok(Self { terminal: Terminal::new(with_bar)?, since: (Instant::now(), f64::NAN) })
+    }
+
+    /// Removes the bar.
+    pub fn finish(&self) {
+        self.terminal.finish();
     }
 }
 
-impl Bar {
-    fn new() -> Self {
-        let template = if output::colored() { "{prefix} {wide_bar:.cyan} {msg}" } else { "{prefix} {wide_bar} {msg}" };
-        let bar = ProgressBar::with_draw_target(Some(TICKS), ProgressDrawTarget::stderr());
-        // A template of ours is well-formed; were it not, the plain bar would do.
-        bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
-        let now = Instant::now();
-        Self { bar, drawn: now, since: (now, f64::NAN), rate: f64::NAN }
-    }
-
-    fn update(&mut self, progress: &Progress) {
-        let Progress { time, end, .. } = *progress;
-        if self.since.1.is_nan() {
-            self.since.1 = progress.step.start;
+impl Monitor for RunProgress {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        let Self { terminal, since } = self;
+        if since.1.is_nan() {
+            since.1 = progress.step.start;
         }
-        let now = Instant::now();
-        if now - self.drawn < REFRESH {
-            return;
-        }
-        self.drawn = now;
-        let elapsed = now - self.since.0;
-        self.rate = (time - self.since.1) / elapsed.as_secs_f64();
-        if elapsed > AVERAGED {
-            self.since = (now, time);
-        }
-        let remaining = (end - time) / self.rate;
-        let limit = limit_in_words(progress.model, &progress.step.limit);
-        self.bar.set_prefix(format!("t = {time:.4} of {end} s"));
-        self.bar.set_message(format!(
-            "{} s/s, {} left, step {:.1e} s limited by {limit}",
-            significant(self.rate, 3),
-            duration(remaining),
-            progress.step.end - progress.step.start,
-        ));
-        self.bar.set_position((TICKS as f64 * time / end) as u64);
+        terminal.draw(|bar, now| {
+            let Progress { time, end, .. } = *progress;
+            let elapsed = now - since.0;
+            let rate = (time - since.1) / elapsed.as_secs_f64();
+            if elapsed > AVERAGED {
+                *since = (now, time);
+            }
+            let limit = limit_in_words(progress.model, &progress.step.limit);
+            bar.set_prefix(format!("t = {time:.4} of {end} s"));
+            bar.set_message(format!(
+                "{} s/s, {} left, step {:.1e} s limited by {limit}",
+                significant(rate, 3),
+                duration((end - time) / rate),
+                progress.step.end - progress.step.start,
+            ));
+            bar.set_position((TICKS as f64 * time / end) as u64);
+        });
+        terminal.is_interrupted().then_some(Reason::Interrupted)
     }
 }

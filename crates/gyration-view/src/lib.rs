@@ -11,9 +11,9 @@
 
 #![forbid(unsafe_code)]
 
+mod binary;
 pub mod blob;
 mod error;
-mod frame;
 pub mod header;
 mod live;
 pub mod page;
@@ -24,5 +24,5 @@ mod stored;
 pub use error::ViewError;
 pub use live::Live;
 pub use report::{Report, report};
-pub use server::{Server, Source};
+pub use server::{PageSource, Server};
 pub use stored::Stored;

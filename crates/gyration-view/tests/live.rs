@@ -3,7 +3,7 @@
 use crate::common::{FALL, Served, doubles, provenance, singles};
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Simulation, Unwatched};
-use gyration_view::{Live, Source};
+use gyration_view::{Live, PageSource};
 use serde_json::{Value, json};
 use std::net::TcpStream;
 use std::path::Path;
@@ -91,7 +91,7 @@ fn take(watched: &mut Watched, bytes: &[u8]) {
 fn live(folder: &tempfile::TempDir, text: &str) -> Served {
     let path = folder.path().join("fall.toml");
     std::fs::write(&path, text).unwrap();
-    Served::new(Source::Live(Live::start(path.to_str().unwrap(), &[], provenance()).unwrap()))
+    Served::new(PageSource::Live(Live::start(path.to_str().unwrap(), &[], provenance()).unwrap()))
 }
 
 #[test]

@@ -2,12 +2,12 @@
 
 use crate::common::{FALL, Served, doubles, record, singles};
 use gyration_record::Recording;
-use gyration_view::{Source, Stored};
+use gyration_view::{PageSource, Stored};
 
 fn served(folder: &tempfile::TempDir) -> (Recording, Served) {
     let path = record(folder.path(), "fall", FALL);
     let stored = Stored::open(&path).unwrap();
-    (Recording::open(&path).unwrap(), Served::new(Source::Recording(Box::new(stored))))
+    (Recording::open(&path).unwrap(), Served::new(PageSource::Recording(Box::new(stored))))
 }
 
 /// The arrays that stand in the recording itself.
@@ -21,7 +21,7 @@ fn stress_is_shown_whether_or_not_it_was_recorded() {
     let (_, computed) = served(&folder);
     let asks = FALL.replace("[time]", "[record]\nquantities = [\"cauchy_stress\"]\n[time]");
     let path = record(folder.path(), "asks", &asks);
-    let recorded = Served::new(Source::Recording(Box::new(Stored::open(&path).unwrap())));
+    let recorded = Served::new(PageSource::Recording(Box::new(Stored::open(&path).unwrap())));
     let blob = |served: &Served, range: &str| singles(&served.get(&format!("/api/blob/cauchy_stress{range}")).1);
     let (computed_all, recorded_all) = (blob(&computed, ""), blob(&recorded, ""));
     assert_eq!(computed_all.len(), 31 * 18);
@@ -109,7 +109,7 @@ fn a_recording_that_grows_is_read_as_far_as_it_has_got() {
     let short = record(folder.path(), "short", &FALL.replace("end = 0.3", "end = 0.1"));
     let shown = folder.path().join("shown.gyr");
     std::fs::rename(&short, &shown).unwrap();
-    let served = Served::new(Source::Recording(Box::new(Stored::open(&shown).unwrap())));
+    let served = Served::new(PageSource::Recording(Box::new(Stored::open(&shown).unwrap())));
     let before = served.json("/api/header")["rows"].as_u64().unwrap();
     std::fs::rename(&shown, &short).unwrap();
     std::fs::rename(&long, &shown).unwrap();

@@ -1,9 +1,9 @@
 //! `gyration calibrate`: numbers of a scene from measurements, with their errors, and a drawing of the fit.
 
 use super::plot::{format, write};
-use super::stem;
 use crate::arguments::Calibrate;
 use crate::error::CliError;
+use crate::input::stem;
 use crate::output;
 use gyration_plot::calibration;
 use gyration_study::calibration::Calibration;

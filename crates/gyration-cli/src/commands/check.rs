@@ -1,8 +1,8 @@
 //! `gyration check`: what a scene says before it runs.
 
-use super::open;
 use crate::arguments::Check;
 use crate::error::{CliError, code};
+use crate::input::open;
 use crate::output;
 use gyration_scene::LoadError;
 use gyration_sim::survey::Survey;

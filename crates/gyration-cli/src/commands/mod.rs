@@ -1,27 +1,25 @@
 //! The commands, a file each.
 
 #[cfg(feature = "study")]
-pub(crate) mod calibrate;
-pub(crate) mod check;
+mod calibrate;
+mod check;
 mod completions;
 mod export;
-pub(crate) mod modes;
-pub(crate) mod plot;
+mod modes;
+mod plot;
 #[cfg(feature = "view")]
 mod report;
-pub(crate) mod resistance;
-pub(crate) mod run;
-pub(crate) mod scenes;
+mod resistance;
+mod run;
+mod scenes;
 mod schema;
 #[cfg(feature = "study")]
-pub mod study;
+mod study;
 #[cfg(feature = "view")]
 mod view;
 
-use crate::arguments::{Command, SceneArguments};
+use crate::arguments::Command;
 use crate::error::CliError;
-use gyration_scene::Scene;
-use std::path::Path;
 
 /// Does what was asked; returns the exit code.
 ///
@@ -47,22 +45,4 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Schema => schema::execute(),
         Command::Completions { shell } => completions::execute(shell),
     }
-}
-
-/// Opens the scene of the arguments.
-fn open(arguments: &SceneArguments) -> Result<Scene, CliError> {
-    Ok(Scene::open(&arguments.scene, &arguments.overrides)?)
-}
-
-/// Opens the scene of the arguments, ready to run: with the resistances that boundary elements tell.
-fn ready(arguments: &SceneArguments) -> Result<Scene, CliError> {
-    Ok(gyration_sim::open(&arguments.scene, &arguments.overrides)?)
-}
-
-/// The name of a file or directory without folder and ending.
-fn stem(path: &Path) -> String {
-    // `.` and `..` have no name of their own.
-    let named = path.canonicalize().ok().filter(|_| path.file_name().is_none());
-    let name = named.as_deref().unwrap_or(path).file_stem();
-    name.map_or_else(|| "recording".to_owned(), |name| name.to_string_lossy().into_owned())
 }

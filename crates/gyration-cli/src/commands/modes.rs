@@ -1,8 +1,8 @@
 //! `gyration modes`: the rest state of each body, and the small motions about it.
 
-use super::ready;
 use crate::arguments::Check;
 use crate::error::{CliError, code};
+use crate::input::ready;
 use crate::output;
 use gyration::body::Body;
 use gyration_scene::Scene;

@@ -1,8 +1,8 @@
 //! `gyration plot`: pictures of a recording, or of the contact laws of a scene.
 
-use super::stem;
 use crate::arguments::Plot;
 use crate::error::{CliError, code};
+use crate::input::stem;
 use crate::output;
 use gyration_plot::{Figure, Format, Quantity};
 use gyration_record::{Recording, write_file};

@@ -1,8 +1,8 @@
 //! `gyration report`: a recording as one HTML file that needs neither network nor this program.
 
-use super::stem;
 use crate::arguments::Report;
 use crate::error::{CliError, code};
+use crate::input::stem;
 use crate::output;
 use gyration_record::write_file;
 use gyration_view::{Stored, report};

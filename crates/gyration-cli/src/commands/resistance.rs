@@ -2,6 +2,7 @@
 
 use crate::arguments::{Resistance, SceneArguments};
 use crate::error::{CliError, code};
+use crate::input;
 use crate::output;
 use gyration_scene::Scene;
 use gyration_sim::format::significant;
@@ -34,7 +35,7 @@ pub fn execute(arguments: &Resistance) -> Result<u8, CliError> {
 /// The scene, and the body named behind a colon.
 fn open(arguments: &Resistance) -> Result<(Scene, Option<String>), CliError> {
     let Resistance { scene, overrides, .. } = arguments;
-    let open = |scene: &str| super::open(&SceneArguments { scene: scene.to_owned(), overrides: overrides.clone() });
+    let open = |scene: &str| input::open(&SceneArguments { scene: scene.to_owned(), overrides: overrides.clone() });
     match scene.rsplit_once(':').filter(|_| !Path::new(scene).is_file()) {
         Some((before, body)) => Ok((open(before)?, Some(body.to_owned()))),
         None => Ok((open(scene)?, None)),

@@ -1,17 +1,16 @@
 //! `gyration run`: a scene into a recording.
 
-use super::ready;
 use crate::arguments::Run;
 use crate::error::{CliError, code};
+use crate::input::{quoted, ready, shown};
 use crate::output;
-use crate::progress::Watch;
+use crate::progress::RunProgress;
 use crate::provenance::provenance;
 use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, Recording, remove};
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Outcome, Reason, Recorded as Ended, RunSummary, Simulation};
 use serde_json::{Value, json};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Names tried for a recording without `-o`.
@@ -25,7 +24,7 @@ pub fn execute(arguments: &Run) -> Result<u8, CliError> {
     if !arguments.resume {
         make_room(arguments, &job, &path)?;
     }
-    let mut watch = Watch::new(!arguments.quiet)?;
+    let mut watch = RunProgress::new(!arguments.quiet)?;
     let ended = if arguments.resume { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
     watch.finish();
     let ended = ended?;
@@ -145,24 +144,4 @@ fn resume_command(arguments: &Run, path: &Path) -> String {
     let overrides = arguments.scene.overrides.iter().map(|text| format!(" --set {}", quoted(text)));
     let overrides: String = overrides.collect();
     format!("gyration run {} -o {}{overrides} --resume", quoted(&arguments.scene.scene), quoted(&shown(path)))
-}
-
-/// An argument as a shell reads it.
-pub(super) fn quoted(text: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
-        text.to_owned()
-    } else {
-        format!("'{}'", text.replace('\'', r"'\''"))
-    }
-}
-
-/// The path from here, as the user would write it.
-pub(super) fn shown(path: &Path) -> String {
-    let here = std::env::current_dir().and_then(fs::canonicalize);
-    let full = fs::canonicalize(path);
-    match (here, full) {
-        (Ok(here), Ok(full)) => full.strip_prefix(here).unwrap_or(path).display().to_string(),
-        _ => path.display().to_string(),
-    }
 }

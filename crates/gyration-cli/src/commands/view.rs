@@ -5,7 +5,7 @@ use crate::error::{CliError, code};
 use crate::output;
 use crate::provenance::provenance;
 use gyration_scene::Scene;
-use gyration_view::{Live, Server, Source, Stored, page};
+use gyration_view::{Live, PageSource, Server, Stored, page};
 use std::path::Path;
 
 /// Serves the page until Ctrl-C.
@@ -34,15 +34,15 @@ pub fn execute(arguments: &View) -> Result<u8, CliError> {
 }
 
 /// What is to be shown; a scene with errors is refused before anything is served.
-fn source(arguments: &View) -> Result<Source, CliError> {
+fn source(arguments: &View) -> Result<PageSource, CliError> {
     let path = Path::new(&arguments.source);
     if !path.is_dir() {
         Scene::open(&arguments.source, &arguments.overrides)?;
         let live = Live::start(&arguments.source, &arguments.overrides, provenance());
-        return Ok(Source::Live(live.map_err(gyration_view::ViewError::Server)?));
+        return Ok(PageSource::Live(live.map_err(gyration_view::ViewError::Server)?));
     }
     if !arguments.overrides.is_empty() {
         return Err(CliError::arguments("--set changes a scene, not a recording", "leave out --set"));
     }
-    Ok(Source::Recording(Box::new(Stored::open(path)?)))
+    Ok(PageSource::Recording(Box::new(Stored::open(path)?)))
 }

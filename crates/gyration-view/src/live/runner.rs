@@ -1,13 +1,15 @@
 //! The thread that runs a scene again and again, as pages ask for it.
 
-use super::{Shared, Subject};
+use super::shared::Shared;
 use crate::blob;
 use crate::header::Header;
 use gyration::body::BodyKind;
 use gyration_record::{Layout, RecordError};
 use gyration_scene::Recorded;
 use gyration_sim::events::Event;
-use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunSummary, Simulation, Sink, limit_in_words};
+use gyration_sim::{
+    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunSummary, Simulation, Sink, limit_in_words,
+};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -17,6 +19,13 @@ const MOST_NUMBERS: usize = 50_000_000;
 const NEWS_EVERY: Duration = Duration::from_millis(30);
 /// Between two words on progress.
 const PROGRESS_EVERY: Duration = Duration::from_millis(150);
+
+/// Which scene, and which program runs it.
+#[derive(Debug, Clone)]
+pub(super) struct Subject {
+    pub(super) scene: String,
+    pub(super) provenance: Provenance,
+}
 
 /// Runs what is wanted, for ever.
 pub(super) fn run(shared: &Shared, subject: &Subject) {

@@ -1,7 +1,7 @@
 //! What a run has published so far, and how far each page has taken it.
 
+use crate::binary;
 use crate::blob;
-use crate::frame::frame;
 use gyration_record::Event;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -152,12 +152,12 @@ impl Store {
             offset += stride;
         }
         let head = json!({ "kind": "rows", "run": self.run, "first": first, "rows": last - first });
-        messages.push(Message::Binary(frame(&head, &payload)));
+        messages.push(Message::Binary(binary::encode(&head, &payload)));
         cursor.rows = last;
         last < self.times.len()
     }
 
     fn blob(&self, name: &str, bytes: &[u8]) -> Message {
-        Message::Binary(frame(&json!({ "kind": "blob", "run": self.run, "name": name }), bytes))
+        Message::Binary(binary::encode(&json!({ "kind": "blob", "run": self.run, "name": name }), bytes))
     }
 }

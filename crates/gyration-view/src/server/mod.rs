@@ -11,6 +11,7 @@
 //! elsewhere in the same browser can neither read nor steer it.
 
 mod guard;
+mod shown;
 mod socket;
 
 use crate::error::ViewError;
@@ -22,15 +23,15 @@ use axum::extract::{Path, Query, State};
 use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::get;
-use gyration_record::RecordError;
 use serde::Deserialize;
 use serde_json::json;
+use shown::{Refusal, Shown};
 use std::future::Future;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// What is shown.
-pub enum Source {
+pub enum PageSource {
     /// A recording on disk.
     Recording(Box<Stored>),
     /// A scene that runs as it is watched.
@@ -41,13 +42,6 @@ pub enum Source {
 pub struct Server {
     listener: TcpListener,
     port: u16,
-}
-
-/// What requests share.
-enum Shown {
-    /// Opened again whenever its header is asked for: it may grow.
-    Recording(RwLock<Arc<Stored>>),
-    Live(Live),
 }
 
 impl Server {
@@ -73,11 +67,11 @@ impl Server {
     ///
     /// # Errors
     /// `Server` if the system takes away what the server needs.
-    pub fn serve(self, source: Source, end: impl Future<Output = ()>) -> Result<(), ViewError> {
+    pub fn serve(self, source: PageSource, end: impl Future<Output = ()>) -> Result<(), ViewError> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(ViewError::Server)?;
         let shown = match source {
-            Source::Recording(stored) => Shown::Recording(RwLock::new(Arc::from(stored))),
-            Source::Live(live) => Shown::Live(live),
+            PageSource::Recording(stored) => Shown::Recording(RwLock::new(Arc::from(stored))),
+            PageSource::Live(live) => Shown::Live(live),
         };
         let router = router(Arc::new(shown), self.port);
         let served = runtime.block_on(async move {
@@ -146,25 +140,4 @@ async fn blob_of(
     let read = tokio::task::spawn_blocking(move || stored.blob(&name, rows, 1)).await;
     let bytes = read.map_err(|error| Refusal(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))??;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
-}
-
-/// A request that cannot be met, in words.
-#[derive(Debug)]
-struct Refusal(StatusCode, String);
-
-impl From<ViewError> for Refusal {
-    fn from(error: ViewError) -> Self {
-        let status = match &error {
-            ViewError::Record(RecordError::NoSuchArray { .. }) => StatusCode::NOT_FOUND,
-            ViewError::Record(RecordError::NoSuchRows { .. }) => StatusCode::RANGE_NOT_SATISFIABLE,
-            _ => StatusCode::INTERNAL_SERVER_ERROR,
-        };
-        Self(status, error.to_string())
-    }
-}
-
-impl IntoResponse for Refusal {
-    fn into_response(self) -> Response {
-        (self.0, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], self.1).into_response()
-    }
 }

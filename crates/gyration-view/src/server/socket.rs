@@ -1,6 +1,6 @@
 //! The websocket of a live run: what is new goes out, what the watcher wants comes in.
 
-use super::{Refusal, Shown};
+use super::shown::{Refusal, Shown};
 use crate::live::{Cursor, Live, Message, Shared};
 use axum::extract::State;
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};

@@ -4,7 +4,7 @@
 
 use gyration_scene::Scene;
 use gyration_sim::{Job, Provenance, Unwatched};
-use gyration_view::{Server, Source};
+use gyration_view::{PageSource, Server};
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ pub struct Served {
 }
 
 impl Served {
-    pub fn new(source: Source) -> Self {
+    pub fn new(source: PageSource) -> Self {
         let server = Server::bind(None).unwrap();
         let port = server.url().trim_end_matches('/').rsplit(':').next().unwrap().parse().unwrap();
         let (end, ended) = oneshot::channel();

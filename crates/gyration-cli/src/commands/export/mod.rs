@@ -2,9 +2,9 @@
 
 mod surfaces;
 
-use super::stem;
 use crate::arguments::{Export, ExportFormat};
 use crate::error::{CliError, code};
+use crate::input::stem;
 use crate::output;
 use gyration_record::{RecordError, Recording, cannot_write, export, replace_file};
 use std::fs::File;

@@ -7,7 +7,7 @@
 use serde_json::Value;
 
 /// A message of a head and its payload.
-pub(crate) fn frame(head: &Value, payload: &[u8]) -> Vec<u8> {
+pub(crate) fn encode(head: &Value, payload: &[u8]) -> Vec<u8> {
     let mut text = head.to_string();
     while !(4 + text.len()).is_multiple_of(8) {
         text.push(' ');
@@ -23,13 +23,13 @@ pub(crate) fn frame(head: &Value, payload: &[u8]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::frame;
+    use super::encode;
     use serde_json::json;
 
     #[test]
     fn payloads_are_aligned_whatever_the_head() {
         for name in ["", "a", "ab", "abc", "abcdefgh"] {
-            let bytes = frame(&json!({ "name": name }), &[7; 16]);
+            let bytes = encode(&json!({ "name": name }), &[7; 16]);
             let length = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
             assert_eq!((4 + length) % 8, 0);
             let head: serde_json::Value = serde_json::from_slice(&bytes[4..4 + length]).unwrap();

@@ -1,0 +1,97 @@
+//! What the thread of a live run and its pages share: the store, and what the pages want of the thread.
+
+use super::store::Store;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+/// What thread and pages share.
+pub(crate) struct Shared {
+    pub(crate) store: Mutex<Store>,
+    control: Mutex<Control>,
+    /// Rung when `control` changes.
+    told: Condvar,
+    /// Changes whenever there is something new to take.
+    pub(crate) news: tokio::sync::watch::Sender<u64>,
+}
+
+/// What pages want of the thread.
+#[derive(Debug, Default)]
+struct Control {
+    /// A run to begin, with these overrides.
+    wanted: Option<Vec<String>>,
+    paused: bool,
+    /// Whether a page has come yet.
+    watched: bool,
+}
+
+impl Shared {
+    /// For a run with these overrides, which begins with the first page.
+    pub(super) fn new(overrides: Vec<String>) -> Self {
+        Self {
+            store: Mutex::new(Store::default()),
+            control: Mutex::new(Control { wanted: Some(overrides), ..Control::default() }),
+            told: Condvar::new(),
+            news: tokio::sync::watch::Sender::new(0),
+        }
+    }
+
+    /// A page has come: the run may begin.
+    pub(super) fn watch(&self) {
+        self.tell(|control| control.watched = true);
+    }
+
+    /// Lets the run begin anew with these overrides.
+    pub(crate) fn restart(&self, overrides: Vec<String>) {
+        self.tell(|control| {
+            control.wanted = Some(overrides);
+            control.paused = false;
+        });
+    }
+
+    /// Halts the run, or lets it go on.
+    pub(crate) fn pause(&self, paused: bool) {
+        self.tell(|control| control.paused = paused);
+        self.store().pause(paused);
+        self.announce();
+    }
+
+    /// The store; a thread that died with it locked left it whole, since nothing in it is done in two steps.
+    pub(crate) fn store(&self) -> MutexGuard<'_, Store> {
+        self.store.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Wakes the pages.
+    pub(super) fn announce(&self) {
+        self.news.send_modify(|count| *count += 1);
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut Control)) {
+        change(&mut self.control());
+        self.told.notify_all();
+    }
+
+    fn control(&self) -> MutexGuard<'_, Control> {
+        self.control.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until a run is wanted and watched; its overrides.
+    pub(super) fn next(&self) -> Vec<String> {
+        let mut control = self.control();
+        loop {
+            if control.watched
+                && let Some(overrides) = control.wanted.take()
+            {
+                return overrides;
+            }
+            control = self.told.wait(control).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Waits while the run is paused; whether another one is wanted.
+    pub(super) fn is_superseded(&self) -> bool {
+        let mut control = self.control();
+        while control.paused && control.wanted.is_none() {
+            control = self.told.wait(control).unwrap_or_else(PoisonError::into_inner);
+        }
+        control.wanted.is_some()
+    }
+}

@@ -1,0 +1,37 @@
+//! What requests share, and how they are refused.
+
+use crate::error::ViewError;
+use crate::live::Live;
+use crate::stored::Stored;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use gyration_record::RecordError;
+use std::sync::{Arc, RwLock};
+
+/// What requests share.
+pub(super) enum Shown {
+    /// Opened again whenever its header is asked for: it may grow.
+    Recording(RwLock<Arc<Stored>>),
+    Live(Live),
+}
+
+/// A request that cannot be met, in words.
+#[derive(Debug)]
+pub(super) struct Refusal(pub(super) StatusCode, pub(super) String);
+
+impl From<ViewError> for Refusal {
+    fn from(error: ViewError) -> Self {
+        let status = match &error {
+            ViewError::Record(RecordError::NoSuchArray { .. }) => StatusCode::NOT_FOUND,
+            ViewError::Record(RecordError::NoSuchRows { .. }) => StatusCode::RANGE_NOT_SATISFIABLE,
+            _ => StatusCode::INTERNAL_SERVER_ERROR,
+        };
+        Self(status, error.to_string())
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response {
+        (self.0, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], self.1).into_response()
+    }
+}
