@@ -1,11 +1,11 @@
-//! The search for the least squares, by the Levenberg–Marquardt method of a library (MINPACK's).
+//! The search for the least squares (`least_squares`).
 //!
-//! What the library sees is u (`scale`) and the weighted residuals r = (m − y)/σ. A trial that cannot be computed counts as a bad
+//! What it sees is u (`scale`) and the weighted residuals r = (m − y)/σ. A trial that cannot be computed counts as a bad
 //! one: the search then tries a shorter step.
 
+use super::least_squares::{Ending, Minimum, Problem, minimize};
 use super::{Calibration, CalibrationError, Experiment};
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
-use nalgebra_of_fit::{DMatrix, DVector, Dyn, storage::Owned};
+use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// The residual of a trial that cannot be computed: worse than any other, and its square is still a number.
@@ -25,16 +25,10 @@ pub(super) struct Found {
     pub evaluations: usize,
 }
 
-struct Problem<'a> {
+/// The measurements, and the start as one more of each number.
+struct Measured<'a> {
     calibration: &'a Calibration,
     start: DVector<f64>,
-    u: DVector<f64>,
-}
-
-impl Problem<'_> {
-    fn values(&self) -> Vec<f64> {
-        self.calibration.values_at(self.u.as_slice())
-    }
 }
 
 impl Calibration {
@@ -71,77 +65,39 @@ impl Calibration {
         self.predictions()?;
         let u = self.numbers.iter().map(|number| number.scale.inward(number.start));
         let start = DVector::from_iterator(self.numbers.len(), u);
-        let problem = Problem { calibration: self, u: start.clone(), start };
-        let method = LevenbergMarquardt::new().with_ftol(TOLERANCE).with_xtol(TOLERANCE).with_gtol(TOLERANCE);
-        let (problem, report) = method.minimize(problem);
-        if !report.termination.was_successful() && !report.termination.was_usable() {
-            return Err(CalibrationError::Search(in_words(&report.termination)));
-        }
-        let ending = in_words(&report.termination);
-        Ok(Found { values: problem.values(), ending, evaluations: report.number_of_evaluations })
+        let problem = Measured { calibration: self, start: start.clone() };
+        let Minimum { u, ending, evaluations } = minimize(&problem, start, TOLERANCE);
+        let ending = match ending {
+            Ending::Converged => "converged",
+            Ending::Rounding => "as near as rounding lets one come",
+            Ending::Patience => return Err(CalibrationError::Search("it did not come to an end".into())),
+            Ending::Stranded => {
+                let reason = "where it arrived derivatives cannot be computed";
+                return Err(CalibrationError::Search(reason.into()));
+            }
+        };
+        Ok(Found { values: self.values_at(u.as_slice()), ending: ending.to_owned(), evaluations })
     }
 }
 
-/// How a search ended.
-fn in_words(termination: &TerminationReason) -> String {
-    let words = match termination {
-        TerminationReason::Converged { .. } | TerminationReason::Orthogonal | TerminationReason::ResidualsZero => {
-            "converged"
-        }
-        TerminationReason::NoImprovementPossible(_) => "as near as rounding lets one come",
-        TerminationReason::LostPatience => "it did not come to an end",
-        TerminationReason::Numerical(_) => "numbers grew beyond all bounds",
-        TerminationReason::User(_) => "where it arrived derivatives cannot be computed",
-        TerminationReason::NoParameters | TerminationReason::NoResiduals => "there is nothing to fit",
-        TerminationReason::WrongDimensions(_) => "the measurements changed their number",
-    };
-    words.to_owned()
-}
-
-trait Usable {
-    fn was_usable(&self) -> bool;
-}
-
-impl Usable for TerminationReason {
-    /// Whether the point is the best that rounding lets one find.
-    fn was_usable(&self) -> bool {
-        matches!(self, Self::NoImprovementPossible(_))
-    }
-}
-
-impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
-    type ResidualStorage = Owned<f64, Dyn>;
-    type JacobianStorage = Owned<f64, Dyn, Dyn>;
-    type ParameterStorage = Owned<f64, Dyn>;
-
-    fn set_params(&mut self, u: &DVector<f64>) {
-        self.u.copy_from(u);
-    }
-
-    fn params(&self) -> DVector<f64> {
-        self.u.clone()
-    }
-
-    fn residuals(&self) -> Option<DVector<f64>> {
-        let values = self.values();
+impl Problem for Measured<'_> {
+    fn residuals(&self, u: &DVector<f64>) -> DVector<f64> {
+        let values = self.calibration.values_at(u.as_slice());
         let residual = |(table, row): (&Experiment, usize)| {
             let found = self.calibration.value(table, table.conditions[row], &values);
             found.map_or(BAD, |found| (found - table.measured[row]) / table.deviations[row])
         };
-        let residuals: Vec<f64> = self.calibration.rows().map(residual).collect();
-        let all =
-            residuals.into_iter().chain((&self.u - &self.start).iter().map(|way| way / START).collect::<Vec<_>>());
-        Some(DVector::from_iterator(self.calibration.rows().count() + self.u.len(), all))
+        let mut all: Vec<f64> = self.calibration.rows().map(residual).collect();
+        all.extend((u - &self.start).iter().map(|way| way / START));
+        all.into()
     }
 
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let slopes = self.calibration.weighted_slopes(&self.values()).ok()?;
-        let (rows, count) = (slopes.len(), self.u.len());
-        let mut jacobian = DMatrix::zeros(rows + count, count);
-        for (row, slopes) in slopes.iter().enumerate() {
-            slopes.iter().enumerate().for_each(|(column, slope)| jacobian[(row, column)] = *slope);
-        }
-        (0..count).for_each(|index| jacobian[(rows + index, index)] = 1.0 / START);
+    fn jacobian(&self, u: &DVector<f64>) -> Option<DMatrix<f64>> {
+        let slopes = self.calibration.weighted_slopes(&self.calibration.values_at(u.as_slice())).ok()?;
+        let (rows, count) = (slopes.len(), u.len());
+        let mut jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
+        jacobian = jacobian.resize_vertically(rows + count, 0.0);
+        jacobian.rows_mut(rows, count).fill_diagonal(1.0 / START);
         Some(jacobian)
     }
 }

@@ -4,8 +4,8 @@
 //!
 //! m_i are computed with the simulator itself (`observe`): a rebound by a run to its apex, a gap from the exact rest state, the
 //! speed on a slope and the force of pull-off from the balance of forces. Their derivatives come from the sensitivities of
-//! the run, or from differences of what has no run. The least squares are a library's (`fit`); what is known of the numbers
-//! afterwards is in `known`.
+//! the run, or from differences of what has no run. The least squares are in `fit` and `least_squares`; what is known of the
+//! numbers afterwards is in `known`.
 
 mod check;
 mod csv;
@@ -13,6 +13,7 @@ mod curve;
 mod file;
 mod fit;
 mod known;
+mod least_squares;
 mod observe;
 mod read;
 mod rebound;
