@@ -30,7 +30,7 @@ impl Scene {
     /// What it is made of, for whoever works in another folder: name, text, folder, edits.
     fn parts(&self) -> Packed {
         let base = convert::elsewhere(&self.base);
-        (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides().to_vec())
+        (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides())
     }
 
     /// Reads a text without the lock: a mesh may take a while.
@@ -129,7 +129,7 @@ impl Scene {
         changes: Option<&Bound<'_, PyDict>>,
         keys: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let mut all = self.inner.overrides().to_vec();
+        let mut all = self.inner.overrides();
         all.extend(overrides(changes)?);
         all.extend(overrides(keys)?);
         Self::parse(py, self.file.clone(), self.inner.text(), self.base.clone(), &all)
@@ -161,7 +161,7 @@ impl Scene {
     /// The edits, ``KEY=VALUE``, in their order.
     #[getter]
     fn overrides(&self) -> Vec<String> {
-        self.inner.overrides().to_vec()
+        self.inner.overrides()
     }
 
     /// The scene with units resolved to SI, edits made and every default in its place; itself a scene.

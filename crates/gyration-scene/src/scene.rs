@@ -3,6 +3,7 @@
 use crate::assemble::Built;
 use crate::error::{LoadError, NotToml, SceneErrors};
 use crate::file::SceneFile;
+use crate::overriding::Override;
 use crate::template::Template;
 use crate::unknown::Unknown;
 use serde_json::Value;
@@ -14,7 +15,7 @@ pub struct Scene {
     pub(crate) name: String,
     pub(crate) text: String,
     pub(crate) base: PathBuf,
-    pub(crate) overrides: Vec<String>,
+    pub(crate) overrides: Vec<Override>,
     pub(crate) file: SceneFile,
     pub(crate) built: Built,
     pub(crate) unknown: Option<Box<Unknown>>,
@@ -28,7 +29,7 @@ impl Scene {
     /// # Errors
     /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it.
     pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Self, LoadError> {
-        Ok(Template::open(path_or_name)?.scene(overrides)?)
+        Ok(Template::open(path_or_name)?.scene(&Override::parse_all(overrides))?)
     }
 
     /// Loads a scene from a file; paths in it are relative to its folder.
@@ -36,7 +37,7 @@ impl Scene {
     /// # Errors
     /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Self, LoadError> {
-        Ok(Template::load(path)?.scene(overrides)?)
+        Ok(Template::load(path)?.scene(&Override::parse_all(overrides))?)
     }
 
     /// Reads a scene from a text; `name` is what messages call it, paths in it are relative to `base`.
@@ -46,7 +47,7 @@ impl Scene {
     /// # Errors
     /// Everything that is wrong in it, in the order of the text.
     pub fn parse(name: &str, text: &str, base: &Path, overrides: &[String]) -> Result<Self, SceneErrors> {
-        Template::parse(name, text, base)?.scene(overrides)
+        Template::parse(name, text, base)?.scene(&Override::parse_all(overrides))
     }
 
     /// The name of its file without folder and ending.
@@ -69,9 +70,9 @@ impl Scene {
         &self.base
     }
 
-    /// The overrides, in their order.
-    pub fn overrides(&self) -> &[String] {
-        &self.overrides
+    /// The overrides, in their order, as they would be written.
+    pub fn overrides(&self) -> Vec<String> {
+        self.overrides.iter().map(Override::to_string).collect()
     }
 
     /// What the file says, overrides and defaults included.

@@ -11,6 +11,7 @@ use crate::check::{Rules, structure};
 use crate::document::{Document, Findings};
 use crate::error::{Fault, LoadError, SceneErrors};
 use crate::key::Key;
+use crate::overriding::Override;
 use crate::read;
 use crate::schema::schema_of;
 use crate::suggest;
@@ -55,7 +56,7 @@ impl Sheet {
     pub fn parse(name: &str, text: &str, form: &Form, overrides: &[String]) -> Result<Self, SceneErrors> {
         let mut document = read::document(name, text)?;
         let mut findings = Findings::of(Fault::Structure);
-        read::apply(&mut document, overrides, &mut findings);
+        read::apply(&mut document, &Override::parse_all(overrides), &mut findings);
         structure(&document.root, &form.0, &mut findings);
         Ok(Self { document, findings })
     }

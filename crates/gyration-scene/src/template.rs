@@ -9,6 +9,7 @@ use crate::document::{Document, Findings};
 use crate::error::{Fault, LoadError, ReadError, SceneErrors};
 use crate::gallery;
 use crate::key::name_of;
+use crate::overriding::Override;
 use crate::read;
 use crate::scene::Scene;
 use crate::suggest;
@@ -67,11 +68,23 @@ impl Template {
         Ok(Self { document, base: base.to_owned(), stem: stem(name) })
     }
 
-    /// The scene with these overrides, each `KEY=VALUE` as in `--set`.
+    /// The scene with these overrides.
     ///
     /// # Errors
     /// Everything that is wrong in it, in the order of the text.
-    pub fn scene(&self, overrides: &[String]) -> Result<Scene, SceneErrors> {
+    pub fn scene(&self, overrides: &[Override]) -> Result<Scene, SceneErrors> {
+        let found = self.checked(overrides);
+        match &found {
+            // Errors have their places in overrides as they would be written.
+            Err(_) if !overrides.iter().all(Override::is_text) => {
+                let written: Vec<_> = overrides.iter().map(|one| Override::parse(&one.to_string())).collect();
+                self.checked(&written)
+            }
+            _ => found,
+        }
+    }
+
+    fn checked(&self, overrides: &[Override]) -> Result<Scene, SceneErrors> {
         let mut document = self.document.clone();
         let mut findings = Findings::of(Fault::Structure);
         read::apply(&mut document, overrides, &mut findings);
@@ -148,7 +161,7 @@ pub fn unit_of(key: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::{Scene, Setting};
 
     const TEXT: &str =
         "time = { end = 1, sample = 1 }\n[[body]]\nname = \"a\"\nshape = { sphere = { radius = 1 } }\ndensity = 2\n";
@@ -159,13 +172,39 @@ mod tests {
         for overrides in
             [&[][..], &["body.a.density=3".to_owned()], &["body.b.density=3".to_owned()], &["body.0.mass=1".to_owned()]]
         {
-            let (one, other) = (template.scene(overrides), Scene::parse("x.toml", TEXT, Path::new(""), overrides));
+            let (one, other) = (
+                template.scene(&Override::parse_all(overrides)),
+                Scene::parse("x.toml", TEXT, Path::new(""), overrides),
+            );
             assert_eq!(one.as_ref().map(Scene::resolved), other.as_ref().map(Scene::resolved));
         }
-        let errors =
-            template.scene(&["time.end=2".into(), "body.0.densty=3".into(), "time.end=-1".into()]).unwrap_err();
+        let wrong = ["time.end=2", "body.0.densty=3", "time.end=-1"].map(Override::parse);
+        let errors = template.scene(&wrong).unwrap_err();
         let told: Vec<_> = errors.as_slice().iter().map(|error| (error.overriding, error.fault)).collect();
         assert_eq!(told, [(Some(1), Fault::Structure), (Some(2), Fault::Value)]);
+    }
+
+    #[test]
+    fn numbers_of_a_program_make_the_scene_that_their_texts_make() {
+        let template = Template::parse("x.toml", TEXT, Path::new("")).unwrap();
+        let (third, many) = (1.0 / 3.0, [0.1, -2e-300, 7.0]);
+        let quaternion = Setting::Table("quaternion", vec![0.6, 0.0, 0.8, 0.0]);
+        let sets = [
+            vec![Override::new("body.a.density", third), Override::new("body.0.position", many)],
+            vec![Override::new("body.a.orientation", quaternion), Override::new("time.end", "2 min")],
+            vec![
+                Override::new("time.end", 2.0),
+                Override::new("body.a.densty", third),
+                Override::new("time.end", -1.0),
+            ],
+            vec![Override::new("body.a.velocity.1", 3.0), Override::new("body.a.density", f64::INFINITY)],
+        ];
+        for set in sets {
+            let written: Vec<String> = set.iter().map(Override::to_string).collect();
+            let (typed, text) = (template.scene(&set), Scene::parse("x.toml", TEXT, Path::new(""), &written));
+            assert_eq!(typed.as_ref().map(Scene::resolved), text.as_ref().map(Scene::resolved), "{written:?}");
+            assert_eq!(typed.map(|scene| scene.overrides()).unwrap_or(written.clone()), written);
+        }
     }
 
     #[test]

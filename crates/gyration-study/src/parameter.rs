@@ -7,6 +7,7 @@ use crate::column::{Column, Kind};
 use crate::file::Sampling;
 use crate::random::{Sobol, Stream, inverse_normal, permuted, unit};
 use crate::value::Value;
+use gyration_scene::Setting;
 use std::f64::consts::TAU;
 
 /// Something that is varied.
@@ -122,10 +123,13 @@ impl Steps {
         }
     }
 
-    /// The value as TOML, and its cells.
-    fn at(&self, index: u64) -> (String, Vec<Value>) {
+    /// A value, and its cells.
+    fn at(&self, index: u64) -> (Setting, Vec<Value>) {
         match self {
-            Self::Listed(values) => values[index as usize].clone(),
+            Self::Listed(values) => {
+                let (written, cells) = &values[index as usize];
+                (Setting::Written(written.clone()), cells.clone())
+            }
             Self::Grid { from, to, count, is_logarithmic } => {
                 let fraction = index as f64 / (*count).saturating_sub(1).max(1) as f64;
                 let value = match (index, is_logarithmic) {
@@ -135,7 +139,7 @@ impl Steps {
                     (_, false) => from + (to - from) * fraction,
                     (_, true) => from * libm::exp(libm::log(to / from) * fraction),
                 };
-                (format!("{value:?}"), vec![Value::Number(value)])
+                (Setting::Number(value), vec![Value::Number(value)])
             }
         }
     }
@@ -165,12 +169,12 @@ impl Distribution {
         }
     }
 
-    /// The value as TOML.
-    fn written(&self, numbers: &[f64]) -> String {
+    /// The value that these numbers are.
+    fn setting(&self, numbers: &[f64]) -> Setting {
         match self {
-            Self::Rotation => format!("{{ quaternion = {numbers:?} }}"),
-            Self::Direction { .. } => format!("{numbers:?}"),
-            _ => format!("{:?}", numbers[0]),
+            Self::Rotation => Setting::Table("quaternion", numbers.to_vec()),
+            Self::Direction { .. } => Setting::Array(numbers.to_vec()),
+            _ => Setting::Number(numbers[0]),
         }
     }
 
@@ -204,13 +208,13 @@ fn direction([a, b]: [f64; 2]) -> [f64; 3] {
 }
 
 impl Parameter {
-    /// The value of a run as TOML, and its cells; `indices` are those of the axes at its point.
-    pub(crate) fn at(&self, dice: &Dice, place: Place, indices: &[u64]) -> (String, Vec<Value>) {
+    /// The value of a run, and its cells; `indices` are those of the axes at its point.
+    pub(crate) fn at(&self, dice: &Dice, place: Place, indices: &[u64]) -> (Setting, Vec<Value>) {
         match &self.variation {
             Variation::Axis { axis, steps } => steps.at(indices[*axis]),
             Variation::Random { distribution, first } => {
                 let numbers = distribution.numbers(&self.coordinates(dice, place, distribution.dimensions(), *first));
-                (distribution.written(&numbers), numbers.into_iter().map(Value::Number).collect())
+                (distribution.setting(&numbers), numbers.into_iter().map(Value::Number).collect())
             }
         }
     }

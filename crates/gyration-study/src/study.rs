@@ -18,7 +18,7 @@ use crate::random::Sobol;
 use crate::read::{self, Read};
 use crate::value::Value;
 use gyration_scene::sheet::{Sheet, fix};
-use gyration_scene::{LoadError, ReadError, Scene, SceneErrors, Template};
+use gyration_scene::{LoadError, Override, ReadError, Scene, SceneErrors, Setting, Template};
 use gyration_sim::{RunPlan, complete};
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
@@ -205,16 +205,16 @@ impl Study {
     }
 
     /// The scene with these values, ready to run.
-    pub(crate) fn scene_with(&self, values: &[(String, Vec<Value>)]) -> Result<Scene, SceneErrors> {
+    pub(crate) fn scene_with(&self, values: &[(Setting, Vec<Value>)]) -> Result<Scene, SceneErrors> {
         complete(self.template.scene(&self.overrides(values))?)
     }
 
-    pub(crate) fn overrides(&self, values: &[(String, Vec<Value>)]) -> Vec<String> {
+    pub(crate) fn overrides(&self, values: &[(Setting, Vec<Value>)]) -> Vec<Override> {
         overrides_of(&self.read, values)
     }
 
-    /// The value of each parameter in a run as TOML, and its cells.
-    pub(crate) fn values(&self, place: Place) -> Vec<(String, Vec<Value>)> {
+    /// The value of each parameter in a run, and its cells.
+    pub(crate) fn values(&self, place: Place) -> Vec<(Setting, Vec<Value>)> {
         values(&self.read, &self.dice, place)
     }
 
@@ -257,7 +257,7 @@ fn place(read: &Read, run: u64) -> Place {
     Place { run, point: run / read.repetitions, repetition: run % read.repetitions }
 }
 
-fn values(read: &Read, dice: &Dice, place: Place) -> Vec<(String, Vec<Value>)> {
+fn values(read: &Read, dice: &Dice, place: Place) -> Vec<(Setting, Vec<Value>)> {
     let mut rest = place.point;
     let mut indices = vec![0; read.axes.len()];
     for (index, length) in indices.iter_mut().zip(&read.axes).rev() {
@@ -267,11 +267,11 @@ fn values(read: &Read, dice: &Dice, place: Place) -> Vec<(String, Vec<Value>)> {
     read.parameters.iter().map(|parameter| parameter.at(dice, place, &indices)).collect()
 }
 
-fn overrides_of(read: &Read, values: &[(String, Vec<Value>)]) -> Vec<String> {
-    let settings = read.settings.iter().map(|(key, value)| format!("{key}={value}"));
+fn overrides_of(read: &Read, values: &[(Setting, Vec<Value>)]) -> Vec<Override> {
+    let settings = read.settings.iter().map(|(key, value)| Override::new(key, value.as_str()));
     let varied = read.parameters.iter().zip(values);
     let varied =
-        varied.flat_map(|(parameter, (value, _))| parameter.keys.iter().map(move |key| format!("{key}={value}")));
+        varied.flat_map(|(parameter, (value, _))| parameter.keys.iter().map(|key| Override::new(key, value.clone())));
     settings.chain(varied).collect()
 }
 

@@ -1,12 +1,14 @@
 //! Overrides, `--set body.die.velocity='[1, 0, 0]'`: changes to the tree before it is checked.
 //!
-//! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero; a word in quotes may hold dots. VALUE is a TOML value; what is
-//! none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way are made where there are none,
-//! items of arrays are not. Whatever an override brings is from then on placed in its own text.
+//! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero; a word in quotes may hold dots.
+//! VALUE is a TOML value; what is none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way are
+//! made where there are none, items of arrays are not. Whatever an override brings is from then on placed in its own text;
+//! what is a number already has no text, and no place.
 
 use super::toml;
 use crate::document::{Document, Findings, Text};
 use crate::key::{Key, name_of};
+use crate::overriding::{Override, Setting};
 use crate::suggest;
 use crate::tree::{Entry, Node, Span, Table, Value};
 
@@ -16,11 +18,13 @@ const NAME: &str = "--set";
 const DEEPEST: usize = 32;
 
 /// Applies overrides in their order; what cannot be applied is noted.
-pub(crate) fn apply(document: &mut Document, overrides: &[String], findings: &mut Findings) {
-    for setting in overrides {
+pub(crate) fn apply(document: &mut Document, overrides: &[Override], findings: &mut Findings) {
+    for one in overrides {
         let text = document.texts.len();
-        document.texts.push(Text { name: NAME.to_owned(), content: setting.clone() });
-        if let Err(fault) = apply_one(&mut document.root, setting, text) {
+        if one.is_text() {
+            document.texts.push(Text { name: NAME.to_owned(), content: one.to_string() });
+        }
+        if let Err(fault) = apply_one(&mut document.root, one, text) {
             match fault {
                 Fault::Key(span, message, help) => findings.at(span, &Key::root(), message, help),
                 Fault::Value(errors) => findings.extend(errors),
@@ -40,17 +44,22 @@ struct Word<'a> {
     span: Span,
 }
 
-fn apply_one(root: &mut Node, setting: &str, text: usize) -> Result<(), Fault> {
-    let Some(equals) = setting.find('=') else {
-        let span = Span { text, start: 0, end: setting.len() };
-        return Err(Fault::Key(
-            span,
-            "an override without a value".into(),
-            "write KEY=VALUE, body.die.mass=0.01".into(),
-        ));
+fn apply_one(root: &mut Node, Override { key, value }: &Override, text: usize) -> Result<(), Fault> {
+    let written = || words(key, text);
+    let (words, value) = match value {
+        Setting::Absent => {
+            let span = Span { text, start: 0, end: key.len() };
+            let help = "write KEY=VALUE, body.die.mass=0.01";
+            return Err(Fault::Key(span, "an override without a value".into(), help.into()));
+        }
+        Setting::Written(raw) => (written()?, parsed(raw, text, key.len() + 1).map_err(Fault::Value)?),
+        Setting::Number(number) => (written()?, node(Value::Number(*number))),
+        Setting::Array(numbers) => (written()?, array(numbers)),
+        Setting::Table(name, numbers) => {
+            let entry = Entry { key_span: Span::default(), node: array(numbers) };
+            (written()?, node(Value::Table([((*name).to_owned(), entry)].into())))
+        }
     };
-    let words = words(&setting[..equals], text)?;
-    let value = value(&setting[equals + 1..], text, equals + 1).map_err(Fault::Value)?;
     let mut at = root;
     for (index, word) in words.iter().enumerate() {
         at = step(at, word, words.get(index + 1))?;
@@ -81,8 +90,17 @@ fn words(key: &str, text: usize) -> Result<Vec<Word<'_>>, Fault> {
     Ok(words)
 }
 
+/// A value without a place.
+fn node(value: Value) -> Node {
+    Node { value, span: Span::default() }
+}
+
+fn array(numbers: &[f64]) -> Node {
+    node(Value::Array(numbers.iter().map(|number| node(Value::Number(*number))).collect()))
+}
+
 /// A TOML value, or else a bare string.
-fn value(raw: &str, text: usize, offset: usize) -> Result<Node, Findings> {
+fn parsed(raw: &str, text: usize, offset: usize) -> Result<Node, Findings> {
     let trimmed = raw.trim();
     let offset = offset + (raw.len() - raw.trim_start().len());
     match toml::parse_value(trimmed, text, offset) {

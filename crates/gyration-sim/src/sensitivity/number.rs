@@ -100,7 +100,7 @@ impl Number {
         let found = if self.in_resolved {
             Scene::parse("resolved.json", &scene.resolved().to_string(), scene.base(), &[setting])
         } else {
-            let all = [scene.overrides(), &[setting]].concat();
+            let all = [scene.overrides(), vec![setting]].concat();
             Scene::parse("scene", scene.text(), scene.base(), &all)
         };
         let found = found.and_then(complete);

@@ -23,7 +23,7 @@ mod text;
 pub use curve::{Curve, CurvePoint};
 pub use known::{Fitted, FittedNumber, Residual, Undetermined};
 
-use gyration_scene::{LoadError, Template};
+use gyration_scene::{LoadError, Override, Template};
 use scale::Scale;
 
 /// Measurements, and the scene whose numbers they tell.
@@ -32,7 +32,7 @@ pub struct Calibration {
     title: Option<String>,
     name: String,
     template: Template,
-    settings: Vec<String>,
+    settings: Vec<Override>,
     numbers: Vec<Number>,
     experiments: Vec<Experiment>,
 }
@@ -68,7 +68,7 @@ pub struct Experiment {
     pub index: usize,
     /// The body.
     pub body: String,
-    settings: Vec<String>,
+    settings: Vec<Override>,
     /// The key of the condition, where it is a number of the scene.
     pub key: Option<String>,
     /// The condition of each row: height, angle, or the number at the key.
@@ -160,9 +160,9 @@ impl Calibration {
     }
 
     /// The overrides of a search at some point of it, in the order of the numbers.
-    fn overrides(&self, values: &[f64]) -> Vec<String> {
-        let set = |(number, value): (&Number, &f64)| -> Vec<String> {
-            number.keys.iter().map(|key| format!("{key}={value:?}")).collect()
+    fn overrides(&self, values: &[f64]) -> Vec<Override> {
+        let set = |(number, value): (&Number, &f64)| -> Vec<Override> {
+            number.keys.iter().map(|key| Override::new(key, *value)).collect()
         };
         self.settings.iter().cloned().chain(self.numbers.iter().zip(values).flat_map(set)).collect()
     }

@@ -17,7 +17,7 @@ use gyration::model::Model;
 use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration::tensor::Vec3;
-use gyration_scene::Scene;
+use gyration_scene::{Override, Scene};
 use gyration_sim::complete;
 use gyration_sim::modes::rest;
 
@@ -85,11 +85,11 @@ impl Calibration {
         experiment: &Experiment,
         condition: f64,
         values: &[f64],
-        more: &[String],
+        more: &[Override],
     ) -> Result<Scene, String> {
         let mut overrides = self.overrides(values);
         overrides.extend(experiment.settings.iter().cloned());
-        overrides.extend(experiment.key.iter().map(|key| format!("{key}={condition:?}")));
+        overrides.extend(experiment.key.iter().map(|key| Override::new(key, condition)));
         overrides.extend(more.iter().cloned());
         let found = self.template.scene(&overrides).and_then(complete);
         found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
@@ -100,7 +100,7 @@ impl Calibration {
         let model = &scene.built().model;
         let normal = normal(model, body(model, experiment)?)?;
         let pressing = -normal * (model.gravity.norm() * slope.cos());
-        let gravity = format!("world.gravity=[{:?}, {:?}, {:?}]", pressing.x, pressing.y, pressing.z);
+        let gravity = Override::new("world.gravity", <[f64; 3]>::from(pressing));
         self.scene(experiment, slope, values, &[gravity])
     }
 }

@@ -7,7 +7,7 @@ use super::scale::Scale;
 use super::{Calibration, Experiment, Kind, Number};
 use crate::written::{measured, measured_in, toml};
 use gyration_scene::sheet::{Form, Sheet, fix};
-use gyration_scene::{LoadError, Template, unit_of};
+use gyration_scene::{LoadError, Override, Template, unit_of};
 use serde_json::Value as Json;
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -75,16 +75,16 @@ fn stem(path: &Path) -> String {
 }
 
 /// The overrides of a table `set`.
-fn settings(sheet: &Sheet, place: &[&str]) -> Vec<String> {
+fn settings(sheet: &Sheet, place: &[&str]) -> Vec<Override> {
     let setting = |key: String| {
         let value = sheet.value(&[place, &[&key]].concat()).unwrap_or_default();
-        format!("{key}={}", toml(&value))
+        Override::new(key, toml(&value).as_str())
     };
     sheet.keys(place).into_iter().map(setting).collect()
 }
 
 /// The resolved scene with the settings; what is wrong with it is noted.
-fn resolved(sheet: &mut Sheet, template: &Template, settings: &[String]) -> Option<Json> {
+fn resolved(sheet: &mut Sheet, template: &Template, settings: &[Override]) -> Option<Json> {
     match template.scene(settings) {
         Ok(scene) => Some(scene.resolved()),
         Err(errors) => {

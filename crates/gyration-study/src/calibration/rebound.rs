@@ -6,7 +6,7 @@ use crate::observe::Layout;
 use gyration::balance::smallest_gap;
 use gyration::tensor::Vec3;
 use gyration_record::RecordError;
-use gyration_scene::Scene;
+use gyration_scene::{Override, Scene};
 use gyration_sim::events::{APEX, Event};
 use gyration_sim::sensitivity::{At, Sensitivities};
 use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink, complete};
@@ -28,9 +28,14 @@ pub(super) struct Drop {
     start: Vec3,
 }
 
+/// A run to this time \[s\], sampled there only.
+fn until(time: f64) -> Override {
+    Override::new("time", format!("{{ end = {time:?}, sample = {time:?} }}").as_str())
+}
+
 impl Drop {
     pub fn of(calibration: &Calibration, experiment: &Experiment, height: f64, values: &[f64]) -> Result<Self, String> {
-        let still = format!("body.{}.velocity=[0.0, 0.0, 0.0]", experiment.body);
+        let still = Override::new(format!("body.{}.velocity", experiment.body), [0.0; 3]);
         let first = calibration.scene(experiment, height, values, std::slice::from_ref(&still))?;
         let (model, state) = (&first.built().model, &first.built().state);
         let index = body(model, experiment)?;
@@ -46,11 +51,8 @@ impl Drop {
         let start = motion.placement.position + normal * (height - gap);
         let fall = (2.0 * height / model.gravity.norm()).sqrt();
         let end = FALLS * fall + LONGER;
-        let more = [
-            still,
-            format!("body.{}.position=[{:?}, {:?}, {:?}]", experiment.body, start.x, start.y, start.z),
-            format!("time={{ end = {end:?}, sample = {end:?} }}"),
-        ];
+        let more =
+            [still, Override::new(format!("body.{}.position", experiment.body), <[f64; 3]>::from(start)), until(end)];
         let scene = calibration.scene(experiment, height, values, &more)?;
         Ok(Self { scene, index, normal, height, start })
     }
@@ -81,7 +83,7 @@ impl Drop {
     /// The rebound with its derivatives by keys; those at a fixed time, since the speed vanishes at the apex.
     fn at_apex(&self, keys: &[String]) -> Result<(f64, Vec<Option<f64>>), String> {
         let (time, _) = self.apex()?;
-        let overrides = [self.scene.overrides(), &[format!("time={{ end = {time:?}, sample = {time:?} }}")]].concat();
+        let overrides = [self.scene.overrides(), vec![until(time).to_string()]].concat();
         let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides).and_then(complete);
         let scene = scene.map_err(|errors| errors.to_string())?;
         let name = &scene.built().model.bodies[self.index].name;

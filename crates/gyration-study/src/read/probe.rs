@@ -2,7 +2,7 @@
 
 use super::Read;
 use gyration_scene::sheet::Sheet;
-use gyration_scene::{Fault, Scene, SceneErrors, Template};
+use gyration_scene::{Fault, Override, Scene, SceneErrors, Template};
 use std::collections::BTreeSet;
 
 /// The scene of the first run; if a value of it is not possible, that of the scene alone, and without what the study sets wrongly.
@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 pub(crate) fn probe(
     template: &Template,
     read: &Read,
-    overrides: &[String],
+    overrides: &[Override],
     sheet: &mut Sheet,
 ) -> Result<Option<Scene>, SceneErrors> {
     let errors = match template.scene(overrides) {
@@ -32,7 +32,7 @@ pub(crate) fn probe(
     }
     if !blamed.is_empty() {
         let rest = overrides.iter().enumerate().filter(|(index, _)| !blamed.contains(index));
-        return Ok(template.scene(&rest.map(|(_, text)| text.clone()).collect::<Vec<_>>()).ok());
+        return Ok(template.scene(&rest.map(|(_, one)| one.clone()).collect::<Vec<_>>()).ok());
     }
     let settings = &overrides[..read.settings.len()];
     match template.scene(settings) {

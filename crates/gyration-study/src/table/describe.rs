@@ -62,6 +62,7 @@ pub(crate) fn manifest(study: &Study, shard: Shard) -> Json {
     let settings: serde_json::Map<String, Json> =
         read.settings.iter().map(|(key, value)| (key.clone(), json!(value))).collect();
     let overrides = study.overrides(&study.values(study.place(0)));
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     manifest["shard"] = json!({ "number": shard.number(), "count": shard.count() });
     manifest["recordings"] = json!(read.recordings);
     manifest["max_steps"] = json!(read.max_steps);
