@@ -3,9 +3,9 @@
 //! `cargo bench -p gyration-bench --bench affine`
 
 use divan::Bencher;
-use gyration::jacobian::jacobian;
+use gyration::dynamics::jacobian;
+use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
-use gyration::rates::{Workspace, rates};
 use gyration::state::State;
 use gyration_bench::soft::{MATERIALS, contracting_cube, cube_over_table, free_cube, material};
 use nalgebra::DMatrix;

@@ -5,11 +5,11 @@
 
 use divan::Bencher;
 use gyration::affine::Gyration;
+use gyration::dynamics::jacobian;
+use gyration::dynamics::{Workspace, rates};
 use gyration::fluid::{Fluid, Form, ImmersedEllipsoid, Inclusion};
-use gyration::jacobian::jacobian;
 use gyration::kinematics::{Placement, Velocity};
 use gyration::load::LoadSlopes;
-use gyration::rates::{Workspace, rates};
 use gyration::signal::Signal;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_bench::particle_in_shear;
@@ -33,7 +33,7 @@ struct Immersed {
 impl Immersed {
     fn new() -> Self {
         let form = Form::Ellipsoid(Vec3::new(1.0, 0.8, 0.6));
-        let inclusion = Inclusion { inertia: true, volume: 2.0, center: Vec3::zeros(), form, memory: None };
+        let inclusion = Inclusion { inertia: true, volume: 2.0, center: Vec3::zeros(), form, history: None };
         let shear = Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         let fluid = Fluid {
             viscosity: 1.0,

@@ -3,9 +3,8 @@
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
-use gyration::contact::{Contact, ContactScratch, ContactWrench, RigidLoads, RigidMotion};
-use gyration::jacobian::jacobian;
-use gyration::rates::{Workspace, meet, rates};
+use gyration::contact::{Contact, ContactScratch, ContactWrench, RelativeMotion, RigidLoads, RigidMotion};
+use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::state::Turn;
 use gyration::surface::{GapClosed, GapField, Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments, Surface};
 use gyration::tensor::Mat3;
@@ -26,8 +25,10 @@ fn set_up(name: &str, exponents: (f64, f64)) -> (gyration::model::Model, gyratio
 /// The contact of the body with the table at its start.
 fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (GapField, RigidMotion) {
     let motion = state.motion(model, 0);
-    let (field, relative) = meet(model, 0, 0.0, &motion);
-    let turn = Turn::unpack(&model.bodies[0], &state.bodies);
+    let support = &model.supports[0];
+    let field = support.gap_field(&motion.placement, 0.0);
+    let relative = RelativeMotion::to(support, &motion.velocity, 0.0);
+    let turn = Turn::read(model.slots(0), &state.bodies);
     (field, RigidMotion::new(&relative, &motion.placement.gradient, turn.spin))
 }
 

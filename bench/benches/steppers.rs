@@ -8,8 +8,8 @@
 //! (explicit, implicit) only the steps are made, for callgrind.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
-use gyration::jacobian::jacobian;
-use gyration::rates::{Workspace, rates};
+use gyration::dynamics::jacobian;
+use gyration::dynamics::{Workspace, rates};
 use gyration_bench::{SHAPES, near_table, seconds_each};
 use gyration_ode::{Integrator, Method, Options, System};
 use nalgebra::DMatrix;

@@ -4,9 +4,9 @@
 
 use gyration::balance;
 use gyration::body::BodyKind;
+use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
-use gyration::rates::{Workspace, rates};
-use gyration::state::{BodyMotion, State, Turn};
+use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_ode::Options;
 use gyration_scene::{Recorded, Scene};
@@ -190,7 +190,7 @@ impl Experiment {
         let body = &self.model.bodies[0];
         let BodyKind::Rigid(inertia) = &body.kind else { panic!("{} is not rigid", body.name) };
         // A block ends with Ω; in the block of the rates with Ω̇.
-        inertia.tensor * Turn::unpack(body, &slopes[self.model.blocks()[0].clone()]).spin
+        inertia.tensor * gyration::body::vector(&slopes[self.model.slots(0).rate()])
     }
 }
 

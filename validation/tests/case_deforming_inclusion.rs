@@ -4,9 +4,9 @@
 //! The polyhedron has the volume of the ball, so that its resistance differs by terms of second order in the height of the sphere
 //! above its facets. It takes the form of the ball, inclined and drawn out, while its corners go round: every quarter of a turn is another form.
 
+use gyration::dynamics::Workspace;
 use gyration::fluid::{Form, SurfaceForm};
 use gyration::immersion::observe_immersion;
-use gyration::rates::Workspace;
 use gyration::shape::{Shape, Sphere};
 use gyration::tensor::Polar;
 use gyration_validation::{Case, Experiment, Run};
@@ -66,7 +66,9 @@ fn soft_polyhedron_takes_the_form_of_the_ball_in_shear() {
         case.check(name, expected, found, TOLERANCE);
     }
     let angle = |experiment: &Experiment, run: &Run| {
-        let seen = observe_immersion(&experiment.model, &mut Workspace::default(), &run.end, 0);
+        let mut workspace = Workspace::default();
+        let read = workspace.read(&experiment.model, &run.end);
+        let seen = read.and_then(|(instant, scratch)| observe_immersion(&instant.at(&experiment.model, 0), scratch));
         seen.ok().flatten().map_or(f64::NAN, |seen| seen.inclination)
     };
     case.check("inclination [rad]", angle(&exact, &reference), angle(&faceted, &measured), TOLERANCE);

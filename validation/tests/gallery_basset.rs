@@ -2,7 +2,7 @@
 //!
 //! Remembered: the closed form of row 33. Forgotten: v = v∞ (1 − e^(−t/T)), T = 2ρ_p R²/(9η).
 
-use gyration::fluid::memory::settling::settling;
+use gyration::fluid::unsteady::settling::settling;
 use gyration_validation::{Experiment, largest};
 
 const RADIUS: f64 = 2e-3;

@@ -4,8 +4,8 @@
 //!
 //! with height h, base A, perimeter p; the vertical frequency is the derivative of the left side over the mass.
 
-use gyration::jacobian::jacobian;
-use gyration::rates::Workspace;
+use gyration::dynamics::Workspace;
+use gyration::dynamics::jacobian;
 use gyration_validation::{Answer, Experiment};
 use nalgebra::DMatrix;
 

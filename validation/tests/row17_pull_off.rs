@@ -6,8 +6,8 @@
 //! The far side of a sphere adds (d₀/2R)^(ν_a − 1) of that. A load below the pull-off is borne, one above is not.
 
 use gyration::contact::{Adhesion, ContactLaw, Damping};
-use gyration::jacobian::jacobian;
-use gyration::rates::Workspace;
+use gyration::dynamics::Workspace;
+use gyration::dynamics::jacobian;
 use gyration_sim::Tolerance;
 use gyration_validation::{Answer, Case as Known, Experiment, FacetBody};
 use nalgebra::DMatrix;

@@ -7,8 +7,8 @@
 
 use gyration::body::{BodyKind, RigidInertia};
 use gyration::contact::{ContactLaw, Repulsion};
-use gyration::jacobian::jacobian;
-use gyration::rates::Workspace;
+use gyration::dynamics::Workspace;
+use gyration::dynamics::jacobian;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::Tolerance;
 use gyration_validation::{Case as Known, Experiment, FacetBody};

@@ -10,8 +10,8 @@
 //! potential of the field is positive, and nothing on a table that stands still gives energy.
 
 use gyration::balance;
+use gyration::dynamics::Workspace;
 use gyration::kinematics::Quaternion;
-use gyration::rates::Workspace;
 use gyration::state::{RigidStart, State};
 use gyration::tensor::Vec3;
 use gyration_sim::{MemorySink, Monitor, Outcome, Progress, Reason, Simulation};

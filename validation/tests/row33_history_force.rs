@@ -4,7 +4,7 @@
 //!
 //! The scene knows added mass and the modes of the history alone; the reference is the closed form.
 
-use gyration::fluid::memory::{settling::settling, spinning::spinning};
+use gyration::fluid::unsteady::{settling::settling, spinning::spinning};
 use gyration_validation::{Case, Experiment, Run, largest};
 
 const RADIUS: f64 = 2e-3;

@@ -6,17 +6,16 @@
 //! tenth of either.
 
 use crate::resistance::known;
+use gyration::Inadmissible;
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
-use gyration::body::{Body, BodyKind, Contractile};
-use gyration::contractile::Contraction;
+use gyration::body::{Body, BodyKind, Contractile, Slots, matrix};
+use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::ledger::Work;
 use gyration::model::Model;
-use gyration::rates::{Workspace, rates};
-use gyration::state::{BodyMotion, State};
+use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
-use gyration::{Inadmissible, jacobian};
 use gyration_ode::System;
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -130,12 +129,11 @@ fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
 /// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, and one size a second
 /// for a body that nothing moves.
 fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
-    let body = &model.bodies[index];
-    let slopes = &slopes[model.blocks()[index].clone()];
+    let (body, slots) = (&model.bodies[index], model.slots(index));
     let (motion, falling) = match body.has_inertia() {
         true => (start.motion(model, index), (model.gravity.norm() * body.size).sqrt()),
         // Gravity moves it as fast as the fluid allows.
-        false => (BodyMotion::of_rates(body, &start.bodies[model.blocks()[index].clone()], slopes), 0.0),
+        false => (BodyMotion::of_rates(body, slots, &start.bodies, slopes), 0.0),
     };
     let scale = fastest_speed(body, &motion).max(falling);
     if scale > 0.0 {
@@ -145,10 +143,8 @@ fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f6
         return body.size;
     }
     // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
-    let (_, at_rates) = parts(body);
-    let (linear, angular) = slopes[at_rates..].split_at(if body.pin.is_some() { 0 } else { 3 });
-    let norm = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
-    let scale = ((norm(linear) + norm(angular) * body.size) * body.size).sqrt();
+    let norm = |slot: Range<usize>| slopes[slot].iter().map(|number| number * number).sum::<f64>().sqrt();
+    let scale = ((norm(slots.velocity()) + norm(slots.rate()) * body.size) * body.size).sqrt();
     if scale > 0.0 { scale } else { body.size }
 }
 
@@ -172,14 +168,15 @@ impl System for ModelSystem<'_> {
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], blocks: &mut [DMatrix<f64>]) -> Result<(), Inadmissible> {
-        jacobian::jacobian(self.model, &mut self.prepared.workspace, t, y, blocks)
+        jacobian(self.model, &mut self.prepared.workspace, t, y, blocks)
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
         let (rtol, atol) = (SHARE * self.prepared.tolerance.rtol, SHARE * self.prepared.tolerance.atol);
         let mut energy = self.prepared.energy;
-        for (index, (body, block)) in self.model.bodies.iter().zip(self.model.blocks()).enumerate() {
-            let motion = BodyMotion::unpack(body, &y[block.clone()]);
+        for (index, body) in self.model.bodies.iter().enumerate() {
+            let slots = self.model.slots(index);
+            let motion = BodyMotion::read(body, slots, y);
             let gap = smallest_gap(self.model, t, index, &motion).max(0.0);
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.mass.mass * speed * speed;
@@ -187,26 +184,18 @@ impl System for ModelSystem<'_> {
             // The rounding of the places from which the gap is computed is all that can be had.
             let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);
             let velocity = atol * self.prepared.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
-            let (at_turn, at_rates) = parts(body);
-            let (places, rates) = y_scale[block.clone()].split_at_mut(at_rates);
-            let (center, turn) = places.split_at_mut(at_turn);
-            center.fill(length + rounding);
-            turn.fill((length + rounding) / body.size);
-            if body.has_inertia() {
-                let (center_rate, turn_rate) = rates.split_at_mut(at_turn);
-                center_rate.fill(velocity);
-                turn_rate.fill(velocity / body.size);
-            }
-            if let Some(memory) = body.memory() {
-                let (trailing, turning) = y_scale[block.clone()][13..].split_at_mut(3 * memory.translation.rates.len());
+            y_scale[slots.position()].fill(length + rounding);
+            y_scale[slots.attitude()].fill((length + rounding) / body.size);
+            y_scale[slots.velocity()].fill(velocity);
+            y_scale[slots.rate()].fill(velocity / body.size);
+            if let Some(history) = body.history() {
+                let (trailing, turning) = y_scale[slots.extra()].split_at_mut(3 * history.translation.rates.len());
                 trailing.fill(velocity);
                 turning.fill(velocity / body.size);
-            }
-            if body.contraction().is_some_and(Contraction::is_driven) {
+            } else {
                 // G is a number of order one, on which forces depend as they do on P.
-                let contraction = &mut y_scale[block.end - 9..block.end];
-                let size = y[block.end - 9..block.end].iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
-                contraction.fill(atol + (rtol + 4.0 * f64::EPSILON) * size);
+                let size = y[slots.extra()].iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+                y_scale[slots.extra()].fill(atol + (rtol + 4.0 * f64::EPSILON) * size);
             }
         }
         w_scale.fill((atol + rtol) * energy);
@@ -215,12 +204,12 @@ impl System for ModelSystem<'_> {
     fn project(&mut self, t: f64, y: &mut [f64], w: &mut [f64]) -> f64 {
         let work = self.model.works().iter().position(|work| *work == Work::Constraint);
         let mut correction: f64 = 0.0;
-        for (body, block) in self.model.bodies.iter().zip(self.model.blocks()) {
-            let block = &mut y[block.clone()];
+        for (index, body) in self.model.bodies.iter().enumerate() {
+            let slots = self.model.slots(index);
             let (size, energy) = match &body.kind {
-                BodyKind::Rigid(_) => (normalize(body, block), 0.0),
-                BodyKind::Affine(affine) => restore_volume(body, &affine.interior, block),
-                BodyKind::Contractile(contractile) => restore_contraction(body, contractile, t, block),
+                BodyKind::Rigid(_) => (normalize(&mut y[slots.attitude()]), 0.0),
+                BodyKind::Affine(affine) => restore_volume(&affine.interior, slots, y),
+                BodyKind::Contractile(contractile) => restore_contraction(contractile, slots, t, y),
             };
             correction = correction.max(size);
             if let Some(work) = work {
@@ -231,67 +220,48 @@ impl System for ModelSystem<'_> {
     }
 }
 
-/// Where in a body's block rotation or P begins, and where the velocities do.
-fn parts(body: &Body) -> (usize, usize) {
-    let turn = if body.pin.is_some() { 0 } else { 3 };
-    match body.kind {
-        BodyKind::Rigid(_) => (turn, turn + 4),
-        BodyKind::Affine(_) | BodyKind::Contractile(_) => (turn, turn + 9),
-    }
-}
-
-/// Puts the quaternion of a rigid body back to length one; returns by how much it was off.
-fn normalize(body: &Body, block: &mut [f64]) -> f64 {
-    let (at, _) = parts(body);
-    let quaternion = &mut block[at..at + 4];
+/// Puts a quaternion back to length one; returns by how much it was off.
+pub(crate) fn normalize(quaternion: &mut [f64]) -> f64 {
     let norm = quaternion.iter().map(|c| c * c).sum::<f64>().sqrt();
     quaternion.iter_mut().for_each(|c| *c /= norm);
     (norm - 1.0).abs()
 }
 
 /// Puts an incompressible body back to det P = 1, tr L = 0; returns |det P − 1| before, and the energy that it took [J].
-fn restore_volume(body: &Body, interior: &AffineBody, block: &mut [f64]) -> (f64, f64) {
+fn restore_volume(interior: &AffineBody, slots: &Slots, y: &mut [f64]) -> (f64, f64) {
     if !interior.is_incompressible() {
         return (0.0, 0.0);
     }
-    let (at, rates) = parts(body);
     let energy = |p: &Mat3, rate: &Mat3| interior.energy(p) + 0.5 * (rate * interior.euler_tensor).dot(rate);
-    let (p, rate) = (matrix(block, at), rate_of(body, block, rates + at));
+    let (p, rate) = (matrix(&y[slots.attitude()]), rate_in(slots, y));
     let corrected = interior.project(&p, &rate);
-    block[at..at + 9].copy_from_slice(corrected.gradient.as_slice());
-    if body.has_inertia() {
-        block[rates + at..rates + at + 9].copy_from_slice(corrected.rate.as_slice());
-    }
+    write(y, slots.attitude(), &corrected.gradient);
+    write(y, slots.rate(), &corrected.rate);
     (corrected.size, energy(&corrected.gradient, &corrected.rate) - energy(&p, &rate))
 }
 
 /// Puts det G, or P and Ṗ, of a contractile body back to where they have to be; returns the error before, and the energy
 /// that it took [J].
-fn restore_contraction(body: &Body, contractile: &Contractile, time: f64, block: &mut [f64]) -> (f64, f64) {
-    let (at, rates) = parts(body);
-    let (p, rate) = (matrix(block, at), rate_of(body, block, rates + at));
-    let prescribed = !contractile.contraction.is_driven();
-    let end = block.len();
-    let contraction = if prescribed { contractile.contraction.signal().at(time) } else { matrix(block, end - 9) };
+fn restore_contraction(contractile: &Contractile, slots: &Slots, time: f64, y: &mut [f64]) -> (f64, f64) {
+    let (p, rate) = (matrix(&y[slots.attitude()]), rate_in(slots, y));
+    let contraction = contraction_at(&contractile.contraction, time, &y[slots.extra()]);
     let restored = contractile.restore(time, (&p, &rate, &contraction));
-    block[at..at + 9].copy_from_slice(restored.gradient.as_slice());
-    let mut kept = rate;
-    if body.has_inertia() {
-        block[rates + at..rates + at + 9].copy_from_slice(restored.rate.as_slice());
-        kept = restored.rate;
-    }
-    if !prescribed {
-        block[end - 9..].copy_from_slice(restored.contraction.as_slice());
-    }
+    write(y, slots.attitude(), &restored.gradient);
+    write(y, slots.rate(), &restored.rate);
+    write(y, slots.extra(), &restored.contraction);
+    let kept = if slots.rate().is_empty() { rate } else { restored.rate };
     let before = contractile.energy((&p, &rate, &contraction));
     (restored.size, contractile.energy((&restored.gradient, &kept, &restored.contraction)) - before)
 }
 
 /// Ṗ of a body that deforms; zero of one without inertia, whose state has none.
-fn rate_of(body: &Body, block: &[f64], at: usize) -> Mat3 {
-    if body.has_inertia() { matrix(block, at) } else { Mat3::zeros() }
+fn rate_in(slots: &Slots, y: &[f64]) -> Mat3 {
+    if slots.rate().is_empty() { Mat3::zeros() } else { matrix(&y[slots.rate()]) }
 }
 
-fn matrix(block: &[f64], at: usize) -> Mat3 {
-    Mat3::from_column_slice(&block[at..at + 9])
+/// Writes a matrix into its slot, if the state has it.
+fn write(y: &mut [f64], slot: Range<usize>, value: &Mat3) {
+    if !slot.is_empty() {
+        y[slot].copy_from_slice(value.as_slice());
+    }
 }

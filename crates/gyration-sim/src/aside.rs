@@ -22,6 +22,7 @@ pub(crate) struct Aside {
     tally: Tally,
     views: Vec<View>,
     sampled: State,
+    forces: Vec<f64>,
     found: Vec<Event>,
     since: Vec<[f64; 3]>,
     fields: Fields,
@@ -32,18 +33,20 @@ pub(crate) struct Aside {
 impl Simulation<'_> {
     /// Lets go of the model.
     pub(crate) fn set_aside(self) -> Aside {
-        let Self { system, integrator, plan, tally, views, sampled, found, since, fields, rows, recorded } = self;
+        let Self { system, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded } =
+            self;
         let prepared = system.release();
-        Aside { prepared, integrator, plan, tally, views, sampled, found, since, fields, rows, recorded }
+        Aside { prepared, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded }
     }
 }
 
 impl Aside {
     /// Goes on with a model of the same bodies.
     pub fn on(self, model: &Model) -> Simulation<'_> {
-        let Self { prepared, integrator, plan, tally, views, sampled, found, since, fields, rows, recorded } = self;
+        let Self { prepared, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded } =
+            self;
         let system = prepared.on(model);
-        Simulation { system, integrator, plan, tally, views, sampled, found, since, fields, rows, recorded }
+        Simulation { system, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded }
     }
 
     /// The steps so far.

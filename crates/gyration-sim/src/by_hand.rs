@@ -15,12 +15,12 @@ use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::record::{MemorySink, Unwatched};
 use crate::rows::Ledger;
 use crate::run::Simulation;
-use gyration::balance::{contact_loads, smallest_gap};
+use gyration::balance::smallest_gap;
 use gyration::body::BodyKind;
 use gyration::contractile::Source;
+use gyration::dynamics::{Workspace, acting};
 use gyration::load::{Applied, Loads};
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::Mat3;
@@ -124,8 +124,11 @@ impl HandStepper {
     /// # Errors
     /// [`Stop`] if the state is outside the model, which an accepted one is not.
     pub fn contact_loads(&self, body: usize) -> Result<Loads, Stop> {
-        let loads = contact_loads(&self.model, &mut Workspace::default(), self.time(), body, self.motion(body));
-        loads.map_err(|left| Stop::by_inadmissible(&self.model, self.time(), &left))
+        let (state, mut workspace) = (self.state(), Workspace::default());
+        let read = workspace.read(&self.model, &state);
+        let loads = read.and_then(|(instant, scratch)| acting(&instant.at(&self.model, body), scratch));
+        let loads = loads.map_err(|left| Stop::by_inadmissible(&self.model, self.time(), &left))?;
+        Ok(loads.contact)
     }
 
     /// Energies, works and residual.

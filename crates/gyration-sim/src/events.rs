@@ -12,9 +12,9 @@
 //! of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several
 //! steps unless its force does not matter. A body without inertia is carried, not thrown: it has no events.
 
+use gyration::dynamics::nearest;
 use gyration::model::Model;
 use gyration::state::BodyMotion;
-use gyration::surface::GapField;
 use serde::{Deserialize, Serialize};
 
 /// The kinds of event, by code.
@@ -72,21 +72,8 @@ pub fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 
 
 /// The rate of the smallest gap; NaN without surface or supports.
 pub fn approach(model: &Model, time: f64, body: usize, motion: &BodyMotion, speed: f64) -> f64 {
-    let this = &model.bodies[body];
-    let Some(surface) = this.surface.as_ref().filter(|_| this.has_inertia()) else { return f64::NAN };
-    let mut nearest = (f64::INFINITY, f64::NAN);
-    for support in &model.supports {
-        let field = GapField {
-            height: support.gap(&motion.placement.position, time),
-            direction: motion.placement.gradient.tr_mul(&support.normal),
-        };
-        let (gap, point) = surface.smallest_gap(&field);
-        if gap < nearest.0 {
-            let velocity = motion.velocity.at(&point) - support.motion.velocity(time);
-            nearest = (gap, velocity.dot(&support.normal));
-        }
-    }
-    nearest.1 / (speed * REST)
+    let nearest = nearest(model, time, body, motion).filter(|_| model.bodies[body].has_inertia());
+    nearest.map_or(f64::NAN, |nearest| nearest.speed / (speed * REST))
 }
 
 /// The size of the contact force [N]; NaN without contacts.

@@ -12,9 +12,9 @@
 //! meet the body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
 
 use crate::views::View;
+use gyration::contact::RelativeMotion;
 use gyration::fluid::Fluid;
 use gyration::model::Model;
-use gyration::rates::meet;
 use gyration::signal::Signal;
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::{GapField, Surface};
@@ -94,8 +94,8 @@ fn reach(support: &Support) -> f64 {
 impl<'a> Approach<'a> {
     fn of(model: &Model, index: usize, time: f64, view: &View, surface: &'a Surface, radius: f64) -> Self {
         let (support, motion) = (&model.supports[index], &view.motion);
-        let (mut field, relative) = meet(model, index, time, motion);
-        let mut velocity = relative.velocity;
+        let mut field = support.gap_field(&motion.placement, time);
+        let mut velocity = RelativeMotion::to(support, &motion.velocity, time).velocity;
         if let SupportMotion::Oscillation { .. } = support.motion {
             field.height = (motion.placement.position - support.origin).dot(&support.normal) - reach(support);
             velocity = motion.velocity.velocity;

@@ -28,6 +28,8 @@ pub struct Simulation<'a> {
     pub(crate) views: Vec<View>,
     /// A state within the last step; scratch between samples.
     pub(crate) sampled: State,
+    /// |f| of the contacts of each body after the last step [N].
+    pub(crate) forces: Vec<f64>,
     /// Scratch: the events of a step.
     pub(crate) found: Vec<Event>,
     /// Since when each signal of each body is known within the step [s].
@@ -55,6 +57,7 @@ impl<'a> Simulation<'a> {
             tally: Tally::new(model.bodies.len()),
             views: Vec::new(),
             sampled: start.clone(),
+            forces: Vec::new(),
             found: Vec::new(),
             since: Vec::new(),
             fields: Fields::new(model, &plan.extras),
@@ -115,6 +118,7 @@ impl<'a> Simulation<'a> {
             return Err(RunError::Start(stop));
         }
         self.tally.next_sample = 1;
+        self.find_forces();
         for body in 0..self.views.len() {
             self.tally.signals[body] = self.signals(body);
         }

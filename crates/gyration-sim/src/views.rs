@@ -8,7 +8,8 @@
 //! The force of the contacts follows from the balance, f = m (p̈₀ − g), where nothing else pulls at the body. A body without
 //! inertia has its velocities among the rates, and no accelerations.
 
-use gyration::body::{Body, BodyKind};
+use gyration::acting::Load;
+use gyration::body::{BodyKind, matrix, vector};
 use gyration::model::Model;
 use gyration::state::{BodyMotion, Turn};
 use gyration::tensor::{Mat3, Vec3};
@@ -25,40 +26,41 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// Reads a body's blocks of the state and of its rates.
-    pub fn of(body: &Body, block: &[f64], rates: &[f64]) -> Self {
+    /// Reads a body's slots of the state and of its rates.
+    fn of(model: &Model, index: usize, state: &[f64], rates: &[f64]) -> Self {
+        let (body, slots) = (&model.bodies[index], model.slots(index));
+        let deforms = body.affine().is_some();
         if !body.has_inertia() {
-            let stretching = body.affine().map(|_| Mat3::zeros());
-            return Self { motion: BodyMotion::of_rates(body, block, rates), acceleration: Vec3::zeros(), stretching };
+            let stretching = deforms.then(Mat3::zeros);
+            let motion = BodyMotion::of_rates(body, slots, state, rates);
+            return Self { motion, acceleration: Vec3::zeros(), stretching };
         }
-        let motion = BodyMotion::unpack(body, block);
-        let vector = |at: usize| Vec3::new(rates[at], rates[at + 1], rates[at + 2]);
-        let matrix = |at: usize| Mat3::from_column_slice(&rates[at..at + 9]);
-        let (acceleration, stretching) = match (&body.kind, &body.pin) {
-            (BodyKind::Rigid(_), None) => (vector(7), None),
-            (BodyKind::Rigid(_), Some(pin)) => {
-                let (spin, arm) = (Turn::unpack(body, block).spin, &pin.point);
-                (-(motion.placement.gradient * (vector(4).cross(arm) + spin.cross(&spin.cross(arm)))), None)
+        let motion = BodyMotion::read(body, slots, state);
+        let stretching = deforms.then(|| matrix(&rates[slots.rate()]));
+        let acceleration = match (&body.pin, &body.kind, &stretching) {
+            (None, ..) => vector(&rates[slots.velocity()]),
+            (Some(pin), BodyKind::Rigid(_), _) => {
+                let (spin, arm) = (Turn::read(slots, state).spin, &pin.point);
+                -(motion.placement.gradient * (vector(&rates[slots.rate()]).cross(arm) + spin.cross(&spin.cross(arm))))
             }
-            (BodyKind::Affine(_) | BodyKind::Contractile(_), None) => (vector(12), Some(matrix(15))),
-            (BodyKind::Affine(_) | BodyKind::Contractile(_), Some(pin)) => (-(matrix(9) * pin.point), Some(matrix(9))),
+            (Some(pin), ..) => stretching.map_or_else(Vec3::zeros, |stretching| -(stretching * pin.point)),
         };
         Self { motion, acceleration, stretching }
     }
 
-    /// |f| of the contacts [N]; none where pins, springs, friction or a controller take a part of the load.
-    pub fn contact_force(&self, model: &Model, body: &Body) -> Option<f64> {
-        let resisted = body.affine().is_some_and(|affine| !affine.resistances.is_empty()) || model.is_controlled();
-        let alone = body.pin.is_none() && body.springs.is_empty() && !resisted && body.inclusion.is_none();
+    /// |f| of the contacts [N]; none where a pin or another load takes a part of the weight.
+    pub fn contact_force(&self, model: &Model, index: usize) -> Option<f64> {
+        let body = &model.bodies[index];
+        let mut loads = Load::on(body, model.fluid.as_ref(), model.applied(index));
+        let alone = body.pin.is_none() && loads.all(|load| load.is_contact_or_couple());
         alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }
 
 /// Renews the views of all bodies.
-pub(crate) fn renew(views: &mut Vec<View>, model: &Model, bodies: &[f64], rates: &[f64]) {
+pub(crate) fn renew(views: &mut Vec<View>, model: &Model, state: &[f64], rates: &[f64]) {
     views.clear();
-    let blocks = model.bodies.iter().zip(model.blocks());
-    views.extend(blocks.map(|(body, block)| View::of(body, &bodies[block.clone()], &rates[block.clone()])));
+    views.extend((0..model.bodies.len()).map(|index| View::of(model, index, state, rates)));
 }
 
 #[cfg(test)]
@@ -66,7 +68,7 @@ mod tests {
     use super::*;
     use crate::{Job, MemorySink, Provenance, Simulation, Unwatched};
     use gyration::balance::observe;
-    use gyration::rates::{Workspace, rates};
+    use gyration::dynamics::{Workspace, rates};
     use gyration_scene::Scene;
 
     fn views(scene: &Scene, state: &gyration::state::State) -> Vec<View> {
@@ -83,7 +85,7 @@ mod tests {
     fn the_contact_force_of_the_balance_is_that_of_the_integrals() {
         let scene = Scene::open("slide", &[]).unwrap();
         let (model, state) = (&scene.built().model, &scene.built().state);
-        let found = views(&scene, state)[0].contact_force(model, &model.bodies[0]).unwrap();
+        let found = views(&scene, state)[0].contact_force(model, 0).unwrap();
         let integrated = observe(model, &mut Workspace::default(), state, 0).unwrap().contact_force.norm();
         // Differences of accelerations of the size of g: a few roundings of the weight.
         let weight = model.bodies[0].mass.mass * 9.81;

@@ -7,7 +7,9 @@
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
 use crate::ports::{RunError, Sink};
 use crate::run::Simulation;
+use crate::views::View;
 use gyration::balance::observe;
+use gyration::dynamics::acting;
 use gyration::state::BodyMotion;
 use gyration_ode::{Direction, StepReport, find_crossing};
 
@@ -15,20 +17,30 @@ use gyration_ode::{Direction, StepReport, find_crossing};
 const PARTS: usize = 4;
 
 impl Simulation<'_> {
-    /// The signals of a body after the last step.
+    /// The signals of a body after the last step, once the forces there are known.
     pub(crate) fn signals(&mut self, body: usize) -> Signals {
         let (model, time) = (self.system.model(), self.integrator.time());
-        let (view, speed) = (self.views[body], self.system.speed_scale(body));
-        let force = match view.contact_force(model, &model.bodies[body]) {
-            Some(force) => force,
-            None => {
-                self.sampled.time = time;
-                self.sampled.bodies.copy_from_slice(self.integrator.state());
-                self.contact_force(body)
-            }
-        };
-        let [apex, approach] = self.motion_signals(body, time, &view.motion);
-        [apex, approach, events::lift_off(model, body, force, speed)]
+        let (motion, speed) = (self.views[body].motion, self.system.speed_scale(body));
+        let [apex, approach] = self.motion_signals(body, time, &motion);
+        [apex, approach, events::lift_off(model, body, self.forces[body], speed)]
+    }
+
+    /// |f| of the contacts of every body after the last step [N]: from its balance where nothing else pulls at it, else by
+    /// integration; NaN without contacts.
+    pub(crate) fn find_forces(&mut self) {
+        let model = self.system.model();
+        self.forces.clear();
+        let told = |(body, view): (usize, &View)| view.contact_force(model, body).unwrap_or(f64::NAN);
+        self.forces.extend(self.views.iter().enumerate().map(told));
+        let unknown = |body: usize, force: f64| force.is_nan() && !model.bodies[body].contacts.is_empty();
+        if !(0..self.forces.len()).any(|body| unknown(body, self.forces[body])) {
+            return;
+        }
+        self.sample_end();
+        let Ok((instant, scratch)) = self.system.workspace().read(model, &self.sampled) else { return };
+        for (body, force) in self.forces.iter_mut().enumerate().filter(|(body, force)| unknown(*body, **force)) {
+            *force = acting(&instant.at(model, body), scratch).map_or(f64::NAN, |acting| acting.contact.force.norm());
+        }
     }
 
     /// Finds and hands on the events of the last step, in order of time.
@@ -41,6 +53,8 @@ impl Simulation<'_> {
             let time = part_of(report, part);
             if part < PARTS {
                 self.integrator.interpolate(time, &mut self.sampled.bodies, &mut self.sampled.works);
+            } else {
+                self.find_forces();
             }
             for body in 0..self.views.len() {
                 let signals = if part == PARTS { self.signals(body) } else { self.signals_within(body, time) };
@@ -88,10 +102,10 @@ impl Simulation<'_> {
     fn locate(&mut self, body: usize, kind: usize, between: (f64, f64)) -> f64 {
         let model = self.system.model();
         let speed = self.system.speed_scale(body);
-        let (this, block) = (&model.bodies[body], model.blocks()[body].clone());
+        let (this, slots) = (&model.bodies[body], model.slots(body));
         let (workspace, state) = (self.system.workspace(), &mut self.sampled);
         let signal = |time: f64, bodies: &[f64], _: &[f64]| {
-            let motion = || BodyMotion::unpack(this, &bodies[block.clone()]);
+            let motion = || BodyMotion::read(this, slots, bodies);
             match kind {
                 APEX => events::apex(model, body, &motion(), speed),
                 LIFT_OFF => {
@@ -111,12 +125,6 @@ impl Simulation<'_> {
     fn motion_signals(&self, body: usize, time: f64, motion: &BodyMotion) -> [f64; 2] {
         let (model, speed) = (self.system.model(), self.system.speed_scale(body));
         [events::apex(model, body, motion, speed), events::approach(model, time, body, motion, speed)]
-    }
-
-    /// |f| of the contacts in the sampled state, by integration [N].
-    fn contact_force(&mut self, body: usize) -> f64 {
-        let model = self.system.model();
-        observe(model, self.system.workspace(), &self.sampled, body).map_or(f64::NAN, |seen| seen.contact_force.norm())
     }
 }
 

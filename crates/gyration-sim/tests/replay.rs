@@ -1,7 +1,7 @@
 //! A recording brought back to life agrees with the run that left it.
 
 use gyration::balance::observe;
-use gyration::rates::Workspace;
+use gyration::dynamics::Workspace;
 use gyration::shape::Triangulation;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;

@@ -6,15 +6,14 @@
 //! U(d) = α d₀ (d/d₀)^(1−ν)/(ν−1); at ν = 1, −α d₀ ln(d/d₀). Works are done on the bodies since t = 0; the residual
 //! of the ledger is (Σ energies) − (Σ energies at 0) − Σ works. Source: `physics.md` §2, §3, §6.
 
-use crate::body::{Body, BodyKind};
-use crate::contact::{ContactLoads, contact_potential};
-use crate::contractile::{self, Decomposition};
-use crate::inadmissible::{Inadmissible, Quantity};
+use crate::body::Body;
+use crate::contractile;
+use crate::dynamics::{Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, nearest, stored_energy};
+use crate::inadmissible::Inadmissible;
+use crate::instant::{BodyAt, Instant, KindAt};
 use crate::kinematics::Velocity;
 use crate::ledger::Energy;
-use crate::load::Loads;
 use crate::model::Model;
-use crate::rates::{AffineMotion, ContractileMotion, Workspace, for_each_contact, nearest, settled_motion};
 use crate::shape::{MassPoint, Points, Shape};
 use crate::state::{BodyMotion, State};
 use crate::tensor::{Mat3, Vec3};
@@ -61,62 +60,42 @@ pub fn observe(
     state: &State,
     index: usize,
 ) -> Result<BodyObservation, Inadmissible> {
-    let body = &model.bodies[index];
-    let motion = settled_motion(model, workspace, state, index)?;
-    let (contact, pressure, effort) = match &body.kind {
-        BodyKind::Rigid(_) => (contact_loads(model, workspace, state.time, index, &motion)?, None, None),
-        BodyKind::Affine(affine) => {
-            let moving = AffineMotion::new(index, affine, &motion)?;
-            let loads = moving.loads(model, workspace, state.time)?;
-            let balance = moving.balance(model, &loads.total);
-            (loads.contact, balance.pressure, None)
-        }
-        BodyKind::Contractile(contractile) => {
-            let block = &state.bodies[model.blocks()[index].clone()];
-            let moving = ContractileMotion::new(index, contractile, (&motion, state.time, block))?;
-            let loads = moving.pulled.loads(model, workspace, state.time)?;
-            let balance = moving.balance(model, &loads.total);
+    let (instant, scratch) = workspace.read(model, state)?;
+    let at = instant.at(model, index);
+    Ok(observe_at(&at, &acting(&at, scratch)?))
+}
+
+/// What is recorded of one body at an instant, given what acts on it.
+pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
+    let (pressure, effort) = match at.kind() {
+        KindAt::Rigid(..) => (None, None),
+        KindAt::Affine(affine, gyration) => (affine_balance(at, affine, gyration, &acting.total).pressure, None),
+        KindAt::Contractile(contractile, gyration, decomposition) => {
+            let moving = ContractileMotion { at, contractile, gyration, decomposition };
+            let balance = moving.balance(&acting.total);
             let effort = Effort {
-                contraction: moving.decomposition.contraction,
+                contraction: decomposition.contraction,
                 velocity: balance.contraction_velocity,
                 drive: balance.drive,
             };
-            (loads.contact, balance.pressure, Some(effort))
+            (balance.pressure, Some(effort))
         }
     };
-    let (placement, velocity) = (&motion.placement, &motion.velocity);
+    let BodyAt { model, time, index, body, motion, .. } = *at;
+    let BodyMotion { placement, velocity } = motion;
     let affine_momentum = placement.gradient * body.mass.euler_tensor * velocity.gradient_rate.transpose();
     let linear_momentum = body.mass.mass * velocity.velocity;
-    Ok(BodyObservation {
-        motion,
-        gap: smallest_gap(model, state.time, index, &motion),
-        contact_force: contact.force,
+    BodyObservation {
+        motion: *motion,
+        gap: smallest_gap(model, time, index, motion),
+        contact_force: acting.contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.
         angular_momentum: placement.position.cross(&linear_momentum) - crate::tensor::axial(&affine_momentum),
         affine_momentum,
         pressure,
         effort,
-    })
-}
-
-/// f and M of the contacts of a body.
-///
-/// # Errors
-/// [`Inadmissible`] where the state is outside the model.
-pub fn contact_loads(
-    model: &Model,
-    workspace: &mut Workspace,
-    time: f64,
-    index: usize,
-    motion: &BodyMotion,
-) -> Result<Loads, Inadmissible> {
-    let mut loads = Loads::default();
-    for_each_contact(model, time, index, motion, |contact, meeting| {
-        loads += ContactLoads::integrate(contact, meeting, &mut workspace.contact)?.total();
-        Ok(())
-    })?;
-    Ok(loads)
+    }
 }
 
 /// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
@@ -145,7 +124,7 @@ pub fn fastest_speed(body: &Body, motion: &BodyMotion) -> f64 {
     }
 }
 
-/// The energies [J] of all bodies together, in the order of `Model::energies`.
+/// The energies [J] of all bodies together in a state, in the order of `Model::energies`.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
@@ -155,17 +134,29 @@ pub fn energies(
     state: &State,
     values: &mut [f64],
 ) -> Result<(), Inadmissible> {
+    let (instant, scratch) = workspace.read(model, state)?;
+    energies_at(model, instant, scratch, values)
+}
+
+/// The energies [J] of all bodies together at an instant, in the order of `Model::energies`.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn energies_at(
+    model: &Model,
+    instant: &Instant,
+    scratch: &mut Scratch,
+    values: &mut [f64],
+) -> Result<(), Inadmissible> {
     for (energy, value) in model.energies().iter().zip(values) {
         *value = 0.0;
-        for (index, body) in model.bodies.iter().enumerate() {
-            let motion = state.motion(model, index);
+        for index in 0..model.bodies.len() {
+            let at = instant.at(model, index);
             *value += match energy {
-                // A body without inertia is still here: its kinetic energy takes no part in its balance.
-                Energy::Kinetic => kinetic_energy(body, &motion),
-                Energy::Gravity => -body.mass.mass * model.gravity.dot(&motion.placement.position),
-                Energy::Elastic => elastic_energy(model, state, index, &motion)?,
-                Energy::Contact => contact_energy(model, workspace, state.time, index, &motion)?,
-                Energy::Load => body.springs.iter().map(|spring| spring.energy(&motion.placement)).sum(),
+                Energy::Kinetic => kinetic_energy(at.body, at.motion),
+                Energy::Gravity => -at.body.mass.mass * model.gravity.dot(&at.motion.placement.position),
+                Energy::Elastic => elastic_energy(&at),
+                Energy::Contact | Energy::Load => stored_energy(&at, scratch, *energy)?,
             };
         }
     }
@@ -173,42 +164,22 @@ pub fn energies(
 }
 
 /// V φ(P), or V det G φ(P G⁻¹) [J].
-fn elastic_energy(model: &Model, state: &State, index: usize, motion: &BodyMotion) -> Result<f64, Inadmissible> {
-    let gradient = &motion.placement.gradient;
-    Ok(match &model.bodies[index].kind {
-        BodyKind::Rigid(_) => 0.0,
-        BodyKind::Affine(affine) => affine.interior.energy(gradient),
-        BodyKind::Contractile(contractile) => {
-            let contraction = state.contraction(model, index).unwrap_or_else(Mat3::identity);
-            let decomposition = Decomposition::of(gradient, &contraction).map_err(|value| Inadmissible {
-                body: index,
-                quantity: Quantity::Contraction,
-                value,
-            })?;
-            contractile::energy(&contractile.affine.interior, &decomposition)
+fn elastic_energy(at: &BodyAt) -> f64 {
+    match at.kind() {
+        KindAt::Rigid(..) => 0.0,
+        KindAt::Affine(affine, gyration) => affine.interior.energy(&gyration.gradient),
+        KindAt::Contractile(contractile, _, decomposition) => {
+            contractile::energy(&contractile.affine.interior, decomposition)
         }
-    })
+    }
 }
 
-/// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ) [J].
+/// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ) [J]; none of a body without inertia, since it takes no part in its balance.
 pub fn kinetic_energy(body: &Body, motion: &BodyMotion) -> f64 {
+    if !body.has_inertia() {
+        return 0.0;
+    }
     let Velocity { velocity, gradient_rate } = &motion.velocity;
     let spread = (gradient_rate * body.mass.euler_tensor).dot(gradient_rate);
     0.5 * (body.mass.mass * velocity.norm_squared() + spread)
-}
-
-/// The potential of the central laws over a body's surface [J].
-fn contact_energy(
-    model: &Model,
-    workspace: &mut Workspace,
-    time: f64,
-    index: usize,
-    motion: &BodyMotion,
-) -> Result<f64, Inadmissible> {
-    let mut total = 0.0;
-    for_each_contact(model, time, index, motion, |contact, meeting| {
-        total += contact_potential(contact, meeting, &mut workspace.contact)?;
-        Ok(())
-    })?;
-    Ok(total)
 }

@@ -7,14 +7,11 @@
 //! that its balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Source: Sławianowski (1975), 2.7–3.9;
 //! `physics.md` §2.
 
-use crate::balance::contact_loads;
-use crate::body::{Body, BodyKind};
+use crate::body::{Body, Slots};
+use crate::dynamics::{Acting, ContractileMotion, Scratch, affine_balance, body_rates, moment};
 use crate::inadmissible::Inadmissible;
-use crate::load::Loads;
-use crate::model::Model;
-use crate::rates::{AffineMotion, ContractileMotion, RigidImmersion, Workspace, rates, settled_motion, spring_loads};
-use crate::state::{BodyMotion, State, Turn};
-use crate::tensor::{Mat3, Polar, Vec3, axial, cross_matrix};
+use crate::instant::{BodyAt, KindAt};
+use crate::tensor::{Mat3, Polar, Vec3, cross_matrix};
 
 /// What the theory of homogeneous strains tells of one body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,22 +38,19 @@ pub struct HomogeneousObservation {
     pub cauchy_stress: Mat3,
 }
 
-/// Observes one body; K_o is about `origin` [m].
+/// Observes one body, given what acts on it; K_o is about `origin` [m].
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
 pub fn observe_homogeneous(
-    model: &Model,
-    workspace: &mut Workspace,
-    state: &State,
-    index: usize,
+    at: &BodyAt,
+    acting: &Acting,
+    scratch: &mut Scratch,
     origin: &Vec3,
 ) -> Result<HomogeneousObservation, Inadmissible> {
-    let body = &model.bodies[index];
-    let motion = settled_motion(model, workspace, state, index)?;
+    let (body, motion) = (at.body, at.motion);
     let (p, rate) = (&motion.placement.gradient, &motion.velocity.gradient_rate);
-    let interior = interior(model, workspace, state, index, &motion)?;
-    let Interior { euler_tensor, moment, acceleration, stress } = interior;
+    let Interior { euler_tensor, moment, acceleration, stress } = Interior::of(at, acting, scratch)?;
     let polar = Polar::of(p);
     let inverse = p.try_inverse().unwrap_or(Mat3::from_element(f64::NAN));
     let velocity_gradient = rate * inverse;
@@ -94,96 +88,45 @@ struct Interior {
     stress: Mat3,
 }
 
-fn interior(
-    model: &Model,
-    workspace: &mut Workspace,
-    state: &State,
-    index: usize,
-    motion: &BodyMotion,
-) -> Result<Interior, Inadmissible> {
-    let body = &model.bodies[index];
-    match &body.kind {
-        BodyKind::Affine(affine) => {
-            let moving = AffineMotion::new(index, affine, motion)?;
-            let loads = moving.loads(model, workspace, state.time)?.total;
-            let balance = moving.balance(model, &loads);
-            Ok(Interior {
-                euler_tensor: affine.interior.euler_tensor,
-                moment: moving.moment(model, &loads),
-                acceleration: inertial(body, &balance.acceleration),
-                stress: balance.stress,
-            })
-        }
-        BodyKind::Contractile(contractile) => {
-            let block = &state.bodies[model.blocks()[index].clone()];
-            let moving = ContractileMotion::new(index, contractile, (motion, state.time, block))?;
-            let loads = moving.pulled.loads(model, workspace, state.time)?.total;
-            let balance = moving.balance(model, &loads);
-            Ok(Interior {
-                euler_tensor: contractile.affine.interior.euler_tensor,
-                moment: moving.pulled.moment(model, &loads),
-                acceleration: inertial(body, &balance.acceleration),
-                stress: balance.stress,
-            })
-        }
-        BodyKind::Rigid(_) => {
-            let mut loads = contact_loads(model, workspace, state.time, index, motion)?;
-            spring_loads(index, body, motion, |spring| loads += spring.total())?;
-            if let Some(applied) = model.applied(index) {
-                loads += applied.loads(&motion.placement.gradient.transpose());
+impl Interior {
+    fn of(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result<Self, Inadmissible> {
+        let loads = &acting.total;
+        let moment = moment(at, loads);
+        // P̈ takes nothing of a body without inertia.
+        let inertial = |acceleration| if at.body.has_inertia() { acceleration } else { Mat3::zeros() };
+        let (euler_tensor, acceleration, stress) = match at.kind() {
+            KindAt::Affine(affine, gyration) => {
+                let balance = affine_balance(at, affine, gyration, loads);
+                (affine.interior.euler_tensor, inertial(balance.acceleration), balance.stress)
             }
-            if let Some(fluid) = immersed_loads(model, state, index, motion) {
-                loads += fluid;
+            KindAt::Contractile(contractile, gyration, decomposition) => {
+                let balance = ContractileMotion { at, contractile, gyration, decomposition }.balance(loads);
+                (contractile.affine.interior.euler_tensor, inertial(balance.acceleration), balance.stress)
             }
-            let acceleration = rigid_acceleration(model, workspace, state, index, motion)?;
-            let (euler_tensor, moment) = about_pin(model, body, &loads);
-            let stress = (moment - acceleration * euler_tensor) / body.mass.volume;
-            Ok(Interior { euler_tensor, moment, acceleration, stress })
-        }
+            KindAt::Rigid(_, turn) => {
+                let acceleration = inertial(rigid_acceleration(at, &turn.spin, scratch)?);
+                let euler_tensor = euler_tensor(at.body);
+                (euler_tensor, acceleration, (moment - acceleration * euler_tensor) / at.body.mass.volume)
+            }
+        };
+        Ok(Self { euler_tensor, moment, acceleration, stress })
     }
 }
 
-/// P̈, which takes nothing of a body without inertia.
-fn inertial(body: &Body, acceleration: &Mat3) -> Mat3 {
-    if body.has_inertia() { *acceleration } else { Mat3::zeros() }
-}
-
-/// J and M about the pin, if there is one.
-fn about_pin(model: &Model, body: &Body, loads: &Loads) -> (Mat3, Mat3) {
-    let Some(pin) = &body.pin else { return (body.mass.euler_tensor, loads.moment) };
-    let (r, mass) = (&pin.point, body.mass.mass);
-    (
-        body.mass.euler_tensor + mass * r * r.transpose(),
-        loads.moment - (loads.force + mass * model.gravity) * r.transpose(),
-    )
-}
-
-/// f and M of the fluid on a rigid body; none if it is not immersed.
-fn immersed_loads(model: &Model, state: &State, index: usize, motion: &BodyMotion) -> Option<Loads> {
-    let rotation = &motion.placement.gradient;
-    // Ω from Ṗ = R [Ω]×.
-    let spin = 0.5 * axial(&rotation.tr_mul(&motion.velocity.gradient_rate));
-    let turn = Turn { spin, ..Turn::unpack(&model.bodies[index], &state.bodies[model.blocks()[index].clone()]) };
-    Some(RigidImmersion::of(model, state.time, index, (motion, &turn))?.loads(rotation))
+/// J about the pin, if there is one.
+fn euler_tensor(body: &Body) -> Mat3 {
+    let own = body.mass.euler_tensor;
+    body.pin.as_ref().map_or(own, |pin| own + body.mass.mass * pin.point * pin.point.transpose())
 }
 
 /// P̈ = R ([Ω̇]× + [Ω]×²).
-fn rigid_acceleration(
-    model: &Model,
-    workspace: &mut Workspace,
-    state: &State,
-    index: usize,
-    motion: &BodyMotion,
-) -> Result<Mat3, Inadmissible> {
-    if !model.bodies[index].has_inertia() {
-        return Ok(Mat3::zeros());
-    }
-    let mut slopes = vec![0.0; model.dimension()];
-    let mut powers = vec![0.0; model.works().len()];
-    rates(model, workspace, state.time, &state.bodies, &mut slopes, &mut powers)?;
-    let block = model.blocks()[index].clone();
-    let body = &model.bodies[index];
-    let spin = cross_matrix(&Turn::unpack(body, &state.bodies[block.clone()]).spin);
-    let turning = cross_matrix(&Turn::unpack(body, &slopes[block]).spin);
-    Ok(motion.placement.gradient * (turning + spin * spin))
+fn rigid_acceleration(at: &BodyAt, spin: &Vec3, scratch: &mut Scratch) -> Result<Mat3, Inadmissible> {
+    let slots = Slots::with_inertia(at.body, 0);
+    let mut rates = scratch.take_numbers(slots.block().len());
+    let done = body_rates(at, &slots, scratch, &mut rates);
+    let turning = cross_matrix(&Vec3::from_column_slice(&rates[slots.rate()]));
+    scratch.give_back(rates);
+    done?;
+    let spin = cross_matrix(spin);
+    Ok(at.motion.placement.gradient * (turning + spin * spin))
 }

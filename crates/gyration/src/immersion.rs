@@ -8,11 +8,12 @@
 //! inclined by atan(a·g/a·e), and a body of revolution with axis p and aspect ratio r moves on an orbit
 //! C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not apply is NaN. Source: Batchelor (1970); `physics.md` §7.
 
-use crate::fluid::{Fluid, Form, Immersed};
+use crate::body::Slots;
+use crate::dynamics::{RigidHistory, RigidImmersion, Scratch, body_rates, immersion};
+use crate::fluid::{Fluid, Immersed};
 use crate::inadmissible::Inadmissible;
-use crate::model::Model;
-use crate::rates::{AffineMotion, RigidImmersion, RigidMemory, Workspace, body_rates, settled_motion};
-use crate::state::{BodyMotion, State, Turn};
+use crate::instant::{BodyAt, KindAt};
+use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 
 /// What is told of an inclusion.
@@ -56,82 +57,56 @@ struct Tractions {
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
-pub fn observe_immersion(
-    model: &Model,
-    workspace: &mut Workspace,
-    state: &State,
-    index: usize,
-) -> Result<Option<ImmersionObservation>, Inadmissible> {
-    let (Some(fluid), Some(inclusion)) = (&model.fluid, &model.bodies[index].inclusion) else { return Ok(None) };
-    let motion = settled_motion(model, workspace, state, index)?;
-    let tractions = match inclusion.form {
-        Form::Fixed(_) => rigid(model, workspace, state, index, &motion)?,
-        Form::Ellipsoid(_) | Form::Surface(_) => deformable(model, state.time, index, &motion)?,
+pub fn observe_immersion(at: &BodyAt, scratch: &mut Scratch) -> Result<Option<ImmersionObservation>, Inadmissible> {
+    let Some(fluid) = &at.model.fluid else { return Ok(None) };
+    let tractions = match at.kind() {
+        KindAt::Rigid(_, turn) => rigid(at, turn, scratch)?,
+        KindAt::Affine(..) | KindAt::Contractile(..) => deformable(at, fluid)?,
     };
-    Ok(tractions.map(|tractions| told(fluid, state.time, &motion, &tractions)))
+    Ok(tractions.map(|tractions| told(fluid, at.time, at.motion, &tractions)))
 }
 
-fn rigid(
-    model: &Model,
-    workspace: &mut Workspace,
-    state: &State,
-    index: usize,
-    motion: &BodyMotion,
-) -> Result<Option<Tractions>, Inadmissible> {
-    let body = &model.bodies[index];
-    let Some(inclusion) = &body.inclusion else { return Ok(None) };
-    let rotation = &motion.placement.gradient;
-    // Ω from Ṗ = R [Ω]×.
-    let spin = 0.5 * axial(&rotation.tr_mul(&motion.velocity.gradient_rate));
-    let turn = Turn { spin, ..Turn::unpack(body, &state.bodies[model.blocks()[index].clone()]) };
-    let Some(immersed) = RigidImmersion::of(model, state.time, index, (motion, &turn)) else { return Ok(None) };
+fn rigid(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<Tractions>, Inadmissible> {
+    let (Some(inclusion), Some(immersed)) = (&at.body.inclusion, RigidImmersion::of(at)) else { return Ok(None) };
+    let rotation = &at.motion.placement.gradient;
     let steady = immersed.drag.force();
     let arm = rotation * inclusion.center;
-    let (force, torque) = remembered(model, workspace, state, index, (motion, &turn))?;
+    let (force, torque) = history_reaction(at, turn, scratch)?;
     Ok(Some(Tractions {
         drag: steady + force,
         // The axial part of [T]×/2 is T.
         couple: immersed.drag.couple() + immersed.ambient - steady * arm.transpose() + 0.5 * cross_matrix(&torque),
         volume: inclusion.volume,
-        dissipation: immersed.drag.dissipation(&spin),
-        form: body.shape.semi_axes().map(|axes| (*rotation, axes.into())),
+        dissipation: immersed.drag.dissipation(&turn.spin),
+        form: at.body.shape.semi_axes().map(|axes| (*rotation, axes.into())),
         is_ellipsoid: true,
     }))
 }
 
-/// Force and torque of what the fluid remembers, added mass included, in the axes of space.
-fn remembered(
-    model: &Model,
-    workspace: &mut Workspace,
-    state: &State,
-    index: usize,
-    (motion, turn): (&BodyMotion, &Turn),
-) -> Result<(Vec3, Vec3), Inadmissible> {
-    let block = &state.bodies[model.blocks()[index].clone()];
-    let Some(sphere) = RigidMemory::of(model, state.time, index, (motion, turn, block)) else {
-        return Ok((Vec3::zeros(), Vec3::zeros()));
-    };
-    let mut rates = vec![0.0; block.len()];
-    body_rates(model, workspace, state.time, (index, block), &mut rates)?;
-    let (linear, angular) = (Vec3::from_column_slice(&rates[7..10]), Vec3::from_column_slice(&rates[10..13]));
-    let turned = motion.placement.gradient * angular;
+/// Force and torque of the history, added mass included, in the axes of space.
+fn history_reaction(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<(Vec3, Vec3), Inadmissible> {
+    let Some(sphere) = RigidHistory::of(at, turn) else { return Ok((Vec3::zeros(), Vec3::zeros())) };
+    let slots = Slots::with_inertia(at.body, 0);
+    let mut rates = scratch.take_numbers(slots.block().len());
+    let done = body_rates(at, &slots, scratch, &mut rates);
+    let [linear, angular] = [slots.velocity(), slots.rate()].map(|slot| Vec3::from_column_slice(&rates[slot]));
+    scratch.give_back(rates);
+    done?;
+    let turned = at.motion.placement.gradient * angular;
     Ok((
-        sphere.loads.force - sphere.memory.added_mass * linear,
-        sphere.loads.torque - sphere.memory.added_inertia * turned,
+        sphere.loads.force - sphere.history.added_mass * linear,
+        sphere.loads.torque - sphere.history.added_inertia * turned,
     ))
 }
 
-fn deformable(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Result<Option<Tractions>, Inadmissible> {
-    let Some(affine) = model.bodies[index].affine() else { return Ok(None) };
-    let moving = AffineMotion::new(index, affine, motion)?;
-    let Some(immersed) = moving.immersion(model, time)? else { return Ok(None) };
+fn deformable(at: &BodyAt, fluid: &Fluid) -> Result<Option<Tractions>, Inadmissible> {
+    let Some(immersed) = immersion(at)? else { return Ok(None) };
     let (axes, squares) = immersed.principal();
-    let viscosity = model.fluid.as_ref().map_or(f64::NAN, |fluid| fluid.viscosity);
     Ok(Some(Tractions {
         drag: immersed.drag(),
         couple: immersed.couple(),
         volume: immersed.volume(),
-        dissipation: immersed.dissipation(viscosity),
+        dissipation: immersed.dissipation(fluid.viscosity),
         form: Some((axes, squares.map(f64::sqrt))),
         is_ellipsoid: matches!(immersed, Immersed::Ellipsoid(_)),
     }))

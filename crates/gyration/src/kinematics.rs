@@ -50,6 +50,11 @@ impl Quaternion {
     /// No rotation.
     pub const IDENTITY: Self = Self([1.0, 0.0, 0.0, 0.0]);
 
+    /// Of four numbers (w, x, y, z).
+    pub fn read(numbers: &[f64]) -> Self {
+        Self([numbers[0], numbers[1], numbers[2], numbers[3]])
+    }
+
     /// The rotation by `angle` [rad] about `axis` (any length but zero).
     pub fn from_axis_angle(axis: &Vec3, angle: f64) -> Self {
         let (sin, cos) = (0.5 * angle).sin_cos();

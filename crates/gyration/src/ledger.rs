@@ -19,6 +19,9 @@ pub enum Energy {
 }
 
 impl Energy {
+    /// All of them, in the order of the ledger.
+    pub const ALL: [Self; 5] = [Self::Kinetic, Self::Gravity, Self::Elastic, Self::Contact, Self::Load];
+
     /// The word of the column `energy.…`.
     pub fn name(self) -> &'static str {
         match self {
@@ -59,6 +62,23 @@ pub enum Work {
 }
 
 impl Work {
+    /// How many there are.
+    pub const COUNT: usize = 11;
+    /// All of them, in the order of the ledger.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Repulsion,
+        Self::Damping,
+        Self::Friction,
+        Self::Adhesion,
+        Self::Viscosity,
+        Self::Contraction,
+        Self::Drive,
+        Self::Load,
+        Self::Support,
+        Self::Fluid,
+        Self::Constraint,
+    ];
+
     /// The word of the column `work.…`.
     pub fn name(self) -> &'static str {
         match self {

@@ -3,28 +3,27 @@
 //!   p(X, t) = p₀(t) + P(t) (X − X₀).
 //!
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
-//! random numbers, no threads. Each module imports only what stands to its left:
-//! `tensor → signal, surface → shape, mass → kinematics → material, contact, load → affine → contractile, support, body, ledger → model, state → rates,
-//! jacobian, balance, homogeneous`. Read [`rates`] first.
+//! random numbers, no threads. `ARCHITECTURE.md` has the order of the modules. Read [`dynamics::rates`] first.
 
+pub mod acting;
 pub mod affine;
 pub mod balance;
 pub mod body;
 mod columns;
 pub mod contact;
 pub mod contractile;
+pub mod dynamics;
 pub mod fluid;
 pub mod homogeneous;
 pub mod immersion;
 mod inadmissible;
-pub mod jacobian;
+pub mod instant;
 pub mod kinematics;
 pub mod ledger;
 pub mod load;
 pub mod mass;
 pub mod material;
 pub mod model;
-pub mod rates;
 pub mod shape;
 pub mod signal;
 pub mod state;

@@ -2,12 +2,13 @@
 //!
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
-use crate::body::Body;
-use crate::contact::{AreaMeasure, LawKind};
+use crate::acting::Load;
+use crate::body::{Body, Slots};
+use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
 use crate::load::Applied;
-use crate::support::{Support, SupportMotion};
+use crate::support::Support;
 use crate::tensor::Vec3;
 use std::ops::Range;
 
@@ -22,6 +23,7 @@ pub struct Model {
     pub bodies: Vec<Body>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Fluid>,
+    slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
     energies: Vec<Energy>,
@@ -32,25 +34,25 @@ pub struct Model {
 impl Model {
     /// Freezes a model: lays out the state and decides which entries the ledger has.
     pub fn new(gravity: Vec3, supports: Vec<Support>, bodies: Vec<Body>) -> Self {
-        let blocks = layout(&bodies);
-        let works = works(&supports, &bodies, false);
-        let energies = energies(&bodies);
-        Self { gravity, supports, bodies, fluid: None, blocks, works, energies, applied: Vec::new() }
+        let slots = layout(&bodies);
+        let blocks = slots.iter().map(Slots::block).collect();
+        let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
+        let model = Self { gravity, supports, bodies, fluid: None, slots, blocks, works, energies, applied };
+        model.with_ledger()
     }
 
     /// The model in a fluid.
     #[must_use]
     pub fn in_fluid(mut self, fluid: Fluid) -> Self {
         self.fluid = Some(fluid);
-        self
+        self.with_ledger()
     }
 
     /// The model under a controller: loads may be applied to its bodies, and the ledger has their work.
     #[must_use]
     pub fn under_control(mut self) -> Self {
-        self.works = works(&self.supports, &self.bodies, true);
         self.applied = vec![Applied::default(); self.bodies.len()];
-        self
+        self.with_ledger()
     }
 
     /// Whether loads may be applied to its bodies.
@@ -69,7 +71,12 @@ impl Model {
         self.applied.get_mut(body).map(|applied| *applied = load).is_some()
     }
 
-    /// Where each body's numbers stand in the state.
+    /// Where the numbers of a body stand in the state.
+    pub fn slots(&self, body: usize) -> &Slots {
+        &self.slots[body]
+    }
+
+    /// Where each body's numbers stand in the state, as a whole.
     pub fn blocks(&self) -> &[Range<usize>] {
         &self.blocks
     }
@@ -93,74 +100,41 @@ impl Model {
     pub fn energies(&self) -> &[Energy] {
         &self.energies
     }
+
+    /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as works.
+    fn with_ledger(mut self) -> Self {
+        let index = |(index, body)| Load::on(body, self.fluid.as_ref(), self.applied.get(index));
+        let loads: Vec<Load> = self.bodies.iter().enumerate().flat_map(index).collect();
+        let potential = has_potential(&self.bodies);
+        let works = loads.iter().flat_map(|load| load.works(&self.supports));
+        let works = works.filter(|work| !(potential && matches!(work, Work::Repulsion | Work::Adhesion)));
+        let works: Vec<Work> = works.chain(self.bodies.iter().flat_map(|body| body.kind.works())).collect();
+        let energies = loads.iter().filter_map(Load::energy).filter(|energy| potential || *energy != Energy::Contact);
+        let elastic = self.bodies.iter().filter_map(|body| body.kind.energy());
+        let energies: Vec<Energy> =
+            [Energy::Kinetic, Energy::Gravity].into_iter().chain(energies).chain(elastic).collect();
+        self.works = Work::ALL.into_iter().filter(|work| works.contains(work)).collect();
+        self.energies = Energy::ALL.into_iter().filter(|energy| energies.contains(energy)).collect();
+        self
+    }
 }
 
-fn layout(bodies: &[Body]) -> Vec<Range<usize>> {
+fn layout(bodies: &[Body]) -> Vec<Slots> {
     let mut start = 0;
-    bodies
-        .iter()
-        .map(|body| {
-            let block = start..start + body.dimension();
-            start = block.end;
-            block
-        })
-        .collect()
-}
-
-fn has_law(bodies: &[Body], kinds: &[LawKind]) -> bool {
-    let mut laws = bodies.iter().flat_map(|body| &body.contacts).flat_map(|contact| contact.laws());
-    laws.any(|law| kinds.contains(&law.kind()))
-}
-
-fn works(supports: &[Support], bodies: &[Body], controlled: bool) -> Vec<Work> {
-    let moving = |index: usize| supports[index].motion != SupportMotion::Fixed;
-    let dashpots = bodies.iter().flat_map(|body| &body.springs).any(|spring| spring.damping > 0.0);
-    let carried = bodies.iter().flat_map(|body| &body.contacts).any(|contact| moving(contact.support));
-    let affine = || bodies.iter().filter_map(Body::affine);
-    let contracting = || bodies.iter().filter_map(Body::contraction);
-    let resisted = affine().flat_map(|affine| &affine.resistances).any(|load| load.dissipates());
-    let works_alone = !has_potential(bodies);
-    [
-        (Work::Repulsion, works_alone && has_law(bodies, &[LawKind::Repulsion])),
-        (Work::Damping, has_law(bodies, &[LawKind::Damping])),
-        (Work::Friction, has_law(bodies, &[LawKind::Friction])),
-        (Work::Adhesion, works_alone && has_law(bodies, &[LawKind::Adhesion])),
-        (Work::Viscosity, resisted || affine().any(|affine| affine.interior.dissipates())),
-        (Work::Contraction, contracting().any(|contraction| contraction.viscosity > 0.0)),
-        (Work::Drive, contracting().next().is_some()),
-        (Work::Load, controlled || dashpots || affine().any(|affine| affine.couple.is_some())),
-        (Work::Support, carried),
-        (Work::Fluid, bodies.iter().any(|body| body.inclusion.is_some())),
-        (Work::Constraint, affine().any(|affine| affine.interior.is_incompressible())),
-    ]
-    .into_iter()
-    .filter_map(|(work, applies)| applies.then_some(work))
-    .collect()
+    let slots = bodies.iter().map(|body| {
+        let slots = Slots::of(body, start);
+        start = slots.block().end;
+        slots
+    });
+    slots.collect()
 }
 
 /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
 fn has_potential(bodies: &[Body]) -> bool {
-    let central = [LawKind::Repulsion, LawKind::Adhesion];
     let deforming = bodies.iter().filter(|body| body.affine().is_some());
     let mut contacts = deforming.flat_map(|body| &body.contacts);
     contacts.all(|contact| {
-        let acts = contact.laws().iter().any(|law| central.contains(&law.kind()));
+        let acts = contact.laws().iter().any(|law| law.kind().is_central());
         contact.measure != AreaMeasure::DeformedArea || !acts
     })
-}
-
-fn energies(bodies: &[Body]) -> Vec<Energy> {
-    let springs = bodies.iter().any(|body| !body.springs.is_empty());
-    let elastic = bodies.iter().filter_map(Body::affine).any(|affine| affine.interior.material.is_some());
-    let central = has_law(bodies, &[LawKind::Repulsion, LawKind::Adhesion]);
-    [
-        (Energy::Kinetic, true),
-        (Energy::Gravity, true),
-        (Energy::Elastic, elastic),
-        (Energy::Contact, central && has_potential(bodies)),
-        (Energy::Load, springs),
-    ]
-    .into_iter()
-    .filter_map(|(energy, applies)| applies.then_some(energy))
-    .collect()
 }

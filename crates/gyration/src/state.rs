@@ -1,11 +1,11 @@
 //! The state: time, the numbers of every body, and the works done so far. Minimal: the rest follows from the model.
 
-use crate::body::{Body, BodyKind, Pin};
+use crate::body::{Body, BodyKind, Pin, Slots, matrix, vector};
 use crate::contractile::{Contraction, Source};
-use crate::fluid::Memory;
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
+use std::ops::Range;
 
 /// Time, configuration and velocities, and the work integrals of the ledger.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,30 +67,31 @@ impl From<RigidStart> for Start {
 }
 
 impl Start {
-    /// Appends the body's block of the state.
-    fn pack(&self, body: &Body, numbers: &mut Vec<f64>) {
-        let (free, moving) = (body.pin.is_none(), body.has_inertia());
+    /// Writes the numbers of a body into the state.
+    fn write(&self, body: &Body, slots: &Slots, state: &mut [f64]) {
+        let mut write = |slot: Range<usize>, numbers: &[f64]| {
+            // A slot that the body does not have is empty.
+            let count = slot.len();
+            state[slot].copy_from_slice(&numbers[..count]);
+        };
         match self {
             Self::Rigid(start) => {
-                let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
                 let quaternion = start.orientation.normalized();
                 let spin = quaternion.rotation().tr_mul(&start.angular_velocity);
-                push(start.position.as_slice(), free);
-                push(&quaternion.0, true);
-                push(start.velocity.as_slice(), free && moving);
-                push(spin.as_slice(), moving);
-                numbers.extend(std::iter::repeat_n(0.0, body.memory().map_or(0, Memory::dimension)));
+                write(slots.position(), start.position.as_slice());
+                write(slots.attitude(), &quaternion.0);
+                write(slots.velocity(), start.velocity.as_slice());
+                write(slots.rate(), spin.as_slice());
             }
             Self::Affine(placement, velocity) | Self::Contractile(placement, velocity, _) => {
-                let mut push = |part: &[f64], kept: bool| numbers.extend(part.iter().filter(|_| kept));
-                push(placement.position.as_slice(), free);
-                push(placement.gradient.as_slice(), true);
-                push(velocity.velocity.as_slice(), free && moving);
-                push(velocity.gradient_rate.as_slice(), moving);
-                if let Self::Contractile(_, _, contraction) = self {
-                    push(contraction.as_slice(), body.contraction().is_some_and(Contraction::is_driven));
-                }
+                write(slots.position(), placement.position.as_slice());
+                write(slots.attitude(), placement.gradient.as_slice());
+                write(slots.velocity(), velocity.velocity.as_slice());
+                write(slots.rate(), velocity.gradient_rate.as_slice());
             }
+        }
+        if let (Self::Contractile(_, _, contraction), Some(_)) = (self, body.contraction()) {
+            write(slots.extra(), contraction.as_slice());
         }
     }
 }
@@ -98,100 +99,85 @@ impl Start {
 impl State {
     /// The state at t = 0 from the start of each body, in order; each of the kind of its body.
     pub fn start(model: &Model, starts: &[Start]) -> Self {
-        let mut bodies = Vec::with_capacity(model.dimension());
-        for (body, start) in model.bodies.iter().zip(starts) {
-            start.pack(body, &mut bodies);
+        let mut bodies = vec![0.0; model.dimension()];
+        for (index, start) in starts.iter().enumerate() {
+            start.write(&model.bodies[index], model.slots(index), &mut bodies);
         }
-        debug_assert_eq!(bodies.len(), model.dimension(), "each start is of the kind of its body");
         Self { time: 0.0, bodies, works: vec![0.0; model.works().len()] }
     }
 
     /// G of a body that contracts.
     pub fn contraction(&self, model: &Model, body: usize) -> Option<Mat3> {
-        let block = &self.bodies[model.blocks()[body].clone()];
-        Some(contraction(model.bodies[body].contraction()?, self.time, block))
+        let contraction = model.bodies[body].contraction()?;
+        Some(contraction_at(contraction, self.time, &self.bodies[model.slots(body).extra()]))
     }
 
-    /// The motion of one body; of one without inertia as if it were still: [`settled_motion`](crate::rates::settled_motion).
+    /// The motion of one body; of one without inertia as if it were still.
     pub fn motion(&self, model: &Model, body: usize) -> BodyMotion {
-        BodyMotion::unpack(&model.bodies[body], &self.bodies[model.blocks()[body].clone()])
+        BodyMotion::read(&model.bodies[body], model.slots(body), &self.bodies)
     }
 }
 
-/// G from the block of a body that contracts, or as it is prescribed at a time [s].
-pub(crate) fn contraction(contraction: &Contraction, time: f64, block: &[f64]) -> Mat3 {
+/// G from its slot, or as it is prescribed at a time [s].
+pub fn contraction_at(contraction: &Contraction, time: f64, extra: &[f64]) -> Mat3 {
     match &contraction.source {
-        Source::Driven { .. } => Mat3::from_column_slice(&block[block.len() - 9..]),
+        Source::Driven { .. } => matrix(extra),
         Source::Prescribed(signal) => signal.at(time),
     }
 }
 
-/// Whether a block has no velocities.
-fn is_still(body: &Body, block: &[f64]) -> bool {
-    !body.has_inertia() && block.len() < body.parts().all()
-}
-
-fn vector(numbers: &[f64]) -> Vec3 {
-    Vec3::new(numbers[0], numbers[1], numbers[2])
+/// What stands in a slot; zero where the body does not have it.
+fn read<T>(state: &[f64], slot: Range<usize>, from: impl Fn(&[f64]) -> T, zero: T) -> T {
+    if slot.is_empty() { zero } else { from(&state[slot]) }
 }
 
 impl Turn {
-    /// Reads the block of a rigid body.
-    pub fn unpack(body: &Body, block: &[f64]) -> Self {
-        let (at, spin) = if body.pin.is_none() { (3, 10) } else { (0, 4) };
-        let quaternion = Quaternion([block[at], block[at + 1], block[at + 2], block[at + 3]]);
-        Self { quaternion, spin: if is_still(body, block) { Vec3::zeros() } else { vector(&block[spin..]) } }
+    /// Reads the slots of a rigid body; one without inertia is taken to be still.
+    pub fn read(slots: &Slots, state: &[f64]) -> Self {
+        let quaternion = Quaternion::read(&state[slots.attitude()]);
+        Self { quaternion, spin: read(state, slots.rate(), vector, Vec3::zeros()) }
     }
 
-    /// Reads the block of a rigid body without inertia, its spin from the rates of the block.
-    pub fn of_rates(body: &Body, block: &[f64], rates: &[f64]) -> Self {
-        let Self { quaternion, .. } = Self::unpack(body, block);
-        let at = if body.pin.is_none() { 3 } else { 0 };
-        let rate = nalgebra::Vector4::from_column_slice(&rates[at..at + 4]);
+    /// Of a rigid body without inertia, given the rates of its places.
+    pub fn of_rates(slots: &Slots, state: &[f64], rates: &[f64]) -> Self {
+        let quaternion = Quaternion::read(&state[slots.attitude()]);
+        let rate = nalgebra::Vector4::from_column_slice(&rates[slots.attitude()]);
         Self { quaternion, spin: quaternion.turn_by_component() * rate }
-    }
-
-    /// The motion that goes with it, the rest being read from the block.
-    pub fn motion(&self, body: &Body, block: &[f64]) -> BodyMotion {
-        let rotation = self.quaternion.rotation();
-        let gradient_rate = rigid_gradient_rate(&rotation, &self.spin);
-        let velocity = || if is_still(body, block) { Vec3::zeros() } else { vector(&block[7..]) };
-        BodyMotion::of(body.pin.as_ref(), rotation, gradient_rate, || (vector(block), velocity()))
     }
 }
 
 impl BodyMotion {
-    /// Reads a body's block of the state; one without inertia is taken to be still.
-    pub fn unpack(body: &Body, block: &[f64]) -> Self {
+    /// Reads the slots of a body; one without inertia is taken to be still.
+    pub fn read(body: &Body, slots: &Slots, state: &[f64]) -> Self {
+        let center = || {
+            let velocity = read(state, slots.velocity(), vector, Vec3::zeros());
+            (vector(&state[slots.position()]), velocity)
+        };
         match body.kind {
-            BodyKind::Rigid(_) => Turn::unpack(body, block).motion(body, block),
+            BodyKind::Rigid(_) => Self::of_turn(body, &Turn::read(slots, state), center),
             BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-                let (gradient, rate) = if body.pin.is_none() { (3, 15) } else { (0, 9) };
-                let matrix = |at: usize| Mat3::from_column_slice(&block[at..at + 9]);
-                let still = is_still(body, block);
-                let center = || (vector(block), if still { Vec3::zeros() } else { vector(&block[12..]) });
-                let rate = if still { Mat3::zeros() } else { matrix(rate) };
-                Self::of(body.pin.as_ref(), matrix(gradient), rate, center)
+                let rate = read(state, slots.rate(), matrix, Mat3::zeros());
+                Self::of(body.pin.as_ref(), matrix(&state[slots.attitude()]), rate, center)
             }
         }
     }
 
-    /// The motion of a body without inertia, given the rates of its block.
-    pub fn of_rates(body: &Body, block: &[f64], rates: &[f64]) -> Self {
-        let pin = body.pin.as_ref();
-        let center = || (vector(block), vector(rates));
+    /// The motion of a body without inertia, given the rates of its places.
+    pub fn of_rates(body: &Body, slots: &Slots, state: &[f64], rates: &[f64]) -> Self {
+        let center = || (vector(&state[slots.position()]), vector(&rates[slots.position()]));
         match body.kind {
-            BodyKind::Rigid(_) => {
-                let turn = Turn::of_rates(body, block, rates);
-                let rotation = turn.quaternion.rotation();
-                Self::of(pin, rotation, rigid_gradient_rate(&rotation, &turn.spin), center)
-            }
+            BodyKind::Rigid(_) => Self::of_turn(body, &Turn::of_rates(slots, state, rates), center),
             BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-                let at = if pin.is_none() { 3 } else { 0 };
-                let matrix = |numbers: &[f64]| Mat3::from_column_slice(&numbers[at..at + 9]);
-                Self::of(pin, matrix(block), matrix(rates), center)
+                let slot = || slots.attitude();
+                Self::of(body.pin.as_ref(), matrix(&state[slot()]), matrix(&rates[slot()]), center)
             }
         }
+    }
+
+    /// The motion of a rigid body.
+    fn of_turn(body: &Body, turn: &Turn, center: impl FnOnce() -> (Vec3, Vec3)) -> Self {
+        let rotation = turn.quaternion.rotation();
+        Self::of(body.pin.as_ref(), rotation, rigid_gradient_rate(&rotation, &turn.spin), center)
     }
 
     /// The motion of P and Ṗ. A pinned body's centre follows the pin: p₀ = a − P r, ṗ₀ = −Ṗ r.

@@ -2,6 +2,8 @@
 //!
 //!   gap d = (p − o(t))·n,   o(t) = o + displacement(t),   w = ṗ − ȯ(t)
 
+use crate::kinematics::Placement;
+use crate::surface::GapField;
 use crate::tensor::Vec3;
 use std::f64::consts::TAU;
 
@@ -64,6 +66,11 @@ impl SupportMotion {
 }
 
 impl Support {
+    /// The gap of a body as a function of the material point, d(X) = (p₀ − o(t))·n + (Pᵀn)·X.
+    pub fn gap_field(&self, placement: &Placement, time: f64) -> GapField {
+        GapField { height: self.gap(&placement.position, time), direction: placement.gradient.tr_mul(&self.normal) }
+    }
+
     /// The gap (p − o(t))·n [m] of a point.
     pub fn gap(&self, point: &Vec3, time: f64) -> f64 {
         (point - self.origin - self.motion.displacement(time)).dot(&self.normal)

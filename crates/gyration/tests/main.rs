@@ -7,6 +7,7 @@ mod affine_rates;
 mod contact_wrench;
 mod contractile_balance;
 mod contractile_rates;
+mod coupling;
 mod curved_moments;
 mod deformed;
 mod deformed_moments;

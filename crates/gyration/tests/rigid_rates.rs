@@ -2,16 +2,16 @@
 
 use crate::moving::{
     self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, controlled, evaluate,
-    immersed, remembered, shapes, supports,
+    immersed, shapes, supports, with_history,
 };
 use gyration::balance::{kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, RigidInertia};
 use gyration::contact::AreaMeasure;
+use gyration::dynamics::Workspace;
 use gyration::kinematics::Quaternion;
 use gyration::ledger::{Energy, Work};
 use gyration::load::Frame;
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::shape::Shape;
 use gyration::state::{RigidStart, State, Turn};
 use gyration::tensor::Vec3;
@@ -56,7 +56,7 @@ proptest! {
     fn jacobian_and_power_of_spheres_that_the_fluid_remembers_are_those_of_their_rates(
         (numbers, exponents) in strategy(),
     ) {
-        let model = remembered(model(exponents));
+        let model = with_history(model(exponents));
         prop_assert!(!model.bodies.is_empty());
         let mut state = state(&model, &numbers);
         for (place, number) in state.bodies.iter_mut().enumerate().filter(|(place, _)| *place >= 13) {
@@ -126,7 +126,7 @@ fn kinetic_energy_and_spin_agree_with_the_inertia_tensor() {
         let body = &model.bodies[index];
         let seen = observe(&model, &mut Workspace::default(), &state, index).unwrap();
         let motion = seen.motion;
-        let turn = Turn::unpack(body, &state.bodies[model.blocks()[index].clone()]);
+        let turn = Turn::read(model.slots(index), &state.bodies);
         let spin_momentum = motion.placement.gradient * body.mass.inertia() * turn.spin;
         let velocity = motion.velocity.velocity;
         let expected = 0.5 * (body.mass.mass * velocity.norm_squared() + spin_momentum.dot(&motion.angular_velocity()));

@@ -12,7 +12,7 @@ use crate::quantity::si;
 use crate::table::read_vectors;
 use crate::unknown::{FIX, UnknownForm, no_surface};
 use gyration::body::{Body as Moving, BodyKind};
-use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory, Resolution};
+use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion, Resolution};
 use gyration::mass::MassProperties;
 use gyration::shape::{Shape, Sphere};
 use gyration::signal::{Signal, Wave};
@@ -118,13 +118,13 @@ impl Immersed<'_> {
         let form = self.form(written, judge).filter(|_| can_be_resolved(written, &key, judge));
         let filled = self.shape.mass_properties(1.0);
         let (volume, center) = (filled.volume, filled.center - self.mass.center);
-        let memory = if written.history && remembers { self.memory(written, setting, &key, judge)? } else { None };
+        let history = if written.history && remembers { self.history(written, setting, &key, judge)? } else { None };
         (around && still && remembers).then_some(Some(Inclusion {
             inertia: written.inertia,
             volume,
             center,
             form: form?,
-            memory,
+            history,
         }))
     }
 
@@ -187,20 +187,20 @@ impl Immersed<'_> {
     }
 
     /// What the fluid remembers of a sphere over the run; notes numbers that are out of all proportion.
-    fn memory(
+    fn history(
         &self,
         written: &WrittenInclusion,
         setting: &Setting,
         key: &Key,
         judge: &mut Judge<'_>,
-    ) -> Option<Option<Memory>> {
+    ) -> Option<Option<History>> {
         let (Shape::Sphere(Sphere { radius }), Some(fluid), Some(end)) = (self.shape, setting.fluid, setting.end)
         else {
             return Some(None);
         };
         let error = written.history_error.unwrap_or(HISTORY_ERROR);
-        match Memory::of_sphere(*radius, fluid, end, error) {
-            Ok(memory) => Some(Some(memory)),
+        match History::of_sphere(*radius, fluid, end, error) {
+            Ok(history) => Some(Some(history)),
             Err(unresolved) => {
                 let help = "look at `fluid.viscosity`, `fluid.density`, the radius and `time.end`: R²ρ/η is the time in question";
                 judge.note(&key.key("history"), unresolved.to_string(), help);

@@ -7,9 +7,8 @@
 //! is left out is its length, a gauge. An incompressible body moves within tr(P⁻¹ δP) = 0: V is multiplied by a basis of that
 //! plane.
 
-use super::held::places;
 use super::shape::ModeShape;
-use gyration::body::{Body, BodyKind};
+use gyration::body::{Body, BodyKind, Slots};
 use gyration::kinematics::Quaternion;
 use gyration::state::BodyMotion;
 use gyration::tensor::{Mat3, Vec3, axial, cofactor, cross_matrix};
@@ -38,7 +37,7 @@ impl Coordinates {
             &eigen.eigenvectors * values * eigen.eigenvectors.transpose()
         };
         let (mut rates, mut weights) = (power(-0.5), power(0.5));
-        let gradient = BodyMotion::unpack(body, block).placement.gradient;
+        let gradient = BodyMotion::read(body, &Slots::of(body, 0), block).placement.gradient;
         if body.affine().is_some_and(|affine| affine.interior.is_incompressible()) {
             let plane = plane_across(&(rates.transpose() * volume_slope(&gradient, rates.nrows())));
             (rates, weights) = (rates * &plane, plane.transpose() * weights);
@@ -77,7 +76,7 @@ impl Coordinates {
     pub fn shape(&self, body: &Body, z: &DVector<f64>) -> ModeShape {
         let numbers = &self.rates * z;
         let numbers = numbers.as_slice();
-        let (center, own) = numbers.split_at(if body.pin.is_some() { 0 } else { 3 });
+        let (center, own) = numbers.split_at(Slots::of(body, 0).position().len());
         let gradient = match &body.kind {
             BodyKind::Affine(_) | BodyKind::Contractile(_) => Mat3::from_column_slice(own),
             BodyKind::Rigid(_) => self.gradient * cross_matrix(&Vec3::from_column_slice(own)),
@@ -132,7 +131,7 @@ fn mass(body: &Body) -> DMatrix<f64> {
         BodyKind::Contractile(contractile) => (contractile.affine.interior.euler_tensor, 3),
     };
     let own = DMatrix::from_column_slice(3, 3, own.as_slice()).kronecker(&DMatrix::identity(repeat, repeat));
-    let center = if body.pin.is_some() { 0 } else { 3 };
+    let center = Slots::of(body, 0).position().len();
     let size = center + own.nrows();
     let mut mass = DMatrix::from_diagonal_element(size, size, body.mass.mass);
     mass.view_mut((center, center), own.shape()).copy_from(&own);
@@ -158,9 +157,10 @@ fn plane_across(normal: &DVector<f64>) -> DMatrix<f64> {
 
 /// δ(p₀, q) by (δp₀, δθ).
 fn quaternion_by_turn(body: &Body, block: &[f64]) -> DMatrix<f64> {
-    let at = if body.pin.is_some() { 0 } else { 3 };
-    let quaternion = Quaternion([block[at], block[at + 1], block[at + 2], block[at + 3]]);
-    let mut map = DMatrix::identity(places(body), at + 3);
+    let slots = Slots::of(body, 0);
+    let at = slots.attitude().start;
+    let quaternion = Quaternion::read(&block[slots.attitude()]);
+    let mut map = DMatrix::identity(slots.places().len(), at + 3);
     map.view_mut((at, at), (4, 3)).copy_from(&quaternion.rate_by_spin());
     map
 }

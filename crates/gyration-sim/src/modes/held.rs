@@ -1,14 +1,14 @@
 //! One body alone, with supports, loads and contraction held as they are at the start.
 
+use crate::adapter::normalize;
 use gyration::Inadmissible;
 use gyration::balance::observe;
-use gyration::body::{Body, BodyKind};
+use gyration::body::{Body, BodyKind, Slots, matrix};
 use gyration::contact::{Action, Term};
 use gyration::contractile::Source;
+use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
-use gyration::jacobian::jacobian;
 use gyration::model::Model;
-use gyration::rates::{Workspace, meet, rates};
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
@@ -35,9 +35,11 @@ impl Held {
             support.motion = SupportMotion::Fixed;
         }
         let mut body = model.bodies[index].clone();
-        let at_rates = places(&body);
-        let mut block = start.bodies[model.blocks()[index].clone()].to_vec();
-        block[at_rates..].fill(0.0);
+        let slots = model.slots(index);
+        let mut still = start.bodies.clone();
+        still[slots.velocities()].fill(0.0);
+        still[slots.extra()].fill(0.0);
+        let mut block = still[slots.block()].to_vec();
         if let (BodyKind::Contractile(contractile), Some(contraction)) =
             (&mut body.kind, start.contraction(model, index))
         {
@@ -45,10 +47,10 @@ impl Held {
         }
         block.truncate(body.dimension());
         let mut held = Model::new(model.gravity, supports, vec![body]);
-        held.fluid = model.fluid.as_ref().map(|fluid| {
+        if let Some(fluid) = &model.fluid {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
-            Fluid { velocity, gradient, ..*fluid }
-        });
+            held = held.in_fluid(Fluid { velocity, gradient, ..*fluid });
+        }
         let model = held;
         Self { model, workspace: Workspace::default(), time: start.time, index, start: block }
     }
@@ -67,7 +69,7 @@ impl Held {
         let mut powers = vec![0.0; self.model.works().len()];
         let done = rates(&self.model, &mut self.workspace, self.time, block, &mut slopes, &mut powers);
         done.map_err(|left| Inadmissible { body: self.index, ..left })?;
-        Ok(slopes.split_off(places(self.body())))
+        Ok(slopes[self.slots().velocities().start..].to_vec())
     }
 
     /// The exact Jacobian.
@@ -80,7 +82,7 @@ impl Held {
     }
 
     pub fn motion(&self, block: &[f64]) -> BodyMotion {
-        BodyMotion::unpack(self.body(), block)
+        BodyMotion::read(self.body(), self.slots(), block)
     }
 
     /// π of an incompressible body.
@@ -109,40 +111,32 @@ impl Held {
     pub fn gaps(&self, block: &[f64]) -> Vec<f64> {
         let motion = self.motion(block);
         let Some(surface) = &self.body().surface else { return Vec::new() };
-        let gap = |support| surface.smallest_gap(&meet(&self.model, support, self.time, &motion).0).0;
+        let supports = &self.model.supports;
+        let gap = |index: usize| surface.smallest_gap(&supports[index].gap_field(&motion.placement, self.time)).0;
         self.holding().map(gap).collect()
     }
 
     /// Puts quaternion or P back to where they belong.
     pub fn project(&self, block: &mut [f64]) {
-        let body = self.body();
-        let at = if body.pin.is_some() { 0 } else { 3 };
-        match &body.kind {
+        let attitude = &mut block[self.slots().attitude()];
+        let still = Mat3::zeros();
+        match &self.body().kind {
             BodyKind::Rigid(_) => {
-                let quaternion = &mut block[at..at + 4];
-                let norm = quaternion.iter().map(|c| c * c).sum::<f64>().sqrt();
-                quaternion.iter_mut().for_each(|c| *c /= norm);
+                normalize(attitude);
             }
             BodyKind::Affine(affine) => {
-                let gradient = Mat3::from_column_slice(&block[at..at + 9]);
-                let corrected = affine.interior.project(&gradient, &Mat3::zeros());
-                block[at..at + 9].copy_from_slice(corrected.gradient.as_slice());
+                let corrected = affine.interior.project(&matrix(attitude), &still);
+                attitude.copy_from_slice(corrected.gradient.as_slice());
             }
             BodyKind::Contractile(contractile) => {
-                let gradient = Mat3::from_column_slice(&block[at..at + 9]);
-                let restored = contractile.restore(self.time, (&gradient, &Mat3::zeros(), &Mat3::identity()));
-                block[at..at + 9].copy_from_slice(restored.gradient.as_slice());
+                let restored = contractile.restore(self.time, (&matrix(attitude), &still, &Mat3::identity()));
+                attitude.copy_from_slice(restored.gradient.as_slice());
             }
         }
     }
-}
 
-/// How many numbers of a body's block are places; the rest are velocities.
-pub(super) fn places(body: &Body) -> usize {
-    match (&body.kind, &body.pin) {
-        (BodyKind::Rigid(_), None) => 7,
-        (BodyKind::Rigid(_), Some(_)) => 4,
-        (BodyKind::Affine(_) | BodyKind::Contractile(_), None) => 12,
-        (BodyKind::Affine(_) | BodyKind::Contractile(_), Some(_)) => 9,
+    /// Where the numbers of the block stand.
+    fn slots(&self) -> &Slots {
+        self.model.slots(0)
     }
 }

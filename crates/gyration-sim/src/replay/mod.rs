@@ -17,10 +17,10 @@ pub use error::ReplayError;
 pub use snapshot::{BodySnapshot, Snapshot};
 
 use gyration::body::{Body, BodyKind};
+use gyration::dynamics::{Workspace, acting};
 use gyration::homogeneous::observe_homogeneous;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_record::Recording;
@@ -81,12 +81,16 @@ impl Replay {
     pub fn cauchy_stress(&mut self, row: usize) -> Result<Vec<Option<Mat3>>, ReplayError> {
         let state = self.state(row)?;
         let Self { model, workspace, .. } = self;
+        let outside = |source| ReplayError::Inadmissible { row, source };
+        let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
         let mut stress = |(index, body): (usize, &Body)| {
             if body.affine().is_none() {
                 return Ok(None);
             }
-            let seen = observe_homogeneous(model, workspace, &state, index, &Vec3::zeros());
-            Ok(Some(seen.map_err(|source| ReplayError::Inadmissible { row, source })?.cauchy_stress))
+            let at = instant.at(model, index);
+            let acting = acting(&at, scratch).map_err(outside)?;
+            let seen = observe_homogeneous(&at, &acting, scratch, &Vec3::zeros()).map_err(outside)?;
+            Ok(Some(seen.cauchy_stress))
         };
         model.bodies.iter().enumerate().map(&mut stress).collect()
     }

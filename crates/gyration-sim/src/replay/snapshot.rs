@@ -11,9 +11,10 @@ use super::error::ReplayError;
 use gyration::contact::{
     Action, AreaMeasure, Contact, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Term,
 };
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
-use gyration::rates::{Workspace, meet, settled_motion};
 use gyration::state::{BodyMotion, State};
+use gyration::surface::GapField;
 use gyration::tensor::{Vec3, cofactor};
 use gyration::{Inadmissible, Quantity};
 
@@ -49,8 +50,9 @@ impl<'a> Snapshot<'a> {
     /// A body, by its index.
     pub fn body(&self, body: usize) -> BodySnapshot<'a> {
         // Of a state outside the model nothing better is known.
-        let settled = settled_motion(self.model, &mut Workspace::default(), &self.state, body);
-        let motion = settled.unwrap_or_else(|_| self.state.motion(self.model, body));
+        let mut workspace = Workspace::default();
+        let read = workspace.read(self.model, &self.state).map(|(instant, _)| *instant.at(self.model, body).motion);
+        let motion = read.unwrap_or_else(|_| self.state.motion(self.model, body));
         BodySnapshot { model: self.model, row: self.row, time: self.state.time, body, motion }
     }
 }
@@ -77,7 +79,7 @@ impl BodySnapshot<'_> {
     pub fn traction(&self, point: &Vec3, normal: &Vec3) -> Result<Vec3, ReplayError> {
         let mut traction = Vec3::zeros();
         for contact in self.contacts() {
-            let (field, relative) = meet(self.model, contact.support, self.time, &self.motion);
+            let (field, relative) = self.meet(contact);
             let gap = field.gap(point);
             if gap.is_nan() || gap <= 0.0 {
                 return Err(self.outside(contact, gap));
@@ -104,7 +106,7 @@ impl BodySnapshot<'_> {
         let mut scratch = ContactScratch::default();
         let mut tractions = vec![Vec3::zeros(); cells.len()];
         for contact in self.contacts() {
-            let (field, motion) = meet(self.model, contact.support, self.time, &self.motion);
+            let (field, motion) = self.meet(contact);
             for (cell, force) in tractions.iter_mut().enumerate() {
                 let surface = cells.over(cell, contact, &field);
                 let meeting = Meeting { surface: &surface, field, motion, deformation };
@@ -120,6 +122,13 @@ impl BodySnapshot<'_> {
             *traction = if area > 0.0 { *traction / area } else { Vec3::zeros() };
         }
         Ok(tractions)
+    }
+
+    /// The gap to the support of a contact, and the motion relative to it.
+    fn meet(&self, contact: &Contact) -> (GapField, RelativeMotion) {
+        let support = &self.model.supports[contact.support];
+        let field = support.gap_field(&self.motion.placement, self.time);
+        (field, RelativeMotion::to(support, &self.motion.velocity, self.time))
     }
 
     fn contacts(&self) -> &[Contact] {

@@ -8,7 +8,7 @@
 use super::elements::{BoundaryElements, Wall, boundary_resistance};
 use gyration::body::Body;
 use gyration::fluid::FixedForm;
-use gyration::fluid::memory::vibration::vibration;
+use gyration::fluid::unsteady::vibration::vibration;
 use gyration::load::Mat12;
 use gyration::shape::{Shape, Sphere};
 use gyration::tensor::Mat3;
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-pub use gyration::fluid::memory::vibration::Vibration;
+pub use gyration::fluid::unsteady::vibration::Vibration;
 
 /// How many triangles may be asked for.
 pub const TRIANGLES_ALLOWED: RangeInclusive<u32> = 80..=10_000;

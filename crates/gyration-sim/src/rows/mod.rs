@@ -13,12 +13,12 @@ use fields::{
     Rank, Seen, Value,
 };
 use gyration::Inadmissible;
-use gyration::balance::{BodyObservation, energies, observe};
+use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
 use gyration::body::Body;
+use gyration::dynamics::{Workspace, acting};
 use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
 use gyration::immersion::{ImmersionObservation, observe_immersion};
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_record::{ArraySpec, Dimension};
@@ -87,13 +87,16 @@ impl Fields {
         homogeneous.clear();
         immersed.clear();
         row.clear();
+        let (instant, scratch) = workspace.read(model, state)?;
         for index in 0..model.bodies.len() {
-            bodies.push(observe(model, workspace, state, index)?);
+            let at = instant.at(model, index);
+            let acting = acting(&at, scratch)?;
+            bodies.push(observe_at(&at, &acting));
             if let Some(origin) = &self.origin {
-                homogeneous.push(observe_homogeneous(model, workspace, state, index, origin)?);
+                homogeneous.push(observe_homogeneous(&at, &acting, scratch, origin)?);
             }
             if self.immersed {
-                immersed.push(observe_immersion(model, workspace, state, index)?);
+                immersed.push(observe_immersion(&at, scratch)?);
             }
         }
         for field in &self.fields {
@@ -112,7 +115,7 @@ impl Fields {
         }
         let ledger = row.len();
         row.resize(ledger + model.energies().len(), 0.0);
-        energies(model, workspace, state, &mut row[ledger..])?;
+        energies_at(model, instant, scratch, &mut row[ledger..])?;
         let (energy, kinetic) = (row[ledger..].iter().sum(), row[ledger]);
         let residual = residual(energy, initial, &state.works);
         row.extend(&state.works);

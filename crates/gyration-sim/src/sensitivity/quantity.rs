@@ -5,8 +5,8 @@ use super::probe::along;
 use super::variation::{Fault, Variation};
 use crate::rows::{Extras, Fields, RowScratch};
 use gyration::Inadmissible;
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::state::State;
 
 /// Columns of a recording, picked from its rows.

@@ -10,8 +10,8 @@ use super::difference::Difference;
 use super::levels::Levels;
 use super::number::Number;
 use gyration::Inadmissible;
+use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
-use gyration::rates::{Workspace, rates};
 use gyration::state::State;
 use gyration_scene::Scene;
 

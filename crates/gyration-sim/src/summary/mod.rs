@@ -7,9 +7,9 @@ use crate::outcome::Outcome;
 use crate::rows::Ledger;
 use crate::run::Simulation;
 use crate::tally::{DISSIPATION, Tally};
-use gyration::balance::observe;
+use gyration::balance::observe_at;
+use gyration::dynamics::{Workspace, acting};
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration_record::Attributes;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
@@ -100,9 +100,12 @@ impl RunSummary {
         let ledger = Ledger::of(model, &mut workspace, &state, Some(tally.initial_energy)).unwrap_or_else(|_| none());
         let events =
             EVENT_KINDS.iter().zip(tally.events).map(|(kind, count)| ((*kind).to_string(), json!(count))).collect();
+        let mut read = workspace.read(model, &state).ok();
         let bodies = (0..model.bodies.len())
             .filter_map(|index| {
-                let seen = observe(model, &mut workspace, &state, index).ok()?;
+                let (instant, scratch) = read.as_mut()?;
+                let at = instant.at(model, index);
+                let seen = observe_at(&at, &acting(&at, scratch).ok()?);
                 let k = seen.affine_momentum;
                 Some(BodySummary {
                     name: model.bodies[index].name.clone(),

@@ -1,8 +1,8 @@
 //! Runs a scene and looks at the end of every step: gaps, ledger, outcome.
 
 use gyration::balance::{energies, smallest_gap};
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration_record::RecordError;
 use gyration_scene::Scene;

@@ -13,8 +13,8 @@
 use super::rebound::Drop;
 use super::{Calibration, Experiment, Kind};
 use gyration::balance::{observe, smallest_gap};
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
-use gyration::rates::Workspace;
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_scene::{Override, Scene};

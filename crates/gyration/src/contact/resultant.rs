@@ -14,7 +14,9 @@ use super::plan::{Contact, ContactScratch};
 use super::sums::Sums;
 use super::tension::Tension;
 use super::{Action, AreaMeasure, LawKind};
+use crate::kinematics::Velocity;
 use crate::load::Loads;
+use crate::support::Support;
 use crate::surface::{GapClosed, GapField, MomentPlan, Moments, Surface};
 use crate::tensor::{Mat3, Vec3, cofactor};
 
@@ -49,6 +51,18 @@ pub struct Meeting<'a> {
     pub motion: RelativeMotion,
     /// None for a rigid body, on which all measures of area are the same.
     pub deformation: Option<Deformation>,
+}
+
+impl RelativeMotion {
+    /// The motion of a body relative to a support.
+    #[inline]
+    pub fn to(support: &Support, velocity: &Velocity, time: f64) -> Self {
+        Self {
+            normal: support.normal,
+            velocity: velocity.velocity - support.motion.velocity(time),
+            gradient_rate: velocity.gradient_rate,
+        }
+    }
 }
 
 impl Deformation {

@@ -41,6 +41,8 @@ pub struct Nearest {
     pub normal: Vec3,
     /// The nearest point X − X₀ \[m\].
     pub point: Vec3,
+    /// Its velocity relative to the support, along the normal \[m/s\].
+    pub speed: f64,
 }
 
 /// A measure and its derivatives by p₀, P and Ṗ.

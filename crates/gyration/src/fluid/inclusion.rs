@@ -8,7 +8,7 @@
 use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{Ellipsoid, Stress};
 use super::fixed::FixedForm;
-use super::remembered::Memory;
+use super::history::History;
 use super::surface::SurfaceForm;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
@@ -27,7 +27,7 @@ pub struct Inclusion {
     /// What the fluid meets.
     pub form: Form,
     /// What the fluid remembers of a rigid sphere, if that counts.
-    pub memory: Option<Memory>,
+    pub history: Option<History>,
 }
 
 /// What the fluid meets.

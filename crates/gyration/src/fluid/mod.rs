@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! ambient      the fluid and the flow that it has far from the bodies
-//! remembered   the loads of that memory, and its modes
+//! history      the history force as loads, and its relaxation modes
 //! moments      integrals of the ellipsoid's shape, without loss of digits from needle to disc
 //! ellipsoid    force and stress of the fluid on an ellipsoid that moves and deforms in a linear flow, and their derivatives
 //! immersed     what the fluid does to a body that deforms, whatever its form
@@ -11,9 +11,9 @@
 //! surface      the loads on a body of any form that deforms
 //! stretch      that form as five numbers
 //! lattice      nodes in these five, and what is linear between them
-//! yardstick    the ellipsoid against which the resistance of a form is measured
+//! reference    the ellipsoid against which the resistance of a form is measured
 //! table        matrices at the nodes, computed when they are needed, and the error between them
-//! memory       a sphere in a fluid with inertia: history, and small vibrations
+//! unsteady     a sphere in a fluid with inertia: kernels, relaxation modes, small vibrations
 //! ```
 //!
 //! Stokes flow: u∞ = U∞ + L∞ x far away, tr L∞ = 0. Source: Sławianowski §4; `physics.md` §7.
@@ -21,25 +21,25 @@
 mod ambient;
 mod ellipsoid;
 mod fixed;
+mod history;
 mod immersed;
 mod inclusion;
 mod lattice;
-pub mod memory;
 mod moments;
-mod remembered;
+mod reference;
 mod stretch;
 mod surface;
 mod table;
 #[cfg(test)]
 mod tests;
-mod yardstick;
+pub mod unsteady;
 
 pub use ambient::{Flow, Fluid};
 pub use ellipsoid::{Ellipsoid, FormSlope, Stress};
 pub use fixed::{DragSlopes, FixedForm, RigidDrag};
+pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion};
 pub use moments::Moments;
-pub use remembered::{Memory, Remembered};
 pub use surface::{ImmersedSurface, SurfaceForm};
 pub use table::{Resistance, Resolution, Table, Unresolved, largest_error};

@@ -10,9 +10,9 @@
 use super::ambient::{Flow, Fluid};
 use super::fixed::{packed, parted};
 use super::inclusion::{Form, Inclusion};
+use super::reference::ReferenceEllipsoid;
 use super::stretch::{Strain, Stretch};
 use super::table::{Interpolant, Table, Unresolved};
-use super::yardstick::Yardstick;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, Mat12, numbers, unit};
@@ -36,7 +36,7 @@ impl PartialEq for SurfaceForm {
 #[derive(Debug, Clone)]
 struct Resisting {
     interpolant: Interpolant,
-    yardstick: Yardstick,
+    reference: ReferenceEllipsoid,
     stretch: Stretch,
     /// H(E) for viscosity 1.
     matrix: Mat12,
@@ -73,10 +73,10 @@ impl Resisting {
     fn of(table: &Table, polar: &Polar, volume_ratio: f64, viscosity: f64) -> Result<Self, Unresolved> {
         let stretch = Stretch::of(&polar.stretch);
         let interpolant = table.around(&stretch)?;
-        let yardstick = table.yardstick(&stretch)?;
-        let matrix = yardstick.resistance(&interpolant.ratio());
+        let reference = table.reference(&stretch)?;
+        let matrix = reference.resistance(&interpolant.ratio());
         let scale = scales(volume_ratio.powf(1.0 / 6.0), volume_ratio.sqrt());
-        Ok(Self { interpolant, yardstick, stretch, matrix, scale, viscosity })
+        Ok(Self { interpolant, reference, stretch, matrix, scale, viscosity })
     }
 
     /// −η D H D x.
@@ -86,12 +86,12 @@ impl Resisting {
 
     /// −η D ∂H/∂s_m D x.
     fn slopes_on(&self, motion: &Vec12) -> [Vec12; 5] {
-        let (lower, ratio) = (&self.yardstick.lower, self.interpolant.ratio());
+        let (lower, ratio) = (&self.reference.lower, self.interpolant.ratio());
         let seen = motion.component_mul(&self.scale);
         let carried = lower.tr_mul(&seen);
         let through = ratio * carried;
         let swept = self.interpolant.slopes_on(&carried);
-        let lowers = self.yardstick.slopes(&self.stretch);
+        let lowers = self.reference.slopes(&self.stretch);
         std::array::from_fn(|m| {
             let change = lowers[m] * through + lower * (ratio * lowers[m].tr_mul(&seen) + swept[m]);
             change.component_mul(&self.scale) * -self.viscosity
@@ -153,7 +153,7 @@ impl<'a> ImmersedSurface<'a> {
 
     /// The ellipsoid that stands for it: principal axes in space, and the squares of its semi-axes but for a common factor.
     pub fn principal(&self) -> (Mat3, [f64; 3]) {
-        let ellipsoid = &self.resisting.yardstick.ellipsoid;
+        let ellipsoid = &self.resisting.reference.ellipsoid;
         (self.polar.rotation * ellipsoid.axes, ellipsoid.squares)
     }
 

@@ -1,6 +1,6 @@
 //! The resistance of a surface as it deforms: matrices at the nodes of a lattice, and what is between them.
 //!
-//!   H(E) = A(E) C(E) A(E)ᵀ,   C(E) = Σ w_k C_k,   C_k = A_k⁻¹ H_k A_k⁻ᵀ      (`lattice`, `yardstick`)
+//!   H(E) = A(E) C(E) A(E)ᵀ,   C(E) = Σ w_k C_k,   C_k = A_k⁻¹ H_k A_k⁻ᵀ      (`lattice`, `reference`)
 //!
 //! A matrix is computed when a simplex is entered that has its node for a corner, and kept. Which ones depends on nothing but E, so that a run
 //! that is resumed, or made on other threads, sees the same numbers. **When**: in each simplex that is entered, one more matrix
@@ -11,8 +11,8 @@
 //! falls with the square of the spacing, and it may be four times as large elsewhere.
 
 use super::lattice::{CORNERS, Node, Place, Simplex, strain};
+use super::reference::ReferenceEllipsoid;
 use super::stretch::{Strain, Stretch};
-use super::yardstick::Yardstick;
 use crate::inadmissible::Quantity;
 use crate::load::Mat12;
 use crate::tensor::Mat3;
@@ -100,15 +100,15 @@ impl Table {
     pub fn matrix(&self, stretch: &Mat3) -> Result<Mat12, Unresolved> {
         let stretch = Stretch::of(stretch);
         let ratio = self.around(&stretch)?.ratio();
-        Ok(self.yardstick(&stretch)?.resistance(&ratio))
+        Ok(self.reference(&stretch)?.resistance(&ratio))
     }
 
     /// The ellipsoid that stands for the surface under E.
     ///
     /// # Errors
     /// [`Unresolved`] where the form is so extreme that rounding leaves no positive resistance.
-    pub(super) fn yardstick(&self, stretch: &Stretch) -> Result<Yardstick, Unresolved> {
-        Yardstick::of(&self.root, stretch).ok_or(Unresolved { quantity: Quantity::Elements, value: f64::NAN })
+    pub(super) fn reference(&self, stretch: &Stretch) -> Result<ReferenceEllipsoid, Unresolved> {
+        ReferenceEllipsoid::of(&self.root, stretch).ok_or(Unresolved { quantity: Quantity::Elements, value: f64::NAN })
     }
 
     /// C around E.
@@ -192,9 +192,9 @@ impl Table {
     fn ratio(&self, strain: &Strain) -> Result<Mat12, Unresolved> {
         let fault = |value| Unresolved { quantity: Quantity::Elements, value };
         let stretch = Stretch::at(strain);
-        let yardstick = self.yardstick(&stretch)?;
+        let reference = self.reference(&stretch)?;
         let matrix = self.source.matrix(&stretch.matrix()).map_err(fault)?;
-        yardstick.ratio(&matrix).ok_or_else(|| fault(f64::NAN))
+        reference.ratio(&matrix).ok_or_else(|| fault(f64::NAN))
     }
 
     /// The relative error of the interpolant at the centre of a simplex.

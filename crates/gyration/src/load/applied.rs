@@ -6,7 +6,7 @@
 //! spatial, the second material: a force F at a material point X is F with M_a = F ⊗ X. On a rigid body M acts by its torque
 //! axial(RᵀM) in the body's axes, to which τ adds Rᵀτ. Nothing of this has a potential in the ledger: its work is `work.load`.
 
-use super::{Loads, Wrench, WrenchSlope};
+use super::Loads;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 
 /// Force, affine moment and torque that are held constant.
@@ -39,20 +39,5 @@ impl Applied {
     /// f and M; P⁻¹ is given.
     pub fn loads(&self, inverse: &Mat3) -> Loads {
         Loads { force: self.force, moment: self.moment + self.couple(inverse) }
-    }
-
-    /// Force and torque on a rigid body.
-    pub fn wrench(&self, rotation: &Mat3) -> Wrench {
-        let dead = Loads { force: self.force, moment: self.moment };
-        Wrench { force: self.force, torque: dead.body_torque(rotation) + rotation.tr_mul(&self.torque) }
-    }
-
-    /// The derivative of the wrench by a turn δθ in the body's axes, δR = R [δθ]×.
-    ///
-    ///   N = RᵀM_a,   δN = −[δθ]× N,   axial([δθ]× N) = (tr N 1 − N) δθ,   δ(Rᵀτ) = [Rᵀτ]× δθ
-    pub fn wrench_by_turn(&self, rotation: &Mat3) -> WrenchSlope {
-        let seen = rotation.tr_mul(&self.moment);
-        let dead = seen - Mat3::from_diagonal_element(seen.trace());
-        WrenchSlope { force: Mat3::zeros(), torque: dead + cross_matrix(&rotation.tr_mul(&self.torque)) }
     }
 }

@@ -16,7 +16,7 @@ pub use couple::Couple;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;
-pub(crate) use slopes::{COORDINATES, numbers, unit};
+pub(crate) use slopes::{COORDINATES, loads, numbers, unit};
 pub use spring::{Spring, SpringLoads};
 pub use wrench::{Wrench, WrenchSlope};
 
@@ -45,6 +45,11 @@ impl Loads {
     /// The power f·v + M·Ṗ [W].
     pub fn power(&self, velocity: &Vec3, gradient_rate: &Mat3) -> f64 {
         self.force.dot(velocity) + self.moment.dot(gradient_rate)
+    }
+
+    /// Force and torque on a rigid body.
+    pub fn wrench(&self, rotation: &Mat3) -> Wrench {
+        Wrench { force: self.force, torque: self.body_torque(rotation) }
     }
 
     /// The torque about the centre of mass in the axes of a rigid body, τ_i = ε_ijk (RᵀM)_kj [N m].

@@ -43,7 +43,7 @@ pub(crate) fn numbers(loads: &Loads) -> SVector<f64, 12> {
 }
 
 /// The loads of a vector of twelve.
-fn loads(numbers: &SVector<f64, 12>) -> Loads {
+pub(crate) fn loads(numbers: &SVector<f64, 12>) -> Loads {
     let moment = Mat3::from_iterator(numbers.fixed_rows::<9>(3).iter().copied());
     Loads { force: numbers.fixed_rows::<3>(0).into(), moment }
 }

@@ -5,7 +5,7 @@
 //! with potential ½k(l − l₀)² and dissipation c l̇². At l = 0 the direction e is lost: outside the model unless the
 //! spring has neither rest length nor dashpot.
 
-use super::{Loads, Wrench};
+use super::Loads;
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::{Mat3, Vec3};
 
@@ -82,11 +82,6 @@ impl SpringLoads {
     /// f and M.
     pub fn total(&self) -> Loads {
         Loads::at_point(self.force, &self.point)
-    }
-
-    /// Force, and torque in the axes of a rigid body.
-    pub fn wrench(&self, rotation: &Mat3) -> Wrench {
-        Wrench { force: self.force, torque: self.point.cross(&rotation.tr_mul(&self.force)) }
     }
 
     /// The change of f and M when placement and velocity change by these increments.

@@ -8,12 +8,12 @@ use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
 use gyration::body::{Affine, Body, BodyKind, Pin};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
-use gyration::fluid::{FixedForm, Fluid, Form, Inclusion, Memory};
-use gyration::jacobian::jacobian;
+use gyration::dynamics::jacobian;
+use gyration::dynamics::{Workspace, rates};
+use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
 use gyration::load::{Applied, Couple, Frame, LinearResistance, Mat12, Spring};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
-use gyration::rates::{Workspace, rates};
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
 use gyration::signal::{Signal, Wave};
 use gyration::state::State;
@@ -121,7 +121,7 @@ fn inclusion(body: &Body, inertia: bool) -> Inclusion {
         }
         _ => Form::Ellipsoid(Vec3::new(0.5, 0.3, 0.4)),
     };
-    Inclusion { inertia, volume: 0.4, center, form, memory: None }
+    Inclusion { inertia, volume: 0.4, center, form, history: None }
 }
 
 /// The same bodies immersed in a fluid, with inertia or without.
@@ -132,12 +132,12 @@ pub fn immersed(model: Model, inertia: bool) -> Model {
 }
 
 /// Rigid spheres whose motion a fluid remembers, roughly.
-pub fn remembered(model: Model) -> Model {
+pub fn with_history(model: Model) -> Model {
     let mut model = immersed(model, true);
     model.bodies.retain(|body| body.pin.is_none() && matches!(body.shape, Shape::Sphere(_)));
     for body in &mut model.bodies {
         if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut body.inclusion, &body.shape) {
-            inclusion.memory = Some(Memory::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
+            inclusion.history = Some(History::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
         }
     }
     let fluid = model.fluid.take();

@@ -34,7 +34,7 @@ impl Kernel {
 
     /// ∫₀ᵗ κ, with t in units of τ, t ≥ 0: 2√(t/π), and ⅓(1 − eᵗ erfc √t).
     ///
-    /// The memory's part in the load, under an acceleration that has been constant for this time.
+    /// The history's part in the load, under an acceleration that has been constant for this time.
     pub fn integral(self, time: f64) -> f64 {
         match self {
             Self::Translation => 2.0 * (time / PI).sqrt(),

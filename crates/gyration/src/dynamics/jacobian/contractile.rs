@@ -4,26 +4,25 @@
 //!
 //! A part of the drive that answers to the body adds what a change of Q does, times the derivative of what the body feels.
 
-use super::affine_slopes::{Seen, load_slopes};
+use super::super::{ContractileMotion, Scratch, moment};
+use super::affine::{Seen, load_slopes};
+use crate::body::Slots;
 use crate::columns::{Columns, Four, Work, dispatch};
 use crate::contractile::{ContractileSlopes, Felt};
 use crate::inadmissible::Inadmissible;
-use crate::model::Model;
-use crate::rates::{ContractileMotion, Workspace};
 use crate::tensor::Mat3;
 use nalgebra::DMatrix;
 
 /// Fills the block; what is zero in it is taken to be zero already.
 pub(super) fn fill(
     block: &mut DMatrix<f64>,
-    model: &Model,
-    workspace: &mut Workspace,
     moving: &ContractileMotion,
+    scratch: &mut Scratch,
 ) -> Result<(), Inadmissible> {
-    let body = &model.bodies[moving.pulled.index];
-    let loads = load_slopes(model, workspace, moving.time, &moving.pulled)?;
-    let moment = moving.pulled.moment(model, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
-    let half = if body.pin.is_some() { 9 } else { 12 };
+    let at = moving.at;
+    let loads = load_slopes(at, scratch)?;
+    let moment = moment(at, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
+    let half = Slots::with_inertia(at.body, 0).places().len();
     for coordinate in 0..half {
         block[(coordinate, half + coordinate)] = 1.0;
     }
@@ -31,16 +30,13 @@ pub(super) fn fill(
         // What the body feels of p₀ adds to columns that may hold that of another state.
         block.view_mut((half, 0), (block.nrows() - half, half - 9)).fill(0.0);
     }
-    let arm = body.pin.as_ref().map(|pin| pin.point);
-    let seen = loads.as_ref().map(|slopes| Seen { slopes, arm, mass: body.mass.mass });
-    let mut written = Contracting { model, moving, moment: &moment, seen: seen.as_ref(), half, block };
-    dispatch(&mut written);
+    let seen = loads.as_ref().map(|slopes| Seen::of(at, slopes));
+    dispatch(&mut Contracting { moving, moment: &moment, seen: seen.as_ref(), half, block });
     Ok(())
 }
 
 /// δP̈ and δĠ along each coordinate, each of its rates and each number of G, to be written into the block.
 struct Contracting<'a> {
-    model: &'a Model,
     moving: &'a ContractileMotion<'a>,
     moment: &'a Mat3,
     /// The derivatives of the loads, if there are any.
@@ -55,11 +51,11 @@ impl Work for &mut Contracting<'_> {
 
     #[inline(always)]
     fn run<F: Four>(self, zeros: F) {
-        let Contracting { model, moving, moment, seen, half, block } = self;
+        let Contracting { moving, moment, seen, half, block } = self;
         let (half, size, driven) = (*half, block.nrows(), moving.contractile.contraction.is_driven());
-        let balance = moving.slopes_in(zeros, &moving.command(model), moment);
+        let balance = moving.slopes_in(zeros, &moving.command(), moment);
         let medium = moving.contractile.medium.as_ref();
-        let medium = medium.map(|medium| medium.slopes(&moving.pulled.gyration, &Mat3::zeros()));
+        let medium = medium.map(|medium| medium.slopes(moving.gyration, &Mat3::zeros()));
         let at = half - 9;
         let columns = block.as_mut_slice();
         let start = size * at + 2 * half - 9;
@@ -97,22 +93,17 @@ impl Work for &mut Contracting<'_> {
             }
         }
         if driven {
-            add_feedback(block, model, moving, &balance);
+            add_feedback(block, moving, &balance);
         }
     }
 }
 
 /// Adds what the parts of the drive do that answer to the body.
 #[inline(always)]
-fn add_feedback<F: Four>(
-    block: &mut DMatrix<f64>,
-    model: &Model,
-    moving: &ContractileMotion,
-    balance: &ContractileSlopes<F>,
-) {
-    let pin = model.bodies[moving.pulled.index].pin.as_ref();
-    let half = if pin.is_some() { 9 } else { 12 };
-    for (felt, feedback) in moving.felt(model).filter(|(felt, feedback)| feedback.answer(felt.value).1) {
+fn add_feedback<F: Four>(block: &mut DMatrix<f64>, moving: &ContractileMotion, balance: &ContractileSlopes<F>) {
+    let pin = moving.at.body.pin.as_ref();
+    let half = Slots::with_inertia(moving.at.body, 0).places().len();
+    for (felt, feedback) in moving.felt().filter(|(felt, feedback)| feedback.answer(felt.value).1) {
         let mut change = [0.0; 3 * 18];
         balance.along_drive(&feedback.gain).write(&mut change, 18, true);
         balance.held(&Columns::read(&change), &Columns::default(), 0.0).write(&mut change);

@@ -60,12 +60,12 @@ mod tests {
     #[test]
     fn sphere_with_modes_in_place_of_its_memory_spins_down_alike() {
         for (span, error) in [(10.0, 1e-4), (10.0, 1e-6), (1e4, 1e-6)] {
-            let memory = Exponentials::of_rotation(1.0, span, error).unwrap();
+            let history = Exponentials::of_rotation(1.0, span, error).unwrap();
             for inertia in INERTIAS {
                 let transform = |p: Complex<f64>| {
-                    let pairs = memory.rates.iter().zip(&memory.weights);
+                    let pairs = history.rates.iter().zip(&history.weights);
                     let kernel =
-                        pairs.map(|(rate, weight)| (p + rate).inv() * weight).sum::<Complex<f64>>() + memory.rest;
+                        pairs.map(|(rate, weight)| (p + rate).inv() * weight).sum::<Complex<f64>>() + history.rest;
                     (p * inertia + p * kernel + 1.0).inv() * inertia
                 };
                 let times = [1e-4, 1e-2, 0.1, 1.0, 10.0, 1e3].into_iter().filter(|time| *time <= span);

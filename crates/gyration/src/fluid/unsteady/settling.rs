@@ -66,13 +66,13 @@ mod tests {
     #[test]
     fn sphere_with_modes_in_place_of_its_memory_settles_alike() {
         for (span, error) in [(10.0, 1e-4), (10.0, 1e-6), (1e4, 1e-6), (10.0, 1e-8)] {
-            let memory = Exponentials::of_translation(1.0, span, error).unwrap();
+            let history = Exponentials::of_translation(1.0, span, error).unwrap();
             for inertia in [1.0 / 9.0, 0.25, 1.0 / 3.0, 3.0] {
                 // The linear system of v and the modes, solved by its transform: A p v + v + p v κ̃(p) = 1/p.
                 let transform = |p: Complex<f64>| {
-                    let pairs = memory.rates.iter().zip(&memory.weights);
+                    let pairs = history.rates.iter().zip(&history.weights);
                     let kernel =
-                        pairs.map(|(rate, weight)| (p + rate).inv() * weight).sum::<Complex<f64>>() + memory.rest;
+                        pairs.map(|(rate, weight)| (p + rate).inv() * weight).sum::<Complex<f64>>() + history.rest;
                     (p * (p * inertia + 1.0 + p * kernel)).inv()
                 };
                 let times = [1e-4, 1e-2, 0.1, 1.0, 10.0, 1e3].into_iter().filter(|time| *time <= span);
@@ -84,7 +84,7 @@ mod tests {
                     })
                     .fold((0.0_f64, 0.0_f64), |worst, (next, load)| (worst.0.max(next), worst.1.max(next / load)));
                 println!("span {span:e}, ε = {error:e}, A = {inertia:.3}: |error of v| ≤ {:.1e}", worst.0);
-                // The load is off by ε times that of the greatest acceleration, 1/A, and v by no more than that: the memory itself damps.
+                // The load is off by ε times that of the greatest acceleration, 1/A, and v by no more than that: the history itself damps.
                 assert!(worst.1 < error + 1e-11, "{worst:?}");
             }
         }

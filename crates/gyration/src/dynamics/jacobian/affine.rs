@@ -4,45 +4,46 @@
 //!
 //! A pinned body has P alone: p₀ = a − P r takes its columns of p₀ into those of P, and M is about the pin.
 
-use crate::affine::{AffineSlopes, Entry};
+use super::super::loads::add_slopes;
+use super::super::{Scratch, moment};
+use crate::affine::{AffineSlopes, Entry, Gyration};
+use crate::body::Affine;
 use crate::columns::{Columns, Four, Work, dispatch};
-use crate::contact::ContactSlopes;
 use crate::inadmissible::Inadmissible;
+use crate::instant::BodyAt;
 use crate::load::LoadSlopes;
-use crate::model::Model;
-use crate::rates::{AffineMotion, Workspace, for_each_contact, spring_loads};
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
 
 /// Fills the block; what is zero in it is taken to be zero already.
 pub(super) fn fill(
     block: &mut DMatrix<f64>,
-    model: &Model,
-    workspace: &mut Workspace,
-    time: f64,
-    moving: &AffineMotion,
+    at: &BodyAt,
+    affine: &Affine,
+    gyration: &Gyration,
+    scratch: &mut Scratch,
 ) -> Result<(), Inadmissible> {
-    let body = &model.bodies[moving.index];
-    let loads = load_slopes(model, workspace, time, moving)?;
-    let moment = moving.moment(model, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
+    let loads = load_slopes(at, scratch)?;
+    let moment = moment(at, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
     let half = block.nrows() / 2;
     for (coordinate, column) in block.as_mut_slice().chunks_exact_mut(2 * half).skip(half).enumerate() {
         column[coordinate] = 1.0;
     }
-    let loads =
-        loads.as_ref().map(|slopes| Seen { slopes, arm: body.pin.as_ref().map(|pin| pin.point), mass: body.mass.mass });
+    let loads = loads.as_ref().map(|slopes| Seen::of(at, slopes));
     if let Some(seen) = &loads {
         for (coordinate, column) in block.as_mut_slice().chunks_exact_mut(2 * half).enumerate() {
             seen.linear(coordinate >= half, coordinate % half, &mut column[half..2 * half - 9]);
         }
     }
-    dispatch(Acceleration { moving, moment: &moment, loads: loads.as_ref(), half, block: block.as_mut_slice() });
+    let block = block.as_mut_slice();
+    dispatch(Acceleration { affine, gyration, moment: &moment, loads: loads.as_ref(), half, block });
     Ok(())
 }
 
 /// δP̈ along each coordinate and each of its rates, to be written into the block.
 struct Acceleration<'a> {
-    moving: &'a AffineMotion<'a>,
+    affine: &'a Affine,
+    gyration: &'a Gyration,
     moment: &'a Mat3,
     /// The derivatives of the loads, if there are any.
     loads: Option<&'a Seen<'a>>,
@@ -56,8 +57,8 @@ impl Work for Acceleration<'_> {
 
     #[inline(always)]
     fn run<F: Four>(self, zeros: F) {
-        let Self { moving, moment, loads, half, block } = self;
-        let balance = moving.affine.interior.slopes_in(zeros, &moving.gyration, moment);
+        let Self { affine, gyration, moment, loads, half, block } = self;
+        let balance = affine.interior.slopes_in(zeros, gyration, moment);
         let Some(loads) = loads else { return by_gradient(zeros, &balance, |_, _| None, (block, half)) };
         for (coordinate, column) in block.chunks_exact_mut(2 * half).enumerate() {
             let (by_rate, coordinate) = (coordinate >= half, coordinate % half);
@@ -89,48 +90,29 @@ fn by_gradient<F: Four>(
     }
 }
 
-/// The loads on an affine body and their derivatives; none if nothing but gravity acts on it.
-pub(super) fn load_slopes(
-    model: &Model,
-    workspace: &mut Workspace,
-    time: f64,
-    moving: &AffineMotion,
-) -> Result<Option<LoadSlopes>, Inadmissible> {
-    let (body, affine) = (&model.bodies[moving.index], moving.affine);
-    if !moving.is_loaded(model) {
-        return Ok(None);
+/// The loads on a body that deforms and their derivatives; none if nothing but gravity acts on it.
+pub(super) fn load_slopes(at: &BodyAt, scratch: &mut Scratch) -> Result<Option<LoadSlopes>, Inadmissible> {
+    let mut slopes: Option<LoadSlopes> = None;
+    for load in at.loads() {
+        add_slopes(&load, at, scratch, slopes.get_or_insert_default())?;
     }
-    let mut slopes = LoadSlopes::default();
-    for_each_contact(model, time, moving.index, moving.motion, |contact, meeting| {
-        ContactSlopes::integrate(contact, meeting, &mut workspace.contact)?.add_to(&mut slopes);
-        Ok(())
-    })?;
-    spring_loads(moving.index, body, moving.motion, |spring| slopes.add_spring(spring))?;
-    let inverse = &moving.gyration.inverse;
-    if let Some(couple) = &affine.couple {
-        slopes.add_couple(&couple.moment(time, inverse), inverse);
-    }
-    if let Some(applied) = model.applied(moving.index) {
-        slopes.add_applied(applied, inverse);
-    }
-    for resistance in &affine.resistances {
-        slopes.add_resistance(resistance, (&moving.motion.placement, inverse, &moving.motion.velocity));
-    }
-    if let Some(immersed) = moving.immersion(model, time)? {
-        immersed.add_to(&mut slopes, &moving.gyration);
-    }
-    Ok(Some(slopes))
+    Ok(slopes)
 }
 
 /// The derivatives of the loads as a body sees them.
 pub(super) struct Seen<'a> {
-    pub slopes: &'a LoadSlopes,
+    slopes: &'a LoadSlopes,
     /// r, of a pinned body.
-    pub arm: Option<Vec3>,
-    pub mass: f64,
+    arm: Option<Vec3>,
+    mass: f64,
 }
 
-impl Seen<'_> {
+impl<'a> Seen<'a> {
+    /// By a body at an instant.
+    pub fn of(at: &BodyAt, slopes: &'a LoadSlopes) -> Self {
+        Self { slopes, arm: at.body.pin.as_ref().map(|pin| pin.point), mass: at.body.mass.mass }
+    }
+
     /// δf/m along one coordinate of a free body.
     pub fn linear(&self, by_rate: bool, coordinate: usize, linear: &mut [f64]) {
         for (out, force) in linear.iter_mut().zip(self.column(by_rate, coordinate)) {

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 /// An ellipsoid in the place of a body, for viscosity 1.
 #[derive(Debug, Clone, Copy)]
-pub struct Yardstick {
+pub struct ReferenceEllipsoid {
     /// The ellipsoid.
     pub ellipsoid: Ellipsoid,
     /// E B Bᵀ with the squares B Bᵀ of the reference ellipsoid.
@@ -28,7 +28,7 @@ pub struct Yardstick {
     pub lower: Mat12,
 }
 
-impl Yardstick {
+impl ReferenceEllipsoid {
     /// The image under E of the ellipsoid of the squares B Bᵀ \[m²\]; none where rounding leaves no positive resistance.
     pub fn of(root: &Mat3, stretch: &Stretch) -> Option<Self> {
         let carried = stretch.matrix() * root;
@@ -98,7 +98,7 @@ mod tests {
         for s in [Strain::zeros(), Strain::from([0.3, -0.2, 0.5, 0.1, -0.4])] {
             let at = |s: &Strain| {
                 let stretch = Stretch::at(s);
-                (Yardstick::of(&root, &stretch).unwrap_or_else(|| panic!("{s}")), stretch)
+                (ReferenceEllipsoid::of(&root, &stretch).unwrap_or_else(|| panic!("{s}")), stretch)
             };
             let (here, stretch) = at(&s);
             for (m, slope) in here.slopes(&stretch).iter().enumerate() {

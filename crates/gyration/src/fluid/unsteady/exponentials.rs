@@ -1,4 +1,4 @@
-//! A memory as a sum of decaying exponentials, to a stated error.
+//! A history as a sum of decaying exponentials, to a stated error.
 //!
 //!   κ(t) ≈ κ̃(t) = rest δ(t) + Σ_k c_k e^(−s_k t),     s_k > 0, c_k > 0, rest > 0
 //!
@@ -17,7 +17,7 @@
 //!
 //!   |∫ w′ (κ − κ̃)|(t) ≤ a ∫₀ᵗ |κ − κ̃| ≤ ε a ∫₀^max(t, θ) κ          at every t in (0, span]
 //!
-//! The right side is ε times the memory's load under the constant acceleration a: the largest that such a motion can have had by
+//! The right side is ε times the history's load under the constant acceleration a: the largest that such a motion can have had by
 //! then (before θ: by θ, as long as the added mass outweighs it). The first inequality is sharp. `rest` counts as part of
 //! ∫|κ − κ̃|; after a jump of w the same integral bounds the error of the impulse.
 //!
@@ -34,13 +34,13 @@ const SPANS: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 /// A sum of exponentials cannot be made for these numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "a memory of {tau:e} s cannot be kept over {span:e} s to {error:e}: both times must be > 0, \
+    "a history of {tau:e} s cannot be kept over {span:e} s to {error:e}: both times must be > 0, \
      their ratio within 1e-12 and 1e12, the error within 1e-10 and 0.1"
 )]
 pub struct Unresolved {
     /// τ = ρR²/η [s].
     pub tau: f64,
-    /// The time over which the memory is to be kept [s].
+    /// The time over which the history is to be kept [s].
     pub span: f64,
     /// The error asked for.
     pub error: f64,

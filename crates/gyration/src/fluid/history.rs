@@ -1,20 +1,20 @@
-//! The memory of a rigid sphere in a fluid with inertia, as loads and state.
+//! The history of a rigid sphere in a fluid with inertia, as loads and state.
 //!
 //!   f = −6πηR Σ c_k (w − y_k) + m_a (du∞/dt − p̈₀) + m_f Du∞/Dt,       m_a = 6πηR (τ/9 + rest)
 //!   T = −8πηR³ Σ C_k (ω_w − Y_k) + I_a (dω∞/dt − ω̇),                    I_a = 8πηR³ rest
 //!   y_k′ = s_k (w − y_k),   Y_k′ = S_k (ω_w − Y_k)
 //!
 //! beside the steady drag. w = ṗ₀ − u∞ and ω_w = ω − ½ rot u∞ are taken along the path of the sphere, d/dt = ∂/∂t + ṗ₀·∇, and Du∞/Dt along that of
-//! the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a and I_a stand on the left of the balance. Source: `memory`; Maxey and Riley (1983).
+//! the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a and I_a stand on the left of the balance. Source: `history`; Maxey and Riley (1983).
 
 use super::ambient::{Flow, Fluid};
-use super::memory::{Exponentials, Unresolved};
+use super::unsteady::{Exponentials, Unresolved};
 use crate::tensor::{Mat3, Vec3, axial};
 use std::f64::consts::PI;
 
-/// What a sphere brings for its memory.
+/// What a sphere brings for its history.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Memory {
+pub struct History {
     /// Of its translation.
     pub translation: Exponentials,
     /// Of its rotation.
@@ -31,9 +31,9 @@ pub struct Memory {
     pub added_inertia: f64,
 }
 
-/// The loads of the memory at one instant, without those that are proportional to the accelerations of the sphere.
+/// The loads of the history at one instant, without those that are proportional to the accelerations of the sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Remembered {
+pub struct HistoryLoads {
     /// Force \[N\].
     pub force: Vec3,
     /// Torque in the axes of space \[N m\].
@@ -52,8 +52,8 @@ pub struct Remembered {
     pub spin_slip: Vec3,
 }
 
-impl Memory {
-    /// The memory of a sphere of a radius \[m\] in a fluid of viscosity \[Pa s\] and density \[kg/m³\] over a span of time \[s\], to an
+impl History {
+    /// The history of a sphere of a radius \[m\] in a fluid of viscosity \[Pa s\] and density \[kg/m³\] over a span of time \[s\], to an
     /// error as in [`Exponentials`].
     ///
     /// # Errors
@@ -85,7 +85,7 @@ impl Memory {
         (fluid, flow, time): (&Fluid, &Flow, f64),
         (place, velocity, spin): (&Vec3, &Vec3, &Vec3),
         modes: &[f64],
-    ) -> Remembered {
+    ) -> HistoryLoads {
         let ambient = flow.at(place);
         let (slip, spin_slip) = (velocity - ambient, spin - 0.5 * axial(&flow.gradient));
         let (changing, spreading) = fluid.rate(time, place);
@@ -98,7 +98,7 @@ impl Memory {
         let given =
             self.spin_drag * (spin_trail + 0.5 * spin_weight * axial(l)) + self.added_inertia * 0.5 * axial(&spreading);
         let by_spin = -self.spin_drag * spin_weight;
-        Remembered {
+        HistoryLoads {
             force,
             torque: given + by_spin * spin,
             given,
@@ -111,9 +111,9 @@ impl Memory {
     }
 
     /// The rates of the modes.
-    pub fn rates(&self, remembered: &Remembered, modes: &[f64], rates: &mut [f64]) {
-        let slips = self.translation.rates.iter().map(|rate| (rate, &remembered.slip));
-        let spins = self.rotation.rates.iter().map(|rate| (rate, &remembered.spin_slip));
+    pub fn rates(&self, history: &HistoryLoads, modes: &[f64], rates: &mut [f64]) {
+        let slips = self.translation.rates.iter().map(|rate| (rate, &history.slip));
+        let spins = self.rotation.rates.iter().map(|rate| (rate, &history.spin_slip));
         let each = modes.chunks_exact(3).zip(rates.chunks_exact_mut(3));
         for ((rate, slip), (mode, out)) in slips.chain(spins).zip(each) {
             for axis in 0..3 {
@@ -124,8 +124,8 @@ impl Memory {
 
     /// What a mode of y or Y does to the force or the torque, 6πηR c_k and 8πηR³ C_k, with its rate; y first.
     pub fn modes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        fn each(memory: &Exponentials, drag: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
-            memory.weights.iter().zip(&memory.rates).map(move |(weight, rate)| (drag * weight, *rate))
+        fn each(history: &Exponentials, drag: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+            history.weights.iter().zip(&history.rates).map(move |(weight, rate)| (drag * weight, *rate))
         }
         each(&self.translation, self.drag).chain(each(&self.rotation, self.spin_drag))
     }

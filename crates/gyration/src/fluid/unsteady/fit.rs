@@ -1,4 +1,4 @@
-//! The fewest exponentials that keep a memory to a stated error: build, measure, add a mode.
+//! The fewest exponentials that keep a history to a stated error: build, measure, add a mode.
 //!
 //! Times are in units of τ here. What is measured, and must not exceed ε, is
 //!

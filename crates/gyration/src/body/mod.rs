@@ -1,22 +1,18 @@
 //! A body: its mass, its surface, the laws and springs that act on it, and its kind.
 //!
-//! Everything is relative to the centre of mass. The kinds are
-//!
-//! | kind  | configuration | velocity | state                                     |
-//! |-------|---------------|----------|-------------------------------------------|
-//! | rigid | p₀, P = R     | ṗ₀, Ω    | p₀ (3), quaternion (4), ṗ₀ (3), Ω (3)     |
-//! | rigid, pinned | P = R | Ω        | quaternion (4), Ω (3)                     |
-//! | affine | p₀, P         | ṗ₀, Ṗ    | p₀ (3), P (9), ṗ₀ (3), Ṗ (9)              |
-//! | affine, pinned | P     | Ṗ        | P (9), Ṗ (9)                              |
-//! | contractile | p₀, P    | ṗ₀, Ṗ    | as an affine body's, then G (9) unless it is prescribed |
-//!
-//! with Ω in body axes, P, Ṗ and G column by column. A body in a fluid that has no inertia has no velocities in its state; a
-//! rigid sphere whose motion the fluid remembers has the modes of that memory behind.
+//! Everything is relative to the centre of mass. A rigid body has the configuration (p₀, P = R) and the velocity (ṗ₀, Ω),
+//! an affine body (p₀, P) and (ṗ₀, Ṗ), a contractile one G besides; `layout` says where these stand in the state. A pinned
+//! body has no position of its own; a body in a fluid that has no inertia has no velocities in its state.
+
+mod layout;
+
+pub use layout::{Slots, matrix, vector};
 
 use crate::affine::AffineBody;
 use crate::contact::Contact;
 use crate::contractile::{self, Contraction, Decomposition, Restored};
-use crate::fluid::{Inclusion, Memory};
+use crate::fluid::{History, Inclusion};
+use crate::ledger::{Energy, Work};
 use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
 use crate::shape::Shape;
@@ -66,6 +62,34 @@ pub enum BodyKind {
     Affine(Box<Affine>),
     /// P = F G, and G does what the body does by itself.
     Contractile(Box<Contractile>),
+}
+
+impl BodyKind {
+    /// The works that the body does by itself.
+    pub fn works(&self) -> Vec<Work> {
+        let (affine, contraction) = match self {
+            Self::Rigid(_) => return Vec::new(),
+            Self::Affine(affine) => (&**affine, None),
+            Self::Contractile(contractile) => (&contractile.affine, Some(&contractile.contraction)),
+        };
+        let entries = [
+            (Work::Viscosity, affine.interior.dissipates()),
+            (Work::Contraction, contraction.is_some_and(|contraction| contraction.viscosity > 0.0)),
+            (Work::Drive, contraction.is_some()),
+            (Work::Constraint, affine.interior.is_incompressible()),
+        ];
+        entries.into_iter().filter_map(|(work, applies)| applies.then_some(work)).collect()
+    }
+
+    /// Where its own energy is stored, beside kinetic and gravity.
+    pub fn energy(&self) -> Option<Energy> {
+        let affine = match self {
+            Self::Rigid(_) => return None,
+            Self::Affine(affine) => affine,
+            Self::Contractile(contractile) => &contractile.affine,
+        };
+        affine.interior.material.is_some().then_some(Energy::Elastic)
+    }
 }
 
 /// What an affine body has beside the loads that any body may have.
@@ -160,24 +184,6 @@ impl RigidInertia {
     }
 }
 
-/// How many numbers of each sort a body has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Parts {
-    /// p₀ and the quaternion or P.
-    pub places: usize,
-    /// ṗ₀ and Ω or Ṗ.
-    pub velocities: usize,
-    /// G, or what the fluid remembers.
-    pub further: usize,
-}
-
-impl Parts {
-    /// All of them.
-    pub fn all(&self) -> usize {
-        self.places + self.velocities + self.further
-    }
-}
-
 /// A gap below this fraction of the lengths from which it is computed cannot be told from zero: rounding alone would
 /// change the forces by more than any tolerance.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
@@ -215,27 +221,13 @@ impl Body {
         self.inclusion.as_ref().is_none_or(|inclusion| inclusion.inertia)
     }
 
-    /// What the fluid remembers of it.
-    pub fn memory(&self) -> Option<&Memory> {
-        self.inclusion.as_ref()?.memory.as_ref()
-    }
-
-    /// How many numbers its place and form take, its velocities, and what else it has.
-    pub(crate) fn parts(&self) -> Parts {
-        let free = if self.pin.is_some() { 0 } else { 3 };
-        let contraction = if self.contraction().is_some_and(Contraction::is_driven) { 9 } else { 0 };
-        let memory = self.memory().map_or(0, Memory::dimension);
-        match &self.kind {
-            BodyKind::Rigid(_) => Parts { places: free + 4, velocities: free + 3, further: memory },
-            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-                Parts { places: free + 9, velocities: free + 9, further: contraction }
-            }
-        }
+    /// The history force on it.
+    pub fn history(&self) -> Option<&History> {
+        self.inclusion.as_ref()?.history.as_ref()
     }
 
     /// How many numbers its state has.
     pub fn dimension(&self) -> usize {
-        let parts = self.parts();
-        if self.has_inertia() { parts.all() } else { parts.places + parts.further }
+        Slots::of(self, 0).block().len()
     }
 }

@@ -18,7 +18,7 @@
 //! makes u = Ex at r = R, and t = −qn + η(∇u + ∇uᵀ)n gives N. An expansion is the potential flow u = e R³x/r³, q = iωρ e R³/r.
 //!
 //! As ω → ∞ the terms in ℓ² are the added masses of potential flow: ½ρV on U, (2/15)ρVR² on E, ρVR² on e I. What remains,
-//! ℓ²/(1 + ℓ), is one memory for spin and strain: `Kernel::Rotation`, times 5/3 for the strain. Translation and rotation are in
+//! ℓ²/(1 + ℓ), is one history for spin and strain: `Kernel::Rotation`, times 5/3 for the strain. Translation and rotation are in
 //! Landau and Lifshitz, *Fluid Mechanics*, §24. Amplitudes must be small against R.
 
 use nalgebra::Complex;
@@ -49,12 +49,12 @@ pub fn vibration(radius: f64, viscosity: f64, density: f64, omega: f64) -> Vibra
     let square = omega * density * radius * radius / viscosity;
     let thickness = (0.5 * square).sqrt();
     let (ell, square) = (Complex::new(thickness, thickness), Complex::new(0.0, square));
-    let memory = square / (ell + 1.0);
+    let history = square / (ell + 1.0);
     let volume = 4.0 / 3.0 * PI * radius.powi(3);
     Vibration {
         translation: (square / 9.0 + ell + 1.0) * (6.0 * PI * viscosity * radius),
-        rotation: (memory / 3.0 + 1.0) * (8.0 * PI * viscosity * radius.powi(3)),
-        strain: (square * (2.0 / 45.0) + memory * (5.0 / 9.0) + 1.0) * (3.0 * viscosity * volume),
+        rotation: (history / 3.0 + 1.0) * (8.0 * PI * viscosity * radius.powi(3)),
+        strain: (square * (2.0 / 45.0) + history * (5.0 / 9.0) + 1.0) * (3.0 * viscosity * volume),
         expansion: (square / 4.0 + 1.0) * (4.0 * viscosity * volume),
     }
 }

@@ -1,0 +1,95 @@
+//! What acts on a body: every load there is, and the entries of the ledger that it brings.
+//!
+//! Rates, Jacobian and diagnostics go through [`Load::on`] and know no other list. A further load is a file in `load` with
+//! its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
+
+use crate::body::Body;
+use crate::contact::{Contact, LawKind};
+use crate::fluid::{Fluid, Inclusion};
+use crate::ledger::{Energy, Work};
+use crate::load::{Applied, Couple, LinearResistance, Spring};
+use crate::support::{Support, SupportMotion};
+
+/// A load on a body.
+#[derive(Debug, Clone, Copy)]
+pub enum Load<'a> {
+    /// The laws with a support.
+    Contact(&'a Contact),
+    /// A spring to a fixed anchor, with its number in the body.
+    Spring(usize, &'a Spring),
+    /// An affine moment.
+    Couple(&'a Couple),
+    /// What a controller applies.
+    Applied(&'a Applied),
+    /// Friction or a gyroscopic load, linear in the velocities.
+    Resistance(&'a LinearResistance),
+    /// The fluid around an inclusion.
+    Fluid(&'a Fluid, &'a Inclusion),
+}
+
+impl<'a> Load<'a> {
+    /// The loads on a body in the order in which they are summed.
+    pub fn on(
+        body: &'a Body,
+        fluid: Option<&'a Fluid>,
+        applied: Option<&'a Applied>,
+    ) -> impl Iterator<Item = Self> + use<'a> {
+        let affine = body.affine();
+        let contacts = body.contacts.iter().map(Self::Contact);
+        let springs = body.springs.iter().enumerate().map(|(number, spring)| Self::Spring(number, spring));
+        let couple = affine.and_then(|affine| affine.couple.as_ref()).map(Self::Couple);
+        let resistances = affine.map_or(&[][..], |affine| &affine.resistances).iter().map(Self::Resistance);
+        let fluid = fluid.zip(body.inclusion.as_ref()).map(|(fluid, inclusion)| Self::Fluid(fluid, inclusion));
+        let held = couple.into_iter().chain(applied.map(Self::Applied));
+        contacts.chain(springs).chain(held).chain(resistances).chain(fluid)
+    }
+
+    /// Whether its force follows from the motion of the body alone when no other load has one: a contact's does.
+    pub fn is_contact_or_couple(&self) -> bool {
+        matches!(self, Self::Contact(_) | Self::Couple(_))
+    }
+
+    /// The works that it may do.
+    pub fn works(&self, supports: &[Support]) -> Vec<Work> {
+        match self {
+            Self::Contact(contact) => {
+                let moves = supports[contact.support].motion != SupportMotion::Fixed;
+                contact.laws().iter().map(|law| law.kind().work()).chain(moves.then_some(Work::Support)).collect()
+            }
+            Self::Spring(_, spring) if spring.damping > 0.0 => vec![Work::Load],
+            Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
+            Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
+            Self::Fluid(..) => vec![Work::Fluid],
+            Self::Spring(..) | Self::Resistance(_) => Vec::new(),
+        }
+    }
+
+    /// Where its energy is stored, if it has one.
+    pub fn energy(&self) -> Option<Energy> {
+        match self {
+            Self::Contact(contact) => {
+                let central = contact.laws().iter().any(|law| law.kind().is_central());
+                central.then_some(Energy::Contact)
+            }
+            Self::Spring(..) => Some(Energy::Load),
+            Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
+        }
+    }
+}
+
+impl LawKind {
+    /// The work that a law of this kind does.
+    pub fn work(self) -> Work {
+        match self {
+            Self::Repulsion => Work::Repulsion,
+            Self::Damping => Work::Damping,
+            Self::Friction => Work::Friction,
+            Self::Adhesion => Work::Adhesion,
+        }
+    }
+
+    /// Whether it pushes or pulls along the normal whatever the velocity, and so may have a potential.
+    pub fn is_central(self) -> bool {
+        matches!(self, Self::Repulsion | Self::Adhesion)
+    }
+}

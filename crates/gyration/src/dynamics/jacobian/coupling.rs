@@ -1,0 +1,197 @@
+//! Block (i, j) of the Jacobian: how the rates of body i change with the numbers of body j, through the loads on i.
+//!
+//!   block (i, j) = B_i ∂Q_i/∂(q_j, q̇_j) A_j
+//!
+//! [`Lift`] is A: it lifts a change of the numbers of a body to its coordinates q = (p₀ | P) and their rates,
+//!
+//!   rigid      δP = R [δθ]×,   δṖ = R [δθ]× [Ω]× + R [δΩ]×,   δθ = 2 vec(q⁻¹ ∘ δq)
+//!   deforming  as they stand
+//!   pinned     δp₀ = −δP r,    δṗ₀ = −δṖ r
+//!
+//! [`Lower`] is B: it lowers a change of the loads Q = (f | M) to the rates, δp̈₀ = δf/m, and of M about the centre or the
+//! pin to the acceleration of P or Ω that the balance of the kind gives. With i = j it serves every load on a rigid body
+//! that has no other way. Bodies without inertia take their velocities from it (`inertialess`), not their rates.
+
+use super::super::{ContractileMotion, RigidHistory};
+use crate::affine::Gyration;
+use crate::body::{Affine, RigidInertia, Slots};
+use crate::columns::{Columns, Four, Work, dispatch};
+use crate::instant::{BodyAt, KindAt};
+use crate::load::{LoadSlopes, Loads, Mat12, loads, numbers};
+use crate::state::Turn;
+use crate::tensor::{Mat3, Vec3, cross_matrix};
+use nalgebra::{DMatrix, SVector};
+
+type Vec12 = SVector<f64, 12>;
+
+/// The derivatives of the loads on one body by the coordinates of another, or by its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coupling {
+    /// ∂Q_i/∂q_j.
+    pub by_place: Mat12,
+    /// ∂Q_i/∂q̇_j.
+    pub by_rate: Mat12,
+}
+
+/// A of one body: its columns are the numbers of a slot, position and velocity from 0, attitude and rate behind them.
+#[derive(Debug, Clone, Copy)]
+pub struct Lift {
+    /// ∂q/∂(position, attitude).
+    place: Mat12,
+    /// ∂q̇/∂(position, attitude).
+    sway: Mat12,
+    /// ∂q̇/∂(velocity, rate).
+    rate: Mat12,
+    slots: Slots,
+}
+
+/// B of one body: from Q to the rates of (velocity, rate).
+#[derive(Debug, Clone, Copy)]
+pub struct Lower {
+    map: Mat12,
+    slots: Slots,
+}
+
+impl From<&LoadSlopes> for Coupling {
+    fn from(slopes: &LoadSlopes) -> Self {
+        Self { by_place: slopes.by_place, by_rate: slopes.by_rate }
+    }
+}
+
+impl Coupling {
+    /// Adds the block that these derivatives give to a matrix with the rows of one body and the columns of another.
+    pub fn add_to(&self, matrix: &mut DMatrix<f64>, lower: &Lower, lift: &Lift) {
+        let by_place = lower.map * (self.by_place * lift.place + self.by_rate * lift.sway);
+        let by_rate = lower.map * (self.by_rate * lift.rate);
+        let rows = lower.slots.velocities();
+        for (part, columns) in [(by_place, lift.slots.places()), (by_rate, lift.slots.velocities())] {
+            let mut block = matrix.view_mut((rows.start, columns.start), (rows.len(), columns.len()));
+            block += part.view((0, 0), (rows.len(), columns.len()));
+        }
+    }
+}
+
+/// (a | A) as a vector of twelve.
+fn packed(force: &Vec3, moment: &Mat3) -> Vec12 {
+    numbers(&Loads { force: *force, moment: *moment })
+}
+
+impl Lift {
+    /// Of a body at an instant; its block begins at 0.
+    pub fn of(at: &BodyAt) -> Self {
+        let slots = Slots::with_inertia(at.body, 0);
+        let (mut place, mut sway, mut rate) = (Mat12::zeros(), Mat12::zeros(), Mat12::zeros());
+        let free = slots.position().len();
+        for axis in 0..free {
+            place[(axis, axis)] = 1.0;
+            rate[(axis, axis)] = 1.0;
+        }
+        // A pinned centre follows P.
+        let arm = at.body.pin.as_ref().map_or_else(Vec3::zeros, |pin| pin.point);
+        let whole = |gradient: &Mat3| packed(&-(gradient * arm), gradient);
+        match at.kind() {
+            KindAt::Rigid(_, turn) => {
+                let (rotation, spin) = (&at.motion.placement.gradient, cross_matrix(&turn.spin));
+                let turned = |axis: &Vec3| rotation * cross_matrix(axis);
+                for (k, by_component) in turn.quaternion.turn_by_component().column_iter().enumerate() {
+                    let turned = turned(&by_component.into_owned());
+                    place.set_column(free + k, &whole(&turned));
+                    sway.set_column(free + k, &whole(&(turned * spin)));
+                }
+                for k in 0..3 {
+                    rate.set_column(free + k, &whole(&turned(&Vec3::ith(k, 1.0))));
+                }
+            }
+            KindAt::Affine(..) | KindAt::Contractile(..) => {
+                for k in 0..9 {
+                    let column = whole(&crate::load::unit(k));
+                    place.set_column(free + k, &column);
+                    rate.set_column(free + k, &column);
+                }
+            }
+        }
+        Self { place, sway, rate, slots }
+    }
+}
+
+impl Lower {
+    /// Of a body at an instant; its block begins at 0.
+    pub fn of(at: &BodyAt) -> Self {
+        let slots = Slots::with_inertia(at.body, 0);
+        let columns: [Vec12; 12] = match at.kind() {
+            KindAt::Rigid(inertia, turn) => {
+                std::array::from_fn(|k| turned(at, inertia, turn, &loads(&Vec12::ith(k, 1.0))))
+            }
+            KindAt::Affine(affine, gyration) => dispatch(Deforming { at, affine, gyration }),
+            KindAt::Contractile(contractile, gyration, decomposition) => {
+                dispatch(ContractileMotion { at, contractile, gyration, decomposition })
+            }
+        };
+        Self { map: Mat12::from_columns(&columns), slots }
+    }
+}
+
+/// M about the pin, if there is one.
+fn about_pin(at: &BodyAt, loads: &Loads) -> Mat3 {
+    match &at.body.pin {
+        None => loads.moment,
+        Some(pin) => loads.moment - loads.force * pin.point.transpose(),
+    }
+}
+
+/// (δp̈₀, δΩ̇) of a rigid body.
+fn turned(at: &BodyAt, inertia: &RigidInertia, turn: &Turn, change: &Loads) -> Vec12 {
+    let (mass, inverse) = match RigidHistory::of(at, turn) {
+        Some(sphere) => (sphere.mass(), sphere.inverse(inertia)),
+        None => (at.body.mass.mass, inertia.inverse),
+    };
+    let about = Loads { force: change.force, moment: about_pin(at, change) };
+    let angular = inverse * about.body_torque(&at.motion.placement.gradient);
+    stacked(at, &(change.force / mass), angular.as_slice())
+}
+
+/// The accelerations of a slot after those of the centre, which a pinned body does not have.
+fn stacked(at: &BodyAt, linear: &Vec3, own: &[f64]) -> Vec12 {
+    let linear = linear.as_slice().iter().filter(|_| at.body.pin.is_none());
+    let mut stacked = Vec12::zeros();
+    stacked.iter_mut().zip(linear.chain(own)).for_each(|(out, number)| *out = *number);
+    stacked
+}
+
+/// An affine body at an instant.
+struct Deforming<'a> {
+    at: &'a BodyAt<'a>,
+    affine: &'a Affine,
+    gyration: &'a Gyration,
+}
+
+/// (δp̈₀, δP̈) by each number of Q, given δP̈ of δM.
+#[inline(always)]
+fn deformed<F: Four>(at: &BodyAt, acceleration: impl Fn(&Columns) -> Columns<F>) -> [Vec12; 12] {
+    std::array::from_fn(|k| {
+        let change = loads(&Vec12::ith(k, 1.0));
+        let mut own = [0.0; 9];
+        acceleration(&Columns::of(&about_pin(at, &change))).write(&mut own);
+        stacked(at, &(change.force / at.body.mass.mass), &own)
+    })
+}
+
+impl Work for Deforming<'_> {
+    type Output = [Vec12; 12];
+
+    #[inline(always)]
+    fn run<F: Four>(self, zeros: F) -> Self::Output {
+        let balance = self.affine.interior.slopes_in(zeros, self.gyration, &Mat3::zeros());
+        deformed(self.at, |moment| balance.along_moment(moment, zeros))
+    }
+}
+
+impl Work for ContractileMotion<'_> {
+    type Output = [Vec12; 12];
+
+    #[inline(always)]
+    fn run<F: Four>(self, zeros: F) -> Self::Output {
+        let balance = self.slopes_in(zeros, &self.command(), &Mat3::zeros());
+        deformed(self.at, |moment| balance.held(&Columns::default(), moment, 0.0))
+    }
+}

@@ -1,0 +1,155 @@
+//! The one loop over what acts on a body: f, M and powers, their derivatives, and stored energies.
+//!
+//! Each load answers in the coordinates (p₀ | P) common to all kinds, Q = (f | M). A rigid body is told of a contact and of
+//! the fluid in its own ten numbers instead, since normal and tangential parts must not be mixed (`contact/wrench`); every
+//! other load reaches it through Q.
+
+use super::contacts::meet;
+use super::powers::Powers;
+use super::{RigidImmersion, Scratch, immersion};
+use crate::acting::Load;
+use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::instant::BodyAt;
+use crate::ledger::{Energy, Work};
+use crate::load::{LoadSlopes, Loads, Spring, SpringLoads};
+
+/// What acts on a body, gravity aside.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Acting {
+    /// f and M of the contacts.
+    pub contact: Loads,
+    /// f and M of all loads.
+    pub total: Loads,
+    /// The powers of their works.
+    pub(crate) powers: Powers,
+}
+
+/// f and M of all loads on a body, and the powers of their works.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn acting(at: &BodyAt, scratch: &mut Scratch) -> Result<Acting, Inadmissible> {
+    let mut sum = Acting::default();
+    for load in at.loads() {
+        sum.add(&load, at, scratch)?;
+    }
+    Ok(sum)
+}
+
+impl Acting {
+    /// Adds a load.
+    #[inline]
+    pub(super) fn add(&mut self, load: &Load, at: &BodyAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
+        let velocity = &at.motion.velocity;
+        match load {
+            Load::Contact(contact) => {
+                let integrated = meet(at, contact, |it| ContactLoads::integrate(contact, it, &mut scratch.contact))?;
+                let Some(loads) = integrated else { return Ok(()) };
+                let total = loads.total();
+                for law in LawKind::ALL {
+                    self.powers.add(law, loads.relative_power(law));
+                }
+                let carried = at.model.supports[contact.support].motion.velocity(at.time);
+                self.powers[Work::Support] += total.force.dot(&carried);
+                self.contact += total;
+                self.total += total;
+            }
+            Load::Spring(number, spring) => {
+                let loads = stretched(at, *number, spring)?;
+                self.powers[Work::Load] += loads.dashpot_power;
+                self.total += loads.total();
+            }
+            Load::Couple(couple) => {
+                let moment = couple.moment(at.time, &at.inverse());
+                self.powers[Work::Load] += moment.dot(&velocity.gradient_rate);
+                self.total.moment += moment;
+            }
+            Load::Applied(applied) => {
+                let loads = applied.loads(&at.inverse());
+                self.powers[Work::Load] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
+            Load::Resistance(resistance) => {
+                let loads = resistance.loads(&at.motion.placement.gradient, &at.inverse(), velocity);
+                if resistance.dissipates() {
+                    self.powers[Work::Viscosity] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                }
+                self.total += loads;
+            }
+            Load::Fluid(..) => {
+                let Some(loads) = fluid(at)? else { return Ok(()) };
+                self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// f and M of the fluid; none where its form does not go with the kind of the body.
+#[inline]
+fn fluid(at: &BodyAt) -> Result<Option<Loads>, Inadmissible> {
+    match at.gyration() {
+        None => Ok(RigidImmersion::of(at).map(|immersed| immersed.loads(&at.motion.placement.gradient))),
+        Some(gyration) => Ok(immersion(at)?.map(|immersed| immersed.loads(gyration))),
+    }
+}
+
+/// Adds the derivatives of a load by (p₀ | P) and their rates, and the load itself.
+pub(super) fn add_slopes(
+    load: &Load,
+    at: &BodyAt,
+    scratch: &mut Scratch,
+    slopes: &mut LoadSlopes,
+) -> Result<(), Inadmissible> {
+    match load {
+        Load::Contact(contact) => {
+            let integrated = meet(at, contact, |it| ContactSlopes::integrate(contact, it, &mut scratch.contact))?;
+            if let Some(contact) = integrated {
+                contact.add_to(slopes);
+            }
+        }
+        Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
+        Load::Couple(couple) => {
+            let inverse = at.inverse();
+            slopes.add_couple(&couple.moment(at.time, &inverse), &inverse);
+        }
+        Load::Applied(applied) => slopes.add_applied(applied, &at.inverse()),
+        Load::Resistance(resistance) => {
+            slopes.add_resistance(resistance, (&at.motion.placement, &at.inverse(), &at.motion.velocity));
+        }
+        Load::Fluid(..) => {
+            if let (Some(gyration), Some(immersed)) = (at.gyration(), immersion(at)?) {
+                immersed.add_to(slopes, gyration);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The energy [J] that the loads of a body store in one column of the ledger.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Result<f64, Inadmissible> {
+    let mut total = 0.0;
+    for load in at.loads().filter(|load| load.energy() == Some(energy)) {
+        total += match load {
+            Load::Contact(contact) => {
+                let potential = meet(at, contact, |it| contact_potential(contact, it, &mut scratch.contact))?;
+                potential.unwrap_or(0.0)
+            }
+            Load::Spring(_, spring) => spring.energy(&at.motion.placement),
+            Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
+        };
+    }
+    Ok(total)
+}
+
+/// The force of a spring.
+fn stretched(at: &BodyAt, number: usize, spring: &Spring) -> Result<SpringLoads, Inadmissible> {
+    let loads = spring.loads(&at.motion.placement, &at.motion.velocity);
+    let quantity = Quantity::SpringLength { spring: number };
+    loads.ok_or_else(|| at.outside(quantity, spring.length(&at.motion.placement)))
+}

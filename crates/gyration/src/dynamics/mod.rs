@@ -1,0 +1,82 @@
+//! From an instant to the rates and their Jacobian: loads, balance, inertialess bodies.
+//!
+//! `rates` is the function to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
+//! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels; `jacobian`
+//! differentiates all of it; `inertialess` stands above both.
+
+mod affine;
+mod contacts;
+mod contractile;
+mod history;
+mod inertialess;
+mod jacobian;
+mod loads;
+mod powers;
+mod rates;
+mod rigid;
+
+pub use contacts::nearest;
+pub use jacobian::{Coupling, Lift, Lower, jacobian};
+pub use loads::{Acting, acting, stored_energy};
+pub use rates::rates;
+
+pub(crate) use affine::{balance as affine_balance, immersion, moment};
+pub(crate) use contractile::ContractileMotion;
+pub(crate) use history::RigidHistory;
+pub(crate) use rates::body_rates;
+pub(crate) use rigid::RigidImmersion;
+
+use crate::contact::ContactScratch;
+use crate::inadmissible::Inadmissible;
+use crate::instant::Instant;
+use crate::model::Model;
+use crate::state::State;
+use nalgebra::DMatrix;
+
+/// Memory of the mechanics, reused from call to call.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace {
+    instant: Instant,
+    scratch: Scratch,
+}
+
+/// Room for the moments of contacts and for matrices.
+#[derive(Debug, Clone, Default)]
+pub struct Scratch {
+    pub(crate) contact: ContactScratch,
+    /// The Jacobians of bodies with inertia, by their number of rows.
+    matrices: Vec<DMatrix<f64>>,
+    numbers: Vec<f64>,
+}
+
+impl Scratch {
+    /// Zeros, to be given back.
+    pub(crate) fn take_numbers(&mut self, count: usize) -> Vec<f64> {
+        let mut numbers = std::mem::take(&mut self.numbers);
+        numbers.clear();
+        numbers.resize(count, 0.0);
+        numbers
+    }
+
+    /// Keeps the room of numbers for the next time.
+    pub(crate) fn give_back(&mut self, numbers: Vec<f64>) {
+        self.numbers = numbers;
+    }
+}
+
+impl Workspace {
+    /// Reads a state, with the velocities that their balance gives to bodies without inertia.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where the state is outside the model.
+    pub fn read(&mut self, model: &Model, state: &State) -> Result<(&Instant, &mut Scratch), Inadmissible> {
+        let Self { instant, scratch } = self;
+        instant.read(model, state.time, &state.bodies)?;
+        for index in 0..model.bodies.len() {
+            if !model.bodies[index].has_inertia() {
+                inertialess::settle(model, instant, scratch, index)?;
+            }
+        }
+        Ok((instant, scratch))
+    }
+}

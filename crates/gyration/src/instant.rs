@@ -1,0 +1,168 @@
+//! The motion of every body at one time and state, read once an evaluation; rates, Jacobian, rows and events look at it.
+//!
+//! Beside (p₀, P) and (ṗ₀, Ṗ) it holds what each kind of body needs of them more than once: the quaternion and spin of a
+//! rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time. A
+//! body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
+
+use crate::acting::Load;
+use crate::affine::Gyration;
+use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
+use crate::contractile::Decomposition;
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::model::Model;
+use crate::state::{BodyMotion, Turn, contraction_at};
+use crate::tensor::Mat3;
+
+/// The motion of every body at one time and state.
+#[derive(Debug, Clone, Default)]
+pub struct Instant {
+    time: f64,
+    state: Vec<f64>,
+    bodies: Vec<BodyInstant>,
+}
+
+/// The motion of one body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BodyInstant {
+    motion: BodyMotion,
+    attitude: Attitude,
+}
+
+/// What a kind of body needs of its motion more than once.
+#[expect(clippy::large_enum_variant, reason = "read once an evaluation into memory that is kept")]
+#[derive(Debug, Clone, Copy)]
+enum Attitude {
+    Rigid(Turn),
+    Affine(Gyration),
+    Contractile(Gyration, Decomposition),
+}
+
+/// A body of a model at an instant: all that its loads and its balance are computed from.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyAt<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// t [s].
+    pub time: f64,
+    /// The index of the body.
+    pub index: usize,
+    /// The body.
+    pub body: &'a Body,
+    /// p₀, P, ṗ₀, Ṗ.
+    pub motion: &'a BodyMotion,
+    /// What stands in its slot `extra`.
+    pub(crate) extra: &'a [f64],
+    attitude: &'a Attitude,
+}
+
+/// The kind of a body, with what it needs of its motion more than once.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum KindAt<'a> {
+    Rigid(&'a RigidInertia, &'a Turn),
+    Affine(&'a Affine, &'a Gyration),
+    Contractile(&'a Contractile, &'a Gyration, &'a Decomposition),
+}
+
+impl BodyInstant {
+    /// Reads the slots of a body in a state.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
+    #[inline]
+    pub fn read(body: &Body, index: usize, slots: &Slots, time: f64, state: &[f64]) -> Result<Self, Inadmissible> {
+        let motion = BodyMotion::read(body, slots, state);
+        let (p, rate) = (&motion.placement.gradient, &motion.velocity.gradient_rate);
+        let outside = |quantity| move |value| Inadmissible { body: index, quantity, value };
+        let gyration = || Gyration::of(p, rate).map_err(outside(Quantity::Volume));
+        let attitude = match &body.kind {
+            BodyKind::Rigid(_) => Attitude::Rigid(Turn::read(slots, state)),
+            BodyKind::Affine(_) => Attitude::Affine(gyration()?),
+            BodyKind::Contractile(contractile) => {
+                let gyration = gyration()?;
+                let contraction = contraction_at(&contractile.contraction, time, &state[slots.extra()]);
+                let decomposition = Decomposition::of(p, &contraction).map_err(outside(Quantity::Contraction))?;
+                Attitude::Contractile(gyration, decomposition)
+            }
+        };
+        Ok(Self { motion, attitude })
+    }
+}
+
+impl Instant {
+    /// Reads a state; bodies without inertia are taken to be still.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
+    pub(crate) fn read(&mut self, model: &Model, time: f64, state: &[f64]) -> Result<(), Inadmissible> {
+        self.time = time;
+        self.state.clear();
+        self.state.extend_from_slice(state);
+        self.bodies.clear();
+        for (index, body) in model.bodies.iter().enumerate() {
+            self.bodies.push(BodyInstant::read(body, index, model.slots(index), time, state)?);
+        }
+        Ok(())
+    }
+
+    /// Replaces the motion of one body.
+    pub(crate) fn replace(&mut self, index: usize, body: BodyInstant) {
+        self.bodies[index] = body;
+    }
+
+    /// The numbers that were read.
+    pub(crate) fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    /// t [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// A body of the model from whose state this was read.
+    pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> BodyAt<'a> {
+        let BodyInstant { motion, attitude } = &self.bodies[index];
+        let extra = &self.state[model.slots(index).extra()];
+        BodyAt { model, time: self.time, index, body: &model.bodies[index], motion, extra, attitude }
+    }
+}
+
+impl<'a> BodyAt<'a> {
+    /// Its kind.
+    #[inline]
+    pub(crate) fn kind(&self) -> KindAt<'a> {
+        match (&self.body.kind, self.attitude) {
+            (BodyKind::Rigid(inertia), Attitude::Rigid(turn)) => KindAt::Rigid(inertia, turn),
+            (BodyKind::Affine(affine), Attitude::Affine(gyration)) => KindAt::Affine(affine, gyration),
+            (BodyKind::Contractile(contractile), Attitude::Contractile(gyration, decomposition)) => {
+                KindAt::Contractile(contractile, gyration, decomposition)
+            }
+            _ => unreachable!("an instant belongs to the model that it was read from"),
+        }
+    }
+
+    /// P and what follows from it; none of a rigid body.
+    #[inline]
+    pub(crate) fn gyration(&self) -> Option<&'a Gyration> {
+        match self.attitude {
+            Attitude::Rigid(_) => None,
+            Attitude::Affine(gyration) | Attitude::Contractile(gyration, _) => Some(gyration),
+        }
+    }
+
+    /// P⁻¹.
+    #[inline]
+    pub(crate) fn inverse(&self) -> Mat3 {
+        self.gyration().map_or_else(|| self.motion.placement.gradient.transpose(), |gyration| gyration.inverse)
+    }
+
+    /// What acts on it.
+    pub fn loads(&self) -> impl Iterator<Item = Load<'a>> + use<'a> {
+        Load::on(self.body, self.model.fluid.as_ref(), self.model.applied(self.index))
+    }
+
+    /// A state outside the model.
+    pub(crate) fn outside(&self, quantity: Quantity, value: f64) -> Inadmissible {
+        Inadmissible { body: self.index, quantity, value }
+    }
+}
