@@ -38,7 +38,8 @@ pub enum Command {
     Check(Check),
     /// Print the rest state of each body, and frequencies, decay rates and shapes of the small motions about it
     Modes(Check),
-    /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and moment
+    /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and
+    /// moment
     Resistance(Resistance),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
@@ -73,7 +74,8 @@ pub struct SceneArguments {
     /// Path of a scene, or its name in the gallery
     #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub scene: String,
-    /// Change a value of the scene, by name or by index from zero: body.die.velocity='[1,0,0]', contact.0.friction.beta=2
+    /// Change a value of the scene, by name or by index from zero: body.die.velocity='[1,0,0]',
+    /// contact.0.friction.beta=2
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
 }
@@ -187,8 +189,8 @@ pub struct Plot {
     /// File to write: .svg, .png or .pdf; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
-    /// The two measures of `stroke`, to the right and upwards, as columns of the CSV without the body, V_xx and Q_xx besides:
-    /// G_xz,G_zz or G_zz,P_zz [default: entries of G that enclose most]
+    /// The two measures of `stroke`, to the right and upwards, as columns of the CSV without the body, V_xx and Q_xx
+    /// besides: G_xz,G_zz or G_zz,P_zz [default: entries of G that enclose most]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub measures: Vec<String>,
     /// Change a value of the scene before its laws are drawn
@@ -236,7 +238,8 @@ pub struct Study {
     /// What to do with its table instead of making it.
     #[command(subcommand)]
     pub action: Option<StudyAction>,
-    /// Folder of the table [default: STEM.study in the current folder]; of `plot` the picture, .svg, .png, .pdf or - [default: STEM.svg]
+    /// Folder of the table [default: STEM.study in the current folder]; of `plot` the picture, .svg, .png, .pdf or -
+    /// [default: STEM.svg]
     #[arg(short, long, value_name = "PATH", value_hint = ValueHint::AnyPath, global = true)]
     pub output: Option<PathBuf>,
     /// Make part K of N only, into DIR/shard-K-of-N; `merge` joins the parts
@@ -276,13 +279,15 @@ pub struct StudyPlot {
     /// Column of the axis to the right [default: what the study says, or the first axis of its grid]
     #[arg(long, value_name = "COLUMN")]
     pub x: Option<String>,
-    /// Column of the axis upwards; face=+z,-z: the share of the runs with one of these values, or of those of another column
+    /// Column of the axis upwards; face=+z,-z: the share of the runs with one of these values, or of those of another
+    /// column
     #[arg(long, value_name = "COLUMN[=VALUE,…]")]
     pub y: Option<String>,
     /// Column that colours tell apart
     #[arg(long, visible_alias = "color", value_name = "COLUMN")]
     pub colour: Option<String>,
-    /// Kind of picture; with this, --x or --y the study's own columns no longer count [default: what the study says, or by the columns]
+    /// Kind of picture; with this, --x or --y the study's own columns no longer count [default: what the study says, or
+    /// by the columns]
     #[arg(long, value_parser = Kind::WORDS)]
     pub kind: Option<String>,
 }

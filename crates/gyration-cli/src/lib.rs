@@ -6,8 +6,8 @@
 //! arguments → commands/{run, check, modes, resistance, study, calibrate, scenes, export, plot, schema, …} → output
 //! ```
 //!
-//! No mechanics here: scenes are built by `gyration-scene`, run and surveyed by `gyration-sim`, kept by `gyration-record`, drawn
-//! by `gyration-plot`, shown by `gyration-view`.
+//! No mechanics here: scenes are built by `gyration-scene`, run and surveyed by `gyration-sim`, kept by
+//! `gyration-record`, drawn by `gyration-plot`, shown by `gyration-view`.
 
 #![forbid(unsafe_code)]
 

@@ -1,7 +1,7 @@
 //! `gyration export --format gltf`: a file that a reader of the format accepts, and that moves as the recording does.
 //!
-//! The crate gltf, which refuses documents that the specification does not allow, reads it; what a player shows is computed
-//! from its nodes and channels once more, without anything of the exporter.
+//! The crate gltf, which refuses documents that the specification does not allow, reads it; what a player shows is
+//! computed from its nodes and channels once more, without anything of the exporter.
 
 use crate::common::Sandbox;
 use gltf::animation::util::ReadOutputs;

@@ -1,4 +1,5 @@
-//! The last whole cycle of a body whose drive repeats itself: the window over which a stroke, a distance, a cost are told.
+//! The last whole cycle of a body whose drive repeats itself: the window over which a stroke, a distance, a cost are
+//! told.
 //!
 //!   [t₁ − T, t₁],   t₁ the last sample, T the period of the drive
 //!

@@ -5,8 +5,8 @@
 //! table of a study → study (how often, how on average, where) ↗
 //! ```
 //!
-//! The same recording gives the same bytes: there are neither dates nor names of machines in a picture. Nothing is written
-//! but where [`leave_overview`] is asked to.
+//! The same recording gives the same bytes: there are neither dates nor names of machines in a picture. Nothing is
+//! written but where [`leave_overview`] is asked to.
 
 #![forbid(unsafe_code)]
 

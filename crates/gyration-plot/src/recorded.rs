@@ -1,4 +1,5 @@
-//! What pictures need of a recording: bodies and supports as they were described, and samples thinned to what can be seen.
+//! What pictures need of a recording: bodies and supports as they were described, and samples thinned to what can be
+//! seen.
 
 use crate::draw::Point;
 use crate::error::PlotError;

@@ -1,4 +1,5 @@
-//! Thinning: of many samples those that a picture can show, the first, least, largest and last of each column of pixels.
+//! Thinning: of many samples those that a picture can show, the first, least, largest and last of each column of
+//! pixels.
 //!
 //! What is drawn through them covers the same pixels as a line through all samples. Samples are taken one by one, so
 //! that a recording of any length passes through bounded memory.

@@ -1,4 +1,5 @@
-//! What can be said of a scene without running it: modes about rest, resistances in a fluid; the program's numbers, as arrays.
+//! What can be said of a scene without running it: modes about rest, resistances in a fluid; the program's numbers, as
+//! arrays.
 
 use crate::convert::{array, object, to_python};
 use crate::errors;

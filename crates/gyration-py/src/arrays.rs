@@ -1,6 +1,7 @@
 //! The state of a simulation as arrays of NumPy, which each step writes into in place.
 //!
-//! Python cannot write to them: a controller that tried to set a state this way would be told, instead of being ignored.
+//! Python cannot write to them: a controller that tried to set a state this way would be told, instead of being
+//! ignored.
 
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::HandStepper;
@@ -64,8 +65,8 @@ impl Arrays {
 fn write(py: Python<'_>, array: &Py<PyArrayDyn<f64>>, numbers: &[f64]) {
     let array = array.bind(py);
     debug_assert_eq!(array.len(), numbers.len());
-    // SAFETY: the array was made here, contiguous and of this length; the interpreter's lock is held, and Python cannot write to it,
-    // so that nobody else has a reference into it while these numbers are copied.
+    // SAFETY: the array was made here, contiguous and of this length; the interpreter's lock is held, and Python cannot
+    // write to it, so that nobody else has a reference into it while these numbers are copied.
     if let Ok(slice) = unsafe { array.as_slice_mut() } {
         slice.copy_from_slice(numbers);
     }

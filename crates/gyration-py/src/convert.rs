@@ -1,7 +1,8 @@
 //! Values of Python and of JSON into each other, and into the text of an override.
 //!
-//! Whatever has `tolist` (arrays and numbers of NumPy) is taken as the list or number that it stands for. A number that is not
-//! finite has no place in JSON: it is left to the scene to refuse, where there is a text to say so, and is refused here else.
+//! Whatever has `tolist` (arrays and numbers of NumPy) is taken as the list or number that it stands for. A number that
+//! is not finite has no place in JSON: it is left to the scene to refuse, where there is a text to say so, and is
+//! refused here else.
 
 use crate::errors;
 use numpy::{PyArray, PyArrayMethods};
@@ -48,8 +49,8 @@ pub fn object<'py>(py: Python<'py>, entries: &Map<String, Value>) -> PyResult<Bo
     dict.into_bound_py_any(py)
 }
 
-/// Whether what a callback returned asks to stop: False does, of Python or of NumPy, as comparisons of arrays have it. A function that
-/// returns nothing goes on.
+/// Whether what a callback returned asks to stop: False does, of Python or of NumPy, as comparisons of arrays have it.
+/// A function that returns nothing goes on.
 #[pyfunction]
 #[pyo3(name = "_says_stop")]
 pub fn says_stop(answer: &Bound<'_, PyAny>) -> PyResult<bool> {

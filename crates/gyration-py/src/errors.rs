@@ -1,7 +1,7 @@
 //! Failures of the engine as exceptions of the package, with the messages of the program.
 //!
-//! The classes are Python's (`gyration/_errors.py`): an extension for all versions of Python cannot derive from built-in
-//! exceptions.
+//! The classes are Python's (`gyration/_errors.py`): an extension for all versions of Python cannot derive from
+//! built-in exceptions.
 
 use gyration_plot::PlotError;
 use gyration_record::RecordError;

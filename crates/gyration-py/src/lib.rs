@@ -9,9 +9,9 @@
 //! measurements ─→ calibrate → Fit: numbers of a scene, their errors
 //! ```
 //!
-//! A binding and nothing else: what is computed, said or drawn comes from the crates of the workspace, in the words and bytes of
-//! the program. The interpreter's lock is released while the engine computes. The documentation that a user reads stands in
-//! `python/gyration/_gyration.pyi` and `__init__.py`.
+//! A binding and nothing else: what is computed, said or drawn comes from the crates of the workspace, in the words and
+//! bytes of the program. The interpreter's lock is released while the engine computes. The documentation that a user
+//! reads stands in `python/gyration/_gyration.pyi` and `__init__.py`.
 
 mod analysis;
 mod arrays;

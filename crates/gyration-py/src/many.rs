@@ -1,7 +1,7 @@
 //! `run_many`: many scenes at once, on all cores, and what they ended with as arrays.
 //!
-//! Runs know nothing of each other: the results are in the order of the scenes and the same on any number of threads. Nothing is
-//! written to disk. A run that cannot begin or has to stop is an entry with its reason.
+//! Runs know nothing of each other: the results are in the order of the scenes and the same on any number of threads.
+//! Nothing is written to disk. A run that cannot begin or has to stop is an entry with its reason.
 
 use crate::convert::array;
 use crate::errors::{self, reason};
@@ -95,7 +95,8 @@ fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
     }
 }
 
-/// Runs all on so many threads, while this one looks at signals; those that are not begun when all are to stop are told as such.
+/// Runs all on so many threads, while this one looks at signals; those that are not begun when all are to stop are told
+/// as such.
 fn all(scenes: &[Arc<Built>], threads: NonZeroUsize, keep: Option<&[String]>, watch: &mut Watch) -> Vec<Ending> {
     let stop = AtomicBool::new(false);
     let mut endings: Vec<Option<Ending>> = scenes.iter().map(|_| None).collect();
@@ -212,7 +213,8 @@ impl Runs {
         self.endings.iter().map(|ending| ending.reason.as_deref()).collect()
     }
 
-    /// What there is of each run: end ``time`` [s], counters, ``residual`` of the ledger over the energy in play, and columns at the end.
+    /// What there is of each run: end ``time`` [s], counters, ``residual`` of the ledger over the energy in play, and
+    /// columns at the end.
     #[getter]
     fn columns(&self) -> Vec<String> {
         let told = ["time", "steps", "rejected", "evaluations", "residual"].map(str::to_owned);

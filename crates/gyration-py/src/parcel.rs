@@ -1,7 +1,7 @@
 //! The recording of a run as bytes, for a process that has no disk in common with the one that made it.
 //!
-//! A recording is a folder of small files; a parcel holds all of them by their paths within it. It is unpacked beside its place and
-//! then moved there: whatever stands at the place of a recording is whole.
+//! A recording is a folder of small files; a parcel holds all of them by their paths within it. It is unpacked beside
+//! its place and then moved there: whatever stands at the place of a recording is whole.
 
 use gyration_record::{RecordError, remove};
 use gyration_study::StudyError;

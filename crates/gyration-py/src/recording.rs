@@ -59,7 +59,8 @@ impl Recording {
             .filter(|array| !(array.dims.len() == 1 && array.dims[0] == array.name && array.name != "time"))
     }
 
-    /// `die.position`: the array of which a part belongs to a body, which of the bodies it is, and along which axis they stand.
+    /// `die.position`: the array of which a part belongs to a body, which of the bodies it is, and along which axis
+    /// they stand.
     fn of_body<'a>(&self, name: &'a str) -> PyResult<Option<(&'a str, usize, usize)>> {
         let Some((body, name)) = name.rsplit_once('.') else { return Ok(None) };
         let (bodies, Ok(info)) = (self.body_names()?, self.inner.array(name)) else { return Ok(None) };
@@ -119,8 +120,9 @@ impl Recording {
         }
     }
 
-    /// What the program says at the end of the run: outcome, steps, ledger, momenta, events. Of a recording that was opened it is the same,
-    /// without the wall time, which nothing records; of one that has not ended, as far as it has come.
+    /// What the program says at the end of the run: outcome, steps, ledger, momenta, events. Of a recording that was
+    /// opened it is the same, without the wall time, which nothing records; of one that has not ended, as far as it has
+    /// come.
     #[getter]
     fn summary(&self, py: Python<'_>) -> String {
         if let Some(told) = &self.told {
@@ -152,7 +154,8 @@ impl Recording {
         self.body_names()
     }
 
-    /// The names of the columns of the table: ``t``, then ``BODY.x`` [m], ``BODY.P_xx``, ``BODY.vx`` [m/s], …, energies and works [J].
+    /// The names of the columns of the table: ``t``, then ``BODY.x`` [m], ``BODY.P_xx``, ``BODY.vx`` [m/s], …, energies
+    /// and works [J].
     #[getter]
     fn columns(&self) -> Vec<String> {
         std::iter::once("t").chain(self.inner.columns()).map(str::to_owned).collect()
@@ -246,15 +249,16 @@ impl Recording {
         py.import("xarray")?.call_method("Dataset", (), Some(&keywords))
     }
 
-    /// A picture of quantities by name: ``overview``, ``strip``, ``height``, ``gap``, ``stretch``, ``forces``, ``energy``, ``stroke``,
-    /// ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name. ``measures`` are the two of ``stroke``.
+    /// A picture of quantities by name: ``overview``, ``strip``, ``height``, ``gap``, ``stretch``, ``forces``,
+    /// ``energy``, ``stroke``, ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name.
+    /// ``measures`` are the two of ``stroke``.
     #[pyo3(signature = (*what, measures=None))]
     fn plot(&self, py: Python<'_>, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {
         py.detach(|| self.picture(what, measures.unwrap_or_default()))
     }
 
-    /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its path, beside the
-    /// recording if none is given, or in the current folder for one that is temporary.
+    /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its
+    /// path, beside the recording if none is given, or in the current folder for one that is temporary.
     #[pyo3(signature = (path=None))]
     fn report(&self, py: Python<'_>, path: Option<PathBuf>) -> PyResult<PathBuf> {
         let beside = || {

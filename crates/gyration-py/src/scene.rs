@@ -17,7 +17,8 @@ use std::sync::Arc;
 /// What a scene is made of again elsewhere: its name in messages, text, folder, overrides.
 pub type Packed = (String, String, PathBuf, Vec<String>);
 
-/// A scene: bodies, supports, laws, how long to run and how precisely. It has no errors, and does not change: `edit` gives another one.
+/// A scene: bodies, supports, laws, how long to run and how precisely. It has no errors, and does not change: `edit`
+/// gives another one.
 #[pyclass(frozen, module = "gyration", name = "Scene")]
 pub struct Scene {
     pub inner: Arc<Inner>,
@@ -69,8 +70,8 @@ impl Scene {
 impl Scene {
     /// A scene from a file, TOML or JSON; paths in it are relative to its folder.
     ///
-    /// ``overrides`` are changes by dotted key, as for :meth:`edit`. Raises ``SceneError`` with everything that is wrong, ``FileError``
-    /// if the file cannot be read.
+    /// ``overrides`` are changes by dotted key, as for :meth:`edit`. Raises ``SceneError`` with everything that is
+    /// wrong, ``FileError`` if the file cannot be read.
     #[classmethod]
     #[pyo3(signature = (path, overrides=None))]
     fn from_file(kind: &Bound<'_, PyType>, path: PathBuf, overrides: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -94,8 +95,8 @@ impl Scene {
         Self::parse(kind.py(), name.to_owned(), text, base.unwrap_or_default(), &changes)
     }
 
-    /// A scene from a dictionary of the keys of a scene file. Numbers are in SI units, texts may have units: ``"30 deg"``. Arrays of NumPy
-    /// are lists.
+    /// A scene from a dictionary of the keys of a scene file. Numbers are in SI units, texts may have units: ``"30
+    /// deg"``. Arrays of NumPy are lists.
     #[classmethod]
     #[pyo3(signature = (data, name="scene", base=None, overrides=None))]
     fn from_dict(
@@ -185,8 +186,8 @@ impl Scene {
         self.inner.built().model.supports.iter().map(|support| support.name.clone()).collect()
     }
 
-    /// What can be said of the scene before it runs, as ``gyration check`` prints it: mass, rest gaps, time scales, whether laws forbid
-    /// touching, resolved form.
+    /// What can be said of the scene before it runs, as ``gyration check`` prints it: mass, rest gaps, time scales,
+    /// whether laws forbid touching, resolved form.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
         let survey = py.detach(|| Survey::of(&self.inner)).map_err(|error| errors::content(&error))?;
         survey.text(&self.inner).map_err(|error| errors::arguments(error.to_string()))
@@ -194,12 +195,12 @@ impl Scene {
 
     /// Runs the scene into a recording.
     ///
-    /// ``output`` is its folder; without it the recording lives in a temporary folder, for as long as the object does. ``progress`` is
-    /// True for a line on stderr, or a function of (time [s], end [s]); if it returns False the run stops and can be resumed.
-    /// ``resume`` goes on with the recording that is there, ``force`` replaces it.
+    /// ``output`` is its folder; without it the recording lives in a temporary folder, for as long as the object does.
+    /// ``progress`` is True for a line on stderr, or a function of (time [s], end [s]); if it returns False the run
+    /// stops and can be resumed. ``resume`` goes on with the recording that is there, ``force`` replaces it.
     ///
-    /// A run that ends early for a physical reason raises nothing: see :attr:`Recording.outcome`. Ctrl-C closes the recording at
-    /// the end of a step and raises ``KeyboardInterrupt``. Other threads of Python go on meanwhile.
+    /// A run that ends early for a physical reason raises nothing: see :attr:`Recording.outcome`. Ctrl-C closes the
+    /// recording at the end of a step and raises ``KeyboardInterrupt``. Other threads of Python go on meanwhile.
     #[pyo3(signature = (output=None, *, progress=None, resume=false, force=false))]
     fn run(
         &self,

@@ -9,10 +9,10 @@ use pyo3::types::PyDict;
 
 /// Runs a scene and follows the derivatives of quantities by numbers of it.
 ///
-/// ``keys`` are dotted keys down to a number, ``"contact.0.repulsion.alpha"``; ``quantities`` are columns, ``"die.z"``; ``at`` is ``"end"`` or
-/// ``"samples"``. Returns ``time`` [s], ``values``, ``derivatives``, ``reasons`` and ``growth``: at the end, the derivatives are (quantities, keys), at
-/// samples (times, quantities, keys), in SI units. Where a derivative means nothing it is NaN, and ``reasons[key]`` says why; it is None
-/// for the others.
+/// ``keys`` are dotted keys down to a number, ``"contact.0.repulsion.alpha"``; ``quantities`` are columns, ``"die.z"``;
+/// ``at`` is ``"end"`` or ``"samples"``. Returns ``time`` [s], ``values``, ``derivatives``, ``reasons`` and ``growth``:
+/// at the end, the derivatives are (quantities, keys), at samples (times, quantities, keys), in SI units. Where a
+/// derivative means nothing it is NaN, and ``reasons[key]`` says why; it is None for the others.
 #[pyfunction]
 #[pyo3(signature = (scene, keys, quantities, at="end"))]
 pub fn sensitivities<'py>(

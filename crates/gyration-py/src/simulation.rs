@@ -1,7 +1,8 @@
-//! `Simulation`: a run that is stepped by hand, with its state as arrays, loads that can be applied and drives that can be changed.
+//! `Simulation`: a run that is stepped by hand, with its state as arrays, loads that can be applied and drives that can
+//! be changed.
 //!
-//! The arrays belong to the simulation: each step writes into them, and they cannot be written to. Whoever keeps one over a step
-//! sees the new state in it, and takes a copy for the old one.
+//! The arrays belong to the simulation: each step writes into them, and they cannot be written to. Whoever keeps one
+//! over a step sees the new state in it, and takes a copy for the old one.
 
 use crate::arrays::Arrays;
 use crate::convert::{array, says_stop, shown};
@@ -48,8 +49,8 @@ impl Simulation {
         })
     }
 
-    /// Lets the stepper go on without the lock; then shows the new state, whether it came to its end or not. False if `progress` has
-    /// stopped it before.
+    /// Lets the stepper go on without the lock; then shows the new state, whether it came to its end or not. False if
+    /// `progress` has stopped it before.
     fn go(&mut self, py: Python<'_>, until: Option<f64>, watch: &mut Watch) -> PyResult<bool> {
         let stepper = &mut self.stepper;
         let stepped = py.detach(|| match until {
@@ -146,8 +147,9 @@ impl Simulation {
         Ok(self.time())
     }
 
-    /// Steps to a time [s], on which a step ends; returns the time reached. ``progress`` is True for a line on stderr, or a function of
-    /// (time [s], until [s]) that stops by returning False; it cannot look at the simulation, which is under way.
+    /// Steps to a time [s], on which a step ends; returns the time reached. ``progress`` is True for a line on stderr,
+    /// or a function of (time [s], until [s]) that stops by returning False; it cannot look at the simulation, which is
+    /// under way.
     ///
     /// Raises ``RunError`` if the run cannot go on; the state stays that of the last step.
     #[pyo3(signature = (until, *, progress=None))]
@@ -162,10 +164,12 @@ impl Simulation {
         Ok(self.time())
     }
 
-    /// Applies a load to a body, by name or number, in the place of what was applied before; it is held until the next call.
+    /// Applies a load to a body, by name or number, in the place of what was applied before; it is held until the next
+    /// call.
     ///
-    /// ``force`` [N] in axes of space, at the centre of mass or at the material point ``at`` [m] (of the shape's frame, carried along with the
-    /// body); ``moment`` the affine moment [N m], (3, 3), first index in space, second in the body, its entries held constant; ``torque``
+    /// ``force`` [N] in axes of space, at the centre of mass or at the material point ``at`` [m] (of the shape's frame,
+    /// carried along with the body); ``moment`` the affine moment [N m], (3, 3), first index in space, second in the
+    /// body, its entries held constant; ``torque``
     /// [N m] in axes of space. Without arguments nothing is applied any more. The work is ``works()["load"]``.
     #[pyo3(signature = (body, force=None, moment=None, torque=None, at=None))]
     fn apply(
@@ -191,8 +195,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Puts a constant drive Q [Pa], (3, 3), in the place of the drive that the scene gives in time; feedback stays. The work is
-    /// ``works()["drive"]``.
+    /// Puts a constant drive Q [Pa], (3, 3), in the place of the drive that the scene gives in time; feedback stays.
+    /// The work is ``works()["drive"]``.
     fn set_drive(&mut self, body: &Bound<'_, PyAny>, drive: &Bound<'_, PyAny>) -> PyResult<()> {
         let (index, drive) = (self.index(body)?, matrix("drive", drive)?);
         self.stepper.set_drive(index, drive).map_err(|refusal| errors::arguments(refusal.to_string()))
@@ -299,7 +303,8 @@ fn unfit(name: &str, object: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
     errors::arguments(format!("`{name}` is {}\n  fix: give {wanted}", shown(object)))
 }
 
-/// Steps a scene with a callback at the beginning of each control interval; False from it, or from ``progress``, ends the run.
+/// Steps a scene with a callback at the beginning of each control interval; False from it, or from ``progress``, ends
+/// the run.
 #[pyfunction]
 #[pyo3(signature = (scene, dt, callback, until=None, *, progress=None))]
 pub fn simulate(

@@ -1,8 +1,8 @@
 //! Studies: the table that one process keeps, and the rows that others may compute for it.
 //!
-//! `Work` is what `gyration.study` is made of: on the threads of this machine it does all of it; an executor of Python takes run
-//! numbers from it and hands back what `worker` makes of them (`python/gyration/_spread.py`). Rows are those of `gyration-study`
-//! either way, so that the table has the same bytes.
+//! `Work` is what `gyration.study` is made of: on the threads of this machine it does all of it; an executor of Python
+//! takes run numbers from it and hands back what `worker` makes of them (`python/gyration/_spread.py`). Rows are those
+//! of `gyration-study` either way, so that the table has the same bytes.
 
 use crate::convert::{elsewhere, json, overrides, shown};
 use crate::errors;

@@ -126,9 +126,10 @@ impl Table {
 
     /// A picture of the table, as ``gyration study STUDY plot`` draws it.
     ///
-    /// ``x`` and ``y`` are columns, ``y`` also the share of the runs with one of some values: ``"face=+z,-z"``. ``colour`` is the column that
-    /// colours tell apart, ``kind`` is ``"histogram"``, ``"curve"`` (means or shares with intervals of 95 %), ``"map"`` or ``"scatter"``. What is
-    /// not given is what the study's ``[plot]`` says, else what suits its columns.
+    /// ``x`` and ``y`` are columns, ``y`` also the share of the runs with one of some values: ``"face=+z,-z"``.
+    /// ``colour`` is the column that colours tell apart, ``kind`` is ``"histogram"``, ``"curve"`` (means or shares with
+    /// intervals of 95 %), ``"map"`` or ``"scatter"``. What is not given is what the study's ``[plot]`` says, else what
+    /// suits its columns.
     #[pyo3(signature = (x=None, y=None, *, colour=None, color=None, kind=None))]
     fn plot(
         &self,

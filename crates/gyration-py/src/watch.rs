@@ -1,8 +1,8 @@
 //! Watches a run from Python: Ctrl-C, and whoever wants to know how far it is.
 //!
-//! The run computes without the interpreter's lock; ten times a second it is taken for a moment, to look at signals and to tell
-//! of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are raised when the
-//! recording has been closed.
+//! The run computes without the interpreter's lock; ten times a second it is taken for a moment, to look at signals and
+//! to tell of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are
+//! raised when the recording has been closed.
 
 use crate::convert::{says_stop, shown};
 use gyration_sim::{Monitor, Progress, Reason};
@@ -64,7 +64,8 @@ impl Watch {
         Self { counts: true, ..self }
     }
 
-    /// Looks at signals, and tells that it is at `time` of `end`; whether to go on. Who wanted no more is not asked again.
+    /// Looks at signals, and tells that it is at `time` of `end`; whether to go on. Who wanted no more is not asked
+    /// again.
     pub fn ask(&mut self, time: f64, end: f64) -> bool {
         if self.is_over {
             return false;

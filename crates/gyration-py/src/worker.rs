@@ -4,8 +4,8 @@
 //! (study, numbers) → lines of JSON, recordings as bytes
 //! ```
 //!
-//! A worker may have no disk in common with the process that keeps the table: recordings are made in a temporary folder and
-//! travel as bytes, beside the rows.
+//! A worker may have no disk in common with the process that keeps the table: recordings are made in a temporary folder
+//! and travel as bytes, beside the rows.
 
 use crate::errors;
 use crate::parcel::{Parcel, pack};
@@ -18,8 +18,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// What another process needs to open a study again: name, text, folder, changes; and the word that tells it from every other, with
-/// the files that it refers to and the version of the program.
+/// What another process needs to open a study again: name, text, folder, changes; and the word that tells it from every
+/// other, with the files that it refers to and the version of the program.
 pub type Packed = (String, String, PathBuf, Vec<String>, String);
 
 /// The study that this process worked for last.

@@ -1,7 +1,7 @@
 //! A recording on disk as the page sees it: its header, and its arrays by name.
 //!
-//! The page colours bodies that deform by their stress, which few recordings hold: it is computed from the model and the
-//! states of the recording, as if it had been recorded.
+//! The page colours bodies that deform by their stress, which few recordings hold: it is computed from the model and
+//! the states of the recording, as if it had been recorded.
 
 use crate::blob;
 use crate::error::ViewError;

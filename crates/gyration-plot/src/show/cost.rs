@@ -2,9 +2,10 @@
 //!
 //!   c(t) = W⁺(t)/(m g d(t)),   W⁺ = ∫ max(0, V Q·V_G) dt,   d = level distance of the centre of mass from its start
 //!
-//! the specific mechanical cost of transport: work that the drive takes back does not count as gained. Source: S. Collins, A. Ruina,
-//! R. Tedrake, M. Wisse, *Efficient bipedal robots based on passive-dynamic walkers*, Science 307 (2005). The net work in its place is drawn
-//! dashed. Both grow without bound where d vanishes: they begin where the body has got some way.
+//! the specific mechanical cost of transport: work that the drive takes back does not count as gained. Source: S.
+//! Collins, A. Ruina, R. Tedrake, M. Wisse, *Efficient bipedal robots based on passive-dynamic walkers*, Science 307
+//! (2005). The net work in its place is drawn dashed. Both grow without bound where d vanishes: they begin where the
+//! body has got some way.
 
 use super::bodies::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
 use super::distance::{Level, NOWHERE};

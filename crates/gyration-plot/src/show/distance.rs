@@ -2,8 +2,8 @@
 //!
 //!   d(t) = (1 − u⊗u)(p₀(t) − p₀(0)),   s(t) = Σ |Δd| over the samples
 //!
-//! u is the direction against gravity. The axis along which bodies get farthest comes first; the other one is drawn where anything
-//! happens along it.
+//! u is the direction against gravity. The axis along which bodies get farthest comes first; the other one is drawn
+//! where anything happens along it.
 
 use super::bodies::{MOST_NAMES, body_series, drawn_bodies, time_axis, values};
 use crate::chart::ticks::length_in_words;
@@ -19,7 +19,8 @@ const HEIGHT: f64 = 120.0;
 /// An axis along which bodies move by less than this part of the other is left out.
 const ASIDE: f64 = 1e-3;
 
-/// A body that gets no farther than this part of its size travels nowhere: what is left is rounding, and errors of steps.
+/// A body that gets no farther than this part of its size travels nowhere: what is left is rounding, and errors of
+/// steps.
 pub const NOWHERE: f64 = 1e-6;
 
 /// Two level directions with their names.

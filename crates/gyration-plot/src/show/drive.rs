@@ -2,8 +2,8 @@
 //!
 //!   W = −Σ (works of all else) + (energies gained) − residual
 //!
-//! Works of contraction, viscosity, contacts are drawn with their signs reversed: what each has taken of the work of the
-//! drive. What the drive gives and what is drawn besides add up at any time.
+//! Works of contraction, viscosity, contacts are drawn with their signs reversed: what each has taken of the work of
+//! the drive. What the drive gives and what is drawn besides add up at any time.
 
 use super::bodies::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
 use super::effort::{self, ARRAYS, Driven, Works};

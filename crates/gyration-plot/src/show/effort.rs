@@ -2,8 +2,8 @@
 //!
 //!   w = V Q·V_G,   W = ∫ w dt,   W⁺ = ∫ max(0, w) dt
 //!
-//! by the trapezoidal rule, w being taken as linear between samples. The ledger has W of all bodies together without that
-//! error: what the sums miss of it tells how coarse the samples are.
+//! by the trapezoidal rule, w being taken as linear between samples. The ledger has W of all bodies together without
+//! that error: what the sums miss of it tells how coarse the samples are.
 
 use super::bodies::contracting_bodies;
 use crate::cycle::rounded;

@@ -1,7 +1,7 @@
 //! Principal stretches over time, a chart for each body that deforms.
 //!
-//! They are the singular values of P: the lengths, in units of those of the reference shape, of the axes of the ellipsoid that a sphere
-//! becomes. Their product is the ratio of the volumes, drawn where it changes.
+//! They are the singular values of P: the lengths, in units of those of the reference shape, of the axes of the
+//! ellipsoid that a sphere becomes. Their product is the ratio of the volumes, drawn where it changes.
 
 use super::bodies::{MOST_CHARTS, time_axis, values};
 use crate::chart::{Axis, Chart, DOTTED, LINE, Series};

@@ -1,7 +1,7 @@
 //! The stroke plane: two measures of a body that contracts against each other, a chart for each such body.
 //!
-//! What a body gets out of a cycle goes, for small strokes, with the area that its stroke encloses; a stroke to and fro encloses
-//! none. The last whole cycle of the drive is drawn with arrows and its signed area told, cycles before it lie
+//! What a body gets out of a cycle goes, for small strokes, with the area that its stroke encloses; a stroke to and fro
+//! encloses none. The last whole cycle of the drive is drawn with arrows and its signed area told, cycles before it lie
 //! behind. Without a period the whole recording is one curve, closed by its chord.
 
 use super::bodies::{MOST_CHARTS, contracting_bodies};
@@ -117,7 +117,8 @@ impl Entries {
     }
 }
 
-/// Whether an area is more than what samples of a bent stroke to and fro leave: its passes cut the bend at different points.
+/// Whether an area is more than what samples of a bent stroke to and fro leave: its passes cut the bend at different
+/// points.
 ///
 /// Over a parabola of length a and height b, passed twice in n samples, they leave ⅔ ab/n² at most.
 fn encloses(area: f64, ranges: [f64; 2], samples: usize) -> bool {

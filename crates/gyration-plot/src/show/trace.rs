@@ -2,7 +2,8 @@
 //!
 //!   A = ½ Σ (x_k − x₀)(y_{k+1} − y₀) − (x_{k+1} − x₀)(y_k − y₀),   > 0 counterclockwise
 //!
-//! closed by the chord from the last point to the first. Through n points of an ellipse this is short by 6.6/n² of the area.
+//! closed by the chord from the last point to the first. Through n points of an ellipse this is short by 6.6/n² of the
+//! area.
 
 use crate::draw::Point;
 

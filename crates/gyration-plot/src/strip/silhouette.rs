@@ -1,7 +1,8 @@
 //! A body as it is seen from the side: its outline and its edges.
 //!
-//! The outline is the hull of the projected points. An edge is behind the body if it lies deeper than the centre of mass
-//! and inside the outline: exact for shapes with a centre, near enough for the others; what is behind is drawn faintly.
+//! The outline is the hull of the projected points. An edge is behind the body if it lies deeper than the centre of
+//! mass and inside the outline: exact for shapes with a centre, near enough for the others; what is behind is drawn
+//! faintly.
 
 use super::view::View;
 use crate::draw::Point;

@@ -2,8 +2,9 @@
 //!
 //! The upward direction w is against gravity; the level direction u is, in this order, the one in which the centres
 //! travel most, that of the fall line of an inclined support, that in which turning is seen best (across the mean axis
-//! of rotation), that in which the bodies stretch most, or x. The view is level, unless the bodies stay on the spot and turn about no one level axis, as tops and
-//! coins do, which nobody sees from the side: such a motion is looked at from above, by the angle e,
+//! of rotation), that in which the bodies stretch most, or x. The view is level, unless the bodies stay on the spot and
+//! turn about no one level axis, as tops and coins do, which nobody sees from the side: such a motion is looked at from
+//! above, by the angle e,
 //!
 //!   v' = v cos e + w sin e,   w' = w cos e − v sin e
 
@@ -93,7 +94,8 @@ impl View {
     }
 }
 
-/// The axis times the sine of the angle of the turn from one placement gradient to another: of their rotations, P = R U.
+/// The axis times the sine of the angle of the turn from one placement gradient to another: of their rotations, P = R
+/// U.
 pub fn turn(from: &Mat3, to: &Mat3) -> Vec3 {
     let rotation = |gradient: &Mat3| Polar::of(gradient).rotation;
     0.5 * axial(&(rotation(to) * rotation(from).transpose()))

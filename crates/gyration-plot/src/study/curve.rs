@@ -199,7 +199,8 @@ impl Places {
     }
 }
 
-/// A line, its dots and its intervals; if it has intervals, all stand a little aside, lest those of several curves hide each other.
+/// A line, its dots and its intervals; if it has intervals, all stand a little aside, lest those of several curves hide
+/// each other.
 fn draw(points: &[(f64, Estimate)], name: String, axis: &Axis, beside: f64, layers: &mut Layers) {
     let colour = palette::category(layers.series.len());
     let at = |x: f64| match axis.scale {

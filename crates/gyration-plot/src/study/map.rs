@@ -1,7 +1,8 @@
 //! Cells over two parameters of the grid: basins coloured by their outcome, fields of a number.
 //!
 //! A cell reaches halfway to its neighbours, on the scale on which the parameter is even. Of several runs of a cell the
-//! most frequent word is shown, or the mean of the numbers; of a list it is the change from its first number to its last.
+//! most frequent word is shown, or the mean of the numbers; of a list it is the change from its first number to its
+//! last.
 
 use super::layout::{Layers, heading, left_out, swatch};
 use super::palette::{self, Palette};

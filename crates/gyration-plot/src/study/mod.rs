@@ -34,8 +34,8 @@ use table::{Role, RunTable, Values};
 
 pub use request::{Kind, Request};
 
-/// The picture of a table, which is called `name` where its study has no title: what is asked for, else what its study says of it
-/// now, else what it said when the table was made, else what the columns suggest.
+/// The picture of a table, which is called `name` where its study has no title: what is asked for, else what its study
+/// says of it now, else what it said when the table was made, else what the columns suggest.
 ///
 /// # Errors
 /// [`PlotError::Arguments`] where a column does not exist or does not suit the kind of picture.

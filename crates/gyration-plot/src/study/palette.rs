@@ -1,4 +1,5 @@
-//! Colours of a number: from light to dark where it has one sign, through white where it has both; evenly, or by its logarithm.
+//! Colours of a number: from light to dark where it has one sign, through white where it has both; evenly, or by its
+//! logarithm.
 
 use super::layout::{heading, swatch};
 use super::request::Request;
@@ -40,7 +41,8 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The palette of values in the unit of a column, evenly or by logarithms as is asked for; `name` stands in the legend.
+    /// The palette of values in the unit of a column, evenly or by logarithms as is asked for; `name` stands in the
+    /// legend.
     ///
     /// # Errors
     /// [`PlotError::Arguments`] if they are to be logarithmic, and none is above zero.

@@ -1,8 +1,8 @@
 //! The resistance of a body that deforms, of any shape: boundary elements over the images of its surface.
 //!
 //! Which images, and how exact it is between them, is the matter of `gyration::fluid::Table`; here is what computes one
-//! matrix. The triangles are those of the undeformed shape, taken along, so that matrices of neighbouring forms have the
-//! same small error.
+//! matrix. The triangles are those of the undeformed shape, taken along, so that matrices of neighbouring forms have
+//! the same small error.
 
 use super::elements::{BoundaryElements, BoundaryResistance, NoResistance, boundary_resistance};
 use gyration::fluid::{Resistance, Resolution, Table};

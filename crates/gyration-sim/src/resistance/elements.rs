@@ -1,8 +1,8 @@
 //! The resistance of a shape in a viscous fluid, by boundary elements over its triangulation.
 //!
-//! The matrix is a number of the model, as a mass is, and is kept for the next model that has the same surface. Boxes and
-//! polyhedra are divided into triangles of like size, of which they consist; on any other shape the corners lie on the
-//! true surface, whose rise above the triangles is added to first order (`gyration_stokes`).
+//! The matrix is a number of the model, as a mass is, and is kept for the next model that has the same surface. Boxes
+//! and polyhedra are divided into triangles of like size, of which they consist; on any other shape the corners lie on
+//! the true surface, whose rise above the triangles is added to first order (`gyration_stokes`).
 
 use gyration::load::Mat12;
 use gyration::shape::{Shape, Triangulation};

@@ -55,8 +55,8 @@ pub struct LedgerSummary {
     pub largest_residual: f64,
     /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
     pub energy_in_play: f64,
-    /// What contraction and viscosity took in the step in which they took least [J], by name; a negative one is the error
-    /// of a step. Without those that the model does not have.
+    /// What contraction and viscosity took in the step in which they took least [J], by name; a negative one is the
+    /// error of a step. Without those that the model does not have.
     #[serde(serialize_with = "as_map")]
     pub least_dissipation: Vec<(&'static str, f64)>,
 }

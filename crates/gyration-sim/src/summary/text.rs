@@ -11,7 +11,8 @@ use std::fmt::Write as _;
 const MOST_BODIES: usize = 8;
 
 impl RunSummary {
-    /// The summary as lines of text, as `gyration run` prints it; `start` are the energies [J] at t = 0, in the order of the ledger.
+    /// The summary as lines of text, as `gyration run` prints it; `start` are the energies [J] at t = 0, in the order
+    /// of the ledger.
     pub fn text(&self, scene: &Scene, start: &[f64]) -> String {
         let mut text = format!("{}\noutcome    {}\n", scene.title(), self.in_words);
         // Writing to a string does not fail.

@@ -53,8 +53,8 @@ pub struct PairSurvey {
     pub laws: Vec<LawSurvey>,
     /// Whether one of the laws forbids touching.
     pub forbids_touching: bool,
-    /// Gaps at which the central laws carry the weight, ascending: with the orientation of the start, and with its P if the body
-    /// deforms.
+    /// Gaps at which the central laws carry the weight, ascending: with the orientation of the start, and with its P if
+    /// the body deforms.
     pub rests: Vec<RestGap>,
     /// Why no such gap is given, in words: something else holds the body too.
     pub no_rest_because: Option<&'static str>,
@@ -97,7 +97,8 @@ fn rest_state(model: &Model, start: &State, index: usize) -> (Option<RestState>,
 }
 
 impl Survey {
-    /// The survey of a scene in its first state. Only the rest state of a body that deforms takes its resistance in the fluid.
+    /// The survey of a scene in its first state. Only the rest state of a body that deforms takes its resistance in the
+    /// fluid.
     ///
     /// # Errors
     /// Why a surface has no resistance.

@@ -16,7 +16,8 @@ pub struct KindSurvey {
     pub incompressible: bool,
     /// Its material and moduli; none of a rigid body.
     pub material: Option<String>,
-    /// What resists its deformation and motion, acts on it besides contacts and springs, or makes it contract; one entry each.
+    /// What resists its deformation and motion, acts on it besides contacts and springs, or makes it contract; one
+    /// entry each.
     pub loads: Vec<String>,
 }
 

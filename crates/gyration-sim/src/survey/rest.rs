@@ -7,10 +7,10 @@
 //!   period 2π/ω, ω² = k/m;   damping ratio ζ = c/(2 m ω);   decay time 1/(ζω) for ζ < 1, of the slower of two
 //!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
 //!
-//! F comes from the loads of the contacts without velocity, k, c and c_t from their derivatives. With adhesion there may be several
-//! such gaps, or none. A body that something else holds too, a pin, a spring, another support, rests elsewhere: no
-//! such gap is then given, but the reason why not. A body that deforms keeps the P of its start here; where it really
-//! rests, deformed by its weight, is its rest state (`modes`).
+//! F comes from the loads of the contacts without velocity, k, c and c_t from their derivatives. With adhesion there
+//! may be several such gaps, or none. A body that something else holds too, a pin, a spring, another support, rests
+//! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
+//! where it really rests, deformed by its weight, is its rest state (`modes`).
 
 use gyration::body::Body;
 use gyration::contact::{

@@ -1,7 +1,7 @@
 //! Who may ask: the page that this server gave out, under the name that it gave out.
 //!
-//! `Host` must be ours, against names elsewhere that are made to lead here; `Origin`, where a browser sends one, must be
-//! our page. Answers forbid the page to load or call anything but this server.
+//! `Host` must be ours, against names elsewhere that are made to lead here; `Origin`, where a browser sends one, must
+//! be our page. Answers forbid the page to load or call anything but this server.
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};

@@ -1,7 +1,7 @@
 //! The time series for ParaView: the list, `NAME.pvd`, and the folder of its files beside it, `NAME-vtp`.
 //!
-//! The folder is written under another name first and replaces the one of an earlier export, the list comes last: no half of
-//! a series is left behind. A folder with other files in it is not ours, and stays.
+//! The folder is written under another name first and replaces the one of an earlier export, the list comes last: no
+//! half of a series is left behind. A folder with other files in it is not ours, and stays.
 
 use crate::error::CliError;
 use crate::output;

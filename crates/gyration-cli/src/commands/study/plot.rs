@@ -25,7 +25,8 @@ pub fn execute(study: &str, arguments: &StudyPlot, beside: &Arguments) -> Result
     write(&figure, output, format, || PathBuf::from(format!("{stem}.svg")))
 }
 
-/// The study, whose file may say more of its picture now than when the table was made; none where only the table is there.
+/// The study, whose file may say more of its picture now than when the table was made; none where only the table is
+/// there.
 fn opened(study: &str, overrides: &[String]) -> Result<Option<Study>, CliError> {
     let path = Path::new(study);
     let is_table = path.is_dir() || path.extension().is_some_and(|ending| ending == "parquet");
