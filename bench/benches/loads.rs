@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;
-use gyration::contact::{Contact, ContactScratch, ContactWrench, RelativeMotion, RigidLoads, RigidMotion};
+use gyration::contact::{ContactScratch, ContactWrench, LawSet, RelativeMotion, RigidLoads, RigidMotion};
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::state::Turn;
 use gyration::surface::{GapClosed, GapField, Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments, Surface};
@@ -36,14 +36,15 @@ fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (G
 fn bench_contact<T>(
     bencher: Bencher,
     (name, exponents): (&str, (f64, f64)),
-    integrate: fn(&Contact, &Surface, &GapField, &RigidMotion, &mut ContactScratch) -> Result<T, GapClosed>,
+    integrate: fn(&LawSet, &Surface, &GapField, &RigidMotion, &mut ContactScratch) -> Result<T, GapClosed>,
 ) {
     let (model, state) = set_up(name, exponents);
     let (field, motion) = meeting(&model, &state);
     let body = &model.bodies[0];
     let surface = body.surface.as_ref().expect("every shape here has a surface");
     let mut scratch = ContactScratch::default();
-    bencher.bench_local(|| integrate(&body.contacts[0], surface, divan::black_box(&field), &motion, &mut scratch));
+    bencher
+        .bench_local(|| integrate(&body.contacts[0].law_set, surface, divan::black_box(&field), &motion, &mut scratch));
 }
 
 #[divan::bench(args = NAMES)]

@@ -2,7 +2,7 @@
 
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, Contractile};
-use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
+use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::contractile::{Contraction, Source, Spin};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::material::{Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm};
@@ -93,7 +93,11 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
     let rotation = Quaternion::from_axis_angle(&Vec3::new(1.0, 0.7, 0.3), 0.5).rotation();
     let gradient = if laws.is_empty() { rotation * strain() } else { rotation };
     let rate = cross_matrix(&Vec3::new(1.0, 0.5, 2.0)) * gradient;
-    let contacts = if laws.is_empty() { Vec::new() } else { vec![Contact::new(0, AreaMeasure::default(), laws)] };
+    let contacts = if laws.is_empty() {
+        Vec::new()
+    } else {
+        vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), laws))]
+    };
     let body = Body {
         name: "cube".into(),
         kind: BodyKind::Affine(Box::new(Affine::from(interior))),

@@ -6,7 +6,7 @@
 use crate::Experiment;
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, RigidInertia};
-use gyration::contact::{AreaMeasure, Contact, ContactLaw};
+use gyration::contact::{AreaMeasure, Contact, ContactLaw, LawSet};
 use gyration::kinematics::Quaternion;
 use gyration::mass::MassProperties;
 use gyration::material::Material;
@@ -57,7 +57,7 @@ impl FacetBody {
             mass,
             shape: Shape::Box(Cuboid { size: Vec3::repeat(side) }),
             surface: Some(surface.unwrap_or_else(|error| panic!("{error}"))),
-            contacts: vec![Contact::new(0, AreaMeasure::default(), self.laws.clone())],
+            contacts: vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), self.laws.clone()))],
             springs: Vec::new(),
             inclusion: None,
             pin: None,
@@ -86,7 +86,7 @@ impl FacetBody {
         let bodies = model.bodies.into_iter().map(|body| {
             let interior = AffineBody::new(&body.mass, None, Some(material.clone()), Viscosity::default());
             let affine = Affine::from(interior.unwrap_or_else(|error| panic!("{error}")));
-            let contacts = vec![Contact::new(0, measure, self.laws.clone())];
+            let contacts = vec![Contact::with_support(0, LawSet::new(measure, self.laws.clone()))];
             Body { kind: BodyKind::Affine(Box::new(affine)), contacts, ..body }
         });
         let model = Model::new(model.gravity, model.supports, bodies.collect());

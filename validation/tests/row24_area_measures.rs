@@ -10,7 +10,7 @@
 //! Around any loop of (p₀, P) the two with a potential do nothing.
 
 use gyration::contact::{
-    AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Repulsion,
+    AreaMeasure, ContactLaw, ContactLoads, ContactScratch, Deformation, LawSet, Meeting, RelativeMotion, Repulsion,
 };
 use gyration::kinematics::Quaternion;
 use gyration::surface::{GapField, Surface};
@@ -36,7 +36,7 @@ const GAUSS: [(f64, f64); 5] = [
 /// A body above the plane z = 0, with repulsion of α = 1 Pa, ν = 6, d₀ = 1 m in one measure.
 struct Pushed {
     surface: Surface,
-    contact: Contact,
+    laws: LawSet,
 }
 
 /// Place and gradient, and their rates along a path.
@@ -50,7 +50,7 @@ struct Passing {
 impl Pushed {
     fn new(surface: Surface, measure: AreaMeasure) -> Self {
         let law = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 });
-        Self { surface, contact: Contact::new(0, measure, vec![law]) }
+        Self { surface, laws: LawSet::new(measure, vec![law]) }
     }
 
     /// f·ṗ₀ + M·Ṗ.
@@ -60,7 +60,7 @@ impl Pushed {
         let motion = RelativeMotion { normal, velocity: at.velocity, gradient_rate: at.rate };
         let deformation = Deformation::of(&at.gradient);
         let meeting = Meeting { surface: &self.surface, field, motion, deformation };
-        let loads = ContactLoads::integrate(&self.contact, &meeting, &mut ContactScratch::default());
+        let loads = ContactLoads::integrate(&self.laws, &meeting, &mut ContactScratch::default());
         loads.unwrap_or_else(|error| panic!("{error}")).total().power(&at.velocity, &at.rate)
     }
 }

@@ -78,7 +78,7 @@ fn the_example_of_the_contract_builds_as_it_says() {
     assert!(close(phase, std::f64::consts::FRAC_PI_2));
     let die = &built.model.bodies[0];
     assert!(close(die.mass.mass, 1200.0 * 8e-6) && close(die.size, 0.02), "{die:?}");
-    assert_eq!((die.contacts.len(), die.contacts[0].laws().len(), die.springs.len()), (1, 4, 1));
+    assert_eq!((die.contacts.len(), die.contacts[0].law_set.laws().len(), die.springs.len()), (1, 4, 1));
     let motion = built.state.motion(&built.model, 0);
     assert_eq!(motion.placement.position, Vec3::new(0.0, 0.0, 0.2));
     assert_eq!(motion.velocity.velocity, Vec3::new(0.5, 0.0, 0.0));

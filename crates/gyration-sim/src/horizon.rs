@@ -56,8 +56,8 @@ pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], l
     for ((body, view), radius) in model.bodies.iter().zip(views).zip(radii) {
         let Some(surface) = &body.surface else { continue };
         for contact in &body.contacts {
-            let support = &model.supports[contact.support];
-            let approach = Approach::of(model, contact.support, time, view, surface, *radius);
+            let support = &model.supports[contact.support()];
+            let approach = Approach::of(model, contact.support(), time, view, surface, *radius);
             step = step.min(match support.motion {
                 SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
                     let near = surface.smallest_gap(&approach.field).0 < body.size;

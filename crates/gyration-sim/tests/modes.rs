@@ -2,7 +2,7 @@
 
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia};
-use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
+use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::load::Spring;
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
@@ -172,7 +172,8 @@ fn standing(height: f64, deformable: Option<f64>) -> (Model, State) {
         }
     };
     let law = Repulsion { alpha: 1e-6, exponent: 6.0, reference_gap: 1.0 };
-    body.contacts = vec![Contact::new(0, AreaMeasure::default(), vec![ContactLaw::Repulsion(law)])];
+    body.contacts =
+        vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), vec![ContactLaw::Repulsion(law)]))];
     model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::new(0.3, -0.2, height))
 }
 
@@ -245,7 +246,7 @@ fn resting_ball(normal: Vec3, friction: f64, deformable: bool) -> (Model, State)
         ContactLaw::Damping(Damping { beta: 500.0, exponent: 6.0, reference_gap: 2e-3 }),
         ContactLaw::Friction(Friction { beta: friction, exponent: 6.0, reference_gap: 2e-3 }),
     ];
-    body.contacts = vec![Contact::new(0, AreaMeasure::DeformedAreaPotential, laws)];
+    body.contacts = vec![Contact::with_support(0, LawSet::new(AreaMeasure::DeformedAreaPotential, laws))];
     model(GRAVITY, vec![plane(normal)], body, 0.5 * normal)
 }
 
@@ -402,7 +403,10 @@ fn brick_that_falls_on_its_edge_is_not_turned_about_the_vertical() {
     let material = Some(Material::NeoHookeanLog(NeoHookeanLog { mu: 8000.0, lambda: 20000.0 }));
     let mut body = soft(Shape::Box(Cuboid { size: Vec3::new(0.2, 0.1, 0.06) }), 1000.0, material, 0.0);
     let law = Repulsion { alpha: 40e3, exponent: 6.0, reference_gap: 2e-3 };
-    body.contacts = vec![Contact::new(0, AreaMeasure::DeformedAreaPotential, vec![ContactLaw::Repulsion(law)])];
+    body.contacts = vec![Contact::with_support(
+        0,
+        LawSet::new(AreaMeasure::DeformedAreaPotential, vec![ContactLaw::Repulsion(law)]),
+    )];
     let (model, _) = model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::zeros());
     let gradient = Quaternion::from_axis_angle(&Vec3::y(), 0.5).rotation();
     let still = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };

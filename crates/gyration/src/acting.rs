@@ -4,7 +4,7 @@
 //! its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
 
 use crate::body::Body;
-use crate::contact::{Contact, LawKind};
+use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
 use crate::load::{Applied, Couple, LinearResistance, Spring};
@@ -53,8 +53,15 @@ impl<'a> Load<'a> {
     pub fn works(&self, supports: &[Support]) -> Vec<Work> {
         match self {
             Self::Contact(contact) => {
-                let moves = supports[contact.support].motion != SupportMotion::Fixed;
-                contact.laws().iter().map(|law| law.kind().work()).chain(moves.then_some(Work::Support)).collect()
+                let Partner::Support(index) = contact.partner;
+                let moves = supports[index].motion != SupportMotion::Fixed;
+                contact
+                    .law_set
+                    .laws()
+                    .iter()
+                    .map(|law| law.kind().work())
+                    .chain(moves.then_some(Work::Support))
+                    .collect()
             }
             Self::Spring(_, spring) if spring.damping > 0.0 => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
@@ -68,7 +75,7 @@ impl<'a> Load<'a> {
     pub fn energy(&self) -> Option<Energy> {
         match self {
             Self::Contact(contact) => {
-                let central = contact.laws().iter().any(|law| law.kind().is_central());
+                let central = contact.law_set.laws().iter().any(|law| law.kind().is_central());
                 central.then_some(Energy::Contact)
             }
             Self::Spring(..) => Some(Energy::Load),

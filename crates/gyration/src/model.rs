@@ -134,7 +134,7 @@ fn has_potential(bodies: &[Body]) -> bool {
     let deforming = bodies.iter().filter(|body| body.affine().is_some());
     let mut contacts = deforming.flat_map(|body| &body.contacts);
     contacts.all(|contact| {
-        let acts = contact.laws().iter().any(|law| law.kind().is_central());
-        contact.measure != AreaMeasure::DeformedArea || !acts
+        let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
+        contact.law_set.measure != AreaMeasure::DeformedArea || !acts
     })
 }

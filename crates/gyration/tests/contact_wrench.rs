@@ -1,8 +1,8 @@
 //! The wrench of a contact on a rigid body is that of the general resultant, and so are its derivatives.
 
 use gyration::contact::{
-    Adhesion, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, ContactSlopes, ContactWrench, Damping,
-    Friction, LawKind, Meeting, RelativeMotion, Repulsion, RigidLoads, RigidMotion,
+    Adhesion, AreaMeasure, ContactLaw, ContactLoads, ContactScratch, ContactSlopes, ContactWrench, Damping, Friction,
+    LawKind, LawSet, Meeting, RelativeMotion, Repulsion, RigidLoads, RigidMotion,
 };
 use gyration::load::{LoadSlopes, Loads, Wrench, WrenchSlope};
 use gyration::surface::{GapField, Surface};
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 /// A body of rotation R near the plane with normal n.
 #[derive(Debug)]
 struct Scene {
-    contact: Contact,
+    laws: LawSet,
     surface: Surface,
     rotation: Mat3,
     normal: Vec3,
@@ -42,18 +42,18 @@ impl Scene {
 
     fn rigid_loads(&self) -> RigidLoads {
         let mut scratch = ContactScratch::default();
-        RigidLoads::integrate(&self.contact, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
+        RigidLoads::integrate(&self.laws, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
     }
 
     fn wrench(&self) -> ContactWrench {
         let mut scratch = ContactScratch::default();
-        ContactWrench::integrate(&self.contact, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
+        ContactWrench::integrate(&self.laws, &self.surface, &self.field(), &self.motion(), &mut scratch).unwrap()
     }
 
     fn slopes(&self) -> LoadSlopes {
         let mut slopes = LoadSlopes::default();
         let mut scratch = ContactScratch::default();
-        ContactSlopes::integrate(&self.contact, &self.meeting(), &mut scratch).unwrap().add_to(&mut slopes);
+        ContactSlopes::integrate(&self.laws, &self.meeting(), &mut scratch).unwrap().add_to(&mut slopes);
         slopes
     }
 
@@ -63,7 +63,7 @@ impl Scene {
     }
 }
 
-fn contact(exponents: [f64; 3]) -> Contact {
+fn law_set(exponents: [f64; 3]) -> LawSet {
     let [repulsion, damping, friction] = exponents;
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent: repulsion, reference_gap: 0.3 }),
@@ -76,7 +76,7 @@ fn contact(exponents: [f64; 3]) -> Contact {
             reference_gap: 0.25,
         }),
     ];
-    Contact::new(0, AreaMeasure::default(), laws)
+    LawSet::new(AreaMeasure::default(), laws)
 }
 
 fn vector() -> impl Strategy<Value = Vec3> {
@@ -90,7 +90,7 @@ fn scene() -> impl Strategy<Value = Scene> {
             let surface = if ball { Surface::sphere(0.5) } else { Surface::cuboid(&Vec3::new(0.6, 0.8, 0.4)) };
             let normal = (n + Vec3::new(0.0, 0.0, 2.0)).normalize();
             let rotation = *nalgebra::Rotation3::new(3.0 * turn).matrix();
-            Scene { contact: contact(exponents), surface, rotation, normal, height: 0.75, velocity, spin }
+            Scene { laws: law_set(exponents), surface, rotation, normal, height: 0.75, velocity, spin }
         },
     )
 }
@@ -106,7 +106,7 @@ proptest! {
     #[test]
     fn wrench_is_that_of_the_resultant(scene in scene()) {
         let mut scratch = ContactScratch::default();
-        let loads = ContactLoads::integrate(&scene.contact, &scene.meeting(), &mut scratch).unwrap();
+        let loads = ContactLoads::integrate(&scene.laws, &scene.meeting(), &mut scratch).unwrap();
         let seen = scene.seen(&loads.total());
         let (rigid, wrench) = (scene.rigid_loads(), scene.wrench().wrench);
         let scale = seen.force.norm() + seen.torque.norm() + 1.0;
@@ -146,8 +146,8 @@ proptest! {
         let damping = ContactLaw::Damping(Damping { beta: 1.0, exponent: 3.0, reference_gap: 1.0 });
         let friction = ContactLaw::Friction(Friction { beta: strength, exponent: 3.0, reference_gap: 1.0 });
         let with = |laws: Vec<ContactLaw>| {
-            let contact = Contact::new(0, AreaMeasure::default(), laws);
-            let level = Scene { contact, surface: Surface::sphere(0.5), normal: Vec3::z(), rotation: Mat3::identity(), ..scene };
+            let laws = LawSet::new(AreaMeasure::default(), laws);
+            let level = Scene { laws, surface: Surface::sphere(0.5), normal: Vec3::z(), rotation: Mat3::identity(), ..scene };
             (level.rigid_loads().wrench.force.z, level.wrench().by_velocity.force.m33, level.wrench().by_turn.force.m32)
         };
         prop_assert_eq!(with(vec![damping, friction]), with(vec![damping]));

@@ -113,8 +113,8 @@ fn law_chart(model: &Model, gaps: &Gaps, laws: &Laws) -> Option<Chart> {
         |law: &&ContactLaw| law.terms().iter().flatten().any(|term| (term.action == Action::Central) == laws.central);
     let mut series = Vec::new();
     for (index, contact) in contacts.iter().enumerate() {
-        for law in contact.laws().iter().filter(acting) {
-            let of = if several { format!(" ({})", model.supports[contact.support].name) } else { String::new() };
+        for law in contact.law_set.laws().iter().filter(acting) {
+            let of = if several { format!(" ({})", model.supports[contact.support()].name) } else { String::new() };
             let hue = hue(law.kind()) + if several { index } else { 0 };
             series.extend(law_series(law, &of, hue, gaps));
         }

@@ -4,8 +4,9 @@ use super::body::Solid;
 use crate::check::{Draft, Judge, Placed};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
-use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, Repulsion};
+use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The most pairs of a body and a contact in a scene.
 const MOST_PAIRS: usize = 1_000_000;
@@ -17,8 +18,8 @@ pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Ju
     let bodies = named(solids);
     let mut pairs = 0;
     for Placed { key, value } in &draft.contacts {
-        let laws = laws(value);
-        laws.iter().for_each(|law| range(law, key, judge));
+        let law_set = Arc::new(LawSet::new(measure(value.measure), laws(value)));
+        law_set.laws().iter().for_each(|law| range(law, key, judge));
         let met = match &value.body {
             Some(name) => bodies.get(name).map_or(0..0, |&index| index..index + 1),
             None => 0..solids.len(),
@@ -33,7 +34,7 @@ pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Ju
         for solid in solids[met].iter_mut().flatten() {
             match (&solid.body.surface, support) {
                 (Some(_), Some(support)) => {
-                    solid.body.contacts.push(Acting::new(support, measure(value.measure), laws.clone()));
+                    solid.body.contacts.push(Acting::with_support(support, Arc::clone(&law_set)));
                 }
                 (None, _) if value.body.is_some() => {
                     let message = format!("\"{}\" has no surface", solid.body.name);

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// Notes each support that a body reaches at t = 0, with the lift that it needs.
 pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Support>], judge: &mut Judge<'_>) {
     let Some(surface) = &solid.body.surface else { return };
-    let met: BTreeSet<usize> = solid.body.contacts.iter().map(|contact| contact.support).collect();
+    let met: BTreeSet<usize> = solid.body.contacts.iter().map(|contact| contact.support()).collect();
     let start = placement(&solid.start);
     for support in met.into_iter().filter_map(|index| supports.get(index)?.as_ref()) {
         let field =

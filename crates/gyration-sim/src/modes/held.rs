@@ -98,8 +98,8 @@ impl Held {
             .body()
             .contacts
             .iter()
-            .filter(move |contact| contact.laws().iter().flat_map(|law| law.terms()).flatten().any(pushes));
-        contacts.map(|contact| contact.support)
+            .filter(move |contact| contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().any(pushes));
+        contacts.map(|contact| contact.support())
     }
 
     /// The normals of the supports that push or pull.

@@ -123,7 +123,7 @@ impl Leaf {
 
     /// n, so that ν s/(n² d) is small enough.
     fn divisions(&self, cell: &Cell, contact: &Contact, field: &GapField) -> usize {
-        let exponent = contact.laws().iter().map(ContactLaw::leading_exponent).fold(0.0, f64::max);
+        let exponent = contact.law_set.laws().iter().map(ContactLaw::leading_exponent).fold(0.0, f64::max);
         let bulge = cell.bulge * field.direction.norm();
         // Flat faces bulge by rounding.
         if bulge <= 1e-12 * cell.corners.iter().map(Vec3::norm).fold(0.0, f64::max) {

@@ -84,7 +84,7 @@ impl BodySnapshot<'_> {
             if gap.is_nan() || gap <= 0.0 {
                 return Err(self.outside(contact, gap));
             }
-            let area_factor = match contact.measure {
+            let area_factor = match contact.law_set.measure {
                 AreaMeasure::ReferenceArea => (cofactor(&self.motion.placement.gradient) * normal).norm(),
                 AreaMeasure::DeformedArea | AreaMeasure::DeformedAreaPotential => 1.0,
             };
@@ -110,7 +110,7 @@ impl BodySnapshot<'_> {
             for (cell, force) in tractions.iter_mut().enumerate() {
                 let surface = cells.over(cell, contact, &field);
                 let meeting = Meeting { surface: &surface, field, motion, deformation };
-                let loads = ContactLoads::integrate(contact, &meeting, &mut scratch);
+                let loads = ContactLoads::integrate(&contact.law_set, &meeting, &mut scratch);
                 *force += loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
             }
         }
@@ -126,7 +126,7 @@ impl BodySnapshot<'_> {
 
     /// The gap to the support of a contact, and the motion relative to it.
     fn meet(&self, contact: &Contact) -> (GapField, RelativeMotion) {
-        let support = &self.model.supports[contact.support];
+        let support = &self.model.supports[contact.support()];
         let field = support.gap_field(&self.motion.placement, self.time);
         (field, RelativeMotion::to(support, &self.motion.velocity, self.time))
     }
@@ -136,7 +136,7 @@ impl BodySnapshot<'_> {
     }
 
     fn outside(&self, contact: &Contact, gap: f64) -> ReplayError {
-        let quantity = Quantity::Gap { support: contact.support };
+        let quantity = Quantity::Gap { support: contact.support() };
         ReplayError::Inadmissible { row: self.row, source: Inadmissible { body: self.body, quantity, value: gap } }
     }
 }
@@ -154,5 +154,5 @@ fn law_traction(contact: &Contact, gap: f64, relative: &RelativeMotion, point: &
             Action::Tangential => -strength * (w - along),
         }
     };
-    contact.laws().iter().flat_map(|law| law.terms()).flatten().map(traction).sum()
+    contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().map(traction).sum()
 }

@@ -84,7 +84,7 @@ impl<'a> Approach<'a> {
         let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
         Some(Self {
             surface,
-            contacts: body.contacts.iter().filter(|contact| contact.support == support).collect(),
+            contacts: body.contacts.iter().filter(|contact| contact.support() == support).collect(),
             normal: plane.normal,
             direction,
             deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
@@ -99,7 +99,7 @@ impl<'a> Approach<'a> {
 
     /// Whether any law acts.
     pub fn acts(&self) -> bool {
-        self.contacts.iter().any(|contact| !contact.laws().is_empty())
+        self.contacts.iter().any(|contact| !contact.law_set.laws().is_empty())
     }
 
     /// The largest side of the body [m].
@@ -111,7 +111,8 @@ impl<'a> Approach<'a> {
     pub fn force(&self, gap: f64) -> Option<f64> {
         let mut scratch = ContactScratch::default();
         let meeting = self.meeting(gap);
-        let loads = self.contacts.iter().map(|contact| ContactLoads::integrate(contact, &meeting, &mut scratch));
+        let loads =
+            self.contacts.iter().map(|contact| ContactLoads::integrate(&contact.law_set, &meeting, &mut scratch));
         let total = loads.map(|loads| loads.ok().map(|loads| loads.total())).sum::<Option<Loads>>()?;
         Some(total.force.dot(&self.normal)).filter(|force| force.is_finite())
     }
@@ -131,7 +132,7 @@ impl<'a> Approach<'a> {
         let (mut scratch, meeting) = (ContactScratch::default(), self.meeting(gap));
         let mut slopes = LoadSlopes::default();
         for contact in &self.contacts {
-            ContactSlopes::integrate(contact, &meeting, &mut scratch).ok()?.add_to(&mut slopes);
+            ContactSlopes::integrate(&contact.law_set, &meeting, &mut scratch).ok()?.add_to(&mut slopes);
         }
         let force = |by: &gyration::load::Mat12| -> Mat3 { by.fixed_view::<3, 3>(0, 0).into_owned() };
         let (by_place, by_rate) = (force(&slopes.by_place), force(&slopes.by_rate));
@@ -188,8 +189,8 @@ impl<'a> Approach<'a> {
 
 /// What holds a body besides a single support, in words.
 fn held_otherwise(body: &Body) -> Option<&'static str> {
-    let acts = |contact: &&Contact| contact.laws().iter().flat_map(|law| law.terms()).flatten().any(acts);
-    let mut supports = body.contacts.iter().filter(acts).map(|contact| contact.support);
+    let acts = |contact: &&Contact| contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().any(acts);
+    let mut supports = body.contacts.iter().filter(acts).map(|contact| contact.support());
     let first = supports.next();
     if body.pin.is_some() {
         Some("a pin holds the body as well")

@@ -136,11 +136,11 @@ fn barrier(model: &Model, state: &State) -> f64 {
         for contact in &body.contacts {
             let only = Model::new(
                 model.gravity,
-                vec![model.supports[contact.support].clone()],
+                vec![model.supports[contact.support()].clone()],
                 vec![{
                     let mut alone = body.clone();
                     alone.contacts = vec![contact.clone()];
-                    alone.contacts[0].support = 0;
+                    alone.contacts[0].partner = gyration::contact::Partner::Support(0);
                     alone
                 }],
             );

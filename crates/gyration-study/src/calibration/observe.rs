@@ -115,7 +115,7 @@ pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, Stri
 pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
     let contact = model.bodies[body].contacts.first();
     let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
-    Ok(model.supports[contact.support].normal)
+    Ok(model.supports[contact.support()].normal)
 }
 
 fn rest_gap(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {

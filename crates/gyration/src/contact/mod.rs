@@ -14,7 +14,7 @@
 mod adhesion;
 mod damping;
 mod friction;
-mod plan;
+mod law_set;
 mod repulsion;
 mod resultant;
 mod slopes;
@@ -25,7 +25,7 @@ mod wrench;
 pub use adhesion::Adhesion;
 pub use damping::Damping;
 pub use friction::Friction;
-pub use plan::{Contact, ContactScratch};
+pub use law_set::{Contact, ContactScratch, LawSet, Partner};
 pub use repulsion::Repulsion;
 pub use resultant::{ContactLoads, Deformation, Meeting, RelativeMotion};
 pub use slopes::ContactSlopes;

@@ -10,7 +10,7 @@
 //! measure of the contact says; `tension` adds what makes tractions per deformed area derive from a potential. These are
 //! linear in the moments and in (w₀, W), from which `slopes` takes the derivatives. Source: `physics.md` §2–3.
 
-use super::plan::{Contact, ContactScratch};
+use super::law_set::{ContactScratch, LawSet};
 use super::sums::Sums;
 use super::tension::Tension;
 use super::{Action, AreaMeasure, LawKind};
@@ -76,13 +76,13 @@ impl Deformation {
 
 impl Meeting<'_> {
     /// The deformation, where areas are those of the deformed body.
-    pub(super) fn area_change(&self, contact: &Contact) -> Option<&Deformation> {
-        self.deformation.as_ref().filter(|_| contact.measure != AreaMeasure::ReferenceArea)
+    pub(super) fn area_change(&self, laws: &LawSet) -> Option<&Deformation> {
+        self.deformation.as_ref().filter(|_| laws.measure != AreaMeasure::ReferenceArea)
     }
 
     /// The moments of a plan in the measure of the contact.
-    pub(super) fn moments(&self, contact: &Contact, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
-        match self.area_change(contact) {
+    pub(super) fn moments(&self, laws: &LawSet, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
+        match self.area_change(laws) {
             Some(deformation) => self.surface.deformed_moments(&self.field, &deformation.cofactor, plan, out),
             None => self.surface.planned_moments(&self.field, plan, out),
         }
@@ -130,17 +130,17 @@ impl ContactLoads {
     ///
     /// # Errors
     /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-    pub fn integrate(contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
-        let plan = contact.values();
+    pub fn integrate(laws: &LawSet, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
+        let plan = laws.values();
         let moments = scratch.take(plan.requests().len());
-        meeting.moments(contact, plan, moments)?;
+        meeting.moments(laws, plan, moments)?;
         let split = SplitMotion::new(&meeting.motion);
-        let mut this = split.loads(contact, &Sums::by_action(contact, moments));
-        for planned in contact.terms().iter().filter(|planned| planned.term.action == Action::Central) {
+        let mut this = split.loads(laws, &Sums::by_action(laws, moments));
+        for planned in laws.terms().iter().filter(|planned| planned.term.action == Action::Central) {
             let power = split.central_power(&moments[planned.value]);
             this.powers[planned.term.kind as usize] += planned.term.coefficient * power;
         }
-        if let Some(tension) = Tension::integrate(contact, meeting, scratch)? {
+        if let Some(tension) = Tension::integrate(laws, meeting, scratch)? {
             for kind in LawKind::ALL {
                 let moment = tension.moment(kind);
                 this.total.moment += moment;
@@ -185,11 +185,11 @@ impl<'a> SplitMotion<'a> {
 
     /// The loads of these sums, and the powers of the viscous laws.
     #[inline]
-    fn loads(&self, contact: &Contact, [central, damping, friction]: &[Sums; Action::COUNT]) -> ContactLoads {
+    fn loads(&self, laws: &LawSet, [central, damping, friction]: &[Sums; Action::COUNT]) -> ContactLoads {
         let Self { motion: RelativeMotion { normal, velocity, gradient_rate }, speed, slope } = self;
         let mut powers = [0.0; LawKind::COUNT];
         let (mut along, mut lever) = (central.zeroth, central.first);
-        if contact.acts(Action::Normal) {
+        if laws.acts(Action::Normal) {
             let push = -(speed * damping.zeroth + slope.dot(&damping.first));
             let pull = -(*speed * damping.first + damping.second * slope);
             along += push;
@@ -197,7 +197,7 @@ impl<'a> SplitMotion<'a> {
             powers[LawKind::Damping as usize] = speed * push + slope.dot(&pull);
         }
         let mut total = Loads { force: along * normal, moment: normal * lever.transpose() };
-        if contact.acts(Action::Tangential) {
+        if laws.acts(Action::Tangential) {
             let (across, rate) = (velocity - *speed * normal, gradient_rate - normal * slope.transpose());
             let drag = -(across * friction.zeroth + rate * friction.first);
             let moment = -(across * friction.first.transpose() + rate * friction.second);

@@ -8,7 +8,7 @@
 //!
 //! with κ_N, κ_T of damping and friction.
 
-use super::plan::{Contact, ContactScratch};
+use super::law_set::{ContactScratch, LawSet};
 use super::resultant::{Meeting, RelativeMotion};
 use super::sums::{SumSlopes, Sums};
 use super::tension::{PAIR, TensionSlopes};
@@ -36,16 +36,16 @@ impl ContactSlopes {
     ///
     /// # Errors
     /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-    pub fn integrate(contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
-        let plan = contact.derivatives();
+    pub fn integrate(laws: &LawSet, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
+        let plan = laws.derivatives();
         let moments = scratch.take(plan.requests().len());
-        meeting.moments(contact, plan, moments)?;
-        let SumSlopes { values, by_gap: slopes } = SumSlopes::new(contact, moments);
+        meeting.moments(laws, plan, moments)?;
+        let SumSlopes { values, by_gap: slopes } = SumSlopes::new(laws, moments);
         let motion = meeting.motion;
         let RelativeMotion { normal, velocity, gradient_rate } = &motion;
         let mut total = Loads::default();
         let mut by_gap = [Loads::default(); 4];
-        for action in Action::ALL.into_iter().filter(|action| contact.acts(*action)) {
+        for action in Action::ALL.into_iter().filter(|action| laws.acts(*action)) {
             total += values[action as usize].act(action, normal, velocity, gradient_rate);
             for (sum, slope) in by_gap.iter_mut().zip(&slopes[action as usize]) {
                 *sum += slope.act(action, normal, velocity, gradient_rate);
@@ -53,21 +53,21 @@ impl ContactSlopes {
         }
         let [_, damping, friction] = values;
         let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction] };
-        this.stretch(contact, meeting, scratch)?;
+        this.stretch(laws, meeting, scratch)?;
         Ok(this)
     }
 
     /// The derivatives through the area factor.
-    fn stretch(&mut self, contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<(), GapClosed> {
-        let Some(deformation) = meeting.area_change(contact) else { return Ok(()) };
-        let plan = contact.values();
+    fn stretch(&mut self, laws: &LawSet, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<(), GapClosed> {
+        let Some(deformation) = meeting.area_change(laws) else { return Ok(()) };
+        let plan = laws.values();
         let moments = scratch.take_oriented(plan.requests().len());
         meeting.surface.oriented_moments(&meeting.field, &deformation.cofactor, plan, moments)?;
         let RelativeMotion { normal, velocity, gradient_rate } = &self.motion;
         // The loads with the weights m_a m_b; with (I − m⊗m)_jl they are δ_jl times their trace less those of jl.
         let pairs: [Loads; 6] = std::array::from_fn(|pair| {
-            let sums = pair_sums(contact, moments, pair);
-            let acting = Action::ALL.into_iter().filter(|action| contact.acts(*action));
+            let sums = pair_sums(laws, moments, pair);
+            let acting = Action::ALL.into_iter().filter(|action| laws.acts(*action));
             acting.map(|action| sums[action as usize].act(action, normal, velocity, gradient_rate)).sum()
         });
         let trace: Loads = [pairs[0], pairs[3], pairs[5]].into_iter().sum();
@@ -75,9 +75,9 @@ impl ContactSlopes {
         for place in [0, 4, 8] {
             by_stretch[place] += trace;
         }
-        if contact.measure == AreaMeasure::DeformedAreaPotential {
-            self.tighten_by_gap(contact, moments, &deformation.inverse);
-            if let Some(tension) = TensionSlopes::integrate(contact, meeting, scratch)? {
+        if laws.measure == AreaMeasure::DeformedAreaPotential {
+            self.tighten_by_gap(laws, moments, &deformation.inverse);
+            if let Some(tension) = TensionSlopes::integrate(laws, meeting, scratch)? {
                 self.total.moment -= tension.total * deformation.inverse.transpose();
                 tighten(&tension, &deformation.inverse, &mut by_stretch);
             }
@@ -87,8 +87,8 @@ impl ContactSlopes {
     }
 
     /// The change of the tension with the gap: U′ = −c d^−ν.
-    fn tighten_by_gap(&mut self, contact: &Contact, moments: &[OrientedMoments], inverse: &Mat3) {
-        for planned in contact.terms().iter().filter(|planned| planned.term.action == Action::Central) {
+    fn tighten_by_gap(&mut self, laws: &LawSet, moments: &[OrientedMoments], inverse: &Mat3) {
+        for planned in laws.terms().iter().filter(|planned| planned.term.action == Action::Central) {
             let oriented = &moments[planned.value].pairs;
             for (place, slope) in self.by_gap.iter_mut().enumerate() {
                 let part = |moments: &Moments| if place == 0 { moments.zeroth } else { moments.first[place - 1] };
@@ -130,9 +130,9 @@ impl ContactSlopes {
 }
 
 /// The sums of each action over the terms of a contact with the weights of one pair of normals.
-fn pair_sums(contact: &Contact, moments: &[OrientedMoments], pair: usize) -> [Sums; Action::COUNT] {
+fn pair_sums(laws: &LawSet, moments: &[OrientedMoments], pair: usize) -> [Sums; Action::COUNT] {
     let mut sums = [Sums::default(); Action::COUNT];
-    for planned in contact.terms() {
+    for planned in laws.terms() {
         let term = &planned.term;
         sums[term.action as usize].add(term.coefficient, term.action, &moments[planned.value].pairs[pair]);
     }

@@ -6,7 +6,7 @@
 //!   ∂(d^−ν) = −ν d^−(ν+1) (δg₀ + δm·X)
 
 use super::Action;
-use super::plan::Contact;
+use super::law_set::LawSet;
 use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3};
 
@@ -48,9 +48,9 @@ impl Sums {
     }
 
     /// The sums of each [`Action`] over the terms of a contact, from the moments that it planned for loads.
-    pub fn by_action(contact: &Contact, moments: &[Moments]) -> [Self; Action::COUNT] {
+    pub fn by_action(laws: &LawSet, moments: &[Moments]) -> [Self; Action::COUNT] {
         let mut sums = [Self::default(); Action::COUNT];
-        for planned in contact.terms() {
+        for planned in laws.terms() {
             let term = &planned.term;
             sums[term.action as usize].add(term.coefficient, term.action, &moments[planned.value]);
         }
@@ -60,9 +60,9 @@ impl Sums {
 
 impl SumSlopes {
     /// The sums over the terms of a contact, from the moments that it planned for derivatives.
-    pub fn new(contact: &Contact, moments: &[Moments]) -> Self {
+    pub fn new(laws: &LawSet, moments: &[Moments]) -> Self {
         let mut sums = Self::default();
-        for planned in contact.terms() {
+        for planned in laws.terms() {
             let term = &planned.term;
             let action = term.action as usize;
             sums.values[action].add(term.coefficient, term.action, &moments[planned.value_with_derivative]);

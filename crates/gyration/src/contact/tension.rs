@@ -10,7 +10,7 @@
 //!
 //! U = c d^(1−ν)/(ν−1); at ν = 1, −c (ln d − ln d₀). Only central laws have a potential. Source: `physics.md` §3.
 
-use super::plan::{Contact, ContactScratch};
+use super::law_set::{ContactScratch, LawSet};
 use super::resultant::{Deformation, Meeting};
 use super::{Action, AreaMeasure, LawKind, Term};
 use crate::surface::{GapClosed, Kernel, MomentRequest, OrientedMoments};
@@ -61,11 +61,11 @@ pub(super) fn plan(terms: impl Iterator<Item = Term>) -> (Vec<MomentRequest>, Ve
 ///
 /// # Errors
 /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-pub fn contact_potential(contact: &Contact, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<f64, GapClosed> {
-    let plan = contact.potentials();
+pub fn contact_potential(laws: &LawSet, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<f64, GapClosed> {
+    let plan = laws.potentials();
     let moments = scratch.take(plan.requests().len());
-    meeting.moments(contact, plan, moments)?;
-    Ok(contact.potential_terms().iter().map(|part| part.coefficient * moments[part.request].zeroth).sum())
+    meeting.moments(laws, plan, moments)?;
+    Ok(laws.potential_terms().iter().map(|part| part.coefficient * moments[part.request].zeroth).sum())
 }
 
 /// T of each law.
@@ -87,13 +87,13 @@ pub(super) const PAIR: [usize; 9] = [0, 1, 2, 1, 3, 4, 2, 4, 5];
 impl<'a> Tension<'a> {
     /// T of a contact, if its measure has one.
     pub fn integrate(
-        contact: &Contact,
+        laws: &LawSet,
         meeting: &'a Meeting,
         scratch: &mut ContactScratch,
     ) -> Result<Option<Self>, GapClosed> {
-        let Some((deformation, moments)) = oriented(contact, meeting, scratch)? else { return Ok(None) };
+        let Some((deformation, moments)) = oriented(laws, meeting, scratch)? else { return Ok(None) };
         let mut by_law = [Mat3::zeros(); LawKind::COUNT];
-        for part in contact.potential_terms() {
+        for part in laws.potential_terms() {
             by_law[part.kind as usize] += part.coefficient * across(&normals(&moments[part.request]));
         }
         Ok(Some(Self { deformation, by_law }))
@@ -108,13 +108,13 @@ impl<'a> Tension<'a> {
 impl TensionSlopes {
     /// T of all laws and its derivative, if the measure of the contact has one.
     pub fn integrate(
-        contact: &Contact,
+        laws: &LawSet,
         meeting: &Meeting,
         scratch: &mut ContactScratch,
     ) -> Result<Option<Self>, GapClosed> {
-        let Some((_, moments)) = oriented(contact, meeting, scratch)? else { return Ok(None) };
+        let Some((_, moments)) = oriented(laws, meeting, scratch)? else { return Ok(None) };
         let mut this = Self { total: Mat3::zeros(), by_stretch: [Mat3::zeros(); 9] };
-        for part in contact.potential_terms() {
+        for part in laws.potential_terms() {
             let oriented = &moments[part.request];
             let n = normals(oriented);
             this.total += part.coefficient * across(&n);
@@ -128,15 +128,15 @@ impl TensionSlopes {
 
 /// The moments of the potentials, weighted with normals; none in other measures than that of the potential.
 fn oriented<'a, 'b>(
-    contact: &Contact,
+    laws: &LawSet,
     meeting: &'a Meeting,
     scratch: &'b mut ContactScratch,
 ) -> Result<Option<(&'a Deformation, &'b [OrientedMoments])>, GapClosed> {
     let Some(deformation) = &meeting.deformation else { return Ok(None) };
-    if contact.measure != AreaMeasure::DeformedAreaPotential || contact.potential_terms().is_empty() {
+    if laws.measure != AreaMeasure::DeformedAreaPotential || laws.potential_terms().is_empty() {
         return Ok(None);
     }
-    let plan = contact.potentials();
+    let plan = laws.potentials();
     let moments = scratch.take_oriented(plan.requests().len());
     meeting.surface.oriented_moments(&meeting.field, &deformation.cofactor, plan, moments)?;
     Ok(Some((deformation, moments)))

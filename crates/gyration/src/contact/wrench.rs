@@ -13,7 +13,7 @@
 //! Normal and tangential parts are not mixed: next to a support one may exceed the other by more than the digits of a
 //! number. The force is therefore formed in space, where the normal of a support is often an axis.
 
-use super::plan::{Contact, ContactScratch};
+use super::law_set::{ContactScratch, LawSet};
 use super::resultant::RelativeMotion;
 use super::sums::{SumSlopes, Sums};
 use crate::load::{Wrench, WrenchSlope};
@@ -149,16 +149,16 @@ impl RigidLoads {
     /// # Errors
     /// [`GapClosed`] if a point of the surface lies on or behind the plane.
     pub fn integrate(
-        contact: &Contact,
+        laws: &LawSet,
         surface: &Surface,
         field: &GapField,
         motion: &RigidMotion,
         scratch: &mut ContactScratch,
     ) -> Result<Self, GapClosed> {
-        let plan = contact.values();
+        let plan = laws.values();
         let moments = scratch.take(plan.requests().len());
         surface.planned_moments(field, plan, moments)?;
-        let sums = Sums::by_action(contact, moments);
+        let sums = Sums::by_action(laws, moments);
         let [_, normal, tangential] = &sums;
         Ok(Self {
             wrench: motion.wrench(sums.each_ref()),
@@ -174,16 +174,16 @@ impl ContactWrench {
     /// # Errors
     /// [`GapClosed`] if a point of the surface lies on or behind the plane.
     pub fn integrate(
-        contact: &Contact,
+        laws: &LawSet,
         surface: &Surface,
         field: &GapField,
         motion: &RigidMotion,
         scratch: &mut ContactScratch,
     ) -> Result<Self, GapClosed> {
-        let plan = contact.derivatives();
+        let plan = laws.derivatives();
         let moments = scratch.take(plan.requests().len());
         surface.planned_moments(field, plan, moments)?;
-        let sums = SumSlopes::new(contact, moments);
+        let sums = SumSlopes::new(laws, moments);
         let through_gap = |slope: usize| {
             let [central, normal, tangential] = &sums.by_gap;
             motion.wrench([&central[slope], &normal[slope], &tangential[slope]])

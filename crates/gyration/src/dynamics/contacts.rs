@@ -1,12 +1,13 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
-use crate::contact::{Contact, Deformation, Meeting, RelativeMotion};
+use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::BodyAt;
 use crate::model::Model;
 use crate::state::BodyMotion;
 use crate::surface::GapClosed;
+use crate::tensor::Vec3;
 
 /// Hands a contact of a body to `integrate`, unless a gap is closed; none without a surface.
 #[inline]
@@ -17,7 +18,8 @@ pub(super) fn meet<T>(
 ) -> Result<Option<T>, Inadmissible> {
     let BodyAt { model, body, motion, .. } = at;
     let Some(surface) = &body.surface else { return Ok(None) };
-    let support = &model.supports[contact.support];
+    let Partner::Support(index) = contact.partner;
+    let support = &model.supports[index];
     let field = support.gap_field(&motion.placement, at.time);
     let result = if surface.is_above(&field, body.least_gap(&field)) {
         let motion = RelativeMotion::to(support, &motion.velocity, at.time);
@@ -25,7 +27,13 @@ pub(super) fn meet<T>(
     } else {
         Err(GapClosed { gap: surface.smallest_gap(&field).0 })
     };
-    result.map_err(|closed| at.outside(Quantity::Gap { support: contact.support }, closed.gap))
+    result.map_err(|closed| at.outside(Quantity::Gap { support: index }, closed.gap))
+}
+
+/// The velocity with which the partner of a contact is moved [m/s].
+pub(super) fn carrying(at: &BodyAt, contact: &Contact) -> Vec3 {
+    let Partner::Support(index) = contact.partner;
+    at.model.supports[index].motion.velocity(at.time)
 }
 
 /// How the body takes its surface along; none of a rigid one.

@@ -4,7 +4,7 @@
 //! the fluid in its own ten numbers instead, since normal and tangential parts must not be mixed (`contact/wrench`); every
 //! other load reaches it through Q.
 
-use super::contacts::meet;
+use super::contacts::{carrying, meet};
 use super::powers::Powers;
 use super::{RigidImmersion, Scratch, immersion};
 use crate::acting::Load;
@@ -44,13 +44,14 @@ impl Acting {
         let velocity = &at.motion.velocity;
         match load {
             Load::Contact(contact) => {
-                let integrated = meet(at, contact, |it| ContactLoads::integrate(contact, it, &mut scratch.contact))?;
+                let integrated =
+                    meet(at, contact, |it| ContactLoads::integrate(&contact.law_set, it, &mut scratch.contact))?;
                 let Some(loads) = integrated else { return Ok(()) };
                 let total = loads.total();
                 for law in LawKind::ALL {
                     self.powers.add(law, loads.relative_power(law));
                 }
-                let carried = at.model.supports[contact.support].motion.velocity(at.time);
+                let carried = carrying(at, contact);
                 self.powers[Work::Support] += total.force.dot(&carried);
                 self.contact += total;
                 self.total += total;
@@ -105,7 +106,8 @@ pub(super) fn add_slopes(
 ) -> Result<(), Inadmissible> {
     match load {
         Load::Contact(contact) => {
-            let integrated = meet(at, contact, |it| ContactSlopes::integrate(contact, it, &mut scratch.contact))?;
+            let integrated =
+                meet(at, contact, |it| ContactSlopes::integrate(&contact.law_set, it, &mut scratch.contact))?;
             if let Some(contact) = integrated {
                 contact.add_to(slopes);
             }
@@ -137,7 +139,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
     for load in at.loads().filter(|load| load.energy() == Some(energy)) {
         total += match load {
             Load::Contact(contact) => {
-                let potential = meet(at, contact, |it| contact_potential(contact, it, &mut scratch.contact))?;
+                let potential = meet(at, contact, |it| contact_potential(&contact.law_set, it, &mut scratch.contact))?;
                 potential.unwrap_or(0.0)
             }
             Load::Spring(_, spring) => spring.energy(&at.motion.placement),

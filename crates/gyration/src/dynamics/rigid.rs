@@ -1,6 +1,6 @@
 //! A rigid body: force and torque, and the balance solved for its rates.
 
-use super::contacts::meet;
+use super::contacts::{carrying, meet};
 use super::powers::Powers;
 use super::{Acting, Scratch};
 use crate::acting::Load;
@@ -24,18 +24,18 @@ pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<
                     let Meeting { surface, field, .. } = meeting;
                     let relative = RigidMotion::new(&meeting.motion, &at.motion.placement.gradient, turn.spin);
                     if at.model.central_laws_work() {
-                        let loads = ContactLoads::integrate(contact, meeting, &mut scratch.contact)?;
+                        let loads = ContactLoads::integrate(&contact.law_set, meeting, &mut scratch.contact)?;
                         for law in [LawKind::Repulsion, LawKind::Adhesion] {
                             others.powers.add(law, loads.relative_power(law));
                         }
                     }
-                    RigidLoads::integrate(contact, surface, field, &relative, &mut scratch.contact)
+                    RigidLoads::integrate(&contact.law_set, surface, field, &relative, &mut scratch.contact)
                 })?;
                 let Some(loads) = integrated else { continue };
                 wrench += loads.wrench;
                 others.powers[Work::Damping] += loads.damping_power;
                 others.powers[Work::Friction] += loads.friction_power;
-                let carried = at.model.supports[contact.support].motion.velocity(at.time);
+                let carried = carrying(at, contact);
                 others.powers[Work::Support] += loads.wrench.force.dot(&carried);
             }
             Load::Fluid(..) => {

@@ -7,7 +7,7 @@ pub mod any_form;
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
 use gyration::body::{Affine, Body, BodyKind, Pin};
-use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, Repulsion};
+use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
@@ -95,7 +95,9 @@ pub fn body(shape: Shape, exponents: [f64; 4], variant: Variant) -> Body {
         mass,
         shape,
         surface,
-        contacts: (0..2).map(|support| Contact::new(support, variant.measure, laws(exponents))).collect(),
+        contacts: (0..2)
+            .map(|support| Contact::with_support(support, LawSet::new(variant.measure, laws(exponents))))
+            .collect(),
         springs: vec![spring, Spring { rest_length: 0.0, damping: 0.0, ..spring }],
         inclusion: None,
         pin,

@@ -87,8 +87,13 @@ impl RigidSlopes {
                     let integrated = meet(at, contact, |meeting| {
                         let Meeting { surface, field, .. } = meeting;
                         let relative = RigidMotion::new(&meeting.motion, rotation, turn.spin);
-                        let wrench =
-                            ContactWrench::integrate(contact, surface, field, &relative, &mut scratch.contact)?;
+                        let wrench = ContactWrench::integrate(
+                            &contact.law_set,
+                            surface,
+                            field,
+                            &relative,
+                            &mut scratch.contact,
+                        )?;
                         Ok((wrench, relative))
                     })?;
                     if let Some((wrench, relative)) = integrated {

@@ -1,17 +1,32 @@
-//! A contact: the laws between one body and one support, with the list of surface moments that they need.
+//! A set of laws that act together, with the list of surface moments that they need; and contacts that obey it.
 //!
 //! Laws share powers of the gap (damping and friction often have the same exponent, and the derivative of d^−6 is the
-//! power that d^−7 asks for), so the requests are merged once, when the contact is made.
+//! power that d^−7 asks for), so the requests are merged once, when the set is made; all bodies that obey it share it.
 
 use super::tension::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, Term};
 use crate::surface::{Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments};
+use std::sync::Arc;
 
-/// The laws between one body and one support.
+/// What a body meets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Partner {
+    /// The support of this index in the model.
+    Support(usize),
+}
+
+/// The laws between a body and its partner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// Index of the support in the model.
-    pub support: usize,
+    /// What the body meets.
+    pub partner: Partner,
+    /// What acts between them.
+    pub law_set: Arc<LawSet>,
+}
+
+/// Laws that act together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawSet {
     /// In which measure of area the tractions are given.
     pub measure: AreaMeasure,
     laws: Vec<ContactLaw>,
@@ -61,8 +76,21 @@ impl ContactScratch {
 }
 
 impl Contact {
+    /// A contact with the support of this index.
+    pub fn with_support(support: usize, law_set: impl Into<Arc<LawSet>>) -> Self {
+        Self { partner: Partner::Support(support), law_set: law_set.into() }
+    }
+
+    /// The index of its support.
+    pub fn support(&self) -> usize {
+        let Partner::Support(support) = self.partner;
+        support
+    }
+}
+
+impl LawSet {
     /// Joins the laws and plans which surface moments they need.
-    pub fn new(support: usize, measure: AreaMeasure, laws: Vec<ContactLaw>) -> Self {
+    pub fn new(measure: AreaMeasure, laws: Vec<ContactLaw>) -> Self {
         let mut value_requests = Vec::new();
         let mut derivative_requests = Vec::new();
         let terms: Vec<PlannedTerm> = laws
@@ -84,7 +112,7 @@ impl Contact {
         let (requests, potential_terms) = tension::plan(laws.iter().flat_map(ContactLaw::terms).flatten());
         let potentials = MomentPlan::new(requests);
         let acts = Action::ALL.map(|action| terms.iter().any(|planned| planned.term.action == action));
-        Self { support, measure, laws, terms, acts, values, derivatives, potentials, potential_terms }
+        Self { measure, laws, terms, acts, values, derivatives, potentials, potential_terms }
     }
 
     /// The laws.
@@ -145,14 +173,14 @@ mod tests {
             ContactLaw::Damping(Damping { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
             ContactLaw::Friction(Friction { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
         ];
-        let contact = Contact::new(0, AreaMeasure::default(), laws);
+        let laws = LawSet::new(AreaMeasure::default(), laws);
         let orders = |requests: &[MomentRequest]| {
             requests.iter().map(|request| (request.kernel, request.order)).collect::<Vec<_>>()
         };
-        assert_eq!(orders(contact.values().requests()), [(Kernel::Power(6.0), 1), (Kernel::Power(5.0), 2)]);
+        assert_eq!(orders(laws.values().requests()), [(Kernel::Power(6.0), 1), (Kernel::Power(5.0), 2)]);
         // d^−6 serves the repulsion itself and the derivative of the damping.
         assert_eq!(
-            orders(contact.derivatives().requests()),
+            orders(laws.derivatives().requests()),
             [(Kernel::Power(6.0), 3), (Kernel::Power(7.0), 2), (Kernel::Power(5.0), 2)]
         );
     }
