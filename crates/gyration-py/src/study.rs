@@ -10,7 +10,7 @@ use crate::many::workers;
 use crate::parcel::{Parcel, unpack};
 use crate::watch::Watch;
 use crate::worker::Packed;
-use gyration_study::{Held, Progress, Row, Shard, Source, Study, Table, Watcher, execute};
+use gyration_study::{Progress, Row, Shard, Source, Study, Table, TableLock, Watcher, execute};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyDict;
@@ -167,7 +167,7 @@ impl Work {
     /// Its lock, which can be asked for anything while the study is at work.
     #[getter]
     fn lock(&self) -> PyResult<Lock> {
-        self.table.as_ref().map(|table| Lock(table.held())).ok_or_else(closed)
+        self.table.as_ref().map(|table| Lock(table.lock())).ok_or_else(closed)
     }
 }
 
@@ -177,7 +177,7 @@ fn closed() -> PyErr {
 
 /// The lock of a table.
 #[pyclass(frozen, module = "gyration", name = "_Lock", weakref)]
-pub struct Lock(Held);
+pub struct Lock(TableLock);
 
 #[pymethods]
 impl Lock {

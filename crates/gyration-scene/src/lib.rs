@@ -16,13 +16,14 @@ mod document;
 mod error;
 pub mod file;
 mod gallery;
+pub mod input;
 mod key;
 mod overriding;
 pub mod quantity;
 mod read;
 mod scene;
 mod schema;
-pub mod sheet;
+
 mod suggest;
 mod table;
 mod template;

@@ -7,7 +7,7 @@
 //! evaluated anew and the error history is forgotten, the size of the step is not. Nothing is recorded, and the run does not end
 //! by itself: neither at the scene's end nor at rest.
 
-use crate::aside::Aside;
+use crate::detached::Detached;
 use crate::events::Event;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
@@ -32,7 +32,7 @@ use gyration_scene::Built;
 pub struct HandStepper {
     model: Model,
     /// None while a step is being made.
-    aside: Option<Aside>,
+    detached: Option<Detached>,
     /// Whether the model has changed since the last step.
     changed: bool,
     /// The scene's end [s].
@@ -79,8 +79,8 @@ impl HandStepper {
         let plan = RunPlan { stop_at_rest: None, ..RunPlan::from(built) };
         let mut simulation = Simulation::new(&model, &start, plan)?;
         simulation.begin(&mut MemorySink::default())?;
-        let aside = Some(simulation.set_aside());
-        Ok(Self { model, aside, changed: false, end: plan.end, events: Vec::new() })
+        let detached = Some(simulation.detach());
+        Ok(Self { model, detached, changed: false, end: plan.end, events: Vec::new() })
     }
 
     /// The model as it is now.
@@ -249,19 +249,19 @@ impl HandStepper {
         stepped
     }
 
-    fn kept(&self) -> &Aside {
-        match &self.aside {
-            Some(aside) => aside,
+    fn kept(&self) -> &Detached {
+        match &self.detached {
+            Some(detached) => detached,
             None => unreachable!("a step has panicked"),
         }
     }
 
     /// Lets the run go on with the model for a while.
     fn with<T>(&mut self, act: impl FnOnce(&mut Simulation) -> T) -> T {
-        let Some(aside) = self.aside.take() else { unreachable!("a step has panicked") };
-        let mut simulation = aside.on(&self.model);
+        let Some(detached) = self.detached.take() else { unreachable!("a step has panicked") };
+        let mut simulation = detached.on(&self.model);
         let done = act(&mut simulation);
-        self.aside = Some(simulation.set_aside());
+        self.detached = Some(simulation.detach());
         done
     }
 

@@ -8,8 +8,8 @@
 //! ```
 
 pub mod adapter;
-mod aside;
 mod by_hand;
+mod detached;
 pub mod events;
 pub mod format;
 mod horizon;

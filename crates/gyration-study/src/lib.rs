@@ -15,11 +15,11 @@ pub mod calibration;
 mod column;
 mod error;
 mod execute;
+mod extract;
 mod file;
 mod fingerprint;
 mod gallery;
 mod keep;
-mod observe;
 mod parameter;
 mod random;
 mod read;
@@ -37,7 +37,7 @@ pub use keep::{Keep, Measure, Pick};
 pub use parameter::{Distribution, Parameter, Steps, Variation};
 pub use run::{FAILED, STEP_LIMIT, Worker};
 pub use study::{Recordings, Sampling, Source, Study};
-pub use table::{Data, Described, Digest, Frame, FrameColumn, Held, Shard, Spread, Table, merge};
+pub use table::{Data, Described, Digest, Frame, FrameColumn, Shard, Spread, Table, TableLock, merge};
 pub use value::{Row, Value};
 
 /// The JSON Schema of a study.

@@ -1,8 +1,8 @@
 //! One run of a study: from its number to its row, and to the recording that the study may want of it.
 
 use crate::error::StudyError;
+use crate::extract::{Extractor, Layout};
 use crate::file::Recordings;
-use crate::observe::{Layout, Observer};
 use crate::study::Study;
 use crate::value::{Row, Value};
 use gyration_record::{RecordError, Writer, remove};
@@ -103,8 +103,8 @@ impl Study {
         if recording.is_none() && !self.needs_samples() {
             plan.sample = plan.end;
         }
-        let observer = match Observer::new(self.keeps(), model, &Layout::new(model, &plan)) {
-            Ok(observer) => observer,
+        let extractor = match Extractor::new(self.keeps(), model, &Layout::new(model, &plan)) {
+            Ok(extractor) => extractor,
             Err(message) => return Ok(Some(self.failed(message))),
         };
         let mut simulation = match Simulation::new(model, state, plan) {
@@ -112,7 +112,7 @@ impl Study {
             Err(error) => return self.not_begun(error),
         };
         let writer = recording.map(|path| created(path, scene)).transpose()?;
-        let mut sink = Both { observer, writer };
+        let mut sink = Tee { extractor, writer };
         if let Err(error) = simulation.begin(&mut sink) {
             return self.not_begun(error);
         }
@@ -123,17 +123,17 @@ impl Study {
         }
         if limits.is_over {
             // A run that is interrupted may go on, and has no last row; this one has ended.
-            simulation.record_last(&mut sink.observer).map_err(recorded)?.ok();
+            simulation.record_last(&mut sink.extractor).map_err(recorded)?.ok();
         }
         let ending = ending(&simulation, &outcome, limits.is_over);
         let is_early = matches!(outcome, Outcome::Stopped(_));
-        let Both { observer, writer } = sink;
+        let Tee { extractor, writer } = sink;
         if let Some(writer) = writer {
             let checkpoint = simulation.checkpoint();
             let summary = RunSummary::of(model, &mut simulation, outcome, None);
             writer.finish(summary.attributes(), &checkpoint)?;
         }
-        Ok(Some(Ended { ending, kept: observer.finish(), is_early }))
+        Ok(Some(Ended { ending, kept: extractor.finish(), is_early }))
     }
 
     /// A start outside the model is a failure of this run; what the disk refuses is one of the study.
@@ -231,17 +231,17 @@ impl Monitor for Limits<'_> {
 }
 
 /// What is kept, and the recording if there is one.
-struct Both {
-    observer: Observer,
+struct Tee {
+    extractor: Extractor,
     writer: Option<Writer>,
 }
 
-impl Sink for Both {
+impl Sink for Tee {
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         if let Some(writer) = &mut self.writer {
             writer.append(time, row)?;
         }
-        self.observer.row(time, row)
+        self.extractor.row(time, row)
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
@@ -249,14 +249,14 @@ impl Sink for Both {
             let Event { time, kind, body } = *event;
             writer.append_event(gyration_record::Event { time, kind, body: Some(body) })?;
         }
-        self.observer.event(event)
+        self.extractor.event(event)
     }
 
     fn wants_event_rows(&self) -> bool {
-        self.observer.wants_event_rows()
+        self.extractor.wants_event_rows()
     }
 
     fn event_row(&mut self, event: &Event, row: &[f64]) -> Result<(), RecordError> {
-        self.observer.event_row(event, row)
+        self.extractor.event_row(event, row)
     }
 }

@@ -1,7 +1,7 @@
 //! A study: a scene, what is varied in it, and what is kept of each run.
 //!
 //! ```text
-//! text → sheet → read (all errors at once) → probe (the scene of the first run) → Study
+//! text → input → read (all errors at once) → probe (the scene of the first run) → Study
 //! run number → point, repetition → values → overrides of the scene → run → row
 //! ```
 //!
@@ -9,15 +9,15 @@
 //! on the study and the number of its run alone.
 
 use crate::column::{Column, ending, leading};
+use crate::extract::{Extractor, Layout};
 use crate::fingerprint::fingerprint;
 use crate::gallery;
 use crate::keep::Keep;
-use crate::observe::{Layout, Observer};
 use crate::parameter::{Dice, Parameter, Place, Variation};
 use crate::random::Sobol;
 use crate::read::{self, Read};
 use crate::value::Value;
-use gyration_scene::sheet::{Sheet, fix};
+use gyration_scene::input::{InputFile, fix};
 use gyration_scene::{LoadError, Override, ReadError, Scene, SceneErrors, Setting, Template};
 use gyration_sim::{RunPlan, complete};
 use serde_json::Value as Json;
@@ -61,13 +61,13 @@ impl Study {
         let path = Path::new(path_or_name);
         if path.is_file() {
             let base = path.parent().unwrap_or(Path::new(""));
-            let sheet = Sheet::load(path, &read::FORM, overrides)?;
-            return Self::new(sheet, &path.display().to_string(), base, overrides);
+            let input = InputFile::load(path, &read::RULES, overrides)?;
+            return Self::new(input, &path.display().to_string(), base, overrides);
         }
         match gallery::find(path_or_name) {
             Some(text) => Self::parse(&format!("{path_or_name}.toml"), text, Path::new(""), overrides),
             None if path.exists() => {
-                Sheet::load(path, &read::FORM, overrides)?;
+                InputFile::load(path, &read::RULES, overrides)?;
                 Err(not_found(path_or_name))
             }
             None => Err(not_found(path_or_name)),
@@ -79,8 +79,8 @@ impl Study {
     /// # Errors
     /// Everything that is wrong in it or in its scene.
     pub fn parse(name: &str, text: &str, base: &Path, overrides: &[String]) -> Result<Self, LoadError> {
-        let sheet = Sheet::parse(name, text, &read::FORM, overrides)?;
-        Self::new(sheet, name, base, overrides)
+        let input = InputFile::parse(name, text, &read::RULES, overrides)?;
+        Self::new(input, name, base, overrides)
     }
 
     /// Opens a study again from where it came from.
@@ -91,36 +91,36 @@ impl Study {
         Self::parse(&source.name, &source.text, &source.base, &source.overrides)
     }
 
-    fn new(mut sheet: Sheet, name: &str, base: &Path, overrides: &[String]) -> Result<Self, LoadError> {
+    fn new(mut input: InputFile, name: &str, base: &Path, overrides: &[String]) -> Result<Self, LoadError> {
         let source = Source {
             name: name.to_owned(),
-            text: sheet.text().to_owned(),
+            text: input.text().to_owned(),
             base: base.to_owned(),
             overrides: overrides.to_vec(),
         };
-        let read = read::read(&mut sheet);
-        let template = read::scene(&mut sheet, &read.scene, base);
+        let read = read::read(&mut input);
+        let template = read::scene(&mut input, &read.scene, base);
         if let Some(Ok(template)) = &template {
-            read::keys_once(&read, template, &mut sheet);
+            read::keys_once(&read, template, &mut input);
         }
-        let template = match (template, sheet.is_sound()) {
+        let template = match (template, input.is_sound()) {
             (Some(template), true) => template?,
             // What is wrong with the study may be what is wrong with its scene.
             (template, _) => {
                 if let Some(Ok(template)) = template {
-                    look_further(&template, &read, &mut sheet);
+                    look_further(&template, &read, &mut input);
                 }
-                return Err(sheet.refused().into());
+                return Err(input.refused().into());
             }
         };
         let dice = dice(&read);
         let values = values(&read, &dice, place(&read, 0));
         let overrides = overrides_of(&read, &values);
-        let Some(scene) = read::probe(&template, &read, &overrides, &mut sheet)? else {
-            return Err(sheet.refused().into());
+        let Some(scene) = read::probe(&template, &read, &overrides, &mut input)? else {
+            return Err(input.refused().into());
         };
-        let columns = columns(&read, &scene, &mut sheet);
-        sheet.finish()?;
+        let columns = columns(&read, &scene, &mut input);
+        input.finish()?;
         let fingerprint = fingerprint(&read, &template, &scene);
         Ok(Self { source, read, template, dice, columns, fingerprint })
     }
@@ -235,12 +235,12 @@ fn not_found(name: &str) -> LoadError {
 }
 
 /// Notes what else is wrong with a study: keys and columns that its scene does not have, as far as its sound parts tell.
-fn look_further(template: &Template, read: &Read, sheet: &mut Sheet) {
+fn look_further(template: &Template, read: &Read, input: &mut InputFile) {
     let dice = Dice { seed: read.seed, sampling: Sampling::Random, repetitions: 1, sobol: Sobol::new(0) };
     let first = vec![0; read.axes.len().max(1)];
     let values: Vec<_> = read.parameters.iter().map(|p| p.at(&dice, place(read, 0), &first)).collect();
-    if let Ok(Some(scene)) = read::probe(template, read, &overrides_of(read, &values), sheet) {
-        columns(read, &scene, sheet);
+    if let Ok(Some(scene)) = read::probe(template, read, &overrides_of(read, &values), input) {
+        columns(read, &scene, input);
     }
 }
 
@@ -276,16 +276,16 @@ fn overrides_of(read: &Read, values: &[(Setting, Vec<Value>)]) -> Vec<Override> 
 }
 
 /// The columns of the table; what is kept of a column or a body that is not there is noted.
-fn columns(read: &Read, scene: &Scene, sheet: &mut Sheet) -> Vec<Column> {
+fn columns(read: &Read, scene: &Scene, input: &mut InputFile) -> Vec<Column> {
     let built = scene.built();
     let layout = Layout::new(&built.model, &RunPlan::from(built));
     let mut columns: Vec<Column> = leading().into();
     columns.extend(read.parameters.iter().flat_map(|parameter| parameter.columns.iter().cloned()));
     columns.extend(ending());
     for (index, (name, keep)) in read.keeps.iter().enumerate() {
-        if let Err(message) = Observer::new(&read.keeps[index..=index], &built.model, &layout) {
+        if let Err(message) = Extractor::new(&read.keeps[index..=index], &built.model, &layout) {
             let (message, help) = message.split_once(": ").unwrap_or((&message, ""));
-            sheet.note(&["keep", name], message, help);
+            input.note(&["keep", name], message, help);
         }
         columns.push(keep.table_column(name, keep.column().and_then(|column| layout.unit(column))));
     }

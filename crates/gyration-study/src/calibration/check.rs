@@ -2,7 +2,7 @@
 
 use super::{Kind, Number};
 use gyration_scene::Template;
-use gyration_scene::sheet::Sheet;
+use gyration_scene::input::InputFile;
 use std::collections::BTreeMap;
 
 /// Whether anything could have been measured so: a rebound gives back no more than the drop, within three deviations.
@@ -11,31 +11,31 @@ pub(super) fn is_possible(kind: Kind, condition: f64, measured: f64, deviation: 
 }
 
 /// Notes numbers of the scene that are found twice, or set by what was measured.
-pub(super) fn keys_once(sheet: &mut Sheet, numbers: &[Number], template: &Template) {
+pub(super) fn keys_once(input: &mut InputFile, numbers: &[Number], template: &Template) {
     let mut seen: BTreeMap<String, &str> = BTreeMap::new();
     for number in numbers {
         for key in &number.keys {
             if let Some(other) = seen.insert(template.by_index(key), &number.name) {
                 let place = ["fit", number.name.as_str()];
-                sheet.note(&place, format!("`{key}` is already fitted as \"{other}\""), "keep one of the two");
+                input.note(&place, format!("`{key}` is already fitted as \"{other}\""), "keep one of the two");
             }
         }
     }
     let is_part =
         |one: &str, other: &str| one == other || one.strip_prefix(other).is_some_and(|rest| rest.starts_with('.'));
     for kind in [Kind::Drop, Kind::Gap, Kind::Slope, Kind::PullOff] {
-        let count = sheet.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
+        let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
         for index in (0..count).map(|index| index.to_string()) {
             let place = [kind.word(), index.as_str()];
-            let mut own = sheet.keys(&[place[0], place[1], "set"]);
-            own.extend(sheet.value(&[place[0], place[1], "key"]).and_then(|key| key.as_str().map(str::to_owned)));
+            let mut own = input.keys(&[place[0], place[1], "set"]);
+            own.extend(input.value(&[place[0], place[1], "key"]).and_then(|key| key.as_str().map(str::to_owned)));
             for key in own {
                 let plain = template.by_index(&key);
                 if let Some((_, name)) =
                     seen.iter().find(|(fitted, _)| is_part(fitted, &plain) || is_part(&plain, fitted))
                 {
                     let message = format!("`{key}` is fitted as \"{name}\", and cannot be set for one table");
-                    sheet.note(&place, message, "set it for none, or do not fit it");
+                    input.note(&place, message, "set it for none, or do not fit it");
                 }
             }
         }

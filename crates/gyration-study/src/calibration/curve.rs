@@ -56,10 +56,10 @@ impl Calibration {
         conditions.sort_unstable_by(f64::total_cmp);
         conditions.dedup();
         let point = |condition: f64| {
-            let observed = self.observed(table, condition, values).ok()?;
-            let slopes = nalgebra::DVector::from_vec(self.inward(&observed.slopes, values, 1.0));
+            let predicted = self.predicted(table, condition, values).ok()?;
+            let slopes = nalgebra::DVector::from_vec(self.inward(&predicted.slopes, values, 1.0));
             let variance = slopes.dot(&(&fitted.covariance * &slopes));
-            Some(CurvePoint { condition, value: observed.value, half_width: WIDTH * variance.max(0.0).sqrt() })
+            Some(CurvePoint { condition, value: predicted.value, half_width: WIDTH * variance.max(0.0).sqrt() })
         };
         Curve { experiment: table.clone(), points: conditions.into_par_iter().filter_map(point).collect() }
     }

@@ -106,8 +106,8 @@ impl Calibration {
     /// ∂r/∂u, a list a row.
     pub(super) fn weighted_slopes(&self, values: &[f64]) -> Result<Vec<Vec<f64>>, String> {
         let row = |(table, row): (&Experiment, usize)| {
-            let observed = self.observed(table, table.conditions[row], values)?;
-            Ok(self.inward(&observed.slopes, values, table.deviations[row]))
+            let predicted = self.predicted(table, table.conditions[row], values)?;
+            Ok(self.inward(&predicted.slopes, values, table.deviations[row]))
         };
         self.rows().map(row).collect()
     }

@@ -6,7 +6,7 @@ use super::file::{self, CalibrationFile};
 use super::scale::Scale;
 use super::{Calibration, Experiment, Kind, Number};
 use crate::written::{measured, measured_in, toml};
-use gyration_scene::sheet::{Form, Sheet, fix};
+use gyration_scene::input::{InputFile, InputRules, fix};
 use gyration_scene::{LoadError, Override, Template, unit_of};
 use serde_json::Value as Json;
 use std::f64::consts::FRAC_PI_2;
@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 /// What a file of measurements may hold.
-static FORM: LazyLock<Form> = LazyLock::new(Form::of::<CalibrationFile>);
+static RULES: LazyLock<InputRules> = LazyLock::new(InputRules::of::<CalibrationFile>);
 
 impl Calibration {
     /// Reads a file; paths in it are relative to its folder.
@@ -22,8 +22,8 @@ impl Calibration {
     /// # Errors
     /// [`LoadError`] with everything that is wrong in it.
     pub fn load(path: &Path) -> Result<Self, LoadError> {
-        let sheet = Sheet::load(path, &FORM, &[])?;
-        Self::of(sheet, path.parent().unwrap_or(Path::new("")), &stem(path))
+        let input = InputFile::load(path, &RULES, &[])?;
+        Self::of(input, path.parent().unwrap_or(Path::new("")), &stem(path))
     }
 
     /// Reads a text; `name` is what messages call it, paths in it are relative to `base`.
@@ -31,40 +31,40 @@ impl Calibration {
     /// # Errors
     /// [`LoadError`] with everything that is wrong in it.
     pub fn parse(name: &str, text: &str, base: &Path) -> Result<Self, LoadError> {
-        let sheet = Sheet::parse(name, text, &FORM, &[])?;
-        Self::of(sheet, base, &stem(Path::new(name)))
+        let input = InputFile::parse(name, text, &RULES, &[])?;
+        Self::of(input, base, &stem(Path::new(name)))
     }
 
-    fn of(mut sheet: Sheet, base: &Path, name: &str) -> Result<Self, LoadError> {
-        let scene: String = sheet.take(&["scene"]).unwrap_or_default();
-        let template = match crate::read::scene(&mut sheet, &scene, base) {
+    fn of(mut input: InputFile, base: &Path, name: &str) -> Result<Self, LoadError> {
+        let scene: String = input.take(&["scene"]).unwrap_or_default();
+        let template = match crate::read::scene(&mut input, &scene, base) {
             Some(opened) => Some(opened?),
             None => None,
         };
-        let settings = settings(&sheet, &["set"]);
-        let resolved = template.as_ref().and_then(|template| resolved(&mut sheet, template, &settings));
-        let names = sheet.keys(&["fit"]);
+        let settings = settings(&input, &["set"]);
+        let resolved = template.as_ref().and_then(|template| resolved(&mut input, template, &settings));
+        let names = input.keys(&["fit"]);
         if names.is_empty() {
-            sheet.note(&["fit"], "there is no number to find", "write [fit.alpha] with its `key`");
+            input.note(&["fit"], "there is no number to find", "write [fit.alpha] with its `key`");
         }
-        let numbers: Vec<_> = names.iter().filter_map(|name| number(&mut sheet, name, resolved.as_ref())).collect();
+        let numbers: Vec<_> = names.iter().filter_map(|name| number(&mut input, name, resolved.as_ref())).collect();
         if let Some(template) = &template {
-            keys_once(&mut sheet, &numbers, template);
+            keys_once(&mut input, &numbers, template);
         }
         let mut experiments = Vec::new();
         for kind in [Kind::Drop, Kind::Gap, Kind::Slope, Kind::PullOff] {
-            let count = sheet.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
-            let tables = (0..count).filter_map(|index| experiment(&mut sheet, kind, index, base, resolved.as_ref()));
+            let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
+            let tables = (0..count).filter_map(|index| experiment(&mut input, kind, index, base, resolved.as_ref()));
             experiments.extend(tables.collect::<Vec<_>>());
         }
         let rows: usize = experiments.iter().map(|table: &Experiment| table.measured.len()).sum();
-        if sheet.is_sound() && rows < numbers.len() {
+        if input.is_sound() && rows < numbers.len() {
             let message = format!("{rows} measurements cannot tell {} numbers", numbers.len());
-            sheet.note(&["fit"], message, "measure more, or fit fewer numbers");
+            input.note(&["fit"], message, "measure more, or fit fewer numbers");
         }
-        let title = sheet.take(&["title"]);
-        sheet.finish()?;
-        // A sheet without fault has named its scene.
+        let title = input.take(&["title"]);
+        input.finish()?;
+        // A input without fault has named its scene.
         let template = template.map_or_else(|| Template::open(&scene), Ok)?;
         Ok(Self { title, name: name.to_owned(), template, settings, numbers, experiments })
     }
@@ -75,21 +75,21 @@ fn stem(path: &Path) -> String {
 }
 
 /// The overrides of a table `set`.
-fn settings(sheet: &Sheet, place: &[&str]) -> Vec<Override> {
+fn settings(input: &InputFile, place: &[&str]) -> Vec<Override> {
     let setting = |key: String| {
-        let value = sheet.value(&[place, &[&key]].concat()).unwrap_or_default();
+        let value = input.value(&[place, &[&key]].concat()).unwrap_or_default();
         Override::new(key, toml(&value).as_str())
     };
-    sheet.keys(place).into_iter().map(setting).collect()
+    input.keys(place).into_iter().map(setting).collect()
 }
 
 /// The resolved scene with the settings; what is wrong with it is noted.
-fn resolved(sheet: &mut Sheet, template: &Template, settings: &[Override]) -> Option<Json> {
+fn resolved(input: &mut InputFile, template: &Template, settings: &[Override]) -> Option<Json> {
     match template.scene(settings) {
         Ok(scene) => Some(scene.resolved()),
         Err(errors) => {
             let place = if settings.is_empty() { "scene" } else { "set" };
-            sheet.note(&[place], format!("the scene has errors: {errors}"), "mend the scene first");
+            input.note(&[place], format!("the scene has errors: {errors}"), "mend the scene first");
             None
         }
     }
@@ -109,14 +109,14 @@ fn number_at(resolved: &Json, key: &str) -> Option<f64> {
     key.split('.').try_fold(resolved.clone(), |at, word| step(&at, word.trim()))?.as_f64()
 }
 
-fn number(sheet: &mut Sheet, name: &str, resolved: Option<&Json>) -> Option<Number> {
+fn number(input: &mut InputFile, name: &str, resolved: Option<&Json>) -> Option<Number> {
     let place = ["fit", name];
-    let written: file::Fit = sheet.take(&place)?;
+    let written: file::Fit = input.take(&place)?;
     let keys = match (written.key, written.keys) {
         (Some(key), None) => vec![key],
         (None, Some(keys)) if !keys.is_empty() => keys,
         _ => {
-            sheet.note(&place, "expected one of `key` and `keys`", "write key = \"contact.0.repulsion.alpha\"");
+            input.note(&place, "expected one of `key` and `keys`", "write key = \"contact.0.repulsion.alpha\"");
             return None;
         }
     };
@@ -125,20 +125,20 @@ fn number(sheet: &mut Sheet, name: &str, resolved: Option<&Json>) -> Option<Numb
         let found = resolved.and_then(|resolved| number_at(resolved, key));
         if resolved.is_some() && found.is_none() {
             let help = "write the dotted key of a number, as of --set: contact.0.repulsion.alpha";
-            sheet.note(&place, format!("the scene has no number at `{key}`"), help);
+            input.note(&place, format!("the scene has no number at `{key}`"), help);
             return None;
         }
         // How a run is computed and recorded is nothing to be measured.
         if ["time.", "solver.", "record."].iter().any(|table| key.starts_with(table)) {
             let help = "fit numbers of bodies, supports and laws";
-            sheet.note(&place, format!("`{key}` says how the scene is run, and no measurement tells it"), help);
+            input.note(&place, format!("`{key}` says how the scene is run, and no measurement tells it"), help);
             return None;
         }
         own = own.or(found);
     }
     let mut given = |word: &str, value: Option<Json>| match value.map(|value| measured(&value, &keys[0])) {
         Some(Err((message, help))) => {
-            sheet.note(&[place[0], place[1], word], message, help);
+            input.note(&[place[0], place[1], word], message, help);
             None
         }
         Some(Ok(number)) => Some(number),
@@ -153,7 +153,7 @@ fn number(sheet: &mut Sheet, name: &str, resolved: Option<&Json>) -> Option<Numb
     };
     if size == 0.0 {
         let help = "write `start`, or `from` and `to`";
-        sheet.note(&place, "the search begins at zero, and nothing says how large the number may be", help);
+        input.note(&place, "the search begins at zero, and nothing says how large the number may be", help);
         return None;
     }
     let bounds = match bounds {
@@ -161,16 +161,16 @@ fn number(sheet: &mut Sheet, name: &str, resolved: Option<&Json>) -> Option<Numb
         [Some(low), Some(high)] if low < start && start < high => Some([low, high]),
         [Some(_), Some(_)] => {
             let message = format!("the start, {start:?}, does not lie between the bounds");
-            sheet.note(&place, message, "write from < start < to");
+            input.note(&place, message, "write from < start < to");
             return None;
         }
         _ => {
-            sheet.note(&place, "a bound stands alone", "write both `from` and `to`");
+            input.note(&place, "a bound stands alone", "write both `from` and `to`");
             return None;
         }
     };
     if kind == file::Scale::Log && (start <= 0.0 || bounds.is_some_and(|[low, _]| low <= 0.0)) {
-        sheet.note(
+        input.note(
             &place,
             "a number on a log scale is greater than zero",
             "write scale = \"linear\", or other numbers",
@@ -180,22 +180,28 @@ fn number(sheet: &mut Sheet, name: &str, resolved: Option<&Json>) -> Option<Numb
     Some(Number { name: name.to_owned(), keys, start, scale: Scale { kind, size, bounds } })
 }
 
-fn experiment(sheet: &mut Sheet, kind: Kind, index: usize, base: &Path, resolved: Option<&Json>) -> Option<Experiment> {
+fn experiment(
+    input: &mut InputFile,
+    kind: Kind,
+    index: usize,
+    base: &Path,
+    resolved: Option<&Json>,
+) -> Option<Experiment> {
     let at = index.to_string();
     let place = [kind.word(), at.as_str()];
     let inside = |word: &'static str| [place[0], place[1], word];
-    let file = csv(sheet, &place, base)?;
-    let key: Option<String> = sheet.take(&inside("key"));
+    let file = csv(input, &place, base)?;
+    let key: Option<String> = input.take(&inside("key"));
     let (condition, unit) =
         kind.condition().map_or(("at", key.as_deref().and_then(unit_of)), |(name, unit)| (name, Some(unit)));
     let (result, result_unit) = kind.measured();
-    let mut read = |word: &'static str, unit: Option<&str>| column(sheet, &inside(word), unit, file.as_ref());
+    let mut read = |word: &'static str, unit: Option<&str>| column(input, &inside(word), unit, file.as_ref());
     // All three are read before any is missed: everything that is wrong is told at once.
     let columns = (read(condition, unit), read(result, Some(result_unit)), read("deviation", Some(result_unit)));
     let (conditions, measured, deviations) = (columns.0?, columns.1?, columns.2?);
     let has = file.as_ref().map_or(String::new(), |csv| format!("; {}", csv.names()));
     let Some(measured) = measured else {
-        sheet.note(
+        input.note(
             &place,
             format!("`{result}` is missing"),
             format!("write what was measured, a list of numbers{has}"),
@@ -205,7 +211,7 @@ fn experiment(sheet: &mut Sheet, kind: Kind, index: usize, base: &Path, resolved
     let count = measured.len();
     let conditions = match conditions {
         Some(_) if condition == "at" && key.is_none() => {
-            sheet.note(
+            input.note(
                 &inside("at"),
                 "nothing says what this is",
                 "write `key`, the number of the scene that differs from row to row",
@@ -215,7 +221,7 @@ fn experiment(sheet: &mut Sheet, kind: Kind, index: usize, base: &Path, resolved
         Some(conditions) => conditions,
         None if condition == "at" && key.is_none() => vec![0.0; count],
         None => {
-            sheet.note(
+            input.note(
                 &place,
                 format!("`{condition}` is missing"),
                 format!("write a list as long as that of what was measured{has}"),
@@ -225,24 +231,24 @@ fn experiment(sheet: &mut Sheet, kind: Kind, index: usize, base: &Path, resolved
     };
     if conditions.len() != count {
         let message = format!("{count} values of `{result}` stand against {} of `{condition}`", conditions.len());
-        sheet.note(&place, message, "write lists of the same length");
+        input.note(&place, message, "write lists of the same length");
         return None;
     }
     let Some(deviations) = deviations else {
         let help = format!("write the standard deviation of a measurement: what repeating it would scatter by{has}");
-        sheet.note(&place, "`deviation` is missing", help);
+        input.note(&place, "`deviation` is missing", help);
         return None;
     };
     let deviations = if deviations.len() == 1 { vec![deviations[0]; count] } else { deviations };
     if deviations.len() != count || deviations.iter().any(|deviation| *deviation <= 0.0) {
         let help = "write one number, or one a row; each greater than zero";
-        sheet.note(&inside("deviation"), "the deviations do not suit the measurements", help);
+        input.note(&inside("deviation"), "the deviations do not suit the measurements", help);
         return None;
     }
     let most = if kind == Kind::Slope { FRAC_PI_2 } else { f64::INFINITY };
     if kind.condition().is_some() && conditions.iter().any(|condition| *condition <= 0.0 || *condition >= most) {
         let message = format!("one value of `{condition}` is no {condition} that can be measured at");
-        sheet.note(
+        input.note(
             &inside(condition),
             message,
             "write heights above zero, and angles between 0 and pi/2, or strings: \"5 deg\"",
@@ -252,65 +258,65 @@ fn experiment(sheet: &mut Sheet, kind: Kind, index: usize, base: &Path, resolved
     if let Some(row) = (0..count).find(|row| !is_possible(kind, conditions[*row], measured[*row], deviations[*row])) {
         let message = format!("row {}: {:?} {result_unit} cannot be", row + 1, measured[row]);
         let help = "write numbers above zero, rebounds not above the height of the drop; numbers are in m, m/s and N, strings have units";
-        sheet.note(&inside(result), message, help);
+        input.note(&inside(result), message, help);
         return None;
     }
     if let Some(key) = key.as_ref().filter(|key| resolved.is_some_and(|resolved| number_at(resolved, key).is_none())) {
         let message = format!("the scene has no number at `{key}`");
-        sheet.note(&inside("key"), message, "write the dotted key of a number, as of --set: body.block.density");
+        input.note(&inside("key"), message, "write the dotted key of a number, as of --set: body.block.density");
         return None;
     }
-    let body = body(sheet, &place, resolved)?;
-    let settings = settings(sheet, &inside("set"));
+    let body = body(input, &place, resolved)?;
+    let settings = settings(input, &inside("set"));
     Some(Experiment { kind, index, body, settings, key, conditions, measured, deviations })
 }
 
 /// The body that is named, or the only one.
-fn body(sheet: &mut Sheet, place: &[&str; 2], resolved: Option<&Json>) -> Option<String> {
+fn body(input: &mut InputFile, place: &[&str; 2], resolved: Option<&Json>) -> Option<String> {
     let bodies = resolved?.get("body")?.as_array()?;
     let names: Vec<&str> = bodies.iter().filter_map(|body| body.get("name")?.as_str()).collect();
-    let named: Option<String> = sheet.take(&[place[0], place[1], "body"]);
+    let named: Option<String> = input.take(&[place[0], place[1], "body"]);
     match (named, names.as_slice()) {
         (Some(named), names) if names.contains(&named.as_str()) => Some(named),
         (Some(named), names) => {
             let help = fix(&named, names.iter().copied(), "the bodies are");
-            sheet.note(&[place[0], place[1], "body"], format!("the scene has no body `{named}`"), help);
+            input.note(&[place[0], place[1], "body"], format!("the scene has no body `{named}`"), help);
             None
         }
         (None, [only]) => Some((*only).to_owned()),
         (None, names) => {
-            sheet.note(place, "`body` is missing", format!("write one of {}", names.join(", ")));
+            input.note(place, "`body` is missing", format!("write one of {}", names.join(", ")));
             None
         }
     }
 }
 
 /// The CSV file of a table, if it has one; the outer none: it cannot be read.
-fn csv(sheet: &mut Sheet, place: &[&str; 2], base: &Path) -> Option<Option<Csv>> {
+fn csv(input: &mut InputFile, place: &[&str; 2], base: &Path) -> Option<Option<Csv>> {
     let place = [place[0], place[1], "table"];
-    let Some(name) = sheet.take::<String>(&place) else { return Some(None) };
+    let Some(name) = input.take::<String>(&place) else { return Some(None) };
     let found = Csv::read(base, &name);
     found
         .map(Some)
-        .map_err(|message| sheet.note(&place, message, "write the path, relative to this file, of a table"))
+        .map_err(|message| input.note(&place, message, "write the path, relative to this file, of a table"))
         .ok()
 }
 
 /// A column: a list or a number in the file, or of its CSV file. The outer none: something is wrong with it.
-fn column(sheet: &mut Sheet, place: &[&str; 3], unit: Option<&str>, csv: Option<&Csv>) -> Option<Option<Vec<f64>>> {
-    let Some(value) = sheet.value(place) else {
+fn column(input: &mut InputFile, place: &[&str; 3], unit: Option<&str>, csv: Option<&Csv>) -> Option<Option<Vec<f64>>> {
+    let Some(value) = input.value(place) else {
         return match csv.and_then(|csv| csv.column(place[2])) {
             None => Some(None),
             Some(Ok(numbers)) => Some(Some(numbers)),
             Some(Err(message)) => {
-                sheet.note(&[place[0], place[1], "table"], message, "write a number in SI units");
+                input.note(&[place[0], place[1], "table"], message, "write a number in SI units");
                 None
             }
         };
     };
     if csv.is_some_and(|csv| csv.column(place[2]).is_some()) {
         let message = format!("`{}` stands here and in the table beside it", place[2]);
-        sheet.note(place, message, "remove one of the two");
+        input.note(place, message, "remove one of the two");
         return None;
     }
     let items = match value {
@@ -322,7 +328,7 @@ fn column(sheet: &mut Sheet, place: &[&str; 3], unit: Option<&str>, csv: Option<
         match measured_in(item, place[2], unit) {
             Ok(number) => numbers.push(number),
             Err((message, help)) => {
-                sheet.note(place, message, help);
+                input.note(place, message, help);
                 return None;
             }
         }

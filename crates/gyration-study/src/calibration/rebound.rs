@@ -1,8 +1,8 @@
 //! A body that is dropped, and how high it comes again.
 
-use super::observe::{body, normal};
+use super::predict::{body, normal};
 use super::{Calibration, Experiment, Number};
-use crate::observe::Layout;
+use crate::extract::Layout;
 use gyration::balance::smallest_gap;
 use gyration::tensor::Vec3;
 use gyration_record::RecordError;
@@ -98,7 +98,7 @@ impl Drop {
     /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more than the contacts,
     /// to where the body starts perhaps, or if the body does not rebound straight up, so that its speed along the normal does not
     /// vanish at the apex.
-    pub fn observed(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
+    pub fn predicted(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
         let gravity = self.scene.built().model.gravity;
         let is_level = -gravity.dot(&self.normal) > (1.0 - LEVEL) * gravity.norm();
         let of_contact = |number: &Number| is_level && number.keys.iter().all(|key| key.starts_with("contact."));

@@ -4,7 +4,7 @@ use crate::file;
 use crate::keep::{Keep, Measure, Pick};
 use crate::written::measured;
 use gyration::tensor::Vec3;
-use gyration_scene::sheet::Sheet;
+use gyration_scene::input::InputFile;
 use gyration_sim::events::EVENT_KINDS;
 use serde_json::Value as Json;
 
@@ -31,16 +31,16 @@ const MOST_LISTED: f64 = 1e6;
 
 /// Notes what is wrong with one thing that is kept.
 struct Reader<'a> {
-    sheet: &'a mut Sheet,
+    input: &'a mut InputFile,
     name: &'a str,
 }
 
 /// What is kept, in its order.
-pub(super) fn keeps(sheet: &mut Sheet) -> Vec<(String, Keep)> {
+pub(super) fn keeps(input: &mut InputFile) -> Vec<(String, Keep)> {
     let mut keeps = Vec::new();
-    for name in sheet.keys(&["keep"]) {
-        let Some(written) = sheet.take::<file::Keep>(&["keep", &name]) else { continue };
-        if let Some(keep) = (Reader { sheet, name: &name }).keep(&written) {
+    for name in input.keys(&["keep"]) {
+        let Some(written) = input.take::<file::Keep>(&["keep", &name]) else { continue };
+        if let Some(keep) = (Reader { input, name: &name }).keep(&written) {
             keeps.push((name, keep));
         }
     }
@@ -49,7 +49,7 @@ pub(super) fn keeps(sheet: &mut Sheet) -> Vec<(String, Keep)> {
 
 impl Reader<'_> {
     fn note(&mut self, keys: &[&str], message: impl Into<String>, help: impl Into<String>) {
-        self.sheet.note(&[&["keep", self.name][..], keys].concat(), message, help);
+        self.input.note(&[&["keep", self.name][..], keys].concat(), message, help);
     }
 
     fn keep(&mut self, written: &file::Keep) -> Option<Keep> {
@@ -89,7 +89,7 @@ impl Reader<'_> {
 
     /// The one way that is written; what does not belong to it is noted.
     fn way(&mut self, written: &file::Keep) -> Option<&'static str> {
-        let keys = self.sheet.keys(&["keep", self.name]);
+        let keys = self.input.keys(&["keep", self.name]);
         let is_way = |way: &str| match way {
             "first" => written.first.is_string(),
             "last" => written.last.is_string(),

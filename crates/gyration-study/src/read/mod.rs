@@ -13,7 +13,7 @@ use crate::parameter::{Parameter, Variation};
 use crate::random::MOST_DIMENSIONS;
 use crate::written::toml;
 use gyration_scene::Template;
-use gyration_scene::sheet::{Form, Sheet, fix};
+use gyration_scene::input::{InputFile, InputRules, fix};
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 /// What a study's file may hold.
-pub(crate) static FORM: LazyLock<Form> = LazyLock::new(Form::of::<StudyFile>);
+pub(crate) static RULES: LazyLock<InputRules> = LazyLock::new(InputRules::of::<StudyFile>);
 
 /// The most runs of a study.
 const MOST_RUNS: u64 = 1 << 40;
@@ -47,36 +47,40 @@ pub(crate) struct Read {
     pub keeps: Vec<(String, Keep)>,
 }
 
-/// Reads what a sheet says; what is wrong is noted, and then the rest is worth nothing.
-pub(crate) fn read(sheet: &mut Sheet) -> Read {
-    let settings: Vec<_> = sheet.keys(&["set"]).into_iter().map(|key| setting(sheet, key)).collect();
-    let (parameters, axes) = parameter::parameters(sheet);
-    let keeps = keep::keeps(sheet);
-    let seed = whole(sheet, &["seed"]).unwrap_or(0);
-    let repetitions = whole(sheet, &["repetitions"]).unwrap_or(1);
-    let max_steps = whole(sheet, &["max_steps"]);
+/// Reads what a input says; what is wrong is noted, and then the rest is worth nothing.
+pub(crate) fn read(input: &mut InputFile) -> Read {
+    let settings: Vec<_> = input.keys(&["set"]).into_iter().map(|key| setting(input, key)).collect();
+    let (parameters, axes) = parameter::parameters(input);
+    let keeps = keep::keeps(input);
+    let seed = whole(input, &["seed"]).unwrap_or(0);
+    let repetitions = whole(input, &["repetitions"]).unwrap_or(1);
+    let max_steps = whole(input, &["max_steps"]);
     let read = Read {
-        title: sheet.take(&["title"]),
-        scene: sheet.take(&["scene"]).unwrap_or_default(),
+        title: input.take(&["title"]),
+        scene: input.take(&["scene"]).unwrap_or_default(),
         seed,
         repetitions,
-        sampling: or_default(sheet, "sampling"),
-        recordings: or_default(sheet, "recordings"),
+        sampling: or_default(input, "sampling"),
+        recordings: or_default(input, "recordings"),
         max_steps,
-        plot: sheet.value(&["plot"]).unwrap_or_default(),
+        plot: input.value(&["plot"]).unwrap_or_default(),
         settings,
         parameters,
         axes,
         keeps,
     };
-    dimensions(&read, sheet);
-    names(&read, sheet);
-    count(&read, sheet);
+    dimensions(&read, input);
+    names(&read, input);
+    count(&read, input);
     read
 }
 
 /// The scene that a study names: a path relative to the study's file, or a name of the gallery; none if there is none.
-pub(crate) fn scene(sheet: &mut Sheet, name: &str, base: &Path) -> Option<Result<Template, gyration_scene::LoadError>> {
+pub(crate) fn scene(
+    input: &mut InputFile,
+    name: &str,
+    base: &Path,
+) -> Option<Result<Template, gyration_scene::LoadError>> {
     if name.is_empty() {
         // That it is missing has been said.
         return None;
@@ -85,7 +89,7 @@ pub(crate) fn scene(sheet: &mut Sheet, name: &str, base: &Path) -> Option<Result
     let opened = if beside.is_file() { Template::load(&beside) } else { Template::open(name) };
     match opened {
         Err(gyration_scene::LoadError::Read(error)) => {
-            sheet.note(
+            input.note(
                 &["scene"],
                 error.to_string(),
                 "write a path relative to the study's file, or a name of the gallery",
@@ -96,27 +100,27 @@ pub(crate) fn scene(sheet: &mut Sheet, name: &str, base: &Path) -> Option<Result
     }
 }
 
-fn or_default<T: DeserializeOwned + Default>(sheet: &mut Sheet, key: &str) -> T {
-    sheet.take(&[key]).unwrap_or_default()
+fn or_default<T: DeserializeOwned + Default>(input: &mut InputFile, key: &str) -> T {
+    input.take(&[key]).unwrap_or_default()
 }
 
-fn setting(sheet: &mut Sheet, key: String) -> (String, String) {
-    let value = sheet.value(&["set", &key]).unwrap_or_default();
+fn setting(input: &mut InputFile, key: String) -> (String, String) {
+    let value = input.value(&["set", &key]).unwrap_or_default();
     (key, toml(&value))
 }
 
 /// A whole number that is written at a place, if one is; notes what is none.
-fn whole(sheet: &mut Sheet, place: &[&str]) -> Option<u64> {
-    let number: f64 = sheet.take(place)?;
+fn whole(input: &mut InputFile, place: &[&str]) -> Option<u64> {
+    let number: f64 = input.take(place)?;
     if number.fract() != 0.0 || number.abs() > MOST_WHOLE {
-        sheet.note(place, format!("{number:?} is not a whole number"), "write a whole number of at most 15 digits");
+        input.note(place, format!("{number:?} is not a whole number"), "write a whole number of at most 15 digits");
         return None;
     }
     Some(number as u64)
 }
 
 /// The points of Sobol have so many coordinates, and no more.
-fn dimensions(read: &Read, sheet: &mut Sheet) {
+fn dimensions(read: &Read, input: &mut InputFile) {
     let random = read.parameters.iter().filter_map(|parameter| match &parameter.variation {
         Variation::Random { distribution, .. } => Some(distribution.dimensions()),
         Variation::Axis { .. } => None,
@@ -125,12 +129,12 @@ fn dimensions(read: &Read, sheet: &mut Sheet) {
     if read.sampling == Sampling::Sobol && needed > MOST_DIMENSIONS {
         let message =
             format!("the random parameters take {needed} dimensions, and Sobol's points have {MOST_DIMENSIONS}");
-        sheet.note(&["sampling"], message, "write \"latin_hypercube\" or \"random\"");
+        input.note(&["sampling"], message, "write \"latin_hypercube\" or \"random\"");
     }
 }
 
 /// Notes places of the scene that are set twice.
-pub(crate) fn keys_once(read: &Read, template: &Template, sheet: &mut Sheet) {
+pub(crate) fn keys_once(read: &Read, template: &Template, input: &mut InputFile) {
     let mut seen: BTreeMap<String, String> = BTreeMap::new();
     let plain = |key: &str| template.by_index(key);
     // A parameter may set a part of what [set] has set, but nothing else may be set above or below another.
@@ -147,7 +151,7 @@ pub(crate) fn keys_once(read: &Read, template: &Template, sheet: &mut Sheet) {
             if let Some((other, owner)) = seen.iter().find(|(other, owner)| hides(other, owner, &own)) {
                 let place = ["parameter", &parameter.name, if parameter.keys.len() == 1 { "key" } else { "keys" }];
                 let what = if *other == own { format!("`{key}`") } else { format!("`{other}`, and this `{key}`") };
-                sheet.note(&place, format!("{owner} already sets {what}"), "keep one of the two");
+                input.note(&place, format!("{owner} already sets {what}"), "keep one of the two");
             }
             seen.insert(own, format!("the parameter \"{}\"", parameter.name));
         }
@@ -155,7 +159,7 @@ pub(crate) fn keys_once(read: &Read, template: &Template, sheet: &mut Sheet) {
 }
 
 /// Notes names that are none, and columns that occur twice.
-fn names(read: &Read, sheet: &mut Sheet) {
+fn names(read: &Read, input: &mut InputFile) {
     let mut taken: BTreeMap<String, &str> = BTreeMap::new();
     for Column { name, .. } in leading().into_iter().chain(ending()) {
         taken.insert(name, "every table");
@@ -167,26 +171,26 @@ fn names(read: &Read, sheet: &mut Sheet) {
     for (section, name, column) in parameters.chain(keeps) {
         if let Some(owner) = taken.insert(column.to_owned(), section) {
             let owner = if owner == "every table" { owner.to_owned() } else { format!("a {owner} of this study") };
-            sheet.note(&[section, name], format!("{owner} already has a column `{column}`"), "give it another name");
+            input.note(&[section, name], format!("{owner} already has a column `{column}`"), "give it another name");
         }
     }
     for section in ["parameter", "keep"] {
-        for name in sheet.keys(&[section]) {
+        for name in input.keys(&[section]) {
             if name.is_empty() || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-".contains(&byte)) {
                 let help = "use letters A to Z and a to z, digits, `_` and `-`";
-                sheet.note(&[section, &name], format!("\"{name}\" is not a name"), help);
+                input.note(&[section, &name], format!("\"{name}\" is not a name"), help);
             }
         }
     }
 }
 
 /// Notes a study of too many runs.
-fn count(read: &Read, sheet: &mut Sheet) {
+fn count(read: &Read, input: &mut InputFile) {
     let product = |total: Option<u64>, length: &u64| total.and_then(|total| total.checked_mul(*length));
     let runs = read.axes.iter().fold(Some(read.repetitions), product);
     if runs.is_none_or(|runs| runs > MOST_RUNS) {
         let place = if read.repetitions > MOST_RUNS { "repetitions" } else { "parameter" };
-        sheet.note(&[place], format!("more than {MOST_RUNS} runs"), "write fewer repetitions or shorter axes");
+        input.note(&[place], format!("more than {MOST_RUNS} runs"), "write fewer repetitions or shorter axes");
     }
 }
 

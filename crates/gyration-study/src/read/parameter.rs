@@ -4,7 +4,7 @@ use crate::file::{self, Direction, Grid, Measured, Normal, Range, Spacing};
 use crate::parameter::{Distribution, Parameter, Steps, Variation, columns};
 use crate::value::Value;
 use crate::written::{measured, toml, unit_at};
-use gyration_scene::sheet::Sheet;
+use gyration_scene::input::InputFile;
 use serde_json::Value as Json;
 
 /// The ways in which a parameter can vary.
@@ -14,44 +14,44 @@ const MOST_STEPS: f64 = 1_099_511_627_776.0;
 
 /// Reads a parameter at a place.
 struct Reader<'a> {
-    sheet: &'a mut Sheet,
+    input: &'a mut InputFile,
     name: &'a str,
     /// The key whose unit its numbers have.
     key: String,
 }
 
 /// The parameters in their order, and the lengths of the axes, the slowest first.
-pub(super) fn parameters(sheet: &mut Sheet) -> (Vec<Parameter>, Vec<u64>) {
+pub(super) fn parameters(input: &mut InputFile) -> (Vec<Parameter>, Vec<u64>) {
     let mut found: Vec<(Parameter, Option<String>)> = Vec::new();
     let mut first = 0;
-    for name in sheet.keys(&["parameter"]) {
-        let Some(written) = sheet.take::<file::Parameter>(&["parameter", &name]) else { continue };
-        let Some(parameter) = parameter(sheet, &name, &written, &mut first) else { continue };
+    for name in input.keys(&["parameter"]) {
+        let Some(written) = input.take::<file::Parameter>(&["parameter", &name]) else { continue };
+        let Some(parameter) = parameter(input, &name, &written, &mut first) else { continue };
         found.push((parameter, written.with));
     }
-    let axes = axes(sheet, &mut found);
+    let axes = axes(input, &mut found);
     (found.into_iter().map(|(parameter, _)| parameter).collect(), axes)
 }
 
-fn parameter(sheet: &mut Sheet, name: &str, written: &file::Parameter, first: &mut usize) -> Option<Parameter> {
+fn parameter(input: &mut InputFile, name: &str, written: &file::Parameter, first: &mut usize) -> Option<Parameter> {
     let place = ["parameter", name];
     let keys = match (&written.key, &written.keys) {
         (Some(key), None) => vec![key.clone()],
         (None, Some(keys)) if !keys.is_empty() => keys.clone(),
         _ => {
-            sheet.note(&place, "expected exactly one of `key` and `keys`", "write key = \"body.die.position.2\"");
+            input.note(&place, "expected exactly one of `key` and `keys`", "write key = \"body.die.position.2\"");
             return None;
         }
     };
     let ways: Vec<&str> =
-        sheet.keys(&place).iter().filter_map(|key| WAYS.iter().find(|way| *way == key)).copied().collect();
+        input.keys(&place).iter().filter_map(|key| WAYS.iter().find(|way| *way == key)).copied().collect();
     let [way] = ways[..] else {
         let found = if ways.is_empty() { "none".to_owned() } else { ways.join(" and ") };
         let help = format!("write one of {}", WAYS.join(", "));
-        sheet.note(&place, format!("expected exactly one way in which it varies, found {found}"), help);
+        input.note(&place, format!("expected exactly one way in which it varies, found {found}"), help);
         return None;
     };
-    let mut reader = Reader { sheet, name, key: keys[0].clone() };
+    let mut reader = Reader { input, name, key: keys[0].clone() };
     let variation = match way {
         "values" => reader.listed(written.values.as_deref().unwrap_or_default()),
         "grid" => reader.grid(written.grid.as_ref()?),
@@ -63,7 +63,7 @@ fn parameter(sheet: &mut Sheet, name: &str, written: &file::Parameter, first: &m
     }?;
     if written.with.is_some() && !matches!(variation, Variation::Axis { .. }) {
         let message = "a random parameter has no axis to share";
-        reader.sheet.note(&[&place[..], &["with"]].concat(), message, "leave `with` out");
+        reader.input.note(&[&place[..], &["with"]].concat(), message, "leave `with` out");
         return None;
     }
     let unit = unit_at(&keys[0]).map(str::to_owned);
@@ -72,7 +72,7 @@ fn parameter(sheet: &mut Sheet, name: &str, written: &file::Parameter, first: &m
 }
 
 /// Numbers the axes; those that vary together share one.
-fn axes(sheet: &mut Sheet, found: &mut [(Parameter, Option<String>)]) -> Vec<u64> {
+fn axes(input: &mut InputFile, found: &mut [(Parameter, Option<String>)]) -> Vec<u64> {
     let mut lengths = Vec::new();
     for (parameter, with) in found.iter_mut() {
         if let (Variation::Axis { axis, steps }, None) = (&mut parameter.variation, &with) {
@@ -96,12 +96,12 @@ fn axes(sheet: &mut Sheet, found: &mut [(Parameter, Option<String>)]) -> Vec<u64
                 let (own, other) = (steps.count(), lengths[*leader]);
                 if own != other {
                     let message = format!("it has {own} values, and \"{with}\" has {other}");
-                    sheet.note(&place, message, "give both as many");
+                    input.note(&place, message, "give both as many");
                 }
             }
             None => {
                 let help = super::known(with, leaders.iter().map(|(name, _)| name.as_str()), "axes");
-                sheet.note(&place, format!("there is no axis \"{with}\" of its own"), help);
+                input.note(&place, format!("there is no axis \"{with}\" of its own"), help);
             }
         }
     }
@@ -111,7 +111,7 @@ fn axes(sheet: &mut Sheet, found: &mut [(Parameter, Option<String>)]) -> Vec<u64
 impl Reader<'_> {
     /// Notes what is wrong at a key of the parameter.
     fn note(&mut self, keys: &[&str], message: impl Into<String>, help: impl Into<String>) {
-        self.sheet.note(&[&["parameter", self.name][..], keys].concat(), message, help);
+        self.input.note(&[&["parameter", self.name][..], keys].concat(), message, help);
     }
 
     fn number(&mut self, keys: &[&str], value: &Json) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! Opens the scene of the first run, and says which key of the study is wrong if that fails.
 
 use super::Read;
-use gyration_scene::sheet::Sheet;
+use gyration_scene::input::InputFile;
 use gyration_scene::{Fault, Override, Scene, SceneErrors, Template};
 use std::collections::BTreeSet;
 
@@ -10,12 +10,12 @@ use std::collections::BTreeSet;
 /// A value that is not possible may be meant: that run fails alone. A key, a kind of value or a unit is wrong in all runs.
 ///
 /// # Errors
-/// What is wrong with the scene itself. What is wrong with the study is noted in the sheet, and there is no scene.
+/// What is wrong with the scene itself. What is wrong with the study is noted in the input, and there is no scene.
 pub(crate) fn probe(
     template: &Template,
     read: &Read,
     overrides: &[Override],
-    sheet: &mut Sheet,
+    input: &mut InputFile,
 ) -> Result<Option<Scene>, SceneErrors> {
     let errors = match template.scene(overrides) {
         Ok(scene) => return Ok(Some(scene)),
@@ -27,7 +27,7 @@ pub(crate) fn probe(
         let (place, key) = owner(read, index);
         let place: Vec<&str> = place.iter().map(String::as_str).collect();
         let key = if error.key.is_empty() { key } else { error.key.clone() };
-        sheet.note(&place, format!("{key}: {}", error.message), error.help.clone());
+        input.note(&place, format!("{key}: {}", error.message), error.help.clone());
         blamed.insert(index);
     }
     if !blamed.is_empty() {

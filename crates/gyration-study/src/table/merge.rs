@@ -17,7 +17,7 @@ use std::vec::IntoIter;
 const TOO_MANY_FILES: i32 = 24;
 /// Shards that a message names at most.
 const MOST_NAMED: usize = 20;
-/// Rows of all shards together that are held at a time.
+/// Rows of all shards together that are in memory at a time.
 const HELD: usize = 1 << 14;
 
 /// Joins the shards in a folder into its `table.parquet`, and returns its path; the shards stay.
@@ -74,8 +74,8 @@ fn count(path: &Path) -> Result<u64, StudyError> {
 }
 
 /// The shards, each from its first row on.
-fn inputs(path: &Path, study: &Study, count: u64) -> Result<Vec<Held>, StudyError> {
-    let (mut held, mut missing, mut unfinished) = (Vec::new(), Vec::new(), Vec::new());
+fn inputs(path: &Path, study: &Study, count: u64) -> Result<Vec<ShardRows>, StudyError> {
+    let (mut shards, mut missing, mut unfinished) = (Vec::new(), Vec::new(), Vec::new());
     for number in 1..=count {
         let shard = Shard::new(number, count)?;
         let folder = path.join(shard.folder().unwrap_or_default());
@@ -92,10 +92,12 @@ fn inputs(path: &Path, study: &Study, count: u64) -> Result<Vec<Held>, StudyErro
             unfinished.push(number);
             continue;
         }
-        held.push(Held::open(table, (HELD / count as usize).max(1)).map_err(|error| too_many(error, path, count))?);
+        shards.push(
+            ShardRows::open(table, (HELD / count as usize).max(1)).map_err(|error| too_many(error, path, count))?,
+        );
     }
     if missing.is_empty() && unfinished.is_empty() {
-        return Ok(held);
+        return Ok(shards);
     }
     let (what, first) = match (missing.first(), unfinished.first()) {
         (Some(first), _) => (format!("of {count} shards, there is no {}", listed(&missing)), *first),
@@ -127,14 +129,14 @@ fn listed(numbers: &[u64]) -> String {
 }
 
 /// A shard that is being read.
-struct Held {
+struct ShardRows {
     path: PathBuf,
     input: Input,
     rows: IntoIter<Row>,
     portion: usize,
 }
 
-impl Held {
+impl ShardRows {
     fn open(path: PathBuf, portion: usize) -> Result<Self, StudyError> {
         Ok(Self { input: Input::open(&path)?, path, rows: Vec::new().into_iter(), portion })
     }

@@ -17,19 +17,19 @@ mod describe;
 mod digest;
 mod disk;
 mod frame;
-mod growing;
-mod held;
 mod journal;
+mod lock;
 mod merge;
 mod parquet;
 mod shard;
+mod writer;
 
 pub use digest::{Digest, Spread};
 pub use frame::{Data, Described, Frame, FrameColumn};
-pub use growing::Table;
-pub use held::Held;
+pub use lock::TableLock;
 pub use merge::merge;
 pub use shard::Shard;
+pub use writer::Table;
 
 const MANIFEST: &str = "study.json";
 const TABLE: &str = "table.parquet";

@@ -34,7 +34,7 @@ const DIFFERENCE: f64 = 1e-4;
 
 /// What would be measured, and its derivatives by the numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Observed {
+pub(super) struct Prediction {
     pub value: f64,
     pub slopes: Vec<f64>,
 }
@@ -60,9 +60,14 @@ impl Calibration {
     ///
     /// # Errors
     /// Why there is none, in words.
-    pub(super) fn observed(&self, experiment: &Experiment, condition: f64, values: &[f64]) -> Result<Observed, String> {
+    pub(super) fn predicted(
+        &self,
+        experiment: &Experiment,
+        condition: f64,
+        values: &[f64],
+    ) -> Result<Prediction, String> {
         let (value, known) = match experiment.kind {
-            Kind::Drop => Drop::of(self, experiment, condition, values)?.observed(self)?,
+            Kind::Drop => Drop::of(self, experiment, condition, values)?.predicted(self)?,
             _ => (self.value(experiment, condition, values)?, vec![None; values.len()]),
         };
         let slope = |index: usize| {
@@ -76,7 +81,7 @@ impl Calibration {
             Ok((8.0 * (at(1.0)? - at(-1.0)?) - (at(2.0)? - at(-2.0)?)) / (12.0 * step))
         };
         let slopes = known.into_iter().enumerate().map(|(index, known)| known.map_or_else(|| slope(index), Ok));
-        Ok(Observed { value, slopes: slopes.collect::<Result<_, String>>()? })
+        Ok(Prediction { value, slopes: slopes.collect::<Result<_, String>>()? })
     }
 
     /// The scene of a measurement.

@@ -2,8 +2,8 @@
 
 use super::describe::{describe, manifest};
 use super::disk::{chunk_of, folder, holds_shards, is_begun_only, is_of, lock, remove_table, replace_file};
-use super::held::Held;
 use super::journal::{self, Journal};
+use super::lock::TableLock;
 use super::parquet::{Input, Output};
 use super::shard::Shard;
 use super::{MANIFEST, PORTION, RECORDINGS, ROWS, TABLE};
@@ -35,12 +35,12 @@ pub struct Table {
     rows: u64,
     is_complete: bool,
     /// Held as long as this process writes.
-    held: Held,
+    lock: TableLock,
 }
 
 impl Drop for Table {
     fn drop(&mut self) {
-        self.held.release();
+        self.lock.release();
     }
 }
 
@@ -61,7 +61,7 @@ impl Table {
     /// others may be at work on them.
     pub fn create(path: &Path, study: &Study, shard: Shard, replace: bool) -> Result<Self, StudyError> {
         let folder = folder(path, shard);
-        let mut held = None;
+        let mut locked = None;
         if folder.symlink_metadata().is_ok() {
             if holds_shards(&folder) {
                 return Err(StudyError::shards_there(&folder));
@@ -70,12 +70,12 @@ impl Table {
                 return Err(StudyError::Exists { path: folder });
             }
             // It stays with us while the old table goes and the new one comes.
-            held = Some(lock(&folder)?);
+            locked = Some(lock(&folder)?);
             remove_table(&folder)?;
         }
         fs::create_dir_all(&folder).map_err(StudyError::io("make", &folder))?;
-        let held = held.map_or_else(|| lock(&folder), Ok)?;
-        let table = Self::new(held, folder, study, shard);
+        let locked = locked.map_or_else(|| lock(&folder), Ok)?;
+        let table = Self::new(locked, folder, study, shard);
         let manifest = format!("{:#}\n", manifest(study, shard));
         replace_file(&table.folder.join(MANIFEST), |path| {
             fs::write(path, &manifest).map_err(StudyError::io("write", path))
@@ -124,14 +124,14 @@ impl Table {
             open: BTreeMap::new(),
             rows: 0,
             is_complete: false,
-            held: Held::new(lock),
+            lock: TableLock::new(lock),
             folder,
         }
     }
 
     /// Its lock, for whoever is forked while the table is at work.
-    pub fn held(&self) -> Held {
-        self.held.clone()
+    pub fn lock(&self) -> TableLock {
+        self.lock.clone()
     }
 
     /// The folder of this table or shard.

@@ -1,7 +1,7 @@
-//! A run set aside: all of it but its model, so that the model can be changed between two steps.
+//! A detached run: all of it but its model, so that the model can be changed between two steps.
 //!
-//! A simulation borrows its model, which is frozen while it runs. Whoever changes loads or drives between steps sets the run
-//! aside, changes the model, and goes on with the two. Both ways move a few pointers and copy no numbers.
+//! A simulation borrows its model, which is frozen while it runs. Whoever changes loads or drives between steps detaches the
+//! run, changes the model, and goes on with the two. Both ways move a few pointers and copy no numbers.
 
 use crate::adapter::Prepared;
 use crate::events::Event;
@@ -15,7 +15,7 @@ use gyration::state::State;
 use gyration_ode::Integrator;
 
 /// What a simulation is without its model.
-pub(crate) struct Aside {
+pub(crate) struct Detached {
     prepared: Prepared,
     integrator: Integrator,
     plan: RunPlan,
@@ -32,15 +32,15 @@ pub(crate) struct Aside {
 
 impl Simulation<'_> {
     /// Lets go of the model.
-    pub(crate) fn set_aside(self) -> Aside {
+    pub(crate) fn detach(self) -> Detached {
         let Self { system, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded } =
             self;
         let prepared = system.release();
-        Aside { prepared, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded }
+        Detached { prepared, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded }
     }
 }
 
-impl Aside {
+impl Detached {
     /// Goes on with a model of the same bodies.
     pub fn on(self, model: &Model) -> Simulation<'_> {
         let Self { prepared, integrator, plan, tally, views, sampled, forces, found, since, fields, rows, recorded } =

@@ -18,7 +18,7 @@ use gyration_sim::Sink;
 use gyration_sim::events::Event;
 
 /// Works out what is kept of one run.
-pub(crate) struct Observer {
+pub(crate) struct Extractor {
     watchers: Vec<Watcher>,
     /// Whether something is taken at events.
     at_events: bool,
@@ -36,7 +36,7 @@ enum Watcher {
     Distance(Distance),
 }
 
-impl Observer {
+impl Extractor {
     /// Watches runs of a model.
     ///
     /// # Errors
@@ -85,7 +85,7 @@ fn watcher(keep: &Keep, model: &Model, layout: &Layout) -> Result<Watcher, Strin
     })
 }
 
-impl Sink for Observer {
+impl Sink for Extractor {
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         for watcher in &mut self.watchers {
             match watcher {

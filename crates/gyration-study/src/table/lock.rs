@@ -5,9 +5,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The lock of a table.
 #[derive(Debug, Clone)]
-pub struct Held(Arc<Mutex<Option<File>>>);
+pub struct TableLock(Arc<Mutex<Option<File>>>);
 
-impl Held {
+impl TableLock {
     pub(super) fn new(lock: File) -> Self {
         Self(Arc::new(Mutex::new(Some(lock))))
     }

@@ -22,10 +22,10 @@ use std::path::Path;
 
 /// What a kind of file may hold.
 #[derive(Debug)]
-pub struct Form(Rules);
+pub struct InputRules(Rules);
 
-impl Form {
-    /// The form of the files that a type describes.
+impl InputRules {
+    /// The rules of the files that a type describes.
     pub fn of<T: JsonSchema>() -> Self {
         Self(Rules::new(&schema_of::<T>()))
     }
@@ -33,19 +33,19 @@ impl Form {
 
 /// A file and what has been found wrong with it.
 #[derive(Debug)]
-pub struct Sheet {
+pub struct InputFile {
     document: Document,
     findings: Findings,
 }
 
-impl Sheet {
+impl InputFile {
     /// Reads a file, applies overrides as of a scene, and checks its structure.
     ///
     /// # Errors
     /// `Read` if it cannot be read, `Content` with all errors of its syntax.
-    pub fn load(path: &Path, form: &Form, overrides: &[String]) -> Result<Self, LoadError> {
+    pub fn load(path: &Path, rules: &InputRules, overrides: &[String]) -> Result<Self, LoadError> {
         let (name, text) = read::text(path)?;
-        Ok(Self::parse(&name, &text, form, overrides)?)
+        Ok(Self::parse(&name, &text, rules, overrides)?)
     }
 
     /// Reads a text, applies overrides as of a scene, and checks its structure; `name` is what messages call it. TOML, or
@@ -53,11 +53,11 @@ impl Sheet {
     ///
     /// # Errors
     /// All errors of its syntax.
-    pub fn parse(name: &str, text: &str, form: &Form, overrides: &[String]) -> Result<Self, SceneErrors> {
+    pub fn parse(name: &str, text: &str, rules: &InputRules, overrides: &[String]) -> Result<Self, SceneErrors> {
         let mut document = read::document(name, text)?;
         let mut findings = Findings::of(Fault::Structure);
         read::apply(&mut document, &Override::parse_all(overrides), &mut findings);
-        structure(&document.root, &form.0, &mut findings);
+        structure(&document.root, &rules.0, &mut findings);
         Ok(Self { document, findings })
     }
 
@@ -108,7 +108,7 @@ impl Sheet {
         if self.findings.is_empty() { Ok(()) } else { Err(self.refused()) }
     }
 
-    /// Everything that has been found wrong with a sheet that is not sound, in the order of the text.
+    /// Everything that has been found wrong with an input that is not sound, in the order of the text.
     pub fn refused(self) -> SceneErrors {
         self.document.settle(self.findings)
     }

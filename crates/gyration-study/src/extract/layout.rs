@@ -3,7 +3,7 @@
 use super::column::Source;
 use gyration::model::Model;
 use gyration_record::ArraySpec;
-use gyration_scene::sheet::fix;
+use gyration_scene::input::fix;
 use gyration_sim::RunPlan;
 use gyration_sim::rows::Fields;
 
