@@ -7,7 +7,7 @@ use crate::root;
 use crate::steps::Steps;
 use crate::test::cargo;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// A scene as the program lists it.
@@ -49,8 +49,8 @@ pub fn run(names: &[&str]) -> ExitCode {
 }
 
 /// Complains about a page that is not the one that the scenes give, and about pictures that are missing.
-pub fn check(steps: &mut Steps) {
-    let entries = match tested_program().and_then(list) {
+pub fn check(steps: &mut Steps, program: &Path) {
+    let entries = match list(Command::new(program)) {
         Ok(entries) => entries,
         Err(reason) => return steps.complain(reason),
     };
@@ -84,16 +84,6 @@ fn program() -> Command {
     let mut command = cargo();
     command.args(["run", "--release", "--quiet", "--package", "gyration-cli", "--"]);
     command
-}
-
-/// The program that the tests of the workspace have built; of one package alone all would be compiled again, with other features.
-fn tested_program() -> Result<Command, String> {
-    let built = cargo().args(["build", "--quiet", "--workspace", "--bin", "gyration"]).status();
-    if built.is_ok_and(|status| status.success()) {
-        Ok(Command::new(crate::target_directory().join("debug").join(crate::PROGRAM)))
-    } else {
-        Err("`gyration` cannot be built".into())
-    }
 }
 
 /// The scenes, as the program lists them.

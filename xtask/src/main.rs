@@ -9,11 +9,15 @@
 //! This program knows no mechanics; it starts other programs and reads their output.
 
 mod answers;
+mod child;
 mod compare;
+mod console;
 mod gallery;
 mod json;
 mod package;
+mod programs;
 mod python;
+mod report;
 mod steps;
 mod tally;
 mod test;

@@ -1,9 +1,12 @@
 //! Running programs, one step after another, saying what is run.
 //!
-//! A step that fails does not stop those after it: one run shows everything that is wrong.
+//! A step that fails does not stop those after it: one run shows everything that is wrong. Steps that do not need one
+//! another may run in a lane beside: it has steps of its own, which are added at the end.
 
+use crate::child::{self, Cost};
+use crate::console::Console;
+use crate::report::Report;
 use crate::tally::Tally;
-use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
@@ -12,20 +15,42 @@ use std::time::Instant;
 pub struct Steps {
     /// What the test programs said.
     pub tally: Tally,
+    report: Report,
+    console: Console,
     complaints: Vec<String>,
     skipped: Vec<String>,
 }
 
 impl Steps {
+    /// Steps of a lane beside this one, to be given back by [`Steps::add`].
+    pub fn beside(&self) -> Self {
+        Self { console: self.console.beside(), ..Self::default() }
+    }
+
+    /// Takes in the steps of another lane.
+    pub fn add(&mut self, other: Self) {
+        self.tally.add(other.tally);
+        self.report.add(other.report);
+        self.complaints.extend(other.complaints);
+        self.skipped.extend(other.skipped);
+    }
+
     /// Runs a command; it passes if it exits with zero.
     pub fn run(&mut self, title: &str, command: &mut Command) -> bool {
-        let started = announce(title, command);
-        let outcome = match command.status() {
-            Ok(status) if status.success() => Ok(()),
-            Ok(status) => Err(status.to_string()),
-            Err(error) => Err(format!("cannot be started: {error}")),
-        };
-        finish(title, started);
+        self.run_reading(title, command, |_| true)
+    }
+
+    /// Runs a command and reads its output; `shown` says whether a line is printed.
+    pub fn run_reading(&mut self, title: &str, command: &mut Command, mut shown: impl FnMut(&str) -> bool) -> bool {
+        self.announce(title, command);
+        let console = &mut self.console;
+        let outcome = child::run(command, |line| {
+            if shown(line) {
+                console.line(line);
+            }
+        });
+        let (outcome, cost) = told(outcome);
+        self.finish(title, cost);
         let passed = outcome.is_ok();
         if let Err(reason) = outcome {
             self.complain(format!("{title}: {reason}"));
@@ -35,27 +60,33 @@ impl Steps {
 
     /// Runs a test command, showing and tallying its output; it passes if it exits with zero and ran something.
     pub fn run_tests(&mut self, title: &str, command: &mut Command) -> bool {
-        let started = announce(title, command);
-        let outcome = tallied(command);
-        finish(title, started);
-        match outcome {
-            Ok((tally, success)) => self.judge(title, tally, success),
-            Err(error) => {
-                self.complain(format!("{title}: {error}"));
-                false
-            }
-        }
+        self.announce(title, command);
+        let (tally, outcome, cost) = self.tallied(command);
+        self.finish(title, cost);
+        self.judge(title, tally, outcome)
     }
 
-    /// Takes in what a test command said, and whether it exited with zero.
-    fn judge(&mut self, title: &str, tally: Tally, success: bool) -> bool {
+    /// Runs several test programs as one stage; it passes if all exit with zero and anything was run.
+    pub fn stage(&mut self, title: &str, programs: impl FnOnce(&mut Stage)) -> bool {
+        self.begin(title, "");
+        let started = Instant::now();
+        let mut stage = Stage { steps: self, tally: Tally::default(), outcome: Ok(()), cpu: 0.0 };
+        programs(&mut stage);
+        let Stage { tally, outcome, cpu, .. } = stage;
+        self.finish(title, Cost { wall: started.elapsed().as_secs_f64(), cpu });
+        self.judge(title, tally, outcome)
+    }
+
+    /// Takes in what a test command said, and how it ended.
+    fn judge(&mut self, title: &str, tally: Tally, outcome: Result<(), String>) -> bool {
         let (ran, failed) = (tally.passed + tally.failed > 0, tally.failed);
         self.tally.add(tally);
+        let success = outcome.is_ok();
         if failed > 0 {
             // Counted already, test by test.
             self.complaints.push(format!("{title}: {failed} tests failed"));
-        } else if !success {
-            self.complain(format!("{title}: did not build, or a test program died"));
+        } else if let Err(reason) = outcome {
+            self.complain(format!("{title}: did not build, or a test program died: {reason}"));
         } else if !ran {
             self.complain(format!("{title}: no test was run"));
         }
@@ -71,13 +102,13 @@ impl Steps {
 
     /// Notes a step that was not run, and why.
     pub fn skip(&mut self, reason: &str) {
-        println!("\n==> skipped: {reason}");
         self.skipped.push(reason.to_owned());
     }
 
-    /// Prints what was skipped, what is wrong and, last, the sums; true if all is well and something was run.
+    /// Prints what everything took, what was skipped, what is wrong and, last, the sums; true if all is well and
+    /// something was run.
     pub fn conclude(&self) -> bool {
-        println!();
+        print!("\n{}", self.report.text());
         for reason in &self.skipped {
             println!("skipped: {reason}");
         }
@@ -96,6 +127,58 @@ impl Steps {
     fn all_is_well(&self) -> bool {
         self.is_clean() && self.tally.passed > 0
     }
+
+    /// Runs a command, showing and tallying what it says.
+    fn tallied(&mut self, command: &mut Command) -> (Tally, Result<(), String>, Cost) {
+        let mut tally = Tally::default();
+        let console = &mut self.console;
+        let outcome = child::run(command, |line| {
+            console.line(line);
+            tally.read(line);
+        });
+        let (outcome, cost) = told(outcome);
+        (tally, outcome, cost)
+    }
+
+    fn announce(&mut self, title: &str, command: &Command) {
+        self.begin(title, &words(command));
+    }
+
+    fn begin(&mut self, title: &str, words: &str) {
+        self.console.begin();
+        self.console.line(&format!("\n==> {title}: {words}"));
+    }
+
+    fn finish(&mut self, title: &str, cost: Cost) {
+        self.console.line(&format!("<== {title}: {:.0} s", cost.wall));
+        self.console.end();
+        self.report.stage(title, cost);
+    }
+}
+
+/// A stage of several test programs.
+#[derive(Debug)]
+pub struct Stage<'a> {
+    steps: &'a mut Steps,
+    tally: Tally,
+    outcome: Result<(), String>,
+    cpu: f64,
+}
+
+impl Stage<'_> {
+    /// Runs one of them.
+    pub fn program(&mut self, title: &str, command: &mut Command) {
+        self.steps.console.line(&format!("\n--> {title}: {}", words(command)));
+        let (tally, outcome, cost) = self.steps.tallied(command);
+        if tally.passed + tally.failed > 0 {
+            self.steps.report.program(title, cost);
+        }
+        self.tally.add(tally);
+        self.cpu += cost.cpu;
+        if let (Ok(()), Err(reason)) = (&self.outcome, outcome) {
+            self.outcome = Err(format!("{title}: {reason}"));
+        }
+    }
 }
 
 /// Whether a command can be run and exits with zero; its output is not shown.
@@ -104,32 +187,14 @@ pub fn succeeds(command: &mut Command) -> bool {
     status.is_ok_and(|status| status.success())
 }
 
-fn announce(title: &str, command: &Command) -> Instant {
+fn words(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
-    let line: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
-    println!("\n==> {title}: {}", line.join(" "));
-    let _ = std::io::stdout().flush();
-    Instant::now()
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
 }
 
-fn finish(title: &str, started: Instant) {
-    println!("<== {title}: {:.0} s", started.elapsed().as_secs_f64());
-}
-
-/// Runs a command, copying its standard output to ours, and tallies it; with whether it exited with zero.
-fn tallied(command: &mut Command) -> std::io::Result<(Tally, bool)> {
-    let mut tally = Tally::default();
-    let mut child = command.stdout(Stdio::piped()).spawn()?;
-    if let Some(output) = child.stdout.take() {
-        for line in BufReader::new(output).split(b'\n') {
-            // Not `lines`: a test may print what is not UTF-8.
-            let line = String::from_utf8_lossy(&line?).into_owned();
-            println!("{line}");
-            tally.read(&line);
-        }
-    }
-    let status = child.wait()?;
-    Ok((tally, status.success()))
+/// How a command ended, in words; it may not have started.
+fn told(outcome: std::io::Result<(Result<(), String>, Cost)>) -> (Result<(), String>, Cost) {
+    outcome.unwrap_or_else(|error| (Err(format!("cannot be started: {error}")), Cost::default()))
 }
 
 #[cfg(test)]
@@ -149,7 +214,7 @@ mod tests {
     #[test]
     fn a_failing_step_fails_the_whole_and_counts_once() {
         let mut steps = Steps::default();
-        assert!(steps.judge("good", said(2, 0), true));
+        assert!(steps.judge("good", said(2, 0), Ok(())));
         assert!(steps.all_is_well());
         assert!(!steps.run("bad", Command::new("sh").args(["-c", "exit 3"])));
         assert!(!steps.all_is_well());
@@ -167,21 +232,41 @@ mod tests {
     fn running_no_test_at_all_fails() {
         let mut steps = Steps::default();
         assert!(!steps.all_is_well());
-        assert!(!steps.judge("empty", said(0, 0), true));
+        assert!(!steps.judge("empty", said(0, 0), Ok(())));
         assert!(!steps.all_is_well());
     }
 
     #[test]
     fn a_test_program_that_dies_after_a_good_one_fails() {
         let mut steps = Steps::default();
-        assert!(!steps.judge("dies", said(2, 0), false));
+        assert!(!steps.judge("dies", said(2, 0), Err("signal 9".into())));
         assert_eq!(counts(&steps), (2, 1));
     }
 
     #[test]
     fn failed_tests_are_counted_as_the_program_says() {
         let mut steps = Steps::default();
-        assert!(!steps.judge("fails", said(2, 3), false));
+        assert!(!steps.judge("fails", said(2, 3), Err("exit status 101".into())));
         assert_eq!(counts(&steps), (2, 3));
+    }
+
+    #[test]
+    fn a_program_that_dies_fails_its_stage_and_those_after_it_run() {
+        let mut steps = Steps::default();
+        let program = |script: &str| {
+            let mut command = Command::new("sh");
+            command.args(["-c", script]);
+            command
+        };
+        let mut beside = steps.beside();
+        let passed = beside.stage("programs", |stage| {
+            for mut command in [program("exit 3"), program("exit 0")] {
+                stage.program("one", &mut command);
+            }
+        });
+        assert!(!passed);
+        steps.add(beside);
+        assert_eq!(counts(&steps), (0, 1));
+        assert!(steps.complaints[0].contains("one: exit status: 3"), "{:?}", steps.complaints);
     }
 }

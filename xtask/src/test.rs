@@ -1,8 +1,10 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
+use crate::programs::{self, Built};
 use crate::steps::{Steps, succeeds};
 use crate::{answers, gallery, package, python, root, validate, viewer};
 use std::process::{Command, ExitCode};
+use std::sync::mpsc::{self, Receiver, Sender};
 
 /// How much to check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,42 +21,89 @@ const SEED: &str = "20261121";
 const SEED_VARIABLE: &str = "PROPTEST_RNG_SEED";
 
 /// Runs every check and prints the sums.
+///
+/// What needs no compiler runs in a lane beside: it waits for networks, browsers and Python rather than for a core.
 pub fn run(extent: Extent) -> ExitCode {
     let mut steps = Steps::default();
     for component in ["fmt", "clippy"] {
         install_component(&mut steps, component);
     }
+    if extent == Extent::Full {
+        let mut beside = steps.beside();
+        let (sender, receiver) = mpsc::channel();
+        std::thread::scope(|threads| {
+            let lane = threads.spawn(move || {
+                beside_rust(&mut beside, &receiver);
+                beside
+            });
+            rust(&mut steps, extent, &sender);
+            // Without tests that were built there is nothing to wait for.
+            drop(sender);
+            match lane.join() {
+                Ok(lane) => steps.add(lane),
+                Err(_) => steps.complain("the lane of viewer and Python died".into()),
+            }
+        });
+    } else {
+        rust(&mut steps, extent, &mpsc::channel().0);
+        steps.skip("documentation, tests of the viewer and in Python, and cargo-deny (--fast)");
+    }
+    if steps.conclude() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The checks of the Rust code; what was built for the tests goes to the lane beside as soon as it is there.
+fn rust(steps: &mut Steps, extent: Extent, built: &Sender<Built>) {
     steps.run("format", cargo().args(["fmt", "--all", "--check"]));
     steps.run("lints", cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]));
+    if let Some(found) = programs::build(steps) {
+        let _ = built.send(found.clone());
+        // The output of tests that pass is shown: it has the measured errors of the known answers.
+        programs::run(steps, "tests", &found.programs, |program| {
+            program.arg("--show-output");
+        });
+        check_known_answers(steps);
+        gallery::check(steps, &found.gyration);
+    }
+    steps.run_tests("examples in the documentation", cargo().args(["test", "--workspace", "--doc", "--no-fail-fast"]));
     if extent == Extent::Full {
         let mut doc = cargo();
         // The program has the name of the library, and so would its pages.
         doc.args(["doc", "--workspace", "--exclude", "gyration-cli", "--no-deps", "--document-private-items"]);
         steps.run("documentation", doc.env("RUSTDOCFLAGS", "-D warnings"));
+        dependencies(steps);
     }
-    // The output of tests that pass is shown: it has the measured errors of the known answers.
-    steps.run_tests("tests", cargo().args(["test", "--workspace", "--no-fail-fast", "--", "--show-output"]));
-    check_known_answers(&mut steps);
-    gallery::check(&mut steps);
-    match extent {
-        Extent::Full => {
-            viewer::tests(&mut steps);
-            python_tests(&mut steps);
-            dependencies(&mut steps);
-        }
-        Extent::Fast => steps.skip("documentation, tests of the viewer and in Python, and cargo-deny (--fast)"),
+}
+
+/// The viewer and Python: what they need is fetched while Rust is compiled, and they are tested once the program is built.
+fn beside_rust(steps: &mut Steps, built: &Receiver<Built>) {
+    let browser = viewer::browser(steps);
+    let interpreter = python::environment(steps);
+    let Ok(built) = built.recv() else { return };
+    if let Some(interpreter) = interpreter {
+        // Tests in modules called `python` are ignored without an interpreter with the pinned packages.
+        programs::run(steps, "Python tests", programs::integration(&built.programs), |program| {
+            program.args(["--ignored", "python::"]).env("GYRATION_PYTHON", &interpreter);
+        });
+        package::tests(steps, &interpreter);
     }
-    if steps.conclude() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if let Some(browser) = browser {
+        viewer::tests(steps, &built.gyration, &browser);
+    }
 }
 
 /// The cargo that started this program, in the root of the repository.
 pub fn cargo() -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
+    seed(&mut command);
+    command
+}
+
+/// Tells the property tests where to start.
+pub fn seed(command: &mut Command) {
     if std::env::var_os(SEED_VARIABLE).is_none() {
         command.env(SEED_VARIABLE, SEED);
     }
-    command
 }
 
 /// Asks rustup for a part of the toolchain that a minimal installation lacks.
@@ -77,18 +126,6 @@ fn check_known_answers(steps: &mut Steps) {
             "docs/known-answers.md is out of step (run `cargo xtask validate`): {}",
             differences.join("; ")
         ));
-    }
-}
-
-/// Tests in modules called `python` are ignored unless there is an interpreter with the pinned packages; those of the Python
-/// package need it installed.
-fn python_tests(steps: &mut Steps) {
-    if let Some(interpreter) = python::environment(steps) {
-        // The whole workspace again, so that nothing is compiled twice with other features.
-        let mut command = cargo();
-        command.args(["test", "--workspace", "--test", "tests", "--", "--ignored", "python::"]);
-        steps.run_tests("Python tests", command.env("GYRATION_PYTHON", &interpreter));
-        package::tests(steps, &interpreter);
     }
 }
 

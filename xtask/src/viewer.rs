@@ -4,31 +4,41 @@
 //! (as root), and named otherwise; `GYRATION_CHROMIUM` names another one.
 
 use crate::python::{is_root, refresh_package_lists};
+use crate::root;
 use crate::steps::{Steps, succeeds};
-use crate::{PROGRAM, root, target_directory};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Names under which Chromium is found.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// Checks, builds and tests the page with the program that the tests of the workspace built.
-pub fn tests(steps: &mut Steps) {
+pub fn tests(steps: &mut Steps, program: &Path, browser: &Path) {
     if !succeeds(npm().arg("--version")) {
         steps.complain("viewer: Node 20 or later is not installed; `cargo xtask test --fast` does without".into());
         return;
     }
-    let installed =
-        steps.run("install packages of the viewer", npm().args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]));
-    let Some(browser) = browser(steps).filter(|_| installed) else { return };
+    // The build of the program has installed them already, unless it was told to do without a page.
+    let install = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
+    if !packages_are_current() && !steps.run("install packages of the viewer", npm().args(install)) {
+        return;
+    }
     steps.run("types and lints of the viewer", npm().args(["run", "--silent", "check"]));
     // Some tests look at the bundle itself.
     steps.run("build the page", npm().args(["run", "--silent", "build"]));
-    let program = target_directory().join("debug").join(PROGRAM);
     let mut command = npm();
     // No colours: the output is read.
     command.arg("test").env("GYRATION_BIN", program).env("GYRATION_CHROMIUM", browser).env("NO_COLOR", "1");
     steps.run_tests("tests of the viewer", &mut command);
+}
+
+/// Whether the packages installed are at least as new as the list of them.
+fn packages_are_current() -> bool {
+    let modified = |path: &str| std::fs::metadata(root().join("viewer").join(path)).and_then(|found| found.modified());
+    match (modified("node_modules/.package-lock.json"), modified("package-lock.json")) {
+        (Ok(installed), Ok(wanted)) => installed >= wanted,
+        _ => false,
+    }
 }
 
 fn npm() -> Command {
@@ -38,7 +48,7 @@ fn npm() -> Command {
 }
 
 /// A browser, installed if there is none.
-fn browser(steps: &mut Steps) -> Option<PathBuf> {
+pub fn browser(steps: &mut Steps) -> Option<PathBuf> {
     let named = std::env::var_os("GYRATION_CHROMIUM").map(PathBuf::from);
     let found = || named.clone().or_else(|| BROWSERS.iter().find_map(|name| on_path(name)));
     if found().is_none() {
