@@ -16,6 +16,7 @@
 
 #![forbid(unsafe_code)]
 
+mod array;
 mod checkpoint;
 mod disk;
 mod error;
@@ -31,11 +32,11 @@ mod zarr;
 #[cfg(test)]
 mod crash_tests;
 
+pub use array::ArrayInfo;
 pub use disk::remove;
 pub use error::RecordError;
 pub use file::{cannot_write, replace_file, write_file};
 pub use layout::{ArraySpec, Dimension, FixedArray, Layout, chunk_rows_for};
-pub use metadata::ArrayInfo;
 pub use recording::{Array, Recording};
 pub use writer::{Event, Resumed, Writer};
 

@@ -6,10 +6,10 @@
 //! `record_columns` (`NAME = ARRAY[INDEX]`, in the order of the CSV). Keys are written in a fixed order.
 
 use crate::Attributes;
+use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
-use crate::layout::{ArraySpec, Layout};
+use crate::layout::Layout;
 use crate::zarr::{Marker, ZarrGroup, group_json};
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
 
@@ -17,116 +17,6 @@ use std::path::Path;
 pub(crate) const FORMAT: u64 = 1;
 /// Rows in a chunk of the events.
 const EVENT_CHUNK_ROWS: usize = 256;
-
-/// How the numbers of an array are stored, by Zarr's names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum DataType {
-    Float64,
-    Int32,
-    String,
-}
-
-impl DataType {
-    /// Bytes of one element; texts have no fixed size.
-    pub(crate) fn size(self) -> usize {
-        match self {
-            DataType::Float64 => 8,
-            DataType::Int32 => 4,
-            DataType::String => 0,
-        }
-    }
-
-    /// The value of an element that was never written.
-    pub(crate) fn fill(self) -> Value {
-        match self {
-            DataType::Float64 => "NaN".into(),
-            DataType::Int32 => (-1).into(),
-            DataType::String => "".into(),
-        }
-    }
-
-    /// The bytes of that value.
-    pub(crate) fn fill_bytes(self) -> Vec<u8> {
-        match self {
-            DataType::Float64 => f64::NAN.to_le_bytes().to_vec(),
-            DataType::Int32 => (-1_i32).to_le_bytes().to_vec(),
-            DataType::String => Vec::new(),
-        }
-    }
-}
-
-/// An array of a recording as it stands.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ArrayInfo {
-    /// Name.
-    pub name: String,
-    /// Names of the dimensions; the first of a growing array is `time` or `event`.
-    pub dims: Vec<String>,
-    /// Sizes of the dimensions.
-    pub shape: Vec<usize>,
-    /// Unit; empty for labels and codes.
-    pub units: String,
-    /// One line that says what it is.
-    pub description: String,
-    /// Names of the values 0, 1, … of an array of codes.
-    pub meanings: Vec<String>,
-    pub(crate) chunk: Vec<usize>,
-    pub(crate) data_type: DataType,
-}
-
-impl ArrayInfo {
-    /// Numbers in a row: the product of the sizes but the first.
-    pub fn row_len(&self) -> usize {
-        self.shape.iter().skip(1).product()
-    }
-
-    /// The file of the chunk that stands at `index` along the first dimension.
-    pub(crate) fn chunk_key(&self, index: usize) -> String {
-        let rest = self.shape.iter().skip(1).map(|_| ".0");
-        let first = if self.shape.is_empty() { String::new() } else { format!(".{index}") };
-        format!("c{first}{}", rest.collect::<String>())
-    }
-
-    /// Whether the array grows along this dimension.
-    pub(crate) fn grows_with(&self, dim: &str) -> bool {
-        self.dims.first().is_some_and(|first| first == dim)
-    }
-
-    fn of(spec: &ArraySpec, grows: Option<(&str, usize)>) -> Self {
-        let sizes = || spec.dims.iter().map(|dim| dim.size);
-        Self {
-            name: spec.name.clone(),
-            dims: grows
-                .iter()
-                .map(|(dim, _)| dim.to_string())
-                .chain(spec.dims.iter().map(|d| d.name.clone()))
-                .collect(),
-            shape: grows.iter().map(|_| 0).chain(sizes()).collect(),
-            chunk: grows.iter().map(|(_, rows)| *rows).chain(sizes()).collect(),
-            units: spec.units.clone(),
-            description: spec.description.clone(),
-            meanings: Vec::new(),
-            data_type: DataType::Float64,
-        }
-    }
-
-    fn growing(name: &str, dim: &str, rows: usize, units: &str, description: &str) -> Self {
-        let [name, units, description] = [name, units, description].map(String::from);
-        Self::of(&ArraySpec { name, units, description, ..ArraySpec::default() }, Some((dim, rows)))
-    }
-
-    fn labels(dim: &str, count: usize) -> Self {
-        let (names, sizes) = (vec![dim.to_string()], vec![count]);
-        Self {
-            dims: names,
-            shape: sizes.clone(),
-            chunk: sizes,
-            data_type: DataType::String,
-            ..Self::of(&ArraySpec { name: dim.to_string(), ..ArraySpec::default() }, None)
-        }
-    }
-}
 
 /// The whole metadata of a recording.
 #[derive(Debug, Clone)]

@@ -4,10 +4,11 @@
 //! read without the rest, so that long runs pass through bounded memory.
 
 use crate::Attributes;
+use crate::array::{ArrayInfo, DataType};
 use crate::checkpoint::Checkpoint;
 use crate::disk;
 use crate::error::RecordError;
-use crate::metadata::{ArrayInfo, DataType, Group};
+use crate::metadata::Group;
 use crate::writer::Event;
 use crate::zarr;
 use std::fs::File;

@@ -3,9 +3,9 @@
 //! Row r stands in chunk ⌊r/C⌋ whatever was flushed when, and a chunk file always has room for C rows, the missing ones
 //! filled. So the files depend on the rows alone. Only the chunk under way is in memory.
 
+use crate::array::ArrayInfo;
 use crate::disk::{self, Disk};
 use crate::error::RecordError;
-use crate::metadata::ArrayInfo;
 use std::path::{Path, PathBuf};
 
 /// Arrays that grow together along one dimension.

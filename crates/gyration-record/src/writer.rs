@@ -10,11 +10,12 @@
 //! nothing else, of two lengths until the run is resumed.
 
 use crate::Attributes;
+use crate::array::ArrayInfo;
 use crate::checkpoint::Checkpoint;
 use crate::disk::{self, CHECKPOINT, Disk, METADATA, STATE};
 use crate::error::RecordError;
 use crate::layout::Layout;
-use crate::metadata::{ArrayInfo, Group};
+use crate::metadata::Group;
 use crate::stream::Stream;
 use crate::zarr;
 use std::fs::File;

@@ -4,7 +4,7 @@
 //! metadata. Source: Zarr core specification version 3.0; `consolidated_metadata` as zarr-python 3 writes it.
 
 use crate::Attributes;
-use crate::metadata::{ArrayInfo, DataType};
+use crate::array::{ArrayInfo, DataType};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;

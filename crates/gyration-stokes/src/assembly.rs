@@ -9,7 +9,8 @@
 
 use crate::dense::Symmetric;
 use crate::pair::{Block, block};
-use crate::panel::{Panel, Vec3};
+use crate::panel::Panel;
+use crate::vector::Vec3;
 use crate::wall::{Image, Wall};
 use rayon::prelude::*;
 use std::f64::consts::PI;

@@ -10,7 +10,8 @@
 
 use crate::dense::{Columns, SIDES};
 use crate::motion::{Mat12, Motion, inner_work};
-use crate::panel::{Panel, Vec3};
+use crate::panel::Panel;
+use crate::vector::Vec3;
 
 /// Cosine between the normal of a node and that of a triangle below which the node is taken for a tip, as of a cone: 37°.
 const TIP_COSINE: f64 = 0.8;

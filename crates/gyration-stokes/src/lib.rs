@@ -30,6 +30,7 @@ mod panel;
 mod resistance;
 mod rule;
 mod surface;
+mod vector;
 mod wall;
 
 pub use error::StokesError;

@@ -4,7 +4,8 @@
 //! uniform source in the body ([`crate::assembly`]).
 
 use crate::dense::{Columns, SIDES};
-use crate::panel::{Mat3, Panel, Vec3};
+use crate::panel::Panel;
+use crate::vector::{Mat3, Vec3};
 use nalgebra::SMatrix;
 
 /// A bilinear form of the motions.

@@ -5,8 +5,9 @@
 //! then continuous, however thin or unequal the triangles are.
 
 use crate::inner::{StokesletMoments, Symmetric};
-use crate::panel::{Mat3, Panel, Vec3};
+use crate::panel::Panel;
 use crate::rule::{DEGREE_5, DEGREE_6, RulePoint};
+use crate::vector::{Mat3, Vec3};
 
 /// 3×3 components for each pair of corners: rows 3i + a, columns 3j + b.
 pub(crate) type Block = [[f64; 9]; 9];

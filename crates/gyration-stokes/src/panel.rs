@@ -2,10 +2,7 @@
 
 use crate::inner::Outline;
 use crate::surface::Surface;
-use nalgebra::{Matrix3, Vector3};
-
-pub(crate) type Vec3 = Vector3<f64>;
-pub(crate) type Mat3 = Matrix3<f64>;
+use crate::vector::{Mat3, Vec3};
 
 /// A flat triangle.
 #[derive(Debug, Clone)]

@@ -23,8 +23,9 @@ use crate::dense::{self, Columns, SIDES};
 use crate::error::StokesError;
 use crate::estimate::largest_share;
 use crate::motion::{Mat12, Motion, inner_work, right_sides};
-use crate::panel::{Panel, Vec3};
+use crate::panel::Panel;
 use crate::surface::Surface;
+use crate::vector::Vec3;
 use crate::wall::{Plane, Wall};
 use gyration_threads::on_own_threads;
 

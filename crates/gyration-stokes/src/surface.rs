@@ -6,7 +6,7 @@
 //! and kept when it is moved, so that a body that deforms keeps its unknowns.
 
 use crate::error::StokesError;
-use crate::panel::Vec3;
+use crate::vector::Vec3;
 use std::collections::HashMap;
 
 /// Cosine of the bend at which a side counts as an edge: 60°, above what a smooth surface of a hundred triangles shows.

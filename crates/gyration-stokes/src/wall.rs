@@ -14,7 +14,8 @@
 
 use crate::error::StokesError;
 use crate::pair::Block;
-use crate::panel::{Mat3, Panel, Vec3};
+use crate::panel::Panel;
+use crate::vector::{Mat3, Vec3};
 use std::f64::consts::PI;
 
 /// A plane wall that bounds the fluid.

@@ -3,8 +3,8 @@
 //! Stored without compression and without dates, so that equal recordings give equal files. Sizes are 64-bit where an
 //! array needs it. Source: `numpy.lib.format`, version 1.0.
 
+use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
-use crate::metadata::{ArrayInfo, DataType};
 use crate::recording::Recording;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
