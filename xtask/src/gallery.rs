@@ -3,9 +3,9 @@
 //! The words come from the scenes themselves, as `gyration scenes` prints them: a title a scene, indented lines that say
 //! what to look at. So the page cannot tell of another scene than the one that runs.
 
+use crate::cargo::cargo;
 use crate::root;
 use crate::steps::Steps;
-use crate::test::cargo;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};

@@ -9,11 +9,14 @@
 //! This program knows no mechanics; it starts other programs and reads their output.
 
 mod answers;
+mod cargo;
 mod child;
 mod compare;
 mod console;
 mod gallery;
 mod json;
+#[cfg(test)]
+mod layout;
 mod package;
 mod programs;
 mod python;

@@ -1,8 +1,8 @@
 //! The test programs of the workspace: built by cargo, started one by one, so that each can be timed.
 
+use crate::cargo::cargo;
 use crate::json::Value;
 use crate::steps::Steps;
-use crate::test::cargo;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -70,7 +70,7 @@ pub fn run<'a>(
         for program in programs {
             let mut command = Command::new(&program.path);
             command.current_dir(&program.folder).env("CARGO_MANIFEST_DIR", &program.folder);
-            crate::test::seed(&mut command);
+            crate::cargo::seed(&mut command);
             set(&mut command);
             stage.program(&program.title, &mut command);
         }

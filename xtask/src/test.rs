@@ -1,5 +1,6 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
+use crate::cargo::cargo;
 use crate::programs::{self, Built};
 use crate::steps::{Steps, succeeds};
 use crate::{answers, gallery, package, python, root, validate, viewer};
@@ -14,11 +15,6 @@ pub enum Extent {
     /// Without documentation, viewer, Python and cargo-deny.
     Fast,
 }
-
-/// Where the random cases of the property tests start, unless the environment says otherwise: the same commit then
-/// gives the same verdict wherever it is tested. `PROPTEST_RNG_SEED=7 cargo xtask test` looks elsewhere.
-const SEED: &str = "20261121";
-const SEED_VARIABLE: &str = "PROPTEST_RNG_SEED";
 
 /// Runs every check and prints the sums.
 ///
@@ -88,21 +84,6 @@ fn beside_rust(steps: &mut Steps, built: &Receiver<Built>) {
     }
     if let Some(browser) = browser {
         viewer::tests(steps, &built.gyration, &browser);
-    }
-}
-
-/// The cargo that started this program, in the root of the repository.
-pub fn cargo() -> Command {
-    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.current_dir(root());
-    seed(&mut command);
-    command
-}
-
-/// Tells the property tests where to start.
-pub fn seed(command: &mut Command) {
-    if std::env::var_os(SEED_VARIABLE).is_none() {
-        command.env(SEED_VARIABLE, SEED);
     }
 }
 

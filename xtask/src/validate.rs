@@ -1,7 +1,7 @@
 //! Running the problems with a known answer, and writing their page.
 
+use crate::cargo::cargo;
 use crate::steps::Steps;
-use crate::test::cargo;
 use crate::{answers, root};
 use std::path::PathBuf;
 use std::process::ExitCode;

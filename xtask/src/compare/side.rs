@@ -3,8 +3,8 @@
 //! A commit is checked out at `target/compare/source`, always at this one path, so that the next commit compiles only
 //! what differs. Its program and its recordings are kept under `target/compare/COMMIT` and made once.
 
+use crate::cargo::cargo;
 use crate::gallery;
-use crate::test::cargo;
 use crate::{PROGRAM, root, target_directory};
 use std::collections::BTreeSet;
 use std::fs;
