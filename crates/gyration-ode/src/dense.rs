@@ -6,20 +6,8 @@
 //! Neither needs an evaluation. Both take the exact values at the ends, the projected state at θ = 1. In between they
 //! do not lie on the manifold; project if it matters. Source: as of `prince`; Hairer, Wanner II, §IV.8.
 
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, LastStep};
 use crate::radau::basis;
-
-/// What the last accepted step has left to interpolate with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum LastStep {
-    /// No step yet, or none since a checkpoint or an attempt that failed.
-    #[default]
-    None,
-    /// Explicit: the rates of its stages.
-    Explicit,
-    /// Implicit: the collocation polynomial.
-    Collocation,
-}
 
 impl Integrator {
     /// The solution at a time of the last step, y and w; outside of it, or without one, the nearest end.

@@ -35,7 +35,8 @@ impl Direction {
 
 /// The first time between two times of the last step at which φ(t, y, w) crosses zero, sampled on so many subintervals.
 ///
-/// The time returned lies just past the crossing, within a few ulp. `None` if there is no change of sign, or no last step.
+/// The time returned lies just past the crossing, within a few ulp. `None` if there is no change of sign, or no last
+/// step.
 pub fn find_crossing(
     integrator: &mut Integrator,
     (start, end): (f64, f64),

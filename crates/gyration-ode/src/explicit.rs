@@ -8,9 +8,10 @@
 //! Source: as of `prince`; Hairer, Wanner II, §IV.2 (stiffness).
 
 use crate::combination::Rates;
+use crate::interpolant::interpolation_weights;
 use crate::newton::Convergence;
 use crate::norm::{Norm, norm};
-use crate::prince::{ERROR, NODES, ROWS, STAGES, WEIGHTS, interpolation_weights};
+use crate::prince::{ERROR, NODES, ROWS, STAGES, WEIGHTS};
 use crate::report::Cause;
 use crate::system::{Context, Layout, Point, System};
 

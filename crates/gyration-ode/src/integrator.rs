@@ -4,7 +4,6 @@
 //! that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it.
 
 use crate::control::Control;
-use crate::dense::LastStep;
 use crate::explicit::Explicit;
 use crate::implicit::Implicit;
 use crate::memory::{Memory, MemoryError, Progress, Vectors, decode, encode};
@@ -29,6 +28,18 @@ pub struct Integrator {
     pub(crate) event_scratch: Vec<f64>,
     /// Whether scratch and scales are ready.
     pub(crate) open: bool,
+}
+
+/// What the last accepted step has left to interpolate with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum LastStep {
+    /// No step yet, or none since a checkpoint or an attempt that failed.
+    #[default]
+    None,
+    /// Explicit: the rates of its stages.
+    Explicit,
+    /// Implicit: the collocation polynomial.
+    Collocation,
 }
 
 impl Integrator {

@@ -9,15 +9,15 @@
 //! |---|---|
 //! | what a system must say | `system` |
 //! | one accepted step | `integrator`, `step` |
-//! | Prince's pair 9(7) | `explicit`, `prince` |
+//! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
 //! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `shifted`, `linear` |
 //! | step sizes, norms | `control`, `norm` |
 //! | which of the two | `auto` |
 //!
 //! Nothing is allocated after the first step, nothing is random, and no clock is read.
 
+mod arrowhead;
 mod auto;
-mod bordered;
 mod combination;
 mod control;
 mod dense;
@@ -25,6 +25,7 @@ mod events;
 mod explicit;
 mod implicit;
 mod integrator;
+mod interpolant;
 mod linear;
 mod memory;
 mod newton;

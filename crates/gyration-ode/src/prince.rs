@@ -1,11 +1,9 @@
-//! The numbers of the explicit pair 9(7) of Prince, which carries its interpolant of order 8 with it.
+//! The numbers of the explicit pair 9(7) of Prince; those of its interpolant of order 8 are in `interpolant`.
 //!
 //!   Y_s = u₀ + h Σ_j a_sj k_j,   k_s = f(t₀ + c_s h, Y_s),   u₁ = u₀ + h Σ_j b_j k_j
-//!   u(θ) = u₀ + θ(Δ + (1 − θ) h Σ_j r_j(θ) k_j),   Δ = u₁ − u₀
 //!
 //! Seventeen stages; the eighteenth rate, that at the new state, is the first of the next step. Rows are sparse: pairs
-//! (stage, coefficient), stages from 0. Every number is the nearest f64 to the published one; r is made of the published
-//! powers of θ by division by θ(1 − θ), which also keeps its coefficients small.
+//! (stage, coefficient), stages from 0. Every number is the nearest f64 to the published one.
 //! Source: P. J. Prince, *Parallel derivation of efficient continuous/discrete explicit Runge–Kutta methods*, 2018. The
 //! order conditions are checked below for every rooted tree.
 
@@ -212,193 +210,12 @@ pub(crate) const ERROR: Row = &[
     (16, 0.022365560784830454),
 ];
 
-/// The interpolant: of each rate, the coefficients of 1, θ … θ⁶ in r; stage 17 is the rate at the new state.
-pub(crate) const DENSE: [(usize, [f64; 7]); 14] = [
-    (
-        0,
-        [
-            0.9692200729524587,
-            -26.804291616402608,
-            224.85549700139103,
-            -861.408422241423,
-            1672.1569770074325,
-            -1570.1455247065671,
-            560.4073244096642,
-        ],
-    ),
-    (
-        4,
-        [
-            -5e-28,
-            -11.869736487919905,
-            90.59017899479002,
-            -25.505659295556875,
-            -696.1456358521293,
-            1248.6915798645612,
-            -605.760727223745,
-        ],
-    ),
-    (
-        6,
-        [
-            1.8e-29,
-            0.2653835539316894,
-            -3.5841886814072415,
-            16.27416012723264,
-            -32.668425034251406,
-            29.899582769189912,
-            -10.186512734695594,
-        ],
-    ),
-    (
-        7,
-        [
-            -0.09276117929280563,
-            0.3181205093021258,
-            31.52012061256841,
-            -218.1875807001066,
-            560.0080085104053,
-            -612.0027706947868,
-            238.52962412120326,
-        ],
-    ),
-    (
-        8,
-        [
-            -0.012296870495959933,
-            4.13677002934338,
-            -56.06431298286865,
-            257.33825152406746,
-            -524.5736351481138,
-            487.9241156590626,
-            -168.7365953404991,
-        ],
-    ),
-    (
-        9,
-        [
-            -7.6e-27,
-            27.008795897425887,
-            -281.29139156954096,
-            1165.2603879108817,
-            -2351.7413531929938,
-            2256.6752172970337,
-            -815.9116563428065,
-        ],
-    ),
-    (
-        10,
-        [
-            -0.15443251966512153,
-            -2.3065848156884163,
-            29.11308974270897,
-            -136.21676129921508,
-            282.1975437510945,
-            -271.46003802446467,
-            98.98161568489493,
-        ],
-    ),
-    (
-        11,
-        [
-            -0.26298183636909084,
-            11.270517889125589,
-            -107.5435659800778,
-            200.5910015206141,
-            223.93463672323304,
-            -742.8377484400619,
-            415.1111219599051,
-        ],
-    ),
-    (
-        12,
-        [
-            -0.10876130519691982,
-            2.047604116006513,
-            24.3570417541703,
-            -190.5036498819085,
-            487.1179224500809,
-            -526.9087748849364,
-            204.10737905698096,
-        ],
-    ),
-    (
-        13,
-        [
-            -0.005884666168404911,
-            0.04500529249584335,
-            -0.6971967954146158,
-            3.7287615068701037,
-            -8.71776322111275,
-            9.302815269879817,
-            -3.6498527203815887,
-        ],
-    ),
-    (
-        14,
-        [
-            -0.26027080199888575,
-            -4.690285523451808,
-            57.46757050364474,
-            -250.20930986078338,
-            464.9194037345635,
-            -376.9821590673314,
-            110.0153218173561,
-        ],
-    ),
-    (
-        15,
-        [
-            -0.04290124497761188,
-            0.5968451463725879,
-            -8.327628164990623,
-            35.609969562372626,
-            -64.44542796050335,
-            48.77807290818811,
-            -12.126029001484119,
-        ],
-    ),
-    (
-        16,
-        [
-            -0.028929648787658507,
-            -0.06322330064425,
-            0.9594166272508509,
-            -6.716114200070235,
-            22.052156573418763,
-            -32.47831343958804,
-            16.303937037208236,
-        ],
-    ),
-    (
-        17,
-        [
-            -7e-30,
-            0.0450793101033741,
-            -1.3546310622244018,
-            9.944965327024873,
-            -34.09440834112396,
-            51.543945489821034,
-            -27.08495072360092,
-        ],
-    ),
-];
-
-/// The weights θ(1 − θ) r_j(θ) of the rates, by Horner's rule.
-pub(crate) fn interpolation_weights(theta: f64) -> [(usize, f64); DENSE.len()] {
-    let bubble = theta * (1.0 - theta);
-    DENSE.map(|(stage, powers)| {
-        let value = powers.iter().rev().fold(0.0, |sum, coefficient| sum * theta + coefficient);
-        (stage, bubble * value)
-    })
-}
-
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::trees::{Tree, residual};
 
-    fn full(row: Row) -> Vec<f64> {
+    pub(crate) fn full(row: Row) -> Vec<f64> {
         let mut full = vec![0.0; STAGES + 1];
         for &(stage, coefficient) in row {
             full[stage] = coefficient;
@@ -413,7 +230,7 @@ mod tests {
         rows
     }
 
-    fn worst(order: usize, weights: &[f64], theta: f64) -> f64 {
+    pub(crate) fn worst(order: usize, weights: &[f64], theta: f64) -> f64 {
         let rows = tableau();
         Tree::of_order(order).iter().map(|tree| residual(tree, &rows, weights, theta).abs()).fold(0.0, f64::max)
     }
@@ -442,22 +259,5 @@ mod tests {
         let embedded: Vec<f64> = full(WEIGHTS).iter().zip(full(ERROR)).map(|(b, e)| b + e).collect();
         assert!((1..=7).all(|order| worst(order, &embedded, 1.0) < 1e-13));
         assert!(worst(8, &embedded, 1.0) > 1e-7);
-    }
-
-    /// The interpolant, written as weights b(θ) of the eighteen rates.
-    #[test]
-    fn interpolant_has_order_eight_at_every_point() {
-        let change = full(WEIGHTS);
-        for theta in [0.1, 0.35, 0.5, 0.77, 0.95] {
-            let mut weights: Vec<f64> = change.iter().map(|b| theta * b).collect();
-            for (stage, weight) in interpolation_weights(theta) {
-                weights[stage] += weight;
-            }
-            for order in 1..=8 {
-                let residual = worst(order, &weights, theta);
-                // Coefficients of r reach 2400.
-                assert!(residual < 1e-12, "θ = {theta}, order {order}: {residual:e}");
-            }
-        }
     }
 }

@@ -1,16 +1,18 @@
-//! The matrices s I − J of implicit steps, with fewer unknowns where some of the rates are unknowns themselves: x₁' = x₂.
+//! The matrices s I − J of implicit steps, with fewer unknowns where some of the rates are unknowns themselves: x₁' =
+//! x₂.
 //!
-//!   J = [0 I 0; K C D; E H M]:   s x₁ − x₂ = r₁,   −K x₁ + (s I − C) x₂ − D x₃ = r₂,   −E x₁ − H x₂ + (s I − M) x₃ = r₃
+//!   J = [0 I 0; K C D; E H M]:
+//!   s x₁ − x₂ = r₁,   −K x₁ + (s I − C) x₂ − D x₃ = r₂,   −E x₁ − H x₂ + (s I − M) x₃ = r₃
 //!
 //!   (s² I − s C − K) x₁ − D x₃ = r₂ + (s I − C) r₁,   −(s H + E) x₁ + (s I − M) x₃ = r₃ − H r₁,   x₂ = s x₁ − r₁
 //!
 //! s is γ/h or (α + iβ)/h. Bodies that deform are of this form, without x₃ or with a contraction there: a factorization
-//! costs an eighth, or a quarter. Where most unknowns relax by themselves (`bordered`) these are eliminated first. The form is read off the
-//! matrix itself, exactly, in every factorization: other blocks are factorized as they stand.
+//! costs an eighth, or a quarter. Where most unknowns relax by themselves (`arrowhead`) these are eliminated first. The
+//! form is read off the matrix itself, exactly, in every factorization: other blocks are factorized as they stand.
 
 use nalgebra::DMatrix;
 
-use crate::bordered::{ComplexBordered, RealBordered, leading};
+use crate::arrowhead::{ComplexArrowhead, RealArrowhead, leading};
 use crate::linear::{ComplexLu, RealLu, Singular};
 
 /// How many rates are unknowns themselves: the number of rows (0 I 0) at the top of J.
@@ -41,15 +43,15 @@ pub(crate) struct RealShifted {
     /// The number of x₁, if there are any.
     half: Option<usize>,
     /// Where most unknowns relax by themselves.
-    bordered: RealBordered,
-    is_bordered: bool,
+    arrowhead: RealArrowhead,
+    is_arrowhead: bool,
 }
 
 impl RealShifted {
     pub fn new(size: usize) -> Self {
         // Half of the square is the largest (n − half) × half.
         let (whole, reduced, resistance) = (RealLu::new(size), RealLu::new(size), vec![0.0; size * size / 2]);
-        Self { whole, reduced, resistance, bordered: RealBordered::new(size), ..Self::default() }
+        Self { whole, reduced, resistance, arrowhead: RealArrowhead::new(size), ..Self::default() }
     }
 
     /// Factorizes shift · I − J.
@@ -58,9 +60,9 @@ impl RealShifted {
     /// `Singular`.
     pub fn factorize(&mut self, shift: f64, jacobian: &DMatrix<f64>) -> Result<(), Singular> {
         let lead = leading(jacobian);
-        self.is_bordered = lead.is_some();
+        self.is_arrowhead = lead.is_some();
         if let Some(lead) = lead {
-            return self.bordered.factorize(shift, jacobian, lead);
+            return self.arrowhead.factorize(shift, jacobian, lead);
         }
         self.half = second_order(jacobian);
         let Some(half) = self.half else {
@@ -81,8 +83,8 @@ impl RealShifted {
 
     /// Solves (shift · I − J) x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
-        if self.is_bordered {
-            return self.bordered.solve(b);
+        if self.is_arrowhead {
+            return self.arrowhead.solve(b);
         }
         let Some(half) = self.half else { return self.whole.solve(b) };
         let (first, second) = b.split_at_mut(half);
@@ -107,14 +109,14 @@ pub(crate) struct ComplexShifted {
     resistance: Vec<f64>,
     shift: (f64, f64),
     half: Option<usize>,
-    bordered: ComplexBordered,
-    is_bordered: bool,
+    arrowhead: ComplexArrowhead,
+    is_arrowhead: bool,
 }
 
 impl ComplexShifted {
     pub fn new(size: usize) -> Self {
         let (whole, reduced, resistance) = (ComplexLu::new(size), ComplexLu::new(size), vec![0.0; size * size / 2]);
-        Self { whole, reduced, resistance, bordered: ComplexBordered::new(size), ..Self::default() }
+        Self { whole, reduced, resistance, arrowhead: ComplexArrowhead::new(size), ..Self::default() }
     }
 
     /// Factorizes (shift.0 + i shift.1) I − J.
@@ -123,9 +125,9 @@ impl ComplexShifted {
     /// `Singular`.
     pub fn factorize(&mut self, shift: (f64, f64), jacobian: &DMatrix<f64>) -> Result<(), Singular> {
         let lead = leading(jacobian);
-        self.is_bordered = lead.is_some();
+        self.is_arrowhead = lead.is_some();
         if let Some(lead) = lead {
-            return self.bordered.factorize(shift, jacobian, lead);
+            return self.arrowhead.factorize(shift, jacobian, lead);
         }
         self.half = second_order(jacobian);
         let (re, im) = shift;
@@ -151,8 +153,8 @@ impl ComplexShifted {
 
     /// Solves ((shift.0 + i shift.1) I − J) x = b in place, b = real + i imaginary.
     pub fn solve(&self, real: &mut [f64], imaginary: &mut [f64]) {
-        if self.is_bordered {
-            return self.bordered.solve(real, imaginary);
+        if self.is_arrowhead {
+            return self.arrowhead.solve(real, imaginary);
         }
         let Some(half) = self.half else { return self.whole.solve(real, imaginary) };
         let (re, im) = self.shift;
@@ -213,7 +215,8 @@ mod tests {
             for i in 0..n {
                 let residual = shift.0 * b[i] - apply(&b, i) - (shift.0 * re[i] - apply(re, i));
                 prop_assert!(residual.abs() < 1e-12 * largest, "{residual:e}");
-                let residual = shift.0 * c[i] - shift.1 * d[i] - apply(&c, i) - (shift.0 * re[i] - shift.1 * im[i] - apply(re, i));
+                let wanted = shift.0 * re[i] - shift.1 * im[i] - apply(re, i);
+                let residual = shift.0 * c[i] - shift.1 * d[i] - apply(&c, i) - wanted;
                 prop_assert!(residual.abs() < 1e-12 * largest, "{residual:e}");
             }
         }
@@ -245,7 +248,8 @@ mod tests {
             complex.solve(&mut c, &mut d);
             for i in 0..n {
                 // Diagonally dominant: some roundings of numbers of order one, of entries up to 1e3.
-                prop_assert!((b[i] - re[i]).abs() < 1e-12 && (c[i] - re[i]).abs() < 1e-12 && (d[i] - im[i]).abs() < 1e-12);
+                let errors = [b[i] - re[i], c[i] - re[i], d[i] - im[i]];
+                prop_assert!(errors.iter().all(|error| error.abs() < 1e-12), "{errors:?}");
             }
         }
     }

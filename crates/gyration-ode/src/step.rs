@@ -6,9 +6,8 @@
 
 use crate::auto::{EXPLICIT_REACH, explicit_is_cheaper};
 use crate::control::{Control, initial_step};
-use crate::dense::LastStep;
 use crate::explicit::{Explicit, Trial};
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, LastStep};
 use crate::newton::{Ahead, Convergence, Plan};
 use crate::report::{Cause, Failure, Limit, Method, StepReport, Stepper};
 use crate::system::{Context, Layout, System};
@@ -76,16 +75,16 @@ impl Integrator {
         }
     }
 
-    /// Takes note that the system has changed in time, by a jump: its rates are evaluated anew at the state reached, and the
-    /// errors of the steps before say nothing on those to come. The size of the next step stays: it is the error control that
-    /// says whether it is too long.
+    /// Restarts after a discontinuity in time: the rates are evaluated anew at the state reached, and the errors of the
+    /// steps before say nothing on those to come. The size of the next step stays: it is the error control that says
+    /// whether it is too long.
     ///
     /// # Errors
     /// `Failure` if the system has no rates there.
     ///
     /// # Panics
     /// If the system has not the size of the state.
-    pub fn renew<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
+    pub fn restart<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
         self.prepare(system)?;
         let Self { layout, progress, current, .. } = self;
         let mut context = Context { system, layout, statistics: &mut progress.statistics };

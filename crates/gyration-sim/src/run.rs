@@ -189,7 +189,7 @@ impl<'a> Simulation<'a> {
     /// Takes note of a change of the model.
     pub(crate) fn renew(&mut self) -> Result<(), Stop> {
         let model = self.system.model();
-        self.integrator.renew(&mut self.system).map_err(|failure| Stop::by_failure(model, &failure))?;
+        self.integrator.restart(&mut self.system).map_err(|failure| Stop::by_failure(model, &failure))?;
         // Before the first step the rates at the start stand in the system.
         let (rates, _) = self.integrator.rates();
         views::renew(&mut self.views, model, self.integrator.state(), rates);

@@ -2,8 +2,8 @@
 //!
 //!   J = [K C; B −S]:   (s I − K − C (s I + S)⁻¹ B) x₁ = r₁ + C (s I + S)⁻¹ r₂,   x₂ = (s I + S)⁻¹ (r₂ + B x₁)
 //!
-//! Such are the modes of a memory. A factorization costs n₁² (n₁/3 + n₂) instead of n³/3. S ≥ 0 and Re s > 0, so that nothing small is
-//! divided by. The form is read off the matrix itself, exactly.
+//! Such are the relaxation modes of a history force. A factorization costs n₁² (n₁/3 + n₂) instead of n³/3. S ≥ 0 and
+//! Re s > 0, so that nothing small is divided by. The form is read off the matrix itself, exactly.
 
 use nalgebra::DMatrix;
 
@@ -64,14 +64,14 @@ impl Parts {
 
 /// The factors of γ/h I − J.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct RealBordered {
+pub(crate) struct RealArrowhead {
     parts: Parts,
     reduced: RealLu,
     /// (s + S)⁻¹.
     inverse: Vec<f64>,
 }
 
-impl RealBordered {
+impl RealArrowhead {
     pub fn new(size: usize) -> Self {
         let (reduced, inverse) = (RealLu::new(size / 2), Vec::with_capacity(size));
         Self { parts: Parts::new(size), reduced, inverse }
@@ -112,14 +112,14 @@ impl RealBordered {
 
 /// The factors of (α + iβ)/h I − J.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct ComplexBordered {
+pub(crate) struct ComplexArrowhead {
     parts: Parts,
     reduced: ComplexLu,
     /// Real and imaginary parts of (s + S)⁻¹.
     inverse: Vec<(f64, f64)>,
 }
 
-impl ComplexBordered {
+impl ComplexArrowhead {
     pub fn new(size: usize) -> Self {
         let (reduced, inverse) = (ComplexLu::new(size / 2), Vec::with_capacity(size));
         Self { parts: Parts::new(size), reduced, inverse }
