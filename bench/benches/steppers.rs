@@ -4,17 +4,19 @@
 //!
 //! Thirteen components and three quadratures, as of a rigid body under three laws; rates of a few dozen operations. The
 //! second table sets the costs of the mechanics beside it: rates, Jacobian and the linear algebra of an implicit step
-//! of a cube, in units of the rates, which is how the choice between the steppers counts them. With a METHOD
-//! (explicit, implicit) only the steps are made, for callgrind.
+//! of a cube, in units of the rates, which is how the choice between the steppers counts them. The third is of a stiff
+//! chain of coupled blocks, whose cost is to be linear in its length. With a METHOD (explicit, implicit, chain) only the
+//! steps are made, for callgrind.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
 use gyration_bench::{SHAPES, near_table, seconds_each};
-use gyration_ode::{Integrator, Method, Options, System};
+use gyration_ode::{BlockMatrix, Integrator, Method, Options, Pattern, System};
 use nalgebra::DMatrix;
 use std::convert::Infallible;
 use std::ops::Range;
+use std::time::Instant;
 
 const SIZE: usize = 13;
 const WORKS: usize = 3;
@@ -53,7 +55,8 @@ impl System for Ring {
         Ok(())
     }
 
-    fn jacobian(&mut self, _: f64, _: &[f64], blocks: &mut [DMatrix<f64>]) -> Result<(), Infallible> {
+    fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
+        let blocks = jacobian.diagonal_mut();
         for i in 0..SIZE {
             blocks[0][(i, (i + 1) % SIZE)] = 1.0;
             blocks[0][(i, (i + SIZE - 1) % SIZE)] = -1.0;
@@ -118,6 +121,105 @@ fn costs_of_mechanics(shape: &str, height: f64) -> (f64, f64) {
     (call, derivatives)
 }
 
+/// Unit masses between two walls, x_i'' = Δ(k x + c x')_i with Δx_i = x_{i−1} − 2x_i + x_{i+1}: a block (x, v) each.
+struct Chain {
+    blocks: Vec<Range<usize>>,
+    pattern: Pattern,
+}
+
+const STIFFNESS: f64 = 1e6;
+const DAMPING: f64 = 1e4;
+const LENGTHS: [usize; 4] = [10, 100, 1000, 10_000];
+const CHAIN_STEPS: u32 = 20;
+
+impl Chain {
+    fn new(bodies: usize) -> Self {
+        let neighbours = (1..bodies).flat_map(|i| [(i - 1, i), (i, i - 1)]);
+        Self { blocks: (0..bodies).map(|i| 2 * i..2 * i + 2).collect(), pattern: Pattern::new(bodies, neighbours) }
+    }
+}
+
+impl System for Chain {
+    type Inadmissible = Infallible;
+
+    fn dimension(&self) -> usize {
+        2 * self.blocks.len()
+    }
+
+    fn quadratures(&self) -> usize {
+        0
+    }
+
+    fn blocks(&self) -> &[Range<usize>] {
+        &self.blocks
+    }
+
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], _: &mut [f64]) -> Result<(), Infallible> {
+        let n = self.blocks.len();
+        let pull = |i: usize| STIFFNESS * y[2 * i] + DAMPING * y[2 * i + 1];
+        for i in 0..n {
+            let (before, after) = (if i > 0 { pull(i - 1) } else { 0.0 }, if i + 1 < n { pull(i + 1) } else { 0.0 });
+            (dy[2 * i], dy[2 * i + 1]) = (y[2 * i + 1], before - 2.0 * pull(i) + after);
+        }
+        Ok(())
+    }
+
+    fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
+        for i in 0..self.blocks.len() {
+            for j in i.saturating_sub(1)..(i + 2).min(self.blocks.len()) {
+                let block = jacobian.block_mut(i, j).expect("neighbours couple");
+                let sign = if i == j { -2.0 } else { 1.0 };
+                (block[(1, 0)], block[(1, 1)]) = (sign * STIFFNESS, sign * DAMPING);
+            }
+            jacobian.diagonal_mut()[i][(0, 1)] = 1.0;
+        }
+        Ok(())
+    }
+
+    fn error_scales(&mut self, _: f64, _: &[f64], _: &[f64], y_scale: &mut [f64], _: &mut [f64]) {
+        y_scale.chunks_exact_mut(2).for_each(|body| body.copy_from_slice(&[1e-7, 1e-5]));
+    }
+
+    fn project(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) -> f64 {
+        0.0
+    }
+}
+
+/// Implicit steps of a chain, the first of which makes room; seconds of one, and the integrator at the end.
+fn chain_steps(bodies: usize) -> (f64, Integrator) {
+    let start: Vec<f64> = (0..2 * bodies).map(|i| if i % 2 == 0 { (1.7 * i as f64).sin() } else { 0.0 }).collect();
+    let mut chain = Chain::new(bodies);
+    let options = Options { method: Method::Implicit, initial_step: Some(1e-5), ..Options::default() };
+    let mut integrator = Integrator::new(0.0, &start, &[], options);
+    integrator.step(&mut chain, 1.0).expect("a linear system");
+    let clock = Instant::now();
+    for _ in 0..CHAIN_STEPS {
+        integrator.step(&mut chain, 1.0).expect("a linear system");
+    }
+    (clock.elapsed().as_secs_f64() / f64::from(CHAIN_STEPS), integrator)
+}
+
+fn cost_of_coupling() {
+    println!(
+        "\n| bodies in a chain | numbers of factors a body | evaluations a step | factorizations a step | ns a step and body |"
+    );
+    for bodies in LENGTHS {
+        let (mut seconds, integrator) = chain_steps(bodies);
+        for _ in 0..10_000 / bodies {
+            seconds = seconds.min(chain_steps(bodies).0);
+        }
+        let (s, n) = (integrator.statistics(), bodies as f64);
+        let steps = s.accepted() as f64;
+        let (evaluations, factorizations) = (s.rate_evaluations as f64 / steps, s.factorizations as f64 / steps);
+        let entries = integrator.entries_of_factors() as f64 / n;
+        println!("| {bodies} | {entries:.1} | {evaluations:.1} | {factorizations:.2} | {:.0} |", 1e9 * seconds / n);
+    }
+}
+
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     for (word, method) in [("explicit", Method::Explicit), ("implicit", Method::Implicit)] {
@@ -125,10 +227,16 @@ fn main() {
             return println!("{STEPS} steps, {} calls", make_steps(method, STEPS));
         }
     }
+    if words.iter().any(|argument| argument == "chain") {
+        return LENGTHS
+            .iter()
+            .for_each(|bodies| println!("{bodies}: {} steps", chain_steps(*bodies).1.statistics().accepted()));
+    }
     let linear = own_cost();
     println!("\n| shape | rates | Jacobian, in rates | own cost of an implicit step, in rates |");
     for (name, shape, height) in SHAPES {
         let (call, derivatives) = costs_of_mechanics(shape, height);
         println!("| {name} | {:.0} ns | {:.1} | {:.1} |", 1e9 * call, derivatives / call, linear / call);
     }
+    cost_of_coupling();
 }

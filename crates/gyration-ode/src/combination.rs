@@ -1,7 +1,7 @@
 //! Linear combinations of stage rates, u = u₀ + h Σ a_j k_j, on as many components at once as a register holds.
 //!
-//! The instruction set is found at run time. A component's sum runs over the stages in the order of the row, products and
-//! sums rounded one by one: every width of registers gives the same bytes.
+//! The instruction set is found at run time. A component's sum runs over the stages in the order of the row, products
+//! and sums rounded one by one: every width of registers gives the same bytes.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -87,7 +87,8 @@ struct Sums<'a, S: Simd> {
 }
 
 impl<S: Simd> Sums<'_, S> {
-    /// out = base + h Σ a_j k_j of at most N registers side by side, the place of the first in a row being given; returns N.
+    /// out = base + h Σ a_j k_j of at most N registers side by side, the place of the first in a row being given;
+    /// returns N.
     #[inline(always)]
     fn add<const N: usize>(
         &self,

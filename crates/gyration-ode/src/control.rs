@@ -10,10 +10,11 @@
 //! leaves the memory of errors alone. Source: Gustafsson, *ACM Trans. Math. Softw.* 20 (1994) 496; Hairer, Wanner II,
 //! §IV.2, IV.8; code radau5.f.
 
+use crate::context::{Context, Point};
 use crate::newton::MAX_ITERATIONS;
 use crate::norm::norm;
 use crate::report::{Cause, Stepper};
-use crate::system::{Context, Point, System};
+use crate::system::System;
 
 /// Aim below the tolerance by this factor, so that few steps are rejected.
 const SAFETY: f64 = 0.9;

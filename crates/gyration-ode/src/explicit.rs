@@ -8,12 +8,14 @@
 //! Source: as of `prince`; Hairer, Wanner II, §IV.2 (stiffness).
 
 use crate::combination::Rates;
+use crate::context::{Context, Point};
 use crate::interpolant::interpolation_weights;
+use crate::layout::Layout;
 use crate::newton::Convergence;
 use crate::norm::{Norm, norm};
 use crate::prince::{ERROR, NODES, ROWS, STAGES, WEIGHTS};
 use crate::report::Cause;
-use crate::system::{Context, Layout, Point, System};
+use crate::system::System;
 
 /// The stability region is a disk of radius 4.6 over most of the left half-plane: h|λ| from which on a step counts as
 /// limited by it.
@@ -83,17 +85,18 @@ impl Explicit {
         Ok(Trial { error, projection, stiffness, convergence: None })
     }
 
-    /// The part of the stability used: λ of the direction in which the last stage and the new state, both at t₁, differ.
+    /// The part of the stability used: λ of the direction in which the last stage and the new state, both at t₁,
+    /// differ.
     ///
-    ///   |λ| ≈ ‖Δf‖/‖Δu‖,   Re λ ≈ Δf·Δu/‖Δu‖²,   the largest over the blocks
+    ///   |λ| ≈ ‖Δf‖/‖Δu‖,   Re λ ≈ Δf·Δu/‖Δu‖²,   the largest over the components
     ///
     /// Differences at the level of rounding say nothing and give 0.
     fn stability_used(&self, layout: &Layout, from: &Point, to: &Point, h: f64) -> f64 {
         let last = self.rates.row(STAGES - 1);
         let mut largest: f64 = 0.0;
-        for block in layout.blocks() {
+        for component in layout.components() {
             let (mut rates, mut products, mut states, mut size) = (0.0, 0.0, 0.0, 0.0);
-            for i in block.clone() {
+            for i in component.flatten() {
                 let scale = from.scale[i];
                 let (rate, state) = ((to.rate[i] - last[i]) / scale, (to.u[i] - self.stage[i]) / scale);
                 rates += rate * rate;

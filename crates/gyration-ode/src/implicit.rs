@@ -10,12 +10,14 @@
 //! place of f(y₀). Quadratures, which feed nothing back, have the same formula without J. J is evaluated anew in every
 //! step: it is cheap here and a restart stays exact. Source: Hairer, Wanner II, §IV.8.
 
+use crate::context::{Context, Point};
 use crate::explicit::Trial;
+use crate::layout::Layout;
 use crate::newton::{Plan, Stages, multiply, set_triple, triple};
 use crate::norm::norm;
 use crate::radau::{ERROR, MATRIX, REAL};
 use crate::report::Cause;
-use crate::system::{Context, Layout, Point, System};
+use crate::system::System;
 
 /// Scratch of the implicit stepper and the polynomial of its last step.
 #[derive(Debug, Clone, Default)]
@@ -44,7 +46,8 @@ impl Implicit {
     /// Attempts a step from one point, where the stages were linearized, to `to`, whose time is set.
     ///
     /// # Errors
-    /// `Cause::Newton`, `Cause::Error` if the error exceeds what is allowed at either end, or what stopped an evaluation.
+    /// `Cause::Newton`, `Cause::Error` if the error exceeds what is allowed at either end, or what stopped an
+    /// evaluation.
     pub fn attempt<S: System>(
         &mut self,
         context: &mut Context<'_, S>,
@@ -97,7 +100,7 @@ impl Implicit {
         state_error(layout, stages, &from.rate, plan.h, error);
         let size = norm(layout, error, &from.scale, &from.scale).value;
         if plan.filtered && size > 1.0 && self.evaluate_beside(context, from) {
-            state_error(layout, &self.stages, &self.beside_rate, plan.h, &mut self.error);
+            state_error(layout, &mut self.stages, &self.beside_rate, plan.h, &mut self.error);
         }
     }
 
@@ -132,11 +135,11 @@ impl Implicit {
 }
 
 /// e = (γ/h I − J)⁻¹ (f + Σ e_i z_i/h) of y.
-fn state_error(layout: &Layout, stages: &Stages, rate: &[f64], h: f64, error: &mut [f64]) {
+fn state_error(layout: &Layout, stages: &mut Stages, rate: &[f64], h: f64, error: &mut [f64]) {
     for (j, (value, f)) in error.iter_mut().zip(rate).enumerate().take(layout.dimension) {
         *value = f + defect(stages, layout.width, j) / h;
     }
-    stages.filter(layout, error);
+    stages.linear.solve_real(&mut error[..layout.dimension]);
 }
 
 /// e = (h/γ) (g + Σ e_i z_i/h) of w.

@@ -3,12 +3,13 @@
 //! Size and stepper of the next step, the error history and everything else that is carried along is in `Progress`, so
 //! that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it.
 
+use crate::context::Point;
 use crate::control::Control;
 use crate::explicit::Explicit;
 use crate::implicit::Implicit;
+use crate::layout::Layout;
 use crate::memory::{Memory, MemoryError, Progress, Vectors, decode, encode};
 use crate::report::{Method, Options, Statistics, Stepper};
-use crate::system::{Layout, Point};
 
 /// Integrates a system step by step from a first state.
 #[derive(Debug, Clone)]
@@ -130,6 +131,12 @@ impl Integrator {
     /// The ends of the last step, over which `interpolate` works; none before a step, after `resume` or a failure.
     pub fn last_step(&self) -> Option<(f64, f64)> {
         (self.last != LastStep::None).then_some((self.other.t, self.current.t))
+    }
+
+    /// How many numbers the factors of the blocks that couple are, real and imaginary parts and those of the real
+    /// matrix together; 0 where none couple, or before a step of the implicit method.
+    pub fn entries_of_factors(&self) -> usize {
+        self.implicit.stages.linear.entries_of_factors()
     }
 
     /// The counters so far.

@@ -10,37 +10,52 @@
 //! | what a system must say | `system` |
 //! | one accepted step | `integrator`, `step` |
 //! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
-//! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `shifted`, `linear` |
+//! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear_system` |
+//! | which blocks couple | `pattern`, `block_matrix`, `layout` |
+//! | factors of one block | `shifted`, `arrowhead`, `linear` |
+//! | factors of several | `factor`, `analysis`, `elimination`, `kernel` |
 //! | step sizes, norms | `control`, `norm` |
-//! | which of the two | `auto` |
+//! | which of the two | `auto`, `spectrum` |
 //!
-//! Nothing is allocated after the first step, nothing is random, and no clock is read.
+//! Nothing is allocated after the first step while blocks and pattern stay, nothing is random, and no clock is read.
 
+mod analysis;
 mod arrowhead;
 mod auto;
+mod block_matrix;
 mod combination;
+mod context;
 mod control;
 mod dense;
+mod elimination;
 mod events;
 mod explicit;
+mod factor;
 mod implicit;
 mod integrator;
 mod interpolant;
+mod kernel;
+mod layout;
 mod linear;
+mod linear_system;
 mod memory;
 mod newton;
 mod norm;
+mod pattern;
 mod prince;
 mod radau;
 mod report;
 mod shifted;
+mod spectrum;
 mod step;
 mod system;
 #[cfg(test)]
 mod trees;
 
+pub use block_matrix::BlockMatrix;
 pub use events::{Direction, find_crossing};
 pub use integrator::Integrator;
 pub use memory::{Memory, MemoryError};
+pub use pattern::Pattern;
 pub use report::{Cause, Failure, Limit, Method, Options, Statistics, StepReport, Stepper};
 pub use system::System;

@@ -2,8 +2,8 @@
 //!
 //!   P A = L U
 //!
-//! Rows are contiguous and nothing is allocated after construction. Real and imaginary parts are kept apart so that a row
-//! operation runs over plain arrays. For blocks of a few dozens of unknowns; larger ones belong to a library.
+//! Rows are contiguous and nothing is allocated after construction. Real and imaginary parts are kept apart so that a
+//! row operation runs over plain arrays. For blocks of a few dozens of unknowns; larger ones belong to a library.
 
 /// A matrix to be factorized is singular to working precision, or not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,35 +38,50 @@ impl RealLu {
                 self.rows[i * n + j] = entry(i, j);
             }
         }
-        for k in 0..n {
-            let pivot = largest(k..n, |i| self.rows[i * n + k].abs())?;
-            self.pivots[k] = pivot;
-            swap_rows(&mut self.rows, n, k, pivot);
-            let (above, below) = self.rows[..n * n].split_at_mut((k + 1) * n);
-            let pivot_row = &above[k * n..];
-            for row in below.chunks_exact_mut(n) {
-                let factor = row[k] / pivot_row[k];
-                row[k] = factor;
-                for (value, p) in row[k + 1..].iter_mut().zip(&pivot_row[k + 1..]) {
-                    *value -= factor * p;
-                }
-            }
-        }
-        Ok(())
+        factorize_real(&mut self.rows[..n * n], &mut self.pivots[..n])
     }
 
     /// Solves A x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
         let n = self.size;
-        for k in 0..n {
-            b.swap(k, self.pivots[k]);
+        solve_real(&self.rows[..n * n], &self.pivots[..n], b);
+    }
+}
+
+/// Factorizes a matrix in place, as many rows as there are pivots.
+///
+/// # Errors
+/// `Singular`.
+pub(crate) fn factorize_real(rows: &mut [f64], pivots: &mut [usize]) -> Result<(), Singular> {
+    let n = pivots.len();
+    for k in 0..n {
+        let pivot = largest(k..n, |i| rows[i * n + k].abs())?;
+        pivots[k] = pivot;
+        swap_rows(rows, n, k, pivot);
+        let (above, below) = rows.split_at_mut((k + 1) * n);
+        let pivot_row = &above[k * n..];
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] / pivot_row[k];
+            row[k] = factor;
+            for (value, p) in row[k + 1..].iter_mut().zip(&pivot_row[k + 1..]) {
+                *value -= factor * p;
+            }
         }
-        for (i, row) in self.rows[..n * n].chunks_exact(n.max(1)).enumerate() {
-            b[i] -= dot(&row[..i], &b[..i]);
-        }
-        for (i, row) in self.rows[..n * n].chunks_exact(n.max(1)).enumerate().rev() {
-            b[i] = (b[i] - dot(&row[i + 1..], &b[i + 1..n])) / row[i];
-        }
+    }
+    Ok(())
+}
+
+/// Solves A x = b in place with the factors of `factorize_real`.
+pub(crate) fn solve_real(rows: &[f64], pivots: &[usize], b: &mut [f64]) {
+    let n = pivots.len();
+    for (k, pivot) in pivots.iter().enumerate() {
+        b.swap(k, *pivot);
+    }
+    for (i, row) in rows.chunks_exact(n.max(1)).enumerate() {
+        b[i] -= dot(&row[..i], &b[..i]);
+    }
+    for (i, row) in rows.chunks_exact(n.max(1)).enumerate().rev() {
+        b[i] = (b[i] - dot(&row[i + 1..], &b[i + 1..n])) / row[i];
     }
 }
 
@@ -101,61 +116,74 @@ impl ComplexLu {
                 (self.real[i * n + j], self.imaginary[i * n + j]) = entry(i, j);
             }
         }
-        for k in 0..n {
-            // |re| + |im| chooses pivots as well as the modulus and cannot overflow earlier.
-            let pivot = largest(k..n, |i| self.real[i * n + k].abs() + self.imaginary[i * n + k].abs())?;
-            self.pivots[k] = pivot;
-            swap_rows(&mut self.real, n, k, pivot);
-            swap_rows(&mut self.imaginary, n, k, pivot);
-            self.eliminate(k);
-        }
-        Ok(())
-    }
-
-    fn eliminate(&mut self, k: usize) {
-        let n = self.size;
-        let (real_above, real_below) = self.real[..n * n].split_at_mut((k + 1) * n);
-        let (imaginary_above, imaginary_below) = self.imaginary[..n * n].split_at_mut((k + 1) * n);
-        let (p_re, p_im) = (&real_above[k * n..], &imaginary_above[k * n..]);
-        let pivot = (p_re[k], p_im[k]);
-        for (re, im) in real_below.chunks_exact_mut(n).zip(imaginary_below.chunks_exact_mut(n)) {
-            let (fr, fi) = divide((re[k], im[k]), pivot);
-            (re[k], im[k]) = (fr, fi);
-            let row = re[k + 1..].iter_mut().zip(im[k + 1..].iter_mut());
-            for ((r, i), (pr, pi)) in row.zip(p_re[k + 1..].iter().zip(&p_im[k + 1..])) {
-                *r -= fr * pr - fi * pi;
-                *i -= fr * pi + fi * pr;
-            }
-        }
+        factorize_complex(&mut self.real[..n * n], &mut self.imaginary[..n * n], &mut self.pivots[..n])
     }
 
     /// Solves A x = b in place, b = real + i imaginary.
     pub fn solve(&self, real: &mut [f64], imaginary: &mut [f64]) {
         let n = self.size;
-        for k in 0..n {
-            real.swap(k, self.pivots[k]);
-            imaginary.swap(k, self.pivots[k]);
-        }
-        for i in 0..n {
-            let (re, im) = self.partial(i, 0..i, real, imaginary);
-            (real[i], imaginary[i]) = (real[i] - re, imaginary[i] - im);
-        }
-        for i in (0..n).rev() {
-            let (re, im) = self.partial(i, i + 1..n, real, imaginary);
-            let pivot = (self.real[i * n + i], self.imaginary[i * n + i]);
-            (real[i], imaginary[i]) = divide((real[i] - re, imaginary[i] - im), pivot);
+        solve_complex((&self.real[..n * n], &self.imaginary[..n * n]), &self.pivots[..n], real, imaginary);
+    }
+}
+
+/// Factorizes a matrix in place, as many rows as there are pivots.
+///
+/// # Errors
+/// `Singular`.
+pub(crate) fn factorize_complex(real: &mut [f64], imaginary: &mut [f64], pivots: &mut [usize]) -> Result<(), Singular> {
+    let n = pivots.len();
+    for k in 0..n {
+        // |re| + |im| chooses pivots as well as the modulus and cannot overflow earlier.
+        let pivot = largest(k..n, |i| real[i * n + k].abs() + imaginary[i * n + k].abs())?;
+        pivots[k] = pivot;
+        swap_rows(real, n, k, pivot);
+        swap_rows(imaginary, n, k, pivot);
+        eliminate(real, imaginary, n, k);
+    }
+    Ok(())
+}
+
+fn eliminate(real: &mut [f64], imaginary: &mut [f64], n: usize, k: usize) {
+    let (real_above, real_below) = real.split_at_mut((k + 1) * n);
+    let (imaginary_above, imaginary_below) = imaginary.split_at_mut((k + 1) * n);
+    let (p_re, p_im) = (&real_above[k * n..], &imaginary_above[k * n..]);
+    let pivot = (p_re[k], p_im[k]);
+    for (re, im) in real_below.chunks_exact_mut(n).zip(imaginary_below.chunks_exact_mut(n)) {
+        let (fr, fi) = divide((re[k], im[k]), pivot);
+        (re[k], im[k]) = (fr, fi);
+        let row = re[k + 1..].iter_mut().zip(im[k + 1..].iter_mut());
+        for ((r, i), (pr, pi)) in row.zip(p_re[k + 1..].iter().zip(&p_im[k + 1..])) {
+            *r -= fr * pr - fi * pi;
+            *i -= fr * pi + fi * pr;
         }
     }
+}
 
-    /// Σ_j A_ij x_j over some columns.
-    fn partial(&self, i: usize, columns: std::ops::Range<usize>, real: &[f64], imaginary: &[f64]) -> (f64, f64) {
+/// Solves A x = b in place with the factors of `factorize_complex`, b = real + i imaginary.
+pub(crate) fn solve_complex(factors: (&[f64], &[f64]), pivots: &[usize], real: &mut [f64], imaginary: &mut [f64]) {
+    let n = pivots.len();
+    for (k, pivot) in pivots.iter().enumerate() {
+        real.swap(k, *pivot);
+        imaginary.swap(k, *pivot);
+    }
+    // Σ_j A_ij x_j over some columns.
+    let partial = |i: usize, columns: std::ops::Range<usize>, real: &[f64], imaginary: &[f64]| {
         let (mut re, mut im) = (0.0, 0.0);
         for j in columns {
-            let (a, b) = (self.real[i * self.size + j], self.imaginary[i * self.size + j]);
+            let (a, b) = (factors.0[i * n + j], factors.1[i * n + j]);
             re += a * real[j] - b * imaginary[j];
             im += a * imaginary[j] + b * real[j];
         }
         (re, im)
+    };
+    for i in 0..n {
+        let (re, im) = partial(i, 0..i, real, imaginary);
+        (real[i], imaginary[i]) = (real[i] - re, imaginary[i] - im);
+    }
+    for i in (0..n).rev() {
+        let (re, im) = partial(i, i + 1..n, real, imaginary);
+        let pivot = (factors.0[i * n + i], factors.1[i * n + i]);
+        (real[i], imaginary[i]) = divide((real[i] - re, imaginary[i] - im), pivot);
     }
 }
 
@@ -179,12 +207,12 @@ fn swap_rows(rows: &mut [f64], n: usize, a: usize, b: usize) {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Smith's division, which does not overflow in between.
-fn divide((a, b): (f64, f64), (c, d): (f64, f64)) -> (f64, f64) {
+pub(crate) fn divide((a, b): (f64, f64), (c, d): (f64, f64)) -> (f64, f64) {
     if c.abs() >= d.abs() {
         let (ratio, whole) = (d / c, c + d * (d / c));
         ((a + b * ratio) / whole, (b - a * ratio) / whole)
@@ -221,21 +249,23 @@ mod tests {
             let apply = |k: usize, i: usize| -> f64 { (0..n).map(|j| jacobian[(i, j)] * column(k, j)).sum() };
             let mut b: Vec<f64> = (0..n).map(|i| shift.0 * column(0, i) - apply(0, i)).collect();
             real.solve(&mut b);
-            let back = |i: usize, b: &[f64]| -> f64 { shift.0 * b[i] - (0..n).map(|j| jacobian[(i, j)] * b[j]).sum::<f64>() };
+            let row = |i: usize, v: &[f64]| -> f64 { (0..n).map(|j| jacobian[(i, j)] * v[j]).sum() };
             let largest = b.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
             for i in 0..n {
                 let wanted = shift.0 * column(0, i) - apply(0, i);
-                prop_assert!((back(i, &b) - wanted).abs() < 1e-13 * largest);
+                prop_assert!((shift.0 * b[i] - row(i, &b) - wanted).abs() < 1e-13 * largest);
             }
-            let mut re: Vec<f64> = (0..n).map(|i| shift.0 * column(0, i) - shift.1 * column(1, i) - apply(0, i)).collect();
-            let mut im: Vec<f64> = (0..n).map(|i| shift.0 * column(1, i) + shift.1 * column(0, i) - apply(1, i)).collect();
+            let wanted = |i: usize| {
+                let (x, y) = (column(0, i), column(1, i));
+                (shift.0 * x - shift.1 * y - apply(0, i), shift.0 * y + shift.1 * x - apply(1, i))
+            };
+            let (mut re, mut im): (Vec<f64>, Vec<f64>) = (0..n).map(wanted).unzip();
             let (re_wanted, im_wanted) = (re.clone(), im.clone());
             complex.solve(&mut re, &mut im);
             let largest = re.iter().chain(&im).fold(1.0, |m: f64, v| m.max(v.abs()));
             for i in 0..n {
-                let row = |v: &[f64]| -> f64 { (0..n).map(|j| jacobian[(i, j)] * v[j]).sum() };
-                prop_assert!((shift.0 * re[i] - shift.1 * im[i] - row(&re) - re_wanted[i]).abs() < 1e-13 * largest);
-                prop_assert!((shift.0 * im[i] + shift.1 * re[i] - row(&im) - im_wanted[i]).abs() < 1e-13 * largest);
+                prop_assert!((shift.0 * re[i] - shift.1 * im[i] - row(i, &re) - re_wanted[i]).abs() < 1e-13 * largest);
+                prop_assert!((shift.0 * im[i] + shift.1 * re[i] - row(i, &im) - im_wanted[i]).abs() < 1e-13 * largest);
             }
         }
     }

@@ -2,21 +2,20 @@
 //!
 //!   z_i = h Σ_j a_ij f(t₀ + c_j h, y₀ + z_j)
 //!
-//! With the exact Jacobian J in the middle of the step, as extrapolated, or at its start, and W = (T⁻¹ ⊗ I) z, the three stages separate into a real and a
-//! complex linear system per block,
+//! With the exact Jacobian J in the middle of the step, as extrapolated, or at its start, and W = (T⁻¹ ⊗ I) z, the
+//! three stages separate into a real and a complex linear system,
 //!
 //!   (γ/h I − J) ΔW₁ = r₁,   ((α + iβ)/h I − J)(ΔW₂ + iΔW₃) = r₂ + i r₃,   r = (T⁻¹ ⊗ I) F(z) − (Λ ⊗ I) W/h.
 //!
 //! The speed of convergence θ is measured; an iteration that would not arrive in time is broken off. Vectors of three
 //! stages lie one stage after the other. Source: Hairer, Wanner II, §IV.8.
 
-use nalgebra::DMatrix;
-
-use crate::auto::{least_spectral_radius, spectral_radius};
+use crate::context::{Context, Point};
+use crate::layout::Layout;
+use crate::linear_system::LinearSystem;
 use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
 use crate::report::Cause;
-use crate::shifted::{ComplexShifted, RealShifted};
-use crate::system::{Context, Layout, Point, System};
+use crate::system::System;
 
 /// Newton iterations after which a shorter step is cheaper. Source: radau5.f.
 pub(crate) const MAX_ITERATIONS: u32 = 7;
@@ -73,9 +72,7 @@ pub(crate) struct Stages {
     /// ΔW, then Δz.
     correction: Vec<f64>,
     stage: Vec<f64>,
-    jacobian: Vec<DMatrix<f64>>,
-    real: Vec<RealShifted>,
-    complex: Vec<ComplexShifted>,
+    pub linear: LinearSystem,
 }
 
 impl Stages {
@@ -94,22 +91,13 @@ impl Stages {
             triple.resize(3 * n, 0.0);
         }
         self.stage.resize(width, 0.0);
-        self.set_blocks(layout);
     }
 
-    /// Sizes what depends on the blocks.
-    pub fn set_blocks(&mut self, layout: &Layout) {
-        let sizes = || layout.blocks().iter().map(|block| block.len());
-        self.jacobian = sizes().map(|size| DMatrix::zeros(size, size)).collect();
-        self.real = sizes().map(RealShifted::new).collect();
-        self.complex = sizes().map(ComplexShifted::new).collect();
-    }
-
-    /// Evaluates the Jacobian for a step from this point: at its middle stage, where the polynomial of the step before can tell
-    /// it, else at its start.
+    /// Evaluates the Jacobian for a step from this point: at its middle stage, where the polynomial of the step before
+    /// can tell it, else at its start.
     ///
-    /// While a body settles its gap changes by a good part of itself within a step, and the stiffness by several times that:
-    /// a Jacobian from the middle lets Newton's method converge in two or three iterations instead of six.
+    /// While a body settles its gap changes by a good part of itself within a step, and the stiffness by several times
+    /// that: a Jacobian from the middle lets Newton's method converge in two or three iterations instead of six.
     ///
     /// # Errors
     /// `Cause::Inadmissible` from the system.
@@ -133,11 +121,9 @@ impl Stages {
 
     /// The Jacobian at the state of `stage`.
     fn evaluate_jacobian<S: System>(&mut self, context: &mut Context<'_, S>, time: f64) -> Result<(), S::Inadmissible> {
-        for block in &mut self.jacobian {
-            block.fill(0.0);
-        }
         context.statistics.jacobians += 1;
-        context.system.jacobian(time, &self.stage[..context.layout.dimension], &mut self.jacobian)
+        let jacobian = self.linear.cleared(context.layout);
+        context.system.jacobian(time, &self.stage[..context.layout.dimension], jacobian)
     }
 
     /// Sets `stage` to the state of stage i.
@@ -149,35 +135,18 @@ impl Stages {
         }
     }
 
-    /// A lower bound of the spectral radius of the Jacobian of this step.
-    pub fn least_spectral_radius(&self) -> f64 {
-        least_spectral_radius(&self.jacobian)
-    }
-
     /// The spectral radius of the Jacobian of this step; spends the scratch of the corrections.
     pub fn spectral_radius(&mut self, layout: &Layout, scale: &[f64]) -> f64 {
-        spectral_radius(&self.jacobian, layout, scale, &mut self.correction)
+        self.linear.spectral_radius(layout, scale, &mut self.correction)
     }
 
-    /// Factorizes γ/h I − J and (α + iβ)/h I − J.
+    /// Factorizes the matrices of a step of size h.
     ///
     /// # Errors
     /// `Cause::Newton` if one of them is singular or not finite.
     pub fn factorize<S: System>(&mut self, context: &mut Context<'_, S>, h: f64) -> Result<(), Cause<S::Inadmissible>> {
         context.statistics.factorizations += 1;
-        let (alpha, beta) = COMPLEX;
-        for ((jacobian, real), complex) in self.jacobian.iter().zip(&mut self.real).zip(&mut self.complex) {
-            real.factorize(REAL / h, jacobian).map_err(|_| Cause::Newton)?;
-            complex.factorize((alpha / h, beta / h), jacobian).map_err(|_| Cause::Newton)?;
-        }
-        Ok(())
-    }
-
-    /// Applies (γ/h I − J)⁻¹ in place, block by block.
-    pub fn filter(&self, layout: &Layout, vector: &mut [f64]) {
-        for (block, real) in layout.blocks().iter().zip(&self.real) {
-            real.solve(&mut vector[block.clone()]);
-        }
+        self.linear.factorize(h).map_err(|_| Cause::Newton)
     }
 
     /// Solves for the increments of y.
@@ -294,10 +263,8 @@ impl Stages {
         }
         let (first, others) = self.correction.split_at_mut(n);
         let (second, third) = others.split_at_mut(n);
-        for ((block, real), complex) in layout.blocks().iter().zip(&self.real).zip(&self.complex) {
-            real.solve(&mut first[block.clone()]);
-            complex.solve(&mut second[block.clone()], &mut third[block.clone()]);
-        }
+        self.linear.solve_real(first);
+        self.linear.solve_complex(second, third);
         for j in 0..n {
             let dw = triple(&self.correction, n, j);
             let dz = multiply(&TRANSFORM, dw);
@@ -313,9 +280,9 @@ impl Stages {
 
 /// How accurately to solve the stages, and the size of rounding noise, both relative to the error allowed.
 ///
-/// κ = 10 ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that its
-/// solution is better than asked by about the root of the relative tolerance, and so must be that of its equations. Ten: the
-/// scales s are relative to gaps, which are a hundredth of what y measures.
+/// κ = 10 ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that
+/// its solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
+/// Ten: the scales s are relative to gaps, which are a hundredth of what y measures.
 /// Never below ten roundings of the state. Source: radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &Layout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);

@@ -7,8 +7,8 @@
 //! s_i is the smaller of the errors allowed at the two ends of the step: a state that approaches a boundary, where
 //! little is allowed, is judged by what is allowed where it arrives and not by what was allowed where it came from.
 
+use crate::layout::Layout;
 use crate::report::Cause;
-use crate::system::Layout;
 
 /// The size of an error and the component that is worst.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,9 +55,10 @@ pub(crate) fn norm(layout: &Layout, error: &[f64], start: &[f64], end: &[f64]) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pattern::Pattern;
 
     fn layout() -> Layout {
-        Layout { dimension: 3, width: 4, groups: vec![0..2, 2..3, 3..4], blocks: 2 }
+        Layout::new(&[0..2, 2..3], &Pattern::uncoupled(), 1)
     }
 
     #[test]

@@ -4,13 +4,15 @@
 //!
 //! An attempt writes only to `other`; the accepted state is untouched until the two are swapped.
 
-use crate::auto::{EXPLICIT_REACH, explicit_is_cheaper};
+use crate::auto::{EXPLICIT_REACH, Effort};
+use crate::context::Context;
 use crate::control::{Control, initial_step};
 use crate::explicit::{Explicit, Trial};
 use crate::integrator::{Integrator, LastStep};
+use crate::layout::Layout;
 use crate::newton::{Ahead, Convergence, Plan};
 use crate::report::{Cause, Failure, Limit, Method, StepReport, Stepper};
-use crate::system::{Context, Layout, System};
+use crate::system::System;
 
 /// An attempt shorter than this many ulp of the time cannot tell its nodes apart.
 const LEAST_ULPS: f64 = 16.0;
@@ -113,8 +115,8 @@ impl Integrator {
             self.layout.width - self.layout.dimension,
         );
         self.layout = layout;
+        self.implicit.stages.linear.set_layout(&self.layout);
         if self.open {
-            self.implicit.stages.set_blocks(&self.layout);
             return Ok(());
         }
         self.explicit = Explicit::new(self.layout.width);
@@ -296,13 +298,15 @@ impl Integrator {
                 }
             }
             Stepper::Implicit => {
+                let stages = &mut self.implicit.stages;
                 let (step, max_step) = (self.progress.step, self.options.max_step);
-                let mut radius = self.implicit.stages.least_spectral_radius();
+                let effort = Effort { h: step, max_step, evaluations, linear: stages.linear.relative_cost() };
+                let mut radius = stages.linear.least_spectral_radius(&self.layout);
                 // In a stiff stretch the bound says enough.
-                if explicit_is_cheaper(radius, step, max_step, evaluations) {
-                    radius = self.implicit.stages.spectral_radius(&self.layout, &self.current.scale);
+                if effort.exceeds_explicit(radius) {
+                    radius = stages.spectral_radius(&self.layout, &self.current.scale);
                 }
-                if self.progress.switch.leave_implicit(radius, step, max_step, evaluations) {
+                if self.progress.switch.leave_implicit(radius, &effort) {
                     self.change_stepper();
                     self.progress.step = step.min(EXPLICIT_REACH / radius);
                 }

@@ -1,12 +1,14 @@
-//! The steppers through their public face: orders, accuracy, events, restarts, stiff and block systems.
+//! The steppers through their public face: orders, accuracy, events, resumption, stiff systems, blocks and their
+//! coupling.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
 mod accuracy;
 mod blocks;
 mod common;
+mod coupling;
 mod events;
 mod order;
-mod restart;
+mod resumption;
 mod stiff;
 mod switching;

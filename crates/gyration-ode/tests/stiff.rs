@@ -125,8 +125,8 @@ fn a_very_stiff_decay_is_given_to_the_implicit_stepper() {
     assert!(rejections(integrator.statistics()) < 100);
 }
 
-/// A body is pushed out of a field of repulsion ν = 6 and damping ν = 3 against its weight, d'' = k (d⁻⁶ − 1 − d⁻³ d'), k
-/// large: the stiffness changes severalfold within a step.
+/// A body is pushed out of a field of repulsion ν = 6 and damping ν = 3 against its weight, d'' = k (d⁻⁶ − 1 − d⁻³ d'),
+/// k large: the stiffness changes severalfold within a step.
 #[test]
 fn a_body_that_settles_takes_few_newton_iterations() {
     let k = 1e5;

@@ -16,8 +16,7 @@ use gyration::model::Model;
 use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_ode::System;
-use nalgebra::DMatrix;
+use gyration_ode::{BlockMatrix, System};
 use std::ops::Range;
 
 /// rtol and atol of a scene.
@@ -167,8 +166,8 @@ impl System for ModelSystem<'_> {
         rates(self.model, &mut self.prepared.workspace, t, y, dy, dw)
     }
 
-    fn jacobian(&mut self, t: f64, y: &[f64], blocks: &mut [DMatrix<f64>]) -> Result<(), Inadmissible> {
-        jacobian(self.model, &mut self.prepared.workspace, t, y, blocks)
+    fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
+        jacobian(self.model, &mut self.prepared.workspace, t, y, slopes.diagonal_mut())
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {

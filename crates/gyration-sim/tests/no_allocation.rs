@@ -5,13 +5,12 @@
 
 use allocation_counter::measure;
 use gyration::state::State;
-use gyration_ode::{Direction, Integrator, Method, Options, Statistics, System, find_crossing};
+use gyration_ode::{BlockMatrix, Direction, Integrator, Method, Options, Statistics, System, find_crossing};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::adapter::ModelSystem;
 use gyration_sim::events::Event;
 use gyration_sim::{Job, Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink, Tolerance, Unwatched};
-use nalgebra::DMatrix;
 use std::path::Path;
 
 /// A small box that falls on a corner, tumbles and comes to rest; a ball beside it.
@@ -80,8 +79,8 @@ const IMMERSED: &str = r#"
 fn warm_up(system: &mut ModelSystem, start: &State) {
     let (n, works) = (start.bodies.len(), start.works.len());
     system.rates(0.0, &start.bodies, &mut vec![0.0; n], &mut vec![0.0; works]).unwrap();
-    let mut blocks: Vec<_> = system.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect();
-    system.jacobian(0.0, &start.bodies, &mut blocks).unwrap();
+    let mut jacobian = BlockMatrix::new(system.blocks(), system.pattern());
+    system.jacobian(0.0, &start.bodies, &mut jacobian).unwrap();
 }
 
 /// Steps from the first to the end, each with an interpolation and a search for a crossing.

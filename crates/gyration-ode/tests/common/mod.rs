@@ -2,9 +2,11 @@
 
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod chain;
+
 use std::ops::Range;
 
-use gyration_ode::{Integrator, Method, Options, Statistics, System};
+use gyration_ode::{BlockMatrix, Integrator, Method, Options, Pattern, Statistics, System};
 use nalgebra::DMatrix;
 
 type Rates = dyn Fn(f64, &[f64], &mut [f64], &mut [f64]) -> Result<(), &'static str>;
@@ -14,6 +16,7 @@ type Jacobian = dyn Fn(f64, &[f64], &mut [DMatrix<f64>]);
 pub struct Problem {
     pub quadratures: usize,
     pub blocks: Vec<Range<usize>>,
+    pub pattern: Pattern,
     pub rtol: f64,
     pub atol: f64,
     pub project: fn(&mut [f64]) -> f64,
@@ -49,6 +52,7 @@ impl Problem {
         Self {
             quadratures,
             blocks: vec![Range { start: 0, end: dimension }],
+            pattern: Pattern::uncoupled(),
             rtol: 1e-6,
             atol: 1e-9,
             project: |_| 0.0,
@@ -78,12 +82,16 @@ impl System for Problem {
         &self.blocks
     }
 
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), &'static str> {
         (self.rates)(t, y, dy, dw)
     }
 
-    fn jacobian(&mut self, t: f64, y: &[f64], blocks: &mut [DMatrix<f64>]) -> Result<(), &'static str> {
-        (self.jacobian)(t, y, blocks);
+    fn jacobian(&mut self, t: f64, y: &[f64], jacobian: &mut BlockMatrix) -> Result<(), &'static str> {
+        (self.jacobian)(t, y, jacobian.diagonal_mut());
         Ok(())
     }
 
@@ -100,9 +108,14 @@ impl System for Problem {
 
 /// Integrates to the end; returns the integrator there.
 pub fn run(problem: &mut Problem, y: &[f64], w: &[f64], span: (f64, f64), options: Options) -> Integrator {
+    run_system(problem, y, w, span, options)
+}
+
+/// As `run`, of any system.
+pub fn run_system<S: System>(system: &mut S, y: &[f64], w: &[f64], span: (f64, f64), options: Options) -> Integrator {
     let mut integrator = Integrator::new(span.0, y, w, options);
     while integrator.time() < span.1 {
-        integrator.step(problem, span.1).unwrap();
+        integrator.step(system, span.1).unwrap();
     }
     integrator
 }

@@ -22,7 +22,7 @@ use crate::ports::RunError;
 use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Integrator, System as _};
+use gyration_ode::{BlockMatrix, Integrator, System as _};
 use nalgebra::DMatrix;
 
 /// The error of a step, as a part of rtol.
@@ -243,13 +243,12 @@ impl<'a> Tangent<'a> {
             self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
             self.history.at(self.at.time, &mut self.at.bodies);
             self.settle();
-            let mut slopes: Vec<_> =
-                model.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect();
+            let mut slopes = BlockMatrix::new(model.blocks(), self.system.pattern());
             // A step may end at a kink, behind which the model is another one.
             let inside = self.at.time - INSIDE * (to - from);
             self.system.jacobian(inside, &self.at.bodies, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
-            nodes.stages.slopes.push(slopes);
+            nodes.stages.slopes.push(slopes.diagonal().to_vec());
             nodes.stages.forcing.push(forcing);
             nodes.powers.push(forcing_works);
             nodes.states.push(State { time: inside, ..self.at.clone() });

@@ -1,0 +1,94 @@
+//! A square matrix of dense blocks, which stand where a pattern has them.
+//!
+//! This is what `System::jacobian` writes. Blocks may be written in any order and added to; no call allocates. Diagonal
+//! blocks stand side by side, so that a system without coupling sees a plain slice of them.
+
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use crate::pattern::Pattern;
+
+/// A matrix of dense blocks (i, j) for i = j and for the pairs of a pattern.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BlockMatrix {
+    pattern: Pattern,
+    diagonal: Vec<DMatrix<f64>>,
+    /// The other blocks, pair by pair.
+    coupling: Vec<DMatrix<f64>>,
+}
+
+impl BlockMatrix {
+    /// Zeros, with room for what a system of these blocks and this pattern has to write.
+    ///
+    /// # Panics
+    /// If the pattern is one of another number of blocks.
+    pub fn new(blocks: &[Range<usize>], pattern: &Pattern) -> Self {
+        assert!(pattern.fits(blocks.len()), "the pattern is not one of {} blocks", blocks.len());
+        let zeros = |row: usize, column: usize| DMatrix::zeros(blocks[row].len(), blocks[column].len());
+        let coupling =
+            (0..blocks.len()).flat_map(|row| pattern.columns(row).iter().map(move |column| zeros(row, *column)));
+        Self {
+            pattern: pattern.clone(),
+            diagonal: (0..blocks.len()).map(|row| zeros(row, row)).collect(),
+            coupling: coupling.collect(),
+        }
+    }
+
+    /// The blocks (i, i).
+    pub fn diagonal(&self) -> &[DMatrix<f64>] {
+        &self.diagonal
+    }
+
+    /// The blocks (i, i), to be written.
+    pub fn diagonal_mut(&mut self) -> &mut [DMatrix<f64>] {
+        &mut self.diagonal
+    }
+
+    /// Block (row, column); none where the pattern has none.
+    pub fn block(&self, row: usize, column: usize) -> Option<&DMatrix<f64>> {
+        if row == column {
+            return self.diagonal.get(row);
+        }
+        self.pattern.place(row, column).map(|place| &self.coupling[place])
+    }
+
+    /// Block (row, column), to be written or added to; none where the pattern has none.
+    pub fn block_mut(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
+        if row == column {
+            return self.diagonal.get_mut(row);
+        }
+        self.pattern.place(row, column).map(|place| &mut self.coupling[place])
+    }
+
+    /// The blocks of a row with their columns, the diagonal first, then ascending.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, &DMatrix<f64>)> {
+        let others = self.pattern.columns(row).iter().copied().zip(&self.coupling[self.pattern.places(row)]);
+        std::iter::once((row, &self.diagonal[row])).chain(others)
+    }
+
+    /// Sets every number to zero.
+    pub fn clear(&mut self) {
+        for block in self.diagonal.iter_mut().chain(&mut self.coupling) {
+            block.fill(0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_added_to_in_any_order_where_the_pattern_has_them() {
+        let mut matrix = BlockMatrix::new(&[0..2, 2..5, 5..6], &Pattern::new(3, [(1, 0), (1, 2)]));
+        for (row, column) in [(1, 2), (0, 0), (1, 0), (1, 2)] {
+            matrix.block_mut(row, column).unwrap()[(0, 0)] += 1.0;
+        }
+        assert!(matrix.block_mut(0, 1).is_none() && matrix.block_mut(3, 3).is_none());
+        let row: Vec<_> = matrix.row(1).map(|(column, block)| (column, block.shape(), block[(0, 0)])).collect();
+        assert_eq!(row, [(1, (3, 3), 0.0), (0, (3, 2), 1.0), (2, (3, 1), 2.0)]);
+        matrix.clear();
+        assert!((0..3).all(|row| matrix.row(row).all(|(_, block)| block.amax() == 0.0)));
+    }
+}

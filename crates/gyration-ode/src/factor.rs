@@ -1,0 +1,211 @@
+//! The factors of γ/h I − J and (α + iβ)/h I − J, component by component.
+//!
+//! A block that couples with no other is factorized by itself, in the form that its Jacobian has (`shifted`). Blocks
+//! that hang together are eliminated one after the other (`analysis`, `elimination`).
+
+use std::ops::Range;
+
+use crate::analysis::Analysis;
+use crate::block_matrix::BlockMatrix;
+use crate::elimination::BlockLu;
+use crate::kernel::{Complex, Real};
+use crate::layout::Layout;
+use crate::linear::Singular;
+use crate::radau::{COMPLEX, REAL};
+use crate::shifted::{ComplexShifted, RealShifted};
+
+/// The pair of factorizations of every component.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Factors {
+    single: Vec<Single>,
+    coupled: Vec<Coupled>,
+    relative_cost: f64,
+}
+
+/// A block by itself.
+#[derive(Debug, Clone)]
+struct Single {
+    block: usize,
+    unknowns: Range<usize>,
+    real: RealShifted,
+    complex: ComplexShifted,
+}
+
+/// Blocks that hang together.
+#[derive(Debug, Clone)]
+struct Coupled {
+    analysis: Analysis,
+    real: BlockLu<Real>,
+    complex: BlockLu<Complex>,
+}
+
+impl Factors {
+    /// Analyses a pattern; room for its factors.
+    pub fn new(layout: &Layout, matrix: &BlockMatrix) -> Self {
+        let mut factors = Self::default();
+        for component in layout.components.iter() {
+            if let [block] = *component {
+                let unknowns = layout.blocks()[block].clone();
+                let (real, complex) = (RealShifted::new(unknowns.len()), ComplexShifted::new(unknowns.len()));
+                factors.single.push(Single { block, unknowns, real, complex });
+            } else {
+                let analysis = Analysis::of(component, layout.blocks(), matrix);
+                let (real, complex) = (BlockLu::new(&analysis), BlockLu::new(&analysis));
+                factors.coupled.push(Coupled { analysis, real, complex });
+            }
+        }
+        factors.relative_cost = factors.count_products();
+        factors
+    }
+
+    /// Factorizes both matrices for a step of size h.
+    ///
+    /// # Errors
+    /// `Singular` if one of them is singular or not finite.
+    pub fn factorize(&mut self, h: f64, jacobian: &BlockMatrix) -> Result<(), Singular> {
+        let (real_shift, complex_shift) = (REAL / h, (COMPLEX.0 / h, COMPLEX.1 / h));
+        for Single { block, real, complex, .. } in &mut self.single {
+            let jacobian = &jacobian.diagonal()[*block];
+            real.factorize(real_shift, jacobian)?;
+            complex.factorize(complex_shift, jacobian)?;
+        }
+        for Coupled { analysis, real, complex } in &mut self.coupled {
+            real.factorize(analysis, real_shift, jacobian)?;
+            complex.factorize(analysis, complex_shift, jacobian)?;
+        }
+        Ok(())
+    }
+
+    /// Solves (γ/h I − J) x = b in place.
+    pub fn solve_real(&mut self, b: &mut [f64]) {
+        for Single { unknowns, real, .. } in &self.single {
+            real.solve(&mut b[unknowns.clone()]);
+        }
+        for Coupled { analysis, real, .. } in &mut self.coupled {
+            real.solve(analysis, &mut [&mut *b]);
+        }
+    }
+
+    /// Solves ((α + iβ)/h I − J) x = b in place, b = real + i imaginary.
+    pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        for Single { unknowns, complex, .. } in &self.single {
+            complex.solve(&mut re[unknowns.clone()], &mut im[unknowns.clone()]);
+        }
+        for Coupled { analysis, complex, .. } in &mut self.coupled {
+            complex.solve(analysis, &mut [&mut *re, &mut *im]);
+        }
+    }
+
+    /// What the linear algebra of a step costs beside that of the same blocks without coupling.
+    pub fn relative_cost(&self) -> f64 {
+        self.relative_cost
+    }
+
+    /// That cost, by counting products.
+    fn count_products(&self) -> f64 {
+        if self.coupled.is_empty() {
+            return 1.0;
+        }
+        let alone: f64 = self.single.iter().map(|single| (single.unknowns.len() as f64).powi(3) / 3.0).sum();
+        let products = self.coupled.iter().map(|coupled| coupled.analysis.products());
+        let sums = products.fold((alone, alone), |sums, (alone, all)| (sums.0 + alone, sums.1 + all));
+        sums.1 / sums.0
+    }
+
+    /// How many numbers the factors of the coupled blocks are, real and complex together.
+    pub fn entries(&self) -> usize {
+        self.coupled.iter().map(|coupled| 3 * coupled.analysis.entries_of_factors()).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::Pattern;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    /// Blocks of several sizes, one of them empty, with these pairs and numbers below one in size.
+    fn system(sizes: &[usize], pairs: &[(usize, usize)], entries: &[f64]) -> (BlockMatrix, Layout) {
+        let ends = sizes.iter().scan(0, |end, size| {
+            *end += size;
+            Some(*end - size..*end)
+        });
+        let (blocks, pattern) = (ends.collect::<Vec<_>>(), Pattern::new(sizes.len(), pairs.iter().copied()));
+        let (mut jacobian, mut numbers) = (BlockMatrix::new(&blocks, &pattern), entries.iter().cycle());
+        for (i, j) in pairs.iter().copied().chain((0..sizes.len()).map(|i| (i, i))) {
+            jacobian.block_mut(i, j).unwrap().apply(|value| *value = *numbers.next().unwrap());
+        }
+        (jacobian, Layout::new(&blocks, &pattern, 0))
+    }
+
+    fn dense(jacobian: &BlockMatrix, layout: &Layout) -> DMatrix<f64> {
+        let mut whole = DMatrix::zeros(layout.dimension, layout.dimension);
+        for (row, range) in layout.blocks().iter().enumerate() {
+            for (column, block) in jacobian.row(row) {
+                whole.view_mut((range.start, layout.blocks()[column].start), block.shape()).copy_from(block);
+            }
+        }
+        whole
+    }
+
+    proptest! {
+        #[test]
+        fn factors_solve_like_those_of_the_whole_matrix(
+            pairs in proptest::collection::vec((0_usize..7, 0_usize..7), 0..12),
+            entries in proptest::collection::vec(-1.0_f64..1.0, 101),
+            b in proptest::collection::vec(-1.0_f64..1.0, 32),
+        ) {
+            let pairs: Vec<_> = pairs.into_iter().filter(|(i, j)| i != j).collect();
+            let (jacobian, layout) = system(&[3, 1, 2, 0, 4, 2, 4], &pairs, &entries);
+            let mut factors = Factors::new(&layout, &jacobian);
+            // Small enough a step for shifts of 23 and more, beyond the sums of 16 numbers: no cancellation.
+            let h = 0.1;
+            prop_assert!(factors.factorize(h, &jacobian).is_ok());
+            let (whole, n) = (dense(&jacobian, &layout), layout.dimension);
+            let (mut real, mut re, mut im) = (b[..n].to_vec(), b[..n].to_vec(), b[n..].to_vec());
+            factors.solve_real(&mut real);
+            factors.solve_complex(&mut re, &mut im);
+            let [b0, b1, real, re, im] = [&b[..n], &b[n..], &real, &re, &im].map(DVector::from_column_slice);
+            let (alpha, beta) = (COMPLEX.0 / h, COMPLEX.1 / h);
+            // Some roundings of numbers of order one.
+            prop_assert!((REAL / h * &real - &whole * &real - &b0).amax() < 1e-13);
+            prop_assert!((alpha * &re - beta * &im - &whole * &re - &b0).amax() < 1e-13);
+            prop_assert!((alpha * &im + beta * &re - &whole * &im - &b1).amax() < 1e-13);
+        }
+    }
+
+    /// Eliminated by itself beside a component of several, in the same form and to the same bytes.
+    #[test]
+    fn a_block_beside_a_component_is_factorized_as_if_alone() {
+        let entries: Vec<f64> = (0..97).map(|k| f64::from(k).sin()).collect();
+        let (mut jacobian, layout) = system(&[2, 4, 3, 2], &[(0, 2), (2, 3)], &entries);
+        // Of second order, which `shifted` finds.
+        let own = &mut jacobian.diagonal_mut()[1];
+        own.rows_mut(0, 2).fill(0.0);
+        (own[(0, 2)], own[(1, 3)]) = (1.0, 1.0);
+        let mut factors = Factors::new(&layout, &jacobian);
+        let (mut alone, h) = (RealShifted::new(4), 0.3);
+        factors.factorize(h, &jacobian).unwrap();
+        alone.factorize(REAL / h, &jacobian.diagonal()[1]).unwrap();
+        let mut all: Vec<f64> = (0..layout.dimension).map(|k| (k as f64).cos()).collect();
+        let mut one = all[2..6].to_vec();
+        factors.solve_real(&mut all);
+        alone.solve(&mut one);
+        assert_eq!(all[2..6], one);
+        assert_eq!((factors.single.len(), factors.coupled.len()), (1, 1));
+    }
+
+    /// A star has no fill where its middle comes last: n + 2(n − 1) blocks.
+    #[test]
+    fn the_order_keeps_the_factors_of_a_star_sparse() {
+        for n in [40, 400] {
+            let pairs: Vec<_> = (1..n).flat_map(|i| [(0, i), (i, 0)]).collect();
+            let (jacobian, layout) = system(&vec![2; n], &pairs, &[0.5]);
+            let factors = Factors::new(&layout, &jacobian);
+            assert_eq!(factors.entries(), 3 * 4 * (3 * n - 2));
+            // A third of eight products for each block, and twice eight more for all but the middle.
+            assert!((factors.relative_cost() - (n as f64 + 6.0 * (n - 1) as f64) / n as f64).abs() < 1e-12);
+        }
+    }
+}

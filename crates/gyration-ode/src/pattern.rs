@@ -1,0 +1,133 @@
+//! Which blocks of a state enter the rates of which others.
+//!
+//!   ∂f_i/∂y_j ≠ 0   only for i = j and for the pairs (i, j) of the pattern
+//!
+//! A pattern says where numbers may stand, not what they are. Blocks that hang together through any chain of pairs form
+//! a component; the equations of two components can be solved apart.
+
+/// The pairs (i, j), i ≠ j, in which block j enters the rates of block i; the diagonal is always understood.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Pattern {
+    /// Where the columns of each row begin, and where the last end; empty if no blocks couple.
+    starts: Vec<usize>,
+    /// The columns of all rows, ascending within each.
+    columns: Vec<usize>,
+}
+
+impl Pattern {
+    /// No block enters the rates of another.
+    pub const fn uncoupled() -> Self {
+        Self { starts: Vec::new(), columns: Vec::new() }
+    }
+
+    /// The pattern of so many blocks and of these pairs (row, column), in any order; repetitions and i = j do no harm.
+    ///
+    /// # Panics
+    /// If a pair names a block that does not exist: a mistake in the system, not in its data.
+    pub fn new(blocks: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        let mut pairs: Vec<_> = pairs.into_iter().filter(|(row, column)| row != column).collect();
+        if pairs.is_empty() {
+            return Self::uncoupled();
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        assert!(pairs.iter().all(|(row, column)| row.max(column) < &blocks), "a pair of blocks beyond {blocks}");
+        let starts = (0..=blocks).map(|row| pairs.partition_point(|pair| pair.0 < row)).collect();
+        Self { starts, columns: pairs.into_iter().map(|(_, column)| column).collect() }
+    }
+
+    /// Whether no block enters the rates of another.
+    pub fn is_uncoupled(&self) -> bool {
+        self.columns.is_empty()
+    }
+
+    /// The number of pairs.
+    pub fn pairs(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The other blocks that enter the rates of a block, ascending.
+    pub fn columns(&self, row: usize) -> &[usize] {
+        &self.columns[self.places(row)]
+    }
+
+    /// The places of the pairs of a row among all pairs.
+    pub(crate) fn places(&self, row: usize) -> std::ops::Range<usize> {
+        if row + 1 < self.starts.len() { self.starts[row]..self.starts[row + 1] } else { 0..0 }
+    }
+
+    /// The place of a pair among all pairs.
+    pub(crate) fn place(&self, row: usize, column: usize) -> Option<usize> {
+        let places = self.places(row);
+        self.columns[places.clone()].binary_search(&column).ok().map(|k| places.start + k)
+    }
+
+    /// Whether the pattern can be one of so many blocks.
+    pub(crate) fn fits(&self, blocks: usize) -> bool {
+        self.is_uncoupled() || self.starts.len() == blocks + 1
+    }
+}
+
+/// The components of a pattern, in the order of their first blocks; the blocks of each ascend.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Components {
+    starts: Vec<usize>,
+    members: Vec<usize>,
+}
+
+impl Components {
+    /// The components of a pattern of so many blocks.
+    pub fn of(pattern: &Pattern, blocks: usize) -> Self {
+        let mut first: Vec<usize> = (0..blocks).collect();
+        for row in 0..blocks {
+            for column in pattern.columns(row) {
+                let (a, b) = (root(&mut first, row), root(&mut first, *column));
+                first[a.max(b)] = a.min(b);
+            }
+        }
+        let mut members: Vec<usize> = (0..blocks).collect();
+        let roots: Vec<usize> = members.iter().map(|block| root(&mut first, *block)).collect();
+        members.sort_by_key(|block| roots[*block]);
+        let begins = |k: usize| k == 0 || roots[members[k]] != roots[members[k - 1]];
+        let starts = (0..blocks).filter(|k| begins(*k)).chain([blocks]).collect();
+        Self { starts, members }
+    }
+
+    /// The blocks of each component.
+    pub fn iter(&self) -> impl Iterator<Item = &[usize]> {
+        self.starts.windows(2).map(|ends| &self.members[ends[0]..ends[1]])
+    }
+}
+
+/// The first block known to hang together with a block; shortens the way there.
+fn root(first: &mut [usize], mut block: usize) -> usize {
+    while first[block] != block {
+        first[block] = first[first[block]];
+        block = first[block];
+    }
+    block
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_sorted_by_row_and_counted_once() {
+        let pattern = Pattern::new(4, [(2, 1), (0, 3), (2, 0), (2, 1), (1, 1)]);
+        assert_eq!((pattern.columns(0), pattern.columns(1), pattern.columns(2)), (&[3][..], &[][..], &[0, 1][..]));
+        assert_eq!((pattern.pairs(), pattern.place(2, 1), pattern.place(1, 2)), (3, Some(2), None));
+        assert_eq!(Pattern::new(4, [(3, 3)]), Pattern::uncoupled());
+    }
+
+    #[test]
+    fn components_hang_together_whichever_block_feels_the_other() {
+        let components = |pairs: &[(usize, usize)]| {
+            let pattern = Pattern::new(6, pairs.iter().copied());
+            Components::of(&pattern, 6).iter().map(<[usize]>::to_vec).collect::<Vec<_>>()
+        };
+        assert_eq!(components(&[(5, 1), (3, 5), (0, 2)]), [vec![0, 2], vec![1, 3, 5], vec![4]]);
+        assert_eq!(components(&[]), (0..6).map(|block| vec![block]).collect::<Vec<_>>());
+        assert_eq!(Components::of(&Pattern::uncoupled(), 0).iter().count(), 0);
+    }
+}
