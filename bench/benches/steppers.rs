@@ -135,7 +135,10 @@ const CHAIN_STEPS: u32 = 20;
 impl Chain {
     fn new(bodies: usize) -> Self {
         let neighbours = (1..bodies).flat_map(|i| [(i - 1, i), (i, i - 1)]);
-        Self { blocks: (0..bodies).map(|i| 2 * i..2 * i + 2).collect(), pattern: Pattern::new(bodies, neighbours) }
+        Self {
+            blocks: (0..bodies).map(|i| 2 * i..2 * i + 2).collect(),
+            pattern: Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]),
+        }
     }
 }
 

@@ -15,7 +15,11 @@ use crate::block_matrix::BlockMatrix;
 /// then those beside it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Analysis {
-    /// The unknowns of each step of the elimination, in the whole vector.
+    /// The block of each step of the elimination.
+    pub blocks: Vec<usize>,
+    /// The unknowns of local rates of each step, in the whole vector.
+    pub local: Vec<Range<usize>>,
+    /// The other unknowns of each step, in the whole vector.
     pub unknowns: Vec<Range<usize>>,
     /// Where the unknowns of each step stand in the order of the elimination, and where the last end.
     pub firsts: Vec<usize>,
@@ -29,7 +33,7 @@ pub(crate) struct Analysis {
     pub entries: Vec<Entry>,
 }
 
-/// A block of the matrix and its place among the factors.
+/// A block of the matrix, by the steps of its row and its column, and its place among the factors.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Entry {
     pub row: usize,
@@ -47,8 +51,15 @@ impl Analysis {
         for (step, block) in order.iter().enumerate() {
             steps[*block] = step;
         }
-        let unknowns = order.iter().map(|block| ranges[component[*block]].clone()).collect();
-        let mut analysis = Self { unknowns, ..Self::default() };
+        let blocks: Vec<usize> = order.iter().map(|block| component[*block]).collect();
+        // One unknown at least is left to couple.
+        let local = |block: usize| matrix.pattern().local_rates(block).min(ranges[block].len() - 1);
+        let split = |block: &usize| {
+            let Range { start, end } = ranges[*block];
+            (start..start + local(*block), start + local(*block)..end)
+        };
+        let (local, unknowns) = blocks.iter().map(split).unzip();
+        let mut analysis = Self { blocks, local, unknowns, ..Self::default() };
         analysis.follow(&order, &steps, &neighbours);
         analysis.place();
         for row in &component {
@@ -56,7 +67,7 @@ impl Analysis {
             for (column, _) in matrix.row(*row) {
                 if let (Some(i), Some(j)) = (local(row), local(&column)) {
                     let place = analysis.find(steps[i], steps[j]);
-                    analysis.entries.push(Entry { row: *row, column, place });
+                    analysis.entries.push(Entry { row: steps[i], column: steps[j], place });
                 }
             }
         }
@@ -97,7 +108,7 @@ impl Analysis {
         self.offsets.push(offset);
     }
 
-    /// The number of unknowns of a step.
+    /// The number of unknowns of a step that couple.
     pub fn size(&self, step: usize) -> usize {
         self.unknowns[step].len()
     }
@@ -122,16 +133,21 @@ impl Analysis {
         self.offsets.last().copied().unwrap_or(0)
     }
 
-    /// How many products a factorization takes, those of the diagonal blocks alone apart from all.
+    /// How many products a factorization takes, were the blocks alone and as they are.
     pub fn products(&self) -> (f64, f64) {
         let (mut alone, mut all) = (0.0, 0.0);
-        for step in 0..self.unknowns.len() {
-            let n = self.size(step) as f64;
+        for (step, local) in self.local.iter().enumerate() {
+            let (n, local) = (self.size(step) as f64, local.len() as f64);
             let beside: f64 = self.followers(step).iter().map(|other| self.size(*other) as f64).sum();
-            alone += n * n * n / 3.0;
-            all += n * n * n / 3.0 + n * n * beside + n * beside * beside;
+            alone += (n + local).powi(3) / 3.0;
+            all += n * n * n / 3.0 + n * n * beside + n * beside * beside + local * local * (local / 3.0 + n);
         }
-        (alone, all)
+        let size = |step: usize| self.size(step) as f64;
+        let reduced = self
+            .entries
+            .iter()
+            .map(|Entry { row, column, .. }| size(*row) * self.local[*column].len() as f64 * size(*column));
+        (alone, all + reduced.sum::<f64>())
     }
 }
 

@@ -35,6 +35,11 @@ impl BlockMatrix {
         }
     }
 
+    /// Where the matrix may have numbers.
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
     /// The blocks (i, i).
     pub fn diagonal(&self) -> &[DMatrix<f64>] {
         &self.diagonal

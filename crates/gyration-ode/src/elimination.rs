@@ -14,6 +14,7 @@ use crate::analysis::Analysis;
 use crate::block_matrix::BlockMatrix;
 use crate::kernel::Kernel;
 use crate::linear::Singular;
+use crate::reduction::Reduction;
 
 /// The factors of s I − J.
 #[derive(Debug, Clone)]
@@ -22,7 +23,7 @@ pub(crate) struct BlockLu<K> {
     pivots: Vec<usize>,
     /// A vector in the order of the elimination.
     work: Vec<f64>,
-    kernel: PhantomData<K>,
+    reduction: Reduction<K>,
 }
 
 impl<K: Kernel> BlockLu<K> {
@@ -33,7 +34,7 @@ impl<K: Kernel> BlockLu<K> {
             factors: vec![0.0; K::PARTS * analysis.entries_of_factors()],
             pivots: vec![0; unknowns],
             work: vec![0.0; K::PARTS * unknowns],
-            kernel: PhantomData,
+            reduction: Reduction::new(analysis),
         }
     }
 
@@ -42,11 +43,17 @@ impl<K: Kernel> BlockLu<K> {
     /// # Errors
     /// `Singular` if a diagonal block is, or something is not finite.
     pub fn factorize(&mut self, analysis: &Analysis, shift: K::Shift, jacobian: &BlockMatrix) -> Result<(), Singular> {
+        self.reduction.factorize(analysis, shift, jacobian)?;
         self.factors.fill(0.0);
-        for entry in &analysis.entries {
-            let block = jacobian.block(entry.row, entry.column).ok_or(Singular)?;
-            let place = &mut self.factors[K::PARTS * entry.place..][..K::PARTS * block.len()];
-            K::set(place, block, (entry.row == entry.column).then_some(shift));
+        for (index, entry) in analysis.entries.iter().enumerate() {
+            let block = jacobian.block(analysis.blocks[entry.row], analysis.blocks[entry.column]).ok_or(Singular)?;
+            let (at, size) = (
+                [entry.row, entry.column].map(|step| analysis.local[step].len()),
+                [entry.row, entry.column].map(|step| analysis.size(step)),
+            );
+            let place = &mut self.factors[K::PARTS * entry.place..][..K::PARTS * size[0] * size[1]];
+            K::set(place, block.view(at.into(), size.into()), (entry.row == entry.column).then_some(shift));
+            self.reduction.subtract(analysis, index, place);
         }
         (0..analysis.unknowns.len()).try_for_each(|step| self.eliminate(analysis, step))
     }
@@ -87,13 +94,14 @@ impl<K: Kernel> BlockLu<K> {
     /// Solves (s I − J) x = b in place, b in as many parts as the numbers have; unknowns of other components stay.
     pub fn solve(&mut self, analysis: &Analysis, b: &mut [&mut [f64]]) {
         let steps = analysis.unknowns.len();
-        let Self { factors, pivots, work, .. } = self;
+        let Self { factors, pivots, work, reduction } = self;
         let place = |step: usize| K::PARTS * analysis.firsts[step]..K::PARTS * analysis.firsts[step + 1];
         for (step, unknowns) in analysis.unknowns.iter().enumerate() {
             for (part, vector) in work[place(step)].chunks_exact_mut(unknowns.len()).zip(b.iter()) {
                 part.copy_from_slice(&vector[unknowns.clone()]);
             }
         }
+        reduction.solve_local(analysis, b, work);
         let own = |step: usize| {
             let all = &factors[K::PARTS * analysis.offsets[step]..K::PARTS * analysis.offsets[step + 1]];
             let (diagonal, others) = all.split_at(K::PARTS * analysis.size(step).pow(2));
@@ -126,6 +134,7 @@ impl<K: Kernel> BlockLu<K> {
                 vector[unknowns.clone()].copy_from_slice(part);
             }
         }
+        reduction.solve_rest(analysis, b, work);
     }
 }
 

@@ -94,15 +94,17 @@ impl Explicit {
     fn stability_used(&self, layout: &Layout, from: &Point, to: &Point, h: f64) -> f64 {
         let last = self.rates.row(STAGES - 1);
         let mut largest: f64 = 0.0;
-        for component in layout.components() {
+        for component in layout.components.iter() {
             let (mut rates, mut products, mut states, mut size) = (0.0, 0.0, 0.0, 0.0);
-            for i in component.flatten() {
-                let scale = from.scale[i];
-                let (rate, state) = ((to.rate[i] - last[i]) / scale, (to.u[i] - self.stage[i]) / scale);
-                rates += rate * rate;
-                products += rate * state;
-                states += state * state;
-                size += (to.u[i] / scale).powi(2);
+            for block in component {
+                for i in layout.groups[*block].clone() {
+                    let scale = from.scale[i];
+                    let (rate, state) = ((to.rate[i] - last[i]) / scale, (to.u[i] - self.stage[i]) / scale);
+                    rates += rate * rate;
+                    products += rate * state;
+                    states += state * state;
+                    size += (to.u[i] / scale).powi(2);
+                }
             }
             if states > size * (100.0 * f64::EPSILON).powi(2) {
                 let (modulus, decay) = ((rates / states).sqrt(), -products / states);

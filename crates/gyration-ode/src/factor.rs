@@ -126,15 +126,20 @@ mod tests {
     use proptest::prelude::*;
 
     /// Blocks of several sizes, one of them empty, with these pairs and numbers below one in size.
-    fn system(sizes: &[usize], pairs: &[(usize, usize)], entries: &[f64]) -> (BlockMatrix, Layout) {
+    fn system(sizes: &[usize], pairs: &[(usize, usize)], local: &[usize], entries: &[f64]) -> (BlockMatrix, Layout) {
         let ends = sizes.iter().scan(0, |end, size| {
             *end += size;
             Some(*end - size..*end)
         });
-        let (blocks, pattern) = (ends.collect::<Vec<_>>(), Pattern::new(sizes.len(), pairs.iter().copied()));
+        let blocks: Vec<_> = ends.collect();
+        let pattern = Pattern::new(sizes.len(), pairs.iter().copied()).with_local_rates(local.to_vec());
         let (mut jacobian, mut numbers) = (BlockMatrix::new(&blocks, &pattern), entries.iter().cycle());
         for (i, j) in pairs.iter().copied().chain((0..sizes.len()).map(|i| (i, i))) {
-            jacobian.block_mut(i, j).unwrap().apply(|value| *value = *numbers.next().unwrap());
+            let block = jacobian.block_mut(i, j).unwrap();
+            block.apply(|value| *value = *numbers.next().unwrap());
+            if i != j {
+                block.rows_mut(0, local[i].min(sizes[i])).fill(0.0);
+            }
         }
         (jacobian, Layout::new(&blocks, &pattern, 0))
     }
@@ -155,9 +160,10 @@ mod tests {
             pairs in proptest::collection::vec((0_usize..7, 0_usize..7), 0..12),
             entries in proptest::collection::vec(-1.0_f64..1.0, 101),
             b in proptest::collection::vec(-1.0_f64..1.0, 32),
+            local in proptest::collection::vec(0_usize..4, 7),
         ) {
             let pairs: Vec<_> = pairs.into_iter().filter(|(i, j)| i != j).collect();
-            let (jacobian, layout) = system(&[3, 1, 2, 0, 4, 2, 4], &pairs, &entries);
+            let (jacobian, layout) = system(&[3, 1, 2, 0, 4, 2, 4], &pairs, &local, &entries);
             let mut factors = Factors::new(&layout, &jacobian);
             // Small enough a step for shifts of 23 and more, beyond the sums of 16 numbers: no cancellation.
             let h = 0.1;
@@ -179,7 +185,7 @@ mod tests {
     #[test]
     fn a_block_beside_a_component_is_factorized_as_if_alone() {
         let entries: Vec<f64> = (0..97).map(|k| f64::from(k).sin()).collect();
-        let (mut jacobian, layout) = system(&[2, 4, 3, 2], &[(0, 2), (2, 3)], &entries);
+        let (mut jacobian, layout) = system(&[2, 4, 3, 2], &[(0, 2), (2, 3)], &[0; 4], &entries);
         // Of second order, which `shifted` finds.
         let own = &mut jacobian.diagonal_mut()[1];
         own.rows_mut(0, 2).fill(0.0);
@@ -201,7 +207,7 @@ mod tests {
     fn the_order_keeps_the_factors_of_a_star_sparse() {
         for n in [40, 400] {
             let pairs: Vec<_> = (1..n).flat_map(|i| [(0, i), (i, 0)]).collect();
-            let (jacobian, layout) = system(&vec![2; n], &pairs, &[0.5]);
+            let (jacobian, layout) = system(&vec![2; n], &pairs, &vec![0; n], &[0.5]);
             let factors = Factors::new(&layout, &jacobian);
             assert_eq!(factors.entries(), 3 * 4 * (3 * n - 2));
             // A third of eight products for each block, and twice eight more for all but the middle.

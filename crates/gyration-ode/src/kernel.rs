@@ -3,7 +3,7 @@
 //! A block is a slice, row by row: the real parts and, of a complex block, the imaginary parts behind them. So is a
 //! vector, which is a block of one column. The factorization of a diagonal block is that of `linear`.
 
-use nalgebra::DMatrix;
+use nalgebra::DMatrixView;
 
 use crate::linear::{Singular, divide, dot, factorize_complex, factorize_real, solve_complex, solve_real};
 
@@ -15,7 +15,7 @@ pub(crate) trait Kernel {
     type Shift: Copy;
 
     /// Writes s I − J, or −J where there is no shift.
-    fn set(block: &mut [f64], jacobian: &DMatrix<f64>, shift: Option<Self::Shift>);
+    fn set(block: &mut [f64], jacobian: DMatrixView<f64>, shift: Option<Self::Shift>);
 
     /// Factorizes a square block in place, as many rows as there are pivots.
     ///
@@ -44,7 +44,7 @@ impl Kernel for Real {
     const PARTS: usize = 1;
     type Shift = f64;
 
-    fn set(block: &mut [f64], jacobian: &DMatrix<f64>, shift: Option<f64>) {
+    fn set(block: &mut [f64], jacobian: DMatrixView<f64>, shift: Option<f64>) {
         let columns = jacobian.ncols();
         for (i, row) in block.chunks_exact_mut(columns).enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
@@ -108,7 +108,7 @@ impl Kernel for Complex {
     const PARTS: usize = 2;
     type Shift = (f64, f64);
 
-    fn set(block: &mut [f64], jacobian: &DMatrix<f64>, shift: Option<(f64, f64)>) {
+    fn set(block: &mut [f64], jacobian: DMatrixView<f64>, shift: Option<(f64, f64)>) {
         let (real, imaginary) = halves_mut(block);
         Real::set(real, jacobian, shift.map(|shift| shift.0));
         imaginary.fill(0.0);

@@ -66,9 +66,4 @@ impl Layout {
     pub fn blocks(&self) -> &[Range<usize>] {
         &self.groups[..self.blocks]
     }
-
-    /// The unknowns of each component, one range a block.
-    pub fn components(&self) -> impl Iterator<Item = impl Iterator<Item = Range<usize>> + Clone> {
-        self.components.iter().map(|component| component.iter().map(|block| self.groups[*block].clone()))
-    }
 }

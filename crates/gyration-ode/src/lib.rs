@@ -13,7 +13,7 @@
 //! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear_system` |
 //! | which blocks couple | `pattern`, `block_matrix`, `layout` |
 //! | factors of one block | `shifted`, `arrowhead`, `linear` |
-//! | factors of several | `factor`, `analysis`, `elimination`, `kernel` |
+//! | factors of several | `factor`, `analysis`, `reduction`, `elimination`, `kernel` |
 //! | step sizes, norms | `control`, `norm` |
 //! | which of the two | `auto`, `spectrum` |
 //!
@@ -44,6 +44,7 @@ mod norm;
 mod pattern;
 mod prince;
 mod radau;
+mod reduction;
 mod report;
 mod shifted;
 mod spectrum;

@@ -12,12 +12,14 @@ pub struct Pattern {
     starts: Vec<usize>,
     /// The columns of all rows, ascending within each.
     columns: Vec<usize>,
+    /// How many of the first rates of each block only the block itself enters; empty if of none.
+    local_rates: Vec<usize>,
 }
 
 impl Pattern {
     /// No block enters the rates of another.
     pub const fn uncoupled() -> Self {
-        Self { starts: Vec::new(), columns: Vec::new() }
+        Self { starts: Vec::new(), columns: Vec::new(), local_rates: Vec::new() }
     }
 
     /// The pattern of so many blocks and of these pairs (row, column), in any order; repetitions and i = j do no harm.
@@ -33,7 +35,27 @@ impl Pattern {
         pairs.dedup();
         assert!(pairs.iter().all(|(row, column)| row.max(column) < &blocks), "a pair of blocks beyond {blocks}");
         let starts = (0..=blocks).map(|row| pairs.partition_point(|pair| pair.0 < row)).collect();
-        Self { starts, columns: pairs.into_iter().map(|(_, column)| column).collect() }
+        let columns = pairs.into_iter().map(|(_, column)| column).collect();
+        Self { starts, columns, local_rates: Vec::new() }
+    }
+
+    /// States how many of the first rates of each block only the block itself enters, as those of positions where it is
+    /// forces that couple. Their unknowns are eliminated first, which leaves so many fewer for the rest.
+    ///
+    /// # Panics
+    /// If these are not as many numbers as there are blocks.
+    #[must_use]
+    pub fn with_local_rates(mut self, counts: Vec<usize>) -> Self {
+        assert!(self.fits(counts.len()), "{} counts of local rates for other blocks", counts.len());
+        if !self.is_uncoupled() && counts.iter().any(|count| *count > 0) {
+            self.local_rates = counts;
+        }
+        self
+    }
+
+    /// How many of the first rates of a block only the block itself enters.
+    pub(crate) fn local_rates(&self, block: usize) -> usize {
+        self.local_rates.get(block).copied().unwrap_or(0)
     }
 
     /// Whether no block enters the rates of another.

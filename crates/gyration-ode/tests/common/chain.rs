@@ -5,17 +5,21 @@ use std::convert::Infallible;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Whether a system of many bodies is shown as such or as one dense block.
+/// How a system of many bodies is shown to a stepper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shown {
+    /// As blocks that couple.
     Coupled,
+    /// As blocks that couple, of which the rates x' = v are local.
+    Reduced,
+    /// As one dense block.
     Whole,
 }
 
 /// Blocks of (x, v), one a body; or all bodies in one block.
 fn blocks(bodies: usize, shown: Shown) -> Vec<Range<usize>> {
     match shown {
-        Shown::Coupled => (0..bodies).map(|i| 2 * i..2 * i + 2).collect(),
+        Shown::Coupled | Shown::Reduced => (0..bodies).map(|i| 2 * i..2 * i + 2).collect(),
         Shown::Whole => std::iter::once(0..2 * bodies).collect(),
     }
 }
@@ -23,7 +27,7 @@ fn blocks(bodies: usize, shown: Shown) -> Vec<Range<usize>> {
 /// Adds ∂v̇_i/∂(x_j, v_j).
 fn add(jacobian: &mut BlockMatrix, shown: Shown, (i, j): (usize, usize), slopes: (f64, f64)) {
     let (block, i, j) = match shown {
-        Shown::Coupled => (jacobian.block_mut(i, j).unwrap(), 0, 0),
+        Shown::Coupled | Shown::Reduced => (jacobian.block_mut(i, j).unwrap(), 0, 0),
         Shown::Whole => (&mut jacobian.diagonal_mut()[0], 2 * i, 2 * j),
     };
     block[(i + 1, j)] += slopes.0;
@@ -34,7 +38,7 @@ fn add(jacobian: &mut BlockMatrix, shown: Shown, (i, j): (usize, usize), slopes:
 fn add_velocities(jacobian: &mut BlockMatrix, shown: Shown, bodies: usize) {
     for i in 0..bodies {
         match shown {
-            Shown::Coupled => jacobian.diagonal_mut()[i][(0, 1)] = 1.0,
+            Shown::Coupled | Shown::Reduced => jacobian.diagonal_mut()[i][(0, 1)] = 1.0,
             Shown::Whole => jacobian.diagonal_mut()[0][(2 * i, 2 * i + 1)] = 1.0,
         }
     }
@@ -55,7 +59,11 @@ impl Chain {
     /// Stiff: rates from 30 to 4e4 for long chains, and waves at 2e3.
     pub fn new(bodies: usize, shown: Shown) -> Self {
         let neighbours = (1..bodies).flat_map(|i| [(i - 1, i), (i, i - 1)]);
-        let pattern = if shown == Shown::Coupled { Pattern::new(bodies, neighbours) } else { Pattern::uncoupled() };
+        let pattern = match shown {
+            Shown::Coupled => Pattern::new(bodies, neighbours),
+            Shown::Reduced => Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]),
+            Shown::Whole => Pattern::uncoupled(),
+        };
         Self { bodies, stiffness: 1e6, damping: 1e4, atol: 1e-7, shown, blocks: blocks(bodies, shown), pattern }
     }
 
