@@ -4,8 +4,8 @@
 //!
 //!   validation: row=13 case="…" quantity="…" reference=… measured=… error=… tolerance=… source="…"
 //!
-//! The page shows them in order of row, case and quantity. Digits differ a little between machines, so that a test
-//! run compares only which answers there are, not what was measured.
+//! The page shows them in order of row, case and quantity. Digits differ a little between machines, so that a test run
+//! compares only which answers there are, not what was measured.
 
 use std::collections::BTreeSet;
 
@@ -97,7 +97,8 @@ mod tests {
 
     fn answer(row: &str, case: &str) -> Answer {
         let line = format!(
-            "row={row} case=\"{case}\" quantity=\"d, gap\" reference=1e0 measured=1e0 error=0e0 tolerance=1e-9 source=\"book, p. 3\""
+            "row={row} case=\"{case}\" quantity=\"d, gap\" reference=1e0 measured=1e0 error=0e0 tolerance=1e-9 \
+             source=\"book, p. 3\""
         );
         Answer::parse(&line).unwrap()
     }

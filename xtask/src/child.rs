@@ -21,8 +21,8 @@ impl AddAssign for Cost {
     }
 }
 
-/// Runs a command to its end and hands over each line of its output and its errors; whether it exited with zero,
-/// else in which words it ended, and what it took.
+/// Runs a command to its end and hands over each line of its output and its errors; whether it exited with zero, else
+/// in which words it ended, and what it took.
 pub fn run(command: &mut Command, mut line: impl FnMut(&str)) -> Result<(std::result::Result<(), String>, Cost)> {
     let started = Instant::now();
     let (reader, writer) = std::io::pipe()?;

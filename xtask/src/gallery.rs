@@ -1,7 +1,7 @@
 //! The page of the gallery: every scene with its picture, made by running it.
 //!
-//! The words come from the scenes themselves, as `gyration scenes` prints them: a title a scene, indented lines that say
-//! what to look at. So the page cannot tell of another scene than the one that runs.
+//! The words come from the scenes themselves, as `gyration scenes` prints them: a title a scene, indented lines that
+//! say what to look at. So the page cannot tell of another scene than the one that runs.
 
 use crate::cargo::cargo;
 use crate::root;
@@ -140,7 +140,8 @@ mod tests {
 
     #[test]
     fn a_listing_is_read_back() {
-        let listing = "dice         A die thrown\n             Look at it,\n             and again.\nrock-2       A block\n\n`gyration run NAME` runs\n";
+        let listing = "dice         A die thrown\n             Look at it,\n             and again.\n\
+                       rock-2       A block\n\n`gyration run NAME` runs\n";
         let entry =
             |name: &str, title: &str, text: &str| Entry { name: name.into(), title: title.into(), text: text.into() };
         assert_eq!(

@@ -3,8 +3,8 @@
 //! `test` is the one test command: format, lints, documentation, every test of the workspace, those of the viewer in a
 //! browser, the Python tests, the table of known answers and, where cargo-deny is installed, licences and advisories.
 //! `validate` runs the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery`
-//! runs the scenes, draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the same
-//! recordings.
+//! runs the scenes, draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the
+//! same recordings, `fill` fills comments and pages.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -13,6 +13,7 @@ mod cargo;
 mod child;
 mod compare;
 mod console;
+mod fill;
 mod gallery;
 mod json;
 #[cfg(test)]
@@ -37,6 +38,7 @@ usage: cargo xtask CHORE
   test --fast    the same without documentation, viewer, Python and cargo-deny
   validate       run the problems with a known answer and rewrite docs/known-answers.md
   gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md
+  fill [FILE…]   fill comments and pages to the width of a line
   compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
 fn main() -> ExitCode {
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         ["test", "--fast"] => test::run(test::Extent::Fast),
         ["validate"] => validate::run(),
         ["gallery", names @ ..] => gallery::run(names),
+        ["fill", names @ ..] => fill::run(names),
         ["compare", old, new, scenes @ ..] => compare::run(old, new, scenes),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");

@@ -1,4 +1,5 @@
-//! The Python package: built as a wheel in the development profile, installed into the environment of the Python tests, tested.
+//! The Python package: built as a wheel in the development profile, installed into the environment of the Python tests,
+//! tested.
 //!
 //!   maturin build → pip install → pytest → stubtest (types against what is there)
 //!

@@ -90,8 +90,8 @@ mod tests {
     fn test_programs_and_the_program_are_told_apart() {
         let artifact = |folder: &str, kind: &str, name: &str, test: &str| {
             let text = format!(
-                r#"{{"reason": "compiler-artifact", "manifest_path": "/r/{folder}/Cargo.toml", "executable": "/t/{name}",
-                "target": {{"kind": ["{kind}"], "name": "{name}"}}, "profile": {{"test": {test}}}}}"#
+                r#"{{"reason": "compiler-artifact", "manifest_path": "/r/{folder}/Cargo.toml",
+                "executable": "/t/{name}", "target": {{"kind": ["{kind}"], "name": "{name}"}}, "profile": {{"test": {test}}}}}"#
             );
             Value::parse(&text).unwrap()
         };

@@ -3,7 +3,7 @@
 use crate::cargo::cargo;
 use crate::programs::{self, Built};
 use crate::steps::{Steps, succeeds};
-use crate::{answers, gallery, package, python, root, validate, viewer};
+use crate::{answers, fill, gallery, package, python, root, validate, viewer};
 use std::process::{Command, ExitCode};
 use std::sync::mpsc::{self, Receiver, Sender};
 
@@ -50,6 +50,7 @@ pub fn run(extent: Extent) -> ExitCode {
 /// The checks of the Rust code; what was built for the tests goes to the lane beside as soon as it is there.
 fn rust(steps: &mut Steps, extent: Extent, built: &Sender<Built>) {
     steps.run("format", cargo().args(["fmt", "--all", "--check"]));
+    fill::check(steps);
     steps.run("lints", cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]));
     if let Some(found) = programs::build(steps) {
         let _ = built.send(found.clone());
@@ -70,7 +71,8 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<Built>) {
     }
 }
 
-/// The viewer and Python: what they need is fetched while Rust is compiled, and they are tested once the program is built.
+/// The viewer and Python: what they need is fetched while Rust is compiled, and they are tested once the program is
+/// built.
 fn beside_rust(steps: &mut Steps, built: &Receiver<Built>) {
     let browser = viewer::browser(steps);
     let interpreter = python::environment(steps);

@@ -1,7 +1,8 @@
 //! Whether the workspace is laid out as `ARCHITECTURE.md` says: a chore of the tests alone.
 //!
-//! Its blocks of code marked `order` name crates, or the modules of one crate, in ranks from left to right; each imports
-//! only what stands in a rank to its left. Nowhere do modules that stand side by side import one another in a circle.
+//! Its blocks of code marked `order` name crates, or the modules of one crate, in ranks from left to right; each
+//! imports only what stands in a rank to its left. Nowhere do modules that stand side by side import one another in a
+//! circle.
 
 mod paths;
 mod tree;

@@ -18,7 +18,8 @@ pub fn stripped(source: &str) -> String {
     text
 }
 
-/// Passes over the item behind an attribute: to its closing brace, which stands under its beginning, or to its semicolon.
+/// Passes over the item behind an attribute: to its closing brace, which stands under its beginning, or to its
+/// semicolon.
 fn skip_item<'a>(rest: &mut impl Iterator<Item = &'a str>) {
     let Some(first) = rest.find(|line| !line.trim_start().starts_with("#[")) else { return };
     if first.trim_end().ends_with('{') {
@@ -44,7 +45,8 @@ pub fn paths(source: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// The names that a module hands on, `pub use child::{A, B as C}`: the paths behind `pub use` and the name that each gets.
+/// The names that a module hands on, `pub use child::{A, B as C}`: the paths behind `pub use` and the name that each
+/// gets.
 pub fn handed_on(source: &str) -> Vec<(String, Vec<String>)> {
     let mut names = Vec::new();
     for (place, text) in source.match_indices("use ") {
@@ -123,8 +125,8 @@ mod tests {
 
     #[test]
     fn tests_and_comments_are_taken_out() {
-        let source = "use crate::a; // crate::no\n#[cfg(test)]\n#[path = \"x\"]\nmod tests;\n#[cfg(test)]\nmod more {\n    \
-                      use crate::no;\n}\nuse crate::b;\n";
+        let source = "use crate::a; // crate::no\n#[cfg(test)]\n#[path = \"x\"]\nmod tests;\n\
+                      #[cfg(test)]\nmod more {\n    use crate::no;\n}\nuse crate::b;\n";
         assert_eq!(texts(paths(&stripped(source))), ["crate::a", "crate::b"]);
     }
 

@@ -1,8 +1,8 @@
 //! The modules of a crate, and which of them import which.
 //!
-//! Modules are compared where they stand side by side: of the children of one module, A imports B if a file in or
-//! under A names a path that leads into B, straight or by a name that their parent hands on. What a parent takes from
-//! its children is no import: it is made of them.
+//! Modules are compared where they stand side by side: of the children of one module, A imports B if a file in or under
+//! A names a path that leads into B, straight or by a name that their parent hands on. What a parent takes from its
+//! children is no import: it is made of them.
 
 use super::paths::{handed_on, paths, stripped};
 use std::collections::{BTreeMap, BTreeSet};

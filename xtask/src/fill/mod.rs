@@ -1,0 +1,105 @@
+//! Filling comments and pages to the width of a line, and telling where that has not been done.
+//!
+//! Text that was changed and not filled again is hard to read, and nobody fills it by hand twice.
+
+mod rust;
+mod text;
+
+use crate::root;
+use crate::steps::Steps;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+/// The pages that are filled beside the Rust files.
+const PAGES: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
+
+/// Where the test command looks for text that is not filled; to become the whole repository.
+const CHECKED: [&str; 1] = ["xtask"];
+
+/// Fills the files named, or all.
+pub fn run(names: &[&str]) -> ExitCode {
+    let outcome = if names.is_empty() { files(&["."]) } else { Ok(names.iter().map(PathBuf::from).collect()) };
+    let filled = outcome.and_then(|files| files.iter().try_fold(0, |count, file| Ok(count + usize::from(fill(file)?))));
+    match filled {
+        Ok(count) => {
+            println!("{count} files filled anew");
+            ExitCode::SUCCESS
+        }
+        Err(reason) => {
+            eprintln!("xtask: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Complains about files whose text is not filled, and about lines that are too wide.
+pub fn check(steps: &mut Steps) {
+    match files(&CHECKED).and_then(|files| files.iter().map(|file| faults(file)).collect::<Result<Vec<_>, _>>()) {
+        Ok(faults) => faults.into_iter().flatten().for_each(|fault| steps.complain(fault)),
+        Err(reason) => steps.complain(reason),
+    }
+}
+
+/// The files under these folders that are kept by git and have text to fill.
+fn files(folders: &[&str]) -> Result<Vec<PathBuf>, String> {
+    let output = Command::new("git").arg("ls-files").args(folders).current_dir(root()).output();
+    let output = output.map_err(|error| format!("git: {error}"))?;
+    let names = String::from_utf8_lossy(&output.stdout).into_owned();
+    let names = names.lines().filter(|name| name.ends_with(".rs") || PAGES.contains(name));
+    // A file that was taken away is listed until that is committed.
+    Ok(names.map(|name| root().join(name)).filter(|file| file.exists()).collect())
+}
+
+/// A file as it is, and as it should be.
+fn read(file: &Path) -> Result<(String, String), String> {
+    let source = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    let filled = if file.extension().is_some_and(|end| end == "rs") {
+        rust::filled(&source)
+    } else {
+        text::filled(&source.lines().collect::<Vec<_>>(), rust::WIDTH).join("\n") + "\n"
+    };
+    Ok((source, filled))
+}
+
+/// Fills a file; whether anything changed.
+fn fill(file: &Path) -> Result<bool, String> {
+    let (source, filled) = read(file)?;
+    if source != filled {
+        std::fs::write(file, &filled).map_err(|error| format!("{}: {error}", file.display()))?;
+        println!("{}", file.display());
+    }
+    Ok(source != filled)
+}
+
+/// What is wrong with a file.
+fn faults(file: &Path) -> Result<Vec<String>, String> {
+    let (source, filled) = read(file)?;
+    let name = file.strip_prefix(root()).unwrap_or(file).display().to_string();
+    let mut faults = Vec::new();
+    if source != filled {
+        let line = source.lines().zip(filled.lines()).take_while(|(a, b)| a == b).count() + 1;
+        faults.push(format!("{name}:{line}: not filled to {} columns (run `cargo xtask fill`)", rust::WIDTH));
+    }
+    if name.ends_with(".rs") {
+        let told = |line| format!("{name}:{line}: wider than {} columns", rust::WIDTH);
+        faults.extend(rust::wide(&filled).into_iter().map(told));
+    }
+    Ok(faults)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_filled_once_and_then_in_order() {
+        let file = std::env::temp_dir().join(format!("xtask-fill-{}.rs", std::process::id()));
+        std::fs::write(&file, "// one\n// two\n").unwrap();
+        let before = faults(&file);
+        let changed = [fill(&file), fill(&file)];
+        let after = faults(&file);
+        std::fs::remove_file(&file).unwrap();
+        assert!(before.unwrap()[0].contains(":1: not filled"));
+        assert_eq!((changed, after), ([Ok(true), Ok(false)], Ok(Vec::new())));
+    }
+}
