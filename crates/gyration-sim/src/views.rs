@@ -51,8 +51,9 @@ impl View {
     /// |f| of the contacts [N]; none where a pin or another load takes a part of the weight.
     pub fn contact_force(&self, model: &Model, index: usize) -> Option<f64> {
         let body = &model.bodies[index];
-        let mut loads = Load::on(body, model.fluid.as_ref(), model.applied(index));
-        let alone = body.pin.is_none() && loads.all(|load| load.is_contact_or_couple());
+        let alone = |load: Load| if load.is_contact_or_couple() { Ok(()) } else { Err(()) };
+        let alone =
+            Load::try_each(body, model.fluid.as_ref(), model.applied(index), alone).is_ok() && body.pin.is_none();
         alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }

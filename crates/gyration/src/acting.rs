@@ -1,6 +1,6 @@
 //! What acts on a body: every load there is, and the entries of the ledger that it brings.
 //!
-//! Rates, Jacobian and diagnostics go through [`Load::on`] and know no other list. A further load is a file in `load` with
+//! Rates, Jacobian and diagnostics go through [`Load::try_each`] and know no other list. A further load is a file in `load` with
 //! its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
 
 use crate::body::Body;
@@ -28,20 +28,34 @@ pub enum Load<'a> {
 }
 
 impl<'a> Load<'a> {
-    /// The loads on a body in the order in which they are summed.
-    pub fn on(
+    /// Hands the loads on a body to `each`, in the order in which they are summed; stops at the first error.
+    #[inline]
+    pub fn try_each<E>(
         body: &'a Body,
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
-    ) -> impl Iterator<Item = Self> + use<'a> {
+        mut each: impl FnMut(Self) -> Result<(), E>,
+    ) -> Result<(), E> {
+        for contact in &body.contacts {
+            each(Self::Contact(contact))?;
+        }
+        for (number, spring) in body.springs.iter().enumerate() {
+            each(Self::Spring(number, spring))?;
+        }
         let affine = body.affine();
-        let contacts = body.contacts.iter().map(Self::Contact);
-        let springs = body.springs.iter().enumerate().map(|(number, spring)| Self::Spring(number, spring));
-        let couple = affine.and_then(|affine| affine.couple.as_ref()).map(Self::Couple);
-        let resistances = affine.map_or(&[][..], |affine| &affine.resistances).iter().map(Self::Resistance);
-        let fluid = fluid.zip(body.inclusion.as_ref()).map(|(fluid, inclusion)| Self::Fluid(fluid, inclusion));
-        let held = couple.into_iter().chain(applied.map(Self::Applied));
-        contacts.chain(springs).chain(held).chain(resistances).chain(fluid)
+        if let Some(couple) = affine.and_then(|affine| affine.couple.as_ref()) {
+            each(Self::Couple(couple))?;
+        }
+        if let Some(applied) = applied {
+            each(Self::Applied(applied))?;
+        }
+        for resistance in affine.map_or(&[][..], |affine| &affine.resistances) {
+            each(Self::Resistance(resistance))?;
+        }
+        if let (Some(fluid), Some(inclusion)) = (fluid, &body.inclusion) {
+            each(Self::Fluid(fluid, inclusion))?;
+        }
+        Ok(())
     }
 
     /// Whether its force follows from the motion of the body alone when no other load has one: a contact's does.

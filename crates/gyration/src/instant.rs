@@ -9,9 +9,10 @@ use crate::affine::Gyration;
 use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
 use crate::contractile::Decomposition;
 use crate::inadmissible::{Inadmissible, Quantity};
+use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::model::Model;
 use crate::state::{BodyMotion, Turn, contraction_at};
-use crate::tensor::Mat3;
+use crate::tensor::{Mat3, Vec3};
 
 /// The motion of every body at one time and state.
 #[derive(Debug, Clone, Default)]
@@ -23,7 +24,7 @@ pub struct Instant {
 
 /// The motion of one body.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct BodyInstant {
+struct BodyInstant {
     motion: BodyMotion,
     attitude: Attitude,
 }
@@ -64,29 +65,51 @@ pub(crate) enum KindAt<'a> {
 }
 
 impl BodyInstant {
-    /// Reads the slots of a body in a state.
+    /// Room for a body.
+    const EMPTY: Self = Self {
+        motion: BodyMotion {
+            placement: Placement { position: ZEROS, gradient: NO_MATRIX },
+            velocity: Velocity { velocity: ZEROS, gradient_rate: NO_MATRIX },
+        },
+        attitude: Attitude::Rigid(Turn { quaternion: Quaternion::IDENTITY, spin: ZEROS }),
+    };
+
+    /// Reads the slots of a body in a state, in place: what a kind does not have is not touched.
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
     #[inline]
-    pub fn read(body: &Body, index: usize, slots: &Slots, time: f64, state: &[f64]) -> Result<Self, Inadmissible> {
-        let motion = BodyMotion::read(body, slots, state);
-        let (p, rate) = (&motion.placement.gradient, &motion.velocity.gradient_rate);
+    fn read(
+        &mut self,
+        body: &Body,
+        index: usize,
+        slots: &Slots,
+        (time, state): (f64, &[f64]),
+    ) -> Result<(), Inadmissible> {
+        if let BodyKind::Rigid(_) = &body.kind {
+            let turn = Turn::read(slots, state);
+            self.motion = BodyMotion::of_turn(body, slots, state, &turn);
+            self.attitude = Attitude::Rigid(turn);
+            return Ok(());
+        }
+        self.motion = BodyMotion::read(body, slots, state);
+        let (p, rate) = (&self.motion.placement.gradient, &self.motion.velocity.gradient_rate);
         let outside = |quantity| move |value| Inadmissible { body: index, quantity, value };
-        let gyration = || Gyration::of(p, rate).map_err(outside(Quantity::Volume));
-        let attitude = match &body.kind {
-            BodyKind::Rigid(_) => Attitude::Rigid(Turn::read(slots, state)),
-            BodyKind::Affine(_) => Attitude::Affine(gyration()?),
-            BodyKind::Contractile(contractile) => {
-                let gyration = gyration()?;
-                let contraction = contraction_at(&contractile.contraction, time, &state[slots.extra()]);
+        let gyration = Gyration::of(p, rate).map_err(outside(Quantity::Volume))?;
+        self.attitude = match body.contraction() {
+            None => Attitude::Affine(gyration),
+            Some(contraction) => {
+                let contraction = contraction_at(contraction, time, &state[slots.extra()]);
                 let decomposition = Decomposition::of(p, &contraction).map_err(outside(Quantity::Contraction))?;
                 Attitude::Contractile(gyration, decomposition)
             }
         };
-        Ok(Self { motion, attitude })
+        Ok(())
     }
 }
+
+const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);
+const NO_MATRIX: Mat3 = Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
 impl Instant {
     /// Reads a state; bodies without inertia are taken to be still.
@@ -97,16 +120,25 @@ impl Instant {
         self.time = time;
         self.state.clear();
         self.state.extend_from_slice(state);
-        self.bodies.clear();
-        for (index, body) in model.bodies.iter().enumerate() {
-            self.bodies.push(BodyInstant::read(body, index, model.slots(index), time, state)?);
+        self.bodies.resize(model.bodies.len(), BodyInstant::EMPTY);
+        for (index, (body, instant)) in model.bodies.iter().zip(&mut self.bodies).enumerate() {
+            instant.read(body, index, model.slots(index), (time, state))?;
         }
         Ok(())
     }
 
-    /// Replaces the motion of one body.
-    pub(crate) fn replace(&mut self, index: usize, body: BodyInstant) {
-        self.bodies[index] = body;
+    /// Reads one body again from numbers of its own.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
+    pub(crate) fn read_body(
+        &mut self,
+        body: &Body,
+        index: usize,
+        slots: &Slots,
+        numbers: &[f64],
+    ) -> Result<(), Inadmissible> {
+        self.bodies[index].read(body, index, slots, (self.time, numbers))
     }
 
     /// The numbers that were read.
@@ -156,9 +188,10 @@ impl<'a> BodyAt<'a> {
         self.gyration().map_or_else(|| self.motion.placement.gradient.transpose(), |gyration| gyration.inverse)
     }
 
-    /// What acts on it.
-    pub fn loads(&self) -> impl Iterator<Item = Load<'a>> + use<'a> {
-        Load::on(self.body, self.model.fluid.as_ref(), self.model.applied(self.index))
+    /// Hands what acts on it to `each`.
+    #[inline]
+    pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
+        Load::try_each(self.body, self.model.fluid.as_ref(), self.model.applied(self.index), each)
     }
 
     /// A state outside the model.

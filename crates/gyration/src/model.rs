@@ -10,6 +10,7 @@ use crate::ledger::{Energy, Work};
 use crate::load::Applied;
 use crate::support::Support;
 use crate::tensor::Vec3;
+use std::convert::Infallible;
 use std::ops::Range;
 
 /// What moves, what it meets, and what pulls at it.
@@ -103,8 +104,14 @@ impl Model {
 
     /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as works.
     fn with_ledger(mut self) -> Self {
-        let index = |(index, body)| Load::on(body, self.fluid.as_ref(), self.applied.get(index));
-        let loads: Vec<Load> = self.bodies.iter().enumerate().flat_map(index).collect();
+        let mut loads: Vec<Load> = Vec::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let listed = Load::try_each(body, self.fluid.as_ref(), self.applied.get(index), |load| {
+                loads.push(load);
+                Ok::<(), Infallible>(())
+            });
+            let Ok(()) = listed;
+        }
         let potential = has_potential(&self.bodies);
         let works = loads.iter().flat_map(|load| load.works(&self.supports));
         let works = works.filter(|work| !(potential && matches!(work, Work::Repulsion | Work::Adhesion)));

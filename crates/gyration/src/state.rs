@@ -127,12 +127,20 @@ pub fn contraction_at(contraction: &Contraction, time: f64, extra: &[f64]) -> Ma
 }
 
 /// What stands in a slot; zero where the body does not have it.
+#[inline]
 fn read<T>(state: &[f64], slot: Range<usize>, from: impl Fn(&[f64]) -> T, zero: T) -> T {
     if slot.is_empty() { zero } else { from(&state[slot]) }
 }
 
+/// p₀ and ṗ₀ of a body that is not pinned.
+#[inline]
+fn center(slots: &Slots, state: &[f64]) -> (Vec3, Vec3) {
+    (vector(&state[slots.position()]), read(state, slots.velocity(), vector, Vec3::zeros()))
+}
+
 impl Turn {
     /// Reads the slots of a rigid body; one without inertia is taken to be still.
+    #[inline]
     pub fn read(slots: &Slots, state: &[f64]) -> Self {
         let quaternion = Quaternion::read(&state[slots.attitude()]);
         Self { quaternion, spin: read(state, slots.rate(), vector, Vec3::zeros()) }
@@ -149,35 +157,35 @@ impl Turn {
 impl BodyMotion {
     /// Reads the slots of a body; one without inertia is taken to be still.
     pub fn read(body: &Body, slots: &Slots, state: &[f64]) -> Self {
-        let center = || {
-            let velocity = read(state, slots.velocity(), vector, Vec3::zeros());
-            (vector(&state[slots.position()]), velocity)
-        };
-        match body.kind {
-            BodyKind::Rigid(_) => Self::of_turn(body, &Turn::read(slots, state), center),
-            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-                let rate = read(state, slots.rate(), matrix, Mat3::zeros());
-                Self::of(body.pin.as_ref(), matrix(&state[slots.attitude()]), rate, center)
-            }
+        if let BodyKind::Rigid(_) = body.kind {
+            return Self::of_turn(body, slots, state, &Turn::read(slots, state));
         }
+        let rate = read(state, slots.rate(), matrix, Mat3::zeros());
+        Self::of(body.pin.as_ref(), matrix(&state[slots.attitude()]), rate, || center(slots, state))
+    }
+
+    /// The motion of a rigid body whose turn has been read.
+    #[inline]
+    pub(crate) fn of_turn(body: &Body, slots: &Slots, state: &[f64], turn: &Turn) -> Self {
+        let rotation = turn.quaternion.rotation();
+        let rate = rigid_gradient_rate(&rotation, &turn.spin);
+        Self::of(body.pin.as_ref(), rotation, rate, || center(slots, state))
     }
 
     /// The motion of a body without inertia, given the rates of its places.
     pub fn of_rates(body: &Body, slots: &Slots, state: &[f64], rates: &[f64]) -> Self {
         let center = || (vector(&state[slots.position()]), vector(&rates[slots.position()]));
-        match body.kind {
-            BodyKind::Rigid(_) => Self::of_turn(body, &Turn::of_rates(slots, state, rates), center),
-            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-                let slot = || slots.attitude();
-                Self::of(body.pin.as_ref(), matrix(&state[slot()]), matrix(&rates[slot()]), center)
+        let (gradient, rate) = match body.kind {
+            BodyKind::Rigid(_) => {
+                let turn = Turn::of_rates(slots, state, rates);
+                let rotation = turn.quaternion.rotation();
+                (rotation, rigid_gradient_rate(&rotation, &turn.spin))
             }
-        }
-    }
-
-    /// The motion of a rigid body.
-    fn of_turn(body: &Body, turn: &Turn, center: impl FnOnce() -> (Vec3, Vec3)) -> Self {
-        let rotation = turn.quaternion.rotation();
-        Self::of(body.pin.as_ref(), rotation, rigid_gradient_rate(&rotation, &turn.spin), center)
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
+                (matrix(&state[slots.attitude()]), matrix(&rates[slots.attitude()]))
+            }
+        };
+        Self::of(body.pin.as_ref(), gradient, rate, center)
     }
 
     /// The motion of P and Ṗ. A pinned body's centre follows the pin: p₀ = a − P r, ṗ₀ = −Ṗ r.

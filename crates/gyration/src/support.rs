@@ -67,11 +67,13 @@ impl SupportMotion {
 
 impl Support {
     /// The gap of a body as a function of the material point, d(X) = (p₀ − o(t))·n + (Pᵀn)·X.
+    #[inline]
     pub fn gap_field(&self, placement: &Placement, time: f64) -> GapField {
         GapField { height: self.gap(&placement.position, time), direction: placement.gradient.tr_mul(&self.normal) }
     }
 
     /// The gap (p − o(t))·n [m] of a point.
+    #[inline]
     pub fn gap(&self, point: &Vec3, time: f64) -> f64 {
         (point - self.origin - self.motion.displacement(time)).dot(&self.normal)
     }

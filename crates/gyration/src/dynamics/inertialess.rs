@@ -17,7 +17,7 @@ use super::{ContractileMotion, Scratch, body_rates};
 use crate::body::{Slots, matrix};
 use crate::contractile::Command;
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::{BodyAt, BodyInstant, Instant, KindAt};
+use crate::instant::{BodyAt, Instant, KindAt};
 use crate::model::Model;
 use crate::tensor::Mat3;
 use nalgebra::{DMatrix, SMatrix, SVector};
@@ -165,7 +165,7 @@ pub(super) fn settle(
     let growth = kept.as_ref().map_or(0.0, |kept| kept.growth);
     let velocities = solver.velocities(&rates[slots.velocities()], growth).ok_or_else(|| without_resistance(index))?;
     numbers[slots.velocities()].copy_from_slice(&velocities.as_slice()[..slots.velocities().len()]);
-    instant.replace(index, BodyInstant::read(body, index, &slots, instant.time(), &numbers)?);
+    instant.read_body(body, index, &slots, &numbers)?;
     let done = body_rates(&instant.at(model, index), &slots, scratch, &mut rates)?;
     Ok(Settled { slots, numbers, rates, done })
 }

@@ -31,9 +31,7 @@ pub struct Acting {
 /// [`Inadmissible`] where the state is outside the model.
 pub fn acting(at: &BodyAt, scratch: &mut Scratch) -> Result<Acting, Inadmissible> {
     let mut sum = Acting::default();
-    for load in at.loads() {
-        sum.add(&load, at, scratch)?;
-    }
+    at.try_each_load(|load| sum.add(&load, at, scratch))?;
     Ok(sum)
 }
 
@@ -136,16 +134,19 @@ pub(super) fn add_slopes(
 /// [`Inadmissible`] where the state is outside the model.
 pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Result<f64, Inadmissible> {
     let mut total = 0.0;
-    for load in at.loads().filter(|load| load.energy() == Some(energy)) {
-        total += match load {
-            Load::Contact(contact) => {
-                let potential = meet(at, contact, |it| contact_potential(&contact.law_set, it, &mut scratch.contact))?;
-                potential.unwrap_or(0.0)
-            }
-            Load::Spring(_, spring) => spring.energy(&at.motion.placement),
-            Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
-        };
-    }
+    at.try_each_load(|load| {
+        if load.energy() == Some(energy) {
+            total += match load {
+                Load::Contact(contact) => {
+                    meet(at, contact, |it| contact_potential(&contact.law_set, it, &mut scratch.contact))?
+                        .unwrap_or(0.0)
+                }
+                Load::Spring(_, spring) => spring.energy(&at.motion.placement),
+                Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
+            };
+        }
+        Ok(())
+    })?;
     Ok(total)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::contact::LawKind;
 use crate::ledger::Work;
-use std::ops::{Index, IndexMut};
+use std::ops::{AddAssign, Index, IndexMut};
 
 /// A power for each work of the ledger.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,5 +26,11 @@ impl Index<Work> for Powers {
 impl IndexMut<Work> for Powers {
     fn index_mut(&mut self, work: Work) -> &mut f64 {
         &mut self.0[work as usize]
+    }
+}
+
+impl AddAssign for Powers {
+    fn add_assign(&mut self, other: Self) {
+        self.0.iter_mut().zip(other.0).for_each(|(power, more)| *power += more);
     }
 }

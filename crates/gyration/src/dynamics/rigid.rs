@@ -5,7 +5,7 @@ use super::powers::Powers;
 use super::{Acting, Scratch};
 use crate::acting::Load;
 use crate::body::{RigidInertia, Slots};
-use crate::contact::{ContactLoads, LawKind, Meeting, RigidLoads, RigidMotion};
+use crate::contact::{Contact, ContactLoads, LawKind, Meeting, RigidLoads, RigidMotion};
 use crate::fluid::{Form, RigidDrag};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
@@ -16,40 +16,54 @@ use crate::tensor::{Mat3, Vec3, cross_matrix};
 
 /// Force and torque of all loads on a rigid body, and the powers of their works.
 pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<(Wrench, Powers), Inadmissible> {
-    let (mut wrench, mut others) = (Wrench::default(), Acting::default());
-    for load in at.loads() {
-        match &load {
-            Load::Contact(contact) => {
-                let integrated = meet(at, contact, |meeting| {
-                    let Meeting { surface, field, .. } = meeting;
-                    let relative = RigidMotion::new(&meeting.motion, &at.motion.placement.gradient, turn.spin);
-                    if at.model.central_laws_work() {
-                        let loads = ContactLoads::integrate(&contact.law_set, meeting, &mut scratch.contact)?;
-                        for law in [LawKind::Repulsion, LawKind::Adhesion] {
-                            others.powers.add(law, loads.relative_power(law));
-                        }
-                    }
-                    RigidLoads::integrate(&contact.law_set, surface, field, &relative, &mut scratch.contact)
-                })?;
-                let Some(loads) = integrated else { continue };
-                wrench += loads.wrench;
-                others.powers[Work::Damping] += loads.damping_power;
-                others.powers[Work::Friction] += loads.friction_power;
-                let carried = carrying(at, contact);
-                others.powers[Work::Support] += loads.wrench.force.dot(&carried);
-            }
-            Load::Fluid(..) => {
-                let Some(immersed) = RigidImmersion::of(at) else { continue };
-                let fluid = immersed.wrench();
-                let velocity = &at.motion.velocity.velocity;
-                others.powers[Work::Fluid] += fluid.force.dot(velocity) + fluid.torque.dot(&turn.spin);
-                wrench += fluid;
-            }
-            load => others.add(load, at, scratch)?,
+    let (mut wrench, mut powers) = (Wrench::default(), Powers::default());
+    let mut others: Option<Acting> = None;
+    at.try_each_load(|load| match &load {
+        Load::Contact(contact) => {
+            let Some(loads) = contact_loads(at, turn, contact, scratch, &mut powers)? else { return Ok(()) };
+            wrench += loads.wrench;
+            powers[Work::Damping] += loads.damping_power;
+            powers[Work::Friction] += loads.friction_power;
+            powers[Work::Support] += loads.wrench.force.dot(&carrying(at, contact));
+            Ok(())
         }
+        Load::Fluid(..) => {
+            let Some(immersed) = RigidImmersion::of(at) else { return Ok(()) };
+            let fluid = immersed.wrench();
+            let velocity = &at.motion.velocity.velocity;
+            powers[Work::Fluid] += fluid.force.dot(velocity) + fluid.torque.dot(&turn.spin);
+            wrench += fluid;
+            Ok(())
+        }
+        load => others.get_or_insert_default().add(load, at, scratch),
+    })?;
+    if let Some(others) = &others {
+        wrench += others.total.wrench(&at.motion.placement.gradient);
+        powers += others.powers;
     }
-    wrench += others.total.wrench(&at.motion.placement.gradient);
-    Ok((wrench, others.powers))
+    Ok((wrench, powers))
+}
+
+/// The laws of a contact; the powers of central ones only where the ledger has them as works.
+#[inline]
+fn contact_loads(
+    at: &BodyAt,
+    turn: &Turn,
+    contact: &Contact,
+    scratch: &mut Scratch,
+    powers: &mut Powers,
+) -> Result<Option<RigidLoads>, Inadmissible> {
+    meet(at, contact, |meeting| {
+        let Meeting { surface, field, .. } = meeting;
+        let relative = RigidMotion::new(&meeting.motion, &at.motion.placement.gradient, turn.spin);
+        if at.model.central_laws_work() {
+            let loads = ContactLoads::integrate(&contact.law_set, meeting, &mut scratch.contact)?;
+            for law in [LawKind::Repulsion, LawKind::Adhesion] {
+                powers.add(law, loads.relative_power(law));
+            }
+        }
+        RigidLoads::integrate(&contact.law_set, surface, field, &relative, &mut scratch.contact)
+    })
 }
 
 /// A rigid body in the fluid at one instant.
@@ -100,6 +114,7 @@ impl<'a> RigidImmersion<'a> {
 }
 
 /// Solves the balance of a rigid body for its rates.
+#[inline]
 pub(super) fn fill(
     at: &BodyAt,
     inertia: &RigidInertia,

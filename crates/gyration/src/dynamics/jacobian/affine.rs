@@ -93,9 +93,7 @@ fn by_gradient<F: Four>(
 /// The loads on a body that deforms and their derivatives; none if nothing but gravity acts on it.
 pub(super) fn load_slopes(at: &BodyAt, scratch: &mut Scratch) -> Result<Option<LoadSlopes>, Inadmissible> {
     let mut slopes: Option<LoadSlopes> = None;
-    for load in at.loads() {
-        add_slopes(&load, at, scratch, slopes.get_or_insert_default())?;
-    }
+    at.try_each_load(|load| add_slopes(&load, at, scratch, slopes.get_or_insert_default()))?;
     Ok(slopes)
 }
 

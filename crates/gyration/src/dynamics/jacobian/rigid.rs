@@ -81,7 +81,7 @@ impl RigidSlopes {
     fn add_all(&mut self, at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<LoadSlopes>, Inadmissible> {
         let rotation = &at.motion.placement.gradient;
         let mut others: Option<LoadSlopes> = None;
-        for load in at.loads() {
+        at.try_each_load(|load| {
             match &load {
                 Load::Contact(contact) => {
                     let integrated = meet(at, contact, |meeting| {
@@ -107,7 +107,8 @@ impl RigidSlopes {
                 }
                 load => add_slopes(load, at, scratch, others.get_or_insert_default())?,
             }
-        }
+            Ok(())
+        })?;
         if let Some(others) = &others {
             self.add_loads(&others.loads, rotation);
         }
