@@ -3,7 +3,7 @@
 //! Laws share powers of the gap (damping and friction often have the same exponent, and the derivative of d^−6 is the
 //! power that d^−7 asks for), so the requests are merged once, when the set is made; all bodies that obey it share it.
 
-use super::tension::{self, PotentialTerm};
+use super::potential::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, Term};
 use crate::surface::{Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments};
 use std::sync::Arc;
@@ -109,7 +109,7 @@ impl LawSet {
             })
             .collect();
         let (values, derivatives) = (MomentPlan::new(value_requests), MomentPlan::new(derivative_requests));
-        let (requests, potential_terms) = tension::plan(laws.iter().flat_map(ContactLaw::terms).flatten());
+        let (requests, potential_terms) = potential::plan(laws.iter().flat_map(ContactLaw::terms).flatten());
         let potentials = MomentPlan::new(requests);
         let acts = Action::ALL.map(|action| terms.iter().any(|planned| planned.term.action == action));
         Self { measure, laws, terms, acts, values, derivatives, potentials, potential_terms }

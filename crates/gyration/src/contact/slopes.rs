@@ -9,7 +9,7 @@
 //! with κ_N, κ_T of damping and friction.
 
 use super::law_set::{ContactScratch, LawSet};
-use super::resultant::{Meeting, RelativeMotion};
+use super::meeting::{Meeting, RelativeMotion};
 use super::sums::{SumSlopes, Sums};
 use super::tension::{PAIR, TensionSlopes};
 use super::{Action, AreaMeasure};

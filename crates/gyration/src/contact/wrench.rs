@@ -14,7 +14,7 @@
 //! number. The force is therefore formed in space, where the normal of a support is often an axis.
 
 use super::law_set::{ContactScratch, LawSet};
-use super::resultant::RelativeMotion;
+use super::meeting::RelativeMotion;
 use super::sums::{SumSlopes, Sums};
 use crate::load::{Wrench, WrenchSlope};
 use crate::surface::{GapClosed, GapField, Surface};

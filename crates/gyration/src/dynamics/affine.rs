@@ -2,28 +2,13 @@
 //!
 //!   m p̈₀ = m g + f,   P̈ J = M − V S;   pinned at r: P̈ J_p = M − (f + m g) ⊗ r − V S
 
-use super::Acting;
+use super::loads::Acting;
 use crate::affine::{AffineBalance, AffineBody, Gyration};
 use crate::body::{Affine, Slots};
-use crate::fluid::{Immersed, Unresolved};
-use crate::inadmissible::Inadmissible;
 use crate::instant::BodyAt;
 use crate::ledger::Work;
 use crate::load::Loads;
 use crate::tensor::Mat3;
-
-/// A body that deforms, in the fluid; none if it is not immersed.
-///
-/// # Errors
-/// [`Inadmissible`] where the resistance of its form is not known.
-#[inline]
-pub(crate) fn immersion<'a>(at: &BodyAt<'a>) -> Result<Option<Immersed<'a>>, Inadmissible> {
-    let (Some(fluid), Some(inclusion)) = (&at.model.fluid, &at.body.inclusion) else { return Ok(None) };
-    let Some(gyration) = at.gyration() else { return Ok(None) };
-    let around = (fluid, &fluid.flow(at.time), &at.model.gravity);
-    let unresolved = |Unresolved { quantity, value }| at.outside(quantity, value);
-    Immersed::of(inclusion, around, (&at.motion.placement, &at.motion.velocity), gyration).map_err(unresolved)
-}
 
 /// The affine moment of some loads about the centre of mass, or about the pin.
 #[inline]

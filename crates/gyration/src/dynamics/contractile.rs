@@ -3,7 +3,8 @@
 //!   P̈ J = M − V S,   μ_γ V_G = Fᵀ S Gᵀ − det G φ I + Q,   Ġ = V_G G
 
 use super::affine::{excess, moment, write};
-use super::{Acting, nearest};
+use super::contacts::nearest;
+use super::loads::Acting;
 use crate::affine::Gyration;
 use crate::body::{Contractile, Slots};
 use crate::columns::Four;

@@ -11,9 +11,11 @@
 //!
 //! Masses only weigh the equations: nothing depends on them but the weight of the body. Source: `physics.md` §7.
 
+use super::Scratch;
+use super::body_rates::body_rates;
+use super::contractile::ContractileMotion;
 use super::jacobian::body_jacobian;
 use super::powers::Powers;
-use super::{ContractileMotion, Scratch, body_rates};
 use crate::body::{Slots, matrix};
 use crate::contractile::Command;
 use crate::inadmissible::{Inadmissible, Quantity};

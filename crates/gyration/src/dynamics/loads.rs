@@ -4,9 +4,10 @@
 //! the fluid in its own ten numbers instead, since normal and tangential parts must not be mixed (`contact/wrench`); every
 //! other load reaches it through Q.
 
+use super::Scratch;
 use super::contacts::{carrying, meet};
+use super::immersed::{RigidImmersion, immersion};
 use super::powers::Powers;
-use super::{RigidImmersion, Scratch, immersion};
 use crate::acting::Load;
 use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
 use crate::inadmissible::{Inadmissible, Quantity};

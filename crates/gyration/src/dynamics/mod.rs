@@ -1,13 +1,15 @@
 //! From an instant to the rates and their Jacobian: loads, balance, inertialess bodies.
 //!
-//! `rates` is the function to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
-//! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels; `jacobian`
-//! differentiates all of it; `inertialess` stands above both.
+//! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and `contractile`
+//! solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels, `body_rates` that of any
+//! body; `jacobian` differentiates it; `inertialess` stands above both, and `rates` over all.
 
 mod affine;
+mod body_rates;
 mod contacts;
 mod contractile;
 mod history;
+mod immersed;
 mod inertialess;
 mod jacobian;
 mod loads;
@@ -16,15 +18,15 @@ mod rates;
 mod rigid;
 
 pub use contacts::nearest;
-pub use jacobian::{Coupling, Lift, Lower, jacobian};
+pub use jacobian::{Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
-pub use rates::rates;
+pub use rates::{jacobian, rates};
 
-pub(crate) use affine::{balance as affine_balance, immersion, moment};
+pub(crate) use affine::{balance as affine_balance, moment};
+pub(crate) use body_rates::body_rates;
 pub(crate) use contractile::ContractileMotion;
 pub(crate) use history::RigidHistory;
-pub(crate) use rates::body_rates;
-pub(crate) use rigid::RigidImmersion;
+pub(crate) use immersed::{RigidImmersion, immersion};
 
 use crate::contact::ContactScratch;
 use crate::inadmissible::Inadmissible;

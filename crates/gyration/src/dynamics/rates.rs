@@ -10,14 +10,12 @@
 //! takes everything about its pin, r = X_p − X₀: τ_p = τ − r × Rᵀ(f + m g), M_p = M − (f + m g) ⊗ r. Source:
 //! `physics.md` §2.
 
-use super::powers::Powers;
-use super::rigid::wrench;
-use super::{ContractileMotion, RigidHistory, Scratch, Workspace, acting, affine, inertialess, rigid};
-use crate::body::Slots;
+use super::body_rates::body_rates;
+use super::jacobian::body_jacobian;
+use super::{Workspace, inertialess};
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, KindAt};
-use crate::ledger::Work;
 use crate::model::Model;
+use nalgebra::DMatrix;
 
 /// The rates of all bodies and the powers of all works at time t.
 ///
@@ -48,31 +46,26 @@ pub fn rates(
     Ok(())
 }
 
-/// The rates of one body, written into its slots, and the powers of the works done on it.
-pub(crate) fn body_rates(
-    at: &BodyAt,
-    slots: &Slots,
-    scratch: &mut Scratch,
-    rates: &mut [f64],
-) -> Result<Powers, Inadmissible> {
-    match at.kind() {
-        KindAt::Rigid(inertia, turn) => {
-            let (wrench, mut done) = wrench(at, turn, scratch)?;
-            match RigidHistory::of(at, turn) {
-                None => rigid::fill(at, inertia, turn, &wrench, slots, rates),
-                Some(history) => done[Work::Fluid] += history.fill(inertia, &wrench, slots, rates),
-            }
-            Ok(done)
-        }
-        KindAt::Affine(affine, gyration) => {
-            let mut acting = acting(at, scratch)?;
-            affine::fill(at, affine, gyration, &mut acting, slots, rates);
-            Ok(acting.powers)
-        }
-        KindAt::Contractile(contractile, gyration, decomposition) => {
-            let mut acting = acting(at, scratch)?;
-            ContractileMotion { at, contractile, gyration, decomposition }.fill(&mut acting, slots, rates);
-            Ok(acting.powers)
+/// ∂(rates)/∂(state) of every body, one square matrix a block of `Model::blocks`.
+///
+/// What is always zero in a matrix is taken to be zero already.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn jacobian(
+    model: &Model,
+    workspace: &mut Workspace,
+    time: f64,
+    state: &[f64],
+    blocks: &mut [DMatrix<f64>],
+) -> Result<(), Inadmissible> {
+    let Workspace { instant, scratch } = workspace;
+    instant.read(model, time, state)?;
+    for (index, matrix) in blocks.iter_mut().enumerate() {
+        match model.bodies[index].has_inertia() {
+            true => body_jacobian(&instant.at(model, index), scratch, matrix)?,
+            false => inertialess::fill_jacobian(model, instant, scratch, index, matrix)?,
         }
     }
+    Ok(())
 }

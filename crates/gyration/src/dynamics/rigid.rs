@@ -1,18 +1,19 @@
 //! A rigid body: force and torque, and the balance solved for its rates.
 
+use super::Scratch;
 use super::contacts::{carrying, meet};
+use super::immersed::RigidImmersion;
+use super::loads::Acting;
 use super::powers::Powers;
-use super::{Acting, Scratch};
 use crate::acting::Load;
 use crate::body::{RigidInertia, Slots};
 use crate::contact::{Contact, ContactLoads, LawKind, Meeting, RigidLoads, RigidMotion};
-use crate::fluid::{Form, RigidDrag};
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, KindAt};
+use crate::instant::BodyAt;
 use crate::ledger::Work;
-use crate::load::{Loads, Wrench, WrenchSlope};
+use crate::load::Wrench;
 use crate::state::Turn;
-use crate::tensor::{Mat3, Vec3, cross_matrix};
+use crate::tensor::Vec3;
 
 /// Force and torque of all loads on a rigid body, and the powers of their works.
 pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<(Wrench, Powers), Inadmissible> {
@@ -64,53 +65,6 @@ fn contact_loads(
         }
         RigidLoads::integrate(&contact.law_set, surface, field, &relative, &mut scratch.contact)
     })
-}
-
-/// A rigid body in the fluid at one instant.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct RigidImmersion<'a> {
-    pub drag: RigidDrag<'a>,
-    /// −ρ_f V g in the axes of space [N].
-    lift: Vec3,
-    /// The same in those of the body, and where it acts.
-    seen: Vec3,
-    arm: Vec3,
-    /// 2ηV sym L∞, in the axes of space [N m].
-    pub ambient: Mat3,
-}
-
-impl<'a> RigidImmersion<'a> {
-    /// None if the body is not immersed.
-    pub fn of(at: &BodyAt<'a>) -> Option<Self> {
-        let BodyAt { model, body, motion, .. } = at;
-        let (fluid, inclusion) = (model.fluid.as_ref()?, body.inclusion.as_ref()?);
-        let (Form::Fixed(form), KindAt::Rigid(_, turn)) = (&inclusion.form, at.kind()) else { return None };
-        let flow = fluid.flow(at.time);
-        let drag = form.drag((fluid, &flow), (&motion.placement, &motion.velocity), &turn.spin);
-        let lift = -(fluid.density * inclusion.volume) * model.gravity;
-        let seen = motion.placement.gradient.tr_mul(&lift);
-        let ambient = (flow.gradient + flow.gradient.transpose()) * (fluid.viscosity * inclusion.volume);
-        Some(Self { drag, lift, seen, arm: inclusion.center, ambient })
-    }
-
-    /// Force and torque of the fluid.
-    pub fn wrench(&self) -> Wrench {
-        let mut wrench = self.drag.wrench();
-        wrench += Wrench { force: self.lift, torque: self.arm.cross(&self.seen) };
-        wrench
-    }
-
-    /// The same as a force and an affine moment M = N R; the stress of the undisturbed flow included.
-    pub fn loads(&self, rotation: &Mat3) -> Loads {
-        let force = self.drag.force() + self.lift;
-        let moment = (self.drag.couple() + self.ambient) * rotation + self.lift * self.arm.transpose();
-        Loads { force, moment }
-    }
-
-    /// The derivative of the torque of the lift by a turn.
-    pub fn lift_by_turn(&self) -> WrenchSlope {
-        WrenchSlope { force: Mat3::zeros(), torque: cross_matrix(&self.arm) * cross_matrix(&self.seen) }
-    }
 }
 
 /// Solves the balance of a rigid body for its rates.

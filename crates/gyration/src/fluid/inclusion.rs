@@ -9,11 +9,12 @@ use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{Ellipsoid, Stress};
 use super::fixed::FixedForm;
 use super::history::History;
-use super::surface::SurfaceForm;
+use super::table::Table;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
 use crate::tensor::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// What makes a body an inclusion.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +40,16 @@ pub enum Form {
     Ellipsoid(Vec3),
     /// The image of any other shape.
     Surface(SurfaceForm),
+}
+
+/// A form of which there is a table; equal if the table is the same one.
+#[derive(Debug, Clone)]
+pub struct SurfaceForm(pub Arc<Table>);
+
+impl PartialEq for SurfaceForm {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// A deformable ellipsoid in the fluid at one instant.

@@ -9,7 +9,7 @@
 
 use super::ambient::{Flow, Fluid};
 use super::fixed::{packed, parted};
-use super::inclusion::{Form, Inclusion};
+use super::inclusion::{Form, Inclusion, SurfaceForm};
 use super::reference::ReferenceEllipsoid;
 use super::stretch::{Strain, Stretch};
 use super::table::{Interpolant, Table, Unresolved};
@@ -18,19 +18,8 @@ use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, Mat12, numbers, unit};
 use crate::tensor::{Mat3, Polar, Vec3, cross_matrix};
 use nalgebra::SVector;
-use std::sync::Arc;
 
 type Vec12 = SVector<f64, 12>;
-
-/// A form of which there is a table; equal if the table is the same one.
-#[derive(Debug, Clone)]
-pub struct SurfaceForm(pub Arc<Table>);
-
-impl PartialEq for SurfaceForm {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
-}
 
 /// The resistance of a body as deformed as it is.
 #[derive(Debug, Clone)]

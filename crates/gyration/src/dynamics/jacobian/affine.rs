@@ -4,8 +4,9 @@
 //!
 //! A pinned body has P alone: p₀ = a − P r takes its columns of p₀ into those of P, and M is about the pin.
 
+use super::super::Scratch;
+use super::super::affine::moment;
 use super::super::loads::add_slopes;
-use super::super::{Scratch, moment};
 use crate::affine::{AffineSlopes, Entry, Gyration};
 use crate::body::Affine;
 use crate::columns::{Columns, Four, Work, dispatch};

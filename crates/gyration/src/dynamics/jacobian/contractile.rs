@@ -4,7 +4,9 @@
 //!
 //! A part of the drive that answers to the body adds what a change of Q does, times the derivative of what the body feels.
 
-use super::super::{ContractileMotion, Scratch, moment};
+use super::super::Scratch;
+use super::super::affine::moment;
+use super::super::contractile::ContractileMotion;
 use super::affine::{Seen, load_slopes};
 use crate::body::Slots;
 use crate::columns::{Columns, Four, Work, dispatch};

@@ -12,7 +12,8 @@
 //! pin to the acceleration of P or Ω that the balance of the kind gives. With i = j it serves every load on a rigid body
 //! that has no other way. Bodies without inertia take their velocities from it (`inertialess`), not their rates.
 
-use super::super::{ContractileMotion, RigidHistory};
+use super::super::contractile::ContractileMotion;
+use super::super::history::RigidHistory;
 use crate::affine::Gyration;
 use crate::body::{Affine, RigidInertia, Slots};
 use crate::columns::{Columns, Four, Work, dispatch};

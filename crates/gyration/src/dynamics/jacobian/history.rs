@@ -3,7 +3,7 @@
 //!   δ(Rᵀ T) = ∂T/∂ω δΩ + [Rᵀ T₀]× δθ,   T₀ the part of the torque that does not depend on the spin
 //!   δy_k′ = s_k (δṗ₀ − L∞ δp₀ − δy_k),   δY_k′ = S_k (R δΩ − R [Ω]× δθ − δY_k)
 
-use super::super::RigidHistory;
+use super::super::history::RigidHistory;
 use super::rigid::{RigidSlopes, gyroscopic, write};
 use crate::body::{RigidInertia, Slots};
 use crate::tensor::{Mat3, cross_matrix};
@@ -11,13 +11,8 @@ use nalgebra::DMatrix;
 use std::ops::Range;
 
 /// Fills the block, which holds zeros.
-pub(super) fn fill(
-    block: &mut DMatrix<f64>,
-    inertia: &RigidInertia,
-    sphere: &RigidHistory,
-    slopes: &RigidSlopes,
-    slots: &Slots,
-) {
+pub(super) fn fill(block: &mut DMatrix<f64>, inertia: &RigidInertia, sphere: &RigidHistory, slopes: &RigidSlopes) {
+    let slots = Slots::with_inertia(sphere.at.body, 0);
     let (loads, turn) = (&sphere.loads, sphere.turn);
     let rotation = &sphere.at.motion.placement.gradient;
     let (mobility, inverse) = (1.0 / sphere.mass(), sphere.inverse(inertia));

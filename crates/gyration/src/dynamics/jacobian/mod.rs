@@ -17,40 +17,28 @@ mod rigid;
 
 pub use coupling::{Coupling, Lift, Lower};
 
-use super::{ContractileMotion, Scratch, Workspace, inertialess};
+use super::Scratch;
+use super::contractile::ContractileMotion;
+use super::history::RigidHistory;
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
-use crate::model::Model;
 use nalgebra::DMatrix;
-
-/// ∂(rates)/∂(state) of every body, one square matrix a block of `Model::blocks`.
-///
-/// What is always zero in a matrix is taken to be zero already.
-///
-/// # Errors
-/// [`Inadmissible`] where the state is outside the model.
-pub fn jacobian(
-    model: &Model,
-    workspace: &mut Workspace,
-    time: f64,
-    state: &[f64],
-    blocks: &mut [DMatrix<f64>],
-) -> Result<(), Inadmissible> {
-    let Workspace { instant, scratch } = workspace;
-    instant.read(model, time, state)?;
-    for (index, matrix) in blocks.iter_mut().enumerate() {
-        match model.bodies[index].has_inertia() {
-            true => body_jacobian(&instant.at(model, index), scratch, matrix)?,
-            false => inertialess::fill_jacobian(model, instant, scratch, index, matrix)?,
-        }
-    }
-    Ok(())
-}
 
 /// The derivatives of the rates of one body with inertia by its own numbers.
 pub(super) fn body_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMatrix<f64>) -> Result<(), Inadmissible> {
     match at.kind() {
-        KindAt::Rigid(inertia, turn) => rigid::fill(matrix, at, inertia, turn, scratch),
+        KindAt::Rigid(inertia, turn) => {
+            let (slopes, others) = rigid::slopes(at, turn, scratch)?;
+            matrix.fill(0.0);
+            match RigidHistory::of(at, turn) {
+                Some(sphere) => history::fill(matrix, inertia, &sphere, &slopes),
+                None => slopes.fill(matrix, at.body, inertia, turn),
+            }
+            if let Some(others) = &others {
+                Coupling::from(others).add_to(matrix, &Lower::of(at), &Lift::of(at));
+            }
+            Ok(())
+        }
         KindAt::Affine(affine, gyration) => affine::fill(matrix, at, affine, gyration, scratch),
         KindAt::Contractile(contractile, gyration, decomposition) => {
             contractile::fill(matrix, &ContractileMotion { at, contractile, gyration, decomposition }, scratch)

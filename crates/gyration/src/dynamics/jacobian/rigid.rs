@@ -8,10 +8,10 @@
 //!
 //! Columns of the quaternion come from those of δθ by δθ = 2 vec(q⁻¹ ∘ δq).
 
+use super::super::Scratch;
 use super::super::contacts::meet;
+use super::super::immersed::RigidImmersion;
 use super::super::loads::add_slopes;
-use super::super::{RigidHistory, RigidImmersion, Scratch};
-use super::{Coupling, Lift, Lower, history};
 use crate::acting::Load;
 use crate::body::{Body, RigidInertia, Slots};
 use crate::contact::{ContactWrench, Meeting, RigidMotion};
@@ -33,30 +33,19 @@ pub(super) struct RigidSlopes {
     pub by_spin: WrenchSlope,
 }
 
-/// Fills the block.
-pub(super) fn fill(
-    matrix: &mut DMatrix<f64>,
+/// How contacts and the fluid act, about the pin if there is one; and what other loads do, by (p₀ | P).
+pub(super) fn slopes(
     at: &BodyAt,
-    inertia: &RigidInertia,
     turn: &Turn,
     scratch: &mut Scratch,
-) -> Result<(), Inadmissible> {
+) -> Result<(RigidSlopes, Option<LoadSlopes>), Inadmissible> {
     let mut slopes = RigidSlopes::default();
     let others = slopes.add_all(at, turn, scratch)?;
     if let Some(pin) = &at.body.pin {
         let weight = at.body.mass.mass * at.model.gravity;
         slopes.tie_to_pin(&pin.point, &weight, &at.motion.placement.gradient, turn);
     }
-    matrix.fill(0.0);
-    let slots = Slots::with_inertia(at.body, 0);
-    match RigidHistory::of(at, turn) {
-        Some(sphere) => history::fill(matrix, inertia, &sphere, &slopes, &slots),
-        None => slopes.fill(matrix, at.body, inertia, turn, &slots),
-    }
-    if let Some(others) = &others {
-        Coupling::from(others).add_to(matrix, &Lower::of(at), &Lift::of(at));
-    }
-    Ok(())
+    Ok((slopes, others))
 }
 
 /// Writes a matrix into a block at the rows and columns of two slots.
@@ -116,7 +105,8 @@ impl RigidSlopes {
     }
 
     /// Fills the block of a body that may be pinned: rows and columns of slots that it does not have are left out.
-    fn fill(&self, block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, turn: &Turn, slots: &Slots) {
+    pub fn fill(&self, block: &mut DMatrix<f64>, body: &Body, inertia: &RigidInertia, turn: &Turn) {
+        let slots = Slots::with_inertia(body, 0);
         let turns = turn.quaternion.turn_by_component();
         let (attitude, rate) = (|| slots.attitude(), || slots.rate());
         write(block, (attitude(), attitude()), &turn.quaternion.rate_by_component(&turn.spin));
