@@ -1,5 +1,5 @@
-//! Loads of one body near a table under three laws, with and without their derivatives, the moments of a stretched body,
-//! and the rates and the Jacobian of the whole body around them.
+//! Loads of one body near a table under three laws, with and without their derivatives, the moments of a stretched
+//! body, and the rates and the Jacobian of the whole body around them.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use divan::Bencher;

@@ -2,8 +2,8 @@
 //!
 //!     cargo bench -p gyration-bench --bench resistance [-- TRIANGLES]
 //!
-//! Wall time of the fastest of some calls, on one thread and on all. With a number of triangles only that
-//! matrix is made, once and on one thread, for callgrind.
+//! Wall time of the fastest of some calls, on one thread and on all. With a number of triangles only that matrix is
+//! made, once and on one thread, for callgrind.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use gyration_stokes::{Faces, Options, Plane, Resistance, Surface};

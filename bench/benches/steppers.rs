@@ -5,8 +5,8 @@
 //! Thirteen components and three quadratures, as of a rigid body under three laws; rates of a few dozen operations. The
 //! second table sets the costs of the mechanics beside it: rates, Jacobian and the linear algebra of an implicit step
 //! of a cube, in units of the rates, which is how the choice between the steppers counts them. The third is of a stiff
-//! chain of coupled blocks, whose cost is to be linear in its length. With a METHOD (explicit, implicit, chain) only the
-//! steps are made, for callgrind.
+//! chain of coupled blocks, whose cost is to be linear in its length. With a METHOD (explicit, implicit, chain) only
+//! the steps are made, for callgrind.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use gyration::dynamics::jacobian;

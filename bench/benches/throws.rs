@@ -3,7 +3,8 @@
 //!     cargo bench -p gyration-bench --bench throws -- 0.03 5e-4 1000 1e-4 1e-5 …     rest gap, damping, throws, tolerances
 //!     cargo bench -p gyration-bench --bench throws -- growth 0.03 5e-4 100 1e-12     how a disturbance of the start grows
 //!
-//! A throw is a run like any other, to rest, of which nothing is stored. One thread; seconds are those of the processor.
+//! A throw is a run like any other, to rest, of which nothing is stored. One thread; seconds are those of the
+//! processor.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use gyration::state::State;

@@ -4,7 +4,8 @@
 //!
 //! Prints a line a run, as the peers do: solver, rule, rtol, error, milliseconds, calls of the rates. The error is the
 //! largest difference of the state at the end from that at rtol 1e-13; with the file of references of the peers, also
-//! from that of their graded rule, which resolves the same equations. Times are those of the fastest run, as the peers' are.
+//! from that of their graded rule, which resolves the same equations. Times are those of the fastest run, as the peers'
+//! are.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use gyration::model::Model;

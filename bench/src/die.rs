@@ -1,4 +1,5 @@
-//! The die that the peers throw: side 2 cm, 10 g, from 0.1–0.3 m in any attitude, spinning up to 40 rad/s, until at rest.
+//! The die that the peers throw: side 2 cm, 10 g, from 0.1–0.3 m in any attitude, spinning up to 40 rad/s, until at
+//! rest.
 //!
 //! In units of side L, density ρ and g, with d₀ = L:
 //!
@@ -37,7 +38,8 @@ pub struct Die {
 }
 
 impl Die {
-    /// The die with a rest gap, as a fraction of its side, a coefficient b of damping and friction, and a relative tolerance.
+    /// The die with a rest gap, as a fraction of its side, a coefficient b of damping and friction, and a relative
+    /// tolerance.
     ///
     /// # Panics
     /// If the scene is not valid: a mistake in this file.

@@ -8,7 +8,8 @@ use gyration::state::State;
 use gyration_scene::Scene;
 use std::path::Path;
 
-/// A unit body of density one near a table: rest gap 0.03, ν = 6; damping and friction ν = 3 (`exponents` replaces them).
+/// A unit body of density one near a table: rest gap 0.03, ν = 6; damping and friction ν = 3 (`exponents` replaces
+/// them).
 ///
 /// # Panics
 /// If the scene is not valid: a mistake in this file.

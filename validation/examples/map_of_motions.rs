@@ -2,8 +2,9 @@
 //!
 //!   cargo run --release -p gyration-validation --example map_of_motions > docs/pictures/motions.svg
 //!
-//! A body without inertia, its axis of revolution in the plane of the shear, tumbles or trembles; each point of the boundary is a root of the passage
-//! between the two (`gyration_validation::passage`). The broken line is the boundary of small strains, 5G/4 = |r − 1|/(r + 1).
+//! A body without inertia, its axis of revolution in the plane of the shear, tumbles or trembles; each point of the
+//! boundary is a root of the passage between the two (`gyration_validation::passage`). The broken line is the boundary
+//! of small strains, 5G/4 = |r − 1|/(r + 1).
 
 use gyration_validation::{passage, threshold};
 use std::fmt::Write as _;

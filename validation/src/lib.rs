@@ -6,7 +6,8 @@
 //!
 //!   validation: row=13 case="…" quantity="…" reference=… measured=… error=… tolerance=… source="…"
 //!
-//! [`Experiment`] runs a scene, or a model made by hand, in memory; [`Studied`] some runs of a ready study. Nothing here computes a reference.
+//! [`Experiment`] runs a scene, or a model made by hand, in memory; [`Studied`] some runs of a ready study. Nothing
+//! here computes a reference.
 
 mod answer;
 mod experiment;

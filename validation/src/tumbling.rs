@@ -2,9 +2,9 @@
 //!
 //!   q = (Q_xx − Q_zz, 2 Q_xz),   Q = P A² Pᵀ:   its angle is twice that of the form's long axis in the plane of the shear u_x = γ̇ z
 //!
-//! After half a turn of the material the body is as it was, and q has gone round 0 once (it tumbles) or not at all (it trembles). Between the two q
-//! passes through 0: the section of the form in that plane is a circle for an instant. The signed distance of this passage is smooth in G = ηγ̇/μ_s,
-//! so that its root is found by secants.
+//! After half a turn of the material the body is as it was, and q has gone round 0 once (it tumbles) or not at all (it
+//! trembles). Between the two q passes through 0: the section of the form in that plane is a circle for an instant. The
+//! signed distance of this passage is smooth in G = ηγ̇/μ_s, so that its root is found by secants.
 
 use crate::Experiment;
 use gyration::tensor::{Mat3, Vec3};
@@ -23,8 +23,9 @@ pub struct Turning {
 }
 
 impl Turning {
-    /// How q passes 0 where it is nearest to it, in the second half turn of the material: its distance over |q| of the body at rest, positive
-    /// if it goes round 0 as the material does. The first half turn is passed over, with what the start has left. `squares` is A².
+    /// How q passes 0 where it is nearest to it, in the second half turn of the material: its distance over |q| of the
+    /// body at rest, positive if it goes round 0 as the material does. The first half turn is passed over, with what
+    /// the start has left. `squares` is A².
     ///
     /// None if the material has not gone round by then.
     pub fn passage(&self, squares: &Mat3) -> Option<f64> {
@@ -109,7 +110,8 @@ pub fn passage(ratio: f64, capillary: f64) -> f64 {
     panic!("r = {ratio}, G = {capillary}: the material does not go round within {end} s")
 }
 
-/// The G between tumbling (at `low`) and trembling (at `high`), where the passage is through 0, by secants kept between the two.
+/// The G between tumbling (at `low`) and trembling (at `high`), where the passage is through 0, by secants kept between
+/// the two.
 ///
 /// # Panics
 /// If `low` does not tumble or `high` does not tremble.

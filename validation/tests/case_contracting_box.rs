@@ -1,4 +1,5 @@
-//! A viscous box that drives itself anisotropically on a floor, under three laws, against the equations written once more (`independent`).
+//! A viscous box that drives itself anisotropically on a floor, under three laws, against the equations written once
+//! more (`independent`).
 
 use crate::independent::contracting::{ContractingBox, MORE};
 use crate::independent::{Power, SoftBox, Stuff, gauss, integrate};

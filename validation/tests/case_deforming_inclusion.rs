@@ -1,8 +1,9 @@
-//! A soft ball in simple shear, given as a polyhedron of 320 facets, against the ball itself: the one by boundary elements that follow it, the
-//! other in closed form.
+//! A soft ball in simple shear, given as a polyhedron of 320 facets, against the ball itself: the one by boundary
+//! elements that follow it, the other in closed form.
 //!
-//! The polyhedron has the volume of the ball, so that its resistance differs by terms of second order in the height of the sphere
-//! above its facets. It takes the form of the ball, inclined and drawn out, while its corners go round: every quarter of a turn is another form.
+//! The polyhedron has the volume of the ball, so that its resistance differs by terms of second order in the height of
+//! the sphere above its facets. It takes the form of the ball, inclined and drawn out, while its corners go round:
+//! every quarter of a turn is another form.
 
 use gyration::dynamics::Workspace;
 use gyration::fluid::{Form, SurfaceForm};
@@ -14,7 +15,8 @@ use gyration_validation::{Case, Experiment, Run};
 const SOURCE: &str = "the same ball, by the resistance of ellipsoids in closed form";
 /// Radius [m].
 const RADIUS: f64 = 0.005;
-/// A fifth of what the resistance of the polyhedron may be wrong by, for the worst of all motions, which this one is not.
+/// A fifth of what the resistance of the polyhedron may be wrong by, for the worst of all motions, which this one is
+/// not.
 const TOLERANCE: f64 = 2e-3;
 
 fn experiment(shape: &str) -> Experiment {

@@ -2,8 +2,8 @@
 //!
 //!   V (S − ∂φ/∂P)·Ṗ ≥ 0,   V (S·Ṗ + Q·V_G − d(det G φ(F))/dt) ≥ 0 of a body that drives itself,   at every sample, of every body
 //!
-//! and their integrals: the works of viscosity and contraction never rise. S is the recorded stress, with the pressure, which does no work
-//! where det F = 1; d(det G φ)/dt = det G (φ tr V_G + ∂φ/∂F·Ḟ), Ḟ = Ṗ G⁻¹ − F V_G.
+//! and their integrals: the works of viscosity and contraction never rise. S is the recorded stress, with the pressure,
+//! which does no work where det F = 1; d(det G φ)/dt = det G (φ tr V_G + ∂φ/∂F·Ḟ), Ḟ = Ṗ G⁻¹ − F V_G.
 
 use gyration::body::Body;
 use gyration::tensor::Mat3;

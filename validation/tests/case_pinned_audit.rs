@@ -2,8 +2,8 @@
 //!
 //!   K_p = P J_p Ṗᵀ,   dK_p/dt = Ṗ J_p Ṗᵀ + N − V (S Pᵀ)ᵀ,   J_p = J + m r⊗r
 //!
-//! Pulled at by a spring with a dashpot, a couple, gravity, a linear friction and a gyroscopic load. The last does no work:
-//! the ledger closes without it.
+//! Pulled at by a spring with a dashpot, a couple, gravity, a linear friction and a gyroscopic load. The last does no
+//! work: the ledger closes without it.
 
 use crate::soft::{self, derivatives, size};
 use gyration::tensor::{Mat3, Vec3};

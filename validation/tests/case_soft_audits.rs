@@ -3,7 +3,8 @@
 //!   reduced dissipation inequality   V S·Ṗ − d(Vφ)/dt = V τ_v·L ≥ 0
 //!   Sławianowski's balance           dK/dt = Ṗ J Ṗᵀ + N − V (S Pᵀ)ᵀ
 //!
-//! S, N, K, P and Ṗ are those of the recording, φ that of its ledger; derivatives are central differences of eighth order.
+//! S, N, K, P and Ṗ are those of the recording, φ that of its ledger; derivatives are central differences of eighth
+//! order.
 
 use crate::soft::{derivatives, size, thrown_box};
 use gyration::tensor::{Mat3, Vec3};

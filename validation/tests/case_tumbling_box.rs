@@ -1,8 +1,8 @@
 //! A tumbling box under three laws with non-integer exponents, against an independent integration.
 //!
-//! `oracles/tumbling_box.py` sums the tractions point by point over graded quadratures of the faces and integrates rotation
-//! matrix and angular momentum by extrapolation; its numbers are good to 1e-12 m. The box comes down on a corner at
-//! 0.130 s (gap 0.65 mm), 0.146 s and 0.176 s, and sweeps an edge past the table at 0.345 s.
+//! `oracles/tumbling_box.py` sums the tractions point by point over graded quadratures of the faces and integrates
+//! rotation matrix and angular momentum by extrapolation; its numbers are good to 1e-12 m. The box comes down on a
+//! corner at 0.130 s (gap 0.65 mm), 0.146 s and 0.176 s, and sweeps an edge past the table at 0.345 s.
 
 use gyration_validation::{Case, Experiment, largest};
 

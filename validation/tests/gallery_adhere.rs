@@ -3,8 +3,8 @@
 //!   f(d) = 2πR d₀ β ((d/d₀)^(1−ν_a)/(ν_a−1) − (d/d₀)^(1−ν_r)/(ν_r−1)) ≤ F at d = d₀        (R ≫ d)
 //!   it is borne while m (g + a(t)) ≤ F,   a(t) = −Aω² sin(ωt + φ) the upward acceleration of the ceiling
 //!
-//! A load that rises slowly is passed with a delay: near the fold c ẏ = ½κF y² + m ȧ t with the damping c at d₀ and
-//! κ = (ν_r − ν_a)/(d₀²(1/(ν_a−1) − 1/(ν_r−1))), so that the ball is at d₀ after 1.0188 T, T³ = 2c²/(κF m ȧ) (the first
+//! A load that rises slowly is passed with a delay: near the fold c ẏ = ½κF y² + m ȧ t with the damping c at d₀ and κ =
+//! (ν_r − ν_a)/(d₀²(1/(ν_a−1) − 1/(ν_r−1))), so that the ball is at d₀ after 1.0188 T, T³ = 2c²/(κF m ȧ) (the first
 //! zero of Ai′).
 
 use gyration_validation::{Answer, Experiment};

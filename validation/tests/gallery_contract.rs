@@ -1,4 +1,5 @@
-//! The gallery of bodies that drive themselves: `contract-1` to `-3`, `hop`, `crawl`, `scallop`, `roll-over`, `breathe`.
+//! The gallery of bodies that drive themselves: `contract-1` to `-3`, `hop`, `crawl`, `scallop`, `roll-over`,
+//! `breathe`.
 //!
 //!   crawling   friction and repulsion of one exponent: ẋ = (h/2)(Ṗ_xz − P_xz Ṗ_xx/P_xx), Δx = −(h/2) ∮ P_xz d(ln P_xx)
 //!   rolling    a shape that stays in space while the ball turns through it at Ω/2: v = (Ω/2) R λ, λ its horizontal stretch
@@ -40,8 +41,8 @@ fn three_amplitudes_stay_nearly_leave_and_leave() {
     };
     let (gentle, threshold, strong) = (least("contract-1"), least("contract-2"), least("contract-3"));
     println!("least load of the weight, largest gap [m], lift-offs: {gentle:?} {threshold:?} {strong:?}");
-    // A tenth of the weight parts what presses on the table all the time from what nearly leaves it. The field carries the weight at
-    // 5.6 mm; a quarter of the height is off the table by any standard, and the block strokes 7.5 times.
+    // A tenth of the weight parts what presses on the table all the time from what nearly leaves it. The field carries
+    // the weight at 5.6 mm; a quarter of the height is off the table by any standard, and the block strokes 7.5 times.
     const TENTH: f64 = 0.1;
     assert!(gentle.0 > TENTH && gentle.1 < 1.5 * 0.0056 && gentle.2 == 0, "{gentle:?}");
     assert!(threshold.0 < TENTH && threshold.1 < 0.025, "{threshold:?}");
@@ -70,7 +71,8 @@ fn block_that_feels_the_ground_hops_on() {
     assert!((0.95..1.05).contains(&least) && (0.95..1.05).contains(&most), "{least} {most}");
 }
 
-/// −(h/2) ∮ P_xz d(ln P_xx) of the last cycle, by the trapezoid rule, which is exact to rounding for smooth periodic strokes.
+/// −(h/2) ∮ P_xz d(ln P_xx) of the last cycle, by the trapezoid rule, which is exact to rounding for smooth periodic
+/// strokes.
 fn enclosed(run: &Run, samples: usize) -> f64 {
     const HEIGHT: f64 = 0.1;
     let (shear, stretch) = (run.column("block.P_xz"), run.column("block.P_xx"));

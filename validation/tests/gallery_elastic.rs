@@ -130,8 +130,8 @@ fn friction_turns_spin_into_speed() {
     let lever = (spin(0) - spin(last)) / (momentum * speed[last]);
     let lowest = height.iter().copied().fold(f64::INFINITY, f64::min);
     println!("spin lost over momentum won: {lever:.4} m; the centre comes down to {lowest:.4} m");
-    // Friction acts below the centre by its height at least; the front of the ball, which comes down, is held up more by the damping
-    // than the back, and that takes spin as well.
+    // Friction acts below the centre by its height at least; the front of the ball, which comes down, is held up more
+    // by the damping than the back, and that takes spin as well.
     assert!(lever > lowest, "{lever}");
     assert!(speed[last] > 0.1, "{}", speed[last]);
 }

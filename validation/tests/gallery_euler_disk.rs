@@ -1,4 +1,5 @@
-//! The scene `euler-disk`: it goes round at the steady rate of its inclination, faster and faster, and ends in finite time.
+//! The scene `euler-disk`: it goes round at the steady rate of its inclination, faster and faster, and ends in finite
+//! time.
 
 use crate::spinning::{Spinning, falls_to, mean};
 use gyration_sim::Outcome;

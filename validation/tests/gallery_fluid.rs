@@ -4,8 +4,9 @@
 //!   tumble      the form's section in the plane of the shear, q = Q_xx − Q_zz + 2i Q_xz, goes round 0 or does not
 //!   swim        a ball strained in its plane by ε that goes round once turns by −2π ε²/(1 + ε²); to and fro, by nothing
 //!
-//! The last: P = R U, U = I + ε e; skw L = Ṙ Rᵀ − ωε²/(1 − ε²), sym L = εω/(1 − ε²) across the axes, of which a body without couple has
-//! skw L = (a² − b²)/(a² + b²) sym L = 2ε/(1 + ε²) sym L (Jeffery, in a fluid at rest). The third axis does not count.
+//! The last: P = R U, U = I + ε e; skw L = Ṙ Rᵀ − ωε²/(1 − ε²), sym L = εω/(1 − ε²) across the axes, of which a body
+//! without couple has skw L = (a² − b²)/(a² + b²) sym L = 2ε/(1 + ε²) sym L (Jeffery, in a fluid at rest). The third
+//! axis does not count.
 
 use crate::independent::Equations as _;
 use crate::independent::inclusion::{Particle, directions};

@@ -1,12 +1,13 @@
 //! The gallery's `rock`: a block rocks on a slope θ about its lower and its upper edge in turn, and comes to stand.
 //!
-//! About an edge, with R² = b² + h², tan α_c = b/h, p² = 3g/(4R), and A = α_c − θ about the lower edge, α_c + θ about the
-//! upper one, a block tilted by φ off the slope obeys
+//! About an edge, with R² = b² + h², tan α_c = b/h, p² = 3g/(4R), and A = α_c − θ about the lower edge, α_c + θ about
+//! the upper one, a block tilted by φ off the slope obeys
 //!
 //!   φ̈ = −p² sin(A − φ),   from rest at φ₀ to φ = 0 in ∫ dφ/√(2p²(cos(A − φ₀) − cos(A − φ)))
 //!                          ≈ (1/p) arccosh(1/(1 − φ₀/A))
 //!
-//! Housner's impact, plastic at the new edge, keeps (1 − (3/2) sin²α_c)² of the energy: a guide, as the field is not plastic.
+//! Housner's impact, plastic at the new edge, keeps (1 − (3/2) sin²α_c)² of the energy: a guide, as the field is not
+//! plastic.
 
 use gyration_validation::{Answer, Experiment, Run};
 

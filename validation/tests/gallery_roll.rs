@@ -1,9 +1,8 @@
 //! The gallery's `roll`: a cylinder rolls straight down the line of fall, with two thirds of g sin θ.
 //!
-//! Friction linear in the slip gives no rolling without slip: it bears m g sin θ/3 with the slip
-//! v_s = (α/β) tan θ/3, as ν_f = ν: at the height ⟨h⟩ = d/(2ν − 3) of the forces over the lowest line, where the surface is
-//! faster by ω⟨h⟩ than there. Damping resists the rolling: the field before the line of contact is pressed, that behind
-//! is released.
+//! Friction linear in the slip gives no rolling without slip: it bears m g sin θ/3 with the slip v_s = (α/β) tan θ/3,
+//! as ν_f = ν: at the height ⟨h⟩ = d/(2ν − 3) of the forces over the lowest line, where the surface is faster by ω⟨h⟩
+//! than there. Damping resists the rolling: the field before the line of contact is pressed, that behind is released.
 
 use gyration::tensor::Vec3;
 use gyration_validation::{Answer, Experiment, largest};
@@ -65,7 +64,8 @@ fn cylinder_rolls_with_two_thirds_of_the_acceleration_of_sliding() {
 #[test]
 fn cylinder_does_not_drift_off_its_line() {
     let [_, across, _] = axes();
-    // The samples of the last step, and the sharper ones of tighter steps, tell the drift of rounding from one of physics.
+    // The samples of the last step, and the sharper ones of tighter steps, tell the drift of rounding from one of
+    // physics.
     for (case, rtol) in [(CASE, "solver.rtol=1e-8"), ("gallery: roll, rtol = 1e-5", "solver.rtol=1e-5")] {
         let run = Experiment::of_gallery("roll", &[rtol]).run();
         let columns = ["cylinder.x", "cylinder.y"].map(|name| run.column(name));

@@ -4,8 +4,8 @@
 //!   one bounce a period T:  up with gT/2, so that the impact, of restitution e, is where the table has the velocity
 //!       Aω cos θ = (gT/2)(1 − e)/(1 + e);   stable for  Γ² < (π(1 − e)/(1 + e))² + (2(1 + e²)/(1 + e)²)²
 //!
-//! beyond which the period doubles. Source: Holmes, *J. Sound Vib.* 84 (1982) 173; the bound with the table's displacement:
-//! Tufillaro, Abbott, Reilly, *An Experimental Approach to Nonlinear Dynamics* (1992), ch. 1.
+//! beyond which the period doubles. Source: Holmes, *J. Sound Vib.* 84 (1982) 173; the bound with the table's
+//! displacement: Tufillaro, Abbott, Reilly, *An Experimental Approach to Nonlinear Dynamics* (1992), ch. 1.
 
 use gyration_validation::{Answer, Experiment};
 use std::f64::consts::{PI, TAU};

@@ -1,7 +1,7 @@
 //! The gallery's `slide`: the block comes to the terminal speed (α/β) tan θ, which has neither its mass nor its size.
 //!
-//! Friction with the exponent of repulsion is (β/α) × pressure × velocity at every point. It pulls below the centre of mass, so
-//! that the front edge is nearer to the slope; the sum is the same.
+//! Friction with the exponent of repulsion is (β/α) × pressure × velocity at every point. It pulls below the centre of
+//! mass, so that the front edge is nearer to the slope; the sum is the same.
 
 use gyration_validation::{Answer, Experiment};
 

@@ -96,7 +96,8 @@ fn stiffer_and_stiffer_bodies_tend_to_the_rigid_one() {
     let [_, _, hard] = distances(&[harder]);
     let ratio = stiff / hard;
     println!("a hundred times the stiffness over a thousand times: {ratio:.2}");
-    // The elastic part goes as 1/stiffness, that of viscosity, which grows as its root here, as its power −3/2: 10 to 32.
+    // The elastic part goes as 1/stiffness, that of viscosity, which grows as its root here, as its power −3/2: 10
+    // to 32.
     assert!((9.0..32.0).contains(&ratio), "{ratio}");
 }
 

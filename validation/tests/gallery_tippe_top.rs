@@ -1,15 +1,15 @@
 //! The scene `tippe-top`: it turns over when spun fast enough, and not below a threshold.
 //!
 //! A ball of radius R with its centre of mass εR below its middle, moments A across and C along the axis, on friction
-//! however weak. Jellett's λ/R = L·(e_z − ε e) is kept by any force at the lowest point, and among the motions with one λ,
-//! friction seeks the least energy. With D(θ) = A sin²θ + C (cos θ − ε)² and no slip the energy is
+//! however weak. Jellett's λ/R = L·(e_z − ε e) is kept by any force at the lowest point, and among the motions with one
+//! λ, friction seeks the least energy. With D(θ) = A sin²θ + C (cos θ − ε)² and no slip the energy is
 //!
 //!   m g R (1 − ε cos θ) + λ²/(2 R² D(θ)),
 //!
-//! so that upright spin n is unstable iff n² > m g R ε (1−ε)²/(A − C(1−ε)), and upside-down spin n is stable iff
-//! n² > m g R ε (1+ε)²/(C(1+ε) − A). Source of the method: Bou-Rabee, Marsden, Romero, SIAM J. Appl. Dyn. Syst. 3 (2004) 352.
-//! The field is not a point: the rubbing of the patch, of mean square radius 2Rd/(ν−2), takes spin at the rate
-//! k = (β/α) m g 2Rd/((ν−2) C), and λ with it.
+//! so that upright spin n is unstable iff n² > m g R ε (1−ε)²/(A − C(1−ε)), and upside-down spin n is stable iff n² > m
+//! g R ε (1+ε)²/(C(1+ε) − A). Source of the method: Bou-Rabee, Marsden, Romero, SIAM J. Appl. Dyn. Syst. 3 (2004) 352.
+//! The field is not a point: the rubbing of the patch, of mean square radius 2Rd/(ν−2), takes spin at the rate k =
+//! (β/α) m g 2Rd/((ν−2) C), and λ with it.
 
 use crate::spinning::Spinning;
 use gyration_validation::{Answer, Experiment, Run};
@@ -61,7 +61,8 @@ fn tippe_top_turns_over_when_fast_and_stays_upright_when_slow() {
     let (largest, last) = inclinations(&top(3.0, 0.9 * upright, 5.0));
     println!("below the first: at most {:.2}°, {:.2}° at the end", largest.to_degrees(), last.to_degrees());
     assert!(largest < 4_f64.to_radians() && last < 2_f64.to_radians(), "{largest} {last}");
-    // Between the two it leaves, and does not arrive; nearer to the second it gets farther before rubbing brings it back.
+    // Between the two it leaves, and does not arrive; nearer to the second it gets farther before rubbing brings it
+    // back.
     let (largest, _) = inclinations(&top(3.0, upright + 0.85 * (complete - upright), 12.0));
     println!("between the two: at most {:.2}°", largest.to_degrees());
     assert!(largest > 20_f64.to_radians() && largest < 120_f64.to_radians(), "{largest}");

@@ -1,8 +1,8 @@
 //! The scenes `top`, `top-slow` and `top-falling`: a cone on its apex, held up by the field alone.
 //!
-//! A top pinned at its tip precesses at Ω = [I₃ω₃ − √(I₃²ω₃² − 4 I₁ m g l cos θ)]/(2 I₁ cos θ), I₁ about the tip. Where the
-//! tip is free to slide, the centre stays on its vertical and I₁ is about the centre; friction decides between the two, and
-//! while the top is fast both are m g l/(I₃ω₃) to leading order.
+//! A top pinned at its tip precesses at Ω = [I₃ω₃ − √(I₃²ω₃² − 4 I₁ m g l cos θ)]/(2 I₁ cos θ), I₁ about the tip. Where
+//! the tip is free to slide, the centre stays on its vertical and I₁ is about the centre; friction decides between the
+//! two, and while the top is fast both are m g l/(I₃ω₃) to leading order.
 
 use crate::spinning::{Spinning, mean};
 use gyration_validation::{Answer, Experiment, largest};
@@ -135,7 +135,8 @@ fn slow_top_nods_precesses_faster_and_sinks() {
     let (spin, inclination) = (mean(&top.spins), mean(&top.inclinations));
     let reference = pinned(spin, inclination);
     println!("{spin:.2} rad/s: {:.4} rad/s, pinned {reference:.4} rad/s", top.precession);
-    // Nearer to its threshold of 55 rad/s the two answers to the tip part: I₁ of the tip is three times that of the centre.
+    // Nearer to its threshold of 55 rad/s the two answers to the tip part: I₁ of the tip is three times that of the
+    // centre.
     assert!((top.precession / reference - 1.0).abs() < 0.05);
     // It starts with its axis at rest, falls, and rises again: within 0.1 s a maximum between lower values.
     let nods = top.inclinations[..20].windows(3).any(|angles| angles[1] > angles[0] && angles[1] > angles[2]);

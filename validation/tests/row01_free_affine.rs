@@ -2,7 +2,8 @@
 //!
 //!   P = P₀ + t Ṗ₀,   p₀ = a + t v,   K = P J Ṗᵀ = P₀JṖ₀ᵀ + t Ṗ₀JṖ₀ᵀ
 //!
-//! Linear and angular momentum and the energy stay. det P is a cubic of t: with P₀ = I and Ṗ₀ = −I it vanishes at t = 1 s.
+//! Linear and angular momentum and the energy stay. det P is a cubic of t: with P₀ = I and Ṗ₀ = −I it vanishes at t = 1
+//! s.
 
 use crate::soft::{self, alone, body, spread};
 use gyration::tensor::{Mat3, Vec3};

@@ -1,4 +1,5 @@
-//! Row 5: a stiff affine body tends to the rigid one. A sphere that spins at ω is stretched to 1 + ε, ε = ρR²ω²/(60(c₁+c₂)).
+//! Row 5: a stiff affine body tends to the rigid one. A sphere that spins at ω is stretched to 1 + ε, ε =
+//! ρR²ω²/(60(c₁+c₂)).
 //!
 //! The steady motion P = R(t) diag(λ, λ, λ⁻²) obeys, exactly,
 //!

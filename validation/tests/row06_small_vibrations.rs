@@ -4,8 +4,9 @@
 //!   any body, shear in the plane of two principal axes of J: ω² = 2(c₁+c₂)V(1/J_i + 1/J_j)
 //!   breathing of a compressible sphere or cube, J = jI: ω² = 3κV/j with the bulk modulus κ at rest
 //!
-//! A body starts at rest with P = I + a M. After ten periods T of the reference the phase of x = M·P tells the frequency:
-//! x = A cos ωt at t = 10T, φ = atan2(−ẋ/ω, x), ω = (20π + φ)/t. The period of a large vibration differs by a² only.
+//! A body starts at rest with P = I + a M. After ten periods T of the reference the phase of x = M·P tells the
+//! frequency: x = A cos ωt at t = 10T, φ = atan2(−ẋ/ω, x), ω = (20π + φ)/t. The period of a large vibration differs by
+//! a² only.
 
 use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;

@@ -1,7 +1,7 @@
 //! Row 7: with viscosity μ a small vibration decays at δ = μV/(2j), and rings at √(ω² − δ²).
 //!
-//! Four samples of x = A e^−δt cos(ω_d t + φ), spaced by h, give both: x_{k+1} = 2e^−δh cos(ω_d h) x_k − e^−2δh x_{k−1}.
-//! Newton's viscosity η is μ = 2η; ζ slows the breathing alone, δ = 3ζV/(2j).
+//! Four samples of x = A e^−δt cos(ω_d t + φ), spaced by h, give both: x_{k+1} = 2e^−δh cos(ω_d h) x_k − e^−2δh
+//! x_{k−1}. Newton's viscosity η is μ = 2η; ζ slows the breathing alone, δ = 3ζV/(2j).
 
 use crate::soft::{self, alone, body};
 use gyration::tensor::Mat3;

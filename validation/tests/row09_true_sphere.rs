@@ -1,7 +1,7 @@
 //! Row 9: a true elastic sphere rings lower than the affine one: what twelve degrees of freedom cost.
 //!
-//! The lowest mode of the incompressible sphere of radius 1, μ = ρ = 1, is u = A∇(r²Y) + B curl curl(r j₂(kr)Y) with the
-//! pressure k²A r²Y, Y a surface harmonic of degree 2 (Lamb 1882). Without traction at r = 1,
+//! The lowest mode of the incompressible sphere of radius 1, μ = ρ = 1, is u = A∇(r²Y) + B curl curl(r j₂(kr)Y) with
+//! the pressure k²A r²Y, Y a surface harmonic of degree 2 (Lamb 1882). Without traction at r = 1,
 //!
 //!   (4 − k²)A + 12(kj₂′ − j₂)B = 0,   2A + ((10 − k²)j₂ − 2kj₂′)B = 0
 //!

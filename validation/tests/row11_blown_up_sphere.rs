@@ -1,7 +1,7 @@
 //! Row 11 with bodies that deform: the force on a sphere, f(R) = 2πRα[d^(1−ν) − (d+2R)^(1−ν)]/(ν−1).
 //!
-//! Undeformed it is the same in all three measures; on a sphere that is blown up to λR, `deformed_area` gives f(λR), and
-//! `reference_area` f(λR)/λ².
+//! Undeformed it is the same in all three measures; on a sphere that is blown up to λR, `deformed_area` gives f(λR),
+//! and `reference_area` f(λR)/λ².
 
 use crate::soft;
 use gyration::tensor::Mat3;

@@ -1,9 +1,9 @@
 //! Row 13 with bodies that deform: a bounce without loss.
 //!
-//! A face that stays level is pushed without being stretched in the measures `deformed_area` and `reference_area`: it turns at
-//! the gap of the rigid one. In `deformed_area_potential` a tension ∫U dA acts in its plane; a stiff face tends to the rigid
-//! one as 1/stiffness. A soft body takes energy into its vibrations, and the sum stays: exactly where repulsion has a
-//! potential; by the ledger of works in `deformed_area`.
+//! A face that stays level is pushed without being stretched in the measures `deformed_area` and `reference_area`: it
+//! turns at the gap of the rigid one. In `deformed_area_potential` a tension ∫U dA acts in its plane; a stiff face
+//! tends to the rigid one as 1/stiffness. A soft body takes energy into its vibrations, and the sum stays: exactly
+//! where repulsion has a potential; by the ledger of works in `deformed_area`.
 
 use gyration::contact::{AreaMeasure, ContactLaw, Repulsion};
 use gyration::material::{Material, MooneyRivlin};

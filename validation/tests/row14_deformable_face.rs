@@ -1,4 +1,5 @@
-//! Row 14 with a body that deforms: a level face under damping alone is not stretched, and stops where the rigid one does.
+//! Row 14 with a body that deforms: a level face under damping alone is not stretched, and stops where the rigid one
+//! does.
 //!
 //!   v = v₀ + (βA/m)(d^(1−ν) − d₀^(1−ν))/(ν−1)
 

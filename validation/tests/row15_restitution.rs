@@ -1,7 +1,7 @@
 //! Row 15: restitution with ν_d = ν_r, without gravity, in translation, for any symmetric shape.
 //!
-//! With u = βv/α the balance m v̇ = F(d)(1 − u) separates: v dv/(1 − u) = F dd/m, and the right side returns to its value
-//! when the gap does. So with x = βv_in/α and y = βv_out/α at the same gap: x − ln(1+x) = −y − ln(1−y).
+//! With u = βv/α the balance m v̇ = F(d)(1 − u) separates: v dv/(1 − u) = F dd/m, and the right side returns to its
+//! value when the gap does. So with x = βv_in/α and y = βv_out/α at the same gap: x − ln(1+x) = −y − ln(1−y).
 
 use gyration_validation::{Answer, Experiment};
 

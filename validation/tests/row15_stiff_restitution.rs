@@ -1,7 +1,8 @@
 //! Rows 15 and 13 with stiff bodies: restitution and apex tend to those of the rigid body.
 //!
 //! With x = βv_in/α and y = βv_out/α at the same gap a rigid body has x − ln(1+x) = −y − ln(1−y). A stiff sphere gives
-//! under the field by something that goes as 1/stiffness; its vibrations are left behind by less than any power of that.
+//! under the field by something that goes as 1/stiffness; its vibrations are left behind by less than any power of
+//! that.
 
 use gyration_validation::{Case, Experiment, Run};
 

@@ -1,8 +1,8 @@
 //! Row 16: ν_f = ν_r, a body that slides without turning.
 //!
-//! Then friction is (β/α) × pressure × velocity at every point: on a slope θ the speed tends to (α/β) tan θ with the time
-//! constant α/(βg cos θ), whatever the mass and the shape; on the level it decays as exp(−βgt/α). The body is kept from turning
-//! by moments of inertia that no such body has; it starts at the gap that carries it.
+//! Then friction is (β/α) × pressure × velocity at every point: on a slope θ the speed tends to (α/β) tan θ with the
+//! time constant α/(βg cos θ), whatever the mass and the shape; on the level it decays as exp(−βgt/α). The body is kept
+//! from turning by moments of inertia that no such body has; it starts at the gap that carries it.
 
 use gyration_validation::{Answer, Case as Known, Experiment};
 

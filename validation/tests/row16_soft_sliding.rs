@@ -1,8 +1,8 @@
 //! Row 16 with bodies that deform, ν_f = ν_r.
 //!
-//! A soft body that slides down a slope comes to a steady motion in which nothing of it turns or stretches, sheared, spread
-//! and tilted as it is. All its points then slide at one speed, and β∫d^−ν k dA v = mg sin θ with α∫d^−ν k dA = mg cos θ gives
-//! v = (α/β) tan θ in any measure, whatever the stiffness.
+//! A soft body that slides down a slope comes to a steady motion in which nothing of it turns or stretches, sheared,
+//! spread and tilted as it is. All its points then slide at one speed, and β∫d^−ν k dA v = mg sin θ with α∫d^−ν k dA =
+//! mg cos θ gives v = (α/β) tan θ in any measure, whatever the stiffness.
 
 use gyration::tensor::Mat3;
 use gyration_validation::{Case, Experiment};

@@ -1,11 +1,13 @@
 //! Row 18: a ball that slides onto a level plane ends rolling at 5/7 of its speed, whatever the friction.
 //!
-//! Friction of the field acts where the field is, on average at the height ⟨h⟩ = d/(ν_f − 2) above the lowest point: the
-//! momentum about that height stays, m a v + I ω with a = R − ⟨h⟩, and rolling is v = ω a. So with v₀ and backspin ω₀
+//! Friction of the field acts where the field is, on average at the height ⟨h⟩ = d/(ν_f − 2) above the lowest point:
+//! the momentum about that height stays, m a v + I ω with a = R − ⟨h⟩, and rolling is v = ω a. So with v₀ and backspin
+//! ω₀
 //!
 //!   v = (v₀ + k ω₀ a)/(1 + k),   k = I/(m a²) → 2/5 as d/R → 0
 //!
-//! There is no damping here, which would resist the rolling (the field before the ball is pressed, that behind is released).
+//! There is no damping here, which would resist the rolling (the field before the ball is pressed, that behind is
+//! released).
 
 use gyration::tensor::Vec3;
 use gyration_validation::{Answer, Case as Known, Experiment};

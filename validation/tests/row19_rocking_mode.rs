@@ -2,8 +2,8 @@
 //!
 //!   ω² = mg (νL²/(12 d) − h/2)/I,   I = m (L² + h²)/12,   αA d^−ν = mg
 //!
-//! with base L × L, height h, rest gap d. It is unstable where d > νL²/(6h): the field is then too soft for the height, and
-//! a tilt grows as cosh(|ω| t).
+//! with base L × L, height h, rest gap d. It is unstable where d > νL²/(6h): the field is then too soft for the height,
+//! and a tilt grows as cosh(|ω| t).
 
 use gyration::body::{BodyKind, RigidInertia};
 use gyration::contact::{ContactLaw, Repulsion};

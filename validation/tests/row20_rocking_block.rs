@@ -1,8 +1,8 @@
 //! Row 20: a slender block, 2b wide and 2h high, let go at rest on an edge, tilted by θ₀.
 //!
-//! With R² = b² + h², tan α = b/h, p² = 3g/(4R) a block that turns about its edge obeys θ̈ = −p²(α − θ) for small angles:
-//! it comes upright for the first time after (1/p) arcosh(1/(1 − θ₀/α)). Source: G. W. Housner, Bull. Seism. Soc. Am. 53
-//! (1963) 403. The edge stands on the field at a gap of b/1000.
+//! With R² = b² + h², tan α = b/h, p² = 3g/(4R) a block that turns about its edge obeys θ̈ = −p²(α − θ) for small
+//! angles: it comes upright for the first time after (1/p) arcosh(1/(1 − θ₀/α)). Source: G. W. Housner, Bull. Seism.
+//! Soc. Am. 53 (1963) 403. The edge stands on the field at a gap of b/1000.
 
 use gyration_validation::{Answer, Experiment};
 

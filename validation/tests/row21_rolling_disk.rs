@@ -1,10 +1,10 @@
 //! Row 21: a thin disk of radius r that rolls on its rim, inclined by a to the ground, with its centre at rest.
 //!
-//! It turns about its lowest diameter, ω = Ω sin a with Ω the rate at which the contact goes round, and the moment m g r cos a
-//! of the ground turns its angular momentum: Ω² = 4g/(r sin a), E = (3/2) m g r sin a above the flat disk.
+//! It turns about its lowest diameter, ω = Ω sin a with Ω the rate at which the contact goes round, and the moment m g
+//! r cos a of the ground turns its angular momentum: Ω² = 4g/(r sin a), E = (3/2) m g r sin a above the flat disk.
 //!
-//! Damping of exponent ν_d takes the power P = ∫ β (d/d₀)^−ν_d w² dA. Near the contact the gap of the under side is
-//! d = δ + a s + ½ r a φ² (s inwards, φ along the rim) and w = Ω a r φ, so that with ν the exponent of the repulsion
+//! Damping of exponent ν_d takes the power P = ∫ β (d/d₀)^−ν_d w² dA. Near the contact the gap of the under side is d =
+//! δ + a s + ½ r a φ² (s inwards, φ along the rim) and w = Ω a r φ, so that with ν the exponent of the repulsion
 //!
 //!   δ^(ν−3/2) ~ a^(−3/2),   P ~ Ω² a² δ^(5/2−ν_d) a^(−5/2) ~ a^(−q),   q = 3/2 − (3/2)(ν_d − 5/2)/(ν − 3/2),
 //!

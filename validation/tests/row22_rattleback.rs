@@ -19,8 +19,8 @@ const SPIN: f64 = 5.0;
 
 /// The stone with a product J_xy [kg m²], an orientation and an angular velocity [rad/s].
 ///
-/// Friction is strong, so that it rolls; the gap is small, since the rubbing of a patch of the width √(ϱ d) eats the spin
-/// at the rate (β/α) m g (ϱ d/(ν−2))/I_zz.
+/// Friction is strong, so that it rolls; the gap is small, since the rubbing of a patch of the width √(ϱ d) eats the
+/// spin at the rate (β/α) m g (ϱ d/(ν−2))/I_zz.
 fn stone(product: f64, orientation: &str, angular_velocity: [f64; 3], end: f64) -> Experiment {
     let [x, y, z] = angular_velocity;
     Experiment::of_scene(&format!(

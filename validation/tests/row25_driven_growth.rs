@@ -1,7 +1,7 @@
 //! Row 25: a body on which no stress acts contracts as G = exp(Qt/μ_γ).
 //!
-//! Without a material there is none at all; rubber has none in the limit ρ → 0, in which it follows G at once: the deviation
-//! is of the first order in ρ.
+//! Without a material there is none at all; rubber has none in the limit ρ → 0, in which it follows G at once: the
+//! deviation is of the first order in ρ.
 
 use crate::soft::{CUBE, entry, size};
 use gyration::tensor::Mat3;

@@ -1,7 +1,7 @@
 //! Row 27: d/dt(T + V det G φ) = V (Q·V_G − μ_γ|V_G|² − μ|sym ḞF⁻¹|²), with det G far from one.
 //!
-//! Once through the works that the program integrates, and once through differences of eighth order of recorded energies, with
-//! the powers put together from recorded P, Ṗ, G, V_G and Q.
+//! Once through the works that the program integrates, and once through differences of eighth order of recorded
+//! energies, with the powers put together from recorded P, Ṗ, G, V_G and Q.
 
 use crate::soft::{BALL, derivatives};
 use gyration::tensor::Mat3;

@@ -1,8 +1,8 @@
 //! Row 28: a block of height h whose stretch is 1 + ε sin ωt leaves the ground if its centre has to fall faster than
 //! gravity makes it: εω²h/2 > g.
 //!
-//! The stretch is prescribed, from its least value on; material, contact and drag are stiff beside ω. The threshold is that of the
-//! contact force at the top of the stroke, 1 − εω²h/(2g) of the weight below it.
+//! The stretch is prescribed, from its least value on; material, contact and drag are stiff beside ω. The threshold is
+//! that of the contact force at the top of the stroke, 1 − εω²h/(2g) of the weight below it.
 
 use gyration_validation::{Case, Experiment, Run};
 use std::f64::consts::TAU;

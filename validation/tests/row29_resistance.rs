@@ -67,7 +67,7 @@ fn held_and_growing_balls_feel_the_stresses_of_the_books() {
     // N/V − 2η L of L = 2 I.
     let [start, _] = [0, 1].map(|k| run.matrices_of(0, "particle_stress")[k]);
     case.check("particle stress at the start [Pa]", -12.0 * VISCOSITY, start[(1, 1)], 1e-13);
-    // j g̈ = −4ηV g ġ:  ġ + k g² = c,  k = 2ηV/j, j = mR²/5;  g = √(c/k) tanh(√(ck) t + atanh √(k/c)) for c > k.
+    // j g̈ = −4ηV g ġ: ġ + k g² = c, k = 2ηV/j, j = mR²/5; g = √(c/k) tanh(√(ck) t + atanh √(k/c)) for c > k.
     let rate = 2.0 * VISCOSITY * 5.0 / (900.0 * RADIUS * RADIUS);
     let (all, root) = (2.0 + rate, (rate * (2.0 + rate)).sqrt());
     let known = (all / rate).sqrt() * (root * 0.05 + (rate / all).sqrt().atanh()).tanh();

@@ -9,7 +9,8 @@ use std::f64::consts::{PI, TAU};
 
 const RATE: f64 = 2.0;
 
-/// A spheroid about the x axis, turned about z by φ and before that about y by a tilt [rad], without inertia; the solver as it is by default.
+/// A spheroid about the x axis, turned about z by φ and before that about y by a tilt [rad], without inertia; the
+/// solver as it is by default.
 fn grain(r: f64, tilt: f64, phi: f64, end: f64) -> Experiment {
     Experiment::of_scene(&format!(
         r#"
@@ -40,7 +41,8 @@ fn grains_tumble_with_jefferys_period() {
     ];
     for (name, r) in cases {
         let case = Case { row: Some(30), name, source: "T = (2π/γ̇)(r + 1/r)" };
-        // Across the flow a rod turns fastest and a disc slowest: the instant of either is sharp where the other one is not.
+        // Across the flow a rod turns fastest and a disc slowest: the instant of either is sharp where the other one is
+        // not.
         let phi = if r > 1.0 { 0.5 * PI } else { 0.0 };
         let start = grain(r, 0.0, phi, 1.0);
         // The way across the direction of the start, whose first return is after half a period.

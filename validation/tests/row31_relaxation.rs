@@ -1,7 +1,7 @@
 //! Row 31: a nearly spherical elastic particle in a fluid at rest goes back to its form as exp(−t/τ), τ = 3η/(2μ_s).
 //!
-//! On a sphere that deforms at a rate L the fluid has the stress −3ηL, and the stress of small strains is 2μ_s ε. With larger ones the rate of ln λ differs by
-//! terms in ε and ε²; those are taken out by two amplitudes of either sign.
+//! On a sphere that deforms at a rate L the fluid has the stress −3ηL, and the stress of small strains is 2μ_s ε. With
+//! larger ones the rate of ln λ differs by terms in ε and ε²; those are taken out by two amplitudes of either sign.
 
 use gyration_validation::{Case, Experiment};
 

@@ -3,7 +3,8 @@
 //!   small G:  (a − b)/(a + b) = 5G/4,  inclination 45° − ¾G rad;   G = 0.1 from the list
 //!   extension: a form at rest has L = 0, T N − 𝓜:T = ηL∞ with T = μ_s P Pᵀ:   ηε̇/μ_s = g(λ), which has a largest value
 //!
-//! Sources: Gao, Hu, Ponte Castañeda, *J. Fluid Mech.* 687 (2011) 209; the equations once more, integrated apart from the program (`independent`).
+//! Sources: Gao, Hu, Ponte Castañeda, *J. Fluid Mech.* 687 (2011) 209; the equations once more, integrated apart from
+//! the program (`independent`).
 
 use crate::independent::inclusion::{Averages, Particle, directions};
 use crate::independent::integrate;
@@ -152,7 +153,8 @@ fn balls_are_drawn_out_above_the_largest_rate_of_a_steady_form() {
     let longest = |rate: f64| extending(rate, 40.0).run().vectors_of(1, "semi_axes")[1][0] / 5e-3;
     let (below, above) = (longest(known * 0.99), longest(known * 1.01));
     assert!(below < 3.0 && above > 1e2, "{below} {above}");
-    // Near λ = 3 a body above the critical rate lingers: the slower the nearer. The rate at which it does not move at all, by a parabola through three of them.
+    // Near λ = 3 a body above the critical rate lingers: the slower the nearer. The rate at which it does not move at
+    // all, by a parabola through three of them.
     let rates = [1.02, 1.01, 1.005].map(|part| part * known);
     let slow = rates.map(slowest);
     let weight = |k: usize| (0..3).filter(|j| *j != k).map(|j| slow[j] / (slow[j] - slow[k])).product::<f64>();

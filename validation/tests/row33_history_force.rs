@@ -14,7 +14,8 @@ const DENSITY: f64 = 900.0;
 const TAU: f64 = RADIUS * RADIUS * DENSITY / VISCOSITY;
 const GRAVITY: f64 = 9.81;
 
-/// A run of a sphere of so many times the density of the fluid, until t = `end` and sampled every `sample`, in units of τ.
+/// A run of a sphere of so many times the density of the fluid, until t = `end` and sampled every `sample`, in units of
+/// τ.
 fn run(ratio: f64, (end, sample): (f64, f64), more: &str) -> Run {
     let (end, sample, density) = (end * TAU, sample * TAU, ratio * DENSITY);
     let text = format!(

@@ -1,9 +1,9 @@
 //! Row 34: the resistance of a triangulated ellipsoid tends to the closed form at second order in the mesh size.
 //!
 //! The error of a matrix is that of the power −x·y = x·H x for the motion where it is largest, translations, spins,
-//! strains and expansion together. Flat triangles are inside the ellipsoid and resist less, by a share that falls with the square of
-//! the mesh size; the correction for their curvature leaves what is of higher order. The closed form is written once more, beside
-//! the tests of the crate.
+//! strains and expansion together. Flat triangles are inside the ellipsoid and resist less, by a share that falls with
+//! the square of the mesh size; the correction for their curvature leaves what is of higher order. The closed form is
+//! written once more, beside the tests of the crate.
 
 #[path = "../../crates/gyration-stokes/tests/reference/mod.rs"]
 mod reference;
@@ -21,7 +21,8 @@ struct Measured {
     matrix: Mat12,
 }
 
-/// The matrix of an ellipsoid of 20·4^n triangles, and its errors; the estimate must bound the error and mean something.
+/// The matrix of an ellipsoid of 20·4^n triangles, and its errors; the estimate must bound the error and mean
+/// something.
 fn measured(axes: [f64; 3], refinements: u32) -> Measured {
     let surface = Surface::ellipsoid(axes, refinements).unwrap_or_else(|error| panic!("{error}"));
     let resistance = surface.resistance(&Options::default()).unwrap_or_else(|error| panic!("{error}"));

@@ -3,8 +3,8 @@
 //!   an edge that strikes a distance s beside the centre, without friction:  v_out/v_in = (1 + e)/(1 + s²/k²) − 1
 //!   one bounce a period forks into two at  Γ² = (π(1 − e)/(1 + e))² + (2(1 + e²)/(1 + e)²)²,  Γ = Aω²/g
 //!
-//! The second is where an eigenvalue of the exact map of impacts (time, speed) passes −1, with constant e (Tufillaro, Abbott, Reilly, *An
-//! experimental approach to nonlinear dynamics and chaos*, 1992, ch. 1).
+//! The second is where an eigenvalue of the exact map of impacts (time, speed) passes −1, with constant e (Tufillaro,
+//! Abbott, Reilly, *An experimental approach to nonlinear dynamics and chaos*, 1992, ch. 1).
 
 use gyration_study::Study;
 use gyration_validation::{Answer, Studied};

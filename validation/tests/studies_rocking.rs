@@ -1,4 +1,5 @@
-//! The ready study `rocking-overturn`, some of its runs, against Housner's equation of a rigid block on a table that shakes.
+//! The ready study `rocking-overturn`, some of its runs, against Housner's equation of a rigid block on a table that
+//! shakes.
 //!
 //!   θ̈ = −p² [sin(α − θ) − (Aω²/g) cos ωt cos(α − θ)],   p² = 3g/(4R),  tan α = b/h,  until θ returns to 0
 //!

@@ -87,7 +87,8 @@ fn prescribed_circle_has_its_area_and_its_mirror_image_the_opposite() {
         let sandbox = recorded(&scene(side));
         words(&sandbox.done(&["plot", "crawler.gyr", "stroke", "distance", "-o", "-"]).stdout)
     };
-    // 50 samples of a circle of radius 0.1 enclose π/100 sin(2π/50)/(2π/50) = 0.03133; x goes by the sine, y by the cosine.
+    // 50 samples of a circle of radius 0.1 enclose π/100 sin(2π/50)/(2π/50) = 0.03133; x goes by the sine, y by the
+    // cosine.
     let (clockwise, mirrored) = (drawn(1.0), drawn(-1.0));
     assert!(clockwise.contains("area −0.0313") && clockwise.contains("50 samples a cycle"), "{clockwise}");
     assert!(mirrored.contains("area 0.0313") && mirrored.contains("counterclockwise"), "{mirrored}");

@@ -1,6 +1,7 @@
 //! What Python's readers make of recordings and exports: xarray, VTK and trimesh; and the recipes of the book.
 //!
-//! Needs a Python with the packages of `xtask/python-requirements.txt`, named by the environment variable GYRATION_PYTHON:
+//! Needs a Python with the packages of `xtask/python-requirements.txt`, named by the environment variable
+//! GYRATION_PYTHON:
 //!
 //! ```text
 //! GYRATION_PYTHON=target/python/bin/python cargo test -p gyration-cli --test tests -- --ignored python::
@@ -109,7 +110,8 @@ fn python(folder: &Path, script: &str, arguments: &[&str]) {
 #[ignore = "needs GYRATION_PYTHON"]
 fn vtk_reads_surfaces_whose_tractions_add_up_to_the_contact_force() {
     let sandbox = Sandbox::new();
-    // Flat faces: rounding of 1600 terms. Curved ones: two thousandths of a triangle's own traction, and some more at an edge.
+    // Flat faces: rounding of 1600 terms. Curved ones: two thousandths of a triangle's own traction, and some more at
+    // an edge.
     let cases = [
         ("dice", "0.5", "1e-12"),
         ("hop", "0.3", "1e-12"),

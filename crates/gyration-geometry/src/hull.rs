@@ -1,8 +1,8 @@
 //! The convex hull of points: which points have one, and the hull on its corners only.
 //!
-//! The hull itself is made by `insertion`, with exact signs: there is nothing to go wrong with grids, plates or needles,
-//! where a tolerance loses corners. Before that, points that span no volume are refused; behind it, vertices that lie
-//! within a face or an edge are left out.
+//! The hull itself is made by `insertion`, with exact signs: there is nothing to go wrong with grids, plates or
+//! needles, where a tolerance loses corners. Before that, points that span no volume are refused; behind it, vertices
+//! that lie within a face or an edge are left out.
 
 use crate::insertion::Cloud;
 use gyration::shape::Polyhedron;

@@ -4,21 +4,21 @@
 //!
 //!   (b−a) × (c−a) · (p−a) > 0,
 //!
-//! and joining it to the edges around them. The sign is exact (adaptive arithmetic of Shewchuk, crate `robust`): the triangles
-//! of a face agree, what is seen is connected and bounded by one loop, and no new triangle is without area.
+//! and joining it to the edges around them. The sign is exact (adaptive arithmetic of Shewchuk, crate `robust`): the
+//! triangles of a face agree, what is seen is connected and bounded by one loop, and no new triangle is without area.
 //!
 //! Every point still outside waits at one triangle that it sees; when that goes, the point sees a new triangle or is
 //! inside (on the ray from p through the point, all beyond the hull lies below what p sees). So a point meets few
-//! triangles: n log n signs for points in any usual order, where asking every triangle would take n².
-//! Source: Barber, Dobkin, Huhdanpaa, *The quickhull algorithm for convex hulls* (1996), with exact signs.
+//! triangles: n log n signs for points in any usual order, where asking every triangle would take n². Source: Barber,
+//! Dobkin, Huhdanpaa, *The quickhull algorithm for convex hulls* (1996), with exact signs.
 
 use std::collections::HashMap;
 
 use gyration::tensor::Vec3;
 use robust::{Coord3D, orient3d};
 
-/// Coordinates below this part of the size count as zero: signs are exact while products of three do not underflow, and a
-/// coordinate has 53 bits (2^−200, some 1e-60).
+/// Coordinates below this part of the size count as zero: signs are exact while products of three do not underflow, and
+/// a coordinate has 53 bits (2^−200, some 1e-60).
 const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 
 /// Points about which signs of volumes are asked.
@@ -41,7 +41,8 @@ struct Hull {
 }
 
 impl Cloud {
-    /// The points in units of a power of two near their size, which is exact and keeps products of coordinates in range.
+    /// The points in units of a power of two near their size, which is exact and keeps products of coordinates in
+    /// range.
     pub(crate) fn new(points: &[Vec3]) -> Self {
         let size = points.iter().map(|point| point.amax()).fold(0.0, f64::max);
         let unit = size.log2().ceil().exp2();

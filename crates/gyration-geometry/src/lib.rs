@@ -1,9 +1,9 @@
 //! Shapes from points and from files: convex hulls and meshes.
 //!
 //! What comes back is closed, oriented outward and has a volume: hulls by construction, meshes because they have passed
-//! [`Polyhedron::validate`](gyration::shape::Polyhedron::validate). Paths and scales are the caller's; nothing here knows a
-//! scene. The readers of STL, OBJ and PLY are our own: they keep f64, say at which line or byte a file is wrong, and
-//! allocate nothing on the word of a header.
+//! [`Polyhedron::validate`](gyration::shape::Polyhedron::validate). Paths and scales are the caller's; nothing here
+//! knows a scene. The readers of STL, OBJ and PLY are our own: they keep f64, say at which line or byte a file is
+//! wrong, and allocate nothing on the word of a header.
 
 mod fault;
 mod hull;

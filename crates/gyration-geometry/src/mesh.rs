@@ -1,7 +1,8 @@
 //! Mesh files: one entry for all formats, welding, and the checks that make a surface a body.
 //!
-//! A mesh must be closed, oriented and face outward. Where the indices of a file do not close it (STL has none), vertices
-//! with equal coordinates become one; nothing else is repaired, because a guess would silently change mass and contact.
+//! A mesh must be closed, oriented and face outward. Where the indices of a file do not close it (STL has none),
+//! vertices with equal coordinates become one; nothing else is repaired, because a guess would silently change mass and
+//! contact.
 
 use std::collections::HashMap;
 use std::fs::File;

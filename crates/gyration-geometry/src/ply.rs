@@ -1,7 +1,7 @@
 //! PLY, text and binary of both byte orders.
 //!
-//! Of the elements only `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) matter; the others are skipped. A
-//! number of elements is believed only if the file is long enough for it.
+//! Of the elements only `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) matter; the others are skipped.
+//! A number of elements is believed only if the file is long enough for it.
 
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;

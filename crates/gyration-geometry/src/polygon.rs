@@ -1,8 +1,8 @@
 //! Splitting a polygon of a mesh into triangles.
 //!
-//! A fan from one corner. With the polygon's area vector N = ½ Σ X_k × X_{k+1} (Newell), a fan covers the polygon once iff no
-//! triangle of it is turned over, n·N ≥ 0. The corner is chosen whose worst triangle is best; every convex polygon and every
-//! quadrilateral has one. Of many corners some are tried: in a convex polygon any will do.
+//! A fan from one corner. With the polygon's area vector N = ½ Σ X_k × X_{k+1} (Newell), a fan covers the polygon once
+//! iff no triangle of it is turned over, n·N ≥ 0. The corner is chosen whose worst triangle is best; every convex
+//! polygon and every quadrilateral has one. Of many corners some are tried: in a convex polygon any will do.
 
 use gyration::tensor::Vec3;
 

@@ -1,8 +1,8 @@
 //! STL, text and binary: triangles with their corners spelled out.
 //!
-//! Binary: 80 bytes of any content, a little-endian u32 count, then 50 bytes a triangle (normal, three corners as f32, two
-//! bytes). A file of exactly that length is binary even if it starts with "solid", as some do. Normals are ignored: the
-//! order of the corners says which side is out.
+//! Binary: 80 bytes of any content, a little-endian u32 count, then 50 bytes a triangle (normal, three corners as f32,
+//! two bytes). A file of exactly that length is binary even if it starts with "solid", as some do. Normals are ignored:
+//! the order of the corners says which side is out.
 
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;

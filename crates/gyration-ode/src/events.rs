@@ -3,10 +3,10 @@
 //!   find t ∈ (t₀, t₁] with φ(t, y(t), w(t)) = 0
 //!
 //! The interpolant is sampled on equal subintervals, the first change of sign in the direction wanted is closed in by
-//! the ITP method: secant steps, kept near enough to the middle never to need more evaluations than bisection by
-//! more than one. A crossing at the end of a step belongs to it and not to the next. Two crossings within one
-//! subinterval go unseen: let samples be as fine as the function asks for.
-//! Source: Oliveira, Takahashi, *ACM Trans. Math. Softw.* 47 (2021).
+//! the ITP method: secant steps, kept near enough to the middle never to need more evaluations than bisection by more
+//! than one. A crossing at the end of a step belongs to it and not to the next. Two crossings within one subinterval go
+//! unseen: let samples be as fine as the function asks for. Source: Oliveira, Takahashi, *ACM Trans. Math. Softw.* 47
+//! (2021).
 
 use crate::integrator::Integrator;
 

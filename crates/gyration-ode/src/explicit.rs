@@ -4,8 +4,8 @@
 //!
 //! The rate at the start is that at the end of the step before, taken after the projection, so that an accepted step
 //! costs seventeen evaluations; its interpolant of order 8 costs none. Error: h Σ (b̂_j − b_j) k_j, which behaves like
-//! h⁸. Stiffness: λ is seen at no cost from f(u₁) − f(Y₁₇) against u₁ − Y₁₇, both being approximations at t₁.
-//! Source: as of `prince`; Hairer, Wanner II, §IV.2 (stiffness).
+//! h⁸. Stiffness: λ is seen at no cost from f(u₁) − f(Y₁₇) against u₁ − Y₁₇, both being approximations at t₁. Source:
+//! as of `prince`; Hairer, Wanner II, §IV.2 (stiffness).
 
 use crate::combination::Rates;
 use crate::context::{Context, Point};

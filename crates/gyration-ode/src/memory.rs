@@ -2,8 +2,8 @@
 //!
 //! A run continued from a `Memory` makes the same steps, to the last bit, as one that was never interrupted: state,
 //! rate (that of the projected state), step, error history, the collocation polynomial from which Newton's method
-//! starts, the votes for another stepper, and the counters. Options and system are the caller's to repeat.
-//! The interpolant of the last step is not part of it: sample before you stop.
+//! starts, the votes for another stepper, and the counters. Options and system are the caller's to repeat. The
+//! interpolant of the last step is not part of it: sample before you stop.
 
 use crate::auto::Switch;
 use crate::control::Control;
@@ -18,8 +18,8 @@ const REALS: usize = 12;
 
 /// A checkpoint as two vectors of plain numbers, to be stored without loss.
 ///
-/// `integers` begins with the version, the number of components of y and that of w; `reals` begins with the time,
-/// then y, then w.
+/// `integers` begins with the version, the number of components of y and that of w; `reals` begins with the time, then
+/// y, then w.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Memory {
     /// Times, states, steps, errors.

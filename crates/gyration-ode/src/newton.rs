@@ -282,8 +282,8 @@ impl Stages {
 ///
 /// κ = 10 ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that
 /// its solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
-/// Ten: the scales s are relative to gaps, which are a hundredth of what y measures.
-/// Never below ten roundings of the state. Source: radau5.f, which knows the relative tolerance itself.
+/// Ten: the scales s are relative to gaps, which are a hundredth of what y measures. Never below ten roundings of the
+/// state. Source: radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &Layout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
     let wanted = (10.0 * size.max(1.0).powf(-0.5)).clamp(1e-4, 1e-2);

@@ -3,9 +3,9 @@
 //!   ‖e‖ = max over the groups G of √( (1/|G|) Σ_{i∈G} (e_i/s_i)² )
 //!
 //! The groups are the blocks of the system and, as one more, its quadratures. The maximum keeps a body at rest from
-//! hiding the error of one that bounces, so that the accuracy of a body does not depend on the company it is in.
-//! s_i is the smaller of the errors allowed at the two ends of the step: a state that approaches a boundary, where
-//! little is allowed, is judged by what is allowed where it arrives and not by what was allowed where it came from.
+//! hiding the error of one that bounces, so that the accuracy of a body does not depend on the company it is in. s_i is
+//! the smaller of the errors allowed at the two ends of the step: a state that approaches a boundary, where little is
+//! allowed, is judged by what is allowed where it arrives and not by what was allowed where it came from.
 
 use crate::layout::Layout;
 use crate::report::Cause;

@@ -3,9 +3,9 @@
 //!   Y_s = u₀ + h Σ_j a_sj k_j,   k_s = f(t₀ + c_s h, Y_s),   u₁ = u₀ + h Σ_j b_j k_j
 //!
 //! Seventeen stages; the eighteenth rate, that at the new state, is the first of the next step. Rows are sparse: pairs
-//! (stage, coefficient), stages from 0. Every number is the nearest f64 to the published one.
-//! Source: P. J. Prince, *Parallel derivation of efficient continuous/discrete explicit Runge–Kutta methods*, 2018. The
-//! order conditions are checked below for every rooted tree.
+//! (stage, coefficient), stages from 0. Every number is the nearest f64 to the published one. Source: P. J. Prince,
+//! *Parallel derivation of efficient continuous/discrete explicit Runge–Kutta methods*, 2018. The order conditions are
+//! checked below for every rooted tree.
 
 /// One row of a tableau: (stage, coefficient).
 pub(crate) type Row = &'static [(usize, f64)];

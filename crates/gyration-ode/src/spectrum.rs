@@ -22,8 +22,8 @@ pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, layout: &Layout) -> 
 ///
 ///   ρ ≈ (‖J^(m+k) v‖/‖J^m v‖)^(1/k)
 ///
-/// in components relative to their scales, which makes unlike units comparable; the mean over k applications irons
-/// out what a complex pair does to the norm. The start is fixed and has no symmetry. A nilpotent block (free flight)
+/// in components relative to their scales, which makes unlike units comparable; the mean over k applications irons out
+/// what a complex pair does to the norm. The start is fixed and has no symmetry. A nilpotent block (free flight)
 /// gives 0. An estimate, good to a factor of two.
 pub(crate) fn spectral_radius(jacobian: &BlockMatrix, layout: &Layout, scale: &[f64], work: &mut [f64]) -> f64 {
     let (vector, rest) = work.split_at_mut(layout.dimension);

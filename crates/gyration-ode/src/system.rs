@@ -14,8 +14,8 @@ use crate::pattern::Pattern;
 
 /// A system dy/dt = f(t, y), dw/dt = g(t, y) on a domain that may have a boundary.
 ///
-/// All methods must be functions of their arguments alone: the integrator evaluates states that it later rejects, and
-/// a run continued from a checkpoint must repeat the same numbers.
+/// All methods must be functions of their arguments alone: the integrator evaluates states that it later rejects, and a
+/// run continued from a checkpoint must repeat the same numbers.
 pub trait System {
     /// Why a state is outside the domain of the equations (a gap closed, a volume gone).
     type Inadmissible: Clone + std::fmt::Debug;

@@ -2,8 +2,8 @@
 //!
 //!   Σ_i b_i(θ) Φ_i(τ) = θ^|τ| / γ(τ)   for every tree τ of at most p nodes
 //!
-//! Φ_i(•) = 1, Φ_i([τ₁ … τ_m]) = Π_k Σ_j a_ij Φ_j(τ_k); γ(•) = 1, γ([τ₁ … τ_m]) = |τ| Π_k γ(τ_k).
-//! Source: Hairer, Nørsett, Wanner I, §II.2.
+//! Φ_i(•) = 1, Φ_i([τ₁ … τ_m]) = Π_k Σ_j a_ij Φ_j(τ_k); γ(•) = 1, γ([τ₁ … τ_m]) = |τ| Π_k γ(τ_k). Source: Hairer,
+//! Nørsett, Wanner I, §II.2.
 
 /// A rooted tree: its subtrees, in a fixed order.
 #[derive(Debug, Clone)]

@@ -169,8 +169,8 @@ impl Simulation {
     ///
     /// ``force`` [N] in axes of space, at the centre of mass or at the material point ``at`` [m] (of the shape's frame,
     /// carried along with the body); ``moment`` the affine moment [N m], (3, 3), first index in space, second in the
-    /// body, its entries held constant; ``torque``
-    /// [N m] in axes of space. Without arguments nothing is applied any more. The work is ``works()["load"]``.
+    /// body, its entries held constant; ``torque`` [N m] in axes of space. Without arguments nothing is applied any
+    /// more. The work is ``works()["load"]``.
     #[pyo3(signature = (body, force=None, moment=None, torque=None, at=None))]
     fn apply(
         &mut self,

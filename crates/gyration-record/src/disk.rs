@@ -1,7 +1,8 @@
 //! The few file operations that writing a recording takes, each with the path in its error.
 //!
-//! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old or
-//! the new one at any moment. Only rows that no metadata count yet are written in place. Tests cut the power before any of these operations.
+//! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old
+//! or the new one at any moment. Only rows that no metadata count yet are written in place. Tests cut the power before
+//! any of these operations.
 
 use crate::error::RecordError;
 use crate::metadata::Group;

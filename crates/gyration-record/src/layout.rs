@@ -1,7 +1,7 @@
 //! What a recording holds: arrays that grow with time, fixed arrays, labels of dimensions, kinds of events, columns.
 //!
-//! The layout is fixed when a recording is created. A row is the numbers of all growing arrays, one after the other
-//! in the order of the layout, each flattened with its last dimension fastest.
+//! The layout is fixed when a recording is created. A row is the numbers of all growing arrays, one after the other in
+//! the order of the layout, each flattened with its last dimension fastest.
 
 use crate::error::RecordError;
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,8 +66,8 @@ pub struct Layout {
     pub event_kinds: Vec<String>,
     /// All column names in the order of the CSV; the column `t` comes first by itself.
     pub csv_order: Vec<String>,
-    /// Rows in a chunk file, at least 1; see [`chunk_rows_for`]. It must not depend on anything that a resumed
-    /// run could see differently.
+    /// Rows in a chunk file, at least 1; see [`chunk_rows_for`]. It must not depend on anything that a resumed run
+    /// could see differently.
     pub chunk_rows: usize,
 }
 

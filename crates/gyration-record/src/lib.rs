@@ -1,5 +1,5 @@
-//! Recordings on disk: named arrays with units that grow with time, written so that a crash loses little and a
-//! resumed run leaves the same bytes as an uninterrupted one. No mechanics here.
+//! Recordings on disk: named arrays with units that grow with time, written so that a crash loses little and a resumed
+//! run leaves the same bytes as an uninterrupted one. No mechanics here.
 //!
 //! A recording is a directory: a Zarr v3 group, uncompressed, that `xarray.open_zarr` opens as it is.
 //!
@@ -11,8 +11,8 @@
 //!          state/lock            held by the one process that writes
 //! ```
 //!
-//! [`Writer`] appends, [`Recording`] reads with bounded memory, [`export`] turns a recording into CSV or NPZ.
-//! The crate zarrs would do the Zarr part and more, but takes longer to compile (70 s) than all the rest of this crate.
+//! [`Writer`] appends, [`Recording`] reads with bounded memory, [`export`] turns a recording into CSV or NPZ. The crate
+//! zarrs would do the Zarr part and more, but takes longer to compile (70 s) than all the rest of this crate.
 
 #![forbid(unsafe_code)]
 

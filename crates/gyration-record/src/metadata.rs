@@ -1,9 +1,9 @@
 //! The Zarr v3 metadata of a recording: which arrays there are, how long they are, and the attributes.
 //!
 //! The group's `zarr.json` holds the attributes and, as consolidated metadata, those of every array; it is replaced as
-//! one file, so that a reader sees all arrays at one length. What this crate needs beside Zarr stands in the
-//! group's attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row) and
-//! `record_columns` (`NAME = ARRAY[INDEX]`, in the order of the CSV). Keys are written in a fixed order.
+//! one file, so that a reader sees all arrays at one length. What this crate needs beside Zarr stands in the group's
+//! attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row) and `record_columns` (`NAME
+//! = ARRAY[INDEX]`, in the order of the CSV). Keys are written in a fixed order.
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};

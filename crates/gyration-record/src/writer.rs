@@ -1,10 +1,10 @@
 //! Writing a recording: create, append, flush, finish; resume.
 //!
 //! A flush writes, each step on the disk before the next: 1. the chunks under way, 2. the metadata with the new
-//! lengths, 3. the checkpoint with the number of rows it belongs to. So whatever the moment of a crash, the metadata never
-//! count a row that is not there, and the checkpoint never one that the metadata do not count. To resume is to cut
-//! back to the checkpoint's rows and to go on. A new recording grows as `NAME.gyr.part` and gets its name at the first
-//! flush: a recording that exists has its scene, its first row and a checkpoint. No clock is read here.
+//! lengths, 3. the checkpoint with the number of rows it belongs to. So whatever the moment of a crash, the metadata
+//! never count a row that is not there, and the checkpoint never one that the metadata do not count. To resume is to
+//! cut back to the checkpoint's rows and to go on. A new recording grows as `NAME.gyr.part` and gets its name at the
+//! first flush: a recording that exists has its scene, its first row and a checkpoint. No clock is read here.
 //!
 //! Readers that ignore consolidated metadata see a file an array; a crash among the renames of step 2 leaves those, and
 //! nothing else, of two lengths until the run is resumed.

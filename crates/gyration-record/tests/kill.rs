@@ -1,7 +1,7 @@
 //! A writing process that is killed again and again leaves, in the end, the bytes of one that never was.
 //!
-//! The child is this program, called with the path in an environment variable. Moments of the kills come from a
-//! fixed sequence; where in the work they fall depends on the machine, and nothing is asserted about that.
+//! The child is this program, called with the path in an environment variable. Moments of the kills come from a fixed
+//! sequence; where in the work they fall depends on the machine, and nothing is asserted about that.
 
 use crate::common::{attributes, checkpoint, layout, row, time, tree, write_to};
 use gyration_record::{Attributes, Recording, Writer};

@@ -34,7 +34,8 @@ pub struct SceneError {
 pub enum Fault {
     /// The text: its syntax.
     Syntax,
-    /// The structure: a key that is not known or missing, another kind of value, another unit. No other number mends it.
+    /// The structure: a key that is not known or missing, another kind of value, another unit. No other number mends
+    /// it.
     Structure,
     /// A value: out of its limits, or at odds with others. Another number may do.
     #[default]

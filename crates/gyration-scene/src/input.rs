@@ -4,8 +4,8 @@
 //! text → tree, with places → structure by the JSON Schema of a type → parts, each deserialized → notes of the caller
 //! ```
 //!
-//! Everything that is wrong comes at once, with file, line, column, dotted key and fix. A place is the keys that lead to it,
-//! an index from zero for an item of an array.
+//! Everything that is wrong comes at once, with file, line, column, dotted key and fix. A place is the keys that lead
+//! to it, an index from zero for an item of an array.
 
 use crate::check::{Rules, structure};
 use crate::document::{Document, Findings};
@@ -48,8 +48,8 @@ impl InputFile {
         Ok(Self::parse(&name, &text, rules, overrides)?)
     }
 
-    /// Reads a text, applies overrides as of a scene, and checks its structure; `name` is what messages call it. TOML, or
-    /// JSON as of a scene.
+    /// Reads a text, applies overrides as of a scene, and checks its structure; `name` is what messages call it. TOML,
+    /// or JSON as of a scene.
     ///
     /// # Errors
     /// All errors of its syntax.
@@ -133,7 +133,8 @@ impl InputFile {
     }
 }
 
-/// The fix for a word that is not among the known ones: the nearest, or all of them if they are few; `what` says what they are.
+/// The fix for a word that is not among the known ones: the nearest, or all of them if they are few; `what` says what
+/// they are.
 pub fn fix<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, what: &str) -> String {
     suggest::fix(word, known, what)
 }

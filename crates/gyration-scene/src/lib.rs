@@ -4,11 +4,11 @@
 //! text → tree (TOML or JSON, with places) → overrides → structure (JSON Schema) → values → model, state, plan
 //! ```
 //!
-//! [`Scene::open`] does all of it; [`Template`] reads a text once for many scenes. Everything that is wrong with a scene
-//! comes at once, with file, line, column, dotted key and fix ([`SceneErrors`]); a file that cannot be read at all is a
-//! [`ReadError`]. The types of the file are in [`mod@file`]; their units and defaults are decided here and nowhere else.
-//! This crate integrates nothing, and computes no flow: resistances that only boundary elements tell are asked for when a
-//! scene is to be run ([`Scene::complete`]).
+//! [`Scene::open`] does all of it; [`Template`] reads a text once for many scenes. Everything that is wrong with a
+//! scene comes at once, with file, line, column, dotted key and fix ([`SceneErrors`]); a file that cannot be read at
+//! all is a [`ReadError`]. The types of the file are in [`mod@file`]; their units and defaults are decided here and
+//! nowhere else. This crate integrates nothing, and computes no flow: resistances that only boundary elements tell are
+//! asked for when a scene is to be run ([`Scene::complete`]).
 
 mod assemble;
 mod check;

@@ -61,8 +61,8 @@ const VECTOR: [&str; 3] = ["x", "y", "z"];
 /// `symbol`.
 ///
 /// # Errors
-/// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that do
-/// not increase.
+/// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that
+/// do not increase.
 pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
     read_table(path, (symbol, &TENSOR), interpolation)
 }

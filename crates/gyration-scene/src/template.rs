@@ -105,8 +105,8 @@ impl Template {
         }
     }
 
-    /// A dotted key with items of arrays by their indices, as far as the text has what it names: two keys of one place are
-    /// the same then.
+    /// A dotted key with items of arrays by their indices, as far as the text has what it names: two keys of one place
+    /// are the same then.
     pub fn by_index(&self, key: &str) -> String {
         let mut at = Some(&self.document.root);
         let word = |word: &str| {

@@ -1,4 +1,5 @@
-//! Whatever contracts an incompressible body, its start is projected once and then stays: resolved scenes are fixed points.
+//! Whatever contracts an incompressible body, its start is projected once and then stays: resolved scenes are fixed
+//! points.
 
 use crate::common::{assert_resolves_to_itself, start};
 use gyration::tensor::Mat3;

@@ -2,8 +2,8 @@
 //!
 //! The errors allowed per step are scale-free. rtol is relative to what the forces depend on: lengths to the gap (or
 //! the size, if that is smaller), velocities to the speed of the fastest material point, works to the energy in play.
-//! atol is a fraction of the body's size, of 1 for a rotation, for P and for G, and of the body's own speed scale. One step may spend a
-//! tenth of either.
+//! atol is a fraction of the body's size, of 1 for a rotation, for P and for G, and of the body's own speed scale. One
+//! step may spend a tenth of either.
 
 use crate::resistance::known;
 use gyration::Inadmissible;
@@ -39,7 +39,8 @@ pub struct ModelSystem<'a> {
     prepared: Prepared,
 }
 
-/// Scratch and scales of a run, which belong to the size of its model and not to its numbers: they outlive a change of loads.
+/// Scratch and scales of a run, which belong to the size of its model and not to its numbers: they outlive a change of
+/// loads.
 #[derive(Debug, Clone)]
 pub(crate) struct Prepared {
     workspace: Workspace,
@@ -117,7 +118,8 @@ impl<'a> ModelSystem<'a> {
     }
 }
 
-/// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its size, η v size².
+/// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its
+/// size, η v size².
 fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
     match &model.fluid {
         Some(fluid) if !body.has_inertia() => fluid.viscosity * speed * body.size * body.size,
@@ -125,8 +127,8 @@ fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
     }
 }
 
-/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, and one size a second
-/// for a body that nothing moves.
+/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, and one size a
+/// second for a body that nothing moves.
 fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
     let (body, slots) = (&model.bodies[index], model.slots(index));
     let (motion, falling) = match body.has_inertia() {
@@ -226,7 +228,8 @@ pub(crate) fn normalize(quaternion: &mut [f64]) -> f64 {
     (norm - 1.0).abs()
 }
 
-/// Puts an incompressible body back to det P = 1, tr L = 0; returns |det P − 1| before, and the energy that it took [J].
+/// Puts an incompressible body back to det P = 1, tr L = 0; returns |det P − 1| before, and the energy that it took
+/// [J].
 fn restore_volume(interior: &AffineBody, slots: &Slots, y: &mut [f64]) -> (f64, f64) {
     if !interior.is_incompressible() {
         return (0.0, 0.0);
@@ -239,8 +242,8 @@ fn restore_volume(interior: &AffineBody, slots: &Slots, y: &mut [f64]) -> (f64, 
     (corrected.size, energy(&corrected.gradient, &corrected.rate) - energy(&p, &rate))
 }
 
-/// Puts det G, or P and Ṗ, of a contractile body back to where they have to be; returns the error before, and the energy
-/// that it took [J].
+/// Puts det G, or P and Ṗ, of a contractile body back to where they have to be; returns the error before, and the
+/// energy that it took [J].
 fn restore_contraction(contractile: &Contractile, slots: &Slots, time: f64, y: &mut [f64]) -> (f64, f64) {
     let (p, rate) = (matrix(&y[slots.attitude()]), rate_in(slots, y));
     let contraction = contraction_at(&contractile.contraction, time, &y[slots.extra()]);

@@ -2,10 +2,10 @@
 //!
 //!   m p̈₀ = m g + f + F,   P̈ J = M + M_a + ½ [τ]× P⁻ᵀ − V S,   Q = Q_applied + feedback
 //!
-//! Applied values are held from one change to the next (zero-order hold); they belong to the stepper and not to the scene. Their
-//! work is `work.load`, that of a changed drive `work.drive`, so that the ledger still closes. After a change the rates are
-//! evaluated anew and the error history is forgotten, the size of the step is not. Nothing is recorded, and the run does not end
-//! by itself: neither at the scene's end nor at rest.
+//! Applied values are held from one change to the next (zero-order hold); they belong to the stepper and not to the
+//! scene. Their work is `work.load`, that of a changed drive `work.drive`, so that the ledger still closes. After a
+//! change the rates are evaluated anew and the error history is forgotten, the size of the step is not. Nothing is
+//! recorded, and the run does not end by itself: neither at the scene's end nor at rest.
 
 use crate::detached::Detached;
 use crate::events::Event;
@@ -184,7 +184,8 @@ impl HandStepper {
         Ok(())
     }
 
-    /// Puts a constant Q [Pa] in the place of the part of a body's drive that is given in time; what answers to the body stays.
+    /// Puts a constant Q [Pa] in the place of the part of a body's drive that is given in time; what answers to the
+    /// body stays.
     ///
     /// # Errors
     /// [`Refusal`] if there is no such body, its contraction is not driven, or a number is not finite.

@@ -1,7 +1,7 @@
 //! A detached run: all of it but its model, so that the model can be changed between two steps.
 //!
-//! A simulation borrows its model, which is frozen while it runs. Whoever changes loads or drives between steps detaches the
-//! run, changes the model, and goes on with the two. Both ways move a few pointers and copy no numbers.
+//! A simulation borrows its model, which is frozen while it runs. Whoever changes loads or drives between steps
+//! detaches the run, changes the model, and goes on with the two. Both ways move a few pointers and copy no numbers.
 
 use crate::adapter::Prepared;
 use crate::events::Event;

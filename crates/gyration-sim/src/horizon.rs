@@ -8,8 +8,9 @@
 //! for a body that turns by less than a radian, and for any turn as long as the sphere around the body stays clear. p̈₀
 //! is the acceleration at hand: g in free flight, none where a support carries the body, whose field the stepper then
 //! sees. Of a body that deforms, a has |P̈ᵀn| r besides, and the sphere grows with |P|. A step also ends where a couple
-//! or a drive has a kink, and takes a quarter of a drive's fastest period at most. An oscillating support counts as its foremost place, and is followed in eighths of its period where it may
-//! meet the body. A body at rest, or one that leaves, is not held up. Steps are cut by this and never lengthened.
+//! or a drive has a kink, and takes a quarter of a drive's fastest period at most. An oscillating support counts as its
+//! foremost place, and is followed in eighths of its period where it may meet the body. A body at rest, or one that
+//! leaves, is not held up. Steps are cut by this and never lengthened.
 
 use crate::views::View;
 use gyration::contact::RelativeMotion;

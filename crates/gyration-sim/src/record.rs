@@ -2,8 +2,8 @@
 //!
 //! The directory, the scene and the row t = 0 are on disk before the first step; rows are flushed with a checkpoint at
 //! least once a second of wall time. Nothing in the directory tells when or where it was made: the same scene leaves
-//! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an
-//! uninterrupted one.
+//! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an uninterrupted
+//! one.
 
 pub(crate) mod surfaces;
 
@@ -190,8 +190,8 @@ fn describe_outline(body: &gyration::body::Body) -> Value {
     })
 }
 
-/// What a drawing needs of a body: which of the surfaces and outlines is its own, or its own outline if it has no surface;
-/// of one that contracts also volume [m³] and period of what drives it [s].
+/// What a drawing needs of a body: which of the surfaces and outlines is its own, or its own outline if it has no
+/// surface; of one that contracts also volume [m³] and period of what drives it [s].
 fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
     let mut described = json!({
         "name": body.name,

@@ -196,8 +196,8 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time at
-    /// which a support could be reached.
+    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time
+    /// at which a support could be reached.
     fn target(&self) -> f64 {
         let time = self.integrator.time();
         let mut end = self.plan.end;

@@ -26,7 +26,8 @@ pub struct Tally {
     pub smallest_gap: f64,
     /// Largest correction by projection after a step.
     pub largest_projection: f64,
-    /// Largest increment over a step of each work of [`DISSIPATION`] [J]: at most the error of a step; −∞ before the first.
+    /// Largest increment over a step of each work of [`DISSIPATION`] [J]: at most the error of a step; −∞ before the
+    /// first.
     pub largest_gains: [f64; 2],
     /// How many events of each kind.
     pub events: [u64; 3],

@@ -5,8 +5,8 @@
 //!
 //!   p̈₀ = −R ([Ω̇]× + [Ω]×²) r,   of an affine one p̈₀ = −P̈ r
 //!
-//! The force of the contacts follows from the balance, f = m (p̈₀ − g), where nothing else pulls at the body. A body without
-//! inertia has its velocities among the rates, and no accelerations.
+//! The force of the contacts follows from the balance, f = m (p̈₀ − g), where nothing else pulls at the body. A body
+//! without inertia has its velocities among the rates, and no accelerations.
 
 use gyration::acting::Load;
 use gyration::body::{BodyKind, matrix, vector};

@@ -1,7 +1,7 @@
 //! Finds the events of a step.
 //!
-//! The signals are looked at on the quarters of the step, on its interpolant, which costs no evaluation of the rates. Where
-//! one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
+//! The signals are looked at on the quarters of the step, on its interpolant, which costs no evaluation of the rates.
+//! Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
 //! samples have a part in this.
 
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};

@@ -116,7 +116,8 @@ fn the_ledger_closes_under_a_force_that_switches() {
     }
 }
 
-/// A pendulum upside down, held by a moment about its pin: θ̈ = (m g l sin θ + τ)/I with τ = −a θ − b θ̇ held over each interval.
+/// A pendulum upside down, held by a moment about its pin: θ̈ = (m g l sin θ + τ)/I with τ = −a θ − b θ̇ held over each
+/// interval.
 #[test]
 fn a_controlled_pin_holds_a_body_up() {
     let text = r#"
@@ -206,8 +207,8 @@ fn stepping_by_hand_without_a_change_makes_the_steps_of_a_run() {
     let (state, ending) = (run.state(), whole.state());
     let difference = state.bodies.iter().zip(&ending.bodies).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     println!("by hand and in a run: the states differ by {difference:.1e}");
-    // The ledger has an entry more, which has a part in the choice of the first step: the steps differ, and the states by a trace of
-    // the tolerance 1e-6.
+    // The ledger has an entry more, which has a part in the choice of the first step: the steps differ, and the states
+    // by a trace of the tolerance 1e-6.
     assert!(difference < 1e-9, "{difference}");
     let columns = run.columns();
     let row = run.row().unwrap();
@@ -256,7 +257,8 @@ fn power(load: &Applied, run: &HandStepper) -> f64 {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever is applied to a body that drives itself: `work.load` is the integral of the power of the load, and the ledger closes.
+    /// Whatever is applied to a body that drives itself: `work.load` is the integral of the power of the load, and the
+    /// ledger closes.
     #[test]
     fn the_work_of_a_load_is_the_integral_of_its_power_on_a_contractile_body(
         incompressible in any::<bool>(),
@@ -286,7 +288,8 @@ proptest! {
         let in_play: f64 = ledger.energies.iter().chain(&ledger.works).map(|entry| entry.abs()).sum();
         let (error, residual) = ((work - integral).abs(), ledger.residual.abs());
         println!("work.load {work:+.6e} J, error {error:.1e} J; residual {residual:.1e} J of {in_play:.1e} J");
-        // Gauss on motions of some tens of hertz over a hundredth of a second leaves nothing; the run a hundred times rtol.
+        // Gauss on motions of some tens of hertz over a hundredth of a second leaves nothing; the run a hundred times
+        // rtol.
         prop_assert!(error < 1e-7 * (exchanged + in_play), "{} against {}", work, integral);
         prop_assert!(residual < 1e-7 * in_play, "{} of {}", residual, in_play);
     }

@@ -255,12 +255,14 @@ fn rigid_ball_on_a_table_rolls_freely_and_slides_with_friction() {
     let (_, found) = survey(&resting_ball(Vec3::z(), 2e3, false));
     let free = of_motion(&found, Motion::Free);
     assert_eq!(free.len(), 5);
-    // The field is not a point: its friction away from the axis stops rolling too, and a spin about the vertical, but slowly.
+    // The field is not a point: its friction away from the axis stops rolling too, and a spin about the vertical, but
+    // slowly.
     let mut rates: Vec<f64> = free.iter().map(|mode| mode.decay_rates()[1]).collect();
     rates.sort_by(f64::total_cmp);
     println!("rates {rates:?}");
     assert!(rates[2] < 0.01 * rates[3] && rates[0] > 0.0);
-    // Sliding without turning would decay as (β/α) g; at the contact point (1 + 5/2) times as fast, to the order of d/R.
+    // Sliding without turning would decay as (β/α) g; at the contact point (1 + 5/2) times as fast, to the order of
+    // d/R.
     assert_close("sliding", rates[4], 3.5 * 2e3 / 40e3 * GRAVITY, 0.02);
 }
 
@@ -399,7 +401,8 @@ fn supports_that_move_are_held_where_they_are_at_the_start() {
 
 #[test]
 fn brick_that_falls_on_its_edge_is_not_turned_about_the_vertical() {
-    // Far above the table all stiffnesses vanish but the material's; the free turn about the vertical must not be mixed with the fall.
+    // Far above the table all stiffnesses vanish but the material's; the free turn about the vertical must not be mixed
+    // with the fall.
     let material = Some(Material::NeoHookeanLog(NeoHookeanLog { mu: 8000.0, lambda: 20000.0 }));
     let mut body = soft(Shape::Box(Cuboid { size: Vec3::new(0.2, 0.1, 0.06) }), 1000.0, material, 0.0);
     let law = Repulsion { alpha: 40e3, exponent: 6.0, reference_gap: 2e-3 };

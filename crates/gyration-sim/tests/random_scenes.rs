@@ -1,9 +1,9 @@
 //! Random admissible scenes: each ends with an outcome that physics explains, a closed ledger, and no overlap.
 //!
 //! Sizes from 1e-4 to 1e3 m, masses from 1e-6 to 1e6 kg, exponents from 1 to 12, all shapes, several supports, laws
-//! present or absent, in proportions that make sense (`random/laws.rs`). A case is a number:
-//! `GYRATION_CASES=1000..5000 cargo test --release -p gyration-sim --test tests random_scenes` runs others than those of the
-//! ordinary tests, and `GYRATION_DUMP=FOLDER` writes the scenes there.
+//! present or absent, in proportions that make sense (`random/laws.rs`). A case is a number: `GYRATION_CASES=1000..5000
+//! cargo test --release -p gyration-sim --test tests random_scenes` runs others than those of the ordinary tests, and
+//! `GYRATION_DUMP=FOLDER` writes the scenes there.
 
 use crate::random;
 use crate::random::verdict::{Seen, run};
@@ -14,13 +14,14 @@ use std::ops::Range;
 
 /// The ledger closes to this many times rtol, of the energy in play.
 ///
-/// A step may spend a tenth of rtol on the works, and as much on the state, on whose gaps the contact energy depends with
-/// the exponent (at most 12) as factor: some 1.5 rtol a step if all errors had one sign. Hundreds of steps have mostly
-/// different senses: a hundred is what the documentation promises for long runs.
+/// A step may spend a tenth of rtol on the works, and as much on the state, on whose gaps the contact energy depends
+/// with the exponent (at most 12) as factor: some 1.5 rtol a step if all errors had one sign. Hundreds of steps have
+/// mostly different senses: a hundred is what the documentation promises for long runs.
 const LEDGER: f64 = 100.0;
 
-/// The part of the energy in play that rounding may hide: of energies that are large against what is exchanged of them, and
-/// of contact energy, which depends on the gap with an exponent up to 12 while places are known to 1e-16 of the size.
+/// The part of the energy in play that rounding may hide: of energies that are large against what is exchanged of them,
+/// and of contact energy, which depends on the gap with an exponent up to 12 while places are known to 1e-16 of the
+/// size.
 fn rounding(gap: f64) -> f64 {
     1e-11 + 1e-14 / gap
 }
@@ -47,7 +48,8 @@ fn judge(seen: &Seen, rtol: f64) -> Result<&'static str, String> {
         Outcome::AtRest { .. } => Ok("at rest"),
         Outcome::Stopped(stop) if stop.reason == Reason::Interrupted => Ok("unfinished"),
         Outcome::Stopped(stop) if stop.reason == Reason::SpringCollapsed => Ok("spring collapsed"),
-        // Either the field is too weak to keep the body from coming nearer than numbers can tell, or something is wrong.
+        // Either the field is too weak to keep the body from coming nearer than numbers can tell, or something is
+        // wrong.
         Outcome::Stopped(_) if seen.barrier < 1.0 && seen.gap < NEAR => Ok("touched"),
         Outcome::Stopped(stop) => {
             let Seen { gap, barrier, .. } = seen;

@@ -62,8 +62,8 @@ fn a_replayed_state_is_the_one_recorded() {
             }
         }
         println!("{name}: contact force within {worst:.1e}");
-        // A rotation read from its matrix rounds to 1e-16; the lever of the size over the gap, times the exponent of the
-        // law, multiplies it by 10⁴ at most here.
+        // A rotation read from its matrix rounds to 1e-16; the lever of the size over the gap, times the exponent of
+        // the law, multiplies it by 10⁴ at most here.
         assert!(worst < 1e-11, "{name}: {worst:e}");
     }
 }
@@ -167,7 +167,8 @@ fn tractions_integrate_to_the_contact_force_whatever_the_measure_of_area() {
             };
             let (coarse, fine) = (error(8), error(32));
             println!("{measure}, row {row}, {kind:.6}: {coarse:.1e}, {fine:.1e}");
-            // Sides of 0.1 m/32 against gaps of 0.05 m; the rule is of order four: a quarter of the step, a 256th of the error.
+            // Sides of 0.1 m/32 against gaps of 0.05 m; the rule is of order four: a quarter of the step, a 256th of
+            // the error.
             assert!(fine < 1e-6 && fine < coarse / 150.0, "{measure}: {coarse:e} {fine:e}");
         }
     }

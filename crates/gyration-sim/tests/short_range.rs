@@ -1,5 +1,5 @@
-//! Symptom: a field of short range was jumped over within one long step, by an oscillating support or by a spinning rod,
-//! and the run ended with a wrong momentum, a closed ledger and no word.
+//! Symptom: a field of short range was jumped over within one long step, by an oscillating support or by a spinning
+//! rod, and the run ended with a wrong momentum, a closed ledger and no word.
 
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Outcome, Provenance, RunSummary, Simulation, Unwatched};

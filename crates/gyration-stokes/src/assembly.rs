@@ -3,9 +3,9 @@
 //!   S_iajb = (1/8π) ∫∫ φ_i G_ab φ_j dA dA,      e_ia = ∫ φ_i v_a dA,   v = (1/4π) ∮ n/r dA
 //!
 //! tr G = 4/r, so that ∫∫ φ_i/r is a quarter of the trace of a block summed over j, and e costs nothing. Each pair is
-//! computed once; matrix and mirror image are added at the end. Triangles are taken in batches: the threads make one strip
-//! of nine rows for each triangle, then add the strips to the rows of each node, in the order of the triangles. No sum depends on
-//! the number of threads.
+//! computed once; matrix and mirror image are added at the end. Triangles are taken in batches: the threads make one
+//! strip of nine rows for each triangle, then add the strips to the rows of each node, in the order of the triangles.
+//! No sum depends on the number of threads.
 
 use crate::dense::Symmetric;
 use crate::pair::{Block, block};

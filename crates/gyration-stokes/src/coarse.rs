@@ -1,13 +1,14 @@
 //! How much a coarser space of tractions would lose: the measure of what the space at hand still loses.
 //!
-//! The energy ⟨S⁺b, b⟩ of the best traction of a space grows with the space (Galerkin). Coarse nodes are a greedy maximal set
-//! without neighbours; a node between them takes the mean of its coarse neighbours, weighted by their nearness. With N of
-//! the one and n of the other the mesh is ρ = √(N/n) times finer, and for an error of order p in its size
+//! The energy ⟨S⁺b, b⟩ of the best traction of a space grows with the space (Galerkin). Coarse nodes are a greedy
+//! maximal set without neighbours; a node between them takes the mean of its coarse neighbours, weighted by their
+//! nearness. With N of the one and n of the other the mesh is ρ = √(N/n) times finer, and for an error of order p in
+//! its size
 //!
 //!   E − E_N = (E_N − E_n)/(ρ^p − 1) ≤ (E_N − E_n)/(ρ − 1)      p ≥ 1
 //!
-//! Tractions grow towards an edge as distance^(−α), α < ½ for any edge of a body, which gives p = 2(1 − α) > 1; on smooth
-//! surfaces p is larger and the estimate generous.
+//! Tractions grow towards an edge as distance^(−α), α < ½ for any edge of a body, which gives p = 2(1 − α) > 1; on
+//! smooth surfaces p is larger and the estimate generous.
 
 use crate::dense::{Columns, SIDES, Symmetric};
 use crate::surface::Surface;

@@ -1,19 +1,20 @@
 //! What flat triangles cut off a smooth surface through their corners, and what it does to the resistance.
 //!
-//! A surface of curvature κ rises above a triangle by δ = (1/24) Σ κ(s, s) in the mean, s its sides; with unit normals at
-//! the corners κ(s, s) = (n₊ − n₋)·s. Moving the surface out by δ changes the energy ⟨S⁺b, b′⟩ by (Hadamard)
+//! A surface of curvature κ rises above a triangle by δ = (1/24) Σ κ(s, s) in the mean, s its sides; with unit normals
+//! at the corners κ(s, s) = (n₊ − n₋)·s. Moving the surface out by δ changes the energy ⟨S⁺b, b′⟩ by (Hadamard)
 //!
 //!   ∫ δ [ψ_t·ψ′_t − q ψ′_n − q′ ψ_n] dA
 //!
-//! ψ the density of the single layer without pressure in the body, t tangential, n normal: on the moved surface the flow
-//! misses the motion by −δ ∂_n(u_fluid − u), whose tangential part is ψ_t and whose normal part is −q.
+//! ψ the density of the single layer without pressure in the body, t tangential, n normal: on the moved surface the
+//! flow misses the motion by −δ ∂_n(u_fluid − u), whose tangential part is ψ_t and whose normal part is −q.
 
 use crate::dense::{Columns, SIDES};
 use crate::motion::{Mat12, Motion, inner_work};
 use crate::panel::Panel;
 use crate::vector::Vec3;
 
-/// Cosine between the normal of a node and that of a triangle below which the node is taken for a tip, as of a cone: 37°.
+/// Cosine between the normal of a node and that of a triangle below which the node is taken for a tip, as of a cone:
+/// 37°.
 const TIP_COSINE: f64 = 0.8;
 
 /// How the normals of triangles count in that of a node; all three are consistent, and their spread tells their error.

@@ -2,8 +2,9 @@
 //!
 //!   for each block column k:  L_kk L_kkᵀ = A_kk,   L_ik = A_ik L_kk⁻ᵀ,   A_ij ← A_ij − L_ik L_jkᵀ   (i ≥ j > k)
 //!
-//! Rows are contiguous and only the lower triangle is read. Each entry is computed by one thread, as a sum in the order of
-//! the columns, products and sums rounded one by one: neither the number of threads nor the width of registers changes a byte.
+//! Rows are contiguous and only the lower triangle is read. Each entry is computed by one thread, as a sum in the order
+//! of the columns, products and sums rounded one by one: neither the number of threads nor the width of registers
+//! changes a byte.
 
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;

@@ -1,7 +1,7 @@
 //! Closed integrals of the Stokeslet over a flat triangle, with weights one and linear.
 //!
-//! x a point, p its foot in the plane of the triangle, w its height along the normal n; y on the triangle, ρ = y − p,
-//! r = y − x = ρ − w n. With unit outward normals m and tangents τ of the sides in the plane, t = m·ρ on a side, s = τ·ρ:
+//! x a point, p its foot in the plane of the triangle, w its height along the normal n; y on the triangle, ρ = y − p, r
+//! = y − x = ρ − w n. With unit outward normals m and tangents τ of the sides in the plane, t = m·ρ on a side, s = τ·ρ:
 //!
 //!   A₀ = ∫1/r = Σ t f − wΩ      Ω = w∫1/r³ (solid angle)     B₁ = ∫ρ/r³ = −Σ m f
 //!   A₁ = ∫ρ/r = Σ m ∫r ds       B₂ = ∫ρρ/r³ = A₀ I − Σ m (t m f + τ [r])

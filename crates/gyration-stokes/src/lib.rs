@@ -1,8 +1,9 @@
 //! The resistance of a closed surface in slow viscous flow, by boundary elements.
 //!
-//! Plain numbers in, plain numbers out: points and triangles give the 12×12 matrix from velocity and velocity gradient to force
-//! and affine moment, for a fluid of viscosity one. [`Surface`] is the mesh, [`Options`] say about which centre and what the
-//! triangles stand for, [`Resistance`] is the answer with its estimated error. The method stands in `resistance.rs`.
+//! Plain numbers in, plain numbers out: points and triangles give the 12×12 matrix from velocity and velocity gradient
+//! to force and affine moment, for a fluid of viscosity one. [`Surface`] is the mesh, [`Options`] say about which
+//! centre and what the triangles stand for, [`Resistance`] is the answer with its estimated error. The method stands in
+//! `resistance.rs`.
 //!
 //! ```
 //! use gyration_stokes::{Options, Surface};

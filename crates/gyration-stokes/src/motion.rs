@@ -1,7 +1,7 @@
 //! The twelve motions u = U + L (x − c): velocity of the centre, then L row by row.
 //!
-//! In each of them E = sym L and q = tr L. What the single layer must balance on the surface is u − q v, v the field of a
-//! uniform source in the body ([`crate::assembly`]).
+//! In each of them E = sym L and q = tr L. What the single layer must balance on the surface is u − q v, v the field of
+//! a uniform source in the body ([`crate::assembly`]).
 
 use crate::dense::{Columns, SIDES};
 use crate::panel::Panel;

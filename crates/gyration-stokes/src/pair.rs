@@ -1,8 +1,8 @@
 //! The single layer between two triangles: ∫∫ φ_i(x) G(x − y) φ_j(y) dA dA, G = I/r + rr/r³, φ linear.
 //!
 //! Far apart, both integrals take the three points of the rule of degree 2. Near, the integral over the larger triangle
-//! is a closed form ([`crate::inner`]) and that over the smaller one a rule of degree 5 or 6: what remains to be integrated is
-//! then continuous, however thin or unequal the triangles are.
+//! is a closed form ([`crate::inner`]) and that over the smaller one a rule of degree 5 or 6: what remains to be
+//! integrated is then continuous, however thin or unequal the triangles are.
 
 use crate::inner::{StokesletMoments, Symmetric};
 use crate::panel::Panel;
@@ -12,8 +12,8 @@ use crate::vector::{Mat3, Vec3};
 /// 3×3 components for each pair of corners: rows 3i + a, columns 3j + b.
 pub(crate) type Block = [[f64; 9]; 9];
 
-/// Triangles whose centroids are farther apart than this times the sum of their radii are far: the rule of degree 2 then
-/// errs by less than 1e-4 of the pair.
+/// Triangles whose centroids are farther apart than this times the sum of their radii are far: the rule of degree 2
+/// then errs by less than 1e-4 of the pair.
 const FAR: f64 = 3.0;
 /// Those nearer than this touch, or almost: the integrand has a bend.
 const CLOSE: f64 = 1.2;

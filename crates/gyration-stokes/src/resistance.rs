@@ -1,8 +1,9 @@
 //! The resistance matrix of a surface, from the single layer over it.
 //!
-//! In a fluid of viscosity one at rest at infinity, the body moves with u = U + L (x − c), E = sym L, q = tr L. Let v be the
-//! flow of a uniform source q in the body: div v = q in it, 0 outside, no vorticity, no pressure. What is left, u − v, has
-//! no divergence in the body and its inner stress is 2 (E − ∇v). By the representation formula on both sides, the traction is
+//! In a fluid of viscosity one at rest at infinity, the body moves with u = U + L (x − c), E = sym L, q = tr L. Let v
+//! be the flow of a uniform source q in the body: div v = q in it, 0 outside, no vorticity, no pressure. What is left,
+//! u − v, has no divergence in the body and its inner stress is 2 (E − ∇v). By the representation formula on both
+//! sides, the traction is
 //!
 //!   t = ψ + 2 (E − q I) n,    (1/8π) ∫ G ψ dA = −(u − v) on the surface,    ∫ ψ·v dA = 0 (no pressure in the body)
 //!
@@ -35,7 +36,8 @@ pub const DEFAULT_MAX_BYTES: u64 = 5 << 29;
 /// What the flat triangles stand for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Faces {
-    /// A surface that is smooth but for its edges, with the corners on it: its rise above the triangles is added to first order.
+    /// A surface that is smooth but for its edges, with the corners on it: its rise above the triangles is added to
+    /// first order.
     #[default]
     Curved,
     /// Themselves: the body is the polyhedron.
@@ -64,15 +66,16 @@ impl Default for Options {
 /// The resistance of a body in a fluid of viscosity one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resistance {
-    /// H: (f; N row by row) = −H (U; L row by row), f = ∫ t dA, N_ij = ∫ t_i (x − c)_j dA. Symmetric, positive definite.
+    /// H: (f; N row by row) = −H (U; L row by row), f = ∫ t dA, N_ij = ∫ t_i (x − c)_j dA. Symmetric, positive
+    /// definite.
     pub matrix: [[f64; 12]; 12],
     /// Estimated relative error: |x·ΔH x| ≤ error · x·H x for every motion x.
     ///
     /// It counts what a space of tractions of half the fineness loses, brought to this mesh at first order; with
     /// [`Faces::Curved`] also the spread of the correction among three rules for the normals, and its square. It is the
     /// sum of the largest shares. On ellipsoids of 80 to 5,120 triangles and aspect ratios up to 20 it is 1 to 4 times
-    /// the true error; at 100, where triangles are as long as the body is thick many times over, it falls to half of it.
-    /// With [`Faces::Flat`] it knows nothing of a smooth surface for which the triangles may stand.
+    /// the true error; at 100, where triangles are as long as the body is thick many times over, it falls to half of
+    /// it. With [`Faces::Flat`] it knows nothing of a smooth surface for which the triangles may stand.
     pub error: f64,
     /// What [`Faces::Curved`] has added to the matrix of the flat triangles; zeros with [`Faces::Flat`].
     pub curvature: [[f64; 12]; 12],
@@ -87,8 +90,8 @@ impl Surface {
     ///
     /// # Errors
     /// Matrices larger than allowed; a centre that is not finite; a wall that is touched, crossed or too near for the
-    /// triangles that face it; a surface that crosses itself, if that makes the single
-    /// layer indefinite; a mesh so coarse that a motion is not resisted.
+    /// triangles that face it; a surface that crosses itself, if that makes the single layer indefinite; a mesh so
+    /// coarse that a motion is not resisted.
     pub fn resistance(&self, options: &Options) -> Result<Resistance, StokesError> {
         self.check(options)?;
         on_own_threads(|| self.resistance_here(options))

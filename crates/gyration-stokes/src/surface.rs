@@ -1,9 +1,9 @@
 //! A closed surface of flat triangles, checked once, and the same surface with its points moved.
 //!
-//! Points and triangles are plain numbers; a triangle lists its corners counter-clockwise as seen from the fluid. Sides at
-//! which the surface is bent by more than [`CREASE_COSINE`] are edges of the body: tractions may jump there, and no curvature
-//! is read off them. Elsewhere the surface is taken for smooth. Which sides are edges is found when the surface is made
-//! and kept when it is moved, so that a body that deforms keeps its unknowns.
+//! Points and triangles are plain numbers; a triangle lists its corners counter-clockwise as seen from the fluid. Sides
+//! at which the surface is bent by more than [`CREASE_COSINE`] are edges of the body: tractions may jump there, and no
+//! curvature is read off them. Elsewhere the surface is taken for smooth. Which sides are edges is found when the
+//! surface is made and kept when it is moved, so that a body that deforms keeps its unknowns.
 
 use crate::error::StokesError;
 use crate::vector::Vec3;
@@ -12,7 +12,8 @@ use std::collections::HashMap;
 /// Cosine of the bend at which a side counts as an edge: 60°, above what a smooth surface of a hundred triangles shows.
 pub(crate) const CREASE_COSINE: f64 = 0.5;
 
-/// Smallest height of a triangle over its longest side: below, its integrals lose more digits than the mesh is good for.
+/// Smallest height of a triangle over its longest side: below, its integrals lose more digits than the mesh is good
+/// for.
 pub(crate) const THINNEST: f64 = 1e-4;
 
 /// A closed surface of flat triangles with outward normals.
@@ -31,8 +32,8 @@ impl Surface {
     /// The surface of these triangles, points counted from 0.
     ///
     /// # Errors
-    /// A triangle that is degenerate, not finite or names no point; a surface that is not closed, not connected or turned
-    /// inward. That it does not cross itself is not checked here.
+    /// A triangle that is degenerate, not finite or names no point; a surface that is not closed, not connected or
+    /// turned inward. That it does not cross itself is not checked here.
     pub fn new(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, StokesError> {
         if triangles.len() < 4 {
             return Err(StokesError::TooFew { count: triangles.len() });

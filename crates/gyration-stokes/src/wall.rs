@@ -1,7 +1,7 @@
 //! A plane wall without slip: Blake's images of Stokeslets and of the uniform source.
 //!
-//! Heights above the wall are counted along its normal e; h is that of the source point y, Y = y − 2h e its mirror image,
-//! R = x − Y, R₃ = e·R, Q = I − 2 e eᵀ. Beside G the wall adds
+//! Heights above the wall are counted along its normal e; h is that of the source point y, Y = y − 2h e its mirror
+//! image, R = x − Y, R₃ = e·R, Q = I − 2 e eᵀ. Beside G the wall adds
 //!
 //!   −(I/R + RRᵀ/R³) + 2h [−x₃ (I/R³ − 3RRᵀ/R⁵) + (e Rᵀ − R eᵀ)/R³] Q
 //!
@@ -9,8 +9,8 @@
 //!
 //!   v(y): −(1/4π) ∮ (n/R − 2h (R₃/R³) Q n) dA,      Π = (1/π) ∮∮ (e·n)(e·n′)/R dA dA
 //!
-//! which follow from the pressure of the former by reciprocity, and from Φ = 1/(2πR) in u = ∇Φ − e ∂₃Φ + x₃ ∇∂₃Φ, p = 2∂₃²Φ.
-//! Source: Blake, *Proc. Camb. Phil. Soc.* 70 (1971) 303; Blake and Chwang, *J. Engng Math.* 8 (1974) 23.
+//! which follow from the pressure of the former by reciprocity, and from Φ = 1/(2πR) in u = ∇Φ − e ∂₃Φ + x₃ ∇∂₃Φ, p =
+//! 2∂₃²Φ. Source: Blake, *Proc. Camb. Phil. Soc.* 70 (1971) 303; Blake and Chwang, *J. Engng Math.* 8 (1974) 23.
 
 use crate::error::StokesError;
 use crate::pair::Block;

@@ -1,4 +1,5 @@
-//! A sphere near a plane wall: Brenner's series towards it, Faxén's expansion along it, and what a growing sphere feels.
+//! A sphere near a plane wall: Brenner's series towards it, Faxén's expansion along it, and what a growing sphere
+//! feels.
 
 use crate::reference::{self, Mat12};
 use gyration_stokes::{Options, Plane, StokesError, Surface};

@@ -1,7 +1,7 @@
 //! What the machinery of a study costs: a run beside the run itself, and memory at a million rows.
 //!
-//! `cargo run --release -p gyration-study --example throughput -- STUDY RUNS THREADS` makes the first RUNS runs of a study
-//! in a temporary folder; without a study, of a ball in free fall for one step.
+//! `cargo run --release -p gyration-study --example throughput -- STUDY RUNS THREADS` makes the first RUNS runs of a
+//! study in a temporary folder; without a study, of a ball in free fall for one step.
 
 use gyration_study::{Shard, Study, Table, Unwatched, execute};
 use std::hint::black_box;

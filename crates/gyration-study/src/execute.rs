@@ -1,7 +1,7 @@
 //! Makes the runs that are missing in a table, on the threads of one machine.
 //!
-//! Threads take run numbers from one line and hand rows to the thread that writes (`gyration_threads`). Which thread makes
-//! a run, and when, leaves no trace in the table.
+//! Threads take run numbers from one line and hand rows to the thread that writes (`gyration_threads`). Which thread
+//! makes a run, and when, leaves no trace in the table.
 
 use crate::error::StudyError;
 use crate::run::Worker;

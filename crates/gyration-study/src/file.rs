@@ -187,7 +187,8 @@ pub struct Direction {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Keep {
-    /// The material axis of this body that points nearest to straight down, `+x` to `-z`, at the end or, with `at = "start"`, at the start.
+    /// The material axis of this body that points nearest to straight down, `+x` to `-z`, at the end or, with `at =
+    /// "start"`, at the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face: Option<String>,
     /// A column at the start; a number: so many of the first events or samples.
@@ -211,7 +212,8 @@ pub struct Keep {
     /// How many events of a kind: apex, closest_approach, lift_off; of all bodies, or of `body`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<String>,
-    /// `column` at the events of a kind, of all bodies or of `body`: a list, `first` or `last` so many. Of `face`: start or end.
+    /// `column` at the events of a kind, of all bodies or of `body`: a list, `first` or `last` so many. Of `face`:
+    /// start or end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<String>,
     /// `first` or `last` so many samples of a column: a list.
@@ -223,19 +225,22 @@ pub struct Keep {
     /// The column of `at`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
-    /// The largest angle (rad), over the samples, between the vertical and the material line of this body that was upright at the start.
+    /// The largest angle (rad), over the samples, between the vertical and the material line of this body that was
+    /// upright at the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tilt: Option<String>,
     /// How often the matter of this body turned about `axis`: by R of P = R U, in turns, signed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<String>,
-    /// How often the form of this body turned about `axis`: by the longest axis of its form, seen along `axis`, in turns, signed.
+    /// How often the form of this body turned about `axis`: by the longest axis of its form, seen along `axis`, in
+    /// turns, signed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape_turns: Option<String>,
     /// The axis of `turns` and `shape_turns`, z if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
-    /// The level distance (m) of the centre of mass of this body from its start; with `along`, signed, in that direction.
+    /// The level distance (m) of the centre of mass of this body from its start; with `along`, signed, in that
+    /// direction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<String>,
     /// The direction of `distance`.

@@ -1,5 +1,5 @@
-//! A word that tells a study from every other one with other rows: title, drawing, comments and layout of the files do not
-//! count.
+//! A word that tells a study from every other one with other rows: title, drawing, comments and layout of the files do
+//! not count.
 
 use crate::parameter::{Parameter, Steps, Variation};
 use crate::random::hash;
@@ -12,8 +12,8 @@ use std::path::Path;
 /// Keys of a scene under which the name of a file stands.
 const FILE_KEYS: [&str; 2] = ["file", "table"];
 
-/// The fingerprint, 32 hexadecimal digits: the numbers of runs, all that is varied and kept, the scene and the files that
-/// it refers to, the version of the program.
+/// The fingerprint, 32 hexadecimal digits: the numbers of runs, all that is varied and kept, the scene and the files
+/// that it refers to, the version of the program.
 pub(crate) fn fingerprint(read: &Read, template: &Template, scene: &Scene) -> String {
     let Read { seed, repetitions, sampling, recordings, max_steps, settings, parameters, axes, keeps, .. } = read;
     let mut files = Vec::new();

@@ -8,8 +8,8 @@
 //! table → Frame               columns in memory, for drawing
 //! ```
 //!
-//! [`calibration`] finds numbers of a scene from measurements. Nothing in a table depends on clocks, threads, shards or the order of the runs. No mechanics here: a run is one of
-//! `gyration-sim`.
+//! [`calibration`] finds numbers of a scene from measurements. Nothing in a table depends on clocks, threads, shards or
+//! the order of the runs. No mechanics here: a run is one of `gyration-sim`.
 
 pub mod calibration;
 mod column;

@@ -5,8 +5,8 @@
 //! run number → point, repetition → values → overrides of the scene → run → row
 //! ```
 //!
-//! Run = point · repetitions + repetition; the points of the grid are counted with the first axis slowest. A row depends
-//! on the study and the number of its run alone.
+//! Run = point · repetitions + repetition; the points of the grid are counted with the first axis slowest. A row
+//! depends on the study and the number of its run alone.
 
 use crate::column::{Column, ending, leading};
 use crate::extract::{Extractor, Layout};
@@ -55,8 +55,8 @@ impl Study {
     /// Each override is `KEY=VALUE`, `repetitions=100` or `parameter.height.uniform.to=0.5`.
     ///
     /// # Errors
-    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it or in its
-    /// scene.
+    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it or in
+    /// its scene.
     pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Self, LoadError> {
         let path = Path::new(path_or_name);
         if path.is_file() {
@@ -234,7 +234,8 @@ fn not_found(name: &str) -> LoadError {
     ReadError::Missing { path: PathBuf::from(name), help }.into()
 }
 
-/// Notes what else is wrong with a study: keys and columns that its scene does not have, as far as its sound parts tell.
+/// Notes what else is wrong with a study: keys and columns that its scene does not have, as far as its sound parts
+/// tell.
 fn look_further(template: &Template, read: &Read, input: &mut InputFile) {
     let dice = Dice { seed: read.seed, sampling: Sampling::Random, repetitions: 1, sobol: Sobol::new(0) };
     let first = vec![0; read.axes.len().max(1)];

@@ -1,7 +1,7 @@
 //! What stands in a cell of the table, and a row as one line of JSON.
 //!
-//! A line is an array of the cells: an integer, a number with all its digits, a text, a list of numbers, null. JSON has no
-//! numbers beyond the range: they are the texts `NaN`, `inf`, `-inf` in a column of numbers.
+//! A line is an array of the cells: an integer, a number with all its digits, a text, a list of numbers, null. JSON has
+//! no numbers beyond the range: they are the texts `NaN`, `inf`, `-inf` in a column of numbers.
 
 use crate::column::{Column, Kind};
 use serde_json::Value as Json;

@@ -1,4 +1,5 @@
-//! Numbers of contact laws from measurements: known ones come back, what cannot be known is named, bad files are refused.
+//! Numbers of contact laws from measurements: known ones come back, what cannot be known is named, bad files are
+//! refused.
 
 use gyration_study::calibration::{Calibration, Fitted};
 use std::fmt::Write as _;
@@ -178,7 +179,8 @@ fn what_cannot_be_told_apart_is_named() {
 
 #[test]
 fn a_number_that_is_told_beside_one_that_is_not_has_its_whole_error() {
-    // Seen from a gap of 1 m, α and ν are almost one number: what two gaps tell of ν leaves α open by more than a factor of twenty.
+    // Seen from a gap of 1 m, α and ν are almost one number: what two gaps tell of ν leaves α open by more than a
+    // factor of twenty.
     let at = "at = [500, 1000]";
     let sections = format!("[[gap]]\nkey = \"body.ball.density\"\n{at}\ngap = [1, 1]\ndeviation = 1\n");
     let gaps = exact(&sections);

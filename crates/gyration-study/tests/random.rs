@@ -1,5 +1,5 @@
-//! The randomness of a run depends on the seed, its number and the name of the parameter alone, and has the distribution
-//! that is asked for.
+//! The randomness of a run depends on the seed, its number and the name of the parameter alone, and has the
+//! distribution that is asked for.
 
 use crate::common::sandbox;
 use gyration_study::{Row, Study, Value};

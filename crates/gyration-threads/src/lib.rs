@@ -1,8 +1,9 @@
 //! Threads: the one way to do many jobs, and work whose parts are shared out by rayon.
 //!
 //! [`share`] hands out jobs one by one and their results to the thread that asked, which looks around in between: at
-//! signals, at a disk that is full. [`in_order`] is the same for results that are wanted all together. [`on_own_threads`]
-//! is for rayon in a process that may have been forked. Which thread does what leaves no trace in any result.
+//! signals, at a disk that is full. [`in_order`] is the same for results that are wanted all together.
+//! [`on_own_threads`] is for rayon in a process that may have been forked. Which thread does what leaves no trace in
+//! any result.
 
 mod count;
 mod own;

@@ -9,8 +9,8 @@ type Owned = (u32, Arc<ThreadPool>);
 
 /// Does work whose parts are shared out by rayon, on threads that this process has.
 ///
-/// The threads of a pool are not there in a process that was forked from the one that started them, and to wait for them is
-/// to wait for ever. Such a process, a worker of a Python pool say, gets a pool of its own.
+/// The threads of a pool are not there in a process that was forked from the one that started them, and to wait for
+/// them is to wait for ever. Such a process, a worker of a Python pool say, gets a pool of its own.
 pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     static FIRST: OnceLock<u32> = OnceLock::new();
     static FORKED: Mutex<Option<Owned>> = Mutex::new(None);

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: [`header`] says what one is
-//! given,
-//! [`blob`] how the numbers are laid out. The server listens on 127.0.0.1 and answers to that name only. No mechanics here.
+//! given, [`blob`] how the numbers are laid out. The server listens on 127.0.0.1 and answers to that name only. No
+//! mechanics here.
 
 #![forbid(unsafe_code)]
 

@@ -1,7 +1,7 @@
 //! What acts on a body: every load there is, and the entries of the ledger that it brings.
 //!
-//! Rates, Jacobian and diagnostics go through [`Load::try_each`] and know no other list. A further load is a file in `load` with
-//! its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
+//! Rates, Jacobian and diagnostics go through [`Load::try_each`] and know no other list. A further load is a file in
+//! `load` with its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
 
 use crate::body::Body;
 use crate::contact::{Contact, LawKind, Partner};

@@ -5,8 +5,9 @@
 //!
 //!   (A B)_K = Σ_L A_L B_LK,   (A Bᵀ)_K = Σ_L A_L B_KL
 //!
-//! and a column is worked on as a whole, in whatever registers the processor has for four numbers (`four`): `Columns` is a matrix in
-//! memory, `Columns<F>` one in registers. Everything is `inline(always)` and written out, without `map` or loops over slices.
+//! and a column is worked on as a whole, in whatever registers the processor has for four numbers (`four`): `Columns`
+//! is a matrix in memory, `Columns<F>` one in registers. Everything is `inline(always)` and written out, without `map`
+//! or loops over slices.
 
 mod four;
 

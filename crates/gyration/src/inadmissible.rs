@@ -19,9 +19,11 @@ pub enum Quantity {
     Contraction,
     /// The resistance to the motion of a body without inertia, which must be > 0.
     Resistance,
-    /// The estimated relative error of the boundary elements around a body that deforms, which must be small; NaN where none can be had.
+    /// The estimated relative error of the boundary elements around a body that deforms, which must be small; NaN where
+    /// none can be had.
     Elements,
-    /// The relative error of the resistance of such a body between the forms for which it was computed, which must be below the tolerance.
+    /// The relative error of the resistance of such a body between the forms for which it was computed, which must be
+    /// below the tolerance.
     Interpolation,
 }
 

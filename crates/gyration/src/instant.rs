@@ -1,8 +1,9 @@
-//! The motion of every body at one time and state, read once an evaluation; rates, Jacobian, rows and events look at it.
+//! The motion of every body at one time and state, read once an evaluation; rates, Jacobian, rows and events look at
+//! it.
 //!
-//! Beside (p₀, P) and (ṗ₀, Ṗ) it holds what each kind of body needs of them more than once: the quaternion and spin of a
-//! rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time. A
-//! body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
+//! Beside (p₀, P) and (ṗ₀, Ṗ) it holds what each kind of body needs of them more than once: the quaternion and spin of
+//! a rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time.
+//! A body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
 
 use crate::acting::Load;
 use crate::affine::Gyration;

@@ -4,8 +4,8 @@
 //!
 //! A rigid body carries its rotation as a quaternion q = (w, x, y, z), P = R(q/|q|). The length of q is a gauge:
 //! nothing depends on it, the stepper puts it back to one after each step, and P is a rotation to rounding at every
-//! instant, so that there is no drift off SO(3). Its angular velocity Ω is kept in the body's own axes:
-//! q̇ = ½ q ∘ (0, Ω), Ṗ = P [Ω]×.
+//! instant, so that there is no drift off SO(3). Its angular velocity Ω is kept in the body's own axes: q̇ = ½ q ∘ (0,
+//! Ω), Ṗ = P [Ω]×.
 
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 use nalgebra::{Matrix3x4, Matrix4, Matrix4x3};

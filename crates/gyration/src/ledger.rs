@@ -57,7 +57,8 @@ pub enum Work {
     Support,
     /// By the fluid: drag, and the weight of what is displaced.
     Fluid,
-    /// By the pressure of incompressible bodies, and by putting them back to det P = 1: what the error of a step leaves.
+    /// By the pressure of incompressible bodies, and by putting them back to det P = 1: what the error of a step
+    /// leaves.
     Constraint,
 }
 

@@ -2,8 +2,8 @@
 //!
 //!   p(X, t) = p₀(t) + P(t) (X − X₀).
 //!
-//! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no
-//! random numbers, no threads. `ARCHITECTURE.md` has the order of the modules. Read [`dynamics::rates`] first.
+//! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no random
+//! numbers, no threads. `ARCHITECTURE.md` has the order of the modules. Read [`dynamics::rates`] first.
 
 pub mod acting;
 pub mod affine;

@@ -162,8 +162,8 @@ impl MassProperties {
     /// Checks that some body has these properties.
     ///
     /// # Errors
-    /// [`MassError`] names the first value that is not admissible: m ≤ 0, V < 0, a component that is not finite,
-    /// J ≠ Jᵀ beyond 1e-9 of its largest entry, a principal value below −1e-12 of the largest.
+    /// [`MassError`] names the first value that is not admissible: m ≤ 0, V < 0, a component that is not finite, J ≠ Jᵀ
+    /// beyond 1e-9 of its largest entry, a principal value below −1e-12 of the largest.
     pub fn validate(&self) -> Result<(), MassError> {
         if !(self.mass > 0.0 && self.mass.is_finite()) {
             return Err(MassError::MassNotPositive { value: self.mass });

@@ -102,7 +102,8 @@ impl Model {
         &self.energies
     }
 
-    /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as works.
+    /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as
+    /// works.
     fn with_ledger(mut self) -> Self {
         let mut loads: Vec<Load> = Vec::new();
         for (index, body) in self.bodies.iter().enumerate() {

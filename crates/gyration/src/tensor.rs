@@ -74,8 +74,8 @@ impl Polar {
     }
 }
 
-/// A fully symmetric tensor of third rank, stored as its ten independent components
-/// `xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz`.
+/// A fully symmetric tensor of third rank, stored as its ten independent components `xxx, xxy, xxz, xyy, xyz, xzz, yyy,
+/// yyz, yzz, zzz`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SymmetricThird(pub [f64; 10]);
 
@@ -89,7 +89,8 @@ impl SymmetricThird {
         Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     }
 
-    /// The matrix `T_ijk` for the component k, which is the contraction with a unit vector without its products by zero.
+    /// The matrix `T_ijk` for the component k, which is the contraction with a unit vector without its products by
+    /// zero.
     pub fn slice(&self, component: usize) -> Mat3 {
         const PLACES: [[usize; 6]; 3] = [[0, 1, 2, 3, 4, 5], [1, 3, 4, 6, 7, 8], [2, 4, 5, 7, 8, 9]];
         let [xx, xy, xz, yy, yz, zz] = PLACES[component].map(|place| self.0[place]);

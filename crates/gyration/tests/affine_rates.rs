@@ -1,4 +1,5 @@
-//! Relations that the rates of affine bodies obey, whatever the scene: exact Jacobian, power balance, dissipation, objectivity.
+//! Relations that the rates of affine bodies obey, whatever the scene: exact Jacobian, power balance, dissipation,
+//! objectivity.
 
 use crate::moving::*;
 use gyration::balance::observe;

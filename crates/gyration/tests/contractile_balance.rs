@@ -1,4 +1,5 @@
-//! The balance of a contractile body against its equations as they are written, whatever the way in which they are solved.
+//! The balance of a contractile body against its equations as they are written, whatever the way in which they are
+//! solved.
 
 use gyration::affine::{AffineBody, Gyration, Viscosity};
 use gyration::contractile::{Command, Contraction, Decomposition, Pull, Source, Spin};

@@ -1,7 +1,7 @@
 //! Blocks of the Jacobian between two bodies: B_i ∂Q_i A_j against differences, for any two kinds.
 //!
-//! The load is a spring and dashpot between two material points, F = −k (x_i − x_j) − c (ẋ_i − ẋ_j), which no scene has: it
-//! is applied to body i by hand, so that the rates of i follow the numbers of j through it.
+//! The load is a spring and dashpot between two material points, F = −k (x_i − x_j) − c (ẋ_i − ẋ_j), which no scene
+//! has: it is applied to body i by hand, so that the rates of i follow the numbers of j through it.
 
 use crate::moving::{Variant, body, shapes, supports};
 use gyration::body::{Body, BodyKind, Contractile, RigidInertia};

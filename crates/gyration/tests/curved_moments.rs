@@ -167,8 +167,8 @@ fn gaps(lowest: f64) -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// ∂A_k/∂g₀ = −ν A_k(ν+1), against differences of fourth order with a step of 1e-3 gaps: (ν 1e-3)⁴ plus
-    /// the rules' 1e-10 over that step.
+    /// ∂A_k/∂g₀ = −ν A_k(ν+1), against differences of fourth order with a step of 1e-3 gaps: (ν 1e-3)⁴ plus the rules'
+    /// 1e-10 over that step.
     #[test]
     fn slope_in_height_is_the_next_exponent(direction in directions(), gap in gaps(-4.0), nu in 0.5..12.0f64) {
         for surface in samples() {
@@ -239,7 +239,8 @@ proptest! {
         }
     }
 
-    /// Rules serve all kernels of a call, so that company changes the nodes: what changes with them is the rules' error.
+    /// Rules serve all kernels of a call, so that company changes the nodes: what changes with them is the rules'
+    /// error.
     #[test]
     fn moments_do_not_depend_on_what_else_is_asked(
         direction in directions(), gap in gaps(-6.0), nu in -1.0..12.0f64, axes in prop::array::uniform3(-1.3..0.0f64),

@@ -1,13 +1,15 @@
-//! Moments per deformed area against adaptive quadrature of the deformed surface, and against relations that they must obey.
+//! Moments per deformed area against adaptive quadrature of the deformed surface, and against relations that they must
+//! obey.
 //!
-//! The quadrature knows nothing of the rules under test: it maps a parameter rectangle onto each patch and halves panels
-//! of Gauss points until nothing changes. Errors are relative to ∫ |κ| k |X|ⁿ dA.
+//! The quadrature knows nothing of the rules under test: it maps a parameter rectangle onto each patch and halves
+//! panels of Gauss points until nothing changes. Errors are relative to ∫ |κ| k |X|ⁿ dA.
 
 use crate::deformed::quadrature::{OrientedSum, errors, integrate};
 use crate::deformed::{self, Case, cases, cofactor};
 use gyration::surface::{MomentPlan, MomentRequest, Moments, OrientedMoments};
 
-/// The largest errors of one case: of the moments per deformed area by order, of the pairs by order, of the fourth power.
+/// The largest errors of one case: of the moments per deformed area by order, of the pairs by order, of the fourth
+/// power.
 fn measure(case: &Case) -> [f64; 8] {
     let reference = integrate(case);
     let kernel = case.kernel;

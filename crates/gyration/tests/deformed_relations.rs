@@ -1,4 +1,5 @@
-//! Relations that moments of deformed surfaces obey whatever the surface: rotations, growth, traces, derivatives by P, areas.
+//! Relations that moments of deformed surfaces obey whatever the surface: rotations, growth, traces, derivatives by P,
+//! areas.
 
 use crate::deformed::charts::charts;
 use crate::deformed::{Numbers, SHAPES, cofactor, field_above, surface};
@@ -106,7 +107,8 @@ fn traces_of_oriented_moments_are_those_of_lower_rank() {
     println!("traces: worst difference {worst:.1e}");
 }
 
-/// Plans are cut into groups, requests of order 0 have a fourth power wherever they stand, and rules serve all kernels of a call.
+/// Plans are cut into groups, requests of order 0 have a fourth power wherever they stand, and rules serve all kernels
+/// of a call.
 #[test]
 fn requests_do_not_depend_on_their_company() {
     let kernels = [6.0, 3.0, 5.0, 2.5, 13.0, 0.5, 7.0, 1.0, 4.0].map(Kernel::Power);

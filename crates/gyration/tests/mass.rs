@@ -1,6 +1,7 @@
 //! Mass properties of every shape: references by another route, and the relations that all shapes obey.
 //!
-//! References: sections integrated with mpmath at 30 digits; bodies of revolution as polyhedra, which converge at second order.
+//! References: sections integrated with mpmath at 30 digits; bodies of revolution as polyhedra, which converge at
+//! second order.
 
 #![allow(clippy::excessive_precision, reason = "references keep the digits they were computed with")]
 

@@ -77,8 +77,9 @@ fn they_face_outward_and_enclose_the_volume() {
             // Sums of a dozen products.
             assert!(coarse.abs() < 4e-16 && coarse == fine, "{shape:?}: {coarse:e}");
         } else {
-            // A circle of 16 chords, the coarsest there is, covers 1 − (2π/16)²/6 = 0.974 of its area. Sixteen times the
-            // triangles quarter every chord: a sixteenth of the error, where the least numbers did not refine it before.
+            // A circle of 16 chords, the coarsest there is, covers 1 − (2π/16)²/6 = 0.974 of its area. Sixteen times
+            // the triangles quarter every chord: a sixteenth of the error, where the least numbers did not refine it
+            // before.
             assert!(coarse > 0.0 && coarse < 0.026, "{shape:?}: {coarse:e}");
             assert!(fine > 0.0 && fine < 0.15 * coarse, "{shape:?}: {coarse:e} to {fine:e}");
         }

@@ -3,7 +3,8 @@
 //!   μ_γ V + μ Fᵀ sym(F V F⁻¹) F⁻ᵀ + π I = g Fᵀ φ_F − g φ I + Q + μ Fᵀ sym L F⁻ᵀ,   tr V = tr L
 //!   P̈ J = M − V (g φ_F Fᵀ + μ sym(L − F V F⁻¹) − π I) P⁻ᵀ,   Ġ = V G
 //!
-//! The operator on the left is found by applying it to nine matrices with a single one. The time is a number of the state.
+//! The operator on the left is found by applying it to nine matrices with a single one. The time is a number of the
+//! state.
 
 use super::{
     Equations, Matrix, NUMBERS, Numbers, SoftBox, Stuff, matrix, of, product, solve, trace, transpose, usual_scale,

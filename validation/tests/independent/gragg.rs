@@ -1,7 +1,7 @@
 //! Gragg's modified midpoint rule with Richardson's extrapolation in h².
 //!
-//! A step of h is made with n = 2, 4, 6, … midpoint steps; the results, polynomials in (h/n)², are extrapolated to 0. The
-//! step ends when two neighbours in the table agree; it shrinks where none do, or where it leaves the model.
+//! A step of h is made with n = 2, 4, 6, … midpoint steps; the results, polynomials in (h/n)², are extrapolated to 0.
+//! The step ends when two neighbours in the table agree; it shrinks where none do, or where it leaves the model.
 
 use super::Equations;
 

@@ -1,11 +1,13 @@
-//! An ellipsoid in a viscous fluid once more, without the code of the program: neither principal axes nor integrals over s.
+//! An ellipsoid in a viscous fluid once more, without the code of the program: neither principal axes nor integrals
+//! over s.
 //!
 //!   N = ⟨n⊗n⟩,  𝓜 = ⟨n⊗n⊗n⊗n⟩,   n = F⁻ᵀω/|F⁻ᵀω|,  ω all over the unit sphere,  F = P A
 //!   T N − 𝓜:T = η (L∞ − L + θ N),  N:T = 0,   T = σ − 2η sym L + 2ηθ I
 //!
-//! which is what Fourier's transform makes of the flow of a uniform stress in an ellipsoid: along each direction n of a wave the stress T n is opposed by
-//! the viscosity, and incompressibility takes out n(n·Tn). An elastic particle without inertia has σ = μ P Pᵀ − π I, which makes the first line nine equations
-//! for L. Drag is Carlson's: −16πη U_i/(2R_F + ⅔ R_D a_i²), by his duplication.
+//! which is what Fourier's transform makes of the flow of a uniform stress in an ellipsoid: along each direction n of a
+//! wave the stress T n is opposed by the viscosity, and incompressibility takes out n(n·Tn). An elastic particle
+//! without inertia has σ = μ P Pᵀ − π I, which makes the first line nine equations for L. Drag is Carlson's: −16πη
+//! U_i/(2R_F + ⅔ R_D a_i²), by his duplication.
 
 use super::{Equations, Matrix, cross, gauss, image, matrix, of, product, solve, trace, transpose};
 
@@ -39,8 +41,9 @@ impl Averages {
         sum
     }
 
-    /// Of an ellipsoid with its axes along those of the frame, however different they are: with the weight V/|A n|³ over the directions n themselves, whose
-    /// coordinates, in an octant, are divided into panels that halve towards both ends.
+    /// Of an ellipsoid with its axes along those of the frame, however different they are: with the weight V/|A n|³
+    /// over the directions n themselves, whose coordinates, in an octant, are divided into panels that halve towards
+    /// both ends.
     pub fn of_axes(axes: [f64; 3]) -> Self {
         let panels = graded_panels(&gauss(16), 40);
         let volume: f64 = axes.iter().product();
@@ -101,7 +104,8 @@ fn graded_panels(rule: &[(f64, f64)], halvings: i32) -> Vec<(f64, f64)> {
     panels
 }
 
-/// Directions over the unit sphere, with weights: Gauss in the height times equal steps around; half of them stand for all.
+/// Directions over the unit sphere, with weights: Gauss in the height times equal steps around; half of them stand for
+/// all.
 pub fn directions(parallels: u32, meridians: u32) -> Vec<([f64; 3], f64)> {
     let turn = |k: u32| (std::f64::consts::PI * f64::from(k) / f64::from(meridians)).sin_cos();
     let rule = gauss(parallels);

@@ -3,9 +3,10 @@
 //!   m v̇ = m g + Σ q k a,   P̈ J − πV P⁻ᵀ = Σ k a q ⊗ X − V τ P⁻ᵀ,   tr(P⁻¹P̈) = tr(L²) if incompressible
 //!   q = α (d/d₀)^−ν n − β_d (d/d₀)^−ν_d (w·n) n − β_f (d/d₀)^−ν_f (w − (w·n) n)
 //!
-//! summed point by point over the six faces by Gauss's rule, uniform in the logarithm of the gap from the lowest corner;
-//! k is the ratio of the areas of |Pe₁ × Pe₂| and |e₁ × e₂|, τ a Kirchhoff stress in terms of B = PPᵀ and sym L, and P̈ with
-//! π is solved for by elimination. Time by Gragg's modified midpoint rule with Richardson's extrapolation: see `gragg`.
+//! summed point by point over the six faces by Gauss's rule, uniform in the logarithm of the gap from the lowest
+//! corner; k is the ratio of the areas of |Pe₁ × Pe₂| and |e₁ × e₂|, τ a Kirchhoff stress in terms of B = PPᵀ and sym
+//! L, and P̈ with π is solved for by elimination. Time by Gragg's modified midpoint rule with Richardson's
+//! extrapolation: see `gragg`.
 
 #![allow(dead_code, unused_imports, reason = "each test uses a part of this")]
 

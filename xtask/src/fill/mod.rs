@@ -13,8 +13,8 @@ use std::process::{Command, ExitCode};
 /// The pages that are filled beside the Rust files.
 const PAGES: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
 
-/// Where the test command looks for text that is not filled; to become the whole repository.
-const CHECKED: [&str; 1] = ["xtask"];
+/// How many lines of code, equations and tables, which are not filled, may still be wider; to be lowered as they go.
+const WIDE: usize = 163;
 
 /// Fills the files named, or all.
 pub fn run(names: &[&str]) -> ExitCode {
@@ -32,10 +32,17 @@ pub fn run(names: &[&str]) -> ExitCode {
     }
 }
 
-/// Complains about files whose text is not filled, and about lines that are too wide.
+/// Complains about files whose text is not filled, and about more lines that are too wide than there were.
 pub fn check(steps: &mut Steps) {
-    match files(&CHECKED).and_then(|files| files.iter().map(|file| faults(file)).collect::<Result<Vec<_>, _>>()) {
-        Ok(faults) => faults.into_iter().flatten().for_each(|fault| steps.complain(fault)),
+    let found = files(&["."]).and_then(|files| files.iter().map(|file| faults(file)).collect::<Result<Vec<_>, _>>());
+    match found {
+        Ok(found) => {
+            let wide: Vec<String> = found.iter().flat_map(|faults| faults.wide.clone()).collect();
+            if wide.len() > WIDE {
+                steps.complain(format!("{} lines are too wide, {WIDE} may be: {}", wide.len(), wide.join(", ")));
+            }
+            found.into_iter().filter_map(|faults| faults.not_filled).for_each(|fault| steps.complain(fault));
+        }
         Err(reason) => steps.complain(reason),
     }
 }
@@ -72,19 +79,23 @@ fn fill(file: &Path) -> Result<bool, String> {
 }
 
 /// What is wrong with a file.
-fn faults(file: &Path) -> Result<Vec<String>, String> {
+struct Faults {
+    /// Where text is first not filled, in words.
+    not_filled: Option<String>,
+    /// `file:line` of the lines that are too wide.
+    wide: Vec<String>,
+}
+
+fn faults(file: &Path) -> Result<Faults, String> {
     let (source, filled) = read(file)?;
     let name = file.strip_prefix(root()).unwrap_or(file).display().to_string();
-    let mut faults = Vec::new();
-    if source != filled {
+    let not_filled = (source != filled).then(|| {
         let line = source.lines().zip(filled.lines()).take_while(|(a, b)| a == b).count() + 1;
-        faults.push(format!("{name}:{line}: not filled to {} columns (run `cargo xtask fill`)", rust::WIDTH));
-    }
-    if name.ends_with(".rs") {
-        let told = |line| format!("{name}:{line}: wider than {} columns", rust::WIDTH);
-        faults.extend(rust::wide(&filled).into_iter().map(told));
-    }
-    Ok(faults)
+        format!("{name}:{line}: not filled to {} columns (run `cargo xtask fill`)", rust::WIDTH)
+    });
+    let is_code = name.ends_with(".rs");
+    let wide = if is_code { rust::wide(&filled) } else { Vec::new() };
+    Ok(Faults { not_filled, wide: wide.into_iter().map(|line| format!("{name}:{line}")).collect() })
 }
 
 #[cfg(test)]
@@ -99,7 +110,8 @@ mod tests {
         let changed = [fill(&file), fill(&file)];
         let after = faults(&file);
         std::fs::remove_file(&file).unwrap();
-        assert!(before.unwrap()[0].contains(":1: not filled"));
-        assert_eq!((changed, after), ([Ok(true), Ok(false)], Ok(Vec::new())));
+        assert!(before.unwrap().not_filled.unwrap().contains(":1: not filled"));
+        assert_eq!(changed, [Ok(true), Ok(false)]);
+        assert!(after.unwrap().not_filled.is_none());
     }
 }

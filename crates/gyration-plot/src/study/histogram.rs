@@ -1,7 +1,7 @@
 //! How often each word came, against equal chances, and how often numbers came, by bins.
 //!
-//! The bins of numbers have the width 2 (q₃ − q₁) n^−⅓ (Freedman and Diaconis 1981), rounded to 1, 2 or 5 times a
-//! power of ten; whole numbers of a small range have a bin each.
+//! The bins of numbers have the width 2 (q₃ − q₁) n^−⅓ (Freedman and Diaconis 1981), rounded to 1, 2 or 5 times a power
+//! of ten; whole numbers of a small range have a bin each.
 
 use super::layout::HEIGHT;
 use super::request::{Ordinate, Request};

@@ -1,7 +1,7 @@
 //! A table of a study on disk, as pictures see it.
 //!
-//! The columns of a parameter with an axis are along that axis of the grid; lists and integers become numbers. A
-//! table that tells nothing of its study has no axes: then `--x` says what goes to the right.
+//! The columns of a parameter with an axis are along that axis of the grid; lists and integers become numbers. A table
+//! that tells nothing of its study has no axes: then `--x` says what goes to the right.
 
 use super::request::Request;
 use super::table::{Column, Role, RunTable, Values};

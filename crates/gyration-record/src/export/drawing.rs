@@ -91,8 +91,8 @@ impl Drawing {
     }
 }
 
-/// The bodies of a recording as its attributes describe them, each with wireframe and silhouette: those that have a surface
-/// share them with it, as `outlines`.
+/// The bodies of a recording as its attributes describe them, each with wireframe and silhouette: those that have a
+/// surface share them with it, as `outlines`.
 pub fn bodies_with_outlines(attributes: &Attributes) -> Value {
     let mut bodies = attributes.get("bodies").cloned().unwrap_or_default();
     let outlines = attributes.get("outlines").and_then(Value::as_array);

@@ -1,8 +1,8 @@
 //! The start of an incompressible body: |det P − 1| and |tr L| · 1 s within 1e-9 are projected, more is refused.
 //!
-//! A contractile body keeps det F, F = P G⁻¹, so that det P is to be det G. Its tr L is free while it is driven; it is 0 if its
-//! contraction is isochoric, and tr Ġ G⁻¹ if that is prescribed. With g = det G and r = tr L asked for, P g^−⅓ and
-//! (Ṗ − r/3 P) g^−⅓ are those of a body of determinant one.
+//! A contractile body keeps det F, F = P G⁻¹, so that det P is to be det G. Its tr L is free while it is driven; it is
+//! 0 if its contraction is isochoric, and tr Ġ G⁻¹ if that is prescribed. With g = det G and r = tr L asked for, P g^−⅓
+//! and (Ṗ − r/3 P) g^−⅓ are those of a body of determinant one.
 //!
 //! What differs from the constraint by rounding only is left as it is, so that a projected start is its own projection
 //! and a resolved scene resolves to itself.
@@ -78,7 +78,8 @@ pub(super) fn hold(
         return in_range(&gradient, &rate, key, judge).then_some(given);
     }
     let held = gradient_held(body, kept, &gradient, &key.key("gradient"), judge);
-    // Beside a gradient that is refused the rate is judged with the one that is offered, so that both are mended at once.
+    // Beside a gradient that is refused the rate is judged with the one that is offered, so that both are mended at
+    // once.
     let judged = if held.is_some() { gradient } else { kept.nearest(body, &gradient).unwrap_or(gradient) };
     let rate = in_range(&judged, &rate, key, judge).then_some(rate)?;
     let (rate, fault) = rate_held(body, kept, [&judged, &held.unwrap_or(judged)], &rate)?;
@@ -116,7 +117,8 @@ struct Fault {
     help: String,
 }
 
-/// Ṗ with the tr L asked for at the gradient `held`, if it had that, nearly, at the gradient `judged`; else also the fault.
+/// Ṗ with the tr L asked for at the gradient `held`, if it had that, nearly, at the gradient `judged`; else also the
+/// fault.
 fn rate_held(body: &AffineBody, kept: &Kept, [judged, held]: [&Mat3; 2], rate: &Mat3) -> Option<(Mat3, Option<Fault>)> {
     let Some((asked, allowance)) = kept.growth else { return Some((*rate, None)) };
     let (given, _) = growth(judged, rate)?;

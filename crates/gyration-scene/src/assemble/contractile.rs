@@ -1,8 +1,8 @@
 //! What contracts a body: its viscosity, what G follows, and where it starts.
 //!
-//! A drive and feedback add up to Q; without either Q = 0. A G that is prescribed has to be a contraction over the whole run,
-//! det G > 0, without jumps; where an incompressible material follows it, without kinks as well: det P = det G has to have a
-//! second derivative.
+//! A drive and feedback add up to Q; without either Q = 0. A G that is prescribed has to be a contraction over the
+//! whole run, det G > 0, without jumps; where an incompressible material follows it, without kinks as well: det P = det
+//! G has to have a second derivative.
 
 use super::setting::Setting;
 use super::signal::{Maker, first_fault, not_finite};

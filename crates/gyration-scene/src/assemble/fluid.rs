@@ -229,7 +229,8 @@ impl Immersed<'_> {
 
 /// About how many triangles a surface is divided into, unless said otherwise.
 pub const TRIANGLES: usize = 1280;
-/// The largest relative error of the power by interpolation, unless said otherwise: about that of so many flat triangles.
+/// The largest relative error of the power by interpolation, unless said otherwise: about that of so many flat
+/// triangles.
 const TOLERANCE: f64 = 1e-2;
 
 /// The form of a body that only boundary elements tell.

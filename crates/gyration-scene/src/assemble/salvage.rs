@@ -1,7 +1,7 @@
 //! What can be said of a body that is not well formed as a whole: the values of its well-formed keys.
 //!
-//! All errors of a file are to come at once, so that a wrong type in one key must not hide a wrong value in another. The
-//! body is built without the keys that something was found against; of what that finds, only that counts which no
+//! All errors of a file are to come at once, so that a wrong type in one key must not hide a wrong value in another.
+//! The body is built without the keys that something was found against; of what that finds, only that counts which no
 //! missing key can have caused.
 
 use super::body::Solid;

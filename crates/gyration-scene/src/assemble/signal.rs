@@ -1,7 +1,7 @@
 //! Tensors in time: from what the file calls them to signals, and what they are over a whole run.
 //!
-//! Between 0 and the end of the run a signal is looked at 64 times in the whole and in each period of its fastest wave, and 8
-//! times between neighbours among the times of its tables and the ends of its ramps.
+//! Between 0 and the end of the run a signal is looked at 64 times in the whole and in each period of its fastest wave,
+//! and 8 times between neighbours among the times of its tables and the ends of its ramps.
 
 use super::setting::Setting;
 use super::start::matrix;

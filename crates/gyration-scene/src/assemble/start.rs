@@ -2,9 +2,10 @@
 //!
 //!   P = R of an `orientation`, or a `gradient`;   Ṗ = [ω]× P of an `angular_velocity`, or a `gradient_rate`
 //!
-//! A contractile body starts relaxed, P = R G, unless it has a `gradient`, and follows a contraction that is prescribed,
-//! Ṗ = [ω]× P + F Ġ with F = P G⁻¹, unless it has a `gradient_rate`. The centre of a pinned body moves at ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible
-//! body starts on its constraint (`constraint`).
+//! A contractile body starts relaxed, P = R G, unless it has a `gradient`, and follows a contraction that is
+//! prescribed, Ṗ = [ω]× P + F Ġ with F = P G⁻¹, unless it has a `gradient_rate`. The centre of a pinned body moves at
+//! ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible body starts on its constraint
+//! (`constraint`).
 
 use super::constraint::{self, Kept};
 use super::orientation::orientation;
@@ -139,7 +140,8 @@ fn said_twice(body: &Body, key: &Key, judge: &mut Judge<'_>) {
     }
 }
 
-/// Whether a matrix has a positive determinant beyond rounding, and an inverse that numbers can hold; notes it otherwise.
+/// Whether a matrix has a positive determinant beyond rounding, and an inverse that numbers can hold; notes it
+/// otherwise.
 pub(super) fn invertible(matrix: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
     let flaw = flaw(matrix);
     if let Some(message) = &flaw {

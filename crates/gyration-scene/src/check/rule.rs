@@ -1,9 +1,9 @@
 //! The JSON Schema of the file's types as rules that are quick to walk.
 //!
 //! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
-//! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them; an array, or a table),
-//! `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`. A test makes sure that nothing else
-//! occurs.
+//! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them;
+//! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`. A test makes sure that
+//! nothing else occurs.
 
 use crate::quantity::UNIT;
 use crate::schema::SCHEMA;

@@ -103,7 +103,8 @@ pub struct Inclusion {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 80, max = 10000))]
     pub triangles: Option<f64>,
-    /// Of such a body, if it deforms: the largest relative error of its resistance between the forms for which it is computed.
+    /// Of such a body, if it deforms: the largest relative error of its resistance between the forms for which it is
+    /// computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// The distance of those forms in the logarithm of the stretch; found from the tolerance unless it is given.

@@ -12,7 +12,8 @@ pub struct Solver {
     // Below, rounding drowns the error estimate; above, it is no estimate.
     #[schemars(range(min = 1e-14, max = 1e-2))]
     pub rtol: f64,
-    /// Absolute tolerance of a step, as a fraction of scale: body size for lengths, one for P, own speed for velocities.
+    /// Absolute tolerance of a step, as a fraction of scale: body size for lengths, one for P, own speed for
+    /// velocities.
     pub atol: NonNegative<f64>,
     /// How the equations are integrated.
     pub method: Method,

@@ -1,9 +1,9 @@
 //! Overrides, `--set body.die.velocity='[1, 0, 0]'`: changes to the tree before it is checked.
 //!
 //! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero; a word in quotes may hold dots.
-//! VALUE is a TOML value; what is none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way are
-//! made where there are none, items of arrays are not. Whatever an override brings is from then on placed in its own text;
-//! what is a number already has no text, and no place.
+//! VALUE is a TOML value; what is none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way
+//! are made where there are none, items of arrays are not. Whatever an override brings is from then on placed in its
+//! own text; what is a number already has no text, and no place.
 
 use super::toml;
 use crate::document::{Document, Findings, Text};

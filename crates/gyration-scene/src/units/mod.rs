@@ -3,9 +3,9 @@
 //!   value in SI = number · Π (prefixᵢ · unitᵢ)^kᵢ,    dimension = Σ kᵢ dim(unitᵢ)
 //!
 //! A dimension is the vector of exponents of metre, kilogram, second and radian. The radian counts as a dimension of
-//! its own, so that `5 Hz` is not taken for an angular velocity nor `3 rpm` for a frequency. The grammar is
-//! `number unit`, where a unit is a sequence of symbols, each with an optional SI prefix and an integer power (`m^3`,
-//! `m3`, `m³`, `s^-1`), joined by blanks, `*` or `·` (product) and `/` (everything up to the next operator divides);
+//! its own, so that `5 Hz` is not taken for an angular velocity nor `3 rpm` for a frequency. The grammar is `number
+//! unit`, where a unit is a sequence of symbols, each with an optional SI prefix and an integer power (`m^3`, `m3`,
+//! `m³`, `s^-1`), joined by blanks, `*` or `·` (product) and `/` (everything up to the next operator divides);
 //! parentheses group. Offsets (temperatures) and fractional powers are not units here.
 
 mod parse;

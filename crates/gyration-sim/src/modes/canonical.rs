@@ -2,14 +2,16 @@
 //!
 //!   sym K = Σ k_i v_i⊗v_i
 //!
-//! Where several k_i are one number, as the five of a sphere, or all that are zero, any basis of their space would do. Here it is made
-//! of the projections of motions that have a name, the one that lies in the space most first.
+//! Where several k_i are one number, as the five of a sphere, or all that are zero, any basis of their space would do.
+//! Here it is made of the projections of motions that have a name, the one that lies in the space most first.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Values nearer to each other than this part of them are one number: their vectors are not told apart better by rounding.
+/// Values nearer to each other than this part of them are one number: their vectors are not told apart better by
+/// rounding.
 const SAME: f64 = 1e-8;
-/// Values below this part of the largest one are zero, to the rounding of the Jacobian: frequencies below 1e-6 of the highest one.
+/// Values below this part of the largest one are zero, to the rounding of the Jacobian: frequencies below 1e-6 of the
+/// highest one.
 pub(super) const NEUTRAL: f64 = 1e-12;
 /// A pattern is taken before a later one if it lies in the space this much less.
 const TIE: f64 = 1e-6;

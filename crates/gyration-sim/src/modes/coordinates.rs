@@ -2,10 +2,10 @@
 //!
 //!   T = ½ |ż|²,   δ(places) = S z,   δ(velocities) = V ż,   z̈ = V† v̇,   V = M^−½, V† = M^½
 //!
-//! with M the mass of the velocities' numbers: m and J ⊗ 1 of (ṗ₀ | Ṗ), m and I of (ṗ₀ | Ω). So accelerations are forces, and
-//! −V† (∂v̇/∂q) S, −V† (∂v̇/∂v) V are stiffness and resistance. Of a rigid body S takes δθ to the quaternion, δq = ½ q ∘ (0, δθ): what
-//! is left out is its length, a gauge. An incompressible body moves within tr(P⁻¹ δP) = 0: V is multiplied by a basis of that
-//! plane.
+//! with M the mass of the velocities' numbers: m and J ⊗ 1 of (ṗ₀ | Ṗ), m and I of (ṗ₀ | Ω). So accelerations are
+//! forces, and −V† (∂v̇/∂q) S, −V† (∂v̇/∂v) V are stiffness and resistance. Of a rigid body S takes δθ to the
+//! quaternion, δq = ½ q ∘ (0, δθ): what is left out is its length, a gauge. An incompressible body moves within tr(P⁻¹
+//! δP) = 0: V is multiplied by a basis of that plane.
 
 use super::shape::ModeShape;
 use gyration::body::{Body, BodyKind, Slots};
@@ -88,8 +88,8 @@ impl Coordinates {
         ModeShape { translation, gradient }
     }
 
-    /// Motions that have a name, as unit vectors of z: translations along the axes, turns about them, shears in the planes between
-    /// them, stretches along them, a breath. Those that the body cannot make are zero.
+    /// Motions that have a name, as unit vectors of z: translations along the axes, turns about them, shears in the
+    /// planes between them, stretches along them, a breath. Those that the body cannot make are zero.
     pub fn patterns(&self, body: &Body, gradient: &Mat3) -> Vec<DVector<f64>> {
         let unit = |k: usize| Vec3::ith(k, 1.0);
         let still = Vec3::zeros();
@@ -145,7 +145,8 @@ fn volume_slope(gradient: &Mat3, size: usize) -> DVector<f64> {
     slope
 }
 
-/// An orthonormal basis of the plane across a vector: all columns but the last of the reflection that takes it to the last axis.
+/// An orthonormal basis of the plane across a vector: all columns but the last of the reflection that takes it to the
+/// last axis.
 fn plane_across(normal: &DVector<f64>) -> DMatrix<f64> {
     let last = normal.len() - 1;
     let mut mirror = normal / normal.norm();

@@ -2,10 +2,11 @@
 //!
 //!   (|sym K| + skw K) z = r,   r the forces along z
 //!
-//! With |sym K| every step does positive work, so that the body ends in a valley, not on a hill; near the end it is Newton's step. Where K is
-//! smaller than r over the longest step allowed, the largest such quotient stands in its place: a body far above its support comes down in
-//! growing steps, and directions without force that are free (sliding, turning about the vertical) or unstable are left alone. A step is halved until
-//! gaps and det P keep a part of their values, and the work over it by the trapezoidal rule is not negative.
+//! With |sym K| every step does positive work, so that the body ends in a valley, not on a hill; near the end it is
+//! Newton's step. Where K is smaller than r over the longest step allowed, the largest such quotient stands in its
+//! place: a body far above its support comes down in growing steps, and directions without force that are free
+//! (sliding, turning about the vertical) or unstable are left alone. A step is halved until gaps and det P keep a part
+//! of their values, and the work over it by the trapezoidal rule is not negative.
 
 use super::canonical::{self, Basis};
 use super::coordinates::Coordinates;

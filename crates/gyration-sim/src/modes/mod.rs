@@ -2,14 +2,14 @@
 //!
 //!   rest: a(q, 0) = 0, a the accelerations;   about it  ξ̈ + C ξ̇ + K ξ = 0,   ξ ∝ e^{λt},   λ = −δ ± iω
 //!
-//! q are the coordinates of one body (bodies do not act on each other), ξ small changes of them along which the mass is one
-//! (`coordinates`): twelve of an affine body, nine of a pinned one, one less each if it is incompressible, six or three of
-//! a rigid one. K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per deformed area, couples and
-//! gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the start of a run, `spectrum` solves for λ,
-//! `words` says what a mode is.
+//! q are the coordinates of one body (bodies do not act on each other), ξ small changes of them along which the mass is
+//! one (`coordinates`): twelve of an affine body, nine of a pinned one, one less each if it is incompressible, six or
+//! three of a rigid one. K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per
+//! deformed area, couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the
+//! start of a run, `spectrum` solves for λ, `words` says what a mode is.
 //!
-//! Everything is about t = 0: supports and couples are held as they are then, and what the bodies' velocities would be does not
-//! matter. Nothing here steps in time.
+//! Everything is about t = 0: supports and couples are held as they are then, and what the bodies' velocities would be
+//! does not matter. Nothing here steps in time.
 
 mod canonical;
 mod coordinates;

@@ -1,4 +1,5 @@
-//! Shapes of modes: δp₀ and δP, so scaled that of all material points at half the body's size from its centre the fastest moves by one.
+//! Shapes of modes: δp₀ and δP, so scaled that of all material points at half the body's size from its centre the
+//! fastest moves by one.
 
 use super::coordinates::Coordinates;
 use gyration::body::Body;

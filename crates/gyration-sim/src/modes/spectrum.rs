@@ -4,9 +4,9 @@
 //!
 //!   ẋ_i = ω_i y_i,   ẏ_i = −Σ (K_ij/ω_j) x_j − Σ C_ij y_j
 //!
-//! Where nothing depends on a coordinate there is no x_i, and its eigenvalue 0 is taken out exactly (left in, it would be
-//! a double one, known to the square root of rounding alone). Coordinates that do not act on each other fall into parts; a part of
-//! one is λ² + cλ + k = 0.
+//! Where nothing depends on a coordinate there is no x_i, and its eigenvalue 0 is taken out exactly (left in, it would
+//! be a double one, known to the square root of rounding alone). Coordinates that do not act on each other fall into
+//! parts; a part of one is λ² + cλ + k = 0.
 
 use super::canonical::Basis;
 use super::{Motion, NoSpectrum};
@@ -170,7 +170,8 @@ impl Oscillator {
         Ok(pairs)
     }
 
-    /// Joins real eigenvalues to pairs: those that move along free coordinates most with the zeros of these, the others by likeness.
+    /// Joins real eigenvalues to pairs: those that move along free coordinates most with the zeros of these, the others
+    /// by likeness.
     fn joined(&self, part: &[usize], mut reals: Vec<(f64, DVector<C64>)>, neutral: usize, rounding: f64) -> Vec<Pair> {
         let freedom = |shape: &DVector<C64>| -> f64 {
             part.iter().zip(shape.iter()).filter(|(i, _)| !self.bound(**i)).map(|(_, value)| value.norm_sqr()).sum()
@@ -209,7 +210,8 @@ fn judge(eigenvalues: &[C64; 2], rounding: f64, free: bool) -> Motion {
     }
 }
 
-/// Vectors of the eigenvalues in order, by inverse iteration with as many columns as there are eigenvalues that are one.
+/// Vectors of the eigenvalues in order, by inverse iteration with as many columns as there are eigenvalues that are
+/// one.
 fn eigenvectors(matrix: &DMatrix<f64>, values: &[C64], same: f64) -> Vec<(C64, DVector<C64>)> {
     let size = matrix.nrows();
     let mut left: Vec<C64> = values.to_vec();

@@ -1,8 +1,9 @@
 //! What a mode is, in words.
 //!
-//! With G = δP P⁻¹ = W + D + tr G/3 1, W skew, D symmetric without trace, the parts of a motion are the translation δp₀, the rotation W, the
-//! stretch or shear D, and breathing. The one with the most kinetic energy names it, m|δp₀|² and tr(A P J Pᵀ Aᵀ) each; another with a good
-//! part of the energy is named too. Axes are those of space, or the body's own, where they are plain.
+//! With G = δP P⁻¹ = W + D + tr G/3 1, W skew, D symmetric without trace, the parts of a motion are the translation
+//! δp₀, the rotation W, the stretch or shear D, and breathing. The one with the most kinetic energy names it, m|δp₀|²
+//! and tr(A P J Pᵀ Aᵀ) each; another with a good part of the energy is named too. Axes are those of space, or the
+//! body's own, where they are plain.
 
 use super::shape::{ModeShape, spread};
 use gyration::body::{Body, BodyKind};

@@ -1,8 +1,8 @@
 //! The surfaces that a recording shows: each distinct one once, as fixed arrays, and which of them each body has.
 //!
-//! `surface_K_points` (m, relative to the centre of mass in the reference placement: p = p₀ + P X) and `surface_K_triangles`
-//! (indices of points, counter-clockwise seen from outside). Bodies of equal shape and centre share one. They stand in
-//! arrays and not in the attributes, which are written anew at every flush.
+//! `surface_K_points` (m, relative to the centre of mass in the reference placement: p = p₀ + P X) and
+//! `surface_K_triangles` (indices of points, counter-clockwise seen from outside). Bodies of equal shape and centre
+//! share one. They stand in arrays and not in the attributes, which are written anew at every flush.
 
 use gyration::body::Body;
 use gyration::shape::Triangulation;

@@ -1,8 +1,8 @@
 //! The triangles that show a body, each ready to be integrated over.
 //!
-//! A triangle of a curved body is a chord: near a support the gap below it is larger than that of the surface by up to the
-//! bulge s, and a law d^−ν is missed by ν s/d. There the triangle is divided in n² and pushed out onto the true surface,
-//! which leaves ν s/(n² d); everywhere else it serves as it is. Over a triangle the integrals are exact.
+//! A triangle of a curved body is a chord: near a support the gap below it is larger than that of the surface by up to
+//! the bulge s, and a law d^−ν is missed by ν s/d. There the triangle is divided in n² and pushed out onto the true
+//! surface, which leaves ν s/(n² d); everywhere else it serves as it is. Over a triangle the integrals are exact.
 
 use gyration::body::Body;
 use gyration::contact::{Contact, ContactLaw};

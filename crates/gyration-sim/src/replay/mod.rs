@@ -1,8 +1,8 @@
 //! A recording brought back to life: the model that was run, and its state at any sample.
 //!
 //! A recording holds (p₀, P, ṗ₀, Ṗ, G) of every body and the scene that says all the rest, so that whatever depends on
-//! (Model, State) can be had again without a step: mean stress, tractions, gaps. Nothing is written, and nothing is taken
-//! from the arrays of derived quantities, whether or not the run recorded them.
+//! (Model, State) can be had again without a step: mean stress, tractions, gaps. Nothing is written, and nothing is
+//! taken from the arrays of derived quantities, whether or not the run recorded them.
 
 mod cells;
 mod error;

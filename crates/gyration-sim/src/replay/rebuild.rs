@@ -1,8 +1,8 @@
 //! The scene of a recording from its attributes.
 //!
 //! `resolved` is a scene in JSON with every default in its place, so that later defaults do not matter; `scene`, with
-//! `overrides`, serves where it is missing or not understood. What was built must have the bodies that were recorded:
-//! a mesh may have changed behind its name.
+//! `overrides`, serves where it is missing or not understood. What was built must have the bodies that were recorded: a
+//! mesh may have changed behind its name.
 
 use super::error::ReplayError;
 use crate::resistance::complete;

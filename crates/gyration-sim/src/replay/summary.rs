@@ -1,7 +1,8 @@
 //! The summary of a run from its recording alone.
 //!
-//! The checkpoint holds the last state and the tally of the run, from which a resumed run goes on to the same bytes: what is
-//! told of the recording is what was told when the run ended, but for the time that it took, which nothing records.
+//! The checkpoint holds the last state and the tally of the run, from which a resumed run goes on to the same bytes:
+//! what is told of the recording is what was told when the run ended, but for the time that it took, which nothing
+//! records.
 
 use super::error::ReplayError;
 use super::rebuild;
@@ -14,8 +15,8 @@ use gyration_scene::Scene;
 use serde::Deserialize;
 
 impl RunSummary {
-    /// The scene of a recording, and the summary of its run up to the last checkpoint; of a run that has not ended, the outcome is
-    /// `Interrupted`.
+    /// The scene of a recording, and the summary of its run up to the last checkpoint; of a run that has not ended, the
+    /// outcome is `Interrupted`.
     ///
     /// # Errors
     /// Those of [`Replay::open`](super::Replay::open); `Checkpoint` if another version of the program has left it.

@@ -2,10 +2,10 @@
 //!
 //!   S_i = S₀ + h Σ_j a_ij (J_j S_j + b_j),   S(t + h) = S₅
 //!
-//! Order 9, L-stable, and exact in the derivatives of what the nodes see. With Z = S − S₀ the equations read
-//! (A⁻¹/h) Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch (`relaxing`).
-//! The rate K = S′ of the step is a polynomial of degree four; how fast its Legendre coefficients κ₀ … κ₄ fall tells how
-//! well the step is resolved. Source: Hairer, Wanner, *Solving Ordinary Differential Equations II*, §IV.5.
+//! Order 9, L-stable, and exact in the derivatives of what the nodes see. With Z = S − S₀ the equations read (A⁻¹/h)
+//! Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch (`relaxing`).
+//! The rate K = S′ of the step is a polynomial of degree four; how fast its Legendre coefficients κ₀ … κ₄ fall tells
+//! how well the step is resolved. Source: Hairer, Wanner, *Solving Ordinary Differential Equations II*, §IV.5.
 
 use super::relaxing::Equations;
 use nalgebra::{DMatrix, SMatrix};

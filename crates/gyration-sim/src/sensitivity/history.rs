@@ -1,7 +1,7 @@
 //! The run behind the present: y(t) over its last steps, which are often shorter than those of S.
 //!
-//! The interpolant of a step of the run is a polynomial of degree eight at most, and is known after that step only. It is kept by its
-//! values at ten Chebyshev points, from which it comes back to rounding:
+//! The interpolant of a step of the run is a polynomial of degree eight at most, and is known after that step only. It
+//! is kept by its values at ten Chebyshev points, from which it comes back to rounding:
 //!
 //!   y(θ) = Σ w_k y_k/(θ − θ_k) / Σ w_k/(θ − θ_k),   θ_k = ½ − ½ cos (k + ½)π/10,   w_k = (−1)^k sin (k + ½)π/10
 //!
@@ -72,8 +72,9 @@ impl History {
         piece.map_or(0.0, |piece| piece.to - piece.from)
     }
 
-    /// How far a step from one time towards another may go, if none of the steps of the run that it passes is shorter than it by more than a
-    /// factor: where the run looks closely, an impact may stand between the nodes of a long step, and none of them sees it.
+    /// How far a step from one time towards another may go, if none of the steps of the run that it passes is shorter
+    /// than it by more than a factor: where the run looks closely, an impact may stand between the nodes of a long
+    /// step, and none of them sees it.
     pub fn limit(&self, (from, to): (f64, f64), factor: f64) -> f64 {
         let first = self.steps.partition_point(|piece| piece.to <= from);
         let mut limit = to;

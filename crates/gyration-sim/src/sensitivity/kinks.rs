@@ -10,8 +10,8 @@ use gyration::model::Model;
 
 /// More kinks than that are not followed.
 const MOST: usize = 100_000;
-/// The differences stay nearer to a kink than this part of the mean distance between kinks: by quadratic extrapolation from there,
-/// what is smooth comes out to the third power of it.
+/// The differences stay nearer to a kink than this part of the mean distance between kinks: by quadratic extrapolation
+/// from there, what is smooth comes out to the third power of it.
 const NEAR: f64 = 1e-5;
 /// And nearer than this part of the smallest distance, which is the length of an edge of a square wave.
 const WITHIN: f64 = 0.05;
@@ -85,8 +85,8 @@ impl Kinks {
         }
     }
 
-    /// Where to look instead at a time: there, or at three times on its side of a kink that is too near, from which a parabola
-    /// leads to it. Times with their weights; a kink itself counts as before.
+    /// Where to look instead at a time: there, or at three times on its side of a kink that is too near, from which a
+    /// parabola leads to it. Times with their weights; a kink itself counts as before.
     pub fn beside(&self, time: f64) -> [(f64, f64); 3] {
         let near = |kink: &&Kink| (time - kink.time).abs() < self.margin;
         let first = self.kinks.partition_point(|kink| kink.time < time - self.margin);

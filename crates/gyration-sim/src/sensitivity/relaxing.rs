@@ -3,8 +3,8 @@
 //!   J = [K C; B −S], S diagonal:   E_k = (A⁻¹/h + S_k)⁻¹ (5×5, over the stages),   Z₂ = E (R₂ + B Z₁),
 //!   (A⁻¹/h − K − C E B) Z₁ = R₁ + C E R₂
 //!
-//! A step of n₁ + n₂ unknowns costs 25 n₁² n₂ and the LU of 5 n₁ rows instead of that of 5 (n₁ + n₂). The form is read off the
-//! matrices themselves, exactly; rows and columns that are zero cost nothing.
+//! A step of n₁ + n₂ unknowns costs 25 n₁² n₂ and the LU of 5 n₁ rows instead of that of 5 (n₁ + n₂). The form is read
+//! off the matrices themselves, exactly; rows and columns that are zero cost nothing.
 
 use super::collocation::{STAGES, Square};
 use nalgebra::{DMatrix, SVector};

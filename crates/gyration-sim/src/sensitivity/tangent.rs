@@ -2,11 +2,11 @@
 //!
 //!   S′ = J(y, t) S + ∂f/∂p,   S(0) = ∂y₀/∂p,   W′ = ∂g/∂y S + ∂g/∂p,   W(0) = 0
 //!
-//! a column for each number, and one without a number: a perturbation of the start in all directions, whose growth tells how
-//! many digits the motion has left. y comes from the dense output of the run, whose error is that of its steps; the
-//! linear equation takes steps of its own (`collocation`), shorter where the run does not resolve it (a body at rest takes long
-//! steps, and what is varied about it may swing), and over several steps of the run where these are short (`history`). Works
-//! are quadratures by the same nodes (`works`).
+//! a column for each number, and one without a number: a perturbation of the start in all directions, whose growth
+//! tells how many digits the motion has left. y comes from the dense output of the run, whose error is that of its
+//! steps; the linear equation takes steps of its own (`collocation`), shorter where the run does not resolve it (a body
+//! at rest takes long steps, and what is varied about it may swing), and over several steps of the run where these are
+//! short (`history`). Works are quadratures by the same nodes (`works`).
 
 use super::collocation::{self, NODES, Rule, STAGES, Stages, Step};
 use super::history::History;
@@ -34,13 +34,13 @@ const GROWTH: f64 = 1e-2;
 const NEGLIGIBLE: f64 = 1e-10;
 /// How the size of a step may change.
 const CHANGE: (f64, f64) = (0.2, 4.0);
-/// A step may be so many times as long as the shortest step of the run that it passes: several of its nodes then stand where the run
-/// found something to look at.
+/// A step may be so many times as long as the shortest step of the run that it passes: several of its nodes then stand
+/// where the run found something to look at.
 const SPAN: f64 = 8.0;
 /// The run is kept for no more of its steps than that.
 const MOST_STEPS: usize = 100;
-/// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in it may relax
-/// within no time.
+/// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in
+/// it may relax within no time.
 const SMALLEST: f64 = 1e-13;
 /// The equations at a node are those of a time earlier by this part of a step.
 const INSIDE: f64 = 1e-10;
@@ -291,7 +291,8 @@ impl<'a> Tangent<'a> {
         (forcing, forcing_works)
     }
 
-    /// The largest error of a step over the columns, each relative to what it has grown to; works by the energy in play.
+    /// The largest error of a step over the columns, each relative to what it has grown to; works by the energy in
+    /// play.
     fn error(&self, step: &Step, powers: &[DMatrix<f64>], size: f64) -> f64 {
         let (n, columns) = self.state.shape();
         let (scales, energies) = self.scales.split_at(n);

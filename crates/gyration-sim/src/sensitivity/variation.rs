@@ -4,7 +4,8 @@
 //!
 //! The rates are an explicit smooth formula, so that differences of fourth order between models of neighbouring scenes
 //! give ten digits and more. h begins at 1e-4 of the number; where that bends the rates too much, seen from the
-//! difference of h and 2h, it is reduced for good; where the rates jump by a little, it is enlarged. Where one side is refused, as for a β of zero, all points stand on the other.
+//! difference of h and 2h, it is reduced for good; where the rates jump by a little, it is enlarged. Where one side is
+//! refused, as for a β of zero, all points stand on the other.
 
 use super::difference::Difference;
 use super::levels::Levels;
@@ -20,7 +21,8 @@ const ROUGH: f64 = 1e-4;
 /// Slopes on both sides that differ by this part are compared with those of a smaller step, and so often.
 const LEAN: f64 = 1e-2;
 const COMPARISONS: u32 = 16;
-/// Two derivatives of second order, of h and 2h, may differ by this part: the one of fourth order is then good to its square.
+/// Two derivatives of second order, of h and 2h, may differ by this part: the one of fourth order is then good to its
+/// square.
 const BEND: f64 = 1e-5;
 /// What changes its scale by less than this in a second, for a change by the whole number, counts as no effect.
 const NOTHING: f64 = 1e-6;
@@ -159,8 +161,8 @@ impl Variation {
         }
     }
 
-    /// Slopes that differ on both sides however small the step is have no derivative between them; central differences do not
-    /// see that.
+    /// Slopes that differ on both sides however small the step is have no derivative between them; central differences
+    /// do not see that.
     fn compare_sides(
         &mut self,
         lean: f64,
@@ -186,8 +188,8 @@ impl Variation {
 
     /// Makes the best of a derivative that no smaller step improves.
     ///
-    /// The equations may jump by themselves: boundary elements choose their quadrature by the form. Over longer steps that
-    /// weighs less.
+    /// The equations may jump by themselves: boundary elements choose their quadrature by the form. Over longer steps
+    /// that weighs less.
     fn settle_for(
         &mut self,
         mut found: Difference,

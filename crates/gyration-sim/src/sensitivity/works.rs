@@ -1,4 +1,5 @@
-//! The works of the ledger beside S, and what both do at an instant at which the rates jump and that moves with the number.
+//! The works of the ledger beside S, and what both do at an instant at which the rates jump and that moves with the
+//! number.
 //!
 //!   W′ = ∂g/∂y S + ∂g/∂p,      S⁺ = S⁻ + (f⁻ − f⁺) dt/dp,   W⁺ = W⁻ + (g⁻ − g⁺) dt/dp
 //!

@@ -1,7 +1,7 @@
 //! Whether a law forbids a shape to touch: its exponent against that of the sharpest feature.
 //!
-//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p. The table of
-//! 1 + p is that of `gyration::shape::Feature`. Source: `physics.md` §3.
+//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p. The table of 1 +
+//! p is that of `gyration::shape::Feature`. Source: `physics.md` §3.
 
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::shape::Shape;

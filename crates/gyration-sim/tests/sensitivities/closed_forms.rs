@@ -138,7 +138,8 @@ fn the_precession_of_a_free_top_changes_with_its_spin_and_form() {
     assert!(found.derivatives[3].at_end().unwrap().iter().all(|slope| slope.abs() < 1e-12));
 }
 
-/// P_xy = ε/2 (1 + e^(−δt) (cos ωt + δ/ω sin ωt)), ω² + δ² = 20 (c₁ + c₂)/(ρR²), δ = μV/(2j), of a sphere that was sheared by ε.
+/// P_xy = ε/2 (1 + e^(−δt) (cos ωt + δ/ω sin ωt)), ω² + δ² = 20 (c₁ + c₂)/(ρR²), δ = μV/(2j), of a sphere that was
+/// sheared by ε.
 #[test]
 fn a_small_oscillation_changes_its_phase_with_stiffness_and_its_height_with_viscosity() {
     let text = r#"

@@ -134,7 +134,8 @@ fn a_sinking_box_changes_its_speed_as_dimensions_say() {
     close("density", slopes[1], way / 1240.0, 1e-7);
     // The speed is homogeneous of degree two in the lengths.
     let by_size = slopes[2] * 6e-3 + slopes[3] * 4e-3 + slopes[4] * 4e-3;
-    // The quadrature of the elements is chosen by the form: the matrix jumps by 1e-6 here and there, and steps of a hundredth leave four digits.
+    // The quadrature of the elements is chosen by the form: the matrix jumps by 1e-6 here and there, and steps of a
+    // hundredth leave four digits.
     close("sizes", by_size, 2.0 * way, 1e-4);
 }
 

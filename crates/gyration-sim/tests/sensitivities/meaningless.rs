@@ -95,8 +95,8 @@ fn kinks_that_run_into_each_other_leave_no_room_for_differences() {
     assert_eq!((lost.from, lost.reason.contains("move too far for their distance")), (0.0, true));
 }
 
-/// A point in a face of a hull that moves outwards makes a body of it, and inwards none; and a face of four corners folds along one diagonal
-/// or the other. Central differences see neither.
+/// A point in a face of a hull that moves outwards makes a body of it, and inwards none; and a face of four corners
+/// folds along one diagonal or the other. Central differences see neither.
 #[test]
 fn what_a_hull_has_beside_its_triangles_has_two_sides() {
     let corners = "[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]";

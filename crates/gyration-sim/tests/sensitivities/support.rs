@@ -51,8 +51,8 @@ pub fn by_differences(text: &str, overrides: &[String], key: &str, quantities: &
     (0..quantities.len()).map(at).collect()
 }
 
-/// The largest disagreement with differences of runs, relative to the larger of the derivative and a hundredth of the value per
-/// number.
+/// The largest disagreement with differences of runs, relative to the larger of the derivative and a hundredth of the
+/// value per number.
 pub fn disagreement(text: &str, overrides: &[String], keys: &[&str], quantities: &[&str], h: f64) -> f64 {
     let found = at_end(&scene(text, overrides), keys, quantities);
     let mut worst: f64 = 0.0;

@@ -3,9 +3,9 @@
 //!   translation along i:  16π/(χ₀ + α_i a_i²)
 //!   gradient L:  N = V (T + 2E − 2qI),   L − q diag(L_i) = −G:T,   G_ijkl = L_j δ_ik δ_jl − ⟨x_i x_j x_k x_l⟩,   Σ L_i T_ii = 0
 //!
-//! with α_i = ∫ds/((a_i² + s)Δ), χ₀ = ∫ds/Δ, Δ² = ∏(a_i² + s), L_i = (a₁a₂a₃/2) α_i and
-//! ⟨x_i²x_j²⟩ = (a₁a₂a₃/4) ∫ s ds/((a_i² + s)(a_j² + s)Δ). The integrals by the trapezoid rule in ln s, which converges
-//! exponentially. Source: Jeffery (1922); `physics.md` §7.
+//! with α_i = ∫ds/((a_i² + s)Δ), χ₀ = ∫ds/Δ, Δ² = ∏(a_i² + s), L_i = (a₁a₂a₃/2) α_i and ⟨x_i²x_j²⟩ = (a₁a₂a₃/4) ∫ s
+//! ds/((a_i² + s)(a_j² + s)Δ). The integrals by the trapezoid rule in ln s, which converges exponentially. Source:
+//! Jeffery (1922); `physics.md` §7.
 
 #![allow(
     dead_code,

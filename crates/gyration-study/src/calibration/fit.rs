@@ -1,7 +1,7 @@
 //! The search for the least squares (`least_squares`).
 //!
-//! What it sees is u (`scale`) and the weighted residuals r = (m − y)/σ. A trial that cannot be computed counts as a bad
-//! one: the search then tries a shorter step.
+//! What it sees is u (`scale`) and the weighted residuals r = (m − y)/σ. A trial that cannot be computed counts as a
+//! bad one: the search then tries a shorter step.
 
 use super::least_squares::{Ending, Minimum, Problem, minimize};
 use super::{Calibration, CalibrationError, Experiment};
@@ -10,8 +10,8 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// The residual of a trial that cannot be computed: worse than any other, and its square is still a number.
 const BAD: f64 = 1e100;
-/// The standard deviation, in u, with which the start counts as a measurement of each number: what nothing else tells stays there, and
-/// what is told with a standard error σ moves by σ²/10⁶ of its way at most.
+/// The standard deviation, in u, with which the start counts as a measurement of each number: what nothing else tells
+/// stays there, and what is told with a standard error σ moves by σ²/10⁶ of its way at most.
 pub(super) const START: f64 = 1e3;
 /// Digits to which the search goes: those of the derivatives.
 const TOLERANCE: f64 = 1e-10;

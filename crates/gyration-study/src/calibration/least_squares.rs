@@ -3,8 +3,8 @@
 //!   min ‖r(u)‖²:   (JᵀJ + λ D²) p = Jᵀr,   u ← u − p,   ‖D p‖ ≤ Δ,   D_j = the largest ‖J e_j‖ so far
 //!
 //! λ is that for which the step just reaches the edge of the region, within a tenth; Δ follows the ratio of what a step
-//! brings to what the linear model promised. Source: Moré, *The Levenberg–Marquardt algorithm: implementation and theory*
-//! (1978), and `lmder`, `lmpar` of MINPACK. J must have full rank: the start counts as a measurement (`fit`).
+//! brings to what the linear model promised. Source: Moré, *The Levenberg–Marquardt algorithm: implementation and
+//! theory* (1978), and `lmder`, `lmpar` of MINPACK. J must have full rank: the start counts as a measurement (`fit`).
 
 use nalgebra::{DMatrix, DVector};
 

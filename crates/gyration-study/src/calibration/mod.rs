@@ -2,10 +2,10 @@
 //!
 //!   min Σ_i ((y_i − m_i(p))/σ_i)²
 //!
-//! m_i are computed with the simulator itself (`predict`): a rebound by a run to its apex, a gap from the exact rest state, the
-//! speed on a slope and the force of pull-off from the balance of forces. Their derivatives come from the sensitivities of
-//! the run, or from differences of what has no run. The least squares are in `fit` and `least_squares`; what is known of the
-//! numbers afterwards is in `uncertainty`.
+//! m_i are computed with the simulator itself (`predict`): a rebound by a run to its apex, a gap from the exact rest
+//! state, the speed on a slope and the force of pull-off from the balance of forces. Their derivatives come from the
+//! sensitivities of the run, or from differences of what has no run. The least squares are in `fit` and
+//! `least_squares`; what is known of the numbers afterwards is in `uncertainty`.
 
 mod check;
 mod csv;

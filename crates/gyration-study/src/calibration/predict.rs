@@ -7,8 +7,9 @@
 //! | speed on a slope θ | m g sin θ/c: rest state under g cos θ, c the friction per speed there |
 //! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |
 //!
-//! The laws have no friction at rest: a body slides on every slope, v = (α/β) tan θ where both exponents are the same. The
-//! slope at which "it slides" is that at which it gets as fast as can be seen; so a slope is measured together with a speed.
+//! The laws have no friction at rest: a body slides on every slope, v = (α/β) tan θ where both exponents are the same.
+//! The slope at which "it slides" is that at which it gets as fast as can be seen; so a slope is measured together with
+//! a speed.
 
 use super::rebound::Drop;
 use super::{Calibration, Experiment, Kind};
@@ -56,7 +57,8 @@ impl Calibration {
         }
     }
 
-    /// The same with derivatives: along the run of a drop, else by differences of fourth order of what is known to rounding.
+    /// The same with derivatives: along the run of a drop, else by differences of fourth order of what is known to
+    /// rounding.
     ///
     /// # Errors
     /// Why there is none, in words.

@@ -12,8 +12,8 @@ use gyration_sim::sensitivity::{At, Sensitivities};
 use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink, complete};
 use std::cell::Cell;
 
-/// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along it would
-/// change is then of the order of rounding.
+/// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along
+/// it would change is then of the order of rounding.
 const LEVEL: f64 = 1e-14;
 /// A rebound is looked for over so many times the time of the fall, and this long [s].
 const FALLS: f64 = 4.0;
@@ -95,9 +95,9 @@ impl Drop {
         Ok((self.height_at(Vec3::from_column_slice(last)), slopes))
     }
 
-    /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more than the contacts,
-    /// to where the body starts perhaps, or if the body does not rebound straight up, so that its speed along the normal does not
-    /// vanish at the apex.
+    /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more
+    /// than the contacts, to where the body starts perhaps, or if the body does not rebound straight up, so that its
+    /// speed along the normal does not vanish at the apex.
     pub fn predicted(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
         let gravity = self.scene.built().model.gravity;
         let is_level = -gravity.dot(&self.normal) > (1.0 - LEVEL) * gravity.norm();

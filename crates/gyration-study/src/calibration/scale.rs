@@ -1,5 +1,5 @@
-//! What the search varies in place of a number: its logarithm, or how many times it is as large as at the start; between bounds the logit of
-//! its place. All are without dimension.
+//! What the search varies in place of a number: its logarithm, or how many times it is as large as at the start;
+//! between bounds the logit of its place. All are without dimension.
 //!
 //!   v = p/|p₀| or ln p;   u = v, or ln((v − a)/(b − v)) between bounds a < v < b
 

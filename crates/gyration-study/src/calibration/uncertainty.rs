@@ -2,10 +2,10 @@
 //!
 //!   C = (JᵀJ)⁻¹ = V diag(1/s²) Vᵀ,   J = ∂r/∂u = U diag(s) Vᵀ
 //!
-//! with residuals weighted by the deviations of the measurements, which are taken as they are: χ² over the degrees of freedom
-//! says whether they can be right. Along a direction v that tells less than the start counts (`fit`) nothing is fitted: it is left
-//! out of C and of what is counted. A number has no error where that would be a factor of twenty or more, or where a direction that
-//! is not fitted, followed so far, moves it by more than its error.
+//! with residuals weighted by the deviations of the measurements, which are taken as they are: χ² over the degrees of
+//! freedom says whether they can be right. Along a direction v that tells less than the start counts (`fit`) nothing is
+//! fitted: it is left out of C and of what is counted. A number has no error where that would be a factor of twenty or
+//! more, or where a direction that is not fitted, followed so far, moves it by more than its error.
 
 use super::fit::START;
 use super::{Calibration, CalibrationError};

@@ -7,8 +7,8 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 ///
 ///   Φ(x) = ½ erfc(−x/√2) = p
 ///
-/// By Halley's method from the rational approximation of Hastings (Abramowitz and Stegun 26.2.23, good to 4.5e-4): cubic,
-/// so that two corrections reach rounding. Worked out in the lower tail, where p is known to all its digits.
+/// By Halley's method from the rational approximation of Hastings (Abramowitz and Stegun 26.2.23, good to 4.5e-4):
+/// cubic, so that two corrections reach rounding. Worked out in the lower tail, where p is known to all its digits.
 pub fn inverse_normal(p: f64) -> f64 {
     if p > 0.5 {
         return -inverse_normal(1.0 - p);

@@ -1,7 +1,7 @@
 //! Permutations of any length without a table, for Latin hypercubes.
 //!
-//! A Feistel network permutes the numbers of an even count of bits; numbers beyond the length are passed on until one falls
-//! within it (cycle walking: Black and Rogaway 2002), after four rounds of the network on average at most.
+//! A Feistel network permutes the numbers of an even count of bits; numbers beyond the length are passed on until one
+//! falls within it (cycle walking: Black and Rogaway 2002), after four rounds of the network on average at most.
 
 /// Rounds of the network: beyond four, what is left of the order is below what a study could see.
 const ROUNDS: u64 = 6;

@@ -2,8 +2,9 @@
 //!
 //!   x_d(i) = ⊕_k i_k V_{d,k},   i_k the binary digits of i
 //!
-//! V are the direction numbers of Joe and Kuo (2008, set new-joe-kuo-6.21201), continued by the recurrence of a primitive
-//! polynomial over GF(2). In this order of the digits the first 2^m points are those of the Gray-code order, as a set.
+//! V are the direction numbers of Joe and Kuo (2008, set new-joe-kuo-6.21201), continued by the recurrence of a
+//! primitive polynomial over GF(2). In this order of the digits the first 2^m points are those of the Gray-code order,
+//! as a set.
 
 /// The most dimensions.
 pub const MOST_DIMENSIONS: usize = INITIAL.len() + 1;

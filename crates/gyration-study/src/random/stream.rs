@@ -1,7 +1,8 @@
 //! Random streams: one for each seed, number and name, begun without those before it.
 //!
-//! ChaCha with 8 rounds (Bernstein 2008) under the key (seed, number, name): as far as anybody can tell, streams of different keys have
-//! nothing in common. (Streams of a linear generator that differ in their increment alone do: they are shifted copies.)
+//! ChaCha with 8 rounds (Bernstein 2008) under the key (seed, number, name): as far as anybody can tell, streams of
+//! different keys have nothing in common. (Streams of a linear generator that differ in their increment alone do: they
+//! are shifted copies.)
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -68,7 +69,8 @@ mod tests {
         let keys: Vec<(u64, &str)> = (0..3).flat_map(|seed| names.map(|name| (seed, name))).collect();
         let pairs = keys.iter().enumerate().flat_map(|(index, one)| keys[..index].iter().map(|other| [*one, *other]));
         let found: Vec<f64> = pairs.map(chi_squared).collect();
-        // 63 degrees of freedom: 63 ± 11.2; of 435 pairs one in a hundred sets has one above 119, five standard deviations.
+        // 63 degrees of freedom: 63 ± 11.2; of 435 pairs one in a hundred sets has one above 119, five standard
+        // deviations.
         let mean = found.iter().sum::<f64>() / found.len() as f64;
         let most = found.iter().copied().fold(0.0, f64::max);
         println!("χ² of {} pairs: mean {mean:.2}, largest {most:.1}", found.len());

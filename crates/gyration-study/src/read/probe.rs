@@ -5,9 +5,11 @@ use gyration_scene::input::InputFile;
 use gyration_scene::{Fault, Override, Scene, SceneErrors, Template};
 use std::collections::BTreeSet;
 
-/// The scene of the first run; if a value of it is not possible, that of the scene alone, and without what the study sets wrongly.
+/// The scene of the first run; if a value of it is not possible, that of the scene alone, and without what the study
+/// sets wrongly.
 ///
-/// A value that is not possible may be meant: that run fails alone. A key, a kind of value or a unit is wrong in all runs.
+/// A value that is not possible may be meant: that run fails alone. A key, a kind of value or a unit is wrong in all
+/// runs.
 ///
 /// # Errors
 /// What is wrong with the scene itself. What is wrong with the study is noted in the input, and there is no scene.

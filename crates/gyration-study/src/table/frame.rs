@@ -128,8 +128,8 @@ impl Frame {
                 true => Err(StudyError::NoTable { path: path.to_owned(), help: "" }),
                 false => Self::of_files(&files, &journals),
             });
-            // Of a table under way a journal may have become a chunk meanwhile, and the chunks one file: they are listed again
-            // until that tells nothing new.
+            // Of a table under way a journal may have become a chunk meanwhile, and the chunks one file: they are
+            // listed again until that tells nothing new.
             let now = Some((files, journals));
             if read.is_ok() || now == before {
                 return read;

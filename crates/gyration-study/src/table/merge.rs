@@ -23,8 +23,8 @@ const HELD: usize = 1 << 14;
 /// Joins the shards in a folder into its `table.parquet`, and returns its path; the shards stay.
 ///
 /// # Errors
-/// [`StudyError::Shards`] if some are missing or unfinished, or the table is there and not to be replaced; [`StudyError::OtherStudy`] if one
-/// is foreign.
+/// [`StudyError::Shards`] if some are missing or unfinished, or the table is there and not to be replaced;
+/// [`StudyError::OtherStudy`] if one is foreign.
 pub fn merge(path: &Path, study: &Study, replace: bool) -> Result<PathBuf, StudyError> {
     let count = count(path)?;
     let target = path.join(TABLE);

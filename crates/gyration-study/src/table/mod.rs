@@ -10,8 +10,8 @@
 //!     shard-3-of-8/             a shard: the same layout inside
 //! ```
 //!
-//! Whatever interrupts the writing, each run is there once or not at all. The bytes of `table.parquet` depend on the rows
-//! alone: not on the order in which they came, nor on chunks, threads or shards.
+//! Whatever interrupts the writing, each run is there once or not at all. The bytes of `table.parquet` depend on the
+//! rows alone: not on the order in which they came, nor on chunks, threads or shards.
 
 mod describe;
 mod digest;

@@ -1,7 +1,8 @@
-//! Rows in a Parquet file: written in groups of equal size, read in portions, so that memory does not grow with the file.
+//! Rows in a Parquet file: written in groups of equal size, read in portions, so that memory does not grow with the
+//! file.
 //!
-//! The three numbers of the run are required, all other cells optional; a list is the three-level LIST of the format. What
-//! is written depends on the rows alone.
+//! The three numbers of the run are required, all other cells optional; a list is the three-level LIST of the format.
+//! What is written depends on the rows alone.
 
 use crate::column::{Column, Kind};
 use crate::error::StudyError;

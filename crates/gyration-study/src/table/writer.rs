@@ -54,11 +54,12 @@ struct Open {
 }
 
 impl Table {
-    /// A new table in the folder `path`, or of a shard in a folder in it; with `replace`, one that is there is removed, but nothing beside it.
+    /// A new table in the folder `path`, or of a shard in a folder in it; with `replace`, one that is there is removed,
+    /// but nothing beside it.
     ///
     /// # Errors
-    /// [`StudyError::Exists`] if something is there that is not to be replaced, or that is no table, [`StudyError::Shards`] if shards are:
-    /// others may be at work on them.
+    /// [`StudyError::Exists`] if something is there that is not to be replaced, or that is no table,
+    /// [`StudyError::Shards`] if shards are: others may be at work on them.
     pub fn create(path: &Path, study: &Study, shard: Shard, replace: bool) -> Result<Self, StudyError> {
         let folder = folder(path, shard);
         let mut locked = None;

@@ -2,10 +2,10 @@
 //!
 //!   τ = det P R C[Rᵀ sym L R] Rᵀ,   P = R U
 //!
-//! C is a symmetric positive semi-definite 6×6 matrix on (xx, yy, zz, yz, xz, xy) in Voigt's notation: it takes
-//! (L_xx, L_yy, L_zz, 2L_(yz), 2L_(xz), 2L_(xy)) to the components of the Cauchy stress, as a stiffness matrix does with strains.
-//! Isotropic friction η, ζ is C_xxxx = ζ + 4η/3, C_xxyy = ζ − 2η/3, C_xyxy = η. Source: Sławianowski (1975), 4.12, with the
-//! sign and the volume that dissipate.
+//! C is a symmetric positive semi-definite 6×6 matrix on (xx, yy, zz, yz, xz, xy) in Voigt's notation: it takes (L_xx,
+//! L_yy, L_zz, 2L_(yz), 2L_(xz), 2L_(xy)) to the components of the Cauchy stress, as a stiffness matrix does with
+//! strains. Isotropic friction η, ζ is C_xxxx = ζ + 4η/3, C_xxyy = ζ − 2η/3, C_xyxy = η. Source: Sławianowski (1975),
+//! 4.12, with the sign and the volume that dissipate.
 
 use super::Gyration;
 use crate::load::{ResistanceError, mirrored, semi_definite, unit};

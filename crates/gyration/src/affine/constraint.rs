@@ -2,8 +2,8 @@
 //!
 //!   P̈ = B J⁻¹ + π V Y,   Y = P⁻ᵀ J⁻¹,   π V a = tr(L²) − tr(B J⁻¹ P⁻¹),   a = tr(Y P⁻¹)
 //!
-//! with B = M − V(S_e + S_v). The corrections after a step go the same way, δP, δṖ ∝ Y: then δṖ J Pᵀ is a multiple of I,
-//! and the spin is left alone. Source: `physics.md` §4.
+//! with B = M − V(S_e + S_v). The corrections after a step go the same way, δP, δṖ ∝ Y: then δṖ J Pᵀ is a multiple of
+//! I, and the spin is left alone. Source: `physics.md` §4.
 
 use super::AffineBody;
 use crate::columns::{Columns, Four};
@@ -56,7 +56,8 @@ const ITERATIONS: usize = 20;
 /// The rounding of a determinant of order one.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
-/// Puts P and Ṗ back to det P = `volume` and tr L = `growth`, in which P differs from one on the constraint by a factor.
+/// Puts P and Ṗ back to det P = `volume` and tr L = `growth`, in which P differs from one on the constraint by a
+/// factor.
 pub(super) fn project_to(body: &AffineBody, (p, rate): (&Mat3, &Mat3), volume: f64, growth: f64) -> Correction {
     let scale = volume.cbrt();
     let still = rate - p * (growth / 3.0);

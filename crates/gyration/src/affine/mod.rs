@@ -3,8 +3,8 @@
 //!   P̈ J = M − V S,   S = ∂φ/∂P + τ P⁻ᵀ − π P⁻ᵀ
 //!
 //! V reference volume, J Euler tensor, M affine moment of the loads, φ energy of the material, τ viscous Kirchhoff
-//! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M:
-//! no state, no time, no contact. Derivatives are in `slopes`. Source: `physics.md` §2, §4.
+//! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M: no
+//! state, no time, no contact. Derivatives are in `slopes`. Source: `physics.md` §2, §4.
 
 mod anisotropic;
 mod constraint;
@@ -146,7 +146,8 @@ impl AffineBody {
         constraint::project_to(self, (p, rate), volume, growth)
     }
 
-    /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa]; none without it.
+    /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa]; none
+    /// without it.
     #[inline(always)]
     pub(crate) fn medium_stress<F: Four>(&self, at: &Gyration, l: &Columns<F>) -> Option<Columns<F>> {
         let mut stress = None;

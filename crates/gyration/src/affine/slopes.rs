@@ -1,8 +1,8 @@
 //! The derivative of the balance of an affine body, in closed form.
 //!
-//! With F = P⁻¹ and B = M − V(S_e + τ P⁻ᵀ) the change of P̈ = B J⁻¹ + πV Y is that of B J⁻¹ at a fixed reaction πV P⁻ᵀ, which
-//! turns with P (`elastic`, `reaction`), and a multiple s of Y. The constraint tr(P̈ F) = tr(L²) is differentiated as it stands,
-//! and gives s from
+//! With F = P⁻¹ and B = M − V(S_e + τ P⁻ᵀ) the change of P̈ = B J⁻¹ + πV Y is that of B J⁻¹ at a fixed reaction πV P⁻ᵀ,
+//! which turns with P (`elastic`, `reaction`), and a multiple s of Y. The constraint tr(P̈ F) = tr(L²) is
+//! differentiated as it stands, and gives s from
 //!
 //!   tr(δP̈ F) = Σ 2(FL)_Bj δṖ_jB + Σ (F P̈ F − 2FLL)_Bj δP_jB
 //!

@@ -3,8 +3,8 @@
 //!   B = M − V(S_e + τ P⁻ᵀ),   P̈ = B J⁻¹ + π V Y
 //!
 //! Y and π V of an incompressible body as in `constraint`. S_e Pᵀ is symmetric, and made so to the last bit, and an
-//! incompressible body's is taken without its mean, which the pressure takes over: rounding of a large stress must not turn
-//! or swell a stiff body, since nothing would bring it back, and the steps would have to follow that noise.
+//! incompressible body's is taken without its mean, which the pressure takes over: rounding of a large stress must not
+//! turn or swell a stiff body, since nothing would bring it back, and the steps would have to follow that noise.
 
 use super::constraint::Constraint;
 use super::mobility::Mobility;

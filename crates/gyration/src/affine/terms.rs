@@ -2,8 +2,8 @@
 //!
 //!   δP ↦ X δPᵀ Y,   U δP V,   W (Z·δP);   of δP = e_j ⊗ e_B column A is   X_B Y_jA,   U_j V_BA,   W_A Z_jB
 //!
-//! An image takes nine products. The matrices stand in memory, from where any of their numbers can be fetched into all places
-//! of a register.
+//! An image takes nine products. The matrices stand in memory, from where any of their numbers can be fetched into all
+//! places of a register.
 
 use crate::columns::{Column, Columns, Four};
 

@@ -2,8 +2,8 @@
 //!
 //!   τ = μ sym L + det P (2η dev(sym L) + ζ tr(L) I) = a sym L + c tr(L) I,   a = μ + 2η det P,   c = (ζ − ⅔η) det P
 //!
-//! The first term is that of the slides (Tatone): μ is twice a Newtonian viscosity, of the Kirchhoff stress. The second is
-//! Newtonian, of the Cauchy stress (Sławianowski 4.13 with the sign and the volume that dissipate).
+//! The first term is that of the slides (Tatone): μ is twice a Newtonian viscosity, of the Kirchhoff stress. The second
+//! is Newtonian, of the Cauchy stress (Sławianowski 4.13 with the sign and the volume that dissipate).
 
 use super::Gyration;
 use crate::columns::{Columns, Four};

@@ -6,9 +6,9 @@
 //! | affine      | p₀ (3)   | P (9)          | ṗ₀ (3)   | Ṗ (9) |                                  |
 //! | contractile | p₀ (3)   | P (9)          | ṗ₀ (3)   | Ṗ (9) | G (9), unless it is prescribed   |
 //!
-//! Ω is in body axes; P, Ṗ and G stand column by column. A pinned body has neither position nor velocity, a body without
-//! inertia neither velocity nor rate. The rates of a body stand where its numbers do: in the slot of the velocity is the
-//! acceleration.
+//! Ω is in body axes; P, Ṗ and G stand column by column. A pinned body has neither position nor velocity, a body
+//! without inertia neither velocity nor rate. The rates of a body stand where its numbers do: in the slot of the
+//! velocity is the acceleration.
 
 use super::{Body, BodyKind};
 use crate::fluid::History;

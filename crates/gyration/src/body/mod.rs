@@ -1,8 +1,8 @@
 //! A body: its mass, its surface, the laws and springs that act on it, and its kind.
 //!
-//! Everything is relative to the centre of mass. A rigid body has the configuration (p₀, P = R) and the velocity (ṗ₀, Ω),
-//! an affine body (p₀, P) and (ṗ₀, Ṗ), a contractile one G besides; `layout` says where these stand in the state. A pinned
-//! body has no position of its own; a body in a fluid that has no inertia has no velocities in its state.
+//! Everything is relative to the centre of mass. A rigid body has the configuration (p₀, P = R) and the velocity (ṗ₀,
+//! Ω), an affine body (p₀, P) and (ṗ₀, Ṗ), a contractile one G besides; `layout` says where these stand in the state. A
+//! pinned body has no position of its own; a body in a fluid that has no inertia has no velocities in its state.
 
 mod layout;
 

@@ -1,10 +1,11 @@
 //! Four numbers that are worked on at once: what a column of a 3×3 matrix is kept in.
 //!
-//! `[f64; 4]` is four numbers in memory, or in whatever registers the plain build has; where the processor has registers of
-//! 256 bits, [`dispatch`] finds it at run time and calls the work with them. Products and sums are rounded one by one, never fused,
-//! and in the same order, so that both give the same bytes.
+//! `[f64; 4]` is four numbers in memory, or in whatever registers the plain build has; where the processor has
+//! registers of 256 bits, [`dispatch`] finds it at run time and calls the work with them. Products and sums are rounded
+//! one by one, never fused, and in the same order, so that both give the same bytes.
 //!
-//! Every function that takes them is `inline(always)`: it has to become part of the one that was compiled for the registers.
+//! Every function that takes them is `inline(always)`: it has to become part of the one that was compiled for the
+//! registers.
 
 /// Four numbers side by side.
 pub trait Four: Copy {

@@ -8,8 +8,8 @@
 //! | adhesion  | −β ((d/d₀)^−ν_a − (d/d₀)^−ν_r) n      | β [Pa], ν_r > ν_a  |
 //!
 //! n is the support's unit normal, w the velocity relative to the support. A law sees a gap and a velocity, never a
-//! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `resultant`
-//! needs to integrate it over a surface. Source: Tatone, *Soft and rigid impact*.
+//! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `resultant` needs
+//! to integrate it over a surface. Source: Tatone, *Soft and rigid impact*.
 
 mod adhesion;
 mod damping;
@@ -149,8 +149,8 @@ impl ContactLaw {
         }
     }
 
-    /// The factor of the law at a gap d > 0: its traction along n for a central law [Pa], the resistance per speed for a
-    /// viscous one [Pa s/m].
+    /// The factor of the law at a gap d > 0: its traction along n for a central law [Pa], the resistance per speed for
+    /// a viscous one [Pa s/m].
     pub fn factor(&self, gap: f64) -> f64 {
         self.terms().iter().flatten().map(|term| term.coefficient * gap.powf(-term.exponent)).sum()
     }

@@ -1,8 +1,8 @@
 //! The derivatives of the loads of one contact on a body that moves homogeneously.
 //!
-//! Moments change with the gap, ∂(d^−ν) = −ν d^−(ν+1)(δg₀ + δm·X), and per deformed area with the area factor,
-//! δk = k (I − m⊗m)·H, H = δP P⁻¹: the formulas of `resultant` with other moments. With the velocity they change as
-//! they stand. In the coordinates q = (p₀ | P), a 3×4 matrix with the loads Q = (f | M) beside it, and X̃ = (1; X),
+//! Moments change with the gap, ∂(d^−ν) = −ν d^−(ν+1)(δg₀ + δm·X), and per deformed area with the area factor, δk = k
+//! (I − m⊗m)·H, H = δP P⁻¹: the formulas of `resultant` with other moments. With the velocity they change as they
+//! stand. In the coordinates q = (p₀ | P), a 3×4 matrix with the loads Q = (f | M) beside it, and X̃ = (1; X),
 //!
 //!   ∂Q/∂q = (∂Q by gap) ⊗ n + …,   ∂Q_ia/∂q̇_jb = −n_i n_j ∫κ_N X̃_a X̃_b dA − (δ_ij − n_i n_j) ∫κ_T X̃_a X̃_b dA
 //!

@@ -1,14 +1,14 @@
 //! A contact of a rigid body: its force in space, its torque in the body's own axes, and their derivatives.
 //!
-//! With the normal n, m = Rᵀn, the relative velocity of the centre split into approach s = n·w₀ and sliding v = w₀ − s n, the sums
-//! C, N, T of the central, normal and tangential laws and c = m×Ω, so that m·u(X) = s + c·X,
+//! With the normal n, m = Rᵀn, the relative velocity of the centre split into approach s = n·w₀ and sliding v = w₀ − s
+//! n, the sums C, N, T of the central, normal and tangential laws and c = m×Ω, so that m·u(X) = s + c·X,
 //!
 //!   f = (C₀ − push) n − (1 − n⊗n)(T₀v + R(Ω×T₁))                        push = N₀ s + N₁·c
 //!   τ = (C₁ − lever)×m − (T₁×Rᵀv + (tr T₂ − T₂)Ω − T₂c×m)               lever = N₁ s + N₂c
 //!
-//! These are f and M of `resultant` for P = R, τ_i = ε_ijk (RᵀM)_kj. They depend on few numbers, g₀, m, w₀ and Ω, however
-//! many the state has; derivatives are taken here and carried over to the state once (`jacobian`). Moments are linear in
-//! the sums, so that derivatives through the gap are the same formula with other sums.
+//! These are f and M of `resultant` for P = R, τ_i = ε_ijk (RᵀM)_kj. They depend on few numbers, g₀, m, w₀ and Ω,
+//! however many the state has; derivatives are taken here and carried over to the state once (`jacobian`). Moments are
+//! linear in the sums, so that derivatives through the gap are the same formula with other sums.
 //!
 //! Normal and tangential parts are not mixed: next to a support one may exceed the other by more than the digits of a
 //! number. The force is therefore formed in space, where the normal of a support is often an axis.

@@ -2,8 +2,8 @@
 //!
 //!   Q = A m + B,   m = gap, |P a| or d|P a|/dt along a material direction a, within limits if there are any
 //!
-//! With δP, δp₀ of the body: δgap = n·(δp₀ + δP X) at the nearest point X, δ|P a| = u·δP a, δ(u·Ṗ a) = u·δṖ a +
-//! (Ṗ a − u (u·Ṗ a))·δP a/|P a|, u = P a/|P a|.
+//! With δP, δp₀ of the body: δgap = n·(δp₀ + δP X) at the nearest point X, δ|P a| = u·δP a, δ(u·Ṗ a) = u·δṖ a + (Ṗ a −
+//! u (u·Ṗ a))·δP a/|P a|, u = P a/|P a|.
 
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::{Mat3, Vec3};

@@ -6,8 +6,8 @@
 //!
 //!   V_ii = R_ii/(μ_γ + μ),   V_ij = ((μ_γ + μ/(2ρ)) R_ij − (μ/2) R_ji)/(μ_γ² + μ_γ (μ/2)(ρ + 1/ρ))
 //!
-//! and, if V has to be symmetric, V_ij = (R_ij + R_ji)/2/(μ_γ + (μ/4)(ρ + 1/ρ + 2)). A is symmetric and positive: it is the derivative
-//! of half the dissipation. tr A(V) = (μ_γ + μ) tr V, so that a pressure changes tr V alone.
+//! and, if V has to be symmetric, V_ij = (R_ij + R_ji)/2/(μ_γ + (μ/4)(ρ + 1/ρ + 2)). A is symmetric and positive: it is
+//! the derivative of half the dissipation. tr A(V) = (μ_γ + μ) tr V, so that a pressure changes tr V alone.
 
 use super::Spin;
 use crate::columns::{Column, Columns, Four};
@@ -93,8 +93,8 @@ impl Mobility {
         }
     }
 
-    /// What is left of R, R − (μ/2)(C V C⁻¹ + Vᵀ), where V = A⁻¹(R) has to be symmetric; otherwise it is μ_γ V, as this is on the
-    /// diagonal. Off it, with s = 2 X_ij,
+    /// What is left of R, R − (μ/2)(C V C⁻¹ + Vᵀ), where V = A⁻¹(R) has to be symmetric; otherwise it is μ_γ V, as this
+    /// is on the diagonal. Off it, with s = 2 X_ij,
     ///
     ///   s (μ_γ + (μ/4)(1/ρ + 1)) R_ij − s (μ/4)(ρ + 1) R_ji
     #[inline(always)]

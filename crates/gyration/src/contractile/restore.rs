@@ -1,7 +1,8 @@
 //! Puts P, Ṗ and G back to where a step should have left them.
 //!
-//! An incompressible material has det P = det G. Where the law of contraction gives the pressure, det G follows det P, since the
-//! pressure acts on V_G at once; where det G is kept or prescribed, P and Ṗ follow, as those of an incompressible affine body.
+//! An incompressible material has det P = det G. Where the law of contraction gives the pressure, det G follows det P,
+//! since the pressure acts on V_G at once; where det G is kept or prescribed, P and Ṗ follow, as those of an
+//! incompressible affine body.
 
 use super::{Contraction, Source};
 use crate::affine::{AffineBody, Correction};
@@ -21,8 +22,8 @@ pub struct Restored {
 }
 
 impl Contraction {
-    /// P, Ṗ and G at a time [s], with det F = 1 if the material is incompressible and det G as it has to be; G is that which is
-    /// prescribed, if it is.
+    /// P, Ṗ and G at a time [s], with det F = 1 if the material is incompressible and det G as it has to be; G is that
+    /// which is prescribed, if it is.
     pub fn restore(&self, body: &AffineBody, time: f64, (p, rate, g): (&Mat3, &Mat3, &Mat3)) -> Restored {
         let incompressible = body.is_incompressible();
         let (contraction, growth) = match &self.source {

@@ -1,7 +1,7 @@
 //! The derivative of the balance of a contractile body and of its law of contraction, in closed form.
 //!
-//! In the axes N of C = FᵀF (F and G are turned: F N, NᵀG), with increments ξ = F⁻¹ δF, γ = δG G⁻¹, Λ = F⁻¹ L F, E = V_G − Λ,
-//! 𝓜(A) = (μ/2)(C A C⁻¹ + Aᵀ), K = (μ/2) C E C⁻¹, X = δC C⁻¹ = C ξ C⁻¹ + ξᵀ and Z = Fᵀ(τ − πI)F⁻ᵀ,
+//! In the axes N of C = FᵀF (F and G are turned: F N, NᵀG), with increments ξ = F⁻¹ δF, γ = δG G⁻¹, Λ = F⁻¹ L F, E =
+//! V_G − Λ, 𝓜(A) = (μ/2)(C A C⁻¹ + Aᵀ), K = (μ/2) C E C⁻¹, X = δC C⁻¹ = C ξ C⁻¹ + ξᵀ and Z = Fᵀ(τ − πI)F⁻ᵀ,
 //!
 //!   δZ = δ(gΣ) − X K + K X − 𝓜(δV_G − δΛ) − δπ I,         δ(gΣ) = tr γ gΣ + ξᵀ gΣ + Fᵀ g 𝔸[Fξ]
 //!   A δV_G = δ(gΣ) − X K + K X + 𝓜(δΛ) − (δ(gφ) + δπ) I + δQ,   δ(gφ) = tr γ gφ + gΣ·ξ
@@ -11,8 +11,8 @@
 //!
 //!   δP = e_j ⊗ e_B:  ξ = F⁻¹e_j ⊗ w_B,  δΛ = −ξ Λ;      δṖ:  δΛ = F⁻¹e_j ⊗ w_B;      δG:  γ = e_j ⊗ w_B = −ξ,  δΛ = γ Λ − Λ γ
 //!
-//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`vectors`). The three j of one B are done
-//! at once (`triple`).
+//! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`vectors`). The three j of
+//! one B are done at once (`triple`).
 
 use super::mobility::{Axes, Mobility};
 use super::triple::{Fixed, Triple, along, spread};

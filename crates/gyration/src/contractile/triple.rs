@@ -1,8 +1,9 @@
 //! Three 3×3 matrices at once, number by number: number (i, k) of all three stands in one `Column`.
 //!
-//! The three belong to the rows j of an increment e_j ⊗ e_B. All that is done with them is the same for each, so that sums over i and
-//! k, transposes and traces take no shuffling of numbers; they are told apart only when they are written. What they are multiplied by
-//! is kept with each of its numbers in all places (`Fixed`), from where a product can take it.
+//! The three belong to the rows j of an increment e_j ⊗ e_B. All that is done with them is the same for each, so that
+//! sums over i and k, transposes and traces take no shuffling of numbers; they are told apart only when they are
+//! written. What they are multiplied by is kept with each of its numbers in all places (`Fixed`), from where a product
+//! can take it.
 //!
 //! No closures: they would not be compiled for the registers.
 
@@ -14,7 +15,8 @@ pub(crate) struct Triple<F>(pub [[Column<F>; 3]; 3]);
 
 /// A matrix for all three: number (i, k) in all places of [k][i].
 ///
-/// Aligned, and with it the frame of the function where it stands, so that no register is kept across two lines of the cache.
+/// Aligned, and with it the frame of the function where it stands, so that no register is kept across two lines of the
+/// cache.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(crate) struct Fixed<F>(pub [[Column<F>; 3]; 3]);

@@ -1,12 +1,13 @@
 //! The balance of a contractile body at one instant in the axes N of C = FᵀF: what its derivative starts from.
 //!
-//! There gΣ = diag(m), and 𝓜(A) = (μ/2)(C A C⁻¹ + Aᵀ) goes number by number. With Λ = F⁻¹ L F the law of contraction reads
+//! There gΣ = diag(m), and 𝓜(A) = (μ/2)(C A C⁻¹ + Aᵀ) goes number by number. With Λ = F⁻¹ L F the law of contraction
+//! reads
 //!
 //!   A(V_G) = gΣ + 𝓜(Λ) + Q − e I,   Z = gΣ + 𝓜(Λ − V_G) − π I,   K = (μ/2) C (V_G − Λ) C⁻¹
 //!
-//! so that beyond Λ and NᵀQN nothing is multiplied: e = gφ of a compressible material; tr A(V_G) = (μ_γ + μ) tr Λ gives e = gφ + π of
-//! an incompressible one, and tr A(V_G) = 0 where det G is kept. Where V_G is prescribed, or the pressure is that of the second
-//! derivative of det P, V_G and Z are those of `solution`.
+//! so that beyond Λ and NᵀQN nothing is multiplied: e = gφ of a compressible material; tr A(V_G) = (μ_γ + μ) tr Λ gives
+//! e = gφ + π of an incompressible one, and tr A(V_G) = 0 where det G is kept. Where V_G is prescribed, or the pressure
+//! is that of the second derivative of det P, V_G and Z are those of `solution`.
 
 use super::mobility::{Axes, Mobility};
 use super::solution::Solution;

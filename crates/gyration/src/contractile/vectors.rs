@@ -1,11 +1,12 @@
-//! The vectors of which the derivative of a contractile body is made: all increments are of rank one, ξ = u ⊗ w, and what
-//! stands beside the tangent of the material in δ(gΣ) − X K + K X + 𝓜(δΛ) is four dyads,
+//! The vectors of which the derivative of a contractile body is made: all increments are of rank one, ξ = u ⊗ w, and
+//! what stands beside the tangent of the material in δ(gΣ) − X K + K X + 𝓜(δΛ) is four dyads,
 //!
 //!   w ⊗ (gΣ − Kᵀ)u + K C u ⊗ C⁻¹w − C u ⊗ (KᵀC⁻¹w + (μ/2) C⁻¹Λᵀw) + (K − (μ/2) Λᵀ)w ⊗ u        for δΛ = −ξ Λ,
 //!
-//! of which one vector depends on the row of the increment alone (`Side`) and one on its column (`Row`). An increment of G has
-//! ξ = u ⊗ w with u = −e_j and δΛ = −ξ Λ + Λ ξ, of which the second adds (μ/2)(C Λ u ⊗ C⁻¹w + w ⊗ Λ u). In the axes gΣ = diag(m)
-//! and 𝔸 couples little (`material::coaxial`), so that all that goes with u_i and u_k in number (i, k) is gathered before:
+//! of which one vector depends on the row of the increment alone (`Side`) and one on its column (`Row`). An increment
+//! of G has ξ = u ⊗ w with u = −e_j and δΛ = −ξ Λ + Λ ξ, of which the second adds (μ/2)(C Λ u ⊗ C⁻¹w + w ⊗ Λ u). In the
+//! axes gΣ = diag(m) and 𝔸 couples little (`material::coaxial`), so that all that goes with u_i and u_k in number (i,
+//! k) is gathered before:
 //!
 //!   R_ik = u_i (a_ik w_k − c_i first_k) + u_k (b_ik w_i + second_i) + (K C u)_i (C⁻¹w)_k − (Kᵀu)_k w_i,   R_ii besides: Σ_j≠i d_ij u_j w_j
 //!

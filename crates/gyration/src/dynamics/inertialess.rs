@@ -2,10 +2,11 @@
 //!
 //!   A(q, v, G) = λ Y,   tr(Ṗ P⁻¹) = θ,      q̇ = B(q) v,   Ġ = V_G G
 //!
-//! A are the accelerations that a body with inertia would have, which vanish when the loads do. They are linear in the velocities
-//! v, and their matrix is that of the exact Jacobian. Where the pressure of an incompressible body keeps det P, A is
-//! known but for a multiple λ of Y = P⁻ᵀJ⁻¹, and the growth θ of its volume takes the place of that equation (zero, or
-//! that of a contraction that is prescribed). Differentiated as it stands, with the same matrix on the left, the balance gives
+//! A are the accelerations that a body with inertia would have, which vanish when the loads do. They are linear in the
+//! velocities v, and their matrix is that of the exact Jacobian. Where the pressure of an incompressible body keeps det
+//! P, A is known but for a multiple λ of Y = P⁻ᵀJ⁻¹, and the growth θ of its volume takes the place of that equation
+//! (zero, or that of a contraction that is prescribed). Differentiated as it stands, with the same matrix on the left,
+//! the balance gives
 //!
 //!   A_v δv − Y δλ = −A_q δq − A_G δG + λ δY,   P⁻ᵀ·δṖ = tr(Ṗ P⁻¹ δP P⁻¹)
 //!

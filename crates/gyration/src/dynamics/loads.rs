@@ -1,8 +1,8 @@
 //! The one loop over what acts on a body: f, M and powers, their derivatives, and stored energies.
 //!
-//! Each load answers in the coordinates (p₀ | P) common to all kinds, Q = (f | M). A rigid body is told of a contact and of
-//! the fluid in its own ten numbers instead, since normal and tangential parts must not be mixed (`contact/wrench`); every
-//! other load reaches it through Q.
+//! Each load answers in the coordinates (p₀ | P) common to all kinds, Q = (f | M). A rigid body is told of a contact
+//! and of the fluid in its own ten numbers instead, since normal and tangential parts must not be mixed
+//! (`contact/wrench`); every other load reaches it through Q.
 
 use super::Scratch;
 use super::contacts::{carrying, meet};

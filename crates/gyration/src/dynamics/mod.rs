@@ -1,8 +1,8 @@
 //! From an instant to the rates and their Jacobian: loads, balance, inertialess bodies.
 //!
-//! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and `contractile`
-//! solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels, `body_rates` that of any
-//! body; `jacobian` differentiates it; `inertialess` stands above both, and `rates` over all.
+//! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
+//! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels,
+//! `body_rates` that of any body; `jacobian` differentiates it; `inertialess` stands above both, and `rates` over all.
 
 mod affine;
 mod body_rates;

@@ -1,14 +1,16 @@
-//! Force and stress of slow flow on an ellipsoid that moves and deforms by homogeneous deformations, and their derivatives.
+//! Force and stress of slow flow on an ellipsoid that moves and deforms by homogeneous deformations, and their
+//! derivatives.
 //!
-//! With Q = P A² Pᵀ, A the reference semi-axes, U and L the velocity and the gradient of the ellipsoid against those of the flow,
+//! With Q = P A² Pᵀ, A the reference semi-axes, U and L the velocity and the gradient of the ellipsoid against those of
+//! the flow,
 //!
 //!   f = −16πη K⁻¹ (U − U∞),      K = tr W I + W,   W = ∫₀^∞ Q B ds/Δ,   B = (Q + s)⁻¹,   Δ² = det(Q + s)
 //!   T N − 𝓜:T = η (L∞ − L + θ N),  N:T = 0,  θ = tr L,   σ = T + 2η sym L − 2ηθ I
 //!   N = (V/2) ∫ B ds/Δ,   𝓜:T = (V/4) ∫ s [B (B:T) + B (T + Tᵀ) B] ds/Δ,   V = √det Q
 //!
-//! and the traction on the surface is σ n with the same σ everywhere. Tensors are in the principal axes, where B is diagonal and
-//! everything follows from `moments`. Derivatives by Q are those of B, δB = −B δQ B, so that equal axes are no special
-//! case. Source: `physics.md` §7, written without axes.
+//! and the traction on the surface is σ n with the same σ everywhere. Tensors are in the principal axes, where B is
+//! diagonal and everything follows from `moments`. Derivatives by Q are those of B, δB = −B δQ B, so that equal axes
+//! are no special case. Source: `physics.md` §7, written without axes.
 
 use super::moments::Moments;
 use crate::columns::Columns;
@@ -72,7 +74,8 @@ pub struct FormSlope {
 }
 
 impl Ellipsoid {
-    /// The image of an ellipsoid of semi-axes A under P: `carried` = P A \[m\], det > 0, in a fluid of viscosity η > 0 \[Pa s\].
+    /// The image of an ellipsoid of semi-axes A under P: `carried` = P A \[m\], det > 0, in a fluid of viscosity η > 0
+    /// \[Pa s\].
     pub fn of(carried: &Mat3, viscosity: f64) -> Self {
         let spectrum = Spectrum::of(&Columns::of(&carried.transpose()));
         Self::along(spectrum.axes.matrix(), spectrum.values, viscosity)

@@ -4,8 +4,9 @@
 //!   T = −8πηR³ Σ C_k (ω_w − Y_k) + I_a (dω∞/dt − ω̇),                    I_a = 8πηR³ rest
 //!   y_k′ = s_k (w − y_k),   Y_k′ = S_k (ω_w − Y_k)
 //!
-//! beside the steady drag. w = ṗ₀ − u∞ and ω_w = ω − ½ rot u∞ are taken along the path of the sphere, d/dt = ∂/∂t + ṗ₀·∇, and Du∞/Dt along that of
-//! the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a and I_a stand on the left of the balance. Source: `history`; Maxey and Riley (1983).
+//! beside the steady drag. w = ṗ₀ − u∞ and ω_w = ω − ½ rot u∞ are taken along the path of the sphere, d/dt = ∂/∂t +
+//! ṗ₀·∇, and Du∞/Dt along that of the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a
+//! and I_a stand on the left of the balance. Source: `history`; Maxey and Riley (1983).
 
 use super::ambient::{Flow, Fluid};
 use super::unsteady::{Exponentials, Unresolved};
@@ -53,8 +54,8 @@ pub struct HistoryLoads {
 }
 
 impl History {
-    /// The history of a sphere of a radius \[m\] in a fluid of viscosity \[Pa s\] and density \[kg/m³\] over a span of time \[s\], to an
-    /// error as in [`Exponentials`].
+    /// The history of a sphere of a radius \[m\] in a fluid of viscosity \[Pa s\] and density \[kg/m³\] over a span of
+    /// time \[s\], to an error as in [`Exponentials`].
     ///
     /// # Errors
     /// [`Unresolved`] for numbers out of all proportion.

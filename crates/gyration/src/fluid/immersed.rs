@@ -91,8 +91,8 @@ impl<'a> Immersed<'a> {
         }
     }
 
-    /// Principal axes in space, a column each, and the squares of the semi-axes: of any other shape, those of the ellipsoid of the same second moments,
-    /// the squares but for a common factor.
+    /// Principal axes in space, a column each, and the squares of the semi-axes: of any other shape, those of the
+    /// ellipsoid of the same second moments, the squares but for a common factor.
     pub fn principal(&self) -> (Mat3, [f64; 3]) {
         match self {
             Self::Ellipsoid(ellipsoid) => (ellipsoid.ellipsoid.axes, ellipsoid.ellipsoid.squares),

@@ -2,8 +2,8 @@
 //!
 //!   f = f_d − ρ_f V det P g,   M = N P⁻ᵀ + f ⊗ X_c,   N = V det P σ      (σ, f_d: `ellipsoid`)
 //!
-//! X_c is the centre of the volume from the centre of mass; velocities are taken, and the weight of the displaced fluid acts, there.
-//! Hydrostatic pressure does not press on the body: it counts as a force. Source: `physics.md` §7.
+//! X_c is the centre of the volume from the centre of mass; velocities are taken, and the weight of the displaced fluid
+//! acts, there. Hydrostatic pressure does not press on the body: it counts as a force. Source: `physics.md` §7.
 
 use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{Ellipsoid, Stress};
@@ -114,8 +114,8 @@ impl<'a> ImmersedEllipsoid<'a> {
         self.ellipsoid.shown(&self.stress.total)
     }
 
-    /// The power that the flow past the body turns into heat beyond that of the undisturbed flow \[W\]:
-    /// −f_d·(U − U∞) − V det P (σ − 2η sym L∞)·(L − L∞) ≥ 0.
+    /// The power that the flow past the body turns into heat beyond that of the undisturbed flow \[W\]: −f_d·(U − U∞) −
+    /// V det P (σ − 2η sym L∞)·(L − L∞) ≥ 0.
     pub fn dissipation(&self, viscosity: f64) -> f64 {
         let ambient = (self.flow + self.flow.transpose()) * viscosity;
         let couple = (self.stress.total - ambient).dot(&(self.gradient - self.flow));

@@ -3,9 +3,9 @@
 //!   t = s/h = ⌊t⌋ + f,   f_π(1) ≥ … ≥ f_π(5),   node_0 = ⌊t⌋,   node_k = node_k−1 + e_π(k)
 //!   C(s) = Σ w_k C(node_k),   w_k = f_π(k) − f_π(k+1)   (f_π(0) = 1, f_π(6) = 0),   ∂C/∂s_π(k) = (C(node_k) − C(node_k−1))/h
 //!
-//! The weights are not negative and add up to one: what is between positive definite matrices is positive definite. Where C depends on the
-//! place alone, so does the interpolant; it is continuous, and its slopes jump from one simplex to the next. Source: Freudenthal (1942),
-//! Kuhn (1960).
+//! The weights are not negative and add up to one: what is between positive definite matrices is positive definite.
+//! Where C depends on the place alone, so does the interpolant; it is continuous, and its slopes jump from one simplex
+//! to the next. Source: Freudenthal (1942), Kuhn (1960).
 
 use super::stretch::Strain;
 
@@ -30,8 +30,8 @@ pub struct Place {
     pub weights: [f64; CORNERS],
 }
 
-/// A place that is this near to a node along an axis, in units of the spacing, is there: the rounding of a symmetric form does not
-/// choose between the cells on either side of the plane of symmetry.
+/// A place that is this near to a node along an axis, in units of the spacing, is there: the rounding of a symmetric
+/// form does not choose between the cells on either side of the plane of symmetry.
 const ROUNDING: f64 = 1e-12;
 
 impl Place {

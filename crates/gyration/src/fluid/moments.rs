@@ -6,10 +6,11 @@
 //!   m_ij = (V/4) ∫₀^∞ s b_i b_j ds/Δ    Σ_j m_ij + 2 m_ii = L_i
 //!   m_ijk = (V/4) ∫₀^∞ s b_i b_j b_k ds/Δ
 //!
-//! L_i = ⟨x_i²⟩ and (1 + 2δ_ij) m_ij = ⟨x_i² x_j²⟩ are moments of directions over the unit sphere, weighted as the ellipsoid does
-//! it; n_ij and m_ijk give their derivatives by the shape. With s = eᵗ the integrands are analytic in |Im t| < π, and the sum
-//! over equal steps h converges as e^(−2π²/h): at h = 0.45 to 9e-20 but for a factor of some hundreds. All terms are
-//! positive, so that nothing cancels, whatever the axes: spheres, discs, needles. Source: `physics.md` §7, whose α_i are 2 L_i/V.
+//! L_i = ⟨x_i²⟩ and (1 + 2δ_ij) m_ij = ⟨x_i² x_j²⟩ are moments of directions over the unit sphere, weighted as the
+//! ellipsoid does it; n_ij and m_ijk give their derivatives by the shape. With s = eᵗ the integrands are analytic
+//! in |Im t| < π, and the sum over equal steps h converges as e^(−2π²/h): at h = 0.45 to 9e-20 but for a factor of some
+//! hundreds. All terms are positive, so that nothing cancels, whatever the axes: spheres, discs, needles. Source:
+//! `physics.md` §7, whose α_i are 2 L_i/V.
 
 use crate::columns::{Four, Work, dispatch};
 

@@ -29,7 +29,8 @@ pub struct ReferenceEllipsoid {
 }
 
 impl ReferenceEllipsoid {
-    /// The image under E of the ellipsoid of the squares B Bᵀ \[m²\]; none where rounding leaves no positive resistance.
+    /// The image under E of the ellipsoid of the squares B Bᵀ \[m²\]; none where rounding leaves no positive
+    /// resistance.
     pub fn of(root: &Mat3, stretch: &Stretch) -> Option<Self> {
         let carried = stretch.matrix() * root;
         let ellipsoid = Ellipsoid::of(&carried, 1.0);

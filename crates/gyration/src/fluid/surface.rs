@@ -2,10 +2,12 @@
 //!
 //!   (f; N row by row) = −η D H(E) D (v; L − L∞ row by row) in the axes R,   P = R U,  U = j^⅓ E,  D = diag(j^⅙, j^½)
 //!
-//! v is the velocity of the centre of volume against the fluid, and N about it: the resistance to a velocity grows like a length, that to a
-//! gradient like a volume. The stress of the undisturbed flow, 2η j V sym L∞, adds to N; M = N P⁻ᵀ + f ⊗ X_c (`inclusion`).
+//! v is the velocity of the centre of volume against the fluid, and N about it: the resistance to a velocity grows like
+//! a length, that to a gradient like a volume. The stress of the undisturbed flow, 2η j V sym L∞, adds to N; M = N
+//! P⁻ᵀ + f ⊗ X_c (`inclusion`).
 //!
-//! Derivatives: δR = R [w]× from `Polar::turn`, δs from δU = Rᵀ δP − [w]× U, and D grows by tr(P⁻¹δP). Source: `physics.md` §7.
+//! Derivatives: δR = R [w]× from `Polar::turn`, δs from δU = Rᵀ δP − [w]× U, and D grows by tr(P⁻¹δP). Source:
+//! `physics.md` §7.
 
 use super::ambient::{Flow, Fluid};
 use super::fixed::{packed, parted};
@@ -140,7 +142,8 @@ impl<'a> ImmersedSurface<'a> {
         self.volume
     }
 
-    /// The ellipsoid that stands for it: principal axes in space, and the squares of its semi-axes but for a common factor.
+    /// The ellipsoid that stands for it: principal axes in space, and the squares of its semi-axes but for a common
+    /// factor.
     pub fn principal(&self) -> (Mat3, [f64; 3]) {
         let ellipsoid = &self.resisting.reference.ellipsoid;
         (self.polar.rotation * ellipsoid.axes, ellipsoid.squares)

@@ -2,13 +2,15 @@
 //!
 //!   H(E) = A(E) C(E) A(E)ᵀ,   C(E) = Σ w_k C_k,   C_k = A_k⁻¹ H_k A_k⁻ᵀ      (`lattice`, `reference`)
 //!
-//! A matrix is computed when a simplex is entered that has its node for a corner, and kept. Which ones depends on nothing but E, so that a run
-//! that is resumed, or made on other threads, sees the same numbers. **When**: in each simplex that is entered, one more matrix
-//! at its centre of gravity is compared with the interpolant there. If the power of any motion differs by more than the
-//! tolerance, there is no resistance: nothing goes on with less than was asked for.
+//! A matrix is computed when a simplex is entered that has its node for a corner, and kept. Which ones depends on
+//! nothing but E, so that a run that is resumed, or made on other threads, sees the same numbers. **When**: in each
+//! simplex that is entered, one more matrix at its centre of gravity is compared with the interpolant there. If the
+//! power of any motion differs by more than the tolerance, there is no resistance: nothing goes on with less than was
+//! asked for.
 //!
-//! Unless it is given, the spacing is 2⁻ⁿ, the first of ½, ¼, … at which the error beside the undeformed form is a quarter of the tolerance: the error
-//! falls with the square of the spacing, and it may be four times as large elsewhere.
+//! Unless it is given, the spacing is 2⁻ⁿ, the first of ½, ¼, … at which the error beside the undeformed form is a
+//! quarter of the tolerance: the error falls with the square of the spacing, and it may be four times as large
+//! elsewhere.
 
 use super::lattice::{CORNERS, Node, Place, Simplex, strain};
 use super::reference::ReferenceEllipsoid;
@@ -23,8 +25,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// A surface whose resistance can be computed, at a price.
 pub trait Resistance: Debug + Send + Sync {
-    /// H(E) for viscosity 1, symmetric and positive definite, of the image of the surface under a symmetric E of determinant 1,
-    /// about the centre of its volume.
+    /// H(E) for viscosity 1, symmetric and positive definite, of the image of the surface under a symmetric E of
+    /// determinant 1, about the centre of its volume.
     ///
     /// # Errors
     /// The estimated relative error of the matrix where that is too large, NaN where there is none.
@@ -85,8 +87,8 @@ const FINEST: f64 = 1.0 / 64.0;
 const MARGIN: f64 = 4.0;
 
 impl Table {
-    /// The table of a surface, of which nothing is computed yet. `second` = ∫ x ⊗ x dV/V about the centre of its volume \[m²\],
-    /// without turn and deformation; none where that is not positive definite.
+    /// The table of a surface, of which nothing is computed yet. `second` = ∫ x ⊗ x dV/V about the centre of its volume
+    /// \[m²\], without turn and deformation; none where that is not positive definite.
     pub fn new(source: Box<dyn Resistance>, second: &Mat3, resolution: Resolution) -> Option<Self> {
         // Of an ellipsoid, a_i² = 5 ∫ x_i² dV/V.
         let root = (5.0 * second).cholesky()?.l();
@@ -114,7 +116,8 @@ impl Table {
     /// C around E.
     ///
     /// # Errors
-    /// [`Unresolved`] where the interpolant is not as near to the matrices as was asked for, or where there is no matrix.
+    /// [`Unresolved`] where the interpolant is not as near to the matrices as was asked for, or where there is no
+    /// matrix.
     pub(super) fn around(&self, stretch: &Stretch) -> Result<Interpolant, Unresolved> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let spacing = self.spacing(&mut known)?;
@@ -131,7 +134,8 @@ impl Table {
         Ok(Interpolant { place, spacing, corners })
     }
 
-    /// How many matrices have been computed for nodes, and how many simplices have been entered, each of which took one more.
+    /// How many matrices have been computed for nodes, and how many simplices have been entered, each of which took one
+    /// more.
     pub fn size(&self) -> (usize, usize) {
         let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         (known.nodes.len(), known.simplices.len())
@@ -205,8 +209,8 @@ impl Table {
     }
 }
 
-/// The relative error of the power x·H x for the motion where it is largest: the largest |λ| of (H̃ − H) x = λ H x; NaN unless H is positive
-/// definite. It is the same of H = A C Aᵀ and of C.
+/// The relative error of the power x·H x for the motion where it is largest: the largest |λ| of (H̃ − H) x = λ H x; NaN
+/// unless H is positive definite. It is the same of H = A C Aᵀ and of C.
 pub fn largest_error(approximate: &Mat12, exact: &Mat12) -> f64 {
     let relative = exact.cholesky().and_then(|factor| {
         let lower = factor.l();

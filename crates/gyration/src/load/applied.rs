@@ -2,9 +2,10 @@
 //!
 //!   f = F,   M = M_a + ½ [τ]× P⁻ᵀ,   power F·ṗ₀ + M·Ṗ
 //!
-//! F [N] and τ [N m] are constant in space and about the centre of mass, the entries of M_a [N m] are constant, the first index
-//! spatial, the second material: a force F at a material point X is F with M_a = F ⊗ X. On a rigid body M acts by its torque
-//! axial(RᵀM) in the body's axes, to which τ adds Rᵀτ. Nothing of this has a potential in the ledger: its work is `work.load`.
+//! F [N] and τ [N m] are constant in space and about the centre of mass, the entries of M_a [N m] are constant, the
+//! first index spatial, the second material: a force F at a material point X is F with M_a = F ⊗ X. On a rigid body M
+//! acts by its torque axial(RᵀM) in the body's axes, to which τ adds Rᵀτ. Nothing of this has a potential in the
+//! ledger: its work is `work.load`.
 
 use super::Loads;
 use crate::tensor::{Mat3, Vec3, cross_matrix};

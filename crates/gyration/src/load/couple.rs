@@ -2,8 +2,8 @@
 //!
 //!   M = Nᵀ P⁻ᵀ,   power M·Ṗ = tr(N L)
 //!
-//! sym N stretches, skw N turns; N is spatial and does not follow the body. A table is linear between its times, so that
-//! a run has to end a step at each of them. Source: Sławianowski (1975) §2, (4.3).
+//! sym N stretches, skw N turns; N is spatial and does not follow the body. A table is linear between its times, so
+//! that a run has to end a step at each of them. Source: Sławianowski (1975) §2, (4.3).
 
 use crate::signal::TensorTable;
 use crate::tensor::Mat3;

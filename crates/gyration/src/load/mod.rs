@@ -1,8 +1,8 @@
-//! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material
-//! points, of couples, of friction that is linear in the velocity, and what a controller applies.
+//! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material points, of
+//! couples, of friction that is linear in the velocity, and what a controller applies.
 //!
-//! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at
-//! a material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
+//! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at a
+//! material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
 
 mod applied;
 mod couple;

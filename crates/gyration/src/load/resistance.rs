@@ -1,12 +1,13 @@
-//! Loads that are linear in the velocity of the centre and the velocity gradient: general friction, and gyroscopic loads.
+//! Loads that are linear in the velocity of the centre and the velocity gradient: general friction, and gyroscopic
+//! loads.
 //!
 //! With x = (ṗ₀; L row by row), L = Ṗ P⁻¹, and a constant 12×12 matrix H,
 //!
 //!   (f; Dᵀ row by row) = −H x,   M = Dᵀ P⁻ᵀ,   power f·ṗ₀ + M·Ṗ = −x·H x
 //!
 //! Friction is a symmetric positive semi-definite H (Onsager), which never feeds energy in; a skew one works nothing.
-//! In the frame of the body, x and (f; Dᵀ) are components along axes that turn with it: with P = R U, U symmetric,
-//! v′ = Rᵀv, L′ = RᵀLR. Source: Sławianowski (1975), 4.6–4.9; `physics.md` §4.
+//! In the frame of the body, x and (f; Dᵀ) are components along axes that turn with it: with P = R U, U symmetric, v′ =
+//! Rᵀv, L′ = RᵀLR. Source: Sławianowski (1975), 4.6–4.9; `physics.md` §4.
 
 use super::Loads;
 use crate::kinematics::Velocity;

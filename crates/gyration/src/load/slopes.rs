@@ -1,8 +1,8 @@
 //! The loads on a body that moves homogeneously and their derivatives, in the coordinates q = (p₀ | P).
 //!
-//! q and the loads Q = (f | M) are 3×4 matrices, columns first p₀ and f, then those of P and M; read column by column they
-//! are vectors of twelve, with power Q·q̇. A point X is X̃ = (1; X) on their columns: x = q X̃, and a force F there is
-//! Q = F ⊗ X̃. A pinned body has the coordinates P alone: q = P T, T = (−r | I), r = X_p, and Q_p = Q Tᵀ.
+//! q and the loads Q = (f | M) are 3×4 matrices, columns first p₀ and f, then those of P and M; read column by column
+//! they are vectors of twelve, with power Q·q̇. A point X is X̃ = (1; X) on their columns: x = q X̃, and a force F
+//! there is Q = F ⊗ X̃. A pinned body has the coordinates P alone: q = P T, T = (−r | I), r = X_p, and Q_p = Q Tᵀ.
 
 use super::{Applied, LinearResistance, Loads, SpringLoads};
 use crate::kinematics::{Placement, Velocity};

@@ -1,12 +1,13 @@
 //! The tangent of a material in the axes of C = FᵀF = N diag(c) Nᵀ, where it hardly couples anything.
 //!
-//! With s_i = 2 ∂φ/∂c_i and Σ = Fᵀ ∂φ/∂F = N diag(c s) Nᵀ, an increment δF = F ξ, ξ in the axes, changes ∂φ/∂F by 𝔸[Fξ], and
+//! With s_i = 2 ∂φ/∂c_i and Σ = Fᵀ ∂φ/∂F = N diag(c s) Nᵀ, an increment δF = F ξ, ξ in the axes, changes ∂φ/∂F by
+//! 𝔸[Fξ], and
 //!
 //!   (Fᵀ 𝔸[Fξ])_ik = a_ik ξ_ik + b_ik ξ_ki,   a_ik = c_i (c_i s_i − c_k s_k)/(c_i − c_k),   b_ik = c_i c_k (s_i − s_k)/(c_i − c_k)
 //!   (Fᵀ 𝔸[Fξ])_ii = Σ_j d_ij ξ_jj,           d_ij = 2 c_i c_j ∂s_i/∂c_j + δ_ij c_i s_i
 //!
-//! off the diagonal and on it. Of an energy of the invariants, s_i = 2(f₁ + f₂ y_i) + f₃J/c_i with y_i = ι₁ − c_i, the quotients are
-//! polynomials, with l the third of i, k, l:
+//! off the diagonal and on it. Of an energy of the invariants, s_i = 2(f₁ + f₂ y_i) + f₃J/c_i with y_i = ι₁ − c_i, the
+//! quotients are polynomials, with l the third of i, k, l:
 //!
 //!   a_ik = 2c_i (f₁ + f₂ c_l),   b_ik = −2f₂ c_i c_k − f₃J
 //!   d_ij = 4c_i c_j (f₁₁ + f₁₂(y_i + y_j) + f₂₂ y_i y_j) + 2J (c_i (f₁₃ + f₂₃ y_i) + c_j (f₁₃ + f₂₃ y_j)) + J² f₃₃ + f₃J

@@ -1,7 +1,7 @@
 //! Materials: an energy per reference volume φ(P), its derivative S = ∂φ/∂P and the derivative of that.
 //!
-//! All are isotropic and objective, so that φ is a function of C = PᵀP: of its invariants
-//! (`invariants`: ι₁ = tr C, ι₂ = ½(tr²C − tr C²), J = det P), or of its principal values (`principal`).
+//! All are isotropic and objective, so that φ is a function of C = PᵀP: of its invariants (`invariants`: ι₁ = tr C, ι₂
+//! = ½(tr²C − tr C²), J = det P), or of its principal values (`principal`).
 //!
 //! | material             | φ                                             | with a bulk modulus K                      |
 //! |----------------------|-----------------------------------------------|--------------------------------------------|
@@ -12,9 +12,9 @@
 //! | St Venant–Kirchhoff  |                                               | λ/2 tr²E + μ E·E, E = (C − I)/2            |
 //! | Hencky               |                                               | μ |dev ln U|² + K/2 ln²J                   |
 //!
-//! Without K the material is incompressible: det P = 1 is a constraint, its pressure is not part of S.
-//! The orthogonality energy κ|PᵀP − I|² is St Venant–Kirchhoff with λ = 0, μ = 4κ; neo-Hookean is Mooney–Rivlin with
-//! c₁ = μ/2. This module sees a gradient, never a body or a time.
+//! Without K the material is incompressible: det P = 1 is a constraint, its pressure is not part of S. The
+//! orthogonality energy κ|PᵀP − I|² is St Venant–Kirchhoff with λ = 0, μ = 4κ; neo-Hookean is Mooney–Rivlin with c₁ =
+//! μ/2. This module sees a gradient, never a body or a time.
 
 mod coaxial;
 mod fung;

@@ -5,9 +5,9 @@
 //!   S = Q diag(s) Nᵀ,    dS = dP N diag(s) Nᵀ + Q M Nᵀ
 //!   M_ii = Σ_j (∂s_i/∂c_j) D_jj,   M_ij = (s_i − s_j)/(c_i − c_j) D_ij,   D = Nᵀ dC N = q ⊗ n + n ⊗ q
 //!
-//! for dP = e_j ⊗ e_B, with q and n the rows j of Q and B of N. The quotients are divided differences, which the materials
-//! give without cancellation: equal and nearly equal stretches are no special case. Source: Ogden, *Non-linear elastic
-//! deformations*, §6.1.
+//! for dP = e_j ⊗ e_B, with q and n the rows j of Q and B of N. The quotients are divided differences, which the
+//! materials give without cancellation: equal and nearly equal stretches are no special case. Source: Ogden,
+//! *Non-linear elastic deformations*, §6.1.
 
 use super::spectrum::Spectrum;
 use crate::columns::{Columns, UNIT};
@@ -93,7 +93,8 @@ pub(super) fn kirchhoff_stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 
     carried.scaled(&slopes(&values)).times_transposed(&carried).symmetric()
 }
 
-/// Where |a − b| exceeds this part of b, a difference quotient loses no more than a few roundings by being formed as it stands.
+/// Where |a − b| exceeds this part of b, a difference quotient loses no more than a few roundings by being formed as it
+/// stands.
 const FAR: f64 = 0.25;
 
 /// (a^n − b^n)/(a − b) for a, b > 0 from a, b and their powers: n b^(n−1) where they meet.

@@ -1,10 +1,10 @@
 //! Principal stretches and axes of a gradient: C = PᵀP = N diag(c) Nᵀ.
 //!
-//! With m = tr C/3, B = C − m I and 6p² = |B|², the principal values of B/p are 2 cos φ, cos 3φ = ½ det(B/p) = r. The one that
-//! lies farthest from the others is ±2x, 4x³ − 3x = |r|, √¾ ≤ x ≤ 1, which is well conditioned; so is its axis, the
-//! largest column of the adjugate of B/p ∓ 2x I. In the plane across it one rotation of Jacobi's is exact. No value is
-//! found as a difference of others, so that equal and nearly equal ones are no special case: N is orthogonal to
-//! rounding, and c_i = |P N_i|². Source of the division into an axis and a plane: Scherzinger and Dohrmann 2008.
+//! With m = tr C/3, B = C − m I and 6p² = |B|², the principal values of B/p are 2 cos φ, cos 3φ = ½ det(B/p) = r. The
+//! one that lies farthest from the others is ±2x, 4x³ − 3x = |r|, √¾ ≤ x ≤ 1, which is well conditioned; so is its
+//! axis, the largest column of the adjugate of B/p ∓ 2x I. In the plane across it one rotation of Jacobi's is exact. No
+//! value is found as a difference of others, so that equal and nearly equal ones are no special case: N is orthogonal
+//! to rounding, and c_i = |P N_i|². Source of the division into an axis and a plane: Scherzinger and Dohrmann 2008.
 
 use crate::columns::{Column, Columns, UNIT};
 
@@ -69,9 +69,9 @@ fn half_turn(d: f64, k: f64) -> [f64; 2] {
 
 /// The root x of 4x³ − 3x = r in [√¾, 1], 0 ≤ r ≤ 1: cos(⅓ arccos r).
 ///
-/// Around r = ½ it is a series in t = 2r − 1 that converges as 3⁻ⁿ, the next singular point being r = −1. This one is that of the
-/// eighteen Chebyshev polynomials of [0, 1], within 7e-17 of the root; it is summed in pairs, so that no division and no
-/// long chain of products has to be waited for.
+/// Around r = ½ it is a series in t = 2r − 1 that converges as 3⁻ⁿ, the next singular point being r = −1. This one is
+/// that of the eighteen Chebyshev polynomials of [0, 1], within 7e-17 of the root; it is summed in pairs, so that no
+/// division and no long chain of products has to be waited for.
 #[inline(always)]
 fn outer_root(r: f64) -> f64 {
     const C: [f64; 18] = [
@@ -116,7 +116,8 @@ fn null_axis(matrix: &Columns) -> Column {
     axis * (1.0 / axis.dot(&axis).sqrt())
 }
 
-/// Two unit vectors across a unit vector and each other. Source: Duff et al. 2017, *Building an orthonormal basis, revisited*.
+/// Two unit vectors across a unit vector and each other. Source: Duff et al. 2017, *Building an orthonormal basis,
+/// revisited*.
 #[inline(always)]
 fn across(n: &Column) -> [Column; 2] {
     let [x, y, z, _] = n.0;

@@ -1,6 +1,7 @@
 //! The capsule: the points within r of the segment |Z| ≤ h/2; h is the height of the cylinder's part.
 //!
-//! With m_c = ρπr²h for the cylinder and m_s = 4ρπr³/3 for the two half balls, whose centroids stand 3r/8 beyond its ends,
+//! With m_c = ρπr²h for the cylinder and m_s = 4ρπr³/3 for the two half balls, whose centroids stand 3r/8 beyond its
+//! ends,
 //!
 //!   V = πr²h + 4πr³/3,   J_xx = J_yy = m_c r²/4 + m_s r²/5,
 //!   J_zz = m_c h²/12 + m_s (r²/5 + 3hr/8 + h²/4)

@@ -1,7 +1,7 @@
 //! The edges of a surface of triangles: which triangles meet there, and which way they face.
 //!
-//! A closed, oriented surface has every edge exactly twice, once in each sense. Everything else is a fault with a place.
-//! Found by sorting, so that meshes of millions of triangles need little more memory than they have themselves.
+//! A closed, oriented surface has every edge exactly twice, once in each sense. Everything else is a fault with a
+//! place. Found by sorting, so that meshes of millions of triangles need little more memory than they have themselves.
 
 use std::fmt;
 

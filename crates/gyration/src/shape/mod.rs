@@ -1,8 +1,9 @@
 //! Shapes: the regions that bodies fill in their reference placement.
 //!
-//! A shape answers for its mass properties (exactly), its extent, its surface, its sharpest feature and its picture; one
-//! file a shape. Frames have their origin at the centre of symmetry and their axis along z; cylinder, cone and capsule
-//! at the middle of their height. The centre of mass of a cone, a polyhedron or a union is in general not the origin.
+//! A shape answers for its mass properties (exactly), its extent, its surface, its sharpest feature and its picture;
+//! one file a shape. Frames have their origin at the centre of symmetry and their axis along z; cylinder, cone and
+//! capsule at the middle of their height. The centre of mass of a cone, a polyhedron or a union is in general not the
+//! origin.
 //!
 //! A shape knows no placement, no law and no file; hulls of points and meshes from files are made elsewhere.
 
@@ -129,7 +130,8 @@ impl Shape {
         matches!(self, Self::Union(_) | Self::Points(_))
     }
 
-    /// The support function h(n) = max X·n over the shape \[m\], n of any length; the lowest point along n is at −h(−n).
+    /// The support function h(n) = max X·n over the shape \[m\], n of any length; the lowest point along n is at
+    /// −h(−n).
     pub fn extent(&self, direction: &Vec3) -> f64 {
         each!(self, shape => shape.extent(direction))
     }
@@ -163,7 +165,8 @@ impl Shape {
         each!(self, shape => shape.outline())
     }
 
-    /// The surface as about `count` triangles of like size, in the shape's frame: a thousand or two make a good picture.
+    /// The surface as about `count` triangles of like size, in the shape's frame: a thousand or two make a good
+    /// picture.
     ///
     /// A box and a polyhedron are shown by their own triangles, however many, a union by those of its parts, `count` of
     /// each; points have none. A surface that would be coarse to the eye has a few more than asked for.
@@ -173,8 +176,8 @@ impl Shape {
 
     /// The point of the true surface over a point of a triangle of [`Shape::triangulation`], in the shape's frame.
     ///
-    /// `corners` of the triangle \[m\], `weights` of them, which add up to one; neighbours agree on their common side. Of flat
-    /// faces, and of a union, whose parts answer for themselves, it is the point of the triangle.
+    /// `corners` of the triangle \[m\], `weights` of them, which add up to one; neighbours agree on their common side.
+    /// Of flat faces, and of a union, whose parts answer for themselves, it is the point of the triangle.
     pub fn over(&self, corners: &[Vec3; 3], weights: &[f64; 3]) -> Vec3 {
         let flat = corners.iter().zip(weights).map(|(corner, weight)| corner * *weight).sum::<Vec3>();
         match self {

@@ -58,7 +58,8 @@ pub(super) fn circle(count: usize, radius: f64, z: f64) -> impl Iterator<Item = 
     ellipse(count, Vec3::z() * z, Vec3::x() * radius, Vec3::y() * radius)
 }
 
-/// `count` directions spread evenly over the sphere: heights at the midpoints of equal bands, azimuths by the golden angle.
+/// `count` directions spread evenly over the sphere: heights at the midpoints of equal bands, azimuths by the golden
+/// angle.
 pub(super) fn directions(count: usize) -> impl Iterator<Item = Vec3> {
     let golden_angle = PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |k| {

@@ -1,7 +1,7 @@
 //! A volume bounded by triangles: convex hulls and meshes.
 //!
-//! The triangles are counter-clockwise seen from outside. Each forms with an inner point o a tetrahedron of signed volume
-//! v = a·(b×c)/6 (vertices relative to o), and with s = a+b+c
+//! The triangles are counter-clockwise seen from outside. Each forms with an inner point o a tetrahedron of signed
+//! volume v = a·(b×c)/6 (vertices relative to o), and with s = a+b+c
 //!
 //!   ∫ dV = Σ v,   ∫ X dV = Σ v s/4,   ∫ X⊗X dV = Σ v (a⊗a + b⊗b + c⊗c + s⊗s)/20
 //!

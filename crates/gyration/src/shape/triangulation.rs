@@ -1,7 +1,7 @@
 //! A shape's surface as triangles that share their points: what pictures and exports show.
 //!
-//! Nothing of the mechanics depends on it: contact integrates over the true [`Surface`](crate::surface::Surface). The points
-//! lie on the true surface, so that of a convex shape the triangles enclose a little less than its volume,
+//! Nothing of the mechanics depends on it: contact integrates over the true [`Surface`](crate::surface::Surface). The
+//! points lie on the true surface, so that of a convex shape the triangles enclose a little less than its volume,
 //!
 //!   V = Σ a·(b×c)/6,
 //!

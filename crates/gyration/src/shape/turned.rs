@@ -1,9 +1,9 @@
 //! Surfaces of revolution about z as triangles of about equal size.
 //!
-//! A profile (radius, height) runs counter-clockwise around the half-section, from the lower pole to the upper one or once
-//! around. Points stand on it a spacing s apart, and as far on the ring that each of them makes: a ring of radius r has
-//! about 2πr/s of them, so that flat ends have no slivers; neighbouring rings are joined whatever their counts. s is the
-//! smallest that keeps within the number of triangles asked for, unless the least numbers below take more.
+//! A profile (radius, height) runs counter-clockwise around the half-section, from the lower pole to the upper one or
+//! once around. Points stand on it a spacing s apart, and as far on the ring that each of them makes: a ring of radius
+//! r has about 2πr/s of them, so that flat ends have no slivers; neighbouring rings are joined whatever their counts. s
+//! is the smallest that keeps within the number of triangles asked for, unless the least numbers below take more.
 
 use std::f64::consts::{PI, TAU};
 use std::iter::successors;
@@ -110,8 +110,8 @@ pub(super) fn turned(profile: &[Stretch], count: usize) -> Triangulation {
 
 /// The point of the wall, or of the end, of a cylinder or cone over a point `flat` of a triangle.
 ///
-/// Its height and azimuth are those of `flat`; its distance from the axis is the mean of the corners': exact on a straight
-/// wall, and a chord of a rim becomes an arc of it.
+/// Its height and azimuth are those of `flat`; its distance from the axis is the mean of the corners': exact on a
+/// straight wall, and a chord of a rim becomes an arc of it.
 pub(super) fn over_wall(corners: &[Vec3; 3], weights: &[f64; 3], flat: &Vec3) -> Vec3 {
     let radius: f64 = corners.iter().zip(weights).map(|(corner, weight)| weight * corner.xy().norm()).sum();
     let inside = flat.xy().norm();

@@ -102,7 +102,8 @@ impl Union {
         all
     }
 
-    /// Points of all parts; their hull is that of the whole, so draw the parts one by one where gaps between them matter.
+    /// Points of all parts; their hull is that of the whole, so draw the parts one by one where gaps between them
+    /// matter.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
         let points: Vec<Vec3> = self.parts.iter().flat_map(Part::silhouette_points).collect();
         extreme_points(&points)

@@ -1,7 +1,7 @@
 //! Which edges of a mesh a picture shows: those where the surface bends by more than [`SHARP_ANGLE`].
 //!
-//! With N₁, N₂ the unit normals at an edge the angle is arccos N₁·N₂. The sharpest edges come first; when the points run
-//! out the flattest are left away. A surface that bends nowhere as much (a fine mesh of a smooth body) shows its
+//! With N₁, N₂ the unit normals at an edge the angle is arccos N₁·N₂. The sharpest edges come first; when the points
+//! run out the flattest are left away. A surface that bends nowhere as much (a fine mesh of a smooth body) shows its
 //! sharpest edges all the same, so that it is not invisible.
 
 use super::edges::sides;

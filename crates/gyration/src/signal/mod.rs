@@ -2,9 +2,9 @@
 //!
 //!   constant A,   sine A sin(2πft + φ),   square A sgn sin(2πft + φ),   ramp from A to B in a time,   tables,   sums
 //!
-//! Everything is continuous: an edge of a square wave takes a hundred-thousandth of a period, half of it before and half
-//! behind the jump, so that its impulse is exact and its moment in time is off by 1e-11 of a period squared. Where a signal is not smooth
-//! it says so in advance (`next_kink`), and a run ends a step there.
+//! Everything is continuous: an edge of a square wave takes a hundred-thousandth of a period, half of it before and
+//! half behind the jump, so that its impulse is exact and its moment in time is off by 1e-11 of a period squared. Where
+//! a signal is not smooth it says so in advance (`next_kink`), and a run ends a step there.
 
 mod table;
 

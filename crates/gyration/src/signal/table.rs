@@ -5,7 +5,8 @@
 //!   y = a y_k + b y_{k+1} + h²/6 ((a³ − a) M_k + (b³ − b) M_{k+1})
 //!   h_{k−1} M_{k−1} + 2(h_{k−1} + h_k) M_k + h_k M_{k+1} = 6 (Δ_k − Δ_{k−1}),   Δ_k = (y_{k+1} − y_k)/h_k
 //!
-//! and M = 0 at both ends. Outside its times a table keeps its first and its last value. Source: de Boor, *A practical guide to splines*, IV.
+//! and M = 0 at both ends. Outside its times a table keeps its first and its last value. Source: de Boor, *A practical
+//! guide to splines*, IV.
 
 use super::Jet;
 use crate::tensor::Mat3;
@@ -84,8 +85,8 @@ impl TensorTable {
         if self.bends.is_some() { Interpolation::Cubic } else { Interpolation::Linear }
     }
 
-    /// The value at a time [s] with its derivatives: at a time of the table those behind it, at its last those before it,
-    /// since a run that the table is made for ends there.
+    /// The value at a time [s] with its derivatives: at a time of the table those behind it, at its last those before
+    /// it, since a run that the table is made for ends there.
     pub fn jet(&self, time: f64) -> Jet {
         let last = self.times.len() - 1;
         let after = match self.times.partition_point(|knot| *knot <= time) {

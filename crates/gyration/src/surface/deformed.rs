@@ -1,13 +1,13 @@
 //! Moments per deformed area: the surface of a body whose gradient P is not a rotation.
 //!
-//! An element N dA of the reference surface becomes cof(P) N dA, cof(P) = det P P⁻ᵀ: the area factor is k = |cof(P) N| and the
-//! current unit normal m = cof(P) N/k. Loads per deformed area need the first of these, their derivatives and the
-//! stress of a potential per deformed area (δk = k (I − m⊗m)·δP P⁻¹) the others:
+//! An element N dA of the reference surface becomes cof(P) N dA, cof(P) = det P P⁻ᵀ: the area factor is k = |cof(P) N|
+//! and the current unit normal m = cof(P) N/k. Loads per deformed area need the first of these, their derivatives and
+//! the stress of a potential per deformed area (δk = k (I − m⊗m)·δP P⁻¹) the others:
 //!
 //!   ∫ κ k X^⊗n dA,   ∫ κ k m_a m_b X^⊗n dA,   ∫ κ k m_a m_b m_c m_d dA,   κ = κ(g₀ + m_gap·X).
 //!
-//! The gap field is that of the deformed body, its direction Pᵀn; X stays the material point. Facets need no quadrature: k
-//! and m are constant on each. Smooth patches are integrated once for each weight (`curved::weight`).
+//! The gap field is that of the deformed body, its direction Pᵀn; X stays the material point. Facets need no
+//! quadrature: k and m are constant on each. Smooth patches are integrated once for each weight (`curved::weight`).
 
 use super::curved::{AREA, GROUP, Weights};
 use super::facets_plan::BATCH;
@@ -47,7 +47,8 @@ pub struct OrientedMoments {
 }
 
 impl Surface {
-    /// The moments per deformed area, ∫ κ k X^⊗n dA, of planned requests, about the origin of X; set in the entries of `out`.
+    /// The moments per deformed area, ∫ κ k X^⊗n dA, of planned requests, about the origin of X; set in the entries of
+    /// `out`.
     ///
     /// `cofactor` is cof(P) = det P P⁻ᵀ (3×3), from which k = |cof(P) N|; `field` has the direction Pᵀn. Orders above a
     /// request's are zero. For a rotation these are [`Surface::planned_moments`].
@@ -78,11 +79,11 @@ impl Surface {
         Ok(())
     }
 
-    /// The moments per deformed area weighted with m_a m_b and, for requests of order 0, with m_a m_b m_c m_d; m is the current
-    /// unit normal.
+    /// The moments per deformed area weighted with m_a m_b and, for requests of order 0, with m_a m_b m_c m_d; m is the
+    /// current unit normal.
     ///
-    /// Orders up to 2 are meant; a request of order 0 costs its fifteen components of the fourth power. Arguments as for
-    /// [`Surface::deformed_moments`].
+    /// Orders up to 2 are meant; a request of order 0 costs its fifteen components of the fourth power. Arguments as
+    /// for [`Surface::deformed_moments`].
     ///
     /// # Errors
     /// As there.

@@ -1,7 +1,7 @@
 //! Flat facets: triangles, over which the contact integrals are exact whatever the gap.
 //!
-//! The triangles are kept in packs of eight, corner by corner and component by component (`facets_pack`), and a call works
-//! on as many of them at once as the registers of the processor hold (`lanes`): gaps, corners put in order, the
+//! The triangles are kept in packs of eight, corner by corner and component by component (`facets_pack`), and a call
+//! works on as many of them at once as the registers of the processor hold (`lanes`): gaps, corners put in order, the
 //! weights of each request (`facets_plan`), tensors, sums. A mesh of any size needs no scratch memory.
 //!
 //! Facets are for polyhedra and meshes: a cylinder made of facets does not roll. X is relative to the centre of mass.
@@ -174,12 +174,12 @@ impl Facets {
 
     /// Adds the moments of `requests` about the origin of X to the entries of `out`.
     ///
-    /// `out` has an entry for each request. The relative error, against ∫ |κ| |X|^n dA, is below 1e-10 for exponents from
-    /// −1 to 17, of the facets whose vertex gaps are the computed ones.
+    /// `out` has an entry for each request. The relative error, against ∫ |κ| |X|^n dA, is below 1e-10 for exponents
+    /// from −1 to 17, of the facets whose vertex gaps are the computed ones.
     ///
     /// # Errors
-    /// `GapClosed` if the gap of a vertex is not a positive, normal, finite number; `out` is then unchanged, if there are no
-    /// more than four requests.
+    /// `GapClosed` if the gap of a vertex is not a positive, normal, finite number; `out` is then unchanged, if there
+    /// are no more than four requests.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         debug_assert_eq!(requests.len(), out.len());
         if self.is_empty() {

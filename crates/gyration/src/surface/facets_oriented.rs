@@ -1,9 +1,9 @@
 //! Moments over deformed triangles weighted with products of the components of their current normals.
 //!
-//! The deformed triangle has the area vector v = cof(P) 2A N, hence the area factor k = |v|/2A and the normal m = v/|v|, both
-//! constant: moments weighted with m_a m_b are those of the triangle times that number. So the plan runs once on a register
-//! of triangles, into rows of its own, and the rows are multiplied and added to those of the six pairs, lane by lane.
-//! For requests of order 0 the fifteen products of four components are formed likewise.
+//! The deformed triangle has the area vector v = cof(P) 2A N, hence the area factor k = |v|/2A and the normal m =
+//! v/|v|, both constant: moments weighted with m_a m_b are those of the triangle times that number. So the plan runs
+//! once on a register of triangles, into rows of its own, and the rows are multiplied and added to those of the six
+//! pairs, lane by lane. For requests of order 0 the fifteen products of four components are formed likewise.
 
 use pulp::{Simd, WithSimd};
 

@@ -1,9 +1,9 @@
 //! Triangles and vertices laid out for lanes: eight of each in a pack, component by component.
 //!
 //! A pack of triangles holds the coordinates of its corners, so that nothing is gathered in a call: the gaps of a
-//! vertex are computed anew in every triangle that it belongs to, by the same operations, to the same bytes. Unused places
-//! repeat the last triangle without its area, or the last vertex. A body that deforms needs the area vectors 2A N too:
-//! their images under the cofactor of P are those of the deformed triangles.
+//! vertex are computed anew in every triangle that it belongs to, by the same operations, to the same bytes. Unused
+//! places repeat the last triangle without its area, or the last vertex. A body that deforms needs the area vectors 2A
+//! N too: their images under the cofactor of P are those of the deformed triangles.
 
 use pulp::Simd;
 

@@ -169,8 +169,8 @@ impl Step {
     }
 }
 
-/// Lowers weights from ν + 1 to ν, up to ORDER:
-/// J_ab(ν) = d₀ J_ab + (d₁ − d₀) J_(a+1)b + (d₂ − d₀) J_a(b+1), all at ν + 1; every term is positive.
+/// Lowers weights from ν + 1 to ν, up to ORDER: J_ab(ν) = d₀ J_ab + (d₁ − d₀) J_(a+1)b + (d₂ − d₀) J_a(b+1), all at ν +
+/// 1; every term is positive.
 #[inline(always)]
 fn lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, triangle: &Triangle<S>) {
     /// Places of J_(a+1)b and J_a(b+1) for the place of J_ab; they come after it, and are still those of ν + 1.

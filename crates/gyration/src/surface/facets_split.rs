@@ -1,13 +1,14 @@
 //! Moments over a triangle for any exponent, from moments of κ along two segments.
 //!
-//! With the corners sorted, d₀ ≤ d₁ ≤ d₂, the level line through the middle corner cuts the triangle in two, each with an
-//! edge on which the gap is constant. With τ = (d₁ − d₀)/(d₂ − d₀), x the height and u uniform on [0, 1] along the level,
+//! With the corners sorted, d₀ ≤ d₁ ≤ d₂, the level line through the middle corner cuts the triangle in two, each with
+//! an edge on which the gap is constant. With τ = (d₁ − d₀)/(d₂ − d₀), x the height and u uniform on [0, 1] along the
+//! level,
 //!
 //!   lower part:  λ₁ = x (1 − u),        λ₂ = τ x u,                 d = d₀ + x (d₁ − d₀),  dA = 2 τ A x dx du
 //!   upper part:  λ₁ = (1 − x)(1 − u),   λ₂ = x + τ (1 − x) u,       d = d₁ + x (d₂ − d₁),  dA = 2 (1 − τ) A (1 − x) dx du
 //!
-//! so that J_ab = ∫ λ₁^a λ₂^b κ dA are sums, all positive, of the moments of κ along a segment (`power`). Equal gaps need no
-//! special case: τ is then any number in [0, 1].
+//! so that J_ab = ∫ λ₁^a λ₂^b κ dA are sums, all positive, of the moments of κ along a segment (`power`). Equal gaps
+//! need no special case: τ is then any number in [0, 1].
 
 use pulp::Simd;
 

@@ -11,7 +11,8 @@ use super::lanes::{Lanes, Row, WIDTH, dispatch, fold, registers_mut};
 use super::{GapField, Moments};
 use crate::tensor::{Mat3, Vec3};
 
-/// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and finite.
+/// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and
+/// finite.
 pub(super) fn add_moments(packs: &[Pack], field: &GapField, plan: &Plan, out: &mut [Moments]) -> bool {
     add::<false>(&Request { packs, field, plan, cofactor: &Mat3::identity() }, out)
 }

@@ -1,6 +1,7 @@
 //! A register of triangles and the step from scalar weights to tensors.
 //!
-//! With the corners in the order of their gaps, d₀ ≤ d₁ ≤ d₂, and X = V₀ + λ₁ E₁ + λ₂ E₂, every moment of X follows from
+//! With the corners in the order of their gaps, d₀ ≤ d₁ ≤ d₂, and X = V₀ + λ₁ E₁ + λ₂ E₂, every moment of X follows
+//! from
 //!
 //!   J_ab = ∫ λ₁^a λ₂^b κ(d) dA,   a + b ≤ 3.
 //!
@@ -95,11 +96,11 @@ fn difference<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// Adds the components of the moments of X = V₀ + λ₁ E₁ + λ₂ E₂ up to an order to rows of sums:
-/// 1, then x y z, xx xy xz yy yz zz, xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz.
+/// Adds the components of the moments of X = V₀ + λ₁ E₁ + λ₂ E₂ up to an order to rows of sums: 1, then x y z, xx xy xz
+/// yy yz zz, xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz.
 ///
-/// Each order is built from the one below with the weights multiplied by λ₁ and λ₂:
-/// A_n = V₀ ⊗ A_(n−1)[J] + E₁ ⊗ A_(n−1)[λ₁ J] + E₂ ⊗ A_(n−1)[λ₂ J], every factor being symmetric as a whole.
+/// Each order is built from the one below with the weights multiplied by λ₁ and λ₂: A_n = V₀ ⊗ A_(n−1)[J] + E₁ ⊗
+/// A_(n−1)[λ₁ J] + E₂ ⊗ A_(n−1)[λ₂ J], every factor being symmetric as a whole.
 #[inline(always)]
 pub(super) fn add_tensors<S: Simd, const ORDER: usize>(
     sums: &mut [Row],

@@ -4,9 +4,9 @@
 //!
 //!   ∫ λ^a d^−ν dA = 2A a! (ν − n − 3)!/(ν − 1)! Π u_i^(a_i + 1) · h_M(u₀ [a₀ + 1 times], u₁ [a₁ + 1], u₂ [a₂ + 1])
 //!
-//! where h_M is the complete homogeneous symmetric polynomial (Carlson's R with its Euler transformation, DLMF 19.16 and 19.19).
-//! Adding a variable is h_k(…, u) = h_k(…) + u h_(k−1)(…, u). All terms are positive: no sorting, no splitting, no
-//! cancellation, however the gaps compare.
+//! where h_M is the complete homogeneous symmetric polynomial (Carlson's R with its Euler transformation, DLMF 19.16
+//! and 19.19). Adding a variable is h_k(…, u) = h_k(…) + u h_(k−1)(…, u). All terms are positive: no sorting, no
+//! splitting, no cancellation, however the gaps compare.
 
 use pulp::Simd;
 

@@ -1,8 +1,8 @@
 //! Lanes: the same arithmetic on several numbers at once, with the widest registers that the processor has.
 //!
 //! [`dispatch`] finds the instruction set at run time and calls the work with it; the work is generic over it and is
-//! compiled once for each (512 and 256 bits, 128 on ARM, one number at a time elsewhere). Whatever the width, a sum runs
-//! over [`WIDTH`] logical lanes: number i belongs to lane i mod `WIDTH`, and [`fold`] adds the lanes in a fixed
+//! compiled once for each (512 and 256 bits, 128 on ARM, one number at a time elsewhere). Whatever the width, a sum
+//! runs over [`WIDTH`] logical lanes: number i belongs to lane i mod `WIDTH`, and [`fold`] adds the lanes in a fixed
 //! order. Products and sums are rounded one by one, never fused, so that every width gives the same bytes.
 //!
 //! Every function that takes lanes is `inline(always)`: it has to become part of the function that was compiled for the

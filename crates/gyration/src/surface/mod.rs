@@ -1,13 +1,13 @@
 //! Surfaces and the moments of a power of the gap over them: all that contact with a plane needs.
 //!
 //! Over a homogeneously moving body the gap to a plane and the velocity relative to it are affine in X. Every law of
-//! `contact` is a power of the gap times a polynomial in X of degree two at most, so that its force, moment and
-//! power follow from
+//! `contact` is a power of the gap times a polynomial in X of degree two at most, so that its force, moment and power
+//! follow from
 //!
 //!   A₀ = ∫ κ(d) dA,  A₁ = ∫ κ(d) X dA,  A₂ = ∫ κ(d) X⊗X dA,  A₃ = ∫ κ(d) X⊗X⊗X dA,   d = g₀ + m·X,
 //!
-//! over the reference surface, with κ = d^−ν (or ln d, for the potential at ν = 1). A₃ occurs only in derivatives.
-//! This module knows no law, no velocity and no time.
+//! over the reference surface, with κ = d^−ν (or ln d, for the potential at ν = 1). A₃ occurs only in derivatives. This
+//! module knows no law, no velocity and no time.
 
 pub mod curved;
 pub mod facets;
@@ -117,8 +117,8 @@ pub struct GapClosed {
 
 /// The surface of a body: flat facets and smooth patches, with X relative to any origin.
 ///
-/// Constructors put the origin at the centre of symmetry and the axis along z; cylinder, cone and capsule are centred at
-/// mid-height, the base of a cone at −h/2 and its apex at +h/2.
+/// Constructors put the origin at the centre of symmetry and the axis along z; cylinder, cone and capsule are centred
+/// at mid-height, the base of a cone at −h/2 and its apex at +h/2.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
     /// Triangles.
@@ -216,8 +216,8 @@ impl Surface {
     /// Orders above a request's are zero. `out` must be as long as `requests`.
     ///
     /// # Errors
-    /// `GapClosed` if the smallest gap is not a positive finite number, or over a smooth patch is positive by no more than
-    /// rounding; `out` is then unspecified.
+    /// `GapClosed` if the smallest gap is not a positive finite number, or over a smooth patch is positive by no more
+    /// than rounding; `out` is then unspecified.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
         assert_eq!(requests.len(), out.len(), "one place for each request");
         out.fill(Moments::default());

@@ -1,9 +1,9 @@
 //! A smooth primitive somewhere in a body: X = offset + Q Y.
 //!
-//! Moments are computed in the primitive's frame, where the gap is g₀' + m'·Y with g₀' = g₀ + m·offset, m' = Qᵀm,
-//! and carried back by `Moments::carried`, the only place where tensors change frame. Support points give the
-//! smallest gap, and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the
-//! support point along its gradient Aᵀ(v + A X) never lowers it.
+//! Moments are computed in the primitive's frame, where the gap is g₀' + m'·Y with g₀' = g₀ + m·offset, m' = Qᵀm, and
+//! carried back by `Moments::carried`, the only place where tensors change frame. Support points give the smallest gap,
+//! and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the support point
+//! along its gradient Aᵀ(v + A X) never lowers it.
 
 use super::curved::{
     Chart, ConeWall, CylinderWall, Deformed, Disk, Ellipsoid, GROUP, Hemisphere, Sphere, Torus, Weighted, Weights,
@@ -111,8 +111,8 @@ impl Patch {
         }
     }
 
-    /// The moments of at most [`GROUP`] requests with each of the weights, about the origin of X; every gap on the patch must be
-    /// positive.
+    /// The moments of at most [`GROUP`] requests with each of the weights, about the origin of X; every gap on the
+    /// patch must be positive.
     pub(crate) fn weighted<const N: usize, const W: usize>(
         &self,
         field: &GapField,

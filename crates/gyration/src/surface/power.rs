@@ -9,8 +9,9 @@
 //!
 //!   (k + 1 − ν) δ m_k = e^(1−ν) − k c m_(k−1).
 //!
-//! When the gaps differ enough it runs upwards from m_0, with a separate formula at the one k where k + 1 − ν is small (there the
-//! integral is a logarithm or nearly one). When they are close that would cancel: then the highest moment is the hypergeometric series
+//! When the gaps differ enough it runs upwards from m_0, with a separate formula at the one k where k + 1 − ν is small
+//! (there the integral is a logarithm or nearly one). When they are close that would cancel: then the highest moment is
+//! the hypergeometric series
 //!
 //!   m_k = e^−ν/(k + 1) Σ_n (ν)_n/(k + 2)_n θ^n,   θ = 1 − c/e        (DLMF 15.6.1, all terms positive for ν > 0)
 //!

@@ -1,8 +1,8 @@
 //! Moments of a kernel along segments in lanes: the formulas of `power`, on as many segments as there are lanes.
 //!
-//! Lanes in which the gaps differ enough take the recurrence upwards, the others the series and the recurrence downwards. Where
-//! both occur in one register both are computed, and each lane keeps its own: what a lane gets does not depend on its
-//! neighbours.
+//! Lanes in which the gaps differ enough take the recurrence upwards, the others the series and the recurrence
+//! downwards. Where both occur in one register both are computed, and each lane keeps its own: what a lane gets does
+//! not depend on its neighbours.
 
 use pulp::Simd;
 

@@ -92,8 +92,8 @@ impl GradedInterval {
 
     /// The number of points that resolves the singularities.
     ///
-    /// Gauss converges like r^−2n, r the sum of the semi-axes of the ellipse with foci ±1 through the singularity, which
-    /// is at y = asinh((x − from)/δ), z = 2y/span − 1:  r = s + √(s² − 1), s = (|z − 1| + |z + 1|)/2.
+    /// Gauss converges like r^−2n, r the sum of the semi-axes of the ellipse with foci ±1 through the singularity,
+    /// which is at y = asinh((x − from)/δ), z = 2y/span − 1: r = s + √(s² − 1), s = (|z − 1| + |z + 1|)/2.
     pub(crate) fn points(&self, singularities: &[Singularity]) -> usize {
         /// For the smooth factors beside the singularities: powers of X up to the third.
         const SPARE: f64 = 3.0;

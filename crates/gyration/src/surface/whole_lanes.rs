@@ -9,9 +9,9 @@
 //!   m_(ν−1) = e^−ν Φ_(ν−1),   m_ν = e^−ν (1 − ν (1 − θ) Φ_ν),
 //!   Φ_j = ∫₀¹ y^j/(1 − θy) dy = Σ θ^n/(n + j + 1),   Φ_0 = ln(e/c)/θ,   Φ_(j−1) = 1/j + θ Φ_j.
 //!
-//! Lower moments follow from k c m_(k−1) = e^(1−ν) + (ν − 1 − k) δ m_k, δ = e − c, free of cancellation. Of Φ, with
-//! e/c = 2^w μ, 1 ≤ μ < 2, s = (μ − 1)/(μ + 1) and artanh s = s + s³/3 + s⁵ B(s²): where w > 0, it comes from
-//! ln(e/c) = w ln 2 + 2 artanh s, upwards from Φ_0 since θ ≥ ½; where w = 0, θ = 2s/(1 + s) and it comes downwards from
+//! Lower moments follow from k c m_(k−1) = e^(1−ν) + (ν − 1 − k) δ m_k, δ = e − c, free of cancellation. Of Φ, with e/c
+//! = 2^w μ, 1 ≤ μ < 2, s = (μ − 1)/(μ + 1) and artanh s = s + s³/3 + s⁵ B(s²): where w > 0, it comes from ln(e/c) = w
+//! ln 2 + 2 artanh s, upwards from Φ_0 since θ ≥ ½; where w = 0, θ = 2s/(1 + s) and it comes downwards from
 //!
 //!   Φ_4 = (1 + s)/32 · (6 + 8s/3 + 2s²/3 + 2 (1 + s)⁴ B),   every term being positive.
 
@@ -220,7 +220,8 @@ mod tests {
                     for (k, moment) in moments.iter().enumerate().take(degree + 1) {
                         let error = (moment[lane] / series(ratio, whole, k) - 1.0).abs();
                         worst = worst.max(error);
-                        // Next to e/c = 2 the way up from Φ_0 loses some 200 ε at ν = 4, elsewhere a few dozen are seen.
+                        // Next to e/c = 2 the way up from Φ_0 loses some 200 ε at ν = 4, elsewhere a few dozen are
+                        // seen.
                         assert!(error < 5e-14, "ν = {whole}, degree {degree}, e/c = {ratio}, m_{k}: {error:e}");
                     }
                 }

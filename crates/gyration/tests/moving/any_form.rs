@@ -1,7 +1,8 @@
-//! Bodies of any form in a fluid, with a resistance that is known in closed form and smooth within a simplex and beyond.
+//! Bodies of any form in a fluid, with a resistance that is known in closed form and smooth within a simplex and
+//! beyond.
 //!
-//! The ratio C to the ellipsoid of the same second moments is linear in the coordinates of the form, so that what is interpolated is exact:
-//! differences may cross from one simplex into the next.
+//! The ratio C to the ellipsoid of the same second moments is linear in the coordinates of the form, so that what is
+//! interpolated is exact: differences may cross from one simplex into the next.
 
 use gyration::fluid::{FixedForm, Form, Inclusion, Resistance, Resolution, SurfaceForm, Table};
 use gyration::load::Mat12;

@@ -230,8 +230,8 @@ pub fn assert_power_is_the_rate_of_energy(model: &Model, state: &State) {
     let (before, after) = (at(-1.0), at(1.0));
     let rate = (after.iter().sum::<f64>() - before.iter().sum::<f64>()) / (2.0 * step);
     let power: f64 = powers.iter().sum();
-    // Central differences along the flow, and the rounding of the energies: the potential of a repulsion with ν close to 1 is
-    // large, α d₀/(ν − 1), and hardly changes.
+    // Central differences along the flow, and the rounding of the energies: the potential of a repulsion with ν close
+    // to 1 is large, α d₀/(ν − 1), and hardly changes.
     let scale = powers.iter().map(|p| p.abs()).sum::<f64>() + rate.abs() + 1.0;
     let energy: f64 = after.iter().map(|energy| energy.abs()).sum();
     let tolerance = 1e-6 * scale + 32.0 * f64::EPSILON * energy / step;

@@ -1,14 +1,15 @@
 //! P = U S Vᵀ as rotations and scales, kept continuous from key to key.
 //!
-//! A node of glTF has a translation, a rotation and a scale, so that a sheared body takes two, nested: the outer one with
-//! rotation U and scale S, the inner one with rotation Vᵀ. U and V are determined up to the order and the signs of their
-//! columns, and where stretches are equal up to a rotation; what is wanted is the pair nearest to that of the key before.
-//! With C = PᵀP and the V₀ of that key, V₀ᵀ C V₀ is nearly diagonal, and Jacobi's rotations, none by more than 45°, make it so:
+//! A node of glTF has a translation, a rotation and a scale, so that a sheared body takes two, nested: the outer one
+//! with rotation U and scale S, the inner one with rotation Vᵀ. U and V are determined up to the order and the signs of
+//! their columns, and where stretches are equal up to a rotation; what is wanted is the pair nearest to that of the key
+//! before. With C = PᵀP and the V₀ of that key, V₀ᵀ C V₀ is nearly diagonal, and Jacobi's rotations, none by more than
+//! 45°, make it so:
 //!
 //!   V = V₀ J,   S² = diag(Vᵀ C V),   U = P V S⁻¹
 //!
-//! Neither columns are swapped where two stretches cross, nor is the frame turned where they agree to rounding. det P > 0, so
-//! that U is a rotation as V is.
+//! Neither columns are swapped where two stretches cross, nor is the frame turned where they agree to rounding. det P >
+//! 0, so that U is a rotation as V is.
 
 use crate::export::drawing::{Mat3, Vec3};
 use nalgebra::{Rotation3, UnitQuaternion};
@@ -64,7 +65,8 @@ impl Factors {
         outer * Mat3::from_diagonal(&self.stretches) * inner
     }
 
-    /// What a player of the animation shows half-way between two keys: spherical means of rotations, the mean of scales.
+    /// What a player of the animation shows half-way between two keys: spherical means of rotations, the mean of
+    /// scales.
     pub fn half_way(&self, to: &Self) -> Self {
         Self {
             outer: half_way(&self.outer, &to.outer),
@@ -87,7 +89,8 @@ pub(super) fn natural_mean(p: &Mat3, q: &Mat3) -> Option<Mat3> {
 
 /// One rotation of Jacobi's in the plane (i, j), if it is worth one.
 ///
-/// tan φ is the smaller root of t² + 2θt − 1 = 0, θ = (c_jj − c_ii)/2c_ij. Source: Golub and Van Loan, *Matrix Computations*, 8.5.
+/// tan φ is the smaller root of t² + 2θt − 1 = 0, θ = (c_jj − c_ii)/2c_ij. Source: Golub and Van Loan, *Matrix
+/// Computations*, 8.5.
 fn turn(c: &mut Mat3, v: &mut Mat3, i: usize, j: usize) -> bool {
     let beside = c[(i, j)];
     if beside.abs() <= DIAGONAL * (c[(i, i)] * c[(j, j)]).sqrt() {

@@ -1,4 +1,5 @@
-//! A support as a piece of its plane with a grid: as large as the motion needs, lines at 1, 2 or 5 times a power of ten metres.
+//! A support as a piece of its plane with a grid: as large as the motion needs, lines at 1, 2 or 5 times a power of ten
+//! metres.
 //!
 //! Lines run through the support's origin. The sheet lies a fiftieth of the grid's step below them, so that neither
 //! flickers through the other.

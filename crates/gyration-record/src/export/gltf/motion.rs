@@ -1,9 +1,9 @@
 //! The keys of an animation: which samples become keys, and what a body's nodes do at them.
 //!
-//! At most 60 keys a second, or 300 in all if that is more; all but those between two halvings are samples. Between keys a
-//! player interpolates translation, rotations and scales by themselves. Of a body that deforms the outcome half-way is
-//! compared with the natural mean of the two placements: where it is further off than the eye can see, because the
-//! axes of stretch turn, the interval is halved by a key at that mean.
+//! At most 60 keys a second, or 300 in all if that is more; all but those between two halvings are samples. Between
+//! keys a player interpolates translation, rotations and scales by themselves. Of a body that deforms the outcome
+//! half-way is compared with the natural mean of the two placements: where it is further off than the eye can see,
+//! because the axes of stretch turn, the interval is halved by a key at that mean.
 
 use super::factors::{Factors, natural_mean};
 use crate::error::RecordError;

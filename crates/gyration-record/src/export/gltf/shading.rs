@@ -1,8 +1,8 @@
 //! A surface with normals: smooth where it bends little, sharp at edges.
 //!
-//! The normal at the corner of a triangle is the mean, by area, of those triangles around the point that bend by less than the
-//! crease angle against it. A point with several normals becomes several vertices. A player takes them along by the inverse
-//! transpose of its matrices, which is right under shear.
+//! The normal at the corner of a triangle is the mean, by area, of those triangles around the point that bend by less
+//! than the crease angle against it. A point with several normals becomes several vertices. A player takes them along
+//! by the inverse transpose of its matrices, which is right under shear.
 
 use crate::export::drawing::{SurfaceMesh, Vec3};
 use std::collections::BTreeMap;

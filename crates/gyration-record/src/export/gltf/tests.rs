@@ -86,7 +86,8 @@ fn a_body_without_deformation_does_not_spin() {
 
 #[test]
 fn axes_that_turn_quickly_get_keys_in_between() {
-    // Stretches that come within 1e-3 of each other, and part again along the diagonals: the axes turn by 45° in a moment.
+    // Stretches that come within 1e-3 of each other, and part again along the diagonals: the axes turn by 45° in a
+    // moment.
     let near = |t: f64| {
         let (along, across) = (0.3 * (0.5 - t), 1e-3);
         Mat3::identity() + Mat3::new(along, across, 0.0, across, -along, 0.0, 0.0, 0.0, 0.0)

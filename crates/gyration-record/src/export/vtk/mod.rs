@@ -1,8 +1,8 @@
 //! VTK's files of surfaces: `.vtp`, one a time, and `.pvd`, which says which file is of which time.
 //!
-//! XML with its numbers appended: little-endian f64 and i32, compressed block by block with zlib. The topology, the same
-//! at every time, is compressed once. These are the formats that ParaView reads without a library; VTKHDF would need HDF5.
-//! Source: *VTK file formats*, docs.vtk.org, "XML file formats".
+//! XML with its numbers appended: little-endian f64 and i32, compressed block by block with zlib. The topology, the
+//! same at every time, is compressed once. These are the formats that ParaView reads without a library; VTKHDF would
+//! need HDF5. Source: *VTK file formats*, docs.vtk.org, "XML file formats".
 
 mod packed;
 mod pvd;

@@ -7,7 +7,8 @@
 
 /// Bytes of a block before compression.
 const BLOCK: usize = 1 << 20;
-/// The fastest level that matches repeats: numbers that are equal over a body vanish, others shrink little at any level.
+/// The fastest level that matches repeats: numbers that are equal over a body vanish, others shrink little at any
+/// level.
 const LEVEL: u8 = 1;
 
 /// Numbers ready to be written.

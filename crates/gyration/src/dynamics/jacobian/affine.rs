@@ -1,4 +1,5 @@
-//! The block of an affine body: q̇ from its rate, q̈ from the balance, in the coordinates q = (p₀ | P), P column by column.
+//! The block of an affine body: q̇ from its rate, q̈ from the balance, in the coordinates q = (p₀ | P), P column by
+//! column.
 //!
 //!   δp̈₀ = δf/m,   δP̈ from δP, δṖ and δM (`affine::AffineSlopes`)
 //!

@@ -2,7 +2,8 @@
 //!
 //!   δp̈₀ = δf/m,   δP̈ and δĠ from δP, δṖ, δG, δM and δQ (`contractile::ContractileSlopes`)
 //!
-//! A part of the drive that answers to the body adds what a change of Q does, times the derivative of what the body feels.
+//! A part of the drive that answers to the body adds what a change of Q does, times the derivative of what the body
+//! feels.
 
 use super::super::Scratch;
 use super::super::affine::moment;

@@ -8,9 +8,9 @@
 //!   deforming  as they stand
 //!   pinned     δp₀ = −δP r,    δṗ₀ = −δṖ r
 //!
-//! [`Lower`] is B: it lowers a change of the loads Q = (f | M) to the rates, δp̈₀ = δf/m, and of M about the centre or the
-//! pin to the acceleration of P or Ω that the balance of the kind gives. With i = j it serves every load on a rigid body
-//! that has no other way. Bodies without inertia take their velocities from it (`inertialess`), not their rates.
+//! [`Lower`] is B: it lowers a change of the loads Q = (f | M) to the rates, δp̈₀ = δf/m, and of M about the centre or
+//! the pin to the acceleration of P or Ω that the balance of the kind gives. With i = j it serves every load on a rigid
+//! body that has no other way. Bodies without inertia take their velocities from it (`inertialess`), not their rates.
 
 use super::super::contractile::ContractileMotion;
 use super::super::history::RigidHistory;

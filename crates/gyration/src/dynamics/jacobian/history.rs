@@ -1,4 +1,5 @@
-//! The block of a rigid sphere with a history force: that of a rigid body with added mass, and the relaxation modes behind.
+//! The block of a rigid sphere with a history force: that of a rigid body with added mass, and the relaxation modes
+//! behind.
 //!
 //!   δ(Rᵀ T) = ∂T/∂ω δΩ + [Rᵀ T₀]× δθ,   T₀ the part of the torque that does not depend on the spin
 //!   δy_k′ = s_k (δṗ₀ − L∞ δp₀ − δy_k),   δY_k′ = S_k (R δΩ − R [Ω]× δθ − δY_k)

@@ -1,13 +1,13 @@
 //! The exact Jacobian of the rates, block by block.
 //!
-//! All loads are differentiated in the coordinates q = (p₀ | P) common to every kind of body, Q = (f | M) beside them. A
-//! kind brings two maps: A lifts a change of its numbers to δq and δq̇, B lowers δQ to a change of its rates,
+//! All loads are differentiated in the coordinates q = (p₀ | P) common to every kind of body, Q = (f | M) beside them.
+//! A kind brings two maps: A lifts a change of its numbers to δq and δq̇, B lowers δQ to a change of its rates,
 //!
 //!   block (i, j) = B_i ∂Q_i/∂(q_j, q̇_j) A_j        (`coupling`)
 //!
-//! and beside it what its own balance changes by at fixed loads (`rigid`, `affine`, `contractile`, `history`). The wrench
-//! of a contact or of the fluid on a rigid body depends on few numbers only; its derivatives by them are exact to more
-//! digits than those by q, and go to the block directly.
+//! and beside it what its own balance changes by at fixed loads (`rigid`, `affine`, `contractile`, `history`). The
+//! wrench of a contact or of the fluid on a rigid body depends on few numbers only; its derivatives by them are exact
+//! to more digits than those by q, and go to the block directly.
 
 mod affine;
 mod contractile;

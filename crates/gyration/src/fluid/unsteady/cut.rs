@@ -2,8 +2,9 @@
 
 /// ∫₀^∞ f(q) dq for a smooth f that is O(1) at 0 and O(q^−2) at infinity.
 ///
-/// The trapezoid rule in ln q, which converges exponentially, with steps halved until the sum changes by 1e-12 of itself: the
-/// error is then that of rounding. A sharp resonance asks for short steps; at the shortest it may have a relative width of 1e-6.
+/// The trapezoid rule in ln q, which converges exponentially, with steps halved until the sum changes by 1e-12 of
+/// itself: the error is then that of rounding. A sharp resonance asks for short steps; at the shortest it may have a
+/// relative width of 1e-6.
 pub(super) fn integral(f: impl Fn(f64) -> f64) -> f64 {
     // Beyond e^±40 less than 1e-17 is left.
     const REACH: f64 = 40.0;

@@ -11,9 +11,9 @@ const TERMS: usize = 13;
 
 /// erfcx(x) = eˣ² erfc(x) for x ≥ 0.
 ///
-/// The midpoint rule of the integral, t = (j + ½)h, plus the residues of the poles ±ix while they lie in the strip |Im t| < π/h
-/// where they count: all terms are positive, so that nothing cancels. Source: the rule is that of Goodwin (1949), the residues
-/// those of Chiarella and Reichel (1968). Relative error below 1e-15.
+/// The midpoint rule of the integral, t = (j + ½)h, plus the residues of the poles ±ix while they lie in the strip |Im
+/// t| < π/h where they count: all terms are positive, so that nothing cancels. Source: the rule is that of Goodwin
+/// (1949), the residues those of Chiarella and Reichel (1968). Relative error below 1e-15.
 pub(super) fn erfcx(x: f64) -> f64 {
     let terms = (0..TERMS).map(|index| {
         let t = (index as f64 + 0.5) * STEP;

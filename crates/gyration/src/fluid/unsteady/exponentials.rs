@@ -6,8 +6,8 @@
 //!
 //!   y_k′ = s_k (w − y_k),    z_k = w − y_k = ∫₀ᵗ e^(−s_k(t−s)) w′(s) ds,    ∫ w′ κ̃ = rest w′ + Σ c_k z_k
 //!
-//! where w(0) counts as a jump; no acceleration is needed but in `rest w′`, which is an added mass. *Dissipation*: since
-//! w = y_k + z_k and z_k = y_k′/s_k,
+//! where w(0) counts as a jump; no acceleration is needed but in `rest w′`, which is an added mass. *Dissipation*:
+//! since w = y_k + z_k and z_k = y_k′/s_k,
 //!
 //!   w Σ c_k z_k = d/dt Σ c_k y_k²/(2s_k) + Σ c_k z_k²
 //!
@@ -17,9 +17,9 @@
 //!
 //!   |∫ w′ (κ − κ̃)|(t) ≤ a ∫₀ᵗ |κ − κ̃| ≤ ε a ∫₀^max(t, θ) κ          at every t in (0, span]
 //!
-//! The right side is ε times the history's load under the constant acceleration a: the largest that such a motion can have had by
-//! then (before θ: by θ, as long as the added mass outweighs it). The first inequality is sharp. `rest` counts as part of
-//! ∫|κ − κ̃|; after a jump of w the same integral bounds the error of the impulse.
+//! The right side is ε times the history's load under the constant acceleration a: the largest that such a motion can
+//! have had by then (before θ: by θ, as long as the added mass outweighs it). The first inequality is sharp. `rest`
+//! counts as part of ∫|κ − κ̃|; after a jump of w the same integral bounds the error of the impulse.
 //!
 //! The fastest mode lives for about ε² θ: the modes are stiff, and wait for an implicit stepper.
 
@@ -70,7 +70,8 @@ impl Exponentials {
         Self::of(Kernel::Translation, tau, span, error)
     }
 
-    /// The kernel ⅓(√(τ/(πt)) − e^(t/τ) erfc √(t/τ)) of a sphere's rotation, over (0, span] to `error`; τ = ρR²/η and span [s].
+    /// The kernel ⅓(√(τ/(πt)) − e^(t/τ) erfc √(t/τ)) of a sphere's rotation, over (0, span] to `error`; τ = ρR²/η and
+    /// span [s].
     ///
     ///   torque = −8πηR³ [Ω + rest Ω′ + Σ c_k (Ω − y_k)]
     ///
@@ -171,7 +172,8 @@ mod tests {
     fn worst_acceleration_comes_near_the_stated_error() {
         for kernel in KERNELS {
             let sum = Exponentials::of(kernel, 1.0, 1.0, 1e-4).unwrap();
-            // w′ = sign(κ − κ̃)(t − s), which is what makes the bound: even steps in time resolve all but the first modes.
+            // w′ = sign(κ − κ̃)(t − s), which is what makes the bound: even steps in time resolve all but the first
+            // modes.
             let count = 20_000;
             let signs: Vec<f64> = (0..count)
                 .map(|index| (f64::from(index) + 0.5) / f64::from(count))

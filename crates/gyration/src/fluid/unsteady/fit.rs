@@ -76,8 +76,8 @@ fn built(kernel: Kernel, places: &[f64]) -> Exponentials {
 
 /// max over t ≤ span of ∫₀ᵗ|κ − κ̃| / ∫₀^max(t, θ) κ, with this many samples in a range of e.
 ///
-/// ∫|κ − κ̃| is the variation of ∫κ − ∫κ̃ between samples that are even in ln t. Before the first sample κ > Σ c_k ≥ κ̃: the
-/// sign does not change, and the variation is exact.
+/// ∫|κ − κ̃| is the variation of ∫κ − ∫κ̃ between samples that are even in ln t. Before the first sample κ > Σ c_k ≥
+/// κ̃: the sign does not change, and the variation is exact.
 pub(super) fn measured(kernel: Kernel, span: f64, sum: &Exponentials, samples: f64) -> f64 {
     let reference = span.min(1.0);
     let fastest = sum.rates.iter().fold(1.0 / span, |a, b| a.max(*b));

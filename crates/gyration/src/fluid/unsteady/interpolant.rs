@@ -4,14 +4,15 @@
 //!
 //!   B(x) = ∏ⱼ (xⱼ − x)/(xⱼ + x)      has B(−x) = 1/B(x), so that      g(p) = (1/x)(1 − B)/(1 + B)
 //!
-//! is even in x: a rational function of p, which equals 1/√p where B = 0, at p = xⱼ²; its relative error is −2B/(1 + B). On
-//! x = iy each factor has modulus 1 and phase −2 arctan(y/xⱼ). Hence all poles are real, p = −s_k with s_k = y_k², and
+//! is even in x: a rational function of p, which equals 1/√p where B = 0, at p = xⱼ²; its relative error is −2B/(1 +
+//! B). On x = iy each factor has modulus 1 and phase −2 arctan(y/xⱼ). Hence all poles are real, p = −s_k with s_k =
+//! y_k², and
 //!
 //!   Σⱼ arctan(y_k/xⱼ) = (k − ½)π,   k = 1 … n = (m − 1)/2          one root each: the left side grows from 0 to mπ/2
 //!   g(p) = rest + Σ_k c_k/(p + s_k),   c_k = 2/Σⱼ xⱼ/(xⱼ² + y_k²) > 0,   rest = 1/Σⱼ xⱼ > 0
 //!
-//! This is the multipoint Padé approximant (rational Gauss rule) of the Stieltjes function 1/√p; no linear system is solved.
-//! Where to interpolate is not decided here.
+//! This is the multipoint Padé approximant (rational Gauss rule) of the Stieltjes function 1/√p; no linear system is
+//! solved. Where to interpolate is not decided here.
 
 use std::f64::consts::PI;
 
@@ -41,7 +42,8 @@ impl Interpolant {
 
 /// The y > 0 at which Σⱼ arctan(y/xⱼ) is `phase`: Newton's method in ln y, kept within a bracket that shrinks.
 ///
-/// With m points, at y = x₁/(e m) the sum is below 1/e and at y = e m x_m above mπ/2 − 1/e: π/2 … (m/2 − 1)π lies between.
+/// With m points, at y = x₁/(e m) the sum is below 1/e and at y = e m x_m above mπ/2 − 1/e: π/2 … (m/2 − 1)π lies
+/// between.
 fn zero(points: &[f64], phase: f64) -> f64 {
     let reach = 1.0 + (points.len() as f64).ln();
     let mut low = points[0].ln() - reach;

@@ -1,20 +1,21 @@
 //! Where to interpolate 1/√p, so that the error in time is small from the least lag to the span.
 //!
-//! Points of density ν in ln x, x = √p, make |B| = e^(−νπ²/2) on the real axis and e^(−νπ²/4) at arg x = π/4, where p is
-//! imaginary and time is felt. Up to x = 1/√θ the kernel is wanted to the same digits everywhere, e^−Λ. Beyond, an error that
-//! counts in ∫|κ − κ̃| dt may grow as √p: the digits needed, and with them the density, fall linearly in ln x to zero at the
-//! length Λ (a taper, as in Newman's and Stahl's approximations of |x|). So with v = ln x from the lowest point,
+//! Points of density ν in ln x, x = √p, make |B| = e^(−νπ²/2) on the real axis and e^(−νπ²/4) at arg x = π/4, where p
+//! is imaginary and time is felt. Up to x = 1/√θ the kernel is wanted to the same digits everywhere, e^−Λ. Beyond, an
+//! error that counts in ∫|κ − κ̃| dt may grow as √p: the digits needed, and with them the density, fall linearly in ln
+//! x to zero at the length Λ (a taper, as in Newman's and Stahl's approximations of |x|). So with v = ln x from the
+//! lowest point,
 //!
 //!   ν(v) = D min(Λ, Λ + l − v),    l = ½ ln(span/θ),    D = 4/π²
 //!   ∫ν = D (Λl + Λ²/2) = m   ⇒   Λ = −l + √(l² + 2m/D)
 //!
-//! and the points lie where ∫ν is half-integer. At the low end they are moved from eᵛ to cosh v, as Zolotarev's points gather
-//! at the end of an interval. For span = θ this is ε ~ e^−Λ = e^(−π√n) with n = m/2 modes.
+//! and the points lie where ∫ν is half-integer. At the low end they are moved from eᵛ to cosh v, as Zolotarev's points
+//! gather at the end of an interval. For span = θ this is ε ~ e^−Λ = e^(−π√n) with n = m/2 modes.
 
 use std::f64::consts::PI;
 
-/// D in units of 4/π². At 1.15 rather than 1 a given number of modes reaches the least error, from 1e-3 to 1e-9: the asymptotic
-/// law leaves out a factor of |B| that grows with the number of points.
+/// D in units of 4/π². At 1.15 rather than 1 a given number of modes reaches the least error, from 1e-3 to 1e-9: the
+/// asymptotic law leaves out a factor of |B| that grows with the number of points.
 const DENSITY: f64 = 1.15 * 4.0 / (PI * PI);
 
 /// How many points, m = D (Λl + Λ²/2), the need Λ = `need` asks for; `reference` is θ ≤ span.

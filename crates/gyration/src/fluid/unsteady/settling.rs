@@ -2,13 +2,13 @@
 //!
 //!   A v′ + v + π^−½ ∫₀ᵗ v′(s)/√(t − s) ds = 1,   v(0) = 0,   A = (2ρ_p/ρ_f + 1)/9
 //!
-//! v in units of Stokes' speed 2(ρ_p − ρ_f)gR²/(9η), t in units of τ = ρ_f R²/η. The transform is v̂ = 1/(p (A p + √p + 1)).
-//! With a, b the roots of A x² − x + 1 = 0,
+//! v in units of Stokes' speed 2(ρ_p − ρ_f)gR²/(9η), t in units of τ = ρ_f R²/η. The transform is v̂ = 1/(p (A p + √p +
+//! 1)). With a, b the roots of A x² − x + 1 = 0,
 //!
 //!   v = 1 − (b erfcx(a√t) − a erfcx(b√t))/(b − a),     erfcx(z) = e^(z²) erfc z
 //!
-//! (Brush, Ho and Yen 1964; Clift, Grace and Weber, *Bubbles, Drops, and Particles*, ch. 11). a and b are complex for A > ¼ and
-//! meet at A = ¼. The same number, without cases, is the integral over the cut of √p,
+//! (Brush, Ho and Yen 1964; Clift, Grace and Weber, *Bubbles, Drops, and Particles*, ch. 11). a and b are complex for
+//! A > ¼ and meet at A = ¼. The same number, without cases, is the integral over the cut of √p,
 //!
 //!   v = 1 − (2/π) ∫₀^∞ e^(−q²t)/((1 − A q²)² + q²) dq
 //!
@@ -84,7 +84,8 @@ mod tests {
                     })
                     .fold((0.0_f64, 0.0_f64), |worst, (next, load)| (worst.0.max(next), worst.1.max(next / load)));
                 println!("span {span:e}, ε = {error:e}, A = {inertia:.3}: |error of v| ≤ {:.1e}", worst.0);
-                // The load is off by ε times that of the greatest acceleration, 1/A, and v by no more than that: the history itself damps.
+                // The load is off by ε times that of the greatest acceleration, 1/A, and v by no more than that: the
+                // history itself damps.
                 assert!(worst.1 < error + 1e-11, "{worst:?}");
             }
         }

@@ -2,8 +2,8 @@
 //!
 //!   B Ω′ + Ω + ∫₀ᵗ Ω′(s) κ(t − s) ds + Ω₀ κ(t) = 0,   Ω(0) = Ω₀,   B = ρ_p/(15ρ_f),   κ(t) = ⅓ (1/√(πt) − eᵗ erfc √t)
 //!
-//! t in units of τ = ρ_f R²/η; B is the moment of inertia (8/15)πρ_pR⁵ over 8πηR³τ. The transform is
-//! Ω̂ = BΩ₀/(1 + Bp + ⅓ p/(1 + √p)), which has no pole off the cut; over the cut, p = −q²,
+//! t in units of τ = ρ_f R²/η; B is the moment of inertia (8/15)πρ_pR⁵ over 8πηR³τ. The transform is Ω̂ = BΩ₀/(1 + Bp +
+//! ⅓ p/(1 + √p)), which has no pole off the cut; over the cut, p = −q²,
 //!
 //!   Ω/Ω₀ = (2B/π) ∫₀^∞ q b e^(−q²t)/(a² + b²) dq,    a = 1 − Bq² − q²/(3(1 + q²)),    b = q³/(3(1 + q²))
 //!

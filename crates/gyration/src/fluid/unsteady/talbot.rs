@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 
 /// Inverse of a transform whose singularities lie near the negative axis: Talbot's contour, 32 points.
 ///
-/// Source: Weideman, *SIAM J. Numer. Anal.* 44 (2006), p(θ) = (N/t)(0.5017 θ cot 0.6407θ − 0.6122 + 0.2645 iθ). Error about 1e-12 of the values.
+/// Source: Weideman, *SIAM J. Numer. Anal.* 44 (2006), p(θ) = (N/t)(0.5017 θ cot 0.6407θ − 0.6122 + 0.2645 iθ). Error
+/// about 1e-12 of the values.
 pub fn inverse(transform: &dyn Fn(Complex<f64>) -> Complex<f64>, time: f64) -> f64 {
     let count = 32;
     let scale = f64::from(count) / time;

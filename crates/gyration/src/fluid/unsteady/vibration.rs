@@ -1,7 +1,7 @@
 //! Resistance of a sphere to small monochromatic vibrations against the fluid.
 //!
-//! Every velocity is ∝ e^(iωt). With ℓ = R√(iωρ/η), Re ℓ ≥ 0, the fluid obeys η(∇² − ℓ²/R²)u = ∇q, div u = 0, and on the sphere
-//! u = U + Lx. The load is f = ∫ t dA, N_ij = ∫ t_i x_j dA, with power f·U + N·L; V = 4πR³/3:
+//! Every velocity is ∝ e^(iωt). With ℓ = R√(iωρ/η), Re ℓ ≥ 0, the fluid obeys η(∇² − ℓ²/R²)u = ∇q, div u = 0, and on
+//! the sphere u = U + Lx. The load is f = ∫ t dA, N_ij = ∫ t_i x_j dA, with power f·U + N·L; V = 4πR³/3:
 //!
 //!   translation   f = −6πηR (1 + ℓ + ℓ²/9) U
 //!   rotation      ∫ x × t dA = −8πηR³ (1 + ⅓ ℓ²/(1 + ℓ)) Ω
@@ -15,11 +15,12 @@
 //!   u = a ∇(E·∇∇H) + b [∇(E·∇∇G) − α² E∇G],     q = −ηα² a E·∇∇H
 //!   b = (5/3) R⁵ e^ℓ/(ℓ²(1 + ℓ)),     a = −(R⁵/9)(15 + 15ℓ + 6ℓ² + ℓ³)/(ℓ²(1 + ℓ))
 //!
-//! makes u = Ex at r = R, and t = −qn + η(∇u + ∇uᵀ)n gives N. An expansion is the potential flow u = e R³x/r³, q = iωρ e R³/r.
+//! makes u = Ex at r = R, and t = −qn + η(∇u + ∇uᵀ)n gives N. An expansion is the potential flow u = e R³x/r³, q = iωρ
+//! e R³/r.
 //!
-//! As ω → ∞ the terms in ℓ² are the added masses of potential flow: ½ρV on U, (2/15)ρVR² on E, ρVR² on e I. What remains,
-//! ℓ²/(1 + ℓ), is one history for spin and strain: `Kernel::Rotation`, times 5/3 for the strain. Translation and rotation are in
-//! Landau and Lifshitz, *Fluid Mechanics*, §24. Amplitudes must be small against R.
+//! As ω → ∞ the terms in ℓ² are the added masses of potential flow: ½ρV on U, (2/15)ρVR² on E, ρVR² on e I. What
+//! remains, ℓ²/(1 + ℓ), is one history for spin and strain: `Kernel::Rotation`, times 5/3 for the strain. Translation
+//! and rotation are in Landau and Lifshitz, *Fluid Mechanics*, §24. Amplitudes must be small against R.
 
 use nalgebra::Complex;
 use std::f64::consts::PI;
@@ -39,11 +40,11 @@ pub struct Vibration {
     pub expansion: Complex<f64>,
 }
 
-/// The resistances of a sphere of `radius` [m] to e^(iωt) in a fluid of `viscosity` [Pa s] and `density` [kg/m³], at ω = `omega`
-/// [rad/s].
+/// The resistances of a sphere of `radius` [m] to e^(iωt) in a fluid of `viscosity` [Pa s] and `density` [kg/m³], at ω
+/// = `omega` [rad/s].
 ///
-/// Formulae in the module. At ω = 0, or without density, these are the values of Stokes: 6πηR, 8πηR³, 3ηV, 4ηV.
-/// The domain is radius > 0, viscosity > 0, density ≥ 0, ω ≥ 0: outside, the result is not a number or means nothing.
+/// Formulae in the module. At ω = 0, or without density, these are the values of Stokes: 6πηR, 8πηR³, 3ηV, 4ηV. The
+/// domain is radius > 0, viscosity > 0, density ≥ 0, ω ≥ 0: outside, the result is not a number or means nothing.
 pub fn vibration(radius: f64, viscosity: f64, density: f64, omega: f64) -> Vibration {
     // ℓ² = iωτ; of √i = (1 + i)/√2 the real part is positive.
     let square = omega * density * radius * radius / viscosity;
@@ -60,8 +61,8 @@ pub fn vibration(radius: f64, viscosity: f64, density: f64, omega: f64) -> Vibra
 }
 
 impl Vibration {
-    /// The stresslet's resistance to a strain rate: the moment of the tractions less that of the shape's own motion,
-    /// S = N − η∫(u⊗n + n⊗u)dA = −(strain + 2ηV) E; at ω = 0 the 5ηV of a rigid sphere held in a strain.
+    /// The stresslet's resistance to a strain rate: the moment of the tractions less that of the shape's own motion, S
+    /// = N − η∫(u⊗n + n⊗u)dA = −(strain + 2ηV) E; at ω = 0 the 5ηV of a rigid sphere held in a strain.
     pub fn stresslet(&self, radius: f64, viscosity: f64) -> Complex<f64> {
         self.strain + 8.0 / 3.0 * PI * viscosity * radius.powi(3)
     }

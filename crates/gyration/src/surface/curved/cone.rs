@@ -1,8 +1,8 @@
 //! Moments over the wall of a cone.
 //!
-//! On the ruling at the azimuth φ a point is Z = τ (R cos φ, R sin φ, −h) from the apex, 0 ≤ τ ≤ 1, the gap is affine in
-//! τ and dA = R√(R²+h²) τ dτ dφ, so that K_k = ∫ κ τ^(k+1) dτ has a closed form. Around the axis, where the gap of the
-//! base is a − b cos φ, the rule of `ring` is graded to its smallest value.
+//! On the ruling at the azimuth φ a point is Z = τ (R cos φ, R sin φ, −h) from the apex, 0 ≤ τ ≤ 1, the gap is affine
+//! in τ and dA = R√(R²+h²) τ dτ dφ, so that K_k = ∫ κ τ^(k+1) dτ has a closed form. Around the axis, where the gap of
+//! the base is a − b cos φ, the rule of `ring` is graded to its smallest value.
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! Moments over the wall of a cylinder.
 //!
 //! Along a ruling the gap is affine in z, so that Z_j = ∫ κ z^j dz has a closed form; around the axis, where the gap of
-//! each end is a − b cos φ, the rule of `ring` is graded to the smaller one:  A_k ← ∫ R dφ Z_j(φ).
+//! each end is a − b cos φ, the rule of `ring` is graded to the smaller one: A_k ← ∫ R dφ Z_j(φ).
 
 use std::f64::consts::TAU;
 

@@ -1,12 +1,12 @@
 //! Moments over an ellipsoid.
 //!
-//! X = A s, |s| = 1, A = diag(a, b, c), is the image of a sphere; dA = |B s| dΩ with the cofactor B = diag(bc, ca, ab). With
-//! s = cos θ f + sin θ (cos φ e₁ + sin φ e₂), f = −Am/|Am| the lowest point, the gap
+//! X = A s, |s| = 1, A = diag(a, b, c), is the image of a sphere; dA = |B s| dΩ with the cofactor B = diag(bc, ca, ab).
+//! With s = cos θ f + sin θ (cos φ e₁ + sin φ e₂), f = −Am/|Am| the lowest point, the gap
 //!
 //!   d = g₀ − |Am| cos θ
 //!
-//! does not depend on φ: κ is evaluated once for a parallel, and the rest, ∮ |B s| s⊗… dφ, is geometry, the same for the
-//! parallel at π − θ but for signs. `features` chooses the parallels, `parallels` sums around them.
+//! does not depend on φ: κ is evaluated once for a parallel, and the rest, ∮ |B s| s⊗… dφ, is geometry, the same for
+//! the parallel at π − θ but for signs. `features` chooses the parallels, `parallels` sums around them.
 
 use super::super::lanes::dispatch;
 use super::super::{GapField, MomentRequest, Moments};

@@ -1,10 +1,10 @@
 //! Where an integral over the parallels of an ellipsoid needs fine resolution, and the rule that gives it.
 //!
 //! As a function of x = 1 − cos θ, θ from the lowest point f, the integral of the area element |B s| around a parallel
-//! is analytic, but singular close to real θ where the parallel touches the place where |B s| dips: the ends ±e_i of the
-//! longest axis (B_i smallest), at cos θ = |f_i|, and the great circle normal to the shortest axis (B_j largest), at
-//! sin θ = |f_j|. The distance of the singularity is about (|B s| in the dip)/(largest B). The gap is (near/δ)(δ + x):
-//! in y = ln(1 + x/δ) every power of it is an exponential, which Gauss's rule integrates without a singularity.
+//! is analytic, but singular close to real θ where the parallel touches the place where |B s| dips: the ends ±e_i of
+//! the longest axis (B_i smallest), at cos θ = |f_i|, and the great circle normal to the shortest axis (B_j largest),
+//! at sin θ = |f_j|. The distance of the singularity is about (|B s| in the dip)/(largest B). The gap is (near/δ)(δ +
+//! x): in y = ln(1 + x/δ) every power of it is an exponential, which Gauss's rule integrates without a singularity.
 //! Only 0 ≤ x ≤ 1 is covered: the other half mirrors it. Where dips are so narrow that one rule would need too many
 //! points, the range is cut at them and graded to each.
 
@@ -43,7 +43,8 @@ pub(super) struct Features {
     span: f64,
     sharpest: f64,
     mildest: f64,
-    /// Parallels weigh as (d/near)^−mildness, at most e^excess times more where |B s| is larger than at the lowest point.
+    /// Parallels weigh as (d/near)^−mildness, at most e^excess times more where |B s| is larger than at the lowest
+    /// point.
     mildness: f64,
     excess: f64,
     /// Further digits for weights that are harder to resolve than |B s|.
@@ -129,8 +130,9 @@ impl Features {
 
     /// Points of a rule in y that resolves the exponentials and both dips.
     ///
-    /// Gauss integrates e^(2ct) with 7 + 3√c points to 1e-12 (a fit on the safe side). For the dips it converges like r^−2n,
-    /// r the sum of the semi-axes of the ellipse with foci ±1 through the singularity, t = 2 ln(1 + x/δ)/span − 1.
+    /// Gauss integrates e^(2ct) with 7 + 3√c points to 1e-12 (a fit on the safe side). For the dips it converges like
+    /// r^−2n, r the sum of the semi-axes of the ellipse with foci ±1 through the singularity, t = 2 ln(1 + x/δ)/span
+    /// − 1.
     fn points(&self) -> f64 {
         /// For the smooth factors beside the singularities.
         const SPARE: f64 = 3.0;

@@ -1,11 +1,12 @@
 //! Surfaces of revolution, half-plane by half-plane.
 //!
-//! In the half-plane at the azimuth φ a point is (ρ, z). A surface of revolution about e_z under the gap
-//! d = g₀ + m·Y is symmetric about the plane of e_z and m. In the frame whose x axis points where the gap falls,
+//! In the half-plane at the azimuth φ a point is (ρ, z). A surface of revolution about e_z under the gap d = g₀ + m·Y
+//! is symmetric about the plane of e_z and m. In the frame whose x axis points where the gap falls,
 //!
 //!   Y = ρ cos φ e_x + ρ sin φ e_y + z e_z,   d = (g₀ + m_z z) − μ ρ cos φ,   μ = |(m_x, m_y)|,
 //!
-//! odd powers of sin φ cancel, and the moments follow from the sums S_ij = ∫ κ ρ^i z^j ds, i + j ≤ 3, of each half-plane.
+//! odd powers of sin φ cancel, and the moments follow from the sums S_ij = ∫ κ ρ^i z^j ds, i + j ≤ 3, of each
+//! half-plane.
 
 use super::super::{GapField, Moments};
 use crate::tensor::{Mat3, Vec3};

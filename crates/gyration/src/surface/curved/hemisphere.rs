@@ -166,8 +166,8 @@ impl<Nodes: Iterator<Item = Node>> WithSimd for Sweep<'_, Nodes> {
     }
 }
 
-/// Moments of the arc at ψ of the unit sphere, weight included, of Z = u c + √(1−u²)(cos φ e₁ + sin φ e₂): 1; x, z; xx, yy,
-/// xz, zz; xxx, xyy, xxz, yyz, xzz, zzz.
+/// Moments of the arc at ψ of the unit sphere, weight included, of Z = u c + √(1−u²)(cos φ e₁ + sin φ e₂): 1; x, z; xx,
+/// yy, xz, zz; xxx, xyy, xxz, yyz, xzz, zzz.
 #[inline(always)]
 fn arc(p: &Parallels, sin: f64, cos: f64, weight: f64) -> [f64; 13] {
     let u = -p.sine * cos;

@@ -1,9 +1,9 @@
 //! Moments over a deformed hemisphere, point by point.
 //!
 //! Parallels about c = m/|m| as in `hemisphere`, whole ones in θ from the pole, arcs in ψ, u = −cos θ = −σ cos ψ. On a
-//! whole parallel the trapezoidal rule sums around, on an arc |φ| < α Gauss's. The weight w(C s) brings singularities of its
-//! own: in θ where a parallel touches a dip of |C s| (`features`), which the substitution carries over to ψ,
-//! cos θ = σ cos ψ, and in ψ where the end of an arc, which runs along the equator at the azimuth ψ, meets a zero of v·v.
+//! whole parallel the trapezoidal rule sums around, on an arc |φ| < α Gauss's. The weight w(C s) brings singularities
+//! of its own: in θ where a parallel touches a dip of |C s| (`features`), which the substitution carries over to ψ, cos
+//! θ = σ cos ψ, and in ψ where the end of an arc, which runs along the equator at the azimuth ψ, meets a zero of v·v.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,10 +1,10 @@
 //! Moments over the deformed image of a sphere or an ellipsoid.
 //!
-//! X = A s, |s| = 1, A = diag(a, b, c), has the reference area vector cof(A) s dΩ and the current one v = B s dΩ,
-//! B = C cof(A), C = cof(P) turned into the own frame. The squared element |B s|² = s·BᵀB s is a quadratic form as it is
-//! for the undeformed ellipsoid, whose form is diagonal in the axes of A; here the axes are those of BᵀB. So the rule of
-//! `features` is asked with the singular values of B and the lowest direction f = −Am/|Am| in the axes of BᵀB, and `parallels`
-//! sums as ever.
+//! X = A s, |s| = 1, A = diag(a, b, c), has the reference area vector cof(A) s dΩ and the current one v = B s dΩ, B = C
+//! cof(A), C = cof(P) turned into the own frame. The squared element |B s|² = s·BᵀB s is a quadratic form as it is for
+//! the undeformed ellipsoid, whose form is diagonal in the axes of A; here the axes are those of BᵀB. So the rule of
+//! `features` is asked with the singular values of B and the lowest direction f = −Am/|Am| in the axes of BᵀB, and
+//! `parallels` sums as ever.
 
 use super::super::MomentRequest;
 use super::super::lanes::dispatch;
@@ -63,8 +63,8 @@ impl Sphere {
 
 /// Eigenvalues and eigenvectors (columns) of a symmetric matrix, by Jacobi's rotations.
 ///
-/// The rules need them to a few digits only; the last sweep leaves off-diagonal entries below 1e-6 of the largest entry,
-/// which changes eigenvalues by the square of that.
+/// The rules need them to a few digits only; the last sweep leaves off-diagonal entries below 1e-6 of the largest
+/// entry, which changes eigenvalues by the square of that.
 pub(super) fn principal_axes(matrix: &Mat3) -> (Vec3, Mat3) {
     const MOST_SWEEPS: usize = 8;
     let (mut a, mut axes) = (*matrix, Mat3::identity());

@@ -1,10 +1,10 @@
 //! The kernels of a call, prepared once and evaluated together.
 //!
-//! Nodes are shared between requests and worked on in groups of [`LANES`], so that a gap, its reciprocal or logarithm and
-//! the geometry of a node are computed once, and loops over the lanes become vector instructions. Whole exponents are
-//! products of d^−1, d^−2, d^−4, d^−8, half-integers take one square root more, others are exp(−ν ln d). Nodes at which
-//! every kernel has fallen below [`NEGLIGIBLE`] of its largest value may be left out; [`Integrand::cut`] says from
-//! which gap on.
+//! Nodes are shared between requests and worked on in groups of [`LANES`], so that a gap, its reciprocal or logarithm
+//! and the geometry of a node are computed once, and loops over the lanes become vector instructions. Whole exponents
+//! are products of d^−1, d^−2, d^−4, d^−8, half-integers take one square root more, others are exp(−ν ln d). Nodes at
+//! which every kernel has fallen below [`NEGLIGIBLE`] of its largest value may be left out; [`Integrand::cut`] says
+//! from which gap on.
 
 use super::super::{Kernel, MomentRequest};
 

@@ -1,9 +1,9 @@
 //! A rule around a circle that is made for one call: as in `ring`, with a weight that has singularities of its own.
 //!
-//! The weight |v| of a deformed surface is analytic in θ up to zeros of v·v no nearer to the real axis than iη, at places
-//! that need not be known. The substitution tan(θ/2) = p sc(w) of `ring` carries a zero at θ + iη to the height h(θ) = Im w, and
-//! the trapezoidal rule errs by e^(−2πh/step) there, weighted with what the kernel has fallen to at θ. The frequency
-//! 2π/step is the largest that any θ asks for. Near the low end and far from it
+//! The weight |v| of a deformed surface is analytic in θ up to zeros of v·v no nearer to the real axis than iη, at
+//! places that need not be known. The substitution tan(θ/2) = p sc(w) of `ring` carries a zero at θ + iη to the height
+//! h(θ) = Im w, and the trapezoidal rule errs by e^(−2πh/step) there, weighted with what the kernel has fallen to at θ.
+//! The frequency 2π/step is the largest that any θ asks for. Near the low end and far from it
 //!
 //!   sc(w) ≈ sinh w:         h ≈ cos(θ/2) Im asinh(tan(ζ/2)/p),   ζ = θ + iη,
 //!   p sc(w) ≈ csch(K − w):  h ≈ sin(θ/2)/√(p² cos²(θ/2) + sin²(θ/2)) |Im asinh(cot(ζ/2))|.
@@ -84,8 +84,8 @@ impl OwnRing {
 
 /// The points of a rule, from both ends to the middle: compiled for each instruction set.
 ///
-/// At u from the end, sn(K − u) = cn/dn, cn(K − u) = p sn/dn and dn(K − u) = p/dn, so that cot(θ/2) = sn/cn: both halves
-/// follow from the functions on 0 ≤ u ≤ K/2, over which they keep their digits.
+/// At u from the end, sn(K − u) = cn/dn, cn(K − u) = p sn/dn and dn(K − u) = p/dn, so that cot(θ/2) = sn/cn: both
+/// halves follow from the functions on 0 ≤ u ≤ K/2, over which they keep their digits.
 struct Fill<'a> {
     squared: f64,
     step: f64,

@@ -1,12 +1,13 @@
 //! Moments over parallels of an ellipsoid, [`LANES`] of them at a time.
 //!
-//! On the parallel s = z f + r (cos φ e₁ + sin φ e₂), z = cos θ, r = sin θ, the squared area element is a quadratic form,
+//! On the parallel s = z f + r (cos φ e₁ + sin φ e₂), z = cos θ, r = sin θ, the squared area element is a quadratic
+//! form,
 //!
 //!   |B s|² = E(φ) + O(φ),   E = z²q₃₃ + r²(q₁₁c² + 2q₁₂cs + q₂₂s²),   O = 2zr(q₁₃c + q₂₃s),
 //!
-//! and φ + π changes the sign of O only: one pass over half a circle gives both halves. The parallel at π − θ is the image
-//! of that at θ under s ↦ −s, which leaves |B s| alone, so that its moments are the same but for the sign of the odd ones.
-//! The trapezoidal rule in φ converges like e^(−Nη), η the distance of the nearest zero of |B s|².
+//! and φ + π changes the sign of O only: one pass over half a circle gives both halves. The parallel at π − θ is the
+//! image of that at θ under s ↦ −s, which leaves |B s| alone, so that its moments are the same but for the sign of the
+//! odd ones. The trapezoidal rule in φ converges like e^(−Nη), η the distance of the nearest zero of |B s|².
 
 use std::f64::consts::PI;
 

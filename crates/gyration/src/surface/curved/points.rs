@@ -1,7 +1,7 @@
 //! Sums over points of a surface: for patches whose weight varies with both parameters.
 //!
-//! Points are gathered in groups of [`LANES`], kernels and products of components are computed together, and the sums run
-//! lane by lane in a fixed order.
+//! Points are gathered in groups of [`LANES`], kernels and products of components are computed together, and the sums
+//! run lane by lane in a fixed order.
 
 use super::super::Moments;
 use super::integrand::{Integrand, LANES, Lane, accumulate};

@@ -7,9 +7,9 @@
 //!
 //! maps the strip |Im w| < K'(k) onto the θ-cylinder slit from ±iη to ±i∞, so that the trapezoidal rule in w, which is
 //! periodic with period 2K, converges like exp(−2πK'/step) whatever the singularity: the number of points grows only
-//! like K ≈ ln(4/p). It does so too with any smaller p, whose slit is longer, so that rules are kept for p² = P₀ 2^−i. The
-//! integrand must be even in θ; nodes cover 0 ≤ θ ≤ π and weights count both halves.
-//! Source of the idea: N. Hale and T. W. Tee, SIAM J. Sci. Comput. 31 (2009) 3195, conformal maps to slit domains.
+//! like K ≈ ln(4/p). It does so too with any smaller p, whose slit is longer, so that rules are kept for p² = P₀ 2^−i.
+//! The integrand must be even in θ; nodes cover 0 ≤ θ ≤ π and weights count both halves. Source of the idea: N. Hale
+//! and T. W. Tee, SIAM J. Sci. Comput. 31 (2009) 3195, conformal maps to slit domains.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::OnceLock;
@@ -105,7 +105,8 @@ impl Rings {
 fn row(squared: f64, frequency: f64, degree: f64) -> Vec<RingChunk> {
     let (p, modulus) = (squared.sqrt(), 1.0 - squared);
     let (quarter, height) = (FRAC_PI_2 / mean(p), FRAC_PI_2 / mean(modulus.sqrt()));
-    // The singularities lie at the height K' ≥ π/2; powers of cos θ shift harmonics by their degree where the gap hardly varies.
+    // The singularities lie at the height K' ≥ π/2; powers of cos θ shift harmonics by their degree where the gap
+    // hardly varies.
     let wanted = frequency * FRAC_PI_2 / height + 2.0 * degree * p;
     let intervals = (quarter * wanted / TAU).ceil().max(1.0) as usize + 1;
     let step = quarter / intervals as f64;
@@ -141,8 +142,8 @@ fn row(squared: f64, frequency: f64, degree: f64) -> Vec<RingChunk> {
 
 /// The frequency 2π/step that brings the rule's relative error down to some 1e-11, for K' = π/2.
 ///
-/// A trapezoidal rule errs by the Fourier coefficient at that frequency. For p → 0 the integrand tends to sechⁿ w,
-/// n = 2ν − 1, whose coefficient is |Γ((n+iω)/2)|²/Γ(n/2)²; the fit solves it for the error.
+/// A trapezoidal rule errs by the Fourier coefficient at that frequency. For p → 0 the integrand tends to sechⁿ w, n =
+/// 2ν − 1, whose coefficient is |Γ((n+iω)/2)|²/Γ(n/2)²; the fit solves it for the error.
 pub(super) fn frequency(demand: &Demand) -> f64 {
     let degree = demand.degree as f64;
     let order = (2.0 * demand.sharpest - 1.0).max(2.0 * degree + 1.0 - 2.0 * demand.mildest).max(1.0);

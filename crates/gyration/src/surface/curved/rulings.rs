@@ -1,13 +1,13 @@
 //! Walls made of straight lines: one ruling for each node of a ring, several of them at once in lanes.
 //!
-//! Along a ruling the gap is affine, so that L_j = ∫ κ t^j dt, t from 0 to 1, has a closed form (`power_lanes`). What the moments
-//! of a wall need of the whole ring is
+//! Along a ruling the gap is affine, so that L_j = ∫ κ t^j dt, t from 0 to 1, has a closed form (`power_lanes`). What
+//! the moments of a wall need of the whole ring is
 //!
 //!   Σ w T L_j,   T = 1, c, c², s², c³, c s²,   c = cos φ, s = sin φ,
 //!
-//! with t from the end at which the gap varies (a cylinder, whose rulings all rise alike), or with t^(j + 1 + deg T) and t
-//! from the common end (a cone, whose rulings widen from the apex). Sums run over logical lanes and are folded in a fixed
-//! order, so that every width of registers gives the same bytes.
+//! with t from the end at which the gap varies (a cylinder, whose rulings all rise alike), or with t^(j + 1 + deg T)
+//! and t from the common end (a cone, whose rulings widen from the apex). Sums run over logical lanes and are folded in
+//! a fixed order, so that every width of registers gives the same bytes.
 
 use pulp::{Simd, WithSimd};
 

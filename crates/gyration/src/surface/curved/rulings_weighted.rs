@@ -1,7 +1,8 @@
 //! Rulings of a deformed wall, for several weights at once.
 //!
-//! The integrals L_j along a ruling do not depend on the weight, which is a function of the azimuth: they are found once
-//! and added to the sums of every weight, those with w₊ = ½ (w(φ) + w(−φ)) and those with w₋ sin φ, w₋ = ½ (w(φ) − w(−φ)).
+//! The integrals L_j along a ruling do not depend on the weight, which is a function of the azimuth: they are found
+//! once and added to the sums of every weight, those with w₊ = ½ (w(φ) + w(−φ)) and those with w₋ sin φ, w₋ = ½ (w(φ) −
+//! w(−φ)).
 
 use pulp::{Simd, WithSimd};
 

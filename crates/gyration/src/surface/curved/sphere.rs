@@ -1,12 +1,12 @@
 //! Moments over a sphere.
 //!
-//! Archimedes: the area between two parallel planes is 2πR² du, u = s·c, c = m/|m|, whatever their position. With
-//! X = R s and s = u c + √(1−u²) e(φ), the azimuth averages out, ⟨e⊗e⟩ = ½(I − c⊗c), and only
+//! Archimedes: the area between two parallel planes is 2πR² du, u = s·c, c = m/|m|, whatever their position. With X = R
+//! s and s = u c + √(1−u²) e(φ), the azimuth averages out, ⟨e⊗e⟩ = ½(I − c⊗c), and only
 //!
 //!   U_k = ∫_−1^1 κ(g₀ + R|m| u) u^k du,   k = 0 … 3
 //!
-//! is left:  A₀ = 2πR² U₀,  A₁ = 2πR³ U₁ c,  A₂ = 2πR⁴ [U₂ c⊗c + ½(U₀ − U₂)(I − c⊗c)], and A₃ likewise with U₁, U₃.
-//! The U_k are moments along a segment, u = 2x − 1, in closed form.
+//! is left: A₀ = 2πR² U₀, A₁ = 2πR³ U₁ c, A₂ = 2πR⁴ [U₂ c⊗c + ½(U₀ − U₂)(I − c⊗c)], and A₃ likewise with U₁, U₃. The
+//! U_k are moments along a segment, u = 2x − 1, in closed form.
 
 use std::f64::consts::TAU;
 

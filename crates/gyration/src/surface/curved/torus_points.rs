@@ -1,10 +1,10 @@
 //! Moments over a deformed torus, point by point.
 //!
-//! The weight w(C N) depends on both angles and neither ±φ nor ±θ pair any longer (see `torus` for the angles and for where
-//! the kernel is singular). A zero of v·v, v = C N, is at least as far from a real θ as for the whole form: with the largest and
-//! the smallest singular value of C, tanh η = least/largest. What remains after the integration around the tube is singular
-//! where two zeros meet, that is where C e_ρ × C e_z = cof(C) e_φ has no length: cof(C) has the same ratio of extreme
-//! singular values, so that the same η holds for φ.
+//! The weight w(C N) depends on both angles and neither ±φ nor ±θ pair any longer (see `torus` for the angles and for
+//! where the kernel is singular). A zero of v·v, v = C N, is at least as far from a real θ as for the whole form: with
+//! the largest and the smallest singular value of C, tanh η = least/largest. What remains after the integration around
+//! the tube is singular where two zeros meet, that is where C e_ρ × C e_z = cof(C) e_φ has no length: cof(C) has the
+//! same ratio of extreme singular values, so that the same η holds for φ.
 
 use pulp::{Simd, WithSimd};
 

@@ -1,8 +1,9 @@
 //! Moments over the deformed walls of cylinders and cones.
 //!
-//! The normal is the same all along a ruling, N = n_r (cos φ e_x + sin φ e_y) + n_z e_z, so that a weight w(C N) depends on
-//! the azimuth only and the integrals along rulings are those of the undeformed wall. It is not even in φ: with
-//! w± = ½ (w(φ) ± w(−φ)), w₊ weights what is even in y (the sums of `rulings` as ever), w₋ sin φ what is odd in it,
+//! The normal is the same all along a ruling, N = n_r (cos φ e_x + sin φ e_y) + n_z e_z, so that a weight w(C N)
+//! depends on the azimuth only and the integrals along rulings are those of the undeformed wall. It is not even in φ:
+//! with w± = ½ (w(φ) ± w(−φ)), w₊ weights what is even in y (the sums of `rulings` as ever), w₋ sin φ what is odd in
+//! it,
 //!
 //!   ∫ κ w y x^i z^j … ← Σ w₋ sin φ · T L_j,   T = 1, cos φ, cos²φ, sin²φ.
 

@@ -1,7 +1,7 @@
 //! Weights of a surface element by its current area vector v = cof(P) N.
 //!
-//! A weight is homogeneous of degree one in v and even: |v| = k itself, or k times a product of an even number of components
-//! of the normal m = v/|v|,
+//! A weight is homogeneous of degree one in v and even: |v| = k itself, or k times a product of an even number of
+//! components of the normal m = v/|v|,
 //!
 //!   w(v) = v_a v_b/|v|,   w(v) = v_a v_b v_c v_d/|v|³.
 //!

@@ -1,4 +1,5 @@
-//! The flows about a vibrating sphere, put into the equations by differences, and their tractions summed over the sphere.
+//! The flows about a vibrating sphere, put into the equations by differences, and their tractions summed over the
+//! sphere.
 //!
 //! R = η = 1, ρω = |α|²; complex fields (u, q) at real points. With H = 1/r, G = e^(−α(r−1))/r and F_k = (d/dr /r)^k F:
 //!
@@ -92,7 +93,8 @@ fn laplacian(flow: &dyn Fn(&Vector3<f64>) -> Flow, x: &Vector3<f64>) -> Vector3<
     along(0) + along(1) + along(2)
 }
 
-/// ∫ t ⊗ (1, x) dA over the unit sphere: Gauss's rule of five points in height, trapezoid in azimuth, exact to degree 9.
+/// ∫ t ⊗ (1, x) dA over the unit sphere: Gauss's rule of five points in height, trapezoid in azimuth, exact to
+/// degree 9.
 fn load(flow: &dyn Fn(&Vector3<f64>) -> Flow) -> (Vector3<Scalar>, Matrix3<Scalar>) {
     let heights = [0.0_f64, 0.538_469_310_105_683_1, 0.906_179_845_938_664];
     let weights = [0.568_888_888_888_888_9, 0.478_628_670_499_366_47, 0.236_926_885_056_189_08];
