@@ -87,17 +87,19 @@ position = [0, 0, 0.2]
         let axis = Vec3::from_fn(|_, _| random.normal()).normalize();
         let spin = FASTEST_SPIN * random.uniform() * axis;
         let mut start = self.start.clone();
-        start.bodies[..3].copy_from_slice(&[0.0, 0.0, height]);
-        start.bodies[3..7].copy_from_slice(&quaternion.0);
-        start.bodies[7..10].fill(0.0);
-        start.bodies[10..].copy_from_slice(spin.as_slice());
+        let slots = self.model.slots(0);
+        start.bodies[slots.position()].copy_from_slice(&[0.0, 0.0, height]);
+        start.bodies[slots.attitude()].copy_from_slice(&quaternion.0);
+        start.bodies[slots.velocity()].fill(0.0);
+        start.bodies[slots.rate()].copy_from_slice(spin.as_slice());
         start
     }
 
     /// A drop from 0.2 m without spin, turned by an angle [rad] about an axis.
     pub fn drop(&self, axis: &Vec3, angle: f64) -> State {
         let mut start = self.start.clone();
-        start.bodies[3..7].copy_from_slice(&Quaternion::from_axis_angle(axis, angle).0);
+        let attitude = self.model.slots(0).attitude();
+        start.bodies[attitude].copy_from_slice(&Quaternion::from_axis_angle(axis, angle).0);
         start
     }
 
