@@ -51,7 +51,7 @@ impl View {
     /// |f| of the contacts [N]; none where a pin or another load takes a part of the weight.
     pub fn contact_force(&self, model: &Model, index: usize) -> Option<f64> {
         let body = &model.bodies[index];
-        let alone = |load: Load| if load.is_contact_or_couple() { Ok(()) } else { Err(()) };
+        let alone = |load: Load| if load.pulls() { Err(()) } else { Ok(()) };
         let alone =
             Load::try_each(body, model.fluid.as_ref(), model.applied(index), alone).is_ok() && body.pin.is_none();
         alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())

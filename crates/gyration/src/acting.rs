@@ -58,9 +58,12 @@ impl<'a> Load<'a> {
         Ok(())
     }
 
-    /// Whether its force follows from the motion of the body alone when no other load has one: a contact's does.
-    pub fn is_contact_or_couple(&self) -> bool {
-        matches!(self, Self::Contact(_) | Self::Couple(_))
+    /// Whether it has a force beside those of the contacts.
+    pub fn pulls(&self) -> bool {
+        match self {
+            Self::Contact(_) | Self::Couple(_) => false,
+            Self::Spring(..) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
+        }
     }
 
     /// The works that it may do.

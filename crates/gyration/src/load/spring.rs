@@ -83,10 +83,4 @@ impl SpringLoads {
     pub fn total(&self) -> Loads {
         Loads::at_point(self.force, &self.point)
     }
-
-    /// The change of f and M when placement and velocity change by these increments.
-    pub fn along(&self, placement: &Placement, velocity: &Velocity) -> Loads {
-        let force = self.by_place * placement.place(&self.point) + self.by_velocity * velocity.at(&self.point);
-        Loads::at_point(force, &self.point)
-    }
 }
