@@ -6,29 +6,29 @@
 //! I, and the spin is left alone. Source: `physics.md` §4.
 
 use super::AffineBody;
-use crate::columns::{Columns, Four};
+use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
 
 /// The way in which a pressure pushes, and what it takes to do so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Constraint<F = [f64; 4]> {
     /// Y.
-    pub way: Columns<F>,
+    pub way: SimdMat3<F>,
     /// 1/a.
     pub compliance: f64,
 }
 
-impl<F: Four> Constraint<F> {
+impl<F: F64x4> Constraint<F> {
     /// Of a body where P⁻ᵀ is `across`.
     #[inline(always)]
-    pub fn new(body: &AffineBody, across: &Columns<F>) -> Self {
+    pub fn new(body: &AffineBody, across: &SimdMat3<F>) -> Self {
         let way = body.per_inertia(across);
         Self { way, compliance: 1.0 / way.dot(across) }
     }
 
     /// δ(π V) that takes tr(P̈ P⁻¹) = B·Y from that of a moment B to the one asked for.
     #[inline(always)]
-    pub fn push(&self, moment: &Columns<F>, asked: f64) -> f64 {
+    pub fn push(&self, moment: &SimdMat3<F>, asked: f64) -> f64 {
         (asked - moment.dot(&self.way)) * self.compliance
     }
 }

@@ -9,30 +9,30 @@
 
 use super::mobility::Mobility;
 use super::terms::Entry;
-use crate::columns::{Columns, Four, UNIT};
 use crate::material::ByInvariants;
+use crate::simd::{F64x4, SimdMat3, UNIT};
 
 /// −V δS_e J⁻¹, but for what acts as a pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Elastic {
     /// P.
-    gradient: Columns,
+    gradient: SimdMat3,
     /// 2f₂V P J⁻¹.
-    crossed: Columns,
+    crossed: SimdMat3,
     /// 2f₂V B and J⁻¹.
-    left: Columns,
-    inverse: Columns,
+    left: SimdMat3,
+    inverse: SimdMat3,
     /// −V (2(f₁ + ι₁f₂) I − 2f₂C) J⁻¹.
-    own: Columns,
+    own: SimdMat3,
     /// −4V (f₁₁ + f₂) P J⁻¹.
-    along: Columns,
+    along: SimdMat3,
     /// G_k J⁻¹ and −V Σ f_kl G_l, without f₁₁ and with f₃/J.
-    other: Option<[(Columns, Columns); 3]>,
+    other: Option<[(SimdMat3, SimdMat3); 3]>,
 }
 
 impl Elastic {
     #[inline(always)]
-    pub fn fill<F: Four>(&mut self, volume: f64, (mobility, inverse): (&Mobility, &Columns), at: &ByInvariants<F>) {
+    pub fn fill<F: F64x4>(&mut self, volume: f64, (mobility, inverse): (&Mobility, &SimdMat3), at: &ByInvariants<F>) {
         let ByInvariants { derivatives, p, own, left, .. } = at;
         let ([_, f2, _], f11) = (derivatives.first, derivatives.second[0]);
         let along = mobility.of_moment(p);
@@ -49,10 +49,10 @@ impl Elastic {
 
     /// Of one entry of δP.
     #[inline(always)]
-    pub fn image<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+    pub fn image<F: F64x4>(&self, entry: Entry, registers: F) -> SimdMat3<F> {
         let Self { gradient, crossed, left, inverse, own, along, other } = self;
         let mut image = entry.crossed(gradient, crossed, registers) + entry.straight(left, inverse, registers);
-        image += entry.straight(&Columns(UNIT), own, registers);
+        image += entry.straight(&SimdMat3(UNIT), own, registers);
         image += entry.whole(along, gradient, registers);
         if let Some(other) = other {
             for (way, weight) in other {
@@ -65,7 +65,7 @@ impl Elastic {
 
 /// The terms of the second derivatives but f₁₁, and that of f₃/J.
 #[inline(always)]
-fn other<F: Four>(volume: f64, mobility: &Mobility, at: &ByInvariants<F>) -> [(Columns, Columns); 3] {
+fn other<F: F64x4>(volume: f64, mobility: &Mobility, at: &ByInvariants<F>) -> [(SimdMat3, SimdMat3); 3] {
     let ByInvariants { derivatives, p, second, cofactor, .. } = at;
     let (f3, [_, f12, f13, f22, f23, f33]) = (derivatives.first[2], derivatives.second);
     let first = *p * 2.0;
@@ -75,7 +75,7 @@ fn other<F: Four>(volume: f64, mobility: &Mobility, at: &ByInvariants<F>) -> [(C
         first * f12 + *second * f22 + *cofactor * f23,
         first * f13 + *second * f23 + *cofactor * (f33 + spread),
     ];
-    let way = |way: &Columns<F>| mobility.of_moment(way).kept();
-    let weight = |sum: Columns<F>| (sum * -volume).kept();
+    let way = |way: &SimdMat3<F>| mobility.of_moment(way).kept();
+    let weight = |sum: SimdMat3<F>| (sum * -volume).kept();
     [(way(&first), weight(sums[0])), (way(second), weight(sums[1])), (way(cofactor), weight(sums[2]))]
 }

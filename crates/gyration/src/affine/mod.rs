@@ -25,9 +25,9 @@ pub use slopes::AffineSlopes;
 pub(crate) use terms::Entry;
 pub use viscosity::Viscosity;
 
-use crate::columns::{Columns, Four, Work, dispatch};
 use crate::mass::MassProperties;
 use crate::material::Material;
+use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::Mat3;
 use mobility::Mobility;
 use solution::Solution;
@@ -120,20 +120,20 @@ impl AffineBody {
 
     /// B J⁻¹.
     #[inline(always)]
-    pub(crate) fn per_inertia<F: Four>(&self, moment: &Columns<F>) -> Columns<F> {
+    pub(crate) fn per_inertia<F: F64x4>(&self, moment: &SimdMat3<F>) -> SimdMat3<F> {
         Mobility::of(&self.inverse).of_moment(moment)
     }
 
     /// S_e Pᵀ.
     #[inline(always)]
-    fn elastic_stress<F: Four>(&self, at: &Gyration, registers: F) -> Option<Columns<F>> {
-        let p = || Columns::of(&at.gradient).with(registers);
+    fn elastic_stress<F: F64x4>(&self, at: &Gyration, registers: F) -> Option<SimdMat3<F>> {
+        let p = || SimdMat3::of(&at.gradient).with(registers);
         self.material.as_ref().map(|material| material.kirchhoff_stress_at(&p(), at.volume_ratio))
     }
 
     /// Solves the balance for P̈ and, of an incompressible body, the pressure; `moment` is M [N m].
     pub fn balance(&self, at: &Gyration, moment: &Mat3) -> AffineBalance {
-        dispatch(Balance { body: self, at, moment })
+        dispatch_f64x4(Balance { body: self, at, moment })
     }
 
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.
@@ -149,13 +149,13 @@ impl AffineBody {
     /// τ of the internal friction that acts on L whatever the body does by itself: Newtonian and anisotropic [Pa]; none
     /// without it.
     #[inline(always)]
-    pub(crate) fn medium_stress<F: Four>(&self, at: &Gyration, l: &Columns<F>) -> Option<Columns<F>> {
+    pub(crate) fn medium_stress<F: F64x4>(&self, at: &Gyration, l: &SimdMat3<F>) -> Option<SimdMat3<F>> {
         let mut stress = None;
         if let Some(newtonian) = self.viscosity.newtonian() {
             stress = Some(newtonian.stress_at(at.volume_ratio, l));
         }
         if let Some(friction) = &self.anisotropic {
-            let own = Columns::of(&friction.kirchhoff_stress(at)).with(l.0[0].0);
+            let own = SimdMat3::of(&friction.kirchhoff_stress(at)).with(l.0[0].0);
             stress = Some(if let Some(stress) = stress { stress + own } else { own });
         }
         stress
@@ -179,13 +179,13 @@ struct Balance<'a> {
     moment: &'a Mat3,
 }
 
-impl Work for Balance<'_> {
+impl WithF64x4 for Balance<'_> {
     type Output = AffineBalance;
 
     #[inline(always)]
-    fn run<F: Four>(self, zeros: F) -> AffineBalance {
+    fn run<F: F64x4>(self, zeros: F) -> AffineBalance {
         let Self { body, at, moment } = self;
         let elastic = body.elastic_stress(at, zeros);
-        Solution::new(body, at, elastic, &Columns::of(moment).with(zeros)).balance(body)
+        Solution::new(body, at, elastic, &SimdMat3::of(moment).with(zeros)).balance(body)
     }
 }

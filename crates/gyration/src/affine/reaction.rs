@@ -10,25 +10,25 @@ use super::mobility::Mobility;
 use super::solution::Solution;
 use super::terms::Entry;
 use super::{AffineBody, Gyration};
-use crate::columns::{Columns, Four, UNIT};
+use crate::simd::{F64x4, SimdMat3, UNIT};
 
 /// The matrices of these terms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Reaction {
     /// P⁻ᵀ.
-    pub across: Columns,
+    pub across: SimdMat3,
     /// Y.
-    pub way: Columns,
+    pub way: SimdMat3,
     /// ½Va (FL)ᵀ J⁻¹ − (πV) Y, with what of the elastic stress acts as a pressure.
-    pressed: Columns,
+    pressed: SimdMat3,
     /// V τ P⁻ᵀ, the anisotropic part excepted.
-    turned: Columns,
+    turned: SimdMat3,
     /// L.
-    l: Columns,
+    l: SimdMat3,
     /// ½Va G J⁻¹.
-    metric: Columns,
+    metric: SimdMat3,
     /// −½Va Y.
-    resisting: Columns,
+    resisting: SimdMat3,
     newtonian: Option<Newtonian>,
 }
 
@@ -36,23 +36,23 @@ pub(super) struct Reaction {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Newtonian {
     /// −V τ_N P⁻ᵀ J⁻¹.
-    grown: Columns,
+    grown: SimdMat3,
     /// V c Y.
-    spread: Columns,
+    spread: SimdMat3,
     /// (FL)ᵀ.
-    carried: Columns,
+    carried: SimdMat3,
 }
 
 impl Reaction {
     /// Of a body at its solution, `push` being πV, and (FL)ᵀ.
     #[inline(always)]
-    pub fn fill<F: Four>(
+    pub fn fill<F: F64x4>(
         &mut self,
         body: &AffineBody,
         at: &Gyration,
         (mobility, solution): (&Mobility, &Solution<F>),
         push: f64,
-        carried: &Columns<F>,
+        carried: &SimdMat3<F>,
     ) {
         let Solution { across, l, constraint, .. } = solution;
         let way = constraint.as_ref().map_or_else(|| mobility.of_moment(across), |constraint| constraint.way);
@@ -64,7 +64,7 @@ impl Reaction {
         self.resisting = (way * -half).kept();
         self.l = l.kept();
         // G J⁻¹ = F Y.
-        self.metric = (Columns::of(&at.inverse).with(across.0[0].0).times(&way) * half).kept();
+        self.metric = (SimdMat3::of(&at.inverse).with(across.0[0].0).times(&way) * half).kept();
         self.turned = (body.viscosity.stress_at(at.volume_ratio, l).times(across) * body.volume).kept();
         self.newtonian = body.viscosity.newtonian().map(|part| {
             let grown = part.stress_at(at.volume_ratio, l).times(across) * -body.volume;
@@ -75,7 +75,7 @@ impl Reaction {
 
     /// Of one entry of δP.
     #[inline(always)]
-    pub fn by_gradient<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+    pub fn by_gradient<F: F64x4>(&self, entry: Entry, registers: F) -> SimdMat3<F> {
         let Self { across, way, pressed, turned, l, metric, newtonian, .. } = self;
         let mut image = entry.crossed(across, pressed, registers) + entry.crossed(turned, way, registers);
         image += entry.straight(l, metric, registers);
@@ -87,10 +87,10 @@ impl Reaction {
 
     /// Of one entry of δṖ.
     #[inline(always)]
-    pub fn by_rate<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+    pub fn by_rate<F: F64x4>(&self, entry: Entry, registers: F) -> SimdMat3<F> {
         let Self { across, resisting, metric, newtonian, .. } = self;
         let mut image = entry.crossed(across, resisting, registers);
-        image = image - entry.straight(&Columns(UNIT), metric, registers);
+        image = image - entry.straight(&SimdMat3(UNIT), metric, registers);
         if let Some(Newtonian { spread, .. }) = newtonian {
             image = image - entry.whole(spread, across, registers);
         }

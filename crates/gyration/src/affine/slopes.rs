@@ -15,8 +15,8 @@ use super::reaction::Reaction;
 use super::solution::Solution;
 use super::terms::Entry;
 use super::{AffineBody, Gyration};
-use crate::columns::{Columns, Four};
 use crate::material::{ByInvariants, ByPrincipal};
+use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
 
 /// The derivative of the balance at P, Ṗ, M: what its columns are made of.
@@ -31,9 +31,9 @@ pub struct AffineSlopes<'a> {
     /// 1/a, of an incompressible body.
     compliance: Option<f64>,
     /// (F P̈ F − 2FLL)ᵀ.
-    asked_by_gradient: Columns,
+    asked_by_gradient: SimdMat3,
     /// 2(FL)ᵀ.
-    asked_by_rate: Columns,
+    asked_by_rate: SimdMat3,
 }
 
 impl AffineBody {
@@ -44,7 +44,7 @@ impl AffineBody {
 
     /// The same, computed in registers of this kind.
     #[inline(always)]
-    pub(crate) fn slopes_in<'a, F: Four>(&'a self, zeros: F, at: &'a Gyration, moment: &Mat3) -> AffineSlopes<'a> {
+    pub(crate) fn slopes_in<'a, F: F64x4>(&'a self, zeros: F, at: &'a Gyration, moment: &Mat3) -> AffineSlopes<'a> {
         // The matrices are written where they stay, one after the other: built of parts, they would be moved about.
         let mut slopes = AffineSlopes {
             body: self,
@@ -54,10 +54,10 @@ impl AffineBody {
             principal: None,
             anisotropic: self.anisotropic.as_ref().map(|friction| FrictionSlopes::new(friction, at)),
             compliance: None,
-            asked_by_gradient: Columns::default(),
-            asked_by_rate: Columns::default(),
+            asked_by_gradient: SimdMat3::default(),
+            asked_by_rate: SimdMat3::default(),
         };
-        let solution = Solution::new(self, at, self.elastic_stress(at, zeros), &Columns::of(moment).with(zeros));
+        let solution = Solution::new(self, at, self.elastic_stress(at, zeros), &SimdMat3::of(moment).with(zeros));
         let Solution { across, l, acceleration, .. } = &solution;
         let lt = l.transpose();
         let carried = lt.times(across);
@@ -75,80 +75,85 @@ impl AffineBody {
 impl AffineSlopes<'_> {
     /// Fills the elastic part, and gives what of V S_e Pᵀ acts as a pressure.
     #[inline(always)]
-    fn fill_elastic<F: Four>(&mut self, at: &Gyration, zeros: F) -> f64 {
+    fn fill_elastic<F: F64x4>(&mut self, at: &Gyration, zeros: F) -> f64 {
         let Some(material) = &self.body.material else { return 0.0 };
-        let p = Columns::of(&at.gradient);
+        let p = SimdMat3::of(&at.gradient);
         self.principal = material.by_principal(&p);
         if self.principal.is_some() {
             return 0.0;
         }
         let kept = ByInvariants::new(&p.with(zeros), material);
         let volume = self.body.volume;
-        self.elastic.fill(volume, (&self.mobility, &Columns::of(&self.body.inverse)), &kept);
+        self.elastic.fill(volume, (&self.mobility, &SimdMat3::of(&self.body.inverse)), &kept);
         volume * at.volume_ratio * kept.derivatives.first[2]
     }
 
     /// ∂B/∂P_jB, M and the pressure kept, with the change of the reaction πV P⁻ᵀ.
-    pub(crate) fn by_gradient(&self, j: usize, b: usize) -> Columns {
-        self.along_places(Entry { j, b }, [0.0; 4]).times(&Columns::of(&self.body.euler_tensor))
+    pub(crate) fn by_gradient(&self, j: usize, b: usize) -> SimdMat3 {
+        self.along_places(Entry { j, b }, [0.0; 4]).times(&SimdMat3::of(&self.body.euler_tensor))
     }
 
     /// ∂B/∂Ṗ_jB.
-    pub(crate) fn by_rate(&self, j: usize, b: usize) -> Columns {
-        self.along_rates(Entry { j, b }, [0.0; 4]).times(&Columns::of(&self.body.euler_tensor))
+    pub(crate) fn by_rate(&self, j: usize, b: usize) -> SimdMat3 {
+        self.along_rates(Entry { j, b }, [0.0; 4]).times(&SimdMat3::of(&self.body.euler_tensor))
     }
 
     /// ∂B/∂P_jB J⁻¹.
     #[inline(always)]
-    fn along_places<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+    fn along_places<F: F64x4>(&self, entry: Entry, registers: F) -> SimdMat3<F> {
         let Entry { j, b } = entry;
         let mut image = self.reaction.by_gradient(entry, registers) + self.elastic.image(entry, registers);
         if let Some(principal) = &self.principal {
             image = image - self.stressed(&principal.slope(j, b)).with(registers);
         }
         if let Some(friction) = &self.anisotropic {
-            image = image - self.stressed(&Columns::of(&friction.by_gradient(j, b))).with(registers);
+            image = image - self.stressed(&SimdMat3::of(&friction.by_gradient(j, b))).with(registers);
         }
         image
     }
 
     /// ∂B/∂Ṗ_jB J⁻¹.
     #[inline(always)]
-    fn along_rates<F: Four>(&self, entry: Entry, registers: F) -> Columns<F> {
+    fn along_rates<F: F64x4>(&self, entry: Entry, registers: F) -> SimdMat3<F> {
         let image = self.reaction.by_rate(entry, registers);
         let Some(friction) = &self.anisotropic else { return image };
-        image - self.stressed(&Columns::of(&friction.by_rate(entry.j, entry.b))).with(registers)
+        image - self.stressed(&SimdMat3::of(&friction.by_rate(entry.j, entry.b))).with(registers)
     }
 
     /// V S J⁻¹.
     #[inline(always)]
-    fn stressed(&self, stress: &Columns) -> Columns {
+    fn stressed(&self, stress: &SimdMat3) -> SimdMat3 {
         self.mobility.of_moment(&(*stress * self.body.volume))
     }
 
     /// δP̈ along δP_jB, by which M changes by δM, if it does.
     #[inline(always)]
-    pub(crate) fn along_gradient<F: Four>(&self, entry: Entry, moment: Option<&Columns>, registers: F) -> Columns<F> {
+    pub(crate) fn along_gradient<F: F64x4>(
+        &self,
+        entry: Entry,
+        moment: Option<&SimdMat3>,
+        registers: F,
+    ) -> SimdMat3<F> {
         let free = self.moved(self.along_places(entry, registers), moment);
         self.constrained(free, self.asked_by_gradient.at(entry.j, entry.b)).0
     }
 
     /// δP̈ along δṖ_jB, by which M changes by δM, if it does.
     #[inline(always)]
-    pub(crate) fn along_rate<F: Four>(&self, entry: Entry, moment: Option<&Columns>, registers: F) -> Columns<F> {
+    pub(crate) fn along_rate<F: F64x4>(&self, entry: Entry, moment: Option<&SimdMat3>, registers: F) -> SimdMat3<F> {
         let free = self.moved(self.along_rates(entry, registers), moment);
         self.constrained(free, self.asked_by_rate.at(entry.j, entry.b)).0
     }
 
     /// δP̈ where M alone changes.
     #[inline(always)]
-    pub(crate) fn along_moment<F: Four>(&self, moment: &Columns, registers: F) -> Columns<F> {
+    pub(crate) fn along_moment<F: F64x4>(&self, moment: &SimdMat3, registers: F) -> SimdMat3<F> {
         self.constrained(self.mobility.of_moment(&moment.with(registers)), 0.0).0
     }
 
     /// With δM J⁻¹.
     #[inline(always)]
-    fn moved<F: Four>(&self, change: Columns<F>, moment: Option<&Columns>) -> Columns<F> {
+    fn moved<F: F64x4>(&self, change: SimdMat3<F>, moment: Option<&SimdMat3>) -> SimdMat3<F> {
         match moment {
             Some(moment) => change + self.mobility.of_moment(&moment.with(change.0[0].0)),
             None => change,
@@ -158,7 +163,7 @@ impl AffineSlopes<'_> {
     /// The changes of P̈ and of the pressure (0 without one) with those of P, Ṗ and M.
     pub fn apply(&self, dp: &Mat3, drate: &Mat3, dmoment: &Mat3) -> (Mat3, f64) {
         let zeros = [0.0; 4];
-        let (mut change, mut asked) = (self.mobility.of_moment(&Columns::of(dmoment)), 0.0);
+        let (mut change, mut asked) = (self.mobility.of_moment(&SimdMat3::of(dmoment)), 0.0);
         for (j, b) in (0..9).map(|place| (place % 3, place / 3)) {
             let (entry, dp, drate) = (Entry { j, b }, dp[(j, b)], drate[(j, b)]);
             change += self.along_places(entry, zeros) * dp + self.along_rates(entry, zeros) * drate;
@@ -170,7 +175,7 @@ impl AffineSlopes<'_> {
 
     /// δP̈ of δB J⁻¹, where tr(δP̈ F) has to be as asked, and δ(πV).
     #[inline(always)]
-    fn constrained<F: Four>(&self, free: Columns<F>, asked: f64) -> (Columns<F>, f64) {
+    fn constrained<F: F64x4>(&self, free: SimdMat3<F>, asked: f64) -> (SimdMat3<F>, f64) {
         let Some(compliance) = self.compliance else { return (free, 0.0) };
         let registers = free.0[0].0;
         let push = (asked - free.dot(&self.reaction.across.with(registers))) * compliance;
@@ -181,28 +186,28 @@ impl AffineSlopes<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::columns::{Work, dispatch};
     use crate::mass::MassProperties;
     use crate::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog};
+    use crate::simd::{WithF64x4, dispatch_f64x4};
     use crate::tensor::Vec3;
 
     /// P̈ and its derivatives by all entries of P, Ṗ and M, bit by bit.
     struct Bits<'a>(&'a AffineBody, &'a Gyration, &'a Mat3);
 
-    impl Work for Bits<'_> {
+    impl WithF64x4 for Bits<'_> {
         type Output = Vec<[u64; 9]>;
 
-        fn run<F: Four>(self, zeros: F) -> Self::Output {
+        fn run<F: F64x4>(self, zeros: F) -> Self::Output {
             let Self(body, at, moment) = self;
             let elastic = body.elastic_stress(at, zeros);
-            let solution = Solution::new(body, at, elastic, &Columns::of(moment).with(zeros));
-            let (slopes, moment) = (body.slopes_in(zeros, at, moment), Columns::of(moment));
+            let solution = Solution::new(body, at, elastic, &SimdMat3::of(moment).with(zeros));
+            let (slopes, moment) = (body.slopes_in(zeros, at, moment), SimdMat3::of(moment));
             let mut columns = vec![solution.acceleration, solution.stress, slopes.along_moment(&moment, zeros)];
             for entry in (0..9).map(|place| Entry { j: place % 3, b: place / 3 }) {
                 columns.push(slopes.along_gradient(entry, None, zeros));
                 columns.push(slopes.along_rate(entry, Some(&moment), zeros));
             }
-            let bits = |column: &Columns<F>| {
+            let bits = |column: &SimdMat3<F>| {
                 let mut numbers = [0.0; 9];
                 column.write(&mut numbers);
                 numbers.map(f64::to_bits)
@@ -232,7 +237,7 @@ mod tests {
                 let body = AffineBody::new(&mass, None, Some(material.clone()), viscosity).unwrap();
                 let at = Gyration::of(&p, &rate).unwrap();
                 let plain = Bits(&body, &at, &moment).run([0.0; 4]);
-                assert_eq!(dispatch(Bits(&body, &at, &moment)), plain, "{material:?}");
+                assert_eq!(dispatch_f64x4(Bits(&body, &at, &moment)), plain, "{material:?}");
             }
         }
     }

@@ -9,36 +9,36 @@
 use super::constraint::Constraint;
 use super::mobility::Mobility;
 use super::{AffineBalance, AffineBody, Gyration};
-use crate::columns::{Columns, Four};
+use crate::simd::{F64x4, SimdMat3};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Solution<F> {
     pub mobility: Mobility,
     /// P⁻ᵀ.
-    pub across: Columns<F>,
+    pub across: SimdMat3<F>,
     /// L.
-    pub l: Columns<F>,
+    pub l: SimdMat3<F>,
     /// τ.
-    pub kirchhoff: Columns<F>,
+    pub kirchhoff: SimdMat3<F>,
     /// S.
-    pub stress: Columns<F>,
+    pub stress: SimdMat3<F>,
     /// P̈.
-    pub acceleration: Columns<F>,
+    pub acceleration: SimdMat3<F>,
     pub constraint: Option<Constraint<F>>,
     /// π V, zero without a constraint.
     pub push: f64,
 }
 
-impl<F: Four> Solution<F> {
+impl<F: F64x4> Solution<F> {
     /// Of a body whose elastic Kirchhoff stress is S_e Pᵀ.
     #[inline(always)]
-    pub fn new(body: &AffineBody, at: &Gyration, elastic: Option<Columns<F>>, moment: &Columns<F>) -> Self {
+    pub fn new(body: &AffineBody, at: &Gyration, elastic: Option<SimdMat3<F>>, moment: &SimdMat3<F>) -> Self {
         let registers = moment.0[0].0;
-        let across = Columns::of(&at.inverse).transpose().with(registers);
-        let l = Columns::of(&at.velocity_gradient).with(registers);
+        let across = SimdMat3::of(&at.inverse).transpose().with(registers);
+        let l = SimdMat3::of(&at.velocity_gradient).with(registers);
         let mut kirchhoff = body.viscosity.stress_at(at.volume_ratio, &l);
         if let Some(friction) = &body.anisotropic {
-            kirchhoff += Columns::of(&friction.kirchhoff_stress(at)).with(registers);
+            kirchhoff += SimdMat3::of(&friction.kirchhoff_stress(at)).with(registers);
         }
         let mobility = Mobility::of(&body.inverse);
         let constraint = body.is_incompressible().then(|| Constraint::new(body, &across));

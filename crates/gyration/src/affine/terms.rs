@@ -5,7 +5,7 @@
 //! An image takes nine products. The matrices stand in memory, from where any of their numbers can be fetched into all
 //! places of a register.
 
-use crate::columns::{Column, Columns, Four};
+use crate::simd::{F64x4, SimdMat3, SimdVec3};
 
 /// Where the one of δP = e_j ⊗ e_B stands.
 #[derive(Debug, Clone, Copy)]
@@ -17,28 +17,28 @@ pub(crate) struct Entry {
 impl Entry {
     /// X δPᵀ Y.
     #[inline(always)]
-    pub fn crossed<F: Four>(self, x: &Columns, y: &Columns, registers: F) -> Columns<F> {
+    pub fn crossed<F: F64x4>(self, x: &SimdMat3, y: &SimdMat3, registers: F) -> SimdMat3<F> {
         let Self { j, b } = self;
         dyad(&x.0[b], [y.at(j, 0), y.at(j, 1), y.at(j, 2)], registers)
     }
 
     /// U δP V.
     #[inline(always)]
-    pub fn straight<F: Four>(self, u: &Columns, v: &Columns, registers: F) -> Columns<F> {
+    pub fn straight<F: F64x4>(self, u: &SimdMat3, v: &SimdMat3, registers: F) -> SimdMat3<F> {
         let Self { j, b } = self;
         dyad(&u.0[j], [v.at(b, 0), v.at(b, 1), v.at(b, 2)], registers)
     }
 
     /// W (Z·δP).
     #[inline(always)]
-    pub fn whole<F: Four>(self, w: &Columns, z: &Columns, registers: F) -> Columns<F> {
+    pub fn whole<F: F64x4>(self, w: &SimdMat3, z: &SimdMat3, registers: F) -> SimdMat3<F> {
         w.with(registers) * z.at(self.j, self.b)
     }
 }
 
 /// a ⊗ (x, y, z).
 #[inline(always)]
-fn dyad<F: Four>(a: &Column, [x, y, z]: [f64; 3], registers: F) -> Columns<F> {
-    let a = Column(registers.like(a.0));
-    Columns([a * x, a * y, a * z])
+fn dyad<F: F64x4>(a: &SimdVec3, [x, y, z]: [f64; 3], registers: F) -> SimdMat3<F> {
+    let a = SimdVec3(registers.like(a.0));
+    SimdMat3([a * x, a * y, a * z])
 }

@@ -6,7 +6,7 @@
 //! is Newtonian, of the Cauchy stress (Sławianowski 4.13 with the sign and the volume that dissipate).
 
 use super::Gyration;
-use crate::columns::{Columns, Four};
+use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
 
 /// Coefficients of internal friction.
@@ -29,12 +29,12 @@ impl Viscosity {
 
     /// τ [Pa].
     pub fn kirchhoff_stress(&self, at: &Gyration) -> Mat3 {
-        self.stress_at(at.volume_ratio, &Columns::of(&at.velocity_gradient)).matrix()
+        self.stress_at(at.volume_ratio, &SimdMat3::of(&at.velocity_gradient)).matrix()
     }
 
     /// τ at det P and L.
     #[inline(always)]
-    pub(super) fn stress_at<F: Four>(&self, volume_ratio: f64, l: &Columns<F>) -> Columns<F> {
+    pub(super) fn stress_at<F: F64x4>(&self, volume_ratio: f64, l: &SimdMat3<F>) -> SimdMat3<F> {
         let (a, c) = self.coefficients(volume_ratio);
         ((*l + l.transpose()) * (0.5 * a)).plus_unit(c * l.trace())
     }

@@ -10,25 +10,25 @@
 //! the derivative of half the dissipation. tr A(V) = (μ_γ + μ) tr V, so that a pressure changes tr V alone.
 
 use super::Spin;
-use crate::columns::{Column, Columns, Four};
 use crate::material::Spectrum;
+use crate::simd::{F64x4, SimdMat3, SimdVec3};
 
 /// A⁻¹ at an elastic gradient, in its axes: V = X ∘ R + Y ∘ Rᵀ, entry by entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mobility {
     /// X, with 1/(μ_γ + μ) on its diagonal.
-    pub own: Columns,
+    pub own: SimdMat3,
     /// Y, zero on its diagonal.
-    pub other: Columns,
+    pub other: SimdMat3,
 }
 
 /// The principal axes and values of C = FᵀF.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axes {
     /// N.
-    pub axes: Columns,
+    pub axes: SimdMat3,
     /// F N = F⁻ᵀ N diag(c).
-    pub carried: Columns,
+    pub carried: SimdMat3,
     /// c and 1/c.
     pub values: [f64; 3],
     pub inverses: [f64; 3],
@@ -37,13 +37,13 @@ pub(super) struct Axes {
 impl Axes {
     /// Of an elastic gradient, where a viscosity needs them.
     #[inline(always)]
-    pub fn of(elastic: &Columns, viscosity: f64) -> Option<Self> {
+    pub fn of(elastic: &SimdMat3, viscosity: f64) -> Option<Self> {
         if viscosity > 0.0 { Some(Self::at(elastic)) } else { None }
     }
 
     /// Of an elastic gradient.
     #[inline(always)]
-    pub fn at(elastic: &Columns) -> Self {
+    pub fn at(elastic: &SimdMat3) -> Self {
         let Spectrum { values, axes, carried } = Spectrum::of(elastic);
         let [x, y, z] = values;
         Self { axes, carried, values, inverses: [1.0 / x, 1.0 / y, 1.0 / z] }
@@ -51,11 +51,11 @@ impl Axes {
 
     /// All c_i/c_j.
     #[inline(always)]
-    pub fn ratios(&self) -> Columns {
+    pub fn ratios(&self) -> SimdMat3 {
         let [x, y, z] = self.values;
         let [a, b, c] = self.inverses;
-        let values = Column([x, y, z, 0.0]);
-        Columns([values * a, values * b, values * c])
+        let values = SimdVec3([x, y, z, 0.0]);
+        SimdMat3([values * a, values * b, values * c])
     }
 
     /// c_i/c_j.
@@ -88,8 +88,8 @@ impl Mobility {
         };
         let ([a, b, x], [c, d, y], [e, f, z]) = (solve(0, 1), solve(0, 2), solve(1, 2));
         Self {
-            own: Columns([Column([s, b, d, 0.0]), Column([a, s, f, 0.0]), Column([c, e, s, 0.0])]),
-            other: Columns([Column([0.0, x, y, 0.0]), Column([x, 0.0, z, 0.0]), Column([y, z, 0.0, 0.0])]),
+            own: SimdMat3([SimdVec3([s, b, d, 0.0]), SimdVec3([a, s, f, 0.0]), SimdVec3([c, e, s, 0.0])]),
+            other: SimdMat3([SimdVec3([0.0, x, y, 0.0]), SimdVec3([x, 0.0, z, 0.0]), SimdVec3([y, z, 0.0, 0.0])]),
         }
     }
 
@@ -101,7 +101,7 @@ impl Mobility {
     pub fn rest(&self, [gamma, viscosity]: [f64; 2], axes: &Axes) -> Self {
         let (r, part) = (axes.ratios(), 0.25 * viscosity);
         // 1/ρ of (i, j) is ρ of (j, i).
-        let (mut own, mut other): (Columns, Columns) = (self.own * gamma, Columns::default());
+        let (mut own, mut other): (SimdMat3, SimdMat3) = (self.own * gamma, SimdMat3::default());
         for (i, j) in [(0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)] {
             let s = 2.0 * self.own.at(i, j);
             own.0[j].0[i] = s * (gamma + part * (r.at(j, i) + 1.0));
@@ -113,19 +113,19 @@ impl Mobility {
     /// Where V does not answer: V = 0.
     #[inline(always)]
     pub fn none() -> Self {
-        Self { own: Columns::default(), other: Columns::default() }
+        Self { own: SimdMat3::default(), other: SimdMat3::default() }
     }
 
     /// What is left of R there: all of it.
     #[inline(always)]
     pub fn all() -> Self {
-        let ones = Column([1.0, 1.0, 1.0, 0.0]);
-        Self { own: Columns([ones; 3]), other: Columns::default() }
+        let ones = SimdVec3([1.0, 1.0, 1.0, 0.0]);
+        Self { own: SimdMat3([ones; 3]), other: SimdMat3::default() }
     }
 
     /// A⁻¹(R), or its symmetric kin; R and the result are in the axes N.
     #[inline(always)]
-    pub fn velocity<F: Four>(&self, stress: &Columns<F>) -> Columns<F> {
+    pub fn velocity<F: F64x4>(&self, stress: &SimdMat3<F>) -> SimdMat3<F> {
         let registers = stress.0[0].0;
         let (own, other) = (self.own.with(registers), self.other.with(registers));
         own.entrywise(stress) + other.entrywise(&stress.transpose())
@@ -150,10 +150,10 @@ mod tests {
         for f in [f, Mat3::identity(), Mat3::from_diagonal(&[1.0, 1.0 + 1e-9, 2.0].into())] {
             for coefficients in [[0.7, 0.0], [0.7, 2.0], [0.01, 30.0]] {
                 let solve = |spin| {
-                    let axes = Axes::of(&Columns::of(&f), coefficients[1]);
+                    let axes = Axes::of(&SimdMat3::of(&f), coefficients[1]);
                     let mobility = Mobility::new(coefficients, spin, axes.as_ref());
                     let n = axes.map_or(Mat3::identity(), |axes| axes.axes.matrix());
-                    n * mobility.velocity(&Columns::of(&(n.transpose() * r * n))).matrix() * n.transpose()
+                    n * mobility.velocity(&SimdMat3::of(&(n.transpose() * r * n))).matrix() * n.transpose()
                 };
                 let v = solve(Spin::Full);
                 let off = (resistance(coefficients, &f, &v) - r).norm();

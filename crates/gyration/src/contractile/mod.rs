@@ -9,13 +9,13 @@
 //! the body moves, and takes no part in the second line. Source: Tatone, *Soft and rigid impact*; `physics.md` §5 and
 //! §10.
 
+mod batch;
 mod decomposition;
 mod feedback;
 mod mobility;
 mod restore;
 mod slopes;
 mod solution;
-mod triple;
 mod turned;
 mod vectors;
 
@@ -25,8 +25,8 @@ pub use restore::Restored;
 pub(crate) use slopes::ContractileSlopes;
 
 use crate::affine::{AffineBody, Gyration};
-use crate::columns::{Columns, Four, Work, dispatch};
 use crate::signal::{Jet, Signal};
+use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::Mat3;
 use solution::Solution;
 
@@ -149,20 +149,20 @@ struct Balance<'a, 'b> {
     moment: &'b Mat3,
 }
 
-impl Work for Balance<'_, '_> {
+impl WithF64x4 for Balance<'_, '_> {
     type Output = ContractileBalance;
 
     #[inline(always)]
-    fn run<F: Four>(self, zeros: F) -> ContractileBalance {
+    fn run<F: F64x4>(self, zeros: F) -> ContractileBalance {
         let Self { pull, command, moment } = self;
-        Solution::new(pull, command, &Columns::of(moment).with(zeros)).balance(pull, command)
+        Solution::new(pull, command, &SimdMat3::of(moment).with(zeros)).balance(pull, command)
     }
 }
 
 impl Pull<'_> {
     /// Solves the balance and the law of contraction; `moment` is M [N m].
     pub fn balance(&self, command: &Command, moment: &Mat3) -> ContractileBalance {
-        dispatch(Balance { pull: self, command, moment })
+        dispatch_f64x4(Balance { pull: self, command, moment })
     }
 }
 
@@ -183,10 +183,10 @@ mod tests {
     /// All columns of the derivative, in memory.
     struct Derivative<'a, 'b>(&'b Pull<'a>, &'b Command);
 
-    impl Work for Derivative<'_, '_> {
+    impl WithF64x4 for Derivative<'_, '_> {
         type Output = Vec<[f64; 54]>;
 
-        fn run<F: Four>(self, zeros: F) -> Self::Output {
+        fn run<F: F64x4>(self, zeros: F) -> Self::Output {
             let slopes = self.0.slopes_in(zeros, self.1, &Mat3::identity());
             let sides =
                 (0..3).flat_map(|b| [slopes.along_gradient(b), slopes.along_rate(b), slopes.along_contraction(b)]);
@@ -217,8 +217,9 @@ mod tests {
             let command = Command::Drive(entries(0.3));
             let moment = entries(0.9);
             let balance = || Balance { pull: &pull, command: &command, moment: &moment };
-            assert_eq!(dispatch(balance()), balance().run([0.0; 4]));
-            let (wide, plain) = (dispatch(Derivative(&pull, &command)), Derivative(&pull, &command).run([0.0; 4]));
+            assert_eq!(dispatch_f64x4(balance()), balance().run([0.0; 4]));
+            let (wide, plain) =
+                (dispatch_f64x4(Derivative(&pull, &command)), Derivative(&pull, &command).run([0.0; 4]));
             assert_eq!(wide, plain);
             assert_eq!(wide.len(), 9);
         }

@@ -12,15 +12,15 @@
 //!   δP = e_j ⊗ e_B:  ξ = F⁻¹e_j ⊗ w_B,  δΛ = −ξ Λ;      δṖ:  δΛ = F⁻¹e_j ⊗ w_B;      δG:  γ = e_j ⊗ w_B = −ξ,  δΛ = γ Λ − Λ γ
 //!
 //! so that what stands beside 𝔸 is four dyads, of vectors that depend on j or on B alone (`vectors`). The three j of
-//! one B are done at once (`triple`).
+//! one B are done at once (`batch`).
 
+use super::batch::{Broadcast, MatrixBatch, along, broadcast};
 use super::mobility::{Axes, Mobility};
-use super::triple::{Fixed, Triple, along, spread};
 use super::turned::{Elastic, Reaction, Turned, Volume, diagonal};
 use super::vectors::{Row, Side, Vectors, strained};
 use super::{Command, Pull, Spin};
 use crate::affine::AffineBody;
-use crate::columns::{Column, Columns, Four, UNIT};
+use crate::simd::{F64x4, SimdMat3, SimdVec3, UNIT};
 use crate::tensor::Mat3;
 
 /// The derivative at P, Ṗ, G, M and Q: what its columns are made of.
@@ -29,21 +29,21 @@ pub(crate) struct ContractileSlopes<'a, F> {
     body: &'a AffineBody,
     law: Law<F>,
     /// N and NᵀG; F⁻ᵀ N and −V NᵀG⁻ᵀ J⁻¹.
-    axes: Fixed<F>,
-    contraction: Fixed<F>,
-    back: Fixed<F>,
-    outward: Fixed<F>,
+    axes: Broadcast<F>,
+    contraction: Broadcast<F>,
+    back: Broadcast<F>,
+    outward: Broadcast<F>,
     /// N again.
-    turn: Columns<F>,
+    turn: SimdMat3<F>,
     /// gφ, and the diagonal gΣ in the axes.
     energy: f64,
-    mandel: Column,
+    mandel: SimdVec3,
     /// V_Gᵀ, outside the axes.
-    velocity: Columns<F>,
+    velocity: SimdMat3<F>,
     /// Of F⁻¹e_j, for δP; of −e_j, for δG; for δṖ.
     spatial: Side<F>,
     relaxed: Side<F>,
-    strained: [Columns<F>; 2],
+    strained: [SimdMat3<F>; 2],
     rows: [Row; 3],
     reaction: Option<Reaction>,
 }
@@ -51,9 +51,9 @@ pub(crate) struct ContractileSlopes<'a, F> {
 /// How the contraction velocity answers to stress, and what is left of the stress.
 #[derive(Debug, Clone, Copy)]
 struct Law<F> {
-    velocity: [Fixed<F>; 2],
+    velocity: [Broadcast<F>; 2],
     /// None if it is μ_γ δV_G.
-    rest: Option<[Fixed<F>; 2]>,
+    rest: Option<[Broadcast<F>; 2]>,
     /// μ_γ and μ_γ + μ.
     viscosity: f64,
     stretching: f64,
@@ -63,31 +63,31 @@ struct Law<F> {
 impl<'a> Pull<'a> {
     /// The derivative of the balance and of the law of contraction; `moment` is M [N m].
     #[inline(always)]
-    pub(crate) fn slopes_in<F: Four>(
+    pub(crate) fn slopes_in<F: F64x4>(
         &self,
         registers: F,
         command: &Command,
         moment: &Mat3,
     ) -> ContractileSlopes<'a, F> {
         let Pull { body, decomposition, .. } = *self;
-        let axes = Axes::at(&Columns::of(&decomposition.elastic));
+        let axes = Axes::at(&SimdMat3::of(&decomposition.elastic));
         let elastic = self.elastic(&axes, registers);
         let mobility = self.mobility(&axes);
         let turned = self.turned((&axes, &mobility), &elastic, command, moment);
         let back = turned.axes.transpose();
-        let inverse = back.times_transposed(&Columns::load(&decomposition.inverse, registers));
-        let contraction = back.times(&Columns::load(&decomposition.contraction, registers));
+        let inverse = back.times_transposed(&SimdMat3::load(&decomposition.inverse, registers));
+        let contraction = back.times(&SimdMat3::load(&decomposition.contraction, registers));
         let vectors = self.vectors(&axes, &elastic, &turned);
         ContractileSlopes {
             body,
             law: self.law(&mobility, &axes, registers),
-            axes: Fixed::of(&axes.axes, registers),
+            axes: Broadcast::of(&axes.axes, registers),
             contraction: fixed(&contraction),
             back: fixed(&turned.back),
             outward: fixed(&(body.per_inertia(&inverse) * -body.volume)),
             turn: turned.axes,
             energy: elastic.energy,
-            mandel: Column(vectors.mandel.0.numbers()),
+            mandel: SimdVec3(vectors.mandel.0.numbers()),
             velocity: turned.velocity,
             spatial: vectors.spatial(&turned.back),
             relaxed: vectors.relaxed(&(turned.axes * -1.0)),
@@ -99,7 +99,7 @@ impl<'a> Pull<'a> {
 
     /// What the vectors are made of.
     #[inline(always)]
-    fn vectors<F: Four>(&self, axes: &Axes, elastic: &Elastic<F>, turned: &Turned<F>) -> Vectors<F> {
+    fn vectors<F: F64x4>(&self, axes: &Axes, elastic: &Elastic<F>, turned: &Turned<F>) -> Vectors<F> {
         let (registers, full) = (turned.axes.0[0].0, elastic.along);
         let straight = diagonal([full.at(0, 0), full.at(1, 1), full.at(2, 2)]).with(registers);
         let weights = diagonal(elastic.mandel).with(registers);
@@ -129,7 +129,7 @@ impl<'a> Pull<'a> {
     }
 
     #[inline(always)]
-    fn law<F: Four>(&self, mobility: &Mobility, axes: &Axes, registers: F) -> Law<F> {
+    fn law<F: F64x4>(&self, mobility: &Mobility, axes: &Axes, registers: F) -> Law<F> {
         let Pull { body, contraction, .. } = *self;
         let coefficients = [contraction.viscosity, body.viscosity.kirchhoff];
         let volume = self.volume();
@@ -149,31 +149,31 @@ impl<'a> Pull<'a> {
 }
 
 #[inline(always)]
-fn pair<F: Four>(Mobility { own, other }: &Mobility, registers: F) -> [Fixed<F>; 2] {
-    [Fixed::of(own, registers), Fixed::of(other, registers)]
+fn pair<F: F64x4>(Mobility { own, other }: &Mobility, registers: F) -> [Broadcast<F>; 2] {
+    [Broadcast::of(own, registers), Broadcast::of(other, registers)]
 }
 
 #[inline(always)]
-fn three<F: Four>([x, y, z]: [f64; 3], registers: F) -> Column<F> {
-    Column(registers.like([x, y, z, 0.0]))
+fn three<F: F64x4>([x, y, z]: [f64; 3], registers: F) -> SimdVec3<F> {
+    SimdVec3(registers.like([x, y, z, 0.0]))
 }
 
 #[inline(always)]
-fn fixed<F: Four>(matrix: &Columns<F>) -> Fixed<F> {
-    Fixed::of(&matrix.kept(), matrix.0[0].0)
+fn fixed<F: F64x4>(matrix: &SimdMat3<F>) -> Broadcast<F> {
+    Broadcast::of(&matrix.kept(), matrix.0[0].0)
 }
 
 /// δĠ and δP̈ along the three rows of a column, M kept and without what a `Reaction` does to δP̈.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Along<F> {
-    pub rate: Triple<F>,
-    pub acceleration: Triple<F>,
+    pub rate: MatrixBatch<F>,
+    pub acceleration: MatrixBatch<F>,
 }
 
-impl<F: Four> ContractileSlopes<'_, F> {
+impl<F: F64x4> ContractileSlopes<'_, F> {
     /// δV_G and δZ for δ(gΣ) − X K + K X + 𝓜(δΛ) + δQ, δ(gφ) and δ(tr Λ), the second but for −δQ.
     #[inline(always)]
-    fn answer(&self, stress: &Triple<F>, energy: &Column<F>, growth: &Column<F>) -> [Triple<F>; 2] {
+    fn answer(&self, stress: &MatrixBatch<F>, energy: &SimdVec3<F>, growth: &SimdVec3<F>) -> [MatrixBatch<F>; 2] {
         const THIRD: f64 = 1.0 / 3.0;
         let Law { velocity, rest, viscosity, stretching, volume } = &self.law;
         let none = *energy * 0.0;
@@ -194,14 +194,14 @@ impl<F: Four> ContractileSlopes<'_, F> {
 
     /// δĠ, but for V_G δG, and δP̈ of a change of V_G and of the bracket of δS, both in the axes.
     #[inline(always)]
-    fn along(&self, velocity: &Triple<F>, total: &Triple<F>) -> Along<F> {
+    fn along(&self, velocity: &MatrixBatch<F>, total: &MatrixBatch<F>) -> Along<F> {
         let acceleration = total.between(&self.back, &self.outward);
         Along { rate: velocity.between(&self.axes, &self.contraction), acceleration }
     }
 
     #[inline(always)]
-    fn none(&self) -> Column<F> {
-        spread(0.0, self.turn.0[0].0)
+    fn none(&self) -> SimdVec3<F> {
+        broadcast(0.0, self.turn.0[0].0)
     }
 
     /// Along δP_jB for all j.
@@ -243,9 +243,9 @@ impl<F: Four> ContractileSlopes<'_, F> {
     #[inline(always)]
     pub fn along_drive(&self, drive: &Mat3) -> Along<F> {
         let registers = self.turn.0[0].0;
-        let turned = self.turn.transpose().times(&Columns::load(drive, registers)).times(&self.turn);
+        let turned = self.turn.transpose().times(&SimdMat3::load(drive, registers)).times(&self.turn);
         let drive = fixed(&turned);
-        let [velocity, total] = self.answer(&Triple(drive.0), &self.none(), &self.none());
+        let [velocity, total] = self.answer(&MatrixBatch(drive.0), &self.none(), &self.none());
         self.along(&velocity, &total.less(&drive))
     }
 
@@ -264,7 +264,7 @@ impl<F: Four> ContractileSlopes<'_, F> {
 
     /// δP̈ with what δM adds to that of `Along`, and tr(δP̈ P⁻¹) as asked, where it is held.
     #[inline(always)]
-    pub fn held(&self, along: &Columns, moment: &Columns, asked: f64) -> Columns<F> {
+    pub fn held(&self, along: &SimdMat3, moment: &SimdMat3, asked: f64) -> SimdMat3<F> {
         let registers = self.turn.0[0].0;
         let acceleration = along.with(registers) + self.body.per_inertia(&moment.with(registers));
         let Some(reaction) = &self.reaction else { return acceleration };
@@ -273,7 +273,7 @@ impl<F: Four> ContractileSlopes<'_, F> {
     }
 }
 
-impl<F: Four> Along<F> {
+impl<F: F64x4> Along<F> {
     /// Writes δP̈ and, if G is part of the state, δĠ behind it into three columns that lie `apart` from each other.
     #[inline(always)]
     pub fn write(&self, columns: &mut [f64], apart: usize, driven: bool) {

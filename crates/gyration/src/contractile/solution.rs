@@ -16,7 +16,7 @@
 use super::mobility::{Axes, Mobility};
 use super::{Command, ContractileBalance, Contraction, Pull};
 use crate::affine::Constraint;
-use crate::columns::{Columns, Four};
+use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
 
 const THIRD: f64 = 1.0 / 3.0;
@@ -25,24 +25,24 @@ const THIRD: f64 = 1.0 / 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Solution<F> {
     /// F.
-    pub elastic: Columns<F>,
+    pub elastic: SimdMat3<F>,
     /// P⁻ᵀ.
-    pub across: Columns<F>,
+    pub across: SimdMat3<F>,
     /// L.
-    pub l: Columns<F>,
+    pub l: SimdMat3<F>,
     /// g φ.
     pub energy: f64,
     /// V_G.
-    pub velocity: Columns<F>,
+    pub velocity: SimdMat3<F>,
     /// Of F, where there is viscosity.
     pub axes: Option<Axes>,
     /// sym(Ḟ F⁻¹); zero without viscosity.
-    straining: Columns<F>,
+    straining: SimdMat3<F>,
     /// τ − π I, without internal friction that acts on L.
-    pub kirchhoff: Columns<F>,
+    pub kirchhoff: SimdMat3<F>,
     /// τ_L.
-    medium: Option<Columns<F>>,
-    pub acceleration: Columns<F>,
+    medium: Option<SimdMat3<F>>,
+    pub acceleration: SimdMat3<F>,
     /// Where the pressure is that of the second derivative of det P.
     pub constraint: Option<Constraint<F>>,
     /// π.
@@ -52,9 +52,9 @@ pub(super) struct Solution<F> {
 /// What a contraction answers to.
 struct Loaded<F> {
     /// g ∂φ/∂F Fᵀ without its mean.
-    deviator: Columns<F>,
+    deviator: SimdMat3<F>,
     /// sym L.
-    strain_rate: Columns<F>,
+    strain_rate: SimdMat3<F>,
     /// gφ less that mean: what is taken away where nothing is incompressible.
     free: f64,
     /// tr L.
@@ -63,23 +63,23 @@ struct Loaded<F> {
 
 /// F and what turns the law of contraction into its axes.
 struct Frame<F> {
-    elastic: Columns<F>,
+    elastic: SimdMat3<F>,
     /// G and P⁻ᵀ.
-    own: Columns<F>,
-    across: Columns<F>,
+    own: SimdMat3<F>,
+    across: SimdMat3<F>,
     axes: Option<Axes>,
 }
 
-impl<F: Four> Frame<F> {
+impl<F: F64x4> Frame<F> {
     /// F⁻¹.
     #[inline(always)]
-    fn back(&self) -> Columns<F> {
+    fn back(&self) -> SimdMat3<F> {
         self.own.times_transposed(&self.across)
     }
 
     /// Fᵀ X F⁻ᵀ + Q, in the axes.
     #[inline(always)]
-    fn pulled(&self, stress: &Columns<F>, drive: &Columns<F>) -> Columns<F> {
+    fn pulled(&self, stress: &SimdMat3<F>, drive: &SimdMat3<F>) -> SimdMat3<F> {
         let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
             return self.elastic.transpose().times(stress).times_transposed(&self.back()) + *drive;
         };
@@ -90,14 +90,14 @@ impl<F: Four> Frame<F> {
 
     /// V_G, F V_G F⁻¹ and the multiple of I that the law of contraction takes away.
     #[inline(always)]
-    fn contract(&self, pull: &Pull<'_>, command: &Command, loaded: &Loaded<F>) -> (Columns<F>, Columns<F>, f64) {
+    fn contract(&self, pull: &Pull<'_>, command: &Command, loaded: &Loaded<F>) -> (SimdMat3<F>, SimdMat3<F>, f64) {
         let Pull { body, contraction, .. } = *pull;
         let Loaded { deviator, strain_rate, free, growth } = loaded;
         let registers = deviator.0[0].0;
         let drive = match command {
-            Command::Drive(drive) => Columns::load(drive, registers),
+            Command::Drive(drive) => SimdMat3::load(drive, registers),
             Command::Velocity(velocity, _) => {
-                let velocity = Columns::load(velocity, registers);
+                let velocity = SimdMat3::load(velocity, registers);
                 return (velocity, self.elastic.times(&velocity).times(&self.back()), 0.0);
             }
         };
@@ -116,7 +116,7 @@ impl<F: Four> Frame<F> {
 
     /// V and F V F⁻¹ of a V in the axes.
     #[inline(always)]
-    fn pushed(&self, velocity: &Columns<F>) -> [Columns<F>; 2] {
+    fn pushed(&self, velocity: &SimdMat3<F>) -> [SimdMat3<F>; 2] {
         let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
             return [*velocity, self.elastic.times(velocity).times(&self.back())];
         };
@@ -126,18 +126,18 @@ impl<F: Four> Frame<F> {
     }
 }
 
-impl<F: Four> Solution<F> {
+impl<F: F64x4> Solution<F> {
     #[inline(always)]
-    pub fn new(pull: &Pull<'_>, command: &Command, moment: &Columns<F>) -> Self {
+    pub fn new(pull: &Pull<'_>, command: &Command, moment: &SimdMat3<F>) -> Self {
         let Pull { body, contraction, at, decomposition } = *pull;
         let registers = moment.0[0].0;
-        let elastic = Columns::load(&decomposition.elastic, registers);
-        let across = Columns::load(&at.inverse, registers).transpose();
-        let l = Columns::load(&at.velocity_gradient, registers);
+        let elastic = SimdMat3::load(&decomposition.elastic, registers);
+        let across = SimdMat3::load(&at.inverse, registers).transpose();
+        let l = SimdMat3::load(&at.velocity_gradient, registers);
         let ratio = decomposition.volume_ratio;
         let (energy, stress) = match &body.material {
             Some(material) => material.energy_and_kirchhoff_stress(&elastic, at.volume_ratio / ratio),
-            None => (0.0, Columns::default().with(registers)),
+            None => (0.0, SimdMat3::default().with(registers)),
         };
         let (energy, elastic_stress) = (ratio * energy, stress * ratio);
         let mean = elastic_stress.trace() * THIRD;
@@ -147,7 +147,7 @@ impl<F: Four> Solution<F> {
         let incompressible = body.is_incompressible();
         let own_pressure = incompressible && contraction.gives_pressure();
 
-        let own = Columns::load(&decomposition.contraction, registers);
+        let own = SimdMat3::load(&decomposition.contraction, registers);
         let frame = Frame { elastic, own, across, axes: Axes::of(&elastic.kept(), viscosity) };
         let loaded = Loaded { deviator, strain_rate, free: energy - mean, growth: l.trace() };
         let (velocity, carried, excess) = frame.contract(pull, command, &loaded);
@@ -159,7 +159,7 @@ impl<F: Four> Solution<F> {
             (true, false) => (0.0, mean),
         };
         let mut kirchhoff = deviator.plus_unit(left);
-        let mut straining = Columns::default().with(registers);
+        let mut straining = SimdMat3::default().with(registers);
         if viscosity > 0.0 {
             straining = (l - carried).symmetric();
             kirchhoff += straining * viscosity;
@@ -198,7 +198,7 @@ impl<F: Four> Solution<F> {
     pub fn balance(&self, pull: &Pull<'_>, command: &Command) -> ContractileBalance {
         let Pull { body, contraction, decomposition, .. } = *pull;
         let Self { elastic, across, l, velocity, straining, kirchhoff, medium, .. } = self;
-        let own = Columns::load(&decomposition.contraction, across.0[0].0);
+        let own = SimdMat3::load(&decomposition.contraction, across.0[0].0);
         let drive = match command {
             Command::Drive(drive) => *drive,
             Command::Velocity(velocity, _) => {

@@ -12,8 +12,8 @@
 use super::mobility::{Axes, Mobility};
 use super::solution::Solution;
 use super::{Command, Pull};
-use crate::columns::{Column, Columns, Four};
 use crate::material::Coaxial;
+use crate::simd::{F64x4, SimdMat3, SimdVec3};
 use crate::tensor::Mat3;
 
 /// What decides tr V_G.
@@ -33,12 +33,12 @@ pub(super) enum Volume {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reaction {
     /// P⁻ᵀ, P⁻ᵀ J⁻¹ and 1/tr(P⁻ᵀ J⁻¹ P⁻¹).
-    pub across: Columns,
-    pub way: Columns,
+    pub across: SimdMat3,
+    pub way: SimdMat3,
     pub compliance: f64,
     /// (F P̈ F − 2FLL)ᵀ and (FL)ᵀ with F = P⁻¹.
-    pub by_gradient: Columns,
-    pub by_rate: Columns,
+    pub by_gradient: SimdMat3,
+    pub by_rate: SimdMat3,
 }
 
 /// The material in the axes, times g.
@@ -48,23 +48,23 @@ pub(super) struct Elastic<F> {
     pub energy: f64,
     pub mandel: [f64; 3],
     /// a, b and d of `material::coaxial`.
-    pub own: Columns<F>,
-    pub other: Columns<F>,
-    pub along: Columns<F>,
+    pub own: SimdMat3<F>,
+    pub other: SimdMat3<F>,
+    pub along: SimdMat3<F>,
 }
 
 /// The balance in the axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turned<F> {
     /// N and F⁻ᵀ N.
-    pub axes: Columns<F>,
-    pub back: Columns<F>,
+    pub axes: SimdMat3<F>,
+    pub back: SimdMat3<F>,
     /// Λ, K and Z.
-    pub pulled: Columns<F>,
-    pub kept: Columns<F>,
-    pub total: Columns<F>,
+    pub pulled: SimdMat3<F>,
+    pub kept: SimdMat3<F>,
+    pub total: SimdMat3<F>,
     /// V_Gᵀ, outside the axes.
-    pub velocity: Columns<F>,
+    pub velocity: SimdMat3<F>,
     pub reaction: Option<Reaction>,
 }
 
@@ -80,7 +80,7 @@ impl Pull<'_> {
     }
 
     #[inline(always)]
-    pub(super) fn elastic<F: Four>(&self, axes: &Axes, registers: F) -> Elastic<F> {
+    pub(super) fn elastic<F: F64x4>(&self, axes: &Axes, registers: F) -> Elastic<F> {
         let Pull { body, at, decomposition, .. } = *self;
         let g = decomposition.volume_ratio;
         let Coaxial { energy, mandel: [x, y, z], own, other, along } = match &body.material {
@@ -97,7 +97,7 @@ impl Pull<'_> {
     }
 
     #[inline(always)]
-    pub(super) fn turned<F: Four>(
+    pub(super) fn turned<F: F64x4>(
         &self,
         (axes, mobility): (&Axes, &Mobility),
         elastic: &Elastic<F>,
@@ -109,12 +109,12 @@ impl Pull<'_> {
         let back = carried.scaled(&axes.inverses);
         let half = 0.5 * self.body.viscosity.kirchhoff;
         let ratios = axes.ratios().with(registers) * half;
-        let l = Columns::load(&self.at.velocity_gradient, registers);
+        let l = SimdMat3::load(&self.at.velocity_gradient, registers);
         let pulled = back.transpose().times(&l).times(&carried);
         let constrained = self.body.is_incompressible() && !self.contraction.gives_pressure();
         if let (Command::Drive(drive), false) = (command, constrained) {
             let mandel = diagonal(elastic.mandel).with(registers);
-            let drive = n.transpose().times(&Columns::load(drive, registers)).times(&n);
+            let drive = n.transpose().times(&SimdMat3::load(drive, registers)).times(&n);
             let loaded = (mandel + pulled.entrywise(&ratios)) + (pulled.transpose() * half + drive);
             let [excess, level] = self.excess(volume, elastic.energy, [loaded.trace(), pulled.trace()]);
             let velocity = mobility.velocity(&loaded.plus_unit(-excess));
@@ -124,7 +124,7 @@ impl Pull<'_> {
             let velocity = n.times(&velocity.transpose()).times_transposed(&n);
             return Turned { axes: n, back, pulled, kept, total, velocity, reaction: None };
         }
-        let solution = Solution::new(self, command, &Columns::of(moment).with(registers));
+        let solution = Solution::new(self, command, &SimdMat3::of(moment).with(registers));
         let total = carried.transpose().times(&solution.kirchhoff).times(&back);
         let over = n.transpose().times(&solution.velocity).times(&n) - pulled;
         let (kept, reaction) = (over.entrywise(&ratios), reaction(&solution));
@@ -148,12 +148,12 @@ impl Pull<'_> {
 }
 
 #[inline(always)]
-pub(super) fn diagonal([x, y, z]: [f64; 3]) -> Columns {
-    Columns([Column([x, 0.0, 0.0, 0.0]), Column([0.0, y, 0.0, 0.0]), Column([0.0, 0.0, z, 0.0])])
+pub(super) fn diagonal([x, y, z]: [f64; 3]) -> SimdMat3 {
+    SimdMat3([SimdVec3([x, 0.0, 0.0, 0.0]), SimdVec3([0.0, y, 0.0, 0.0]), SimdVec3([0.0, 0.0, z, 0.0])])
 }
 
 #[inline(always)]
-fn reaction<F: Four>(solution: &Solution<F>) -> Option<Reaction> {
+fn reaction<F: F64x4>(solution: &Solution<F>) -> Option<Reaction> {
     let constraint = solution.constraint.as_ref()?;
     let Solution { l, across, acceleration, .. } = solution;
     let carried = l.transpose().times(across);

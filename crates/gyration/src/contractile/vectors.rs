@@ -12,73 +12,73 @@
 //!
 //! Symbols as in `slopes`.
 
-use super::triple::Triple;
-use crate::columns::{Column, Columns, Four};
+use super::batch::MatrixBatch;
+use crate::simd::{F64x4, SimdMat3, SimdVec3};
 
 /// What depends on j alone, of all three: column i holds the numbers i of their vectors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side<F> {
-    pub u: Columns<F>,
+    pub u: SimdMat3<F>,
     /// K C u, and −Kᵀ u.
-    forth: Columns<F>,
-    across: Columns<F>,
+    forth: SimdMat3<F>,
+    across: SimdMat3<F>,
     /// −Zᵀ u.
-    pub total: Columns<F>,
+    pub total: SimdMat3<F>,
 }
 
 /// What depends on B alone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
-    pub w: Column,
+    pub w: SimdVec3,
     /// C⁻¹ w, m w, −Λᵀ w, Z w.
-    pub back: Column,
-    pub heavy: Column,
-    pub pulled: Column,
-    pub total: Column,
+    pub back: SimdVec3,
+    pub heavy: SimdVec3,
+    pub pulled: SimdVec3,
+    pub total: SimdVec3,
     /// What goes with u_i, u_k and, on the diagonal, with u_j.
-    own: Columns,
-    other: Columns,
-    along: Columns,
+    own: SimdMat3,
+    other: SimdMat3,
+    along: SimdMat3,
 }
 
 /// What the sides and rows are made of.
 pub(super) struct Vectors<F> {
     /// c and 1/c, m.
-    pub values: Column<F>,
-    pub inverses: Column<F>,
-    pub mandel: Column<F>,
+    pub values: SimdVec3<F>,
+    pub inverses: SimdVec3<F>,
+    pub mandel: SimdVec3<F>,
     /// μ/2.
     pub half: f64,
     /// K, Λ and Z.
-    pub kept: Columns<F>,
-    pub pulled: Columns<F>,
-    pub total: Columns<F>,
+    pub kept: SimdMat3<F>,
+    pub pulled: SimdMat3<F>,
+    pub total: SimdMat3<F>,
     /// a with d_ii + m_i on the diagonal, b with m_k added, d without diagonal; times g.
-    pub own: Columns<F>,
-    pub other: Columns<F>,
-    pub along: Columns<F>,
+    pub own: SimdMat3<F>,
+    pub other: SimdMat3<F>,
+    pub along: SimdMat3<F>,
 }
 
 /// What the rows are made of, column B for each.
 struct Rows<F> {
-    w: Columns<F>,
-    back: Columns<F>,
-    first: Columns<F>,
-    second: Columns<F>,
-    pulled: Columns<F>,
-    total: Columns<F>,
+    w: SimdMat3<F>,
+    back: SimdMat3<F>,
+    first: SimdMat3<F>,
+    second: SimdMat3<F>,
+    pulled: SimdMat3<F>,
+    total: SimdMat3<F>,
 }
 
 /// diag(a) B.
 #[inline(always)]
-fn stretched<F: Four>(a: &Column<F>, Columns([x, y, z]): &Columns<F>) -> Columns<F> {
-    Columns([a.product(x), a.product(y), a.product(z)])
+fn stretched<F: F64x4>(a: &SimdVec3<F>, SimdMat3([x, y, z]): &SimdMat3<F>) -> SimdMat3<F> {
+    SimdMat3([a.product(x), a.product(y), a.product(z)])
 }
 
-impl<F: Four> Vectors<F> {
+impl<F: F64x4> Vectors<F> {
     /// For ξ = u ⊗ w, δΛ = −ξ Λ; column i of u holds the numbers i of all three.
     #[inline(always)]
-    pub fn spatial(&self, u: &Columns<F>) -> Side<F> {
+    pub fn spatial(&self, u: &SimdMat3<F>) -> Side<F> {
         let carried = u.scaled(&self.three());
         Side {
             u: *u,
@@ -90,7 +90,7 @@ impl<F: Four> Vectors<F> {
 
     /// For ξ = u ⊗ w, δΛ = −ξ Λ + Λ ξ.
     #[inline(always)]
-    pub fn relaxed(&self, u: &Columns<F>) -> Side<F> {
+    pub fn relaxed(&self, u: &SimdMat3<F>) -> Side<F> {
         let Side { forth, across, total, .. } = self.spatial(u);
         let seen = u.times_transposed(&self.pulled) * self.half;
         Side { u: *u, forth: forth + seen.scaled(&self.three()), across: across + seen, total }
@@ -98,7 +98,7 @@ impl<F: Four> Vectors<F> {
 
     /// (μ/2) C u and (μ/2) u.
     #[inline(always)]
-    pub fn strained(&self, u: &Columns<F>) -> [Columns<F>; 2] {
+    pub fn strained(&self, u: &SimdMat3<F>) -> [SimdMat3<F>; 2] {
         let half = *u * self.half;
         [half.scaled(&self.three()), half]
     }
@@ -111,7 +111,7 @@ impl<F: Four> Vectors<F> {
 
     /// Of all three w, columns of a matrix.
     #[inline(always)]
-    pub fn rows(&self, w: &Columns<F>) -> [Row; 3] {
+    pub fn rows(&self, w: &SimdMat3<F>) -> [Row; 3] {
         let back = stretched(&self.inverses, w);
         let pulled = self.pulled.transpose().times(w);
         let half = pulled * self.half;
@@ -128,8 +128,8 @@ impl<F: Four> Vectors<F> {
 
     #[inline(always)]
     fn row(&self, rows: &Rows<F>, b: usize) -> Row {
-        let (w, second, first) = (rows.w.0[b], rows.second.0[b], Column(rows.first.0[b].0.numbers()));
-        let kept = Column(w.0.numbers());
+        let (w, second, first) = (rows.w.0[b], rows.second.0[b], SimdVec3(rows.first.0[b].0.numbers()));
+        let kept = SimdVec3(w.0.numbers());
         let ([x, y, z], [p, q, r]) = (self.own.0, self.other.0);
         let own = [
             x * kept.0[0] - self.values * first.0[0],
@@ -139,27 +139,27 @@ impl<F: Four> Vectors<F> {
         let other = [p.product(&w) + second, q.product(&w) + second, r.product(&w) + second];
         Row {
             w: kept,
-            back: Column(rows.back.0[b].0.numbers()),
-            heavy: Column(self.mandel.product(&w).0.numbers()),
-            pulled: Column(rows.pulled.0[b].0.numbers()),
-            total: Column(rows.total.0[b].0.numbers()),
-            own: Columns(own).kept(),
-            other: Columns(other).kept(),
+            back: SimdVec3(rows.back.0[b].0.numbers()),
+            heavy: SimdVec3(self.mandel.product(&w).0.numbers()),
+            pulled: SimdVec3(rows.pulled.0[b].0.numbers()),
+            total: SimdVec3(rows.total.0[b].0.numbers()),
+            own: SimdMat3(own).kept(),
+            other: SimdMat3(other).kept(),
             along: self.along.scaled(&[kept.0[0], kept.0[1], kept.0[2]]).kept(),
         }
     }
 }
 
-impl<F: Four> Side<F> {
+impl<F: F64x4> Side<F> {
     /// R.
     #[inline(always)]
-    pub fn stretched(&self, row: &Row) -> Triple<F> {
+    pub fn stretched(&self, row: &Row) -> MatrixBatch<F> {
         let [x, y, z] = &self.u.0;
-        let Columns([a, b, c]) = &row.along;
+        let SimdMat3([a, b, c]) = &row.along;
         let one = self.number(row, 0, 0) + (*y * b.0[0] + *z * c.0[0]);
         let two = self.number(row, 1, 1) + (*x * a.0[1] + *z * c.0[1]);
         let three = self.number(row, 2, 2) + (*x * a.0[2] + *y * b.0[2]);
-        Triple([
+        MatrixBatch([
             [one, self.number(row, 1, 0), self.number(row, 2, 0)],
             [self.number(row, 0, 1), two, self.number(row, 2, 1)],
             [self.number(row, 0, 2), self.number(row, 1, 2), three],
@@ -167,7 +167,7 @@ impl<F: Four> Side<F> {
     }
 
     #[inline(always)]
-    fn number(&self, row: &Row, i: usize, k: usize) -> Column<F> {
+    fn number(&self, row: &Row, i: usize, k: usize) -> SimdVec3<F> {
         let Self { u, forth, across, .. } = self;
         let pair = u.0[i] * row.own.0[k].0[i] + u.0[k] * row.other.0[k].0[i];
         pair + (forth.0[i] * row.back.0[k] + across.0[k] * row.w.0[i])
@@ -176,10 +176,10 @@ impl<F: Four> Side<F> {
 
 /// x ⊗ C⁻¹w + w ⊗ y.
 #[inline(always)]
-pub(super) fn strained<F: Four>([x, y]: &[Columns<F>; 2], row: &Row) -> Triple<F> {
+pub(super) fn strained<F: F64x4>([x, y]: &[SimdMat3<F>; 2], row: &Row) -> MatrixBatch<F> {
     let (a, b) = (&row.back.0, &row.w.0);
     let ([p, q, r], [u, v, w]) = (&x.0, &y.0);
-    Triple([
+    MatrixBatch([
         [*p * a[0] + *u * b[0], *q * a[0] + *u * b[1], *r * a[0] + *u * b[2]],
         [*p * a[1] + *v * b[0], *q * a[1] + *v * b[1], *r * a[1] + *v * b[2]],
         [*p * a[2] + *w * b[0], *q * a[2] + *w * b[1], *r * a[2] + *w * b[2]],

@@ -7,13 +7,13 @@ use super::contacts::nearest;
 use super::loads::Acting;
 use crate::affine::Gyration;
 use crate::body::{Contractile, Slots};
-use crate::columns::Four;
 use crate::contractile::{
     Command, ContractileBalance, ContractileSlopes, Decomposition, Feedback, Felt, Pull, Source, velocity_of,
 };
 use crate::instant::BodyAt;
 use crate::ledger::Work;
 use crate::load::Loads;
+use crate::simd::F64x4;
 use crate::tensor::Mat3;
 
 /// A contractile body at one instant.
@@ -76,7 +76,7 @@ impl<'a> ContractileMotion<'a> {
 
     /// The derivatives of P̈ and Ġ, with Q or V_G as it is.
     #[inline(always)]
-    pub fn slopes_in<F: Four>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'a, F> {
+    pub fn slopes_in<F: F64x4>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'a, F> {
         self.pull().slopes_in(registers, command, moment)
     }
 

@@ -13,8 +13,8 @@
 //! are no special case. Source: `physics.md` §7, written without axes.
 
 use super::moments::Moments;
-use crate::columns::Columns;
 use crate::material::Spectrum;
+use crate::simd::SimdMat3;
 use crate::tensor::{Mat3, Vec3};
 use std::f64::consts::PI;
 
@@ -77,7 +77,7 @@ impl Ellipsoid {
     /// The image of an ellipsoid of semi-axes A under P: `carried` = P A \[m\], det > 0, in a fluid of viscosity η > 0
     /// \[Pa s\].
     pub fn of(carried: &Mat3, viscosity: f64) -> Self {
-        let spectrum = Spectrum::of(&Columns::of(&carried.transpose()));
+        let spectrum = Spectrum::of(&SimdMat3::of(&carried.transpose()));
         Self::along(spectrum.axes.matrix(), spectrum.values, viscosity)
     }
 

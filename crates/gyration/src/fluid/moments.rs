@@ -12,7 +12,7 @@
 //! hundreds. All terms are positive, so that nothing cancels, whatever the axes: spheres, discs, needles. Source:
 //! `physics.md` §7, whose α_i are 2 L_i/V.
 
-use crate::columns::{Four, Work, dispatch};
+use crate::simd::{F64x4, WithF64x4, dispatch_f64x4};
 
 /// Step of t.
 const STEP: f64 = 0.45;
@@ -60,7 +60,7 @@ impl Moments {
         let largest = squares[0].max(squares[1]).max(squares[2]);
         // In units of the largest axis no product leaves the range of numbers.
         let squares = [squares[0] / largest, squares[1] / largest, squares[2] / largest];
-        dispatch(Summation { squares: &squares }).moments(&squares, largest)
+        dispatch_f64x4(Summation { squares: &squares }).moments(&squares, largest)
     }
 }
 
@@ -69,11 +69,11 @@ struct Summation<'a> {
     squares: &'a [f64; 3],
 }
 
-impl Work for Summation<'_> {
+impl WithF64x4 for Summation<'_> {
     type Output = Sums;
 
     #[inline(always)]
-    fn run<F: Four>(self, _: F) -> Sums {
+    fn run<F: F64x4>(self, _: F) -> Sums {
         let squares = self.squares;
         let least = squares[0].min(squares[1]).min(squares[2]);
         let mut sums = Sums::default();
@@ -157,7 +157,7 @@ impl Sums {
                 moments.narrow[i][j] = 0.5 * volume / unit * total(&self.narrow[place]);
                 moments.fourth[i][j] = 0.25 * volume * total(&self.fourth[place]);
                 for k in 0..3 {
-                    let place = triple([i, j, k]);
+                    let place = batch([i, j, k]);
                     moments.sixth[i][j][k] = 0.25 * volume / unit * total(&self.sixth[place]);
                 }
             }
@@ -173,9 +173,9 @@ const fn pair(i: usize, j: usize) -> usize {
 }
 
 /// The place among [`TRIPLES`] of three indices in any order.
-fn triple(mut indices: [usize; 3]) -> usize {
+fn batch(mut indices: [usize; 3]) -> usize {
     indices.sort_unstable();
-    TRIPLES.iter().position(|triple| *triple == indices).unwrap_or_default()
+    TRIPLES.iter().position(|batch| *batch == indices).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@
 //!
 //! where equal stretches are no special case.
 
-use crate::columns::Columns;
 use crate::material::Spectrum;
+use crate::simd::SimdMat3;
 use crate::tensor::Mat3;
 use nalgebra::SVector;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -51,7 +51,7 @@ pub struct Stretch {
 impl Stretch {
     /// E of a symmetric U, det U > 0.
     pub fn of(stretch: &Mat3) -> Self {
-        let spectrum = Spectrum::of(&Columns::of(stretch));
+        let spectrum = Spectrum::of(&SimdMat3::of(stretch));
         Self::free_of_size(spectrum.axes.matrix(), spectrum.values.map(|square| 0.5 * square.ln()))
     }
 

@@ -16,7 +16,7 @@
 use super::Material;
 use super::invariants::{Derivatives, Invariants};
 use super::principal::Principal;
-use crate::columns::{Column, Columns};
+use crate::simd::{SimdMat3, SimdVec3};
 
 /// φ, Σ and the tangent in the axes of C.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,10 +26,10 @@ pub(crate) struct Coaxial {
     /// c_i s_i.
     pub mandel: [f64; 3],
     /// a and b, zero on the diagonal.
-    pub own: Columns,
-    pub other: Columns,
+    pub own: SimdMat3,
+    pub other: SimdMat3,
     /// d.
-    pub along: Columns,
+    pub along: SimdMat3,
 }
 
 /// The other two of three.
@@ -46,8 +46,11 @@ impl Material {
             Self::Hencky(material) => by_principal(c, &material.principal(c)),
             _ => {
                 let [x, y, z] = *c;
-                let squares =
-                    Columns([Column([x, 0.0, 0.0, 0.0]), Column([0.0, y, 0.0, 0.0]), Column([0.0, 0.0, z, 0.0])]);
+                let squares = SimdMat3([
+                    SimdVec3([x, 0.0, 0.0, 0.0]),
+                    SimdVec3([0.0, y, 0.0, 0.0]),
+                    SimdVec3([0.0, 0.0, z, 0.0]),
+                ]);
                 let invariants = Invariants::of(&squares, volume);
                 by_invariants(c, volume, &self.derivatives(&invariants))
             }
@@ -124,7 +127,7 @@ mod tests {
             ]
         });
         for material in materials {
-            let Spectrum { values, axes, carried } = Spectrum::of(&Columns::of(&f));
+            let Spectrum { values, axes, carried } = Spectrum::of(&SimdMat3::of(&f));
             let (n, carried) = (axes.matrix(), carried.matrix());
             let Coaxial { energy, mandel, own, other, along } = material.coaxial(&values, f.determinant());
             let change = f * n * xi * n.transpose();

@@ -6,7 +6,7 @@
 //! f_k are the derivatives of the energy. cof P is quadratic in P: neither S nor its derivative needs an inverse.
 
 use super::Material;
-use crate::columns::{Columns, Four, UNIT};
+use crate::simd::{F64x4, SimdMat3, UNIT};
 
 /// ι₁, ι₂ and J of a gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ pub(crate) struct Invariants {
 impl Invariants {
     /// Those of C, or of B = PPᵀ, which has the same, and of det P.
     #[inline(always)]
-    pub fn of<F: Four>(squares: &Columns<F>, volume: f64) -> Self {
+    pub fn of<F: F64x4>(squares: &SimdMat3<F>, volume: f64) -> Self {
         let (x, y, z) = (squares.at(0, 0) - 1.0, squares.at(1, 1) - 1.0, squares.at(2, 2) - 1.0);
         let (xy, yz, zx) = (squares.at(0, 1), squares.at(1, 2), squares.at(2, 0));
         let minors = x * y - xy * xy + y * z - yz * yz + z * x - zx * zx;
@@ -54,20 +54,20 @@ pub(crate) struct Derivatives {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ByInvariants<F = [f64; 4]> {
     pub derivatives: Derivatives,
-    pub p: Columns<F>,
+    pub p: SimdMat3<F>,
     /// G₂.
-    pub second: Columns<F>,
+    pub second: SimdMat3<F>,
     /// cof P.
-    pub cofactor: Columns<F>,
+    pub cofactor: SimdMat3<F>,
     /// 2(f₁ + ι₁f₂) I − 2f₂ C.
-    pub own: Columns<F>,
+    pub own: SimdMat3<F>,
     /// 2f₂ PPᵀ.
-    pub left: Columns<F>,
+    pub left: SimdMat3<F>,
 }
 
-impl<F: Four> ByInvariants<F> {
+impl<F: F64x4> ByInvariants<F> {
     #[inline(always)]
-    pub fn new(p: &Columns<F>, material: &Material) -> Self {
+    pub fn new(p: &SimdMat3<F>, material: &Material) -> Self {
         let (right, cofactor) = (p.transpose().times(p), p.cofactor());
         let invariants = Invariants::of(&right, p.0[0].dot(&cofactor.0[0]));
         let derivatives = material.derivatives(&invariants);
@@ -85,7 +85,7 @@ impl<F: Four> ByInvariants<F> {
 
     /// S.
     #[inline(always)]
-    pub fn stress(&self) -> Columns<F> {
+    pub fn stress(&self) -> SimdMat3<F> {
         let [f1, f2, f3] = self.derivatives.first;
         (self.p * (2.0 * f1) + self.second * f2) + self.cofactor * f3
     }
@@ -94,7 +94,7 @@ impl<F: Four> ByInvariants<F> {
 impl ByInvariants {
     /// ∂S/∂P_jB.
     #[inline(always)]
-    pub fn slope(&self, j: usize, b: usize) -> Columns {
+    pub fn slope(&self, j: usize, b: usize) -> SimdMat3 {
         let Self { derivatives, p, second, cofactor, own, left } = self;
         let [_, f2, f3] = derivatives.first;
         let [f11, f12, f13, f22, f23, f33] = derivatives.second;
@@ -120,11 +120,11 @@ impl ByInvariants {
 
 /// φ and S Pᵀ = 2(f₁ + ι₁f₂) B − 2f₂ B² + J f₃ I, B = PPᵀ: symmetric to the last bit, since all of it is.
 #[inline(always)]
-pub(super) fn energy_and_kirchhoff_stress<F: Four>(
-    p: &Columns<F>,
+pub(super) fn energy_and_kirchhoff_stress<F: F64x4>(
+    p: &SimdMat3<F>,
     volume: f64,
     material: &Material,
-) -> (f64, Columns<F>) {
+) -> (f64, SimdMat3<F>) {
     let left = p.times_transposed(p);
     let invariants = Invariants::of(&left, volume);
     let Derivatives { energy, first: [f1, f2, f3], .. } = material.derivatives(&invariants);

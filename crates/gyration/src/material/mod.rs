@@ -36,7 +36,7 @@ pub use neo_hookean_log::NeoHookeanLog;
 pub use ogden::{Ogden, OgdenTerm};
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 
-use crate::columns::{Columns, Four};
+use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
 pub(crate) use invariants::ByInvariants;
 use invariants::Invariants;
@@ -105,7 +105,7 @@ impl Kept {
 
     /// S.
     #[inline(always)]
-    pub fn stress(&self) -> Columns {
+    pub fn stress(&self) -> SimdMat3 {
         match self {
             Self::Invariants(kept) => kept.stress(),
             Self::Principal(kept) => kept.stress(),
@@ -114,7 +114,7 @@ impl Kept {
 
     /// ∂S/∂P_jB.
     #[inline(always)]
-    pub fn slope(&self, j: usize, b: usize) -> Columns {
+    pub fn slope(&self, j: usize, b: usize) -> SimdMat3 {
         match self {
             Self::Invariants(kept) => kept.slope(j, b),
             Self::Principal(kept) => kept.slope(j, b),
@@ -125,14 +125,14 @@ impl Kept {
 impl Material {
     /// φ(P) and S = ∂φ/∂P, det P > 0; not finite where the energy is not.
     pub fn response(&self, p: &Mat3) -> Response {
-        let kept = self.at(&Columns::of(p));
+        let kept = self.at(&SimdMat3::of(p));
         Response { energy: kept.energy(), stress: kept.stress().matrix() }
     }
 
     /// ∂S_iA/∂P_jB at (3A + i, 3B + j), det P > 0.
     pub fn tangent(&self, p: &Mat3) -> Tangent {
         let mut tangent = Tangent::zeros();
-        for (place, slope) in self.slopes_at(&Columns::of(p)).iter().enumerate() {
+        for (place, slope) in self.slopes_at(&SimdMat3::of(p)).iter().enumerate() {
             slope.write(&mut tangent.as_mut_slice()[9 * place..]);
         }
         tangent
@@ -140,7 +140,7 @@ impl Material {
 
     /// S Pᵀ at P and det P, symmetric to the last bit.
     #[inline(always)]
-    pub(crate) fn kirchhoff_stress_at<F: Four>(&self, p: &Columns<F>, volume: f64) -> Columns<F> {
+    pub(crate) fn kirchhoff_stress_at<F: F64x4>(&self, p: &SimdMat3<F>, volume: f64) -> SimdMat3<F> {
         match self {
             Self::Ogden(material) => principal::kirchhoff_stress(&p.kept(), |c| material.slopes(c)).with(p.0[0].0),
             Self::Hencky(material) => principal::kirchhoff_stress(&p.kept(), |c| material.slopes(c)).with(p.0[0].0),
@@ -152,9 +152,9 @@ impl Material {
     ///
     /// A function of its own, however often it is needed: it is long, and so is what it takes in.
     #[inline(never)]
-    pub(crate) fn slopes_at(&self, p: &Columns) -> [Columns; 9] {
+    pub(crate) fn slopes_at(&self, p: &SimdMat3) -> [SimdMat3; 9] {
         let kept = self.at(p);
-        let mut slopes = [Columns::default(); 9];
+        let mut slopes = [SimdMat3::default(); 9];
         for (place, slope) in slopes.iter_mut().enumerate() {
             *slope = kept.slope(place % 3, place / 3);
         }
@@ -163,7 +163,7 @@ impl Material {
 
     /// φ and S Pᵀ at P and det P.
     #[inline(always)]
-    pub(crate) fn energy_and_kirchhoff_stress<F: Four>(&self, p: &Columns<F>, volume: f64) -> (f64, Columns<F>) {
+    pub(crate) fn energy_and_kirchhoff_stress<F: F64x4>(&self, p: &SimdMat3<F>, volume: f64) -> (f64, SimdMat3<F>) {
         let principal = matches!(self, Self::Ogden(_) | Self::Hencky(_));
         match principal.then(|| self.by_principal(&p.kept())).flatten() {
             Some(kept) => (kept.energy(), kept.stress().with(p.0[0].0).times_transposed(p).symmetric()),
@@ -173,7 +173,7 @@ impl Material {
 
     /// The material at a gradient.
     #[inline(always)]
-    pub(crate) fn at(&self, p: &Columns) -> Kept {
+    pub(crate) fn at(&self, p: &SimdMat3) -> Kept {
         match self.by_principal(p) {
             Some(kept) => Kept::Principal(kept),
             None => Kept::Invariants(ByInvariants::new(p, self)),
@@ -182,7 +182,7 @@ impl Material {
 
     /// An energy of the principal values at a gradient; none for others.
     #[inline(never)]
-    pub(crate) fn by_principal(&self, p: &Columns) -> Option<ByPrincipal> {
+    pub(crate) fn by_principal(&self, p: &SimdMat3) -> Option<ByPrincipal> {
         match self {
             Self::Ogden(material) => Some(ByPrincipal::new(p, |c| material.principal(c))),
             Self::Hencky(material) => Some(ByPrincipal::new(p, |c| material.principal(c))),

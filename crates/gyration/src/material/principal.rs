@@ -10,7 +10,7 @@
 //! *Non-linear elastic deformations*, §6.1.
 
 use super::spectrum::Spectrum;
-use crate::columns::{Columns, UNIT};
+use crate::simd::{SimdMat3, UNIT};
 
 /// φ and its derivatives with the principal values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -33,16 +33,16 @@ pub(super) const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 pub(crate) struct ByPrincipal {
     principal: Principal,
     /// N.
-    axes: Columns,
+    axes: SimdMat3,
     /// Q.
-    carried: Columns,
+    carried: SimdMat3,
     /// N diag(s) Nᵀ.
-    second_piola: Columns,
+    second_piola: SimdMat3,
 }
 
 impl ByPrincipal {
     #[inline(always)]
-    pub fn new(p: &Columns, energy: impl Fn(&[f64; 3]) -> Principal) -> Self {
+    pub fn new(p: &SimdMat3, energy: impl Fn(&[f64; 3]) -> Principal) -> Self {
         let Spectrum { values, axes, carried } = Spectrum::of(p);
         let principal = energy(&values);
         let second_piola = axes.scaled(&principal.slopes).times_transposed(&axes);
@@ -56,13 +56,13 @@ impl ByPrincipal {
 
     /// S.
     #[inline(always)]
-    pub fn stress(&self) -> Columns {
+    pub fn stress(&self) -> SimdMat3 {
         self.carried.scaled(&self.principal.slopes).times_transposed(&self.axes)
     }
 
     /// ∂S/∂P_jB.
     #[inline(always)]
-    pub fn slope(&self, j: usize, b: usize) -> Columns {
+    pub fn slope(&self, j: usize, b: usize) -> SimdMat3 {
         let Self { principal: Principal { curvature, quotients, .. }, axes, carried, second_piola } = self;
         let q = [carried.at(j, 0), carried.at(j, 1), carried.at(j, 2)];
         let n = [axes.at(b, 0), axes.at(b, 1), axes.at(b, 2)];
@@ -73,7 +73,7 @@ impl ByPrincipal {
             quotients[1] * (q[0] * n[2] + n[0] * q[2]),
             quotients[2] * (q[1] * n[2] + n[1] * q[2]),
         ];
-        let mut changed = Columns([y * xy + z * xz, x * xy + z * yz, x * xz + y * yz]);
+        let mut changed = SimdMat3([y * xy + z * xz, x * xy + z * yz, x * xz + y * yz]);
         for (a, row) in curvature.iter().enumerate() {
             let stretched = (row[0] * (q[0] * n[0]) + row[1] * (q[1] * n[1])) + row[2] * (q[2] * n[2]);
             changed.0[a] += carried.0[a] * (2.0 * stretched);
@@ -88,7 +88,7 @@ impl ByPrincipal {
 
 /// S Pᵀ = Q diag(s) Qᵀ.
 #[inline(always)]
-pub(super) fn kirchhoff_stress(p: &Columns, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> Columns {
+pub(super) fn kirchhoff_stress(p: &SimdMat3, slopes: impl Fn(&[f64; 3]) -> [f64; 3]) -> SimdMat3 {
     let Spectrum { values, carried, .. } = Spectrum::of(p);
     carried.scaled(&slopes(&values)).times_transposed(&carried).symmetric()
 }

@@ -6,7 +6,7 @@
 //! value is found as a difference of others, so that equal and nearly equal ones are no special case: N is orthogonal
 //! to rounding, and c_i = |P N_i|². Source of the division into an axis and a plane: Scherzinger and Dohrmann 2008.
 
-use crate::columns::{Column, Columns, UNIT};
+use crate::simd::{SimdMat3, SimdVec3, UNIT};
 
 /// Principal values and axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,42 +14,42 @@ pub(crate) struct Spectrum {
     /// c_i, in no order.
     pub values: [f64; 3],
     /// N, an axis a column.
-    pub axes: Columns,
+    pub axes: SimdMat3,
     /// P N.
-    pub carried: Columns,
+    pub carried: SimdMat3,
 }
 
 impl Spectrum {
     /// Of PᵀP; not finite where P is not.
     #[inline(never)]
-    pub fn of(p: &Columns) -> Self {
+    pub fn of(p: &SimdMat3) -> Self {
         let axes = principal_axes(&p.transpose().times(p));
         let carried = p.times(&axes);
-        let Columns([x, y, z]) = &carried;
+        let SimdMat3([x, y, z]) = &carried;
         Self { values: [x.dot(x), y.dot(y), z.dot(z)], axes, carried }
     }
 }
 
 /// N of a symmetric matrix.
 #[inline(always)]
-fn principal_axes(c: &Columns) -> Columns {
+fn principal_axes(c: &SimdMat3) -> SimdMat3 {
     let mean = c.trace() * (1.0 / 3.0);
-    let deviator = *c - Columns(UNIT) * mean;
+    let deviator = *c - SimdMat3(UNIT) * mean;
     let size = (deviator.dot(&deviator) * (1.0 / 6.0)).sqrt();
     // Equal values, or not numbers: all axes are principal.
     if !(size > 0.0 && size.is_finite()) {
-        return Columns(UNIT);
+        return SimdMat3(UNIT);
     }
     let unit = deviator * (1.0 / size);
     let r = 0.5 * unit.0[0].dot(&unit.0[1].cross(&unit.0[2]));
     let outer = 2.0 * outer_root(r.abs().min(1.0)).copysign(r);
-    let lone = null_axis(&(unit - Columns(UNIT) * outer));
+    let lone = null_axis(&(unit - SimdMat3(UNIT) * outer));
     let [one, other] = across(&lone);
     // Jacobi's rotation in the plane.
     let (image, next) = (unit.image(&one), unit.image(&other));
     let (difference, coupling) = (next.dot(&other) - image.dot(&one), 2.0 * image.dot(&other));
     let [cosine, sine] = half_turn(difference, coupling);
-    Columns([lone, one * cosine - other * sine, one * sine + other * cosine])
+    SimdMat3([lone, one * cosine - other * sine, one * sine + other * cosine])
 }
 
 /// Cosine and sine of θ, |θ| ≤ π/4, tan 2θ = k/d.
@@ -105,9 +105,9 @@ fn outer_root(r: f64) -> f64 {
 
 /// The unit vector that a symmetric matrix of rank two takes to zero.
 #[inline(always)]
-fn null_axis(matrix: &Columns) -> Column {
+fn null_axis(matrix: &SimdMat3) -> SimdVec3 {
     // The columns of the adjugate are multiples of it; the diagonal tells the longest.
-    let Columns([x, y, z]) = matrix.cofactor();
+    let SimdMat3([x, y, z]) = matrix.cofactor();
     let mut longest = if x.0[0] > y.0[1] { (x.0[0], x) } else { (y.0[1], y) };
     if z.0[2] > longest.0 {
         longest = (z.0[2], z);
@@ -119,12 +119,12 @@ fn null_axis(matrix: &Columns) -> Column {
 /// Two unit vectors across a unit vector and each other. Source: Duff et al. 2017, *Building an orthonormal basis,
 /// revisited*.
 #[inline(always)]
-fn across(n: &Column) -> [Column; 2] {
+fn across(n: &SimdVec3) -> [SimdVec3; 2] {
     let [x, y, z, _] = n.0;
     let sign = 1.0_f64.copysign(z);
     let a = -1.0 / (sign + z);
     let b = x * y * a;
-    [Column([1.0 + sign * x * x * a, sign * b, -sign * x, 0.0]), Column([b, sign + y * y * a, -y, 0.0])]
+    [SimdVec3([1.0 + sign * x * x * a, sign * b, -sign * x, 0.0]), SimdVec3([b, sign + y * y * a, -y, 0.0])]
 }
 
 #[cfg(test)]
@@ -149,7 +149,7 @@ mod tests {
                 for turn in [0.0, 0.3, 1.1, 2.7] {
                     let stretches = [1.3, 1.3 * (1.0 + scale * a), 1.3 * (1.0 - scale * b)];
                     let p = gradient(stretches, turn);
-                    let Spectrum { values, axes, carried } = Spectrum::of(&Columns::of(&p));
+                    let Spectrum { values, axes, carried } = Spectrum::of(&SimdMat3::of(&p));
                     let n = axes.matrix();
                     let mut sorted = values;
                     sorted.sort_by(f64::total_cmp);
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn small_values_beside_large_ones_keep_their_digits() {
         let stretches = [1e-3, 1.0, 1e3];
-        let mut values = Spectrum::of(&Columns::of(&gradient(stretches, 0.7))).values;
+        let mut values = Spectrum::of(&SimdMat3::of(&gradient(stretches, 0.7))).values;
         values.sort_by(f64::total_cmp);
         for (value, stretch) in values.iter().zip(stretches) {
             // P itself, with entries of 1e3, knows a stretch of 1e-3 to 1e-16 × 1e6.
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_stays_so() {
-        let values = Spectrum::of(&Columns::of(&Mat3::from_element(f64::NAN))).values;
+        let values = Spectrum::of(&SimdMat3::of(&Mat3::from_element(f64::NAN))).values;
         assert!(values.iter().all(|value| value.is_nan()));
     }
 }

@@ -10,8 +10,8 @@ use super::facets_oriented::add_oriented;
 use super::facets_pack::{Pack, Points};
 use super::facets_plan::{BATCH, Plan};
 use super::facets_sums::{add_deformed, add_moments, smallest_gap};
-use super::lanes::WIDTH;
 use super::{GapClosed, GapField, MomentRequest, Moments, OrientedMoments};
+use crate::simd::WIDTH;
 use crate::tensor::{Mat3, Vec3};
 
 /// Triangles with their areas, ready for contact integrals.

@@ -7,12 +7,12 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::facets_pack::{FieldLanes, Pack, Vector};
+use super::facets_pack::{Pack, SplatField, Vector};
 use super::facets_plan::{BATCH, MOST_ROWS, Plan};
-use super::facets_sums::{Gaps, MatrixLanes, Request, add_folded, length};
+use super::facets_sums::{Gaps, Request, SplatMatrix, add_folded, length};
 use super::facets_triangle::Triangle;
-use super::lanes::{Lanes, Row, WIDTH, dispatch, fold};
 use super::{FOURTH, GapField, OrientedMoments, PAIRS};
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
 use crate::tensor::Mat3;
 
 /// Adds the oriented moments of a plan to `out`; leaves it alone and returns false if a gap is not positive and finite.
@@ -68,8 +68,8 @@ impl WithSimd for Integrate<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> bool {
         let Request { packs, field, plan, cofactor } = *self.request;
-        let field = FieldLanes::new(simd, field);
-        let cofactor = MatrixLanes::new(simd, cofactor);
+        let field = SplatField::new(simd, field);
+        let cofactor = SplatMatrix::new(simd, cofactor);
         let mut seen = Gaps::new(simd);
         for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
@@ -90,17 +90,17 @@ impl WithSimd for Integrate<'_> {
 impl Integrate<'_> {
     /// Adds the rows of one register of triangles, weighted with the products m_a m_b and their squares.
     #[inline(always)]
-    fn add<S: Simd>(&mut self, products: &[Lanes<S>; PAIRS.len()], used: usize, register: usize) {
+    fn add<S: Simd>(&mut self, products: &[F64s<S>; PAIRS.len()], used: usize, register: usize) {
         let simd = products[0].simd;
         for (product, rows) in products.iter().zip(&mut self.pairs) {
             for (own, sum) in self.own[..used].iter().zip(rows.iter_mut()) {
-                (*product * Lanes::load(simd, own, 0)).add_to(sum, register);
+                (*product * F64s::load(simd, own, 0)).add_to(sum, register);
             }
         }
         for (request, sums) in self.fourth.iter_mut().enumerate().take(self.request.plan.count()) {
             let (order, row) = self.request.plan.place(request);
             if order == 0 {
-                let own = Lanes::load(simd, &self.own[row], 0);
+                let own = F64s::load(simd, &self.own[row], 0);
                 for (sum, (one, other)) in sums.iter_mut().zip(FOURTH_PRODUCTS) {
                     (products[one] * products[other] * own).add_to(sum, register);
                 }
@@ -128,8 +128,8 @@ const fn pair(a: usize, b: usize) -> usize {
 
 /// m_a m_b from the area vectors; those of triangles without area, which have no normal, are zero.
 #[inline(always)]
-fn products<S: Simd>(vector: &Vector<S>, length: Lanes<S>) -> [Lanes<S>; PAIRS.len()] {
-    let zero = Lanes::splat(length.simd, 0.0);
+fn products<S: Simd>(vector: &Vector<S>, length: F64s<S>) -> [F64s<S>; PAIRS.len()] {
+    let zero = F64s::splat(length.simd, 0.0);
     let inverse = zero.less_than(length).select(1.0 / length, zero);
     let [x, y, z] = [vector[0] * inverse, vector[1] * inverse, vector[2] * inverse];
     [x * x, x * y, x * z, y * y, y * z, z * z]

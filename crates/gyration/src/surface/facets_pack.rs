@@ -8,11 +8,11 @@
 use pulp::Simd;
 
 use super::GapField;
-use super::lanes::{Lanes, Row, WIDTH};
+use crate::simd::{F64s, Row, WIDTH};
 use crate::tensor::Vec3;
 
 /// Three components in lanes.
-pub(super) type Vector<S> = [Lanes<S>; 3];
+pub(super) type Vector<S> = [F64s<S>; 3];
 
 /// Eight points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +46,7 @@ impl Points {
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
         let [x, y, z] = &self.0;
-        [Lanes::load(simd, x, register), Lanes::load(simd, y, register), Lanes::load(simd, z, register)]
+        [F64s::load(simd, x, register), F64s::load(simd, y, register), F64s::load(simd, z, register)]
     }
 }
 
@@ -84,8 +84,8 @@ impl Pack {
 
     /// Twice the areas of the triangles in a register [m²].
     #[inline(always)]
-    pub fn twice_area<S: Simd>(&self, simd: S, register: usize) -> Lanes<S> {
-        Lanes::load(simd, &self.twice_area, register)
+    pub fn twice_area<S: Simd>(&self, simd: S, register: usize) -> F64s<S> {
+        F64s::load(simd, &self.twice_area, register)
     }
 
     /// Twice the area vectors of the triangles in a register [m²].
@@ -97,22 +97,22 @@ impl Pack {
 
 /// A gap field in every lane.
 #[derive(Clone, Copy)]
-pub(super) struct FieldLanes<S: Simd> {
-    height: Lanes<S>,
+pub(super) struct SplatField<S: Simd> {
+    height: F64s<S>,
     direction: Vector<S>,
 }
 
-impl<S: Simd> FieldLanes<S> {
+impl<S: Simd> SplatField<S> {
     #[inline(always)]
     pub fn new(simd: S, field: &GapField) -> Self {
         let m = &field.direction;
-        let splat = |x| Lanes::splat(simd, x);
+        let splat = |x| F64s::splat(simd, x);
         Self { height: splat(field.height), direction: [splat(m.x), splat(m.y), splat(m.z)] }
     }
 
     /// The gaps g₀ + m·X [m], rounded as [`GapField::gap`] does.
     #[inline(always)]
-    pub fn gap(&self, [x, y, z]: &Vector<S>) -> Lanes<S> {
+    pub fn gap(&self, [x, y, z]: &Vector<S>) -> F64s<S> {
         let [mx, my, mz] = self.direction;
         self.height + ((mx * *x + my * *y) + mz * *z)
     }

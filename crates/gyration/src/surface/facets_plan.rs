@@ -13,8 +13,8 @@ use pulp::Simd;
 use super::facets_split::SplitKernel;
 use super::facets_triangle::{COMPONENTS, Levels, Triangle, Weights, add_tensors};
 use super::facets_whole::WholeExponent;
-use super::lanes::{Lanes, Row};
 use super::{Kernel, MomentRequest};
+use crate::simd::{F64s, Row};
 
 /// Requests that share one pass over the triangles.
 pub(super) const BATCH: usize = 4;
@@ -115,7 +115,7 @@ impl Plan {
     /// Adds the moments of the triangles in a register to the rows of sums.
     #[inline(always)]
     pub fn add<S: Simd>(&self, triangle: &Triangle<S>, register: usize, sums: &mut [Row]) {
-        let mut weights = [Lanes::splat(triangle.twice_area.simd, 0.0); 10];
+        let mut weights = [F64s::splat(triangle.twice_area.simd, 0.0); 10];
         let levels = if self.splits { Some(triangle.levels(self.needs_logs)) } else { None };
         for step in &self.steps[..self.count] {
             let Some(sums) = sums.get_mut(step.row..) else { return };

@@ -13,11 +13,11 @@
 use pulp::Simd;
 
 use super::facets_triangle::{Levels, Triangle, Weights};
-use super::lanes::Lanes;
-use super::lanes_power::{SplitExponent, whole_power};
 use super::power::{HIGHEST_DEGREE, LineKernel};
 use super::power_lanes::{End, LineMoments, line_moments};
 use super::{Kernel, MomentRequest};
+use crate::simd::F64s;
+use crate::simd::{SplitExponent, integer_power};
 
 /// A kernel prepared for the moments of one order over split triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl SplitKernel {
         weights: &mut Weights<S>,
     ) {
         let ends = [self.end(triangle, levels, 0), self.end(triangle, levels, 1), self.end(triangle, levels, 2)];
-        let mut moments = [[Lanes::splat(triangle.twice_area.simd, 0.0); HIGHEST_DEGREE + 1]; 2];
+        let mut moments = [[F64s::splat(triangle.twice_area.simd, 0.0); HIGHEST_DEGREE + 1]; 2];
         // A loop, since the formulas are long and the code of one pass of it is enough.
         for (part, moments) in moments.iter_mut().enumerate() {
             *moments = line_moments(&self.line, &ends[part], &ends[part + 1], ORDER + 1);
@@ -66,7 +66,7 @@ impl SplitKernel {
     fn end<S: Simd>(&self, triangle: &Triangle<S>, levels: &Levels<S>, corner: usize) -> End<S> {
         let (gap, inverse, log) = (triangle.gaps[corner], triangle.inverses[corner], levels.logs[corner]);
         let power = match self.line.integer {
-            Some(exponent) => whole_power(gap, inverse, exponent),
+            Some(exponent) => integer_power(gap, inverse, exponent),
             None => log.negative_power(&self.exponent),
         };
         End { gap, inverse, power, log }
@@ -75,7 +75,7 @@ impl SplitKernel {
 
 /// Lower part: J_ab = w τ^b E_ab m_(a+b+1), E_ab = ∫ (1 − u)^a u^b du = a! b!/(a + b + 1)!.
 #[inline(always)]
-fn set_lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMoments<S>, w: Lanes<S>, tau: Lanes<S>) {
+fn set_lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMoments<S>, w: F64s<S>, tau: F64s<S>) {
     weights[0] = w * m[1];
     if ORDER >= 1 {
         let first = (w * m[2]) * 0.5;
@@ -101,7 +101,7 @@ fn set_lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMome
 
 /// Upper part: J_ab += w Σ_j (b over j) τ^j E_aj B(1 + a + j, b − j), B(i, j) = ∫ (1 − x)^i x^j κ dx.
 #[inline(always)]
-fn add_upper<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMoments<S>, w: Lanes<S>, tau: Lanes<S>) {
+fn add_upper<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, m: &LineMoments<S>, w: F64s<S>, tau: F64s<S>) {
     // B(i, j) = B(i − 1, j) − B(i − 1, j + 1); the near end dominates B(i − 1, j), so that little cancels.
     let b1 = [w * (m[0] - m[1]), w * (m[1] - m[2]), w * (m[2] - m[3]), w * (m[3] - m[4])];
     weights[0] += b1[0];

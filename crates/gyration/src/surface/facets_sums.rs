@@ -4,11 +4,11 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::facets_pack::{FieldLanes, Pack, Points, Vector};
+use super::facets_pack::{Pack, Points, SplatField, Vector};
 use super::facets_plan::{MOST_ROWS, Plan};
 use super::facets_triangle::Triangle;
-use super::lanes::{Lanes, Row, WIDTH, dispatch, fold, registers_mut};
 use super::{GapField, Moments};
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold, registers_mut};
 use crate::tensor::{Mat3, Vec3};
 
 /// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and
@@ -89,8 +89,8 @@ impl<const DEFORMED: bool> WithSimd for Integrate<'_, DEFORMED> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
         let Request { packs, field, plan, cofactor } = *self.request;
-        let field = FieldLanes::new(simd, field);
-        let cofactor = MatrixLanes::new(simd, cofactor);
+        let field = SplatField::new(simd, field);
+        let cofactor = SplatMatrix::new(simd, cofactor);
         let mut seen = Gaps::new(simd);
         for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
@@ -111,14 +111,14 @@ impl<const DEFORMED: bool> WithSimd for Integrate<'_, DEFORMED> {
 /// The gaps that a pass has met.
 #[derive(Clone, Copy)]
 pub(super) struct Gaps<S: Simd> {
-    lowest: Lanes<S>,
-    total: Lanes<S>,
+    lowest: F64s<S>,
+    total: F64s<S>,
 }
 
 impl<S: Simd> Gaps<S> {
     #[inline(always)]
     pub fn new(simd: S) -> Self {
-        Self { lowest: Lanes::splat(simd, f64::INFINITY), total: Lanes::splat(simd, 0.0) }
+        Self { lowest: F64s::splat(simd, f64::INFINITY), total: F64s::splat(simd, 0.0) }
     }
 
     #[inline(always)]
@@ -140,13 +140,13 @@ impl<S: Simd> Gaps<S> {
 
 /// A 3×3 matrix in every lane, row by row.
 #[derive(Clone, Copy)]
-pub(super) struct MatrixLanes<S: Simd>([Vector<S>; 3]);
+pub(super) struct SplatMatrix<S: Simd>([Vector<S>; 3]);
 
-impl<S: Simd> MatrixLanes<S> {
+impl<S: Simd> SplatMatrix<S> {
     // Written out: what `map` calls is not compiled for the instruction set.
     #[inline(always)]
     pub fn new(simd: S, a: &Mat3) -> Self {
-        let splat = |x| Lanes::splat(simd, x);
+        let splat = |x| F64s::splat(simd, x);
         Self([
             [splat(a.m11), splat(a.m12), splat(a.m13)],
             [splat(a.m21), splat(a.m22), splat(a.m23)],
@@ -163,13 +163,13 @@ impl<S: Simd> MatrixLanes<S> {
 }
 
 #[inline(always)]
-fn dot<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> Lanes<S> {
+fn dot<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> F64s<S> {
     (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
 }
 
 /// The lengths of vectors.
 #[inline(always)]
-pub(super) fn length<S: Simd>(v: &Vector<S>) -> Lanes<S> {
+pub(super) fn length<S: Simd>(v: &Vector<S>) -> F64s<S> {
     dot(v, v).sqrt()
 }
 
@@ -188,17 +188,17 @@ impl WithSimd for Smallest<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let field = FieldLanes::new(simd, self.field);
-        let mut lowest = Lanes::splat(simd, f64::INFINITY);
-        let mut total = Lanes::splat(simd, 0.0);
-        let mut step_of_lowest = Lanes::splat(simd, 0.0);
+        let field = SplatField::new(simd, self.field);
+        let mut lowest = F64s::splat(simd, f64::INFINITY);
+        let mut total = F64s::splat(simd, 0.0);
+        let mut step_of_lowest = F64s::splat(simd, 0.0);
         let mut step = 0.0;
         for points in self.points {
             for register in 0..WIDTH / S::F64_LANES {
                 let gap = field.gap(&points.load(simd, register));
                 let lower = gap.less_than(lowest);
                 lowest = lower.select(gap, lowest);
-                step_of_lowest = lower.select(Lanes::splat(simd, step), step_of_lowest);
+                step_of_lowest = lower.select(F64s::splat(simd, step), step_of_lowest);
                 total += gap;
                 step += 1.0;
             }

@@ -9,12 +9,12 @@
 
 use pulp::Simd;
 
-use super::facets_pack::{FieldLanes, Pack, Vector};
-use super::lanes::{Lanes, Row};
-use super::lanes_power::Log2;
+use super::facets_pack::{Pack, SplatField, Vector};
+use crate::simd::Log2;
+use crate::simd::{F64s, Row};
 
 /// J_ab for (a, b) = 00, 10, 01, 20, 11, 02, 30, 21, 12, 03; those above the wanted order have no meaning.
-pub(super) type Weights<S> = [Lanes<S>; 10];
+pub(super) type Weights<S> = [F64s<S>; 10];
 
 /// How many components the moments up to an order have, symmetric ones counted once.
 pub(super) const COMPONENTS: [usize; 4] = [1, 4, 10, 20];
@@ -23,11 +23,11 @@ pub(super) const COMPONENTS: [usize; 4] = [1, 4, 10, 20];
 #[derive(Clone, Copy)]
 pub(super) struct Triangle<S: Simd> {
     /// d₀ ≤ d₁ ≤ d₂ [m].
-    pub gaps: [Lanes<S>; 3],
+    pub gaps: [F64s<S>; 3],
     /// 1/d [1/m].
-    pub inverses: [Lanes<S>; 3],
+    pub inverses: [F64s<S>; 3],
     /// Twice the area [m²], deformed or not.
-    pub twice_area: Lanes<S>,
+    pub twice_area: F64s<S>,
     /// V₀.
     origin: Vector<S>,
     /// E₁ = V₁ − V₀, E₂ = V₂ − V₀.
@@ -38,7 +38,7 @@ pub(super) struct Triangle<S: Simd> {
 #[derive(Clone, Copy)]
 pub(super) struct Levels<S: Simd> {
     /// τ = (d₁ − d₀)/(d₂ − d₀) and 1 − τ.
-    pub shares: [Lanes<S>; 2],
+    pub shares: [F64s<S>; 2],
     /// Logarithms of the gaps.
     pub logs: [Log2<S>; 3],
 }
@@ -46,7 +46,7 @@ pub(super) struct Levels<S: Simd> {
 impl<S: Simd> Triangle<S> {
     /// Sorts the corners of the triangles in one register of a pack; their integrals count with this area.
     #[inline(always)]
-    pub fn new(pack: &Pack, register: usize, field: &FieldLanes<S>, twice_area: Lanes<S>) -> Self {
+    pub fn new(pack: &Pack, register: usize, field: &SplatField<S>, twice_area: F64s<S>) -> Self {
         let simd = twice_area.simd;
         let [mut a, mut b, mut c] = pack.corners(simd, register);
         let (mut low, mut middle, mut high) = (field.gap(&a), field.gap(&b), field.gap(&c));
@@ -68,7 +68,7 @@ impl<S: Simd> Triangle<S> {
         let [low, middle, high] = self.gaps;
         let simd = low.simd;
         let range = high - low;
-        let (flat, half) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 0.5));
+        let (flat, half) = (F64s::splat(simd, 0.0), F64s::splat(simd, 0.5));
         let proper = flat.less_than(range);
         Levels {
             shares: [proper.select((middle - low) / range, half), proper.select((high - middle) / range, half)],
@@ -83,7 +83,7 @@ impl<S: Simd> Triangle<S> {
 
 /// Puts the lower of two gaps first, with its point.
 #[inline(always)]
-fn sort<S: Simd>(low: &mut Lanes<S>, a: &mut Vector<S>, high: &mut Lanes<S>, b: &mut Vector<S>) {
+fn sort<S: Simd>(low: &mut F64s<S>, a: &mut Vector<S>, high: &mut F64s<S>, b: &mut Vector<S>) {
     let wrong = high.less_than(*low);
     wrong.exchange(low, high);
     for axis in 0..3 {
@@ -139,7 +139,7 @@ pub(super) fn add_tensors<S: Simd, const ORDER: usize>(
 }
 
 #[inline(always)]
-fn add_all<S: Simd>(sums: &mut [Row], terms: &[Lanes<S>], register: usize) {
+fn add_all<S: Simd>(sums: &mut [Row], terms: &[F64s<S>], register: usize) {
     for (sum, term) in sums.iter_mut().zip(terms) {
         term.add_to(sum, register);
     }
@@ -147,7 +147,7 @@ fn add_all<S: Simd>(sums: &mut [Row], terms: &[Lanes<S>], register: usize) {
 
 /// a p + b q + c r.
 #[inline(always)]
-fn combine<S: Simd>(a: &Vector<S>, p: Lanes<S>, b: &Vector<S>, q: Lanes<S>, c: &Vector<S>, r: Lanes<S>) -> Vector<S> {
+fn combine<S: Simd>(a: &Vector<S>, p: F64s<S>, b: &Vector<S>, q: F64s<S>, c: &Vector<S>, r: F64s<S>) -> Vector<S> {
     [dot([a[0], b[0], c[0]], [p, q, r]), dot([a[1], b[1], c[1]], [p, q, r]), dot([a[2], b[2], c[2]], [p, q, r])]
 }
 
@@ -160,13 +160,13 @@ fn symmetric<S: Simd>(
     d: &Vector<S>,
     e: &Vector<S>,
     f: &Vector<S>,
-) -> [Lanes<S>; 6] {
+) -> [F64s<S>; 6] {
     let (x, y, z) = ([a[0], c[0], e[0]], [a[1], c[1], e[1]], [a[2], c[2], e[2]]);
     let (u, v, w) = ([b[0], d[0], f[0]], [b[1], d[1], f[1]], [b[2], d[2], f[2]]);
     [dot(x, u), dot(x, v), dot(x, w), dot(y, v), dot(y, w), dot(z, w)]
 }
 
 #[inline(always)]
-fn dot<S: Simd>(a: Vector<S>, b: Vector<S>) -> Lanes<S> {
+fn dot<S: Simd>(a: Vector<S>, b: Vector<S>) -> F64s<S> {
     (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
 }

@@ -11,7 +11,7 @@
 use pulp::Simd;
 
 use super::facets_triangle::{Triangle, Weights};
-use super::lanes::Lanes;
+use crate::simd::F64s;
 
 /// The largest exponent taken: the cost grows with ν, and that of a split triangle does not.
 const LARGEST: f64 = 24.0;
@@ -74,7 +74,7 @@ impl WholeExponent {
 
 /// Up to the third order from h_M with three more corners.
 #[inline(always)]
-fn third<S: Simd>(weights: &mut Weights<S>, u: &[Lanes<S>; 3], three: &[Lanes<S>; 10], scale: Lanes<S>) {
+fn third<S: Simd>(weights: &mut Weights<S>, u: &[F64s<S>; 3], three: &[F64s<S>; 10], scale: F64s<S>) {
     let mut j = [scale; 10];
     for (i, j) in j.iter_mut().enumerate() {
         let (pair, r) = TRIPLES[i];
@@ -96,7 +96,7 @@ fn third<S: Simd>(weights: &mut Weights<S>, u: &[Lanes<S>; 3], three: &[Lanes<S>
 
 /// J_ab up to the second order from ∫ λ_p λ_q κ dA over the pairs.
 #[inline(always)]
-fn fill_second<S: Simd>(weights: &mut Weights<S>, j: &[Lanes<S>; 6]) {
+fn fill_second<S: Simd>(weights: &mut Weights<S>, j: &[F64s<S>; 6]) {
     let first = (j[1] + j[3]) + j[4];
     let second = (j[2] + j[4]) + j[5];
     let zeroth = ((j[0] + j[1]) + j[2]) + (first + second);
@@ -105,17 +105,17 @@ fn fill_second<S: Simd>(weights: &mut Weights<S>, j: &[Lanes<S>; 6]) {
 
 /// h_k of the corners taken once: u₀; u₀ u₁; u₀ u₁ u₂, and with one, two and three more.
 struct Homogeneous<S: Simd> {
-    base: [Lanes<S>; 3],
-    one: [Lanes<S>; 3],
-    two: [Lanes<S>; 6],
-    three: [Lanes<S>; 10],
+    base: [F64s<S>; 3],
+    one: [F64s<S>; 3],
+    two: [F64s<S>; 6],
+    three: [F64s<S>; 10],
 }
 
 impl<S: Simd> Homogeneous<S> {
     /// h_degree, with as many more corners as the order asks for.
     #[inline(always)]
-    fn raised<const ORDER: usize>(degree: usize, u: &[Lanes<S>; 3]) -> Self {
-        let unit = Lanes::splat(u[0].simd, 1.0);
+    fn raised<const ORDER: usize>(degree: usize, u: &[F64s<S>; 3]) -> Self {
+        let unit = F64s::splat(u[0].simd, 1.0);
         let mut h = Self { base: [unit; 3], one: [unit; 3], two: [unit; 6], three: [unit; 10] };
         for _ in 0..degree {
             h.raise::<ORDER>(u);
@@ -125,7 +125,7 @@ impl<S: Simd> Homogeneous<S> {
 
     /// From k to k + 1.
     #[inline(always)]
-    fn raise<const ORDER: usize>(&mut self, u: &[Lanes<S>; 3]) {
+    fn raise<const ORDER: usize>(&mut self, u: &[F64s<S>; 3]) {
         self.base[0] = self.base[0] * u[0];
         self.base[1] = self.base[0] + u[1] * self.base[1];
         self.base[2] = self.base[1] + u[2] * self.base[2];

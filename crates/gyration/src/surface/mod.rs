@@ -23,8 +23,7 @@ mod facets_split;
 mod facets_sums;
 mod facets_triangle;
 mod facets_whole;
-mod lanes;
-mod lanes_power;
+
 mod power_lanes;
 mod rule;
 mod whole_lanes;

@@ -7,10 +7,10 @@
 use pulp::Simd;
 
 use super::Kernel;
-use super::lanes::Lanes;
-use super::lanes_power::{Log2, polynomial};
 use super::power::{BINOMIAL, HIGHEST_DEGREE, LineKernel, RECIPROCAL, SERIES_LANES};
 use super::whole_lanes::whole_powers;
+use crate::simd::F64s;
+use crate::simd::{Log2, polynomial};
 
 /// Terms of φ(z) = Σ z^n/(n + 1)! for |z| ≤ 1: the next is below 1e-17.
 const GROWTH_TERMS: usize = 18;
@@ -30,17 +30,17 @@ const GROWTH: [f64; GROWTH_TERMS] = {
 #[derive(Clone, Copy)]
 pub(super) struct End<S: Simd> {
     /// d [m].
-    pub gap: Lanes<S>,
+    pub gap: F64s<S>,
     /// 1/d [1/m].
-    pub inverse: Lanes<S>,
+    pub inverse: F64s<S>,
     /// d^−ν (d^−1 for the logarithmic kernel).
-    pub power: Lanes<S>,
+    pub power: F64s<S>,
     /// log₂ d.
     pub log: Log2<S>,
 }
 
 /// m_0 … m_5; those above the wanted degree are zero.
-pub(super) type LineMoments<S> = [Lanes<S>; HIGHEST_DEGREE + 1];
+pub(super) type LineMoments<S> = [F64s<S>; HIGHEST_DEGREE + 1];
 
 /// The moments m_0 … m_degree = ∫₀¹ x^k κ dx, with x = 0 at the near end, the gap of which is not the larger one.
 ///
@@ -71,7 +71,7 @@ fn powers<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, degree: usize
     if let Some(whole) = line.whole {
         return whole_powers(whole, near, far, degree);
     }
-    let zero = Lanes::splat(far.gap.simd, 0.0);
+    let zero = F64s::splat(far.gap.simd, 0.0);
     let margin = (far.gap - near.gap) * line.limits[2] - far.gap;
     if margin.smallest() > 0.0 {
         return upward(line, near, far, degree);
@@ -121,10 +121,10 @@ fn downward<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, degree: usi
 
 /// m_k at the one k where s = k + 1 − ν is small; see `LineKernel::near_logarithm`.
 #[inline(always)]
-fn near_logarithm<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, inverse: Lanes<S>) -> Lanes<S> {
+fn near_logarithm<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, inverse: F64s<S>) -> F64s<S> {
     let degree = line.log_degree;
     let (mut near_power, mut far_power) = (near.gap * near.power, far.gap * far.power);
-    let (mut lower, mut scale) = (Lanes::splat(inverse.simd, 0.0), inverse);
+    let (mut lower, mut scale) = (F64s::splat(inverse.simd, 0.0), inverse);
     for (binomial, step) in BINOMIAL[degree % BINOMIAL.len()].iter().zip(&line.steps).take(degree) {
         lower = -near.gap * (lower + (far_power - near_power) * (binomial * step.1));
         near_power = near_power * near.gap;
@@ -139,17 +139,17 @@ fn near_logarithm<S: Simd>(line: &LineKernel, near: &End<S>, far: &End<S>, inver
         let z = span * exponent;
         let small = z * z;
         let grown = (far_power - near_power) * (1.0 / exponent);
-        Lanes::splat(z.simd, 1.0).less_than(small).select(grown, near_power * span * polynomial(&GROWTH, z))
+        F64s::splat(z.simd, 1.0).less_than(small).select(grown, near_power * span * polynomial(&GROWTH, z))
     };
     (leading + lower) * scale
 }
 
 /// Σ c_n θ^n, the coefficients row after row: one Horner scheme in θ⁴ for each column.
 #[inline(always)]
-fn series<S: Simd, const ROWS: usize>(coefficients: &[[f64; SERIES_LANES]; ROWS], theta: Lanes<S>) -> Lanes<S> {
+fn series<S: Simd, const ROWS: usize>(coefficients: &[[f64; SERIES_LANES]; ROWS], theta: F64s<S>) -> F64s<S> {
     let squared = theta * theta;
     let fourth = squared * squared;
-    let mut sums = [Lanes::splat(theta.simd, 0.0); SERIES_LANES];
+    let mut sums = [F64s::splat(theta.simd, 0.0); SERIES_LANES];
     for row in coefficients.iter().rev() {
         for (sum, coefficient) in sums.iter_mut().zip(row) {
             *sum = *sum * fourth + *coefficient;
@@ -160,5 +160,5 @@ fn series<S: Simd, const ROWS: usize>(coefficients: &[[f64; SERIES_LANES]; ROWS]
 
 #[inline(always)]
 pub(super) fn zeros<S: Simd>(end: &End<S>) -> LineMoments<S> {
-    [Lanes::splat(end.gap.simd, 0.0); HIGHEST_DEGREE + 1]
+    [F64s::splat(end.gap.simd, 0.0); HIGHEST_DEGREE + 1]
 }

@@ -18,10 +18,10 @@
 use pulp::Simd;
 
 use super::Kernel;
-use super::lanes::Lanes;
-use super::lanes_power::{polynomial, whole_and_mantissa};
 use super::power::RECIPROCAL;
 use super::power_lanes::{End, LineMoments, zeros};
+use crate::simd::F64s;
+use crate::simd::{exponent_and_mantissa, polynomial};
 use std::f64::consts::LN_2;
 
 /// The highest Φ for which there is a formula at w = 0.
@@ -91,16 +91,16 @@ pub(super) fn whole_powers<S: Simd>(whole: usize, near: &End<S>, far: &End<S>, d
 struct Way<'a, S: Simd> {
     whole: f64,
     /// e^(1−ν).
-    end: Lanes<S>,
+    end: F64s<S>,
     /// δ.
-    difference: Lanes<S>,
+    difference: F64s<S>,
     near: &'a End<S>,
 }
 
 impl<S: Simd> Way<'_, S> {
     /// m_(k−1) from m_k.
     #[inline(always)]
-    fn down(&self, k: usize, moment: Lanes<S>) -> Lanes<S> {
+    fn down(&self, k: usize, moment: F64s<S>) -> F64s<S> {
         let weight = self.whole - 1.0 - k as f64;
         (self.end + self.difference * moment * weight) * (self.near.inverse * RECIPROCAL[k])
     }
@@ -108,12 +108,12 @@ impl<S: Simd> Way<'_, S> {
 
 /// Φ_j of segments with this θ, j ≤ [`HIGHEST_TAIL`].
 #[inline(always)]
-fn tail<S: Simd>(near: &End<S>, far: &End<S>, theta: Lanes<S>, j: usize) -> Lanes<S> {
+fn tail<S: Simd>(near: &End<S>, far: &End<S>, theta: F64s<S>, j: usize) -> F64s<S> {
     let simd = theta.simd;
-    let (zero, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
+    let (zero, one) = (F64s::splat(simd, 0.0), F64s::splat(simd, 1.0));
     let ratio = far.gap * near.inverse;
     // Rounding must not put equal gaps below w = 0.
-    let (whole, mantissa) = whole_and_mantissa(ratio.less_than(one).select(one, ratio), 1.0);
+    let (whole, mantissa) = exponent_and_mantissa(ratio.less_than(one).select(one, ratio), 1.0);
     let s = (mantissa - 1.0) / (mantissa + 1.0);
     let squared = s * s;
     let b = polynomial(&ARTANH_TAIL, squared);
@@ -130,7 +130,7 @@ fn tail<S: Simd>(near: &End<S>, far: &End<S>, theta: Lanes<S>, j: usize) -> Lane
 
 /// Φ_j upwards from Φ_0, given w and artanh s; θ is at least ½.
 #[inline(always)]
-fn tail_from_logarithm<S: Simd>(theta: Lanes<S>, whole: Lanes<S>, artanh: Lanes<S>, j: usize) -> Lanes<S> {
+fn tail_from_logarithm<S: Simd>(theta: F64s<S>, whole: F64s<S>, artanh: F64s<S>, j: usize) -> F64s<S> {
     let inverse = 1.0 / theta;
     let mut tail = (whole * LN_2 + (artanh + artanh)) * inverse;
     for reciprocal in &RECIPROCAL[1..=j] {
@@ -141,7 +141,7 @@ fn tail_from_logarithm<S: Simd>(theta: Lanes<S>, whole: Lanes<S>, artanh: Lanes<
 
 /// Φ_j downwards from Φ_4, given s and B; e/c is less than two.
 #[inline(always)]
-fn tail_downwards<S: Simd>(theta: Lanes<S>, s: Lanes<S>, b: Lanes<S>, j: usize) -> Lanes<S> {
+fn tail_downwards<S: Simd>(theta: F64s<S>, s: F64s<S>, b: F64s<S>, j: usize) -> F64s<S> {
     let grown = s + 1.0;
     let squared = grown * grown;
     let rational = s * (s * (2.0 / 3.0) + 8.0 / 3.0) + 6.0;
@@ -154,10 +154,10 @@ fn tail_downwards<S: Simd>(theta: Lanes<S>, s: Lanes<S>, b: Lanes<S>, j: usize) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::lanes::{Row, WIDTH, dispatch, registers_mut};
-    use super::super::lanes_power::{Log2, whole_power};
     use super::super::power::HIGHEST_DEGREE;
     use super::*;
+    use crate::simd::{Log2, integer_power};
+    use crate::simd::{Row, WIDTH, dispatch, registers_mut};
     use pulp::WithSimd;
 
     /// Moments of segments of these ratios e/c, c = 0.7.
@@ -175,12 +175,12 @@ mod tests {
         #[inline(always)]
         fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
             let mut out = [[0.0; WIDTH]; HIGHEST_DEGREE + 1];
-            let end = |gap: Lanes<S>| {
+            let end = |gap: F64s<S>| {
                 let inverse = 1.0 / gap;
-                End { gap, inverse, power: whole_power(gap, inverse, self.whole as i32), log: Log2::unread(simd) }
+                End { gap, inverse, power: integer_power(gap, inverse, self.whole as i32), log: Log2::unread(simd) }
             };
             for register in 0..WIDTH / S::F64_LANES {
-                let (near, far) = (Lanes::splat(simd, NEAR), Lanes::load(simd, &self.ratios, register) * NEAR);
+                let (near, far) = (F64s::splat(simd, NEAR), F64s::load(simd, &self.ratios, register) * NEAR);
                 let moments = whole_powers(self.whole, &end(near), &end(far), self.degree);
                 for (row, moment) in out.iter_mut().zip(moments) {
                     registers_mut::<S>(row)[register] = moment.values;

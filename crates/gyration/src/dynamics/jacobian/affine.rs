@@ -10,10 +10,10 @@ use super::super::affine::moment;
 use super::super::loads::add_slopes;
 use crate::affine::{AffineSlopes, Entry, Gyration};
 use crate::body::Affine;
-use crate::columns::{Columns, Four, Work, dispatch};
 use crate::inadmissible::Inadmissible;
 use crate::instant::BodyAt;
 use crate::load::LoadSlopes;
+use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
 
@@ -38,7 +38,7 @@ pub(super) fn fill(
         }
     }
     let block = block.as_mut_slice();
-    dispatch(Acceleration { affine, gyration, moment: &moment, loads: loads.as_ref(), half, block });
+    dispatch_f64x4(Acceleration { affine, gyration, moment: &moment, loads: loads.as_ref(), half, block });
     Ok(())
 }
 
@@ -54,11 +54,11 @@ struct Acceleration<'a> {
     block: &'a mut [f64],
 }
 
-impl Work for Acceleration<'_> {
+impl WithF64x4 for Acceleration<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<F: Four>(self, zeros: F) {
+    fn run<F: F64x4>(self, zeros: F) {
         let Self { affine, gyration, moment, loads, half, block } = self;
         let balance = affine.interior.slopes_in(zeros, gyration, moment);
         let Some(loads) = loads else { return by_gradient(zeros, &balance, |_, _| None, (block, half)) };
@@ -74,10 +74,10 @@ impl Work for Acceleration<'_> {
 
 /// Writes δP̈ along P and Ṗ into the block, given δM along each coordinate or its rate, if there is any.
 #[inline(always)]
-fn by_gradient<F: Four>(
+fn by_gradient<F: F64x4>(
     zeros: F,
     balance: &AffineSlopes,
-    moment: impl Fn(bool, usize) -> Option<Columns>,
+    moment: impl Fn(bool, usize) -> Option<SimdMat3>,
     (block, half): (&mut [f64], usize),
 ) {
     let (places, rates) = block.split_at_mut(2 * half * half);
@@ -129,8 +129,8 @@ impl<'a> Seen<'a> {
 
     /// δM along one coordinate; of a pinned body, M is about the pin and p₀ = a − P r.
     #[inline(always)]
-    pub fn along(&self, by_rate: bool, coordinate: usize) -> Columns {
-        let Some(arm) = &self.arm else { return Columns::read(&self.column(by_rate, coordinate)[3..]) };
+    pub fn along(&self, by_rate: bool, coordinate: usize) -> SimdMat3 {
+        let Some(arm) = &self.arm else { return SimdMat3::read(&self.column(by_rate, coordinate)[3..]) };
         // δP = e_i ⊗ e_A moves p₀ by −r_A e_i.
         let (own, center) = (self.column(by_rate, 3 + coordinate), self.column(by_rate, coordinate % 3));
         let mut change = [0.0; 12];
@@ -140,6 +140,6 @@ impl<'a> Seen<'a> {
         for place in 3..12 {
             change[place] -= change[place % 3] * arm[place / 3 - 1];
         }
-        Columns::read(&change[3..])
+        SimdMat3::read(&change[3..])
     }
 }

@@ -10,9 +10,9 @@ use super::super::affine::moment;
 use super::super::contractile::ContractileMotion;
 use super::affine::{Seen, load_slopes};
 use crate::body::Slots;
-use crate::columns::{Columns, Four, Work, dispatch};
 use crate::contractile::{ContractileSlopes, Felt};
 use crate::inadmissible::Inadmissible;
+use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::Mat3;
 use nalgebra::DMatrix;
 
@@ -34,7 +34,7 @@ pub(super) fn fill(
         block.view_mut((half, 0), (block.nrows() - half, half - 9)).fill(0.0);
     }
     let seen = loads.as_ref().map(|slopes| Seen::of(at, slopes));
-    dispatch(&mut Contracting { moving, moment: &moment, seen: seen.as_ref(), half, block });
+    dispatch_f64x4(&mut Contracting { moving, moment: &moment, seen: seen.as_ref(), half, block });
     Ok(())
 }
 
@@ -49,11 +49,11 @@ struct Contracting<'a> {
     block: &'a mut DMatrix<f64>,
 }
 
-impl Work for &mut Contracting<'_> {
+impl WithF64x4 for &mut Contracting<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<F: Four>(self, zeros: F) {
+    fn run<F: F64x4>(self, zeros: F) {
         let Contracting { moving, moment, seen, half, block } = self;
         let (half, size, driven) = (*half, block.nrows(), moving.contractile.contraction.is_driven());
         let balance = moving.slopes_in(zeros, &moving.command(), moment);
@@ -74,7 +74,7 @@ impl Work for &mut Contracting<'_> {
             for coordinate in 0..size {
                 let (by_rate, place) = (coordinate >= half, coordinate % half);
                 let column = &mut columns[size * coordinate..size * (coordinate + 1)];
-                let (mut own, mut moment, mut asked) = (Columns::default(), Columns::default(), 0.0);
+                let (mut own, mut moment, mut asked) = (SimdMat3::default(), SimdMat3::default(), 0.0);
                 if coordinate < 2 * half {
                     if let Some(seen) = seen {
                         seen.linear(by_rate, place, &mut column[half..half + at]);
@@ -90,7 +90,7 @@ impl Work for &mut Contracting<'_> {
                 }
                 let out = &mut column[half + at..2 * half];
                 if place >= at || coordinate >= 2 * half {
-                    own = Columns::read(out);
+                    own = SimdMat3::read(out);
                 }
                 balance.held(&own, &moment, asked).write(out);
             }
@@ -103,13 +103,13 @@ impl Work for &mut Contracting<'_> {
 
 /// Adds what the parts of the drive do that answer to the body.
 #[inline(always)]
-fn add_feedback<F: Four>(block: &mut DMatrix<f64>, moving: &ContractileMotion, balance: &ContractileSlopes<F>) {
+fn add_feedback<F: F64x4>(block: &mut DMatrix<f64>, moving: &ContractileMotion, balance: &ContractileSlopes<F>) {
     let pin = moving.at.body.pin.as_ref();
     let half = Slots::with_inertia(moving.at.body, 0).places().len();
     for (felt, feedback) in moving.felt().filter(|(felt, feedback)| feedback.answer(felt.value).1) {
         let mut change = [0.0; 3 * 18];
         balance.along_drive(&feedback.gain).write(&mut change, 18, true);
-        balance.held(&Columns::read(&change), &Columns::default(), 0.0).write(&mut change);
+        balance.held(&SimdMat3::read(&change), &SimdMat3::default(), 0.0).write(&mut change);
         let Felt { by_position, mut by_gradient, by_rate, .. } = felt;
         if let Some(pin) = pin {
             // p₀ = a − P r.

@@ -16,9 +16,9 @@ use super::super::contractile::ContractileMotion;
 use super::super::history::RigidHistory;
 use crate::affine::Gyration;
 use crate::body::{Affine, RigidInertia, Slots};
-use crate::columns::{Columns, Four, Work, dispatch};
 use crate::instant::{BodyAt, KindAt};
 use crate::load::{LoadSlopes, Loads, Mat12, loads, numbers};
+use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::state::Turn;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 use nalgebra::{DMatrix, SVector};
@@ -123,9 +123,9 @@ impl Lower {
             KindAt::Rigid(inertia, turn) => {
                 std::array::from_fn(|k| turned(at, inertia, turn, &loads(&Vec12::ith(k, 1.0))))
             }
-            KindAt::Affine(affine, gyration) => dispatch(Deforming { at, affine, gyration }),
+            KindAt::Affine(affine, gyration) => dispatch_f64x4(Deforming { at, affine, gyration }),
             KindAt::Contractile(contractile, gyration, decomposition) => {
-                dispatch(ContractileMotion { at, contractile, gyration, decomposition })
+                dispatch_f64x4(ContractileMotion { at, contractile, gyration, decomposition })
             }
         };
         Self { map: Mat12::from_columns(&columns), slots }
@@ -168,31 +168,31 @@ struct Deforming<'a> {
 
 /// (δp̈₀, δP̈) by each number of Q, given δP̈ of δM.
 #[inline(always)]
-fn deformed<F: Four>(at: &BodyAt, acceleration: impl Fn(&Columns) -> Columns<F>) -> [Vec12; 12] {
+fn deformed<F: F64x4>(at: &BodyAt, acceleration: impl Fn(&SimdMat3) -> SimdMat3<F>) -> [Vec12; 12] {
     std::array::from_fn(|k| {
         let change = loads(&Vec12::ith(k, 1.0));
         let mut own = [0.0; 9];
-        acceleration(&Columns::of(&about_pin(at, &change))).write(&mut own);
+        acceleration(&SimdMat3::of(&about_pin(at, &change))).write(&mut own);
         stacked(at, &(change.force / at.body.mass.mass), &own)
     })
 }
 
-impl Work for Deforming<'_> {
+impl WithF64x4 for Deforming<'_> {
     type Output = [Vec12; 12];
 
     #[inline(always)]
-    fn run<F: Four>(self, zeros: F) -> Self::Output {
+    fn run<F: F64x4>(self, zeros: F) -> Self::Output {
         let balance = self.affine.interior.slopes_in(zeros, self.gyration, &Mat3::zeros());
         deformed(self.at, |moment| balance.along_moment(moment, zeros))
     }
 }
 
-impl Work for ContractileMotion<'_> {
+impl WithF64x4 for ContractileMotion<'_> {
     type Output = [Vec12; 12];
 
     #[inline(always)]
-    fn run<F: Four>(self, zeros: F) -> Self::Output {
+    fn run<F: F64x4>(self, zeros: F) -> Self::Output {
         let balance = self.slopes_in(zeros, &self.command(), &Mat3::zeros());
-        deformed(self.at, |moment| balance.held(&Columns::default(), moment, 0.0))
+        deformed(self.at, |moment| balance.held(&SimdMat3::default(), moment, 0.0))
     }
 }

@@ -10,13 +10,13 @@ use std::f64::consts::PI;
 
 use pulp::{Simd, WithSimd};
 
-use super::super::lanes::dispatch;
 use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
 use super::integrand::{GROUP, Integrand, LANES, Lane};
 use super::ring::{Demand, RingChunk, Rings};
 use super::weight::{Deformed, Weighted};
+use crate::simd::dispatch;
 use crate::tensor::Vec3;
 
 /// A disk about the z axis in the plane z = 0, one side of it.

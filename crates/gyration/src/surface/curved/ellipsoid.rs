@@ -8,13 +8,13 @@
 //! does not depend on φ: κ is evaluated once for a parallel, and the rest, ∮ |B s| s⊗… dφ, is geometry, the same for
 //! the parallel at π − θ but for signs. `features` chooses the parallels, `parallels` sums around them.
 
-use super::super::lanes::dispatch;
 use super::super::{GapField, MomentRequest, Moments};
 use super::features::Features;
 use super::half_plane::Chart;
 use super::integrand::Integrand;
 use super::parallels::{AreaElement, Sums, Sweep};
 use super::sphere::frame_along;
+use crate::simd::dispatch;
 use crate::tensor::{Mat3, Vec3};
 
 /// An ellipsoid about the origin, its axes along x, y, z.

@@ -10,7 +10,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::super::MomentRequest;
-use super::super::lanes::dispatch;
 use super::super::rule::{GradedInterval, Singularity, gauss_legendre};
 use super::Hemisphere;
 use super::features::{Dip, dips};
@@ -20,6 +19,7 @@ use super::integrand::Integrand;
 use super::parallels::{AreaElement, Sums};
 use super::points::PointSums;
 use super::weight::{Deformed, Weighted, Weights, extra_digits};
+use crate::simd::dispatch;
 use crate::tensor::{Mat3, Vec3};
 
 /// Digits of the weight, as a natural logarithm.

@@ -7,7 +7,6 @@
 //! `parallels` sums as ever.
 
 use super::super::MomentRequest;
-use super::super::lanes::dispatch;
 use super::features::Features;
 use super::half_plane::Chart;
 use super::integrand::Integrand;
@@ -15,6 +14,7 @@ use super::parallels::{AreaElement, Sums, Sweep};
 use super::sphere::frame_along;
 use super::weight::{Deformed, Weighted, extra_digits};
 use super::{Ellipsoid, Sphere};
+use crate::simd::dispatch;
 use crate::tensor::{Mat3, Vec3};
 
 impl Ellipsoid {

@@ -14,9 +14,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use pulp::{Simd, WithSimd};
 
-use super::super::lanes::dispatch;
 use super::integrand::{LANES, Lane};
 use super::ring::{Demand, RingChunk, RingNode, frequency, mean, sine_and_cosine};
+use crate::simd::dispatch;
 
 /// Room for a rule, in chunks; a finer one than this is not made.
 const MOST_CHUNKS: usize = 96;

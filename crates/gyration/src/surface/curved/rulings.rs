@@ -11,13 +11,13 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::super::lanes::{Lanes, Row, WIDTH, dispatch, fold};
-use super::super::lanes_power::{Log2, SplitExponent, whole_power};
 use super::super::power::LineKernel;
 use super::super::power_lanes::{End, line_moments};
 use super::super::{Kernel, MomentRequest};
 use super::integrand::LANES;
 use super::ring::RingChunk;
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
+use crate::simd::{Log2, SplitExponent, integer_power};
 
 /// The rulings of one wall: gaps base = near + reach · versine at one end.
 #[derive(Debug, Clone, Copy)]
@@ -140,7 +140,7 @@ impl Sweep<'_> {
             }
             let [weight, cos, versine, sin_squared] = rows_of(pair);
             for register in 0..WIDTH / S::F64_LANES {
-                let load = |row: &Row| Lanes::<S>::load(simd, row, register);
+                let load = |row: &Row| F64s::<S>::load(simd, row, register);
                 let base = load(&versine) * self.rulings.reach + self.rulings.near;
                 let line = self.line::<S, ORDER>(base);
                 let trigonometry = (load(&weight), load(&cos), load(&sin_squared));
@@ -152,14 +152,14 @@ impl Sweep<'_> {
 
     /// L_j of a cylinder, or ∫ κ t^(j+1) dt of a cone.
     #[inline(always)]
-    pub(super) fn line<S: Simd, const ORDER: usize>(&self, base: Lanes<S>) -> [Lanes<S>; 4] {
+    pub(super) fn line<S: Simd, const ORDER: usize>(&self, base: F64s<S>) -> [F64s<S>; 4] {
         match self.rulings.other_end {
             OtherEnd::Above(rise) => {
                 let m = line_moments(self.line, &self.end(base), &self.end(base + rise), ORDER);
                 [m[0], m[1], m[2], m[3]]
             }
             OtherEnd::Common(apex) => {
-                let apex = Lanes::splat(base.simd, apex);
+                let apex = F64s::splat(base.simd, apex);
                 let apex_nearer = apex.less_than(base);
                 let (near, far) = (apex_nearer.select(apex, base), apex_nearer.select(base, apex));
                 let m = line_moments(self.line, &self.end(near), &self.end(far), ORDER + 1);
@@ -176,11 +176,11 @@ impl Sweep<'_> {
     }
 
     #[inline(always)]
-    fn end<S: Simd>(&self, gap: Lanes<S>) -> End<S> {
+    fn end<S: Simd>(&self, gap: F64s<S>) -> End<S> {
         let inverse = 1.0 / gap;
         let log = if self.needs_log { Log2::new(gap) } else { Log2::unread(gap.simd) };
         let power = match self.line.integer {
-            Some(exponent) => whole_power(gap, inverse, exponent),
+            Some(exponent) => integer_power(gap, inverse, exponent),
             None => log.negative_power(&self.exponent),
         };
         End { gap, inverse, power, log }
@@ -190,14 +190,14 @@ impl Sweep<'_> {
     #[inline(always)]
     pub(super) fn add<S: Simd, const ORDER: usize>(
         &self,
-        line: &[Lanes<S>; 4],
-        (weight, cos, sin_squared): (Lanes<S>, Lanes<S>, Lanes<S>),
+        line: &[F64s<S>; 4],
+        (weight, cos, sin_squared): (F64s<S>, F64s<S>, F64s<S>),
         register: usize,
         sums: &mut [Row; 13],
     ) {
         let cone = matches!(self.rulings.other_end, OtherEnd::Common(_));
         // Orders are of T and t together.
-        let mut add = |first: usize, degree: usize, factor: Lanes<S>| {
+        let mut add = |first: usize, degree: usize, factor: F64s<S>| {
             for j in 0..=ORDER - degree {
                 let moment = if cone { line[j + degree] } else { line[j] };
                 (factor * moment).add_to(&mut sums[first + j], register);

@@ -7,10 +7,10 @@
 use pulp::{Simd, WithSimd};
 
 use super::super::MomentRequest;
-use super::super::lanes::{Lanes, Row, WIDTH, dispatch};
 use super::integrand::LANES;
 use super::rulings::{RulingSums, Rulings, Sweep, rows_of};
 use super::weight::Weights;
+use crate::simd::{F64s, Row, WIDTH, dispatch};
 use crate::tensor::Vec3;
 
 /// Weights that depend on the azimuth only.
@@ -62,7 +62,7 @@ impl<const N: usize, const W: usize> WeightedSweep<'_, N, W> {
             }
             let [weight, cos, versine, sin_squared] = rows_of(pair);
             for register in 0..WIDTH / S::F64_LANES {
-                let load = |row: &Row| Lanes::<S>::load(simd, row, register);
+                let load = |row: &Row| F64s::<S>::load(simd, row, register);
                 let line = self.sweep.line::<S, ORDER>(load(&versine) * reach + near);
                 let (weight, cos, sin_squared) = (load(&weight), load(&cos), load(&sin_squared));
                 let sin = sin_squared.sqrt();
@@ -82,7 +82,7 @@ impl<const N: usize, const W: usize> WeightedSweep<'_, N, W> {
 impl<const N: usize, const W: usize> WallWeights<'_, N, W> {
     /// The weights at φ and at −φ.
     #[inline(always)]
-    fn at<S: Simd>(&self, cos: Lanes<S>, sin: Lanes<S>) -> [[Lanes<S>; W]; 2] {
+    fn at<S: Simd>(&self, cos: F64s<S>, sin: F64s<S>) -> [[F64s<S>; W]; 2] {
         let [x, y, z] = &self.vectors;
         let even = [cos * x[0] + z[0], cos * x[1] + z[1], cos * x[2] + z[2]];
         let odd = [sin * y[0], sin * y[1], sin * y[2]];
@@ -94,8 +94,8 @@ impl<const N: usize, const W: usize> WallWeights<'_, N, W> {
 
     /// The weights of the area vector v.
     #[inline(always)]
-    fn of<S: Simd>(&self, v: &[Lanes<S>; 3]) -> [Lanes<S>; W] {
-        let zero = Lanes::splat(v[0].simd, 0.0);
+    fn of<S: Simd>(&self, v: &[F64s<S>; 3]) -> [F64s<S>; W] {
+        let zero = F64s::splat(v[0].simd, 0.0);
         let squared = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
         let base = match N {
             0 => squared.sqrt(),
@@ -103,7 +103,7 @@ impl<const N: usize, const W: usize> WallWeights<'_, N, W> {
             _ => 1.0 / (squared * squared.sqrt()),
         };
         // What is not a number stays so.
-        let mut weights = [squared.less_than(Lanes::splat(v[0].simd, f64::MIN_POSITIVE)).select(zero, base); W];
+        let mut weights = [squared.less_than(F64s::splat(v[0].simd, f64::MIN_POSITIVE)).select(zero, base); W];
         for (weight, factors) in weights.iter_mut().zip(&self.weights.factors) {
             for &factor in factors {
                 *weight = *weight * v[factor];

@@ -9,7 +9,6 @@
 use pulp::{Simd, WithSimd};
 
 use super::super::MomentRequest;
-use super::super::lanes::dispatch;
 use super::Torus;
 use super::half_plane::{Chart, TiltedGap};
 use super::image::principal_axes;
@@ -19,6 +18,7 @@ use super::parallels::Sums;
 use super::points::PointSums;
 use super::ring::Demand;
 use super::weight::{Deformed, Weighted, Weights, extra_digits};
+use crate::simd::dispatch;
 use crate::tensor::{Mat3, Vec3};
 
 impl Torus {

@@ -1,14 +1,11 @@
 //! Four numbers that are worked on at once: what a column of a 3×3 matrix is kept in.
 //!
 //! `[f64; 4]` is four numbers in memory, or in whatever registers the plain build has; where the processor has
-//! registers of 256 bits, [`dispatch`] finds it at run time and calls the work with them. Products and sums are rounded
-//! one by one, never fused, and in the same order, so that both give the same bytes.
-//!
-//! Every function that takes them is `inline(always)`: it has to become part of the one that was compiled for the
-//! registers.
+//! registers of 256 bits, [`dispatch_f64x4`] finds it at run time and calls the work with one of them
+//! ([`F64s`](super::F64s)).
 
 /// Four numbers side by side.
-pub trait Four: Copy {
+pub trait F64x4: Copy {
     /// These numbers, in registers of the same kind.
     fn like(self, numbers: [f64; 4]) -> Self;
     /// The numbers.
@@ -24,25 +21,25 @@ pub trait Four: Copy {
     /// a_i f.
     fn times(self, factor: f64) -> Self;
     /// One of them in all places.
-    fn spread<const PLACE: usize>(self) -> Self;
+    fn broadcast<const PLACE: usize>(self) -> Self;
     /// (a₁, a₂, a₀, a₃).
-    fn turned(self) -> Self;
+    fn yzx(self) -> Self;
     /// (a_i, b_i, c_i, d_i) for i = 0, 1, 2.
     fn transposed(rows: [Self; 4]) -> [Self; 3];
 }
 
 /// What is done with four numbers at once.
-pub trait Work {
+pub trait WithF64x4 {
     /// What it gives.
     type Output;
 
     /// Does it in registers of the kind of these, which hold zeros.
-    fn run<F: Four>(self, zeros: F) -> Self::Output;
+    fn run<F: F64x4>(self, zeros: F) -> Self::Output;
 }
 
 /// Does the work in the widest registers for four numbers that this processor has.
 #[inline]
-pub(crate) fn dispatch<W: Work>(work: W) -> W::Output {
+pub(crate) fn dispatch_f64x4<W: WithF64x4>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = pulp::x86::V3::try_new() {
         return simd.vectorize(wide::Wide { simd, work });
@@ -50,7 +47,7 @@ pub(crate) fn dispatch<W: Work>(work: W) -> W::Output {
     work.run([0.0; 4])
 }
 
-impl Four for [f64; 4] {
+impl F64x4 for [f64; 4] {
     #[inline(always)]
     fn like(self, numbers: [f64; 4]) -> Self {
         numbers
@@ -90,12 +87,12 @@ impl Four for [f64; 4] {
     }
 
     #[inline(always)]
-    fn spread<const PLACE: usize>(self) -> Self {
+    fn broadcast<const PLACE: usize>(self) -> Self {
         [self[PLACE]; 4]
     }
 
     #[inline(always)]
-    fn turned(self) -> Self {
+    fn yzx(self) -> Self {
         let [a, b, c, d] = self;
         [b, c, a, d]
     }
@@ -110,16 +107,10 @@ impl Four for [f64; 4] {
 /// Registers of 256 bits.
 #[cfg(target_arch = "x86_64")]
 mod wide {
-    use super::{Four, Work};
+    use super::super::register::F64s;
+    use super::{F64x4, WithF64x4};
     use pulp::x86::V3;
-    use pulp::{NullaryFnOnce, Simd, cast, f64x4};
-
-    /// Four numbers in one register.
-    #[derive(Clone, Copy)]
-    struct Register {
-        simd: V3,
-        numbers: f64x4,
-    }
+    use pulp::{NullaryFnOnce, cast};
 
     /// The work in such registers.
     pub struct Wide<W> {
@@ -127,32 +118,24 @@ mod wide {
         pub work: W,
     }
 
-    impl<W: Work> NullaryFnOnce for Wide<W> {
+    impl<W: WithF64x4> NullaryFnOnce for Wide<W> {
         type Output = W::Output;
 
         #[inline(always)]
         fn call(self) -> W::Output {
-            let Self { simd, work } = self;
-            work.run(Register { simd, numbers: simd.splat_f64s(0.0) })
+            self.work.run(F64s::splat(self.simd, 0.0))
         }
     }
 
-    impl Register {
-        #[inline(always)]
-        fn with(self, numbers: f64x4) -> Self {
-            Self { numbers, ..self }
-        }
-    }
-
-    impl Four for Register {
+    impl F64x4 for F64s<V3> {
         #[inline(always)]
         fn like(self, numbers: [f64; 4]) -> Self {
-            self.with(cast(numbers))
+            Self { values: cast(numbers), ..self }
         }
 
         #[inline(always)]
         fn numbers(self) -> [f64; 4] {
-            cast(self.numbers)
+            cast(self.values)
         }
 
         #[inline(always)]
@@ -162,34 +145,34 @@ mod wide {
 
         #[inline(always)]
         fn plus(self, other: Self) -> Self {
-            self.with(self.simd.add_f64s(self.numbers, other.numbers))
+            self + other
         }
 
         #[inline(always)]
         fn minus(self, other: Self) -> Self {
-            self.with(self.simd.sub_f64s(self.numbers, other.numbers))
+            self - other
         }
 
         #[inline(always)]
         fn product(self, other: Self) -> Self {
-            self.with(self.simd.mul_f64s(self.numbers, other.numbers))
+            self * other
         }
 
         #[inline(always)]
         fn times(self, factor: f64) -> Self {
-            self.with(self.simd.mul_f64s(self.numbers, self.simd.splat_f64s(factor)))
+            self * factor
         }
 
         #[inline(always)]
-        fn spread<const PLACE: usize>(self) -> Self {
+        fn broadcast<const PLACE: usize>(self) -> Self {
             let [a, b, c, d] = self.numbers();
-            self.with(self.simd.splat_f64s([a, b, c, d][PLACE]))
+            Self::splat(self.simd, [a, b, c, d][PLACE])
         }
 
         #[inline(always)]
-        fn turned(self) -> Self {
+        fn yzx(self) -> Self {
             const ORDER: i32 = 0b11_00_10_01;
-            self.with(cast(self.simd.avx2._mm256_permute4x64_pd::<ORDER>(cast(self.numbers))))
+            Self { values: cast(self.simd.avx2._mm256_permute4x64_pd::<ORDER>(cast(self.values))), ..self }
         }
 
         #[inline(always)]
@@ -197,13 +180,13 @@ mod wide {
             const LOWER: i32 = 0b10_00_00;
             const UPPER: i32 = 0b11_00_01;
             let avx = a.simd.avx;
-            let (x, y, z, w) = (cast(a.numbers), cast(b.numbers), cast(c.numbers), cast(d.numbers));
+            let (x, y, z, w) = (cast(a.values), cast(b.values), cast(c.values), cast(d.values));
             let (even, odd) = (avx._mm256_unpacklo_pd(x, y), avx._mm256_unpackhi_pd(x, y));
             let (even_end, odd_end) = (avx._mm256_unpacklo_pd(z, w), avx._mm256_unpackhi_pd(z, w));
             [
-                a.with(cast(avx._mm256_permute2f128_pd::<LOWER>(even, even_end))),
-                a.with(cast(avx._mm256_permute2f128_pd::<LOWER>(odd, odd_end))),
-                a.with(cast(avx._mm256_permute2f128_pd::<UPPER>(even, even_end))),
+                Self { values: cast(avx._mm256_permute2f128_pd::<LOWER>(even, even_end)), ..a },
+                Self { values: cast(avx._mm256_permute2f128_pd::<LOWER>(odd, odd_end)), ..a },
+                Self { values: cast(avx._mm256_permute2f128_pd::<UPPER>(even, even_end)), ..a },
             ]
         }
     }
@@ -216,14 +199,14 @@ mod tests {
     /// All that is done with four numbers.
     struct All([f64; 4], [f64; 4]);
 
-    impl Work for All {
+    impl WithF64x4 for All {
         type Output = Vec<[u64; 4]>;
 
-        fn run<F: Four>(self, zeros: F) -> Self::Output {
+        fn run<F: F64x4>(self, zeros: F) -> Self::Output {
             let (a, b) = (zeros.like(self.0), zeros.like(self.1));
-            let spread = [a.spread::<0>(), a.spread::<1>(), a.spread::<2>(), a.spread::<3>()];
-            let rest = [zeros, a.plus(b), a.minus(b), a.product(b), a.times(0.7), a.turned()];
-            let columns = F::transposed([a, b, a.plus(b), b.turned()]);
+            let spread = [a.broadcast::<0>(), a.broadcast::<1>(), a.broadcast::<2>(), a.broadcast::<3>()];
+            let rest = [zeros, a.plus(b), a.minus(b), a.product(b), a.times(0.7), a.yzx()];
+            let columns = F::transposed([a, b, a.plus(b), b.yzx()]);
             let places = [a.at(0), a.at(1), a.at(2), a.at(3)].map(f64::to_bits);
             spread
                 .iter()
@@ -238,7 +221,7 @@ mod tests {
     #[test]
     fn registers_do_what_four_numbers_in_memory_do() {
         let (a, b) = ([1.1, -0.3, -0.0, f64::INFINITY], [0.7, 3.3e-310, 5.0, 2.0]);
-        assert_eq!(dispatch(All(a, b)), All(a, b).run([0.0; 4]));
-        assert_eq!(a.turned(), [-0.3, -0.0, 1.1, f64::INFINITY]);
+        assert_eq!(dispatch_f64x4(All(a, b)), All(a, b).run([0.0; 4]));
+        assert_eq!(a.yzx(), [-0.3, -0.0, 1.1, f64::INFINITY]);
     }
 }

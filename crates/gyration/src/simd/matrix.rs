@@ -5,29 +5,26 @@
 //!
 //!   (A B)_K = Σ_L A_L B_LK,   (A Bᵀ)_K = Σ_L A_L B_KL
 //!
-//! and a column is worked on as a whole, in whatever registers the processor has for four numbers (`four`): `Columns`
-//! is a matrix in memory, `Columns<F>` one in registers. Everything is `inline(always)` and written out, without `map`
-//! or loops over slices.
+//! and a column is worked on as a whole: `SimdMat3` is a matrix in memory, `SimdMat3<F>` one in registers. Everything
+//! is written out, without `map` or loops over slices.
 
-mod four;
-
+use super::F64x4;
 use crate::tensor::Mat3;
-pub(crate) use four::{Four, Work, dispatch};
 use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// Three numbers and an idle one, which is zero or not a number.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Column<F = [f64; 4]>(pub F);
+pub(crate) struct SimdVec3<F = [f64; 4]>(pub F);
 
 /// A matrix column by column.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Columns<F = [f64; 4]>(pub [Column<F>; 3]);
+pub(crate) struct SimdMat3<F = [f64; 4]>(pub [SimdVec3<F>; 3]);
 
 /// The columns of the unit matrix.
-pub(crate) const UNIT: [Column; 3] =
-    [Column([1.0, 0.0, 0.0, 0.0]), Column([0.0, 1.0, 0.0, 0.0]), Column([0.0, 0.0, 1.0, 0.0])];
+pub(crate) const UNIT: [SimdVec3; 3] =
+    [SimdVec3([1.0, 0.0, 0.0, 0.0]), SimdVec3([0.0, 1.0, 0.0, 0.0]), SimdVec3([0.0, 0.0, 1.0, 0.0])];
 
-impl<F: Four> Column<F> {
+impl<F: F64x4> SimdVec3<F> {
     /// a_i.
     #[inline(always)]
     pub fn at(&self, row: usize) -> f64 {
@@ -38,7 +35,7 @@ impl<F: Four> Column<F> {
     #[inline(always)]
     pub fn cross(&self, other: &Self) -> Self {
         let (a, b) = (self.0, other.0);
-        Self(a.product(b.turned()).minus(a.turned().product(b)).turned())
+        Self(a.product(b.yzx()).minus(a.yzx().product(b)).yzx())
     }
 
     /// a_i b_i.
@@ -55,7 +52,7 @@ impl<F: Four> Column<F> {
     }
 }
 
-impl Columns {
+impl SimdMat3 {
     /// The numbers of a matrix.
     #[inline(always)]
     pub fn of(matrix: &Mat3) -> Self {
@@ -66,35 +63,35 @@ impl Columns {
     #[inline(always)]
     pub fn read(numbers: &[f64]) -> Self {
         let n: &[f64] = &numbers[..9];
-        Self([Column([n[0], n[1], n[2], 0.0]), Column([n[3], n[4], n[5], 0.0]), Column([n[6], n[7], n[8], 0.0])])
+        Self([SimdVec3([n[0], n[1], n[2], 0.0]), SimdVec3([n[3], n[4], n[5], 0.0]), SimdVec3([n[6], n[7], n[8], 0.0])])
     }
 
     /// The numbers of a matrix in registers of this kind.
     #[inline(always)]
-    pub fn load<F: Four>(matrix: &Mat3, registers: F) -> Columns<F> {
+    pub fn load<F: F64x4>(matrix: &Mat3, registers: F) -> SimdMat3<F> {
         Self::of(matrix).with(registers)
     }
 
     /// In registers of this kind.
     #[inline(always)]
-    pub fn with<F: Four>(&self, registers: F) -> Columns<F> {
-        let Self([Column(a), Column(b), Column(c)]) = *self;
-        Columns([Column(registers.like(a)), Column(registers.like(b)), Column(registers.like(c))])
+    pub fn with<F: F64x4>(&self, registers: F) -> SimdMat3<F> {
+        let Self([SimdVec3(a), SimdVec3(b), SimdVec3(c)]) = *self;
+        SimdMat3([SimdVec3(registers.like(a)), SimdVec3(registers.like(b)), SimdVec3(registers.like(c))])
     }
 }
 
-impl<F: Four> Columns<F> {
+impl<F: F64x4> SimdMat3<F> {
     /// In memory.
     #[inline(always)]
-    pub fn kept(&self) -> Columns {
-        let Self([Column(a), Column(b), Column(c)]) = self;
-        Columns([Column(a.numbers()), Column(b.numbers()), Column(c.numbers())])
+    pub fn kept(&self) -> SimdMat3 {
+        let Self([SimdVec3(a), SimdVec3(b), SimdVec3(c)]) = self;
+        SimdMat3([SimdVec3(a.numbers()), SimdVec3(b.numbers()), SimdVec3(c.numbers())])
     }
 
     /// Writes the nine numbers.
     #[inline(always)]
     pub fn write(&self, numbers: &mut [f64]) {
-        let (Columns([Column(a), Column(b), Column(c)]), out) = (self.kept(), &mut numbers[..9]);
+        let (SimdMat3([SimdVec3(a), SimdVec3(b), SimdVec3(c)]), out) = (self.kept(), &mut numbers[..9]);
         // Idle numbers are written as well, each then overwritten by the next column.
         out[..4].copy_from_slice(&a);
         out[3..7].copy_from_slice(&b);
@@ -104,7 +101,7 @@ impl<F: Four> Columns<F> {
     /// The matrix.
     #[inline(always)]
     pub fn matrix(&self) -> Mat3 {
-        let Columns([Column(a), Column(b), Column(c)]) = self.kept();
+        let SimdMat3([SimdVec3(a), SimdVec3(b), SimdVec3(c)]) = self.kept();
         Mat3::new(a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2])
     }
 
@@ -117,18 +114,18 @@ impl<F: Four> Columns<F> {
     /// Aᵀ.
     #[inline(always)]
     pub fn transpose(&self) -> Self {
-        let [Column(a), Column(b), Column(c)] = self.0;
+        let [SimdVec3(a), SimdVec3(b), SimdVec3(c)] = self.0;
         let [a, b, c] = F::transposed([a, b, c, a.like([0.0; 4])]);
-        Self([Column(a), Column(b), Column(c)])
+        Self([SimdVec3(a), SimdVec3(b), SimdVec3(c)])
     }
 
     /// A b.
     #[inline(always)]
-    pub fn image(&self, b: &Column<F>) -> Column<F> {
-        let [Column(x), Column(y), Column(z)] = self.0;
-        let Column(b) = *b;
-        let sum = x.product(b.spread::<0>()).plus(y.product(b.spread::<1>()));
-        Column(sum.plus(z.product(b.spread::<2>())))
+    pub fn image(&self, b: &SimdVec3<F>) -> SimdVec3<F> {
+        let [SimdVec3(x), SimdVec3(y), SimdVec3(z)] = self.0;
+        let SimdVec3(b) = *b;
+        let sum = x.product(b.broadcast::<0>()).plus(y.product(b.broadcast::<1>()));
+        SimdVec3(sum.plus(z.product(b.broadcast::<2>())))
     }
 
     /// A B.
@@ -153,7 +150,7 @@ impl<F: Four> Columns<F> {
     /// A + s I; what stands outside the diagonal is left alone.
     #[inline(always)]
     pub fn plus_unit(&self, s: f64) -> Self {
-        let like = |numbers| Column(self.0[0].0.like(numbers));
+        let like = |numbers| SimdVec3(self.0[0].0.like(numbers));
         // x + (−0) is x, whatever x is.
         let unit = [like([s, -0.0, -0.0, -0.0]), like([-0.0, s, -0.0, -0.0]), like([-0.0, -0.0, s, -0.0])];
         *self + Self(unit)
@@ -165,9 +162,9 @@ impl<F: Four> Columns<F> {
         let like = self.0[0].0;
         let ([x, y, z], [a, b, c]) = (self.0, *d);
         Self([
-            x + Column(like.like([-0.0, a, a, -0.0])),
-            y + Column(like.like([b, -0.0, b, -0.0])),
-            z + Column(like.like([c, c, -0.0, -0.0])),
+            x + SimdVec3(like.like([-0.0, a, a, -0.0])),
+            y + SimdVec3(like.like([b, -0.0, b, -0.0])),
+            z + SimdVec3(like.like([c, c, -0.0, -0.0])),
         ])
     }
 
@@ -180,14 +177,14 @@ impl<F: Four> Columns<F> {
     /// A_ik B_ik.
     #[inline(always)]
     pub fn entrywise(&self, other: &Self) -> Self {
-        let ([Column(a), Column(b), Column(c)], [Column(x), Column(y), Column(z)]) = (self.0, other.0);
-        Self([Column(a.product(x)), Column(b.product(y)), Column(c.product(z))])
+        let ([SimdVec3(a), SimdVec3(b), SimdVec3(c)], [SimdVec3(x), SimdVec3(y), SimdVec3(z)]) = (self.0, other.0);
+        Self([SimdVec3(a.product(x)), SimdVec3(b.product(y)), SimdVec3(c.product(z))])
     }
 
     /// A·B = tr(AᵀB).
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {
-        let ([Column(a), Column(b), Column(c)], [Column(x), Column(y), Column(z)]) = (self.0, other.0);
+        let ([SimdVec3(a), SimdVec3(b), SimdVec3(c)], [SimdVec3(x), SimdVec3(y), SimdVec3(z)]) = (self.0, other.0);
         let [one, two, three, _] = a.product(x).plus(b.product(y)).plus(c.product(z)).numbers();
         (one + two) + three
     }
@@ -201,7 +198,7 @@ impl<F: Four> Columns<F> {
     /// Whether all but the diagonal is zero.
     #[inline(always)]
     pub fn is_diagonal(&self) -> bool {
-        let Columns([Column([_, a1, a2, _]), Column([b0, _, b2, _]), Column([c0, c1, _, _])]) = self.kept();
+        let SimdMat3([SimdVec3([_, a1, a2, _]), SimdVec3([b0, _, b2, _]), SimdVec3([c0, c1, _, _])]) = self.kept();
         a1 == 0.0 && a2 == 0.0 && b0 == 0.0 && b2 == 0.0 && c0 == 0.0 && c1 == 0.0
     }
 
@@ -213,7 +210,7 @@ impl<F: Four> Columns<F> {
     }
 }
 
-impl<F: Four> Mul<f64> for Column<F> {
+impl<F: F64x4> Mul<f64> for SimdVec3<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -222,7 +219,7 @@ impl<F: Four> Mul<f64> for Column<F> {
     }
 }
 
-impl<F: Four> Add for Column<F> {
+impl<F: F64x4> Add for SimdVec3<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -231,7 +228,7 @@ impl<F: Four> Add for Column<F> {
     }
 }
 
-impl<F: Four> Sub for Column<F> {
+impl<F: F64x4> Sub for SimdVec3<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -240,14 +237,14 @@ impl<F: Four> Sub for Column<F> {
     }
 }
 
-impl<F: Four> AddAssign for Column<F> {
+impl<F: F64x4> AddAssign for SimdVec3<F> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<F: Four> Mul<f64> for Columns<F> {
+impl<F: F64x4> Mul<f64> for SimdMat3<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -257,7 +254,7 @@ impl<F: Four> Mul<f64> for Columns<F> {
     }
 }
 
-impl<F: Four> Add for Columns<F> {
+impl<F: F64x4> Add for SimdMat3<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -267,7 +264,7 @@ impl<F: Four> Add for Columns<F> {
     }
 }
 
-impl<F: Four> Sub for Columns<F> {
+impl<F: F64x4> Sub for SimdMat3<F> {
     type Output = Self;
 
     #[inline(always)]
@@ -277,7 +274,7 @@ impl<F: Four> Sub for Columns<F> {
     }
 }
 
-impl<F: Four> AddAssign for Columns<F> {
+impl<F: F64x4> AddAssign for SimdMat3<F> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
@@ -292,18 +289,18 @@ mod tests {
     fn products_are_those_of_matrices() {
         let a = Mat3::new(1.3, 0.4, -0.2, -0.1, 0.7, 0.3, 0.5, -0.6, 1.9);
         let b = Mat3::new(0.2, -0.7, 0.1, 0.9, 0.3, -0.4, 0.5, 0.6, -0.8);
-        let (x, y) = (Columns::of(&a), Columns::of(&b));
+        let (x, y) = (SimdMat3::of(&a), SimdMat3::of(&b));
         // A few roundings of numbers of order one.
-        let near = |columns: Columns, matrix: Mat3| assert!((columns.matrix() - matrix).norm() < 1e-15);
+        let near = |columns: SimdMat3, matrix: Mat3| assert!((columns.matrix() - matrix).norm() < 1e-15);
         near(x.times(&y), a * b);
         near(x.times_transposed(&y), a * b.transpose());
         near(x.transpose(), a.transpose());
         near(x.cofactor(), crate::tensor::cofactor(&a));
         near(x.scaled(&[1.0, 2.0, 3.0]), a * Mat3::from_diagonal(&[1.0, 2.0, 3.0].into()));
         assert!((x.dot(&y) - a.dot(&b)).abs() < 1e-15 && (x.trace() - a.trace()).abs() < 1e-15);
-        assert!(!x.is_diagonal() && Columns(UNIT).is_diagonal());
+        assert!(!x.is_diagonal() && SimdMat3(UNIT).is_diagonal());
         let mut numbers = [0.0; 9];
         x.write(&mut numbers);
-        assert_eq!(Columns::read(&numbers), x);
+        assert_eq!(SimdMat3::read(&numbers), x);
     }
 }

@@ -1,63 +1,59 @@
-//! Lanes: the same arithmetic on several numbers at once, with the widest registers that the processor has.
+//! The same arithmetic on as many numbers at once as the widest registers of the processor hold.
 //!
-//! [`dispatch`] finds the instruction set at run time and calls the work with it; the work is generic over it and is
-//! compiled once for each (512 and 256 bits, 128 on ARM, one number at a time elsewhere). Whatever the width, a sum
-//! runs over [`WIDTH`] logical lanes: number i belongs to lane i mod `WIDTH`, and [`fold`] adds the lanes in a fixed
-//! order. Products and sums are rounded one by one, never fused, so that every width gives the same bytes.
-//!
-//! Every function that takes lanes is `inline(always)`: it has to become part of the function that was compiled for the
-//! instruction set.
+//! What [`dispatch`] calls is generic over the instruction set and compiled once for each (512 and 256 bits, 128 on
+//! ARM, one number at a time elsewhere). Whatever the width, a sum runs over [`WIDTH`] logical lanes: number i belongs
+//! to lane i mod `WIDTH`, and [`fold`] adds the lanes in a fixed order.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use pulp::{Arch, Simd, WithSimd};
 
 /// Logical lanes: the widest registers hold as many numbers.
-pub(super) const WIDTH: usize = 8;
+pub(crate) const WIDTH: usize = 8;
 
 /// Numbers of one kind, one for each logical lane.
-pub(super) type Row = [f64; WIDTH];
+pub(crate) type Row = [f64; WIDTH];
 
 /// Calls the work with the widest instruction set that this processor has.
-pub(super) fn dispatch<W: WithSimd>(work: W) -> W::Output {
+pub(crate) fn dispatch<W: WithSimd>(work: W) -> W::Output {
     Arch::new().dispatch(work)
 }
 
 /// The registers that make up a row.
 #[inline(always)]
-pub(super) fn registers<S: Simd>(row: &Row) -> &[S::f64s] {
+fn registers<S: Simd>(row: &Row) -> &[S::f64s] {
     const { assert!(WIDTH.is_multiple_of(S::F64_LANES), "a row must consist of whole registers") };
     S::as_simd_f64s(row).0
 }
 
 /// The registers that make up a row, to be written.
 #[inline(always)]
-pub(super) fn registers_mut<S: Simd>(row: &mut Row) -> &mut [S::f64s] {
+pub(crate) fn registers_mut<S: Simd>(row: &mut Row) -> &mut [S::f64s] {
     S::as_mut_simd_f64s(row).0
 }
 
 /// The sum of a row, in an order that does not depend on the width of registers.
 #[inline(always)]
-pub(super) fn fold(row: &Row) -> f64 {
+pub(crate) fn fold(row: &Row) -> f64 {
     let four = [row[0] + row[4], row[1] + row[5], row[2] + row[6], row[3] + row[7]];
     (four[0] + four[2]) + (four[1] + four[3])
 }
 
 /// One register of numbers.
 #[derive(Clone, Copy)]
-pub(super) struct Lanes<S: Simd> {
+pub(crate) struct F64s<S: Simd> {
     pub simd: S,
     pub values: S::f64s,
 }
 
 /// A truth for each lane.
 #[derive(Clone, Copy)]
-pub(super) struct Mask<S: Simd> {
+pub(crate) struct Mask<S: Simd> {
     simd: S,
     values: S::m64s,
 }
 
-impl<S: Simd> Lanes<S> {
+impl<S: Simd> F64s<S> {
     /// The number in every lane.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
@@ -105,20 +101,20 @@ impl<S: Simd> Lanes<S> {
 impl<S: Simd> Mask<S> {
     /// `yes` where it is true, `no` elsewhere.
     #[inline(always)]
-    pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
-        Lanes { simd: self.simd, values: self.simd.select_f64s(self.values, yes.values, no.values) }
+    pub fn select(self, yes: F64s<S>, no: F64s<S>) -> F64s<S> {
+        F64s { simd: self.simd, values: self.simd.select_f64s(self.values, yes.values, no.values) }
     }
 
     /// Exchanges a and b where it is true.
     #[inline(always)]
-    pub fn exchange(self, a: &mut Lanes<S>, b: &mut Lanes<S>) {
+    pub fn exchange(self, a: &mut F64s<S>, b: &mut F64s<S>) {
         (*a, *b) = (self.select(*b, *a), self.select(*a, *b));
     }
 }
 
 macro_rules! operator {
     ($trait:ident, $function:ident, $instruction:ident) => {
-        impl<S: Simd> $trait for Lanes<S> {
+        impl<S: Simd> $trait for F64s<S> {
             type Output = Self;
 
             #[inline(always)]
@@ -127,7 +123,7 @@ macro_rules! operator {
             }
         }
 
-        impl<S: Simd> $trait<f64> for Lanes<S> {
+        impl<S: Simd> $trait<f64> for F64s<S> {
             type Output = Self;
 
             #[inline(always)]
@@ -136,12 +132,12 @@ macro_rules! operator {
             }
         }
 
-        impl<S: Simd> $trait<Lanes<S>> for f64 {
-            type Output = Lanes<S>;
+        impl<S: Simd> $trait<F64s<S>> for f64 {
+            type Output = F64s<S>;
 
             #[inline(always)]
-            fn $function(self, other: Lanes<S>) -> Lanes<S> {
-                $trait::$function(Lanes::splat(other.simd, self), other)
+            fn $function(self, other: F64s<S>) -> F64s<S> {
+                $trait::$function(F64s::splat(other.simd, self), other)
             }
         }
     };
@@ -152,14 +148,14 @@ operator!(Sub, sub, sub_f64s);
 operator!(Mul, mul, mul_f64s);
 operator!(Div, div, div_f64s);
 
-impl<S: Simd> AddAssign for Lanes<S> {
+impl<S: Simd> AddAssign for F64s<S> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<S: Simd> Neg for Lanes<S> {
+impl<S: Simd> Neg for F64s<S> {
     type Output = Self;
 
     #[inline(always)]
