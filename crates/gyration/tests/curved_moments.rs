@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use gyration::surface::curved::{ConeWall, Disk, Hemisphere};
-use gyration::surface::patch::{Patch, Primitive};
+use gyration::surface::curved::{Patch, Primitive};
 use gyration::surface::{GapField, Kernel, MomentRequest, Moments, Surface};
 use gyration::tensor::{Mat3, SymmetricThird, Vec3};
 use proptest::prelude::*;

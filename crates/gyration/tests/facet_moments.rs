@@ -1,8 +1,8 @@
 //! Moments over flat facets against values of 400-digit arithmetic (`validation/oracles/facet_moments.py`), against
 //! closed forms, and as relations.
 
-use gyration::surface::facets::Facets;
-use gyration::surface::power::LineKernel;
+use gyration::surface::Facets;
+use gyration::surface::LineKernel;
 use gyration::surface::{GapField, Kernel, MomentRequest, Moments};
 use gyration::tensor::{Mat3, Vec3};
 use proptest::prelude::*;

@@ -16,7 +16,6 @@ use tree::{Tree, circles};
 const IN_CIRCLES: &[(&str, usize)] = &[
     ("gyration::fluid::unsteady", 2),
     ("gyration::shape", 3),
-    ("gyration::surface", 3),
     ("gyration-scene", 4),
     ("gyration-sim::modes", 2),
     ("gyration-sim::sensitivity", 2),

@@ -5,9 +5,9 @@
 //! whose places can be exchanged, for the 3×3 matrices of a body that deforms ([`SimdMat3`]). [`dispatch`] and
 //! [`dispatch_f64x4`] find the instruction set at run time and call the work with it.
 //!
-//! Products and sums are rounded one by one, never fused, and added in a fixed order, so that every width gives the same
-//! bytes. Every function that takes registers is `inline(always)`: it has to become part of the one that was compiled
-//! for the instruction set, which what closures, `map` and loops over slices call need not.
+//! Products and sums are rounded one by one, never fused, and added in a fixed order, so that every width gives the
+//! same bytes. Every function that takes registers is `inline(always)`: it has to become part of the one that was
+//! compiled for the instruction set, which what closures, `map` and loops over slices call need not.
 
 mod f64x4;
 mod matrix;

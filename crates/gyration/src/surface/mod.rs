@@ -8,274 +8,52 @@
 //!
 //! over the reference surface, with κ = d^−ν (or ln d, for the potential at ν = 1). A₃ occurs only in derivatives. This
 //! module knows no law, no velocity and no time.
+//!
+//! Which file runs, by shape and deformation; per reference area a body that deforms is integrated as a rigid one.
+//! Smooth primitives stand in `curved`, what they share in `curved/rules`:
+//!
+//! | surface | rigid, or per reference area | per deformed area, k = \|cof(P) N\| |
+//! |---|---|---|
+//! | facets | `facets/sums` | the same, areas deformed; with normals `facets/oriented` |
+//! | sphere | `sphere`: closed form | `deformed/ellipsoid`, with equal axes |
+//! | ellipsoid | `ellipsoid`: `features` and `parallels` | `deformed/ellipsoid`: the same rule |
+//! | hemisphere | `hemisphere`: zone in closed form, arcs `graded` | `deformed/hemisphere`: `graded`, `points` |
+//! | wall | `cylinder`, `cone`: `rulings` around a `ring` | `deformed/walls`: `weighted_rulings` around an `own_ring` |
+//! | disk | `disk`: chords around a `ring` | the same times one weight |
+//! | torus | `torus`: a `ring` within a `ring` | `deformed/torus`: an `own_ring` within another, `points` |
+//!
+//! Which formula, by exponent, for a request of order n:
+//!
+//! | kernel | facets | sphere, zone of a hemisphere | walls | all others |
+//! |---|---|---|---|---|
+//! | integer ν, n + 3 ≤ ν ≤ 24 | `facets/integer` | `line/kernel` | as `split` | products |
+//! | other integer ν | `facets/split` | `line/kernel` | as `split` | products |
+//! | half-integer ν | `facets/split` | `line/kernel` | as `split` | products and a square root |
+//! | any other ν | `facets/split` | `line/kernel` | as `split` | exp(−ν ln d) |
+//! | ln d | `facets/split` | `line/kernel` | as `split` | ln d |
+//!
+//! - On facets, weights for ν are lowered from those for ν + 1 where a request of higher order has these
+//!   (`facets/plan`).
+//! - `facets/split` goes along segments as walls do. There `line/integer` takes integers from 1 to 10 up to the degree
+//!   ν − 2 of a moment, and up to ν if that is 4 at most; `line/segments` takes all others. Degrees go to n for a
+//!   cylinder, to n + 1 for a cone and for facets.
+//! - Powers at the ends of segments are products for integers, in registers else those of `simd/pow`.
+//! - All others evaluate their kernels at nodes (`rules/integrand`), by products for 0 ≤ ν < 16 only.
 
+mod composite;
 pub mod curved;
-pub mod facets;
-pub mod patch;
-pub mod power;
+mod facets;
+mod frame;
+mod gap;
+mod line;
+mod moments;
+mod oriented;
+mod plan;
 
-mod carry;
-mod deformed;
-mod facets_oriented;
-mod facets_pack;
-mod facets_plan;
-mod facets_split;
-mod facets_sums;
-mod facets_triangle;
-mod facets_whole;
-
-mod power_lanes;
-mod rule;
-mod whole_lanes;
-
-use crate::tensor::{Mat3, SymmetricThird, Vec3};
-pub use deformed::OrientedMoments;
-
-use curved::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Sphere, Torus};
-use deformed::{FOURTH, PAIRS};
-use facets::{Facets, FacetsError};
-use facets_plan::{BATCH, Plan};
-use patch::{Patch, Primitive};
-
-/// The gap of a plane as a function of the material point: d(X) = g₀ + m·X.
-///
-/// X is relative to the centre of mass; g₀ = (p₀ − o)·n [m] is the height of the centre, m = Pᵀn (3).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GapField {
-    /// g₀, the gap of the centre of mass [m].
-    pub height: f64,
-    /// m = Pᵀn; a unit vector for a rigid body.
-    pub direction: Vec3,
-}
-
-impl GapField {
-    /// The gap d(X) = g₀ + m·X [m] of a material point.
-    pub fn gap(&self, point: &Vec3) -> f64 {
-        self.height + self.direction.dot(point)
-    }
-}
-
-/// The function of the gap under the integral.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kernel {
-    /// d^−ν, ν ≥ −1 (a potential has the exponent of its law less one).
-    Power(f64),
-    /// ln d.
-    Log,
-}
-
-/// Which moments are wanted: all up to `order` (0 to 3) for one kernel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MomentRequest {
-    /// The function of the gap.
-    pub kernel: Kernel,
-    /// The highest order wanted, 0 to 3; higher ones are left untouched.
-    pub order: usize,
-}
-
-/// The moments that a contact needs, with all that does not depend on the gaps worked out once.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MomentPlan {
-    requests: Vec<MomentRequest>,
-    facets: Vec<Plan>,
-}
-
-impl MomentPlan {
-    /// Prepares these requests for any surface.
-    pub fn new(requests: Vec<MomentRequest>) -> Self {
-        let facets = requests.chunks(BATCH).map(Plan::new).collect();
-        Self { requests, facets }
-    }
-
-    /// The requests, in the order of the results.
-    pub fn requests(&self) -> &[MomentRequest] {
-        &self.requests
-    }
-}
-
-/// Moments of a kernel over a surface, about the origin of X.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Moments {
-    /// A₀ = ∫ κ dA.
-    pub zeroth: f64,
-    /// A₁ = ∫ κ X dA.
-    pub first: Vec3,
-    /// A₂ = ∫ κ X⊗X dA, symmetric.
-    pub second: Mat3,
-    /// A₃ = ∫ κ X⊗X⊗X dA, symmetric.
-    pub third: SymmetricThird,
-}
-
-/// A point of the surface lies on or behind the plane: outside the model, never clamped.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("the surface reaches the plane: smallest gap {gap:e} m")]
-pub struct GapClosed {
-    /// The smallest gap found [m], ≤ 0 (or NaN).
-    pub gap: f64,
-}
-
-/// The surface of a body: flat facets and smooth patches, with X relative to any origin.
-///
-/// Constructors put the origin at the centre of symmetry and the axis along z; cylinder, cone and capsule are centred
-/// at mid-height, the base of a cone at −h/2 and its apex at +h/2.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Surface {
-    /// Triangles.
-    pub facets: Facets,
-    /// Smooth pieces.
-    pub patches: Vec<Patch>,
-}
-
-impl Surface {
-    /// A sphere of radius R [m].
-    pub fn sphere(radius: f64) -> Self {
-        Self::from_patches(vec![Patch::new(Primitive::Sphere(Sphere { radius }))])
-    }
-
-    /// An ellipsoid with semi-axes [m] along x, y, z.
-    pub fn ellipsoid(semi_axes: &Vec3) -> Self {
-        Self::from_patches(vec![Patch::new(Primitive::Ellipsoid(Ellipsoid { semi_axes: *semi_axes }))])
-    }
-
-    /// A closed cylinder of radius R and height h [m].
-    pub fn cylinder(radius: f64, height: f64) -> Self {
-        let wall = Patch::new(Primitive::CylinderWall(CylinderWall { radius, height }));
-        let end = Patch::new(Primitive::Disk(Disk { radius }));
-        Self::from_patches(vec![wall, end.lifted(0.5 * height), end.lifted(-0.5 * height)])
-    }
-
-    /// A closed cone of base radius R and height h [m], apex up.
-    pub fn cone(radius: f64, height: f64) -> Self {
-        let wall = Patch::new(Primitive::ConeWall(ConeWall { radius, height }));
-        let base = Patch::new(Primitive::Disk(Disk { radius }));
-        Self::from_patches(vec![wall, base.lifted(-0.5 * height)])
-    }
-
-    /// A cylinder of radius R and height h [m] between two hemispheres.
-    pub fn capsule(radius: f64, height: f64) -> Self {
-        let wall = Patch::new(Primitive::CylinderWall(CylinderWall { radius, height }));
-        let top = Patch::new(Primitive::Hemisphere(Hemisphere { radius })).lifted(0.5 * height);
-        let half_turn = Mat3::from_diagonal(&Vec3::new(1.0, -1.0, -1.0));
-        Self::from_patches(vec![wall, top, top.transformed(&half_turn, &Vec3::zeros())])
-    }
-
-    /// A torus: a tube of radius r around a circle of radius R ≥ r [m].
-    pub fn torus(major_radius: f64, minor_radius: f64) -> Self {
-        Self::from_patches(vec![Patch::new(Primitive::Torus(Torus { major_radius, minor_radius }))])
-    }
-
-    /// A box with the given edge lengths [m].
-    pub fn cuboid(size: &Vec3) -> Self {
-        Self::from_facets(Facets::cuboid(size))
-    }
-
-    /// Triangles given by vertices [m] and corner indices, counter-clockwise seen from outside.
-    ///
-    /// # Errors
-    /// Those of [`Facets::new`].
-    pub fn from_triangles(vertices: &[Vec3], triangles: &[[usize; 3]]) -> Result<Self, FacetsError> {
-        Facets::new(vertices, triangles).map(Self::from_facets)
-    }
-
-    /// A surface of facets only.
-    pub fn from_facets(facets: Facets) -> Self {
-        Self { facets, patches: Vec::new() }
-    }
-
-    /// A surface of smooth patches only.
-    pub fn from_patches(patches: Vec<Patch>) -> Self {
-        Self { facets: Facets::default(), patches }
-    }
-
-    /// The surface after X ↦ X + by.
-    pub fn translated(&self, by: &Vec3) -> Self {
-        self.transformed(&Mat3::identity(), by)
-    }
-
-    /// The surface after X ↦ rotation · X + offset.
-    pub fn transformed(&self, rotation: &Mat3, offset: &Vec3) -> Self {
-        Self {
-            facets: self.facets.transformed(rotation, offset),
-            patches: self.patches.iter().map(|patch| patch.transformed(rotation, offset)).collect(),
-        }
-    }
-
-    /// Both surfaces as one; every part of each makes contact.
-    pub fn merged(&self, other: &Self) -> Self {
-        Self { facets: self.facets.merged(&other.facets), patches: [self.patches.as_slice(), &other.patches].concat() }
-    }
-
-    /// Area [m²].
-    pub fn area(&self) -> f64 {
-        self.facets.area() + self.patches.iter().map(Patch::area).sum::<f64>()
-    }
-
-    /// The moments of `requests`, set in the entries of `out`, about the origin of X.
-    ///
-    /// Orders above a request's are zero. `out` must be as long as `requests`.
-    ///
-    /// # Errors
-    /// `GapClosed` if the smallest gap is not a positive finite number, or over a smooth patch is positive by no more
-    /// than rounding; `out` is then unspecified.
-    pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
-        assert_eq!(requests.len(), out.len(), "one place for each request");
-        out.fill(Moments::default());
-        self.facets.moments(field, requests, out)?;
-        self.add_patches(field, requests, out)
-    }
-
-    /// [`Surface::moments`] of requests that were planned before.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn planned_moments(&self, field: &GapField, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
-        assert_eq!(plan.requests.len(), out.len(), "one place for each request");
-        out.fill(Moments::default());
-        for (plan, out) in plan.facets.iter().zip(out.chunks_mut(BATCH)) {
-            self.facets.add_planned(field, plan, out)?;
-        }
-        self.add_patches(field, &plan.requests, out)
-    }
-
-    /// Adds the moments over the smooth patches.
-    fn add_patches(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
-        for patch in &self.patches {
-            patch.check_gap(field)?;
-            patch.add_moments(field, requests, out);
-        }
-        Ok(())
-    }
-
-    /// The smallest gap [m] and the material point where it is; infinite for an empty surface.
-    ///
-    /// The first gap that is not finite is returned at once.
-    pub fn smallest_gap(&self, field: &GapField) -> (f64, Vec3) {
-        let mut smallest = self.facets.smallest_gap(field);
-        for patch in &self.patches {
-            let point = patch.support(&-field.direction);
-            let gap = field.gap(&point);
-            if !gap.is_finite() {
-                return (gap, point);
-            }
-            if gap < smallest.0 {
-                smallest = (gap, point);
-            }
-        }
-        smallest
-    }
-
-    /// Whether all gaps are finite and above a floor [m].
-    pub(crate) fn is_above(&self, field: &GapField, floor: f64) -> bool {
-        let fits = |gap: f64| gap > floor && gap < f64::INFINITY;
-        let patches = || self.patches.iter().all(|patch| fits(field.gap(&patch.support(&-field.direction))));
-        self.facets.are_above(field, floor) && patches()
-    }
-
-    /// The largest speed |v + A X| [m/s] on the surface.
-    ///
-    /// v velocity at the origin of X (3) [m/s], A = Ṗ (3×3) [1/s].
-    pub fn fastest_point(&self, v: &Vec3, a: &Mat3) -> f64 {
-        let patches = self.patches.iter().map(|patch| patch.fastest_point(v, a));
-        patches.fold(self.facets.fastest_point(v, a), f64::max)
-    }
-}
+pub use composite::Surface;
+pub use facets::{Facets, FacetsError};
+pub use gap::{GapClosed, GapField};
+pub use line::LineKernel;
+pub use moments::{Kernel, MomentRequest, Moments};
+pub use oriented::OrientedMoments;
+pub use plan::MomentPlan;

@@ -6,12 +6,12 @@
 
 use std::f64::consts::PI;
 
-use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
-use super::integrand::Integrand;
-use super::ring::{Demand, Rings};
-use super::rulings::{OtherEnd, RulingSums, Rulings};
+use super::rules::integrand::Integrand;
+use super::rules::ring::{Demand, Rings};
+use super::rules::rulings::{OtherEnd, RulingSums, Rulings};
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
 
 /// The wall of a cone about the z axis, base at z = −height/2, apex at +height/2, without its base.

@@ -5,12 +5,12 @@
 
 use std::f64::consts::TAU;
 
-use super::super::{GapField, MomentRequest, Moments};
 use super::half_plane::{Chart, TiltedGap};
-use super::integrand::Integrand;
-use super::ring::{Demand, Rings};
-use super::rulings::{OtherEnd, RulingSums, Rulings};
+use super::rules::integrand::Integrand;
+use super::rules::ring::{Demand, Rings};
+use super::rules::rulings::{OtherEnd, RulingSums, Rulings};
 use super::sphere::shifted;
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
 
 /// The wall of a cylinder about the z axis, |z| ≤ height/2, without its ends.

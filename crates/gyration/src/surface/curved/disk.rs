@@ -10,13 +10,13 @@ use std::f64::consts::PI;
 
 use pulp::{Simd, WithSimd};
 
-use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
-use super::integrand::{GROUP, Integrand, LANES, Lane};
-use super::ring::{Demand, RingChunk, Rings};
-use super::weight::{Deformed, Weighted};
+use super::rules::integrand::{GROUP, Integrand, LANES, Lane};
+use super::rules::ring::{Demand, RingChunk, Rings};
+use super::rules::weight::{Deformed, Weighted};
 use crate::simd::dispatch;
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::Vec3;
 
 /// A disk about the z axis in the plane z = 0, one side of it.

@@ -8,13 +8,13 @@
 //! does not depend on φ: κ is evaluated once for a parallel, and the rest, ∮ |B s| s⊗… dφ, is geometry, the same for
 //! the parallel at π − θ but for signs. `features` chooses the parallels, `parallels` sums around them.
 
-use super::super::{GapField, MomentRequest, Moments};
-use super::features::Features;
 use super::half_plane::Chart;
-use super::integrand::Integrand;
-use super::parallels::{AreaElement, Sums, Sweep};
+use super::rules::features::Features;
+use super::rules::integrand::Integrand;
+use super::rules::parallels::{AreaElement, Sums, Sweep};
 use super::sphere::frame_along;
 use crate::simd::dispatch;
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// An ellipsoid about the origin, its axes along x, y, z.
@@ -28,7 +28,7 @@ impl Ellipsoid {
     /// The area ∫ |B s| dΩ [m²].
     pub fn area(&self) -> f64 {
         let field = GapField { height: 1.0, direction: Vec3::zeros() };
-        let request = MomentRequest { kernel: super::super::Kernel::Power(0.0), order: 0 };
+        let request = MomentRequest { kernel: crate::surface::Kernel::Power(0.0), order: 0 };
         let mut out = [Moments::default()];
         self.moments(&field, &[request], &mut out);
         out[0].zeroth

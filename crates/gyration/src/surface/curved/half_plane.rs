@@ -8,7 +8,7 @@
 //! odd powers of sin φ cancel, and the moments follow from the sums S_ij = ∫ κ ρ^i z^j ds, i + j ≤ 3, of each
 //! half-plane.
 
-use super::super::{GapField, Moments};
+use crate::surface::{GapField, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// Where moments that a primitive has summed belong: Y = offset + linear · Z, Z the variable they were summed in.

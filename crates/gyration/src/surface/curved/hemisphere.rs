@@ -12,14 +12,14 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use pulp::{Simd, WithSimd};
 
-use super::super::power::LineKernel;
-use super::super::rule::{GradedInterval, Node, Singularity};
-use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, TiltedGap};
-use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
+use super::rules::graded::{GradedInterval, Node, Singularity};
+use super::rules::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
 use super::sphere::{add_zone, height_moments};
 use crate::simd::dispatch;
+use crate::surface::line::LineKernel;
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// The half z ≥ 0 of a sphere about the origin, without the disk that closes it.

@@ -8,33 +8,21 @@
 
 mod cone;
 mod cylinder;
+mod deformed;
 mod disk;
 mod ellipsoid;
-mod features;
 mod half_plane;
 mod hemisphere;
-mod hemisphere_points;
-mod image;
-mod integrand;
-mod own_ring;
-mod parallels;
-mod points;
-mod ring;
-mod rulings;
-mod rulings_weighted;
+mod patch;
+mod rules;
 mod sphere;
 mod torus;
-mod torus_points;
-mod walls;
-mod weight;
 
 pub use cone::ConeWall;
 pub use cylinder::CylinderWall;
 pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
-pub(crate) use half_plane::Chart;
 pub use hemisphere::Hemisphere;
-pub(crate) use integrand::GROUP;
+pub use patch::{Patch, Primitive};
 pub use sphere::Sphere;
 pub use torus::Torus;
-pub(crate) use weight::{AREA, Deformed, Weighted, Weights};

@@ -10,8 +10,8 @@
 
 use std::f64::consts::TAU;
 
-use super::super::power::LineKernel;
-use super::super::{GapField, MomentRequest, Moments};
+use crate::surface::line::LineKernel;
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// A sphere about the origin.

@@ -12,13 +12,13 @@ use std::f64::consts::PI;
 
 use pulp::{Simd, WithSimd};
 
-use super::super::{GapField, MomentRequest, Moments};
 use super::cylinder::circle_support;
 use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
-use super::integrand::{GROUP, Integrand, LANES};
-use super::ring::{Demand, RingNode, Rings};
+use super::rules::integrand::{GROUP, Integrand, LANES};
+use super::rules::ring::{Demand, RingNode, Rings};
 use super::sphere::unit_or_z;
 use crate::simd::dispatch;
+use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::Vec3;
 
 /// A torus about the z axis.

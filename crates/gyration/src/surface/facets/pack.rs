@@ -1,0 +1,119 @@
+//! Triangles and vertices laid out for lanes: eight of each in a pack, component by component.
+//!
+//! A pack of triangles holds the coordinates of its corners, so that nothing is gathered in a call: the gaps of a
+//! vertex are computed anew in every triangle that it belongs to, by the same operations, to the same bytes. Unused
+//! places repeat the last triangle without its area, or the last vertex. A body that deforms needs the area vectors 2A
+//! N too: their images under the cofactor of P are those of the deformed triangles.
+
+use pulp::Simd;
+
+use crate::simd::{F64s, Row, WIDTH};
+use crate::surface::GapField;
+use crate::tensor::Vec3;
+
+/// Three components in lanes.
+pub(super) type Vector<S> = [F64s<S>; 3];
+
+/// Eight points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Points(pub [Row; 3]);
+
+/// Eight triangles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Pack {
+    corners: [Points; 3],
+    twice_area: Row,
+    area_vectors: Points,
+    used: usize,
+}
+
+impl Points {
+    /// The points given, at most eight, the last one repeated.
+    pub fn new(points: &[Vec3]) -> Self {
+        let mut rows = [[0.0; WIDTH]; 3];
+        for place in 0..WIDTH {
+            if let Some(point) = points.get(place).or(points.last()) {
+                for (row, x) in rows.iter_mut().zip(point) {
+                    row[place] = *x;
+                }
+            }
+        }
+        Self(rows)
+    }
+
+    /// The register of points at this place.
+    #[inline(always)]
+    pub fn load<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
+        let [x, y, z] = &self.0;
+        [F64s::load(simd, x, register), F64s::load(simd, y, register), F64s::load(simd, z, register)]
+    }
+}
+
+impl Pack {
+    /// The triangles given by corners and twice the area vector [m²]; at most eight.
+    pub fn new(triangles: &[([Vec3; 3], Vec3)]) -> Self {
+        let corner = |k: usize| {
+            let points: Vec<Vec3> = triangles.iter().map(|(corners, _)| corners[k]).collect();
+            Points::new(&points)
+        };
+        let (mut twice_area, mut area_vectors) = ([0.0; WIDTH], [Vec3::zeros(); WIDTH]);
+        for (place, (_, vector)) in triangles.iter().enumerate().take(WIDTH) {
+            (twice_area[place], area_vectors[place]) = (vector.norm(), *vector);
+        }
+        Self {
+            corners: [corner(0), corner(1), corner(2)],
+            twice_area,
+            area_vectors: Points::new(&area_vectors),
+            used: triangles.len(),
+        }
+    }
+
+    /// How many registers of this width the triangles fill.
+    #[inline(always)]
+    pub fn registers<S: Simd>(&self) -> usize {
+        self.used.div_ceil(S::F64_LANES)
+    }
+
+    /// The corners of the triangles in a register.
+    #[inline(always)]
+    pub fn corners<S: Simd>(&self, simd: S, register: usize) -> [Vector<S>; 3] {
+        let [a, b, c] = &self.corners;
+        [a.load(simd, register), b.load(simd, register), c.load(simd, register)]
+    }
+
+    /// Twice the areas of the triangles in a register [m²].
+    #[inline(always)]
+    pub fn twice_area<S: Simd>(&self, simd: S, register: usize) -> F64s<S> {
+        F64s::load(simd, &self.twice_area, register)
+    }
+
+    /// Twice the area vectors of the triangles in a register [m²].
+    #[inline(always)]
+    pub fn area_vectors<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
+        self.area_vectors.load(simd, register)
+    }
+}
+
+/// A gap field in every lane.
+#[derive(Clone, Copy)]
+pub(super) struct SplatField<S: Simd> {
+    height: F64s<S>,
+    direction: Vector<S>,
+}
+
+impl<S: Simd> SplatField<S> {
+    #[inline(always)]
+    pub fn new(simd: S, field: &GapField) -> Self {
+        let m = &field.direction;
+        let splat = |x| F64s::splat(simd, x);
+        Self { height: splat(field.height), direction: [splat(m.x), splat(m.y), splat(m.z)] }
+    }
+
+    /// The gaps g₀ + m·X [m], rounded as [`GapField::gap`] does.
+    #[inline(always)]
+    pub fn gap(&self, [x, y, z]: &Vector<S>) -> F64s<S> {
+        let [mx, my, mz] = self.direction;
+        self.height + ((mx * *x + my * *y) + mz * *z)
+    }
+}

@@ -1,0 +1,259 @@
+//! The passes over packs: moments of all triangles, smallest gap of all vertices.
+//!
+//! Sums are kept in rows of eight logical lanes, whatever the width of the registers, and folded once, at the end.
+
+use pulp::{Simd, WithSimd};
+
+use super::pack::{Pack, Points, SplatField, Vector};
+use super::plan::{FacetPlan, MOST_ROWS};
+use super::triangle::Triangle;
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold, registers_mut};
+use crate::surface::{GapField, Moments};
+use crate::tensor::{Mat3, Vec3};
+
+/// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and
+/// finite.
+pub(super) fn add_moments(packs: &[Pack], field: &GapField, plan: &FacetPlan, out: &mut [Moments]) -> bool {
+    add::<false>(&Request { packs, field, plan, cofactor: &Mat3::identity() }, out)
+}
+
+/// The same per deformed area, given the cofactor of P.
+pub(super) fn add_deformed(
+    packs: &[Pack],
+    field: &GapField,
+    cofactor: &Mat3,
+    plan: &FacetPlan,
+    out: &mut [Moments],
+) -> bool {
+    add::<true>(&Request { packs, field, plan, cofactor }, out)
+}
+
+fn add<const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
+    // Few rows need not be cleared where few are used.
+    match request.plan.row_count() {
+        0..=16 => in_rows::<16, DEFORMED>(request, out),
+        17..=48 => in_rows::<48, DEFORMED>(request, out),
+        _ => in_rows::<MOST_ROWS, DEFORMED>(request, out),
+    }
+}
+
+fn in_rows<const ROWS: usize, const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
+    let mut rows = [[0.0; WIDTH]; ROWS];
+    let admissible = dispatch(Integrate::<DEFORMED> { request, rows: &mut rows });
+    if admissible {
+        for (place, moments) in out.iter_mut().enumerate() {
+            let (order, row) = request.plan.place(place);
+            add_folded(moments, &rows[row..], order);
+        }
+    }
+    admissible
+}
+
+/// Adds rows of components to moments.
+pub(super) fn add_folded(moments: &mut Moments, rows: &[Row], order: usize) {
+    moments.zeroth += fold(&rows[0]);
+    if order >= 1 {
+        moments.first += Vec3::new(fold(&rows[1]), fold(&rows[2]), fold(&rows[3]));
+    }
+    if order >= 2 {
+        let (xx, xy, xz) = (fold(&rows[4]), fold(&rows[5]), fold(&rows[6]));
+        let (yy, yz, zz) = (fold(&rows[7]), fold(&rows[8]), fold(&rows[9]));
+        moments.second += Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    }
+    if order >= 3 {
+        for (sum, row) in moments.third.0.iter_mut().zip(&rows[10..]) {
+            *sum += fold(row);
+        }
+    }
+}
+
+/// What is integrated over which packs.
+#[derive(Clone, Copy)]
+pub(super) struct Request<'a> {
+    pub packs: &'a [Pack],
+    pub field: &'a GapField,
+    pub plan: &'a FacetPlan,
+    /// det P P⁻ᵀ, for deformed areas.
+    pub cofactor: &'a Mat3,
+}
+
+/// The moments of a plan over packs; whether every gap is positive and finite.
+struct Integrate<'a, const DEFORMED: bool> {
+    request: &'a Request<'a>,
+    rows: &'a mut [Row],
+}
+
+impl<const DEFORMED: bool> WithSimd for Integrate<'_, DEFORMED> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
+        let Request { packs, field, plan, cofactor } = *self.request;
+        let field = SplatField::new(simd, field);
+        let cofactor = SplatMatrix::new(simd, cofactor);
+        let mut seen = Gaps::new(simd);
+        for pack in packs {
+            for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
+                let twice_area = if DEFORMED {
+                    length(&cofactor.image(&pack.area_vectors(simd, register)))
+                } else {
+                    pack.twice_area(simd, register)
+                };
+                let triangle = Triangle::new(pack, register, &field, twice_area);
+                seen.add(&triangle);
+                plan.add(&triangle, register, self.rows);
+            }
+        }
+        seen.are_open()
+    }
+}
+
+/// The gaps that a pass has met.
+#[derive(Clone, Copy)]
+pub(super) struct Gaps<S: Simd> {
+    lowest: F64s<S>,
+    total: F64s<S>,
+}
+
+impl<S: Simd> Gaps<S> {
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        Self { lowest: F64s::splat(simd, f64::INFINITY), total: F64s::splat(simd, 0.0) }
+    }
+
+    #[inline(always)]
+    pub fn add(&mut self, triangle: &Triangle<S>) {
+        let [low, middle, high] = triangle.gaps;
+        self.lowest = low.less_than(self.lowest).select(low, self.lowest);
+        self.total += (low + middle) + high;
+    }
+
+    /// Whether all of them are positive and finite.
+    #[inline(always)]
+    pub fn are_open(&self) -> bool {
+        // A sum of gaps is finite if all of them are; what is smaller than a normal number has no reciprocal.
+        let mut sums = [0.0; WIDTH];
+        self.total.add_to(&mut sums, 0);
+        self.lowest.smallest() >= f64::MIN_POSITIVE && fold(&sums).is_finite()
+    }
+}
+
+/// A 3×3 matrix in every lane, row by row.
+#[derive(Clone, Copy)]
+pub(super) struct SplatMatrix<S: Simd>([Vector<S>; 3]);
+
+impl<S: Simd> SplatMatrix<S> {
+    // Written out: what `map` calls is not compiled for the instruction set.
+    #[inline(always)]
+    pub fn new(simd: S, a: &Mat3) -> Self {
+        let splat = |x| F64s::splat(simd, x);
+        Self([
+            [splat(a.m11), splat(a.m12), splat(a.m13)],
+            [splat(a.m21), splat(a.m22), splat(a.m23)],
+            [splat(a.m31), splat(a.m32), splat(a.m33)],
+        ])
+    }
+
+    /// The product with vectors.
+    #[inline(always)]
+    pub fn image(&self, v: &Vector<S>) -> Vector<S> {
+        let [x, y, z] = &self.0;
+        [dot(x, v), dot(y, v), dot(z, v)]
+    }
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> F64s<S> {
+    (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
+}
+
+/// The lengths of vectors.
+#[inline(always)]
+pub(super) fn length<S: Simd>(v: &Vector<S>) -> F64s<S> {
+    dot(v, v).sqrt()
+}
+
+/// The smallest gap and the place of the vertex where it is, the first of several; none if one is not finite.
+pub(super) fn smallest_gap(points: &[Points], field: &GapField) -> Option<(f64, usize)> {
+    dispatch(Smallest { points, field })
+}
+
+struct Smallest<'a> {
+    points: &'a [Points],
+    field: &'a GapField,
+}
+
+impl WithSimd for Smallest<'_> {
+    type Output = Option<(f64, usize)>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let field = SplatField::new(simd, self.field);
+        let mut lowest = F64s::splat(simd, f64::INFINITY);
+        let mut total = F64s::splat(simd, 0.0);
+        let mut step_of_lowest = F64s::splat(simd, 0.0);
+        let mut step = 0.0;
+        for points in self.points {
+            for register in 0..WIDTH / S::F64_LANES {
+                let gap = field.gap(&points.load(simd, register));
+                let lower = gap.less_than(lowest);
+                lowest = lower.select(gap, lowest);
+                step_of_lowest = lower.select(F64s::splat(simd, step), step_of_lowest);
+                total += gap;
+                step += 1.0;
+            }
+        }
+        let (mut gaps, mut steps, mut totals) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
+        registers_mut::<S>(&mut gaps)[0] = lowest.values;
+        registers_mut::<S>(&mut steps)[0] = step_of_lowest.values;
+        registers_mut::<S>(&mut totals)[0] = total.values;
+        if !fold(&totals).is_finite() {
+            return None;
+        }
+        let mut best = (f64::INFINITY, usize::MAX);
+        for lane in 0..S::F64_LANES {
+            let candidate = (gaps[lane], steps[lane] as usize * S::F64_LANES + lane);
+            if candidate.0 < best.0 || (candidate.0 == best.0 && candidate.1 < best.1) {
+                best = candidate;
+            }
+        }
+        Some(best)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Facets;
+    use super::*;
+    use crate::surface::{Kernel, MomentRequest};
+    use pulp::Arch;
+
+    /// The rows of a plan, undeformed and deformed added and folded, and the smallest gap, with one instruction set.
+    fn evaluate(arch: Arch, facets: &Facets, field: &GapField, plan: &FacetPlan) -> (Vec<f64>, Option<(f64, usize)>) {
+        let mut rows = [[0.0; WIDTH]; MOST_ROWS];
+        let cofactor = Mat3::new(1.2, 0.1, -0.2, 0.0, 0.9, 0.15, 0.1, -0.1, 0.8);
+        let request = Request { packs: &facets.packs, field, plan, cofactor: &cofactor };
+        assert!(arch.dispatch(Integrate::<false> { request: &request, rows: &mut rows }));
+        assert!(arch.dispatch(Integrate::<true> { request: &request, rows: &mut rows }));
+        (rows.iter().map(fold).collect(), arch.dispatch(Smallest { points: &facets.points, field }))
+    }
+
+    #[test]
+    fn every_width_gives_the_same_bytes() {
+        let kernels = [6.0, 7.0, 3.0, 4.0, 6.3, 7.3, 1.0, 2.2, -1.0].map(Kernel::Power);
+        // A turned box: sixteen registers of one triangle, or two of eight with places to spare.
+        let turn = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.3)).matrix();
+        let facets = Facets::cuboid(&Vec3::new(0.1, 0.14, 0.2)).transformed(&turn, &Vec3::zeros());
+        for (height, direction) in [(0.15, Vec3::z()), (0.2, Vec3::new(0.6, 0.0, 0.8)), (3.0, turn * Vec3::x())] {
+            let field = GapField { height, direction };
+            for kernel in kernels.into_iter().chain([Kernel::Log]) {
+                for order in 0..4 {
+                    let plan = FacetPlan::new(&[MomentRequest { kernel, order }]);
+                    let widest = evaluate(Arch::new(), &facets, &field, &plan);
+                    let single = evaluate(Arch::Scalar, &facets, &field, &plan);
+                    assert_eq!(widest, single, "{kernel:?}, order {order}, height {height}");
+                }
+            }
+        }
+    }
+}
