@@ -14,8 +14,6 @@ use tree::{Tree, circles};
 
 /// How many modules stand in circles still, by their parent: these numbers may only become smaller.
 const IN_CIRCLES: &[(&str, usize)] = &[
-    ("gyration::fluid::unsteady", 2),
-    ("gyration::shape", 3),
     ("gyration-scene", 4),
     ("gyration-sim::modes", 2),
     ("gyration-sim::sensitivity", 2),

@@ -27,7 +27,7 @@ pub struct Inclusion {
     pub center: Vec3,
     /// What the fluid meets.
     pub form: Form,
-    /// What the fluid remembers of a rigid sphere, if that counts.
+    /// The history force on a rigid sphere, if that counts.
     pub history: Option<History>,
 }
 

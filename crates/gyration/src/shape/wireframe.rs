@@ -4,9 +4,8 @@
 //! run out the flattest are left away. A surface that bends nowhere as much (a fine mesh of a smooth body) shows its
 //! sharpest edges all the same, so that it is not invisible.
 
-use super::edges::sides;
+use super::edges::half_edges;
 use super::outline::Outline;
-use super::polyhedron::Polyhedron;
 use crate::tensor::Vec3;
 
 /// The smallest angle between faces that is drawn \[rad\]: 15°.
@@ -17,9 +16,10 @@ const PLANE_ANGLE: f64 = 1e-3;
 const OUTLINE_POINTS: usize = 2000;
 
 /// The wireframe of a surface: one line per sharp edge.
-pub(super) fn sharp_edges(surface: &Polyhedron) -> Outline {
-    let normals: Vec<Vec3> = surface.triangles.iter().map(|triangle| unit_normal(surface, triangle)).collect();
-    let mut bent: Vec<(f64, [usize; 2])> = sides(&surface.triangles)
+pub(super) fn sharp_edges(vertices: &[Vec3], triangles: &[[usize; 3]]) -> Outline {
+    let normals: Vec<Vec3> =
+        triangles.iter().map(|triangle| unit_normal(triangle.map(|corner| vertices[corner]))).collect();
+    let mut bent: Vec<(f64, [usize; 2])> = half_edges(triangles)
         .chunk_by(|a, b| a.ends == b.ends)
         .map(|meeting| {
             let (a, b) = (normals[meeting[0].triangle], normals[meeting[meeting.len() - 1].triangle]);
@@ -32,13 +32,13 @@ pub(super) fn sharp_edges(surface: &Polyhedron) -> Outline {
     if bent.first().is_some_and(|(angle, _)| *angle > SHARP_ANGLE) {
         bent.retain(|(angle, _)| *angle > SHARP_ANGLE);
     }
-    collect(surface, bent.into_iter().map(|(_, edge)| edge))
+    collect(vertices, bent.into_iter().map(|(_, edge)| edge))
 }
 
 /// Lines along edges, as many as the points allow.
-fn collect(surface: &Polyhedron, edges: impl Iterator<Item = [usize; 2]>) -> Outline {
+fn collect(vertices: &[Vec3], edges: impl Iterator<Item = [usize; 2]>) -> Outline {
     let mut outline = Outline::default();
-    let mut drawn = vec![None; surface.vertices.len()];
+    let mut drawn = vec![None; vertices.len()];
     for edge in edges {
         let new = edge.iter().filter(|&&vertex| drawn[vertex].is_none()).count();
         if outline.points.len() + new > OUTLINE_POINTS {
@@ -46,7 +46,7 @@ fn collect(surface: &Polyhedron, edges: impl Iterator<Item = [usize; 2]>) -> Out
         }
         let line = edge.map(|vertex| {
             *drawn[vertex].get_or_insert_with(|| {
-                outline.points.push(surface.vertices[vertex]);
+                outline.points.push(vertices[vertex]);
                 outline.points.len() - 1
             })
         });
@@ -56,7 +56,6 @@ fn collect(surface: &Polyhedron, edges: impl Iterator<Item = [usize; 2]>) -> Out
 }
 
 /// The unit normal of a triangle; zero if it has no area, which then counts as flat.
-fn unit_normal(surface: &Polyhedron, triangle: &[usize; 3]) -> Vec3 {
-    let [a, b, c] = surface.corners(triangle);
+fn unit_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
     (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }

@@ -1,4 +1,4 @@
-//! Integrals over the cut of √p, by which motions with a memory are given in closed form.
+//! Integrals over the cut of √p, by which motions with a history force are given in closed form.
 
 /// ∫₀^∞ f(q) dq for a smooth f that is O(1) at 0 and O(q^−2) at infinity.
 ///

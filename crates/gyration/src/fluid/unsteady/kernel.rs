@@ -1,12 +1,11 @@
-//! The kernels by which a sphere remembers, exactly.
+//! The kernels of the history force and torque on a sphere, exactly.
 //!
 //!   translation   κ = √(τ/(πt))                               κ̂(p) = τ/√(pτ)
 //!   rotation      κ = ⅓ (√(τ/(πt)) − e^(t/τ) erfc √(t/τ))     κ̂(p) = τ/(3(1 + √(pτ)))
 //!
 //! The second is the inverse of the torque −(8πηR³/3) (3 + 3ℓ + ℓ²)/(1 + ℓ) Ω = −8πηR³ (1 + pκ̂(p)) Ω with ℓ = √(pτ):
-//! Landau and Lifshitz, *Fluid Mechanics*, §24 (problems). The affine moment of a strain remembers by 5/3 of it
-//! (`vibration`). Both are transforms ∫ density(s) e^(−st) ds of positive densities, found from the jump of κ̂ over the
-//! cut p = −s,
+//! Landau and Lifshitz, *Fluid Mechanics*, §24 (problems). The affine moment of a strain has 5/3 of it (`vibration`).
+//! Both are transforms ∫ density(s) e^(−st) ds of positive densities, found from the jump of κ̂ over the cut p = −s,
 //!
 //!   1/(π√(sτ)),     √(sτ)/(3π(1 + sτ))          per d(sτ)
 //!

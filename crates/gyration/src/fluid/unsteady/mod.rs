@@ -1,4 +1,4 @@
-//! A sphere in a fluid with inertia: what it remembers, and how it answers small vibrations.
+//! A sphere in a fluid with inertia: its history force, and how it answers small vibrations.
 //!
 //! Linearised unsteady Stokes flow about a sphere of radius R, ρ ∂u/∂t = −∇q + η ∇²u, div u = 0; τ = ρR²/η [s] is the
 //! time in which vorticity spreads over R. With w the velocity and Ω the angular velocity of the sphere relative to the
@@ -25,4 +25,5 @@ pub mod spinning;
 mod talbot;
 pub mod vibration;
 
-pub use exponentials::{Exponentials, Unresolved};
+pub use exponentials::Exponentials;
+pub use fit::Unresolved;

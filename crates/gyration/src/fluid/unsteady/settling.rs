@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn sphere_with_modes_in_place_of_its_memory_settles_alike() {
+    fn sphere_with_modes_in_place_of_its_history_settles_alike() {
         for (span, error) in [(10.0, 1e-4), (10.0, 1e-6), (1e4, 1e-6), (10.0, 1e-8)] {
             let history = Exponentials::of_translation(1.0, span, error).unwrap();
             for inertia in [1.0 / 9.0, 0.25, 1.0 / 3.0, 3.0] {

@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn sphere_with_modes_in_place_of_its_memory_spins_down_alike() {
+    fn sphere_with_modes_in_place_of_its_history_spins_down_alike() {
         for (span, error) in [(10.0, 1e-4), (10.0, 1e-6), (1e4, 1e-6)] {
             let history = Exponentials::of_rotation(1.0, span, error).unwrap();
             for inertia in INERTIAS {

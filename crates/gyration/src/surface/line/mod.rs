@@ -1,7 +1,7 @@
 //! Moments of a kernel along straight segments, from which facets, walls and spheres are built.
 //!
-//! [`LineKernel`] is a kernel prepared for a degree, and has the formulas for one segment (`kernel`); `segments` has them
-//! for as many segments as a register holds, and `integer` those for an integer exponent there.
+//! [`LineKernel`] is a kernel prepared for a degree, and has the formulas for one segment (`kernel`); `segments` has
+//! them for as many segments as a register holds, and `integer` those for an integer exponent there.
 
 mod ends;
 mod integer;
