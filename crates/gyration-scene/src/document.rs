@@ -22,7 +22,7 @@ pub(crate) struct Document {
 
 /// An error by its place in the tree; it gets its line and column at the end.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Finding {
+pub(crate) struct Diagnostic {
     pub(crate) key: Key,
     pub(crate) span: Span,
     pub(crate) message: String,
@@ -32,16 +32,16 @@ pub(crate) struct Finding {
 
 /// Collects what is wrong, up to a number that no one reads: a file of megabytes must not take gigabytes of messages.
 #[derive(Debug, Default)]
-pub(crate) struct Findings {
-    found: Vec<Finding>,
+pub(crate) struct Diagnostics {
+    found: Vec<Diagnostic>,
     /// What is being looked at.
     looking_at: Fault,
 }
 
-/// The most findings that are kept.
-const MOST_FINDINGS: usize = 2000;
+/// The most diagnostics that are kept.
+const MOST_DIAGNOSTICS: usize = 2000;
 
-impl Findings {
+impl Diagnostics {
     /// An empty collection of errors of this kind.
     pub(crate) fn of(looking_at: Fault) -> Self {
         Self { found: Vec::new(), looking_at }
@@ -56,15 +56,15 @@ impl Findings {
     pub(crate) fn at(&mut self, span: Span, key: &Key, message: impl Into<String>, help: impl Into<String>) {
         if !self.is_full() {
             let (key, message, help) = (key.clone(), message.into(), help.into());
-            self.found.push(Finding { key, span, message, help, fault: self.looking_at });
+            self.found.push(Diagnostic { key, span, message, help, fault: self.looking_at });
         }
     }
 
     /// Notes all that another collection has.
-    pub(crate) fn extend(&mut self, other: impl IntoIterator<Item = Finding>) {
-        for finding in other {
+    pub(crate) fn extend(&mut self, other: impl IntoIterator<Item = Diagnostic>) {
+        for diagnostic in other {
             if !self.is_full() {
-                self.found.push(finding);
+                self.found.push(diagnostic);
             }
         }
     }
@@ -76,18 +76,18 @@ impl Findings {
 
     /// Whether no more are kept: there is then no need to look for more.
     pub(crate) fn is_full(&self) -> bool {
-        self.found.len() >= MOST_FINDINGS
+        self.found.len() >= MOST_DIAGNOSTICS
     }
 
     /// What was found so far.
-    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Finding> {
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.found.iter()
     }
 }
 
-impl IntoIterator for Findings {
-    type Item = Finding;
-    type IntoIter = std::vec::IntoIter<Finding>;
+impl IntoIterator for Diagnostics {
+    type Item = Diagnostic;
+    type IntoIter = std::vec::IntoIter<Diagnostic>;
 
     fn into_iter(self) -> Self::IntoIter {
         self.found.into_iter()
@@ -101,27 +101,27 @@ impl Document {
         Self { texts: vec![text], root: Node { value: Value::Table(Default::default()), span: Span::default() } }
     }
 
-    /// The findings in the order of the texts, with lines and columns.
-    pub(crate) fn settle(&self, findings: Findings) -> SceneErrors {
+    /// The diagnostics in the order of the texts, with lines and columns.
+    pub(crate) fn errors(&self, diagnostics: Diagnostics) -> SceneErrors {
         // A file with more errors than this is not a scene; the first ones tell.
         const MOST: usize = 200;
-        let is_full = findings.is_full();
-        let mut findings = findings.found;
-        findings.sort_by(|a, b| (a.span.text, a.span.start, &a.key).cmp(&(b.span.text, b.span.start, &b.key)));
-        findings.dedup();
-        let omitted = findings.len().saturating_sub(MOST);
-        findings.truncate(MOST);
-        SceneErrors::new(findings.into_iter().map(|finding| self.locate(finding)).collect(), omitted, is_full)
+        let is_full = diagnostics.is_full();
+        let mut diagnostics = diagnostics.found;
+        diagnostics.sort_by(|a, b| (a.span.text, a.span.start, &a.key).cmp(&(b.span.text, b.span.start, &b.key)));
+        diagnostics.dedup();
+        let omitted = diagnostics.len().saturating_sub(MOST);
+        diagnostics.truncate(MOST);
+        SceneErrors::new(diagnostics.into_iter().map(|diagnostic| self.locate(diagnostic)).collect(), omitted, is_full)
     }
 
-    fn locate(&self, finding: Finding) -> SceneError {
-        let key = finding.key.dotted(&self.root);
-        let (file, place) = match self.texts.get(finding.span.text) {
-            Some(text) => (text.name.clone(), Place::new(&text.content, finding.span)),
+    fn locate(&self, diagnostic: Diagnostic) -> SceneError {
+        let key = diagnostic.key.dotted(&self.root);
+        let (file, place) = match self.texts.get(diagnostic.span.text) {
+            Some(text) => (text.name.clone(), Place::new(&text.content, diagnostic.span)),
             None => (String::new(), Place::new("", Span::default())),
         };
         let Place { line, column, excerpt } = place;
-        let Finding { message, help, fault, span, .. } = finding;
+        let Diagnostic { message, help, fault, span, .. } = diagnostic;
         SceneError { file, line, column, key, message, help, fault, overriding: span.text.checked_sub(1), excerpt }
     }
 }

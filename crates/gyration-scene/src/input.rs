@@ -8,7 +8,7 @@
 //! to it, an index from zero for an item of an array.
 
 use crate::check::{Rules, structure};
-use crate::document::{Document, Findings};
+use crate::document::{Diagnostics, Document};
 use crate::error::{Fault, LoadError, SceneErrors};
 use crate::key::Key;
 use crate::overriding::Override;
@@ -35,7 +35,7 @@ impl InputRules {
 #[derive(Debug)]
 pub struct InputFile {
     document: Document,
-    findings: Findings,
+    diagnostics: Diagnostics,
 }
 
 impl InputFile {
@@ -55,10 +55,10 @@ impl InputFile {
     /// All errors of its syntax.
     pub fn parse(name: &str, text: &str, rules: &InputRules, overrides: &[String]) -> Result<Self, SceneErrors> {
         let mut document = read::document(name, text)?;
-        let mut findings = Findings::of(Fault::Structure);
-        read::apply(&mut document, &Override::parse_all(overrides), &mut findings);
-        structure(&document.root, &rules.0, &mut findings);
-        Ok(Self { document, findings })
+        let mut diagnostics = Diagnostics::of(Fault::Structure);
+        read::apply(&mut document, &Override::parse_all(overrides), &mut diagnostics);
+        structure(&document.root, &rules.0, &mut diagnostics);
+        Ok(Self { document, diagnostics })
     }
 
     /// Its text, verbatim.
@@ -83,7 +83,7 @@ impl InputFile {
     pub fn take<T: DeserializeOwned>(&mut self, place: &[&str]) -> Option<T> {
         let key = self.key(place);
         let json = self.node(place)?.to_json();
-        if self.findings.iter().any(|finding| key.holds(&finding.key)) {
+        if self.diagnostics.iter().any(|diagnostic| key.holds(&diagnostic.key)) {
             return None;
         }
         serde_json::from_value(json).map_err(|error| self.note(place, error.to_string(), "see the reference")).ok()
@@ -92,12 +92,12 @@ impl InputFile {
     /// Notes what is wrong at a place, or around it if nothing stands there, and what to do.
     pub fn note(&mut self, place: &[&str], message: impl Into<String>, help: impl Into<String>) {
         let key = self.key(place);
-        self.findings.at(key.span(&self.document.root), &key, message, help);
+        self.diagnostics.at(key.span(&self.document.root), &key, message, help);
     }
 
     /// Whether nothing has been found wrong.
     pub fn is_sound(&self) -> bool {
-        self.findings.is_empty()
+        self.diagnostics.is_empty()
     }
 
     /// Ends the reading.
@@ -105,12 +105,12 @@ impl InputFile {
     /// # Errors
     /// Everything that has been found wrong, in the order of the text.
     pub fn finish(self) -> Result<(), SceneErrors> {
-        if self.findings.is_empty() { Ok(()) } else { Err(self.refused()) }
+        if self.diagnostics.is_empty() { Ok(()) } else { Err(self.refused()) }
     }
 
     /// Everything that has been found wrong with an input that is not sound, in the order of the text.
     pub fn refused(self) -> SceneErrors {
-        self.document.settle(self.findings)
+        self.document.errors(self.diagnostics)
     }
 
     fn node(&self, place: &[&str]) -> Option<&Node> {

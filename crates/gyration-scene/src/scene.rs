@@ -1,12 +1,16 @@
 //! A scene: read → check → build, all errors at once.
 
 use crate::assemble::Built;
-use crate::error::{LoadError, NotToml, SceneErrors};
+use crate::document::Diagnostics;
+use crate::error::{Fault, NotToml, SceneErrors};
 use crate::file::SceneFile;
+use crate::key::Key;
 use crate::overriding::Override;
-use crate::template::Template;
-use crate::unknown::Unknown;
+use crate::unknown::{FIX, Unknown, UnknownForm};
+use gyration::body::Body;
+use gyration::fluid::Form;
 use serde_json::Value;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A scene without errors, with its text, its resolved form and its model.
@@ -22,34 +26,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Opens a scene by its path or, if there is no such file, by its name in the gallery.
-    ///
-    /// Each override is `KEY=VALUE`, `body.die.velocity=[1, 0, 0]`, as in `--set`.
-    ///
-    /// # Errors
-    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it.
-    pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Self, LoadError> {
-        Ok(Template::open(path_or_name)?.scene(&Override::parse_all(overrides))?)
-    }
-
-    /// Loads a scene from a file; paths in it are relative to its folder.
-    ///
-    /// # Errors
-    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it.
-    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, LoadError> {
-        Ok(Template::load(path)?.scene(&Override::parse_all(overrides))?)
-    }
-
-    /// Reads a scene from a text; `name` is what messages call it, paths in it are relative to `base`.
-    ///
-    /// The text is TOML, or JSON if the name ends in `.json` or the text begins with a brace.
-    ///
-    /// # Errors
-    /// Everything that is wrong in it, in the order of the text.
-    pub fn parse(name: &str, text: &str, base: &Path, overrides: &[String]) -> Result<Self, SceneErrors> {
-        Template::parse(name, text, base)?.scene(&Override::parse_all(overrides))
-    }
-
     /// The name of its file without folder and ending.
     pub fn name(&self) -> &str {
         &self.name
@@ -91,11 +67,42 @@ impl Scene {
         // The file's types hold strings, finite numbers, arrays and tables only, all of which JSON has.
         serde_json::to_value(&self.file).unwrap_or_default()
     }
+
     /// The resolved form in TOML.
     ///
     /// # Errors
     /// [`NotToml`] if it has none.
     pub fn to_toml(&self) -> Result<String, NotToml> {
         Ok(toml::to_string(&self.file)?)
+    }
+
+    /// The forms whose resistance is not known.
+    pub fn unknown_forms(&self) -> &[UnknownForm] {
+        self.unknown.as_ref().map_or(&[], |unknown| &unknown.forms)
+    }
+
+    /// The scene with the forms that are asked for here, each of a body of the model.
+    ///
+    /// # Errors
+    /// Why a surface has no resistance, at the key of its shape.
+    pub fn complete<E: Display>(
+        mut self,
+        mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, E>,
+    ) -> Result<Self, SceneErrors> {
+        let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
+        let mut diagnostics = Diagnostics::of(Fault::Value);
+        for asked in forms {
+            let body = &mut self.built.model.bodies[asked.body];
+            let found = form(body, &asked);
+            match (found, &mut body.inclusion) {
+                (Ok(found), Some(inclusion)) => inclusion.form = found,
+                (Ok(_), None) => {}
+                (Err(error), _) => {
+                    let key = Key::root().key("body").index(asked.body).key("shape");
+                    diagnostics.at(key.span(&document.root), &key, error.to_string(), FIX);
+                }
+            }
+        }
+        if diagnostics.is_empty() { Ok(self) } else { Err(document.errors(diagnostics)) }
     }
 }

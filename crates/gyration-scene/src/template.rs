@@ -4,8 +4,8 @@
 //! scene thousands of times, each with other numbers.
 
 use crate::assemble::{Setting, assemble, salvage};
-use crate::check::{Draft, Judge, RULES, structure, values};
-use crate::document::{Document, Findings};
+use crate::check::{PartialScene, RULES, Reporter, structure, values};
+use crate::document::{Diagnostics, Document};
 use crate::error::{Fault, LoadError, ReadError, SceneErrors};
 use crate::gallery;
 use crate::key::name_of;
@@ -86,22 +86,22 @@ impl Template {
 
     fn checked(&self, overrides: &[Override]) -> Result<Scene, SceneErrors> {
         let mut document = self.document.clone();
-        let mut findings = Findings::of(Fault::Structure);
-        read::apply(&mut document, overrides, &mut findings);
-        structure(&document.root, &RULES, &mut findings);
-        let mut draft = Draft::new(&document, &mut findings);
-        let mut judge = Judge { document: &document, findings: &mut findings };
-        values(&draft, &mut judge);
-        let setting = Setting::new(&draft, &document, &self.base);
-        let built = assemble(&mut draft, &setting, &mut judge);
-        salvage(&document, &setting, &mut findings);
-        match (draft.complete(), built) {
-            (Some(file), Some((built, forms))) if findings.is_empty() => {
+        let mut diagnostics = Diagnostics::of(Fault::Structure);
+        read::apply(&mut document, overrides, &mut diagnostics);
+        structure(&document.root, &RULES, &mut diagnostics);
+        let mut partial = PartialScene::new(&document, &mut diagnostics);
+        let mut reporter = Reporter { document: &document, diagnostics: &mut diagnostics };
+        values(&partial, &mut reporter);
+        let setting = Setting::new(&partial, &document, &self.base);
+        let built = assemble(&mut partial, &setting, &mut reporter);
+        salvage(&document, &setting, &mut diagnostics);
+        match (partial.complete(), built) {
+            (Some(file), Some((built, forms))) if diagnostics.is_empty() => {
                 let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
                 let unknown = (!forms.is_empty()).then(|| Box::new(Unknown { forms, document }));
                 Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built, unknown })
             }
-            _ => Err(document.settle(findings)),
+            _ => Err(document.errors(diagnostics)),
         }
     }
 
@@ -146,6 +146,36 @@ impl Template {
     /// What it says, without overrides and defaults, comments and layout.
     pub fn written(&self) -> serde_json::Value {
         self.document.root.to_json()
+    }
+}
+
+impl Scene {
+    /// Opens a scene by its path or, if there is no such file, by its name in the gallery.
+    ///
+    /// Each override is `KEY=VALUE`, `body.die.velocity=[1, 0, 0]`, as in `--set`.
+    ///
+    /// # Errors
+    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it.
+    pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Self, LoadError> {
+        Ok(Template::open(path_or_name)?.scene(&Override::parse_all(overrides))?)
+    }
+
+    /// Loads a scene from a file; paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// [`LoadError::Read`] if the file cannot be read, [`LoadError::Content`] with everything that is wrong in it.
+    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, LoadError> {
+        Ok(Template::load(path)?.scene(&Override::parse_all(overrides))?)
+    }
+
+    /// Reads a scene from a text; `name` is what messages call it, paths in it are relative to `base`.
+    ///
+    /// The text is TOML, or JSON if the name ends in `.json` or the text begins with a brace.
+    ///
+    /// # Errors
+    /// Everything that is wrong in it, in the order of the text.
+    pub fn parse(name: &str, text: &str, base: &Path, overrides: &[String]) -> Result<Self, SceneErrors> {
+        Template::parse(name, text, base)?.scene(&Override::parse_all(overrides))
     }
 }
 

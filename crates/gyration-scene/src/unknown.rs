@@ -1,18 +1,13 @@
 //! What a scene leaves open: the resistances that only boundary elements tell.
 //!
 //! To read and to check a scene takes none of them. Where one belongs the model has NaN, with which nothing runs, until
-//! [`Scene::complete`] is given the form. What is wrong with a surface is then noted at its key, as any other error.
+//! `Scene::complete` is given the form. What is wrong with a surface is then noted at its key, as any other error.
 
-use crate::document::{Document, Findings};
-use crate::error::{Fault, SceneErrors};
-use crate::key::Key;
-use crate::scene::Scene;
-use gyration::body::Body;
+use crate::document::Document;
 use gyration::fluid::{FixedForm, Form, Resistance, Resolution, SurfaceForm, Table};
 use gyration::load::Mat12;
 use gyration::shape::Shape;
 use gyration::tensor::Mat3;
-use std::fmt::Display;
 use std::sync::Arc;
 
 /// A form whose resistance is not known.
@@ -66,36 +61,4 @@ pub(crate) const FIX: &str = "write another shape, a mesh that is closed and eve
 pub(crate) struct Unknown {
     pub(crate) forms: Vec<UnknownForm>,
     pub(crate) document: Document,
-}
-
-impl Scene {
-    /// The forms whose resistance is not known.
-    pub fn unknown_forms(&self) -> &[UnknownForm] {
-        self.unknown.as_ref().map_or(&[], |unknown| &unknown.forms)
-    }
-
-    /// The scene with the forms that are asked for here, each of a body of the model.
-    ///
-    /// # Errors
-    /// Why a surface has no resistance, at the key of its shape.
-    pub fn complete<E: Display>(
-        mut self,
-        mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, E>,
-    ) -> Result<Self, SceneErrors> {
-        let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
-        let mut findings = Findings::of(Fault::Value);
-        for asked in forms {
-            let body = &mut self.built.model.bodies[asked.body];
-            let found = form(body, &asked);
-            match (found, &mut body.inclusion) {
-                (Ok(found), Some(inclusion)) => inclusion.form = found,
-                (Ok(_), None) => {}
-                (Err(error), _) => {
-                    let key = Key::root().key("body").index(asked.body).key("shape");
-                    findings.at(key.span(&document.root), &key, error.to_string(), FIX);
-                }
-            }
-        }
-        if findings.is_empty() { Ok(self) } else { Err(document.settle(findings)) }
-    }
 }

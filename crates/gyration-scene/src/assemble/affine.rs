@@ -2,7 +2,7 @@
 
 use super::material::material;
 use super::start::matrix;
-use crate::check::Judge;
+use crate::check::Reporter;
 use crate::file::{self, Frame as WrittenFrame};
 use crate::key::Key;
 use crate::table::read_tensors;
@@ -28,18 +28,18 @@ pub(super) struct Parts {
 
 impl Parts {
     /// Reads them at a key; notes what is wrong with any. Tables are relative to `base`.
-    pub(super) fn of(written: &file::Affine, key: &Key, base: &Path, judge: &mut Judge<'_>) -> Option<Self> {
-        let material = written.material.as_ref().map(|it| material(it, &key.key("material"), judge));
-        let internal = internal_friction(written, &key.key("internal_friction"), judge);
+    pub(super) fn of(written: &file::Affine, key: &Key, base: &Path, reporter: &mut Reporter<'_>) -> Option<Self> {
+        let material = written.material.as_ref().map(|it| material(it, &key.key("material"), reporter));
+        let internal = internal_friction(written, &key.key("internal_friction"), reporter);
         let friction = written.linear_friction.as_ref().map(|it| {
             let made = LinearResistance::friction(&square(&it.matrix), frame(it.frame));
-            accepted(made, &key.key("linear_friction").key("matrix"), judge)
+            accepted(made, &key.key("linear_friction").key("matrix"), reporter)
         });
         let gyroscopic = written.gyroscopic.as_ref().map(|it| {
             let made = LinearResistance::gyroscopic(&square(&it.matrix), frame(it.frame));
-            accepted(made, &key.key("gyroscopic").key("matrix"), judge)
+            accepted(made, &key.key("gyroscopic").key("matrix"), reporter)
         });
-        let couple = written.couple.as_ref().map(|it| couple(it, &key.key("couple"), base, judge));
+        let couple = written.couple.as_ref().map(|it| couple(it, &key.key("couple"), base, reporter));
         let (viscosity, anisotropic) = internal?;
         Some(Self {
             material: all(material)?,
@@ -56,20 +56,20 @@ impl Parts {
         mass: &MassProperties,
         arm: Option<&Vec3>,
         places: &Places,
-        judge: &mut Judge<'_>,
+        reporter: &mut Reporter<'_>,
     ) -> Option<Affine> {
-        let fills = self.fills_a_volume(mass, places, judge);
+        let fills = self.fills_a_volume(mass, places, reporter);
         let interior = match AffineBody::new(mass, arm, self.material, self.viscosity) {
             Ok(body) if inverts(&body.euler_tensor, &body.inverse) => Some(body),
             Ok(body) => {
                 let message =
                     format!("the Euler tensor, {:e} kg m², leaves the range of numbers", body.euler_tensor.amax());
-                judge.note(&places.mass, message, "change the size or the mass");
+                reporter.note(&places.mass, message, "change the size or the mass");
                 None
             }
             Err(error) => {
                 let help = "add mass off the plane, or a `pin` off the plane, or make the body rigid";
-                judge.note(&places.mass, error.to_string(), help);
+                reporter.note(&places.mass, error.to_string(), help);
                 None
             }
         };
@@ -83,7 +83,7 @@ impl Parts {
     }
 
     /// Whether there is a volume where stresses need one; notes what would be without effect.
-    fn fills_a_volume(&self, mass: &MassProperties, places: &Places, judge: &mut Judge<'_>) -> bool {
+    fn fills_a_volume(&self, mass: &MassProperties, places: &Places, reporter: &mut Reporter<'_>) -> bool {
         let stressed = [
             ("material", self.material.is_some()),
             ("viscosity", self.viscosity.kirchhoff > 0.0),
@@ -94,7 +94,7 @@ impl Parts {
         for name in &without {
             let help = format!("give the body a `shape` with a volume, or leave `{name}` out");
             let message = "the body has no volume, so that a stress has nothing to act on";
-            judge.note(&places.interior.key(name), message, help);
+            reporter.note(&places.interior.key(name), message, help);
         }
         without.is_empty()
     }
@@ -130,7 +130,7 @@ fn all<T>(part: Option<Option<T>>) -> Option<Option<T>> {
 fn internal_friction(
     written: &file::Affine,
     key: &Key,
-    judge: &mut Judge<'_>,
+    reporter: &mut Reporter<'_>,
 ) -> Option<(Viscosity, Option<AnisotropicFriction>)> {
     let kirchhoff = written.viscosity.value();
     let Some(given) = &written.internal_friction else {
@@ -142,20 +142,20 @@ fn internal_friction(
     let Some(rows) = &given.matrix else { return Some((viscosity, None)) };
     if given.shear.is_some() || given.bulk.is_some() {
         let help = "keep one: the matrix of isotropic friction has bulk + 4/3 shear, bulk − 2/3 shear and shear";
-        judge.note(&key.key("matrix"), "`shear` and `bulk` stand beside it", help);
+        reporter.note(&key.key("matrix"), "`shear` and `bulk` stand beside it", help);
         return None;
     }
-    let made = accepted(AnisotropicFriction::new(&square(rows)), &key.key("matrix"), judge);
+    let made = accepted(AnisotropicFriction::new(&square(rows)), &key.key("matrix"), reporter);
     made.map(|friction| (viscosity, Some(friction)))
 }
 
-fn couple(written: &file::Couple, key: &Key, base: &Path, judge: &mut Judge<'_>) -> Option<Couple> {
+fn couple(written: &file::Couple, key: &Key, base: &Path, reporter: &mut Reporter<'_>) -> Option<Couple> {
     match written {
         file::Couple::Value(rows) => Some(Couple::Constant(matrix(rows))),
         file::Couple::Table(path) => match read_tensors(&base.join(path), 'N', Interpolation::Linear) {
             Ok(table) => Some(Couple::Table(table)),
             Err(error) => {
-                judge.note(&key.key("table"), error.to_string(), error.help());
+                reporter.note(&key.key("table"), error.to_string(), error.help());
                 None
             }
         },
@@ -163,7 +163,7 @@ fn couple(written: &file::Couple, key: &Key, base: &Path, judge: &mut Judge<'_>)
 }
 
 /// What a matrix gives, if it is one of its kind.
-fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, judge: &mut Judge<'_>) -> Option<T> {
+fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, reporter: &mut Reporter<'_>) -> Option<T> {
     made.map_err(|error| {
         let help = match error {
             ResistanceError::NotSemiDefinite { .. } => "write a matrix whose eigenvalues are all at least 0",
@@ -171,7 +171,7 @@ fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, judge: &mut Judge<'_
             ResistanceError::NotSymmetric { .. } => "write Hᵀ = H; what is skew belongs to `gyroscopic`",
             ResistanceError::NotFinite { .. } => "write finite numbers",
         };
-        judge.note(key, error.to_string(), help);
+        reporter.note(key, error.to_string(), help);
     })
     .ok()
 }

@@ -6,7 +6,7 @@ use super::mass::{Source, lone_point, size};
 use super::setting::Setting;
 use super::shape::Maker;
 use super::start::{Attitude, placement};
-use crate::check::{Judge, Placed};
+use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
@@ -26,14 +26,14 @@ pub(super) struct Solid {
 
 impl Solid {
     /// Builds a body, without its contacts; notes what is wrong with it.
-    pub(super) fn new(placed: &Placed<Body>, setting: &Setting, judge: &mut Judge<'_>) -> Option<Self> {
+    pub(super) fn new(placed: &Placed<Body>, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Self> {
         let Placed { key, value } = placed;
-        let deforming = Deforming::of(placed, setting, judge);
-        let attitude = Attitude::of(placed, deforming.start(), judge);
-        let source = Source::of(placed, judge);
+        let deforming = Deforming::of(placed, setting, reporter);
+        let attitude = Attitude::of(placed, deforming.start(), reporter);
+        let source = Source::of(placed, reporter);
         let shape = value.shape.as_ref().map(|written| {
             let density = source.map_or(Some(1.0), |source| source.density(written));
-            Maker { base: setting.base, judge }.shape(written, &key.key("shape"), density)
+            Maker { base: setting.base, reporter }.shape(written, &key.key("shape"), density)
         });
         let source = source?;
         let shape = match (shape, source) {
@@ -41,13 +41,13 @@ impl Solid {
             (None, Source::Properties(mass)) => lone_point(&mass),
             (None, _) => return None,
         };
-        let mass = source.weigh(&shape, key, judge)?;
-        let kind = deforming.kind(placed, &mass, shape.surface().is_some(), judge);
+        let mass = source.weigh(&shape, key, reporter)?;
+        let kind = deforming.kind(placed, &mass, shape.surface().is_some(), reporter);
         let arm = value.pin.as_ref().map(si);
-        near(arm.as_ref(), &shape, key, judge);
+        near(arm.as_ref(), &shape, key, reporter);
         let kind = kind?;
-        let inclusion = Immersed { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(setting, judge);
-        let start = attitude?.start(placed, &kind, judge)?;
+        let inclusion = Immersed { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(setting, reporter);
+        let start = attitude?.start(placed, &kind, reporter)?;
         let place = placement(&start);
         let body = Moving {
             name: value.name.clone(),
@@ -57,7 +57,7 @@ impl Solid {
             size: size(&shape, &mass, &arm.unwrap_or_default()),
             shape,
             contacts: Vec::new(),
-            springs: springs(placed, &place, judge),
+            springs: springs(placed, &place, reporter),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
             inclusion: inclusion?,
         };
@@ -70,16 +70,16 @@ impl Solid {
 const FARTHEST_PIN: f64 = 1e4;
 
 /// Notes a pin outside of all reason. A body without extent has no size to compare with.
-fn near(arm: Option<&Vec3>, shape: &Shape, key: &Key, judge: &mut Judge<'_>) {
+fn near(arm: Option<&Vec3>, shape: &Shape, key: &Key, reporter: &mut Reporter<'_>) {
     let (distance, size) = (arm.map_or(0.0, Vec3::norm), shape.size());
     if size > 0.0 && distance > FARTHEST_PIN * size {
         let message = format!("the pin is {distance:e} m from the centre of mass of a body of {size:e} m");
         let help = format!("write a point within {:e} m, in metres from the centre of mass", FARTHEST_PIN * size);
-        judge.note(&key.key("pin"), message, help);
+        reporter.note(&key.key("pin"), message, help);
     }
 }
 
-fn springs(placed: &Placed<Body>, place: &Placement, judge: &mut Judge<'_>) -> Vec<Spring> {
+fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>) -> Vec<Spring> {
     let key = placed.key.key("spring");
     let make = |(index, written): (usize, &crate::file::Spring)| {
         let spring = Spring {
@@ -92,7 +92,11 @@ fn springs(placed: &Placed<Body>, place: &Placement, judge: &mut Judge<'_>) -> V
         let directed = spring.rest_length > 0.0 || spring.damping > 0.0;
         if directed && place.place(&spring.point) == spring.anchor {
             let help = "move the anchor, or leave out `rest_length` and `damping`";
-            judge.note(&key.index(index).key("anchor"), "the spring starts with no length and has no direction", help);
+            reporter.note(
+                &key.index(index).key("anchor"),
+                "the spring starts with no length and has no direction",
+                help,
+            );
         }
         spring
     };

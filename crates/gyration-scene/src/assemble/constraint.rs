@@ -7,7 +7,7 @@
 //! What differs from the constraint by rounding only is left as it is, so that a projected start is its own projection
 //! and a resolved scene resolves to itself.
 
-use crate::check::Judge;
+use crate::check::Reporter;
 use crate::key::Key;
 use gyration::affine::AffineBody;
 use gyration::contractile::{Contraction, Source};
@@ -71,25 +71,31 @@ pub(super) fn hold(
     kept: &Kept,
     given: (Mat3, Mat3),
     key: &Key,
-    judge: &mut Judge<'_>,
+    reporter: &mut Reporter<'_>,
 ) -> Option<(Mat3, Mat3)> {
     let (gradient, rate) = given;
     if !body.is_incompressible() {
-        return in_range(&gradient, &rate, key, judge).then_some(given);
+        return in_range(&gradient, &rate, key, reporter).then_some(given);
     }
-    let held = gradient_held(body, kept, &gradient, &key.key("gradient"), judge);
-    // Beside a gradient that is refused the rate is judged with the one that is offered, so that both are mended at
+    let held = gradient_held(body, kept, &gradient, &key.key("gradient"), reporter);
+    // Beside a gradient that is refused the rate is checked with the one that is offered, so that both are mended at
     // once.
-    let judged = if held.is_some() { gradient } else { kept.nearest(body, &gradient).unwrap_or(gradient) };
-    let rate = in_range(&judged, &rate, key, judge).then_some(rate)?;
-    let (rate, fault) = rate_held(body, kept, [&judged, &held.unwrap_or(judged)], &rate)?;
+    let checked = if held.is_some() { gradient } else { kept.nearest(body, &gradient).unwrap_or(gradient) };
+    let rate = in_range(&checked, &rate, key, reporter).then_some(rate)?;
+    let (rate, fault) = rate_held(body, kept, [&checked, &held.unwrap_or(checked)], &rate)?;
     if let Some(Fault { message, help }) = &fault {
-        judge.note(&key.key("gradient_rate"), message, help);
+        reporter.note(&key.key("gradient_rate"), message, help);
     }
     fault.is_none().then_some((held?, rate))
 }
 
-fn gradient_held(body: &AffineBody, kept: &Kept, gradient: &Mat3, key: &Key, judge: &mut Judge<'_>) -> Option<Mat3> {
+fn gradient_held(
+    body: &AffineBody,
+    kept: &Kept,
+    gradient: &Mat3,
+    key: &Key,
+    reporter: &mut Reporter<'_>,
+) -> Option<Mat3> {
     let (determinant, terms) = kept.determinant(gradient);
     let excess = (determinant - 1.0).abs();
     if excess <= (ROUNDING * terms).min(ALLOWED) {
@@ -107,7 +113,7 @@ fn gradient_held(body: &AffineBody, kept: &Kept, gradient: &Mat3, key: &Key, jud
         }
         None => format!("write a matrix of determinant {:?}, or give the material a `bulk` modulus", kept.volume),
     };
-    judge.note(key, message, help);
+    reporter.note(key, message, help);
     None
 }
 
@@ -117,11 +123,16 @@ struct Fault {
     help: String,
 }
 
-/// Ṗ with the tr L asked for at the gradient `held`, if it had that, nearly, at the gradient `judged`; else also the
+/// Ṗ with the tr L asked for at the gradient `held`, if it had that, nearly, at the gradient `checked`; else also the
 /// fault.
-fn rate_held(body: &AffineBody, kept: &Kept, [judged, held]: [&Mat3; 2], rate: &Mat3) -> Option<(Mat3, Option<Fault>)> {
+fn rate_held(
+    body: &AffineBody,
+    kept: &Kept,
+    [checked, held]: [&Mat3; 2],
+    rate: &Mat3,
+) -> Option<(Mat3, Option<Fault>)> {
     let Some((asked, allowance)) = kept.growth else { return Some((*rate, None)) };
-    let (given, _) = growth(judged, rate)?;
+    let (given, _) = growth(checked, rate)?;
     let (left, rounding) = growth(held, rate)?;
     if (left - asked).abs() <= rounding + allowance {
         return Some((*rate, None));
@@ -153,17 +164,17 @@ fn growth(gradient: &Mat3, rate: &Mat3) -> Option<(f64, f64)> {
 }
 
 /// Whether L = Ṗ P⁻¹ can be held in numbers; notes it otherwise.
-fn in_range(gradient: &Mat3, rate: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
+fn in_range(gradient: &Mat3, rate: &Mat3, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let size = gradient.try_inverse().map(|inverse| rate.amax() * inverse.amax());
     // Squares of L have a place in the balance.
     let held = size.is_some_and(|size| (size * size).is_finite()) && rate.iter().all(|entry| entry.is_finite());
     if !held {
-        let name = if key.key("gradient_rate").is_written(&judge.document.root) {
+        let name = if key.key("gradient_rate").is_written(&reporter.document.root) {
             "gradient_rate"
         } else {
             "angular_velocity"
         };
-        judge.note(&key.key(name), "the velocity gradient leaves the range of numbers", "write smaller rates");
+        reporter.note(&key.key(name), "the velocity gradient leaves the range of numbers", "write smaller rates");
     }
     held
 }

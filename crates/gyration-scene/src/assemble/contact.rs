@@ -1,7 +1,7 @@
 //! Contacts: each `[[contact]]` goes to the body that it names, or to all bodies with a surface.
 
 use super::body::Solid;
-use crate::check::{Draft, Judge, Placed};
+use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
@@ -12,14 +12,14 @@ use std::sync::Arc;
 const MOST_PAIRS: usize = 1_000_000;
 
 /// Gives the bodies their contacts; notes a contact that names a body without a surface, and a law out of range.
-pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Judge<'_>) {
+pub(super) fn attach(partial: &PartialScene, solids: &mut [Option<Solid>], reporter: &mut Reporter<'_>) {
     let supports: HashMap<&str, usize> =
-        draft.supports.iter().enumerate().map(|(index, support)| (support.value.name.as_str(), index)).collect();
+        partial.supports.iter().enumerate().map(|(index, support)| (support.value.name.as_str(), index)).collect();
     let bodies = named(solids);
     let mut pairs = 0;
-    for Placed { key, value } in &draft.contacts {
+    for Placed { key, value } in &partial.contacts {
         let law_set = Arc::new(LawSet::new(measure(value.measure), laws(value)));
-        law_set.laws().iter().for_each(|law| range(law, key, judge));
+        law_set.laws().iter().for_each(|law| range(law, key, reporter));
         let met = match &value.body {
             Some(name) => bodies.get(name).map_or(0..0, |&index| index..index + 1),
             None => 0..solids.len(),
@@ -27,7 +27,7 @@ pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Ju
         pairs += met.len();
         if pairs > MOST_PAIRS {
             let message = format!("with this contact there are more than {MOST_PAIRS} of a body and a support");
-            judge.note(key, message, "give each contact the `body` that it is for");
+            reporter.note(key, message, "give each contact the `body` that it is for");
             return;
         }
         let support = supports.get(value.support.as_str()).copied();
@@ -38,7 +38,7 @@ pub(super) fn attach(draft: &Draft, solids: &mut [Option<Solid>], judge: &mut Ju
                 }
                 (None, _) if value.body.is_some() => {
                     let message = format!("\"{}\" has no surface", solid.body.name);
-                    judge.note(&key.key("body"), message, "name a body whose shape has a surface");
+                    reporter.note(&key.key("body"), message, "name a body whose shape has a surface");
                 }
                 _ => {}
             }
@@ -53,7 +53,7 @@ fn named(solids: &[Option<Solid>]) -> HashMap<String, usize> {
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.
-fn range(law: &ContactLaw, key: &Key, judge: &mut Judge<'_>) {
+fn range(law: &ContactLaw, key: &Key, reporter: &mut Reporter<'_>) {
     let name = law.kind().name();
     let strength = law.terms().iter().flatten().map(|term| term.coefficient.abs()).fold(f64::NAN, f64::max);
     let silent = match law {
@@ -65,7 +65,7 @@ fn range(law: &ContactLaw, key: &Key, judge: &mut Judge<'_>) {
     let held = law.terms().iter().flatten().all(|term| term.coefficient.is_normal());
     if !silent && !held {
         let message = format!("its strength times d0^nu is {strength:e}, which leaves the range of numbers");
-        judge.note(&key.key(name), message, "choose a d0 nearer to the gaps in the scene, or a smaller exponent");
+        reporter.note(&key.key(name), message, "choose a d0 nearer to the gaps in the scene, or a smaller exponent");
     }
 }
 

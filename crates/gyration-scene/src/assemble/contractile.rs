@@ -7,7 +7,7 @@
 use super::setting::Setting;
 use super::signal::{Maker, first_fault, not_finite};
 use super::start::{flaw, invertible, matrix};
-use crate::check::{Judge, direction};
+use crate::check::{Reporter, direction};
 use crate::file::{self, FeltMeasure, OneOrMany};
 use crate::key::Key;
 use crate::quantity::Pressure;
@@ -25,14 +25,20 @@ pub(super) struct Contracting {
 
 impl Contracting {
     /// Reads it at a key; notes what is wrong with any part, and what cannot stand beside each other.
-    pub(super) fn of(written: &file::Contractile, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Self> {
-        let viscosity = viscosity(written, key, judge);
-        let drive = written.drive.as_ref().map(|it| drive(it, &key.key("drive"), setting, judge));
-        let feedback = feedbacks(written.feedback.as_ref(), &key.key("feedback"), setting, judge);
-        let prescribed = written.prescribed.as_ref().map(|it| prescribed(it, &key.key("prescribed"), setting, judge));
-        let initial = initial(written, &key.key("contraction"), judge);
+    pub(super) fn of(
+        written: &file::Contractile,
+        key: &Key,
+        setting: &Setting,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<Self> {
+        let viscosity = viscosity(written, key, reporter);
+        let drive = written.drive.as_ref().map(|it| drive(it, &key.key("drive"), setting, reporter));
+        let feedback = feedbacks(written.feedback.as_ref(), &key.key("feedback"), setting, reporter);
+        let prescribed =
+            written.prescribed.as_ref().map(|it| prescribed(it, &key.key("prescribed"), setting, reporter));
+        let initial = initial(written, &key.key("contraction"), reporter);
         if let Some(prescribed) = prescribed {
-            let alone = stands_alone(key, judge);
+            let alone = stands_alone(key, reporter);
             let (viscosity, signal) = (viscosity?, prescribed?);
             let start = signal.jet(0.0);
             let source = Source::Prescribed(signal);
@@ -51,33 +57,33 @@ impl Contracting {
     }
 
     /// Whether a body of such a material can contract like this; notes it at the contractile table otherwise.
-    pub(super) fn suits(&self, is_incompressible: bool, key: &Key, judge: &mut Judge<'_>) -> bool {
+    pub(super) fn suits(&self, is_incompressible: bool, key: &Key, reporter: &mut Reporter<'_>) -> bool {
         let Source::Prescribed(signal) = &self.contraction.source else { return true };
         let suits = !is_incompressible || signal.smoothness() == Smoothness::Smooth;
         if !suits {
             let message =
                 "its rate jumps, and the volume of an incompressible body would have to change its rate at once";
             let help = "use `interpolation = \"cubic\"`, a sine, or give the material a `bulk` modulus";
-            judge.note(&key.key("prescribed"), message, help);
+            reporter.note(&key.key("prescribed"), message, help);
         }
         suits
     }
 }
 
 /// Whether a body without a surface never answers to a gap; notes the first place where it does.
-pub(super) fn feels_no_gap(written: &file::Contractile, key: &Key, judge: &mut Judge<'_>) -> bool {
+pub(super) fn feels_no_gap(written: &file::Contractile, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let parts = written.feedback.as_ref().map(OneOrMany::as_slice).unwrap_or_default();
     let felt = parts.iter().position(|part| part.measure == FeltMeasure::Gap);
     if let Some(index) = felt {
         let place = place(written.feedback.as_ref(), &key.key("feedback"), index).key("measure");
         let help = "give it a shape with a surface, or let it feel a `stretch` or a `rate`";
-        judge.note(&place, "the body has no surface that could be near a support", help);
+        reporter.note(&place, "the body has no surface that could be near a support", help);
     }
     felt.is_none()
 }
 
 /// μ_γ; notes that it is missing where it is needed.
-fn viscosity(written: &file::Contractile, key: &Key, judge: &mut Judge<'_>) -> Option<f64> {
+fn viscosity(written: &file::Contractile, key: &Key, reporter: &mut Reporter<'_>) -> Option<f64> {
     match written.contraction_viscosity {
         Some(given) => Some(given.value()),
         None if written.prescribed.is_some() => Some(0.0),
@@ -85,14 +91,14 @@ fn viscosity(written: &file::Contractile, key: &Key, judge: &mut Judge<'_>) -> O
             let help = "add `contraction_viscosity`, a number in Pa s greater than 0: the time in which a stress \
                         contracts the body is that viscosity per stress";
             let message = "the key \"contraction_viscosity\" is missing";
-            judge.note(&key.key("contraction_viscosity"), message, help);
+            reporter.note(&key.key("contraction_viscosity"), message, help);
             None
         }
     }
 }
 
 /// Notes what cannot stand beside `prescribed`.
-fn stands_alone(key: &Key, judge: &mut Judge<'_>) -> bool {
+fn stands_alone(key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let others = [
         ("drive", "Q is then what it takes"),
         ("feedback", "Q is then what it takes"),
@@ -103,9 +109,9 @@ fn stands_alone(key: &Key, judge: &mut Judge<'_>) -> bool {
     let mut alone = true;
     for (name, why) in others {
         let place = key.key(name);
-        if place.is_written(&judge.document.root) {
+        if place.is_written(&reporter.document.root) {
             let message = format!("`prescribed` stands beside it: {why}");
-            judge.note(&place, message, format!("keep one of `{name}` and `prescribed`"));
+            reporter.note(&place, message, format!("keep one of `{name}` and `prescribed`"));
             alone = false;
         }
     }
@@ -113,33 +119,43 @@ fn stands_alone(key: &Key, judge: &mut Judge<'_>) -> bool {
 }
 
 /// The initial G.
-fn initial(written: &file::Contractile, key: &Key, judge: &mut Judge<'_>) -> Option<Mat3> {
+fn initial(written: &file::Contractile, key: &Key, reporter: &mut Reporter<'_>) -> Option<Mat3> {
     let contraction = written.contraction.as_ref().map_or_else(Mat3::identity, matrix);
-    invertible(&contraction, key, judge).then_some(contraction)
+    invertible(&contraction, key, reporter).then_some(contraction)
 }
 
-fn drive(written: &file::Signal<Pressure>, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Signal> {
-    let signal = Maker { setting, judge, symbol: 'Q', rest: Mat3::zeros() }.signal(written, key)?;
+fn drive(
+    written: &file::Signal<Pressure>,
+    key: &Key,
+    setting: &Setting,
+    reporter: &mut Reporter<'_>,
+) -> Option<Signal> {
+    let signal = Maker { setting, reporter, symbol: 'Q', rest: Mat3::zeros() }.signal(written, key)?;
     let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), not_finite) else {
         return Some(signal);
     };
-    judge.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
+    reporter.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
     None
 }
 
 /// G in time, if it is a contraction throughout.
-fn prescribed(written: &file::Signal<f64>, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Signal> {
-    let signal = Maker { setting, judge, symbol: 'G', rest: Mat3::identity() }.signal(written, key)?;
+fn prescribed(
+    written: &file::Signal<f64>,
+    key: &Key,
+    setting: &Setting,
+    reporter: &mut Reporter<'_>,
+) -> Option<Signal> {
+    let signal = Maker { setting, reporter, symbol: 'G', rest: Mat3::identity() }.signal(written, key)?;
     if signal.smoothness() == Smoothness::Jumps {
         let help = "use a sine, a ramp or a table: their values do not jump";
-        judge.note(key, "it jumps with a square wave, and the body would have to follow at once", help);
+        reporter.note(key, "it jumps with a square wave, and the body would have to follow at once", help);
         return None;
     }
     let fault = |value: &Mat3| not_finite(value).or_else(|| flaw(value));
     let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), fault) else { return Some(signal) };
     let help = "keep det G > 0 over the whole run: a contraction that varies about none is \
                 { sum = [{ constant = { value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } }, …] }";
-    judge.note(key, format!("at t = {time:?} s {message}"), help);
+    reporter.note(key, format!("at t = {time:?} s {message}"), help);
     None
 }
 
@@ -155,37 +171,37 @@ fn feedbacks(
     written: Option<&OneOrMany<file::Feedback>>,
     key: &Key,
     setting: &Setting,
-    judge: &mut Judge<'_>,
+    reporter: &mut Reporter<'_>,
 ) -> Option<Vec<Feedback>> {
     let parts = written.map(OneOrMany::as_slice).unwrap_or_default().iter().enumerate();
-    let made = parts.map(|(index, part)| feedback(part, &place(written, key, index), setting, judge));
-    // All of them, so that each is judged.
+    let made = parts.map(|(index, part)| feedback(part, &place(written, key, index), setting, reporter));
+    // All of them, so that each is checked.
     let made: Vec<Option<Feedback>> = made.collect();
     made.into_iter().collect()
 }
 
-fn feedback(written: &file::Feedback, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Feedback> {
-    let measure = measure(&written.measure, &key.key("measure"), setting, judge);
+fn feedback(written: &file::Feedback, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Feedback> {
+    let measure = measure(&written.measure, &key.key("measure"), setting, reporter);
     let (gain, bias) = (matrix(&written.gain), matrix(&written.bias));
     if let Some([least, most]) = written.limits {
         if least >= most {
             let message = format!("the limits, {least:?} and {most:?}, do not increase");
-            judge.note(&key.key("limits"), message, "write [least, most], the values that the measure counts as");
+            reporter.note(&key.key("limits"), message, "write [least, most], the values that the measure counts as");
             return None;
         }
         if let Some(message) = [least, most].iter().find_map(|limit| not_finite(&(gain * *limit + bias))) {
-            judge.note(&key.key("gain"), format!("{message} at a limit"), "write smaller numbers");
+            reporter.note(&key.key("gain"), format!("{message} at a limit"), "write smaller numbers");
             return None;
         }
     }
     Some(Feedback { measure: measure?, gain, bias, limits: written.limits })
 }
 
-fn measure(written: &FeltMeasure, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Measure> {
+fn measure(written: &FeltMeasure, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Measure> {
     let mut along = |name: &str, vector: &[f64; 3]| {
         let along = direction(vector);
         if along.is_none() {
-            judge.note(&key.key(name), "the direction is zero", "write a direction, [0, 0, 1]");
+            reporter.note(&key.key(name), "the direction is zero", "write a direction, [0, 0, 1]");
         }
         along
     };
@@ -195,7 +211,7 @@ fn measure(written: &FeltMeasure, key: &Key, setting: &Setting, judge: &mut Judg
         FeltMeasure::Gap if setting.has_support => Some(Measure::Gap),
         FeltMeasure::Gap => {
             let help = "add a [[support]], or let the body feel a `stretch` or a `rate`";
-            judge.note(key, "there is no support that the body could be near", help);
+            reporter.note(key, "there is no support that the body could be near", help);
             None
         }
     }

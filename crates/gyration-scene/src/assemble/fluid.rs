@@ -5,7 +5,7 @@
 use super::setting::Setting;
 use super::signal::{Maker, first_fault, not_finite};
 use super::start::matrix;
-use crate::check::{Judge, Placed};
+use crate::check::{Placed, Reporter};
 use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
 use crate::key::Key;
 use crate::quantity::si;
@@ -19,13 +19,13 @@ use gyration::signal::{Signal, Wave};
 use gyration::tensor::{Mat3, Vec3};
 
 /// The fluid of a scene; notes what is wrong with it.
-pub(super) fn fluid(written: &Written, setting: &Setting, judge: &mut Judge<'_>) -> Option<Fluid> {
+pub(super) fn fluid(written: &Written, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Fluid> {
     let key = Key::root().key("fluid");
     let velocity = match &written.velocity {
         FlowVelocity::Steady(velocity) => Some(Signal::Constant(beside(&si(velocity)))),
-        FlowVelocity::Changing(signal) => vector_signal(signal, &key.key("velocity"), setting, judge),
+        FlowVelocity::Changing(signal) => vector_signal(signal, &key.key("velocity"), setting, reporter),
     };
-    let gradient = gradient(&written.velocity_gradient, &key.key("velocity_gradient"), setting, judge);
+    let gradient = gradient(&written.velocity_gradient, &key.key("velocity_gradient"), setting, reporter);
     Some(Fluid {
         viscosity: written.viscosity.value(),
         density: written.density.value(),
@@ -34,18 +34,18 @@ pub(super) fn fluid(written: &Written, setting: &Setting, judge: &mut Judge<'_>)
     })
 }
 
-fn gradient(written: &FlowGradient, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Signal> {
+fn gradient(written: &FlowGradient, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Signal> {
     let signal = match written {
         FlowGradient::Steady(rows) => Signal::Constant(matrix(rows)),
         FlowGradient::Changing(signal) => {
-            Maker { setting, judge, symbol: 'L', rest: Mat3::zeros() }.signal(signal, key)?
+            Maker { setting, reporter, symbol: 'L', rest: Mat3::zeros() }.signal(signal, key)?
         }
     };
     let fault = |value: &Mat3| not_finite(value).or_else(|| swells(value));
     let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), fault) else { return Some(signal) };
     let at = if matches!(signal, Signal::Constant(_)) { String::new() } else { format!("at t = {time:?} s ") };
     let help = "change a diagonal entry so that the three add up to 0, for instance [[1, 0, 0], [0, -1, 0], [0, 0, 0]]";
-    judge.note(key, format!("{at}{message}"), help);
+    reporter.note(key, format!("{at}{message}"), help);
     None
 }
 
@@ -68,7 +68,7 @@ fn beside(vector: &Vec3) -> Mat3 {
     Mat3::from_columns(&[*vector, Vec3::zeros(), Vec3::zeros()])
 }
 
-fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, judge: &mut Judge<'_>) -> Option<Signal> {
+fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Signal> {
     let signal = match written {
         VectorSignal::Constant(constant) => Signal::Constant(beside(&si(&constant.value))),
         VectorSignal::Sine(wave) => Signal::Sine(Wave {
@@ -77,14 +77,14 @@ fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, judge: &m
             phase: wave.phase.0,
         }),
         VectorSignal::Table(table) => {
-            let mut maker = Maker { setting, judge, symbol: 'U', rest: Mat3::zeros() };
+            let mut maker = Maker { setting, reporter, symbol: 'U', rest: Mat3::zeros() };
             Signal::Table(maker.table(table, &key.key("table").key("file"), read_vectors)?)
         }
         VectorSignal::Sum(parts) => {
             let key = key.key("sum");
             let parts =
-                parts.iter().enumerate().map(|(index, part)| vector_signal(part, &key.index(index), setting, judge));
-            // All of them, so that each is judged.
+                parts.iter().enumerate().map(|(index, part)| vector_signal(part, &key.index(index), setting, reporter));
+            // All of them, so that each is checked.
             let parts: Vec<Option<Signal>> = parts.collect();
             Signal::Sum(parts.into_iter().collect::<Option<_>>()?)
         }
@@ -92,7 +92,7 @@ fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, judge: &m
     let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), not_finite) else {
         return Some(signal);
     };
-    judge.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
+    reporter.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
     None
 }
 
@@ -109,16 +109,16 @@ pub(super) struct Immersed<'a> {
 
 impl Immersed<'_> {
     /// What makes it an inclusion: none if it is none. Outside none where something is wrong, which is noted.
-    pub(super) fn inclusion(&self, setting: &Setting, judge: &mut Judge<'_>) -> Option<Option<Inclusion>> {
+    pub(super) fn inclusion(&self, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Option<Inclusion>> {
         let Some(written) = &self.placed.value.inclusion else { return Some(None) };
         let key = self.placed.key.key("inclusion");
-        let around = self.is_in_a_fluid(setting, &key, judge);
-        let still = written.inertia || self.gives_no_velocity(judge);
-        let remembers = !written.history || self.may_have_history(written, setting, &key, judge);
-        let form = self.form(written, judge).filter(|_| can_be_resolved(written, &key, judge));
+        let around = self.is_in_a_fluid(setting, &key, reporter);
+        let still = written.inertia || self.gives_no_velocity(reporter);
+        let remembers = !written.history || self.may_have_history(written, setting, &key, reporter);
+        let form = self.form(written, reporter).filter(|_| can_be_resolved(written, &key, reporter));
         let filled = self.shape.mass_properties(1.0);
         let (volume, center) = (filled.volume, filled.center - self.mass.center);
-        let history = if written.history && remembers { self.history(written, setting, &key, judge)? } else { None };
+        let history = if written.history && remembers { self.history(written, setting, &key, reporter)? } else { None };
         (around && still && remembers).then_some(Some(Inclusion {
             inertia: written.inertia,
             volume,
@@ -128,16 +128,16 @@ impl Immersed<'_> {
         }))
     }
 
-    fn is_in_a_fluid(&self, setting: &Setting, key: &Key, judge: &mut Judge<'_>) -> bool {
+    fn is_in_a_fluid(&self, setting: &Setting, key: &Key, reporter: &mut Reporter<'_>) -> bool {
         if !setting.has_fluid {
             let help = "add a section `[fluid]` with a `viscosity`, or leave `inclusion` out";
-            judge.note(key, "the scene has no fluid", help);
+            reporter.note(key, "the scene has no fluid", help);
         }
         setting.has_fluid
     }
 
     /// Notes velocities that a body without inertia cannot be given.
-    fn gives_no_velocity(&self, judge: &mut Judge<'_>) -> bool {
+    fn gives_no_velocity(&self, reporter: &mut Reporter<'_>) -> bool {
         let Placed { key, value } = self.placed;
         let moves = |vector: Option<Vec3>| vector.is_some_and(|vector| vector != Vec3::zeros());
         let given = [
@@ -148,7 +148,7 @@ impl Immersed<'_> {
         let mut still = true;
         for (name, _) in given.iter().filter(|(_, given)| *given) {
             let message = "a body without inertia moves as the balance of forces says, from the start on";
-            judge.note(&key.key(name), message, format!("leave `{name}` out, or write `inertia = true`"));
+            reporter.note(&key.key(name), message, format!("leave `{name}` out, or write `inertia = true`"));
             still = false;
         }
         still
@@ -160,7 +160,7 @@ impl Immersed<'_> {
         written: &WrittenInclusion,
         setting: &Setting,
         key: &Key,
-        judge: &mut Judge<'_>,
+        reporter: &mut Reporter<'_>,
     ) -> bool {
         let key = key.key("history");
         let sphere = matches!(self.shape, Shape::Sphere(_)) && matches!(self.kind, BodyKind::Rigid(_));
@@ -181,7 +181,7 @@ impl Immersed<'_> {
             ),
         ];
         for (_, message, help) in faults.iter().filter(|(applies, ..)| *applies) {
-            judge.note(&key, *message, *help);
+            reporter.note(&key, *message, *help);
         }
         !faults.iter().any(|(applies, ..)| *applies)
     }
@@ -192,7 +192,7 @@ impl Immersed<'_> {
         written: &WrittenInclusion,
         setting: &Setting,
         key: &Key,
-        judge: &mut Judge<'_>,
+        reporter: &mut Reporter<'_>,
     ) -> Option<Option<History>> {
         let (Shape::Sphere(Sphere { radius }), Some(fluid), Some(end)) = (self.shape, setting.fluid, setting.end)
         else {
@@ -203,18 +203,18 @@ impl Immersed<'_> {
             Ok(history) => Some(Some(history)),
             Err(unresolved) => {
                 let help = "look at `fluid.viscosity`, `fluid.density`, the radius and `time.end`: R²ρ/η is the time in question";
-                judge.note(&key.key("history"), unresolved.to_string(), help);
+                reporter.note(&key.key("history"), unresolved.to_string(), help);
                 None
             }
         }
     }
 
     /// What the fluid meets, or what stands in for it; notes a shape without a surface.
-    fn form(&self, written: &WrittenInclusion, judge: &mut Judge<'_>) -> Option<Form> {
+    fn form(&self, written: &WrittenInclusion, reporter: &mut Reporter<'_>) -> Option<Form> {
         let rigid = matches!(self.kind, BodyKind::Rigid(_));
         let Some(semi_axes) = self.shape.semi_axes() else {
             if let Some(message) = no_surface(self.shape) {
-                judge.note(&self.placed.key.key("shape"), message, FIX);
+                reporter.note(&self.placed.key.key("shape"), message, FIX);
                 return None;
             }
             return Some(asked(written, !rigid, 0).stand_in());
@@ -246,13 +246,13 @@ fn asked(written: &WrittenInclusion, deforms: bool, body: usize) -> UnknownForm 
 }
 
 /// Notes errors and spacings of a table that are out of all proportion.
-fn can_be_resolved(written: &WrittenInclusion, key: &Key, judge: &mut Judge<'_>) -> bool {
+fn can_be_resolved(written: &WrittenInclusion, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let given = [("tolerance", written.tolerance, 1e-6..=0.5), ("spacing", written.spacing, 1e-3..=1.0)];
     let mut can = true;
     for (name, value, range) in given {
         if let Some(value) = value.filter(|value| !range.contains(value)) {
             let help = format!("write a number from {} to {}", range.start(), range.end());
-            judge.note(&key.key(name), format!("{value:?} is out of range"), help);
+            reporter.note(&key.key(name), format!("{value:?} is out of range"), help);
             can = false;
         }
     }

@@ -3,7 +3,7 @@
 use super::affine::{Parts, Places, inverts};
 use super::contractile::{Contracting, feels_no_gap};
 use super::setting::Setting;
-use crate::check::{Judge, Placed};
+use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
@@ -21,12 +21,12 @@ pub(super) struct Deforming {
 
 impl Deforming {
     /// Reads it; notes what is wrong with it, and a body of two kinds.
-    pub(super) fn of(placed: &Placed<Body>, setting: &Setting, judge: &mut Judge<'_>) -> Self {
+    pub(super) fn of(placed: &Placed<Body>, setting: &Setting, reporter: &mut Reporter<'_>) -> Self {
         let Placed { key, value } = placed;
-        one_kind(value, key, judge);
-        let parts = value.deformable().map(|(name, it)| Parts::of(it, &key.key(name), setting.base, judge));
+        one_kind(value, key, reporter);
+        let parts = value.deformable().map(|(name, it)| Parts::of(it, &key.key(name), setting.base, reporter));
         let contracting = value.contractile.as_ref();
-        let contracting = contracting.map(|it| Contracting::of(it, &key.key("contractile"), setting, judge));
+        let contracting = contracting.map(|it| Contracting::of(it, &key.key("contractile"), setting, reporter));
         Self { parts, contracting }
     }
 
@@ -41,33 +41,33 @@ impl Deforming {
         placed: &Placed<Body>,
         mass: &MassProperties,
         has_surface: bool,
-        judge: &mut Judge<'_>,
+        reporter: &mut Reporter<'_>,
     ) -> Option<BodyKind> {
         let Placed { key, value } = placed;
         let name = if value.mass_properties.is_some() { "mass_properties" } else { "shape" };
         let arm = value.pin.as_ref().map(si);
         let interior = key.key(value.deformable().map_or("affine", |(name, _)| name));
         let places = Places { interior, mass: key.key(name) };
-        let Some(parts) = self.parts else { return inertia(mass, arm, &places.mass, judge).map(BodyKind::Rigid) };
+        let Some(parts) = self.parts else { return inertia(mass, arm, &places.mass, reporter).map(BodyKind::Rigid) };
         let (Some(contracting), Some(written)) = (self.contracting, &value.contractile) else {
-            let affine = parts?.with_mass(mass, arm.as_ref(), &places, judge)?;
+            let affine = parts?.with_mass(mass, arm.as_ref(), &places, reporter)?;
             return Some(BodyKind::Affine(Box::new(affine)));
         };
-        let fills = fills_a_volume(mass, &places.interior, judge);
-        let feels = has_surface || feels_no_gap(written, &places.interior, judge);
+        let fills = fills_a_volume(mass, &places.interior, reporter);
+        let feels = has_surface || feels_no_gap(written, &places.interior, reporter);
         let (parts, contracting) = (parts?, contracting?);
-        let suits = contracting.suits(parts.is_incompressible(), &places.interior, judge);
+        let suits = contracting.suits(parts.is_incompressible(), &places.interior, reporter);
         if !fills {
             return None;
         }
-        let affine = parts.with_mass(mass, arm.as_ref(), &places, judge)?;
+        let affine = parts.with_mass(mass, arm.as_ref(), &places, reporter)?;
         let contraction = contracting.contraction;
         (feels && suits).then(|| BodyKind::Contractile(Box::new(Contractile::new(affine, contraction))))
     }
 }
 
 /// Notes a body of two kinds.
-fn one_kind(body: &Body, key: &Key, judge: &mut Judge<'_>) {
+fn one_kind(body: &Body, key: &Key, reporter: &mut Reporter<'_>) {
     let kinds = [
         ("rigid", body.rigid.is_some()),
         ("affine", body.affine.is_some()),
@@ -77,32 +77,32 @@ fn one_kind(body: &Body, key: &Key, judge: &mut Judge<'_>) {
     let Some(first) = given.next() else { return };
     for name in given {
         let help = format!("keep one of `{first}` and `{name}`");
-        judge.note(&key.key(name), format!("the body is also `{first}`"), help);
+        reporter.note(&key.key(name), format!("the body is also `{first}`"), help);
     }
 }
 
 /// Whether there is a volume for the drive to act on.
-fn fills_a_volume(mass: &MassProperties, key: &Key, judge: &mut Judge<'_>) -> bool {
+fn fills_a_volume(mass: &MassProperties, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let fills = mass.volume > 0.0;
     if !fills {
         let message = "the body has no volume, so that a drive, which is a stress, has nothing to act on";
-        judge.note(key, message, "give the body a `shape` with a volume, or make it `affine`");
+        reporter.note(key, message, "give the body a `shape` with a volume, or make it `affine`");
     }
     fills
 }
 
 /// The inertia about the centre of mass or the pin; notes one that cannot be inverted.
-fn inertia(mass: &MassProperties, arm: Option<Vec3>, key: &Key, judge: &mut Judge<'_>) -> Option<RigidInertia> {
+fn inertia(mass: &MassProperties, arm: Option<Vec3>, key: &Key, reporter: &mut Reporter<'_>) -> Option<RigidInertia> {
     let pin = arm.map(|point| Pin { point, anchor: Vec3::zeros() });
     match RigidInertia::new(mass, pin.as_ref()) {
         Ok(inertia) if inverts(&inertia.tensor, &inertia.inverse) => Some(inertia),
         Ok(inertia) => {
             let message = format!("the inertia, {:e} kg m², leaves the range of numbers", inertia.tensor.amax());
-            judge.note(key, message, "change the size or the mass");
+            reporter.note(key, message, "change the size or the mass");
             None
         }
         Err(error) => {
-            judge.note(key, error.to_string(), "add mass off the line, or a `pin` off the line");
+            reporter.note(key, error.to_string(), "add mass off the line, or a `pin` off the line");
             None
         }
     }

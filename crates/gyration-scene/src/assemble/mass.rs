@@ -3,7 +3,7 @@
 //! Exactly one of `density`, `mass` and `mass_properties`; none for `points`, nor for a union whose parts all have a
 //! density. Under a `mass` the densities of the parts are relative weights.
 
-use crate::check::{Judge, Placed};
+use crate::check::{Placed, Reporter};
 use crate::file::{Body, Shape as Written};
 use crate::key::Key;
 use crate::quantity::si;
@@ -26,23 +26,23 @@ pub(super) enum Source {
 
 impl Source {
     /// The source of a body's mass; notes a choice that is not exactly one.
-    pub(super) fn of(body: &Placed<Body>, judge: &mut Judge<'_>) -> Option<Self> {
+    pub(super) fn of(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Self> {
         let Placed { key, value } = body;
         let given = match (value.density, value.mass, &value.mass_properties) {
             (Some(density), None, None) => Some(Self::Density(density.value())),
             (None, Some(mass), None) => Some(Self::Mass(mass.value())),
-            (None, None, Some(_)) => return properties(body, judge),
+            (None, None, Some(_)) => return properties(body, reporter),
             (None, None, None) => None,
             _ => {
                 let message = "more than one of density, mass and mass_properties";
-                judge.note(&superfluous(value, key), message, "keep exactly one of them");
+                reporter.note(&superfluous(value, key), message, "keep exactly one of them");
                 return None;
             }
         };
         let help = "give exactly one of `density`, `mass` and `mass_properties`";
         match (&value.shape, given) {
             (Some(Written::Points(_)), Some(_)) => {
-                judge.note(&superfluous(value, key), "points bring their own mass", "leave the key out");
+                reporter.note(&superfluous(value, key), "points bring their own mass", "leave the key out");
                 None
             }
             (Some(Written::Points(_)), None) => Some(Self::Shape),
@@ -52,12 +52,12 @@ impl Source {
                 Some(Self::Shape)
             }
             (Some(_), None) => {
-                judge.note(key, "the body has no mass", help);
+                reporter.note(key, "the body has no mass", help);
                 None
             }
             (None, _) => {
                 let message = "the key \"shape\" is missing";
-                judge.note(&key.key("shape"), message, "add a shape; only with `mass_properties` can there be none");
+                reporter.note(&key.key("shape"), message, "add a shape; only with `mass_properties` can there be none");
                 None
             }
             (Some(_), given) => given,
@@ -75,7 +75,7 @@ impl Source {
     }
 
     /// The mass properties of a shape; notes those that no body can have.
-    pub(super) fn weigh(&self, shape: &Shape, key: &Key, judge: &mut Judge<'_>) -> Option<MassProperties> {
+    pub(super) fn weigh(&self, shape: &Shape, key: &Key, reporter: &mut Reporter<'_>) -> Option<MassProperties> {
         let factor = |density: f64| if shape.brings_mass() { 1.0 } else { density };
         let properties = match self {
             Self::Density(density) => shape.mass_properties(factor(*density)),
@@ -86,7 +86,7 @@ impl Source {
         match properties.validate() {
             Ok(()) => Some(properties),
             Err(error) => {
-                judge.note(key, error.to_string(), "change the size or the density: the numbers leave their range");
+                reporter.note(key, error.to_string(), "change the size or the density: the numbers leave their range");
                 None
             }
         }
@@ -112,10 +112,10 @@ fn superfluous(body: &Body, key: &Key) -> Key {
     }
 }
 
-fn properties(body: &Placed<Body>, judge: &mut Judge<'_>) -> Option<Source> {
+fn properties(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Source> {
     let key = body.key.key("mass_properties");
     if matches!(body.value.shape, Some(Written::Points(_))) {
-        judge.note(&key, "points bring their own mass", "leave the key out, or choose a shape with a surface");
+        reporter.note(&key, "points bring their own mass", "leave the key out, or choose a shape with a surface");
         return None;
     }
     let given = body.value.mass_properties.as_ref()?;
@@ -129,7 +129,7 @@ fn properties(body: &Placed<Body>, judge: &mut Judge<'_>) -> Option<Source> {
     match properties.validate() {
         Ok(()) => Some(Source::Properties(properties)),
         Err(error) => {
-            judge.note(&key.key("euler_tensor"), error.to_string(), "give J = ∫ρ X⊗X dV about the centre of mass");
+            reporter.note(&key.key("euler_tensor"), error.to_string(), "give J = ∫ρ X⊗X dV about the centre of mass");
             None
         }
     }

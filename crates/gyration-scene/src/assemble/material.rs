@@ -1,12 +1,12 @@
 //! Materials: from what the file calls them to energies; notes those without a stable rest state.
 
-use crate::check::Judge;
+use crate::check::Reporter;
 use crate::file::Material as Written;
 use crate::key::Key;
 use gyration::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm, StVenantKirchhoff};
 
 /// The material at a key.
-pub(super) fn material(written: &Written, key: &Key, judge: &mut Judge<'_>) -> Option<Material> {
+pub(super) fn material(written: &Written, key: &Key, reporter: &mut Reporter<'_>) -> Option<Material> {
     let (name, made) = match written {
         Written::MooneyRivlin(it) => {
             let bulk = it.bulk.map(|bulk| bulk.value());
@@ -17,7 +17,7 @@ pub(super) fn material(written: &Written, key: &Key, judge: &mut Judge<'_>) -> O
             let made = MooneyRivlin::neo_hookean(it.shear.value(), it.bulk.map(|bulk| bulk.value()));
             ("neo_hookean", Material::MooneyRivlin(made))
         }
-        Written::Ogden(it) => ("ogden", Material::Ogden(ogden(it, &key.key("ogden"), judge)?)),
+        Written::Ogden(it) => ("ogden", Material::Ogden(ogden(it, &key.key("ogden"), reporter)?)),
         Written::Fung(it) => {
             let bulk = it.bulk.map(|bulk| bulk.value());
             ("fung", Material::Fung(Fung { shear: it.shear.value(), exponent: it.exponent.0, bulk }))
@@ -36,29 +36,29 @@ pub(super) fn material(written: &Written, key: &Key, judge: &mut Judge<'_>) -> O
             ("orthogonality", Material::StVenantKirchhoff(made))
         }
     };
-    sound(made, &key.key(name), judge)
+    sound(made, &key.key(name), reporter)
 }
 
 /// The material, if it has a stable rest state.
-fn sound(made: Material, key: &Key, judge: &mut Judge<'_>) -> Option<Material> {
+fn sound(made: Material, key: &Key, reporter: &mut Reporter<'_>) -> Option<Material> {
     match made.validate() {
         Ok(()) => Some(made),
         Err(error) => {
             let named = key.key(error.name);
             // Where the file has another word for the number, the material is to blame as a whole.
-            let place = if named.is_written(&judge.document.root) { &named } else { key };
-            judge.note(place, error.to_string(), format!("write a number that is {}", error.bound));
+            let place = if named.is_written(&reporter.document.root) { &named } else { key };
+            reporter.note(place, error.to_string(), format!("write a number that is {}", error.bound));
             None
         }
     }
 }
 
-/// The terms, as many α as μ; each is judged at its own place.
-fn ogden(written: &crate::file::Ogden, key: &Key, judge: &mut Judge<'_>) -> Option<Ogden> {
+/// The terms, as many α as μ; each is checked at its own place.
+fn ogden(written: &crate::file::Ogden, key: &Key, reporter: &mut Reporter<'_>) -> Option<Ogden> {
     let (mu, alpha) = (&written.mu, &written.alpha);
     if mu.len() != alpha.len() {
         let message = format!("there are {} exponents for {} moduli", alpha.len(), mu.len());
-        judge.note(&key.key("alpha"), message, "write one `alpha` for each `mu`");
+        reporter.note(&key.key("alpha"), message, "write one `alpha` for each `mu`");
         return None;
     }
     let terms: Vec<OgdenTerm> = mu.iter().zip(alpha).map(|(mu, alpha)| OgdenTerm { mu: mu.0, alpha: *alpha }).collect();
@@ -66,12 +66,12 @@ fn ogden(written: &crate::file::Ogden, key: &Key, judge: &mut Judge<'_>) -> Opti
     for (index, OgdenTerm { mu, alpha }) in terms.iter().enumerate() {
         if *alpha == 0.0 {
             let help = "write another exponent, or leave the term out";
-            judge.note(&key.key("alpha").index(index), "the exponent is 0: the term has no energy", help);
+            reporter.note(&key.key("alpha").index(index), "the exponent is 0: the term has no energy", help);
             are_sound = false;
         } else if mu * alpha < 0.0 {
             let message =
                 format!("{mu:?} has not the sign of its exponent, {alpha:?}: the term makes the rest state unstable");
-            judge.note(&key.key("mu").index(index), message, "give `mu` and `alpha` of a term the same sign");
+            reporter.note(&key.key("mu").index(index), message, "give `mu` and `alpha` of a term the same sign");
             are_sound = false;
         }
     }

@@ -25,7 +25,7 @@ pub use fluid::TRIANGLES;
 pub(crate) use salvage::salvage;
 pub(crate) use setting::Setting;
 
-use crate::check::{Draft, Judge};
+use crate::check::{PartialScene, Reporter};
 use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
@@ -108,37 +108,38 @@ impl Plan {
     }
 }
 
-/// Assembles what a draft describes, with the forms that it leaves open; none if anything about it, or before it, was
-/// found wrong.
+/// Assembles what a partial scene describes, with the forms that it leaves open; none if anything about it, or before
+/// it, was found wrong.
 ///
 /// Fills in what the file leaves to be derived (`resolve`).
 pub(crate) fn assemble(
-    draft: &mut Draft,
+    partial: &mut PartialScene,
     setting: &Setting,
-    judge: &mut Judge<'_>,
+    reporter: &mut Reporter<'_>,
 ) -> Option<(Built, Vec<UnknownForm>)> {
-    let mut solids: Vec<Option<Solid>> = draft.bodies.iter().map(|body| Solid::new(body, setting, judge)).collect();
-    let around = draft.fluid.as_ref().map(|written| fluid::fluid(written, setting, judge));
-    let supports: Vec<_> = draft.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    contact::attach(draft, &mut solids, judge);
-    for (body, solid) in draft.bodies.iter_mut().zip(&solids) {
+    let mut solids: Vec<Option<Solid>> =
+        partial.bodies.iter().map(|body| Solid::new(body, setting, reporter)).collect();
+    let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, setting, reporter));
+    let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
+    contact::attach(partial, &mut solids, reporter);
+    for (body, solid) in partial.bodies.iter_mut().zip(&solids) {
         if let Some(solid) = solid {
-            overlap::check(body, solid, &supports, judge);
+            overlap::check(body, solid, &supports, reporter);
             resolve::resolve(&mut body.value, &solid.start);
         }
     }
-    if !judge.findings.is_empty() {
+    if !reporter.diagnostics.is_empty() {
         return None;
     }
-    let plan = Plan::new(draft.time.as_ref()?, &draft.solver);
+    let plan = Plan::new(partial.time.as_ref()?, &partial.solver);
     let (bodies, starts): (Vec<_>, Vec<Start>) = solids.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
-    let mut model = Model::new(si(&draft.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
+    let mut model = Model::new(si(&partial.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }
     let state = State::start(&model, &starts);
-    let record = draft.record.as_ref().map(Record::new).unwrap_or_default();
-    let forms = draft.bodies.iter().zip(&model.bodies).enumerate();
+    let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
+    let forms = partial.bodies.iter().zip(&model.bodies).enumerate();
     let forms = forms.filter_map(|(index, (written, body))| fluid::unknown(&written.value, body, index)).collect();
     Some((Built { model, state, plan, record }, forms))
 }

@@ -1,17 +1,17 @@
 //! Rotations as unit quaternions.
 
-use crate::check::{Judge, direction};
+use crate::check::{Reporter, direction};
 use crate::file::Orientation;
 use crate::key::Key;
 use gyration::kinematics::Quaternion;
 use gyration::tensor::Vec3;
 
 /// The quaternion of an orientation; notes an axis or quaternion that is zero.
-pub(super) fn orientation(orientation: &Orientation, key: &Key, judge: &mut Judge<'_>) -> Option<Quaternion> {
+pub(super) fn orientation(orientation: &Orientation, key: &Key, reporter: &mut Reporter<'_>) -> Option<Quaternion> {
     match orientation {
         Orientation::AxisAngle(turn) => {
             let Some(axis) = direction(&turn.axis) else {
-                judge.note(&key.key("axis_angle").key("axis"), "the axis is zero", "write a direction, [0, 0, 1]");
+                reporter.note(&key.key("axis_angle").key("axis"), "the axis is zero", "write a direction, [0, 0, 1]");
                 return None;
             };
             Some(Quaternion::from_axis_angle(&axis, turn.angle.0))
@@ -20,7 +20,7 @@ pub(super) fn orientation(orientation: &Orientation, key: &Key, judge: &mut Judg
             let largest = components.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
             if largest == 0.0 {
                 let help = "write [w, x, y, z], [1, 0, 0, 0] for no rotation";
-                judge.note(&key.key("quaternion"), "the quaternion is zero", help);
+                reporter.note(&key.key("quaternion"), "the quaternion is zero", help);
                 return None;
             }
             Some(Quaternion(components.map(|component| component / largest)).normalized())
@@ -36,15 +36,15 @@ pub(super) fn orientation(orientation: &Orientation, key: &Key, judge: &mut Judg
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Document, Findings};
+    use crate::document::{Diagnostics, Document};
     use crate::file::AxisAngle;
     use crate::quantity::Angle;
     use std::f64::consts::FRAC_PI_2;
 
     fn rotated(written: &Orientation, vector: Vec3) -> Vec3 {
         let document = Document::new("test", "");
-        let mut judge = Judge { document: &document, findings: &mut Findings::default() };
-        orientation(written, &Key::root(), &mut judge).unwrap().rotation() * vector
+        let mut reporter = Reporter { document: &document, diagnostics: &mut Diagnostics::default() };
+        orientation(written, &Key::root(), &mut reporter).unwrap().rotation() * vector
     }
 
     #[test]

@@ -2,14 +2,14 @@
 
 use super::body::Solid;
 use super::start::placement;
-use crate::check::{Judge, Placed};
+use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use gyration::support::Support;
 use gyration::surface::GapField;
 use std::collections::BTreeSet;
 
 /// Notes each support that a body reaches at t = 0, with the lift that it needs.
-pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Support>], judge: &mut Judge<'_>) {
+pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Support>], reporter: &mut Reporter<'_>) {
     let Some(surface) = &solid.body.surface else { return };
     let met: BTreeSet<usize> = solid.body.contacts.iter().map(|contact| contact.support()).collect();
     let start = placement(&solid.start);
@@ -26,6 +26,6 @@ pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Sup
             format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
         let lift = if gap < 0.0 { format!("by more than {:.6e} m ", -gap) } else { "a little ".into() };
         let help = format!("move it {lift}along the normal [{x}, {y}, {z}]: forces of short range keep bodies apart");
-        judge.note(&placed.key.key("position"), message, help);
+        reporter.note(&placed.key.key("position"), message, help);
     }
 }

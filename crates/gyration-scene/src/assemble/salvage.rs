@@ -6,24 +6,24 @@
 
 use super::body::Solid;
 use super::setting::Setting;
-use crate::check::{Judge, Placed};
-use crate::document::{Document, Findings};
+use crate::check::{Placed, Reporter};
+use crate::document::{Diagnostics, Document};
 use crate::file::Body;
 use crate::key::Key;
 use crate::tree::Node;
 use std::collections::BTreeSet;
 
-/// Keys whose values are judged by themselves.
+/// Keys whose values are checked by themselves.
 const ALONE: [&str; 3] = ["orientation", "mass_properties", "spring"];
 /// What a body is made of needs to know whether it has a volume, which these say.
 const VOLUME: [&str; 2] = ["shape", "mass_properties"];
-/// The shape is judged together with these: parts of a union may take the body's density.
+/// The shape is checked together with these: parts of a union may take the body's density.
 const WEIGHTS: [&str; 3] = ["density", "mass", "mass_properties"];
 
 /// Notes what is wrong in the well-formed keys of bodies that are not well formed.
-pub(crate) fn salvage(document: &Document, setting: &Setting, findings: &mut Findings) {
+pub(crate) fn salvage(document: &Document, setting: &Setting, diagnostics: &mut Diagnostics) {
     let section = Key::root().key("body");
-    let dirty: BTreeSet<Key> = findings.iter().map(|finding| finding.key.clone()).collect();
+    let dirty: BTreeSet<Key> = diagnostics.iter().map(|diagnostic| diagnostic.key.clone()).collect();
     for (index, node) in document.root.get("body").map(Node::items).unwrap_or_default().iter().enumerate() {
         let key = section.index(index);
         // What lies inside of a key follows it in the order of keys.
@@ -38,17 +38,17 @@ pub(crate) fn salvage(document: &Document, setting: &Setting, findings: &mut Fin
         if written.len() == before {
             continue;
         }
-        let mut judged: Vec<&str> = ALONE.into_iter().filter(|name| written.contains_key(*name)).collect();
+        let mut checked: Vec<&str> = ALONE.into_iter().filter(|name| written.contains_key(*name)).collect();
         if written.contains_key("shape") && !WEIGHTS.iter().any(|name| is_dirty(name)) {
-            judged.push("shape");
+            checked.push("shape");
         }
         if !VOLUME.iter().any(|name| is_dirty(name)) {
-            judged.extend(["affine", "contractile"].into_iter().filter(|name| written.contains_key(*name)));
+            checked.extend(["affine", "contractile"].into_iter().filter(|name| written.contains_key(*name)));
         }
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
-        let mut found = Findings::default();
-        Solid::new(&Placed { key: key.clone(), value }, setting, &mut Judge { document, findings: &mut found });
-        let counts = |place: &Key| judged.iter().any(|name| key.key(name).holds(place));
-        findings.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
+        let mut found = Diagnostics::default();
+        Solid::new(&Placed { key: key.clone(), value }, setting, &mut Reporter { document, diagnostics: &mut found });
+        let counts = |place: &Key| checked.iter().any(|name| key.key(name).holds(place));
+        diagnostics.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
     }
 }

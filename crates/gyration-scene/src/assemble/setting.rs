@@ -1,6 +1,6 @@
 //! What a body is built among: the folder of the scene, the length of the run, the supports, the fluid.
 
-use crate::check::Draft;
+use crate::check::PartialScene;
 use crate::document::Document;
 use crate::tree::Node;
 use std::path::Path;
@@ -22,14 +22,14 @@ pub(crate) struct Setting<'a> {
 
 impl<'a> Setting<'a> {
     /// The setting of a scene whose paths are relative to `base`.
-    pub(crate) fn new(draft: &Draft, document: &Document, base: &'a Path) -> Self {
+    pub(crate) fn new(partial: &PartialScene, document: &Document, base: &'a Path) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
         Self {
             base,
-            end: draft.time.as_ref().map(|time| time.end.value()),
+            end: partial.time.as_ref().map(|time| time.end.value()),
             has_support: !supports.is_empty(),
             has_fluid: document.root.get("fluid").is_some(),
-            fluid: draft.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
+            fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Shapes, with the files of meshes read and hulls made; what is wrong is noted at its key.
 
 use super::orientation::orientation;
-use crate::check::Judge;
+use crate::check::Reporter;
 use crate::file;
 use crate::key::Key;
 use crate::quantity::si;
@@ -17,7 +17,7 @@ use std::path::Path;
 pub(super) struct Maker<'a, 'b> {
     /// The folder that paths are relative to.
     pub(super) base: &'a Path,
-    pub(super) judge: &'a mut Judge<'b>,
+    pub(super) reporter: &'a mut Reporter<'b>,
 }
 
 impl Maker<'_, '_> {
@@ -53,7 +53,7 @@ impl Maker<'_, '_> {
                     }
                     _ => (key.clone(), "change the parameters of the shape"),
                 };
-                self.judge.note(&place, error.to_string(), help);
+                self.reporter.note(&place, error.to_string(), help);
                 None
             }
         }
@@ -62,8 +62,10 @@ impl Maker<'_, '_> {
     fn hull(&mut self, polyhedron: &file::Polyhedron, key: &Key) -> Option<Polyhedron> {
         let points: Vec<Vec3> = polyhedron.vertices.iter().map(si).collect();
         let made = hull(&points);
-        made.map_err(|error| self.judge.note(&key.key("vertices"), error.to_string(), "give points that span a volume"))
-            .ok()
+        made.map_err(|error| {
+            self.reporter.note(&key.key("vertices"), error.to_string(), "give points that span a volume")
+        })
+        .ok()
     }
 
     fn mesh(&mut self, mesh: &file::Mesh, key: &Key) -> Option<Polyhedron> {
@@ -74,14 +76,14 @@ impl Maker<'_, '_> {
                 MeshError::Unreadable { .. } => "the path is relative to the folder of the scene",
                 _ => "mend the file, or choose another",
             };
-            self.judge.note(&key.key("file"), error.to_string(), help);
+            self.reporter.note(&key.key("file"), error.to_string(), help);
         })
         .ok()
     }
 
     fn points(&mut self, points: &[file::PointMass], key: &Key) -> Option<Points> {
         if points.is_empty() {
-            self.judge.note(key, "there are no points", "write points = [{ mass = …, at = [x, y, z] }, …]");
+            self.reporter.note(key, "there are no points", "write points = [{ mass = …, at = [x, y, z] }, …]");
             return None;
         }
         let made = points.iter().map(|point| MassPoint { mass: point.mass.value(), at: si(&point.at) });
@@ -98,7 +100,7 @@ impl Maker<'_, '_> {
 
     fn part(&mut self, part: &file::Part, key: &Key, inherited: Option<f64>) -> Option<Part> {
         let density = part.density.map(|density| density.value()).or(inherited);
-        let turned = orientation(&part.orientation, &key.key("orientation"), self.judge);
+        let turned = orientation(&part.orientation, &key.key("orientation"), self.reporter);
         let shape = self.shape(&part.shape, &key.key("shape"), density);
         let weight = match part.shape {
             // They bring their masses; what the union holds for them is a factor.
@@ -107,7 +109,7 @@ impl Maker<'_, '_> {
         };
         if weight.is_none() {
             let help = "give the part a `density`, or the body, or neither any part and the body its `mass`";
-            self.judge.note(&key.key("density"), "the part has no density", help);
+            self.reporter.note(&key.key("density"), "the part has no density", help);
         }
         Some(Part { shape: shape?, offset: si(&part.offset), rotation: turned?.rotation(), density: weight? })
     }

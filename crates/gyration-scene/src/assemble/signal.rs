@@ -5,7 +5,7 @@
 
 use super::setting::Setting;
 use super::start::matrix;
-use crate::check::Judge;
+use crate::check::Reporter;
 use crate::file::{Interpolation as Written, Ramp, Signal as WrittenSignal, Table, Wave as WrittenWave};
 use crate::key::Key;
 use crate::table::{TableFault, read_tensors};
@@ -19,7 +19,7 @@ pub(super) type Reader = fn(&Path, char, Interpolation) -> Result<TensorTable, T
 /// Makes signals of one kind of tensor.
 pub(super) struct Maker<'a, 'b> {
     pub(super) setting: &'a Setting<'a>,
-    pub(super) judge: &'a mut Judge<'b>,
+    pub(super) reporter: &'a mut Reporter<'b>,
     /// What messages call the tensor.
     pub(super) symbol: char,
     /// Where a ramp starts that does not say so.
@@ -51,7 +51,7 @@ impl Maker<'_, '_> {
                 // What is not zero would be added as often as there are ramps.
                 let (key, rest) = (key.key("sum"), rest.filter(|rest| *rest == Mat3::zeros()));
                 let made = parts.iter().enumerate().map(|(index, part)| self.part(part, &key.index(index), rest));
-                // All of them, so that each is judged.
+                // All of them, so that each is checked.
                 let made: Vec<Option<Signal>> = made.collect();
                 Signal::Sum(made.into_iter().collect::<Option<_>>()?)
             }
@@ -61,7 +61,7 @@ impl Maker<'_, '_> {
     fn ramp<T: Into<f64> + Copy>(&mut self, ramp: &Ramp<T>, key: &Key, rest: Option<Mat3>) -> Option<Signal> {
         let Some(from) = ramp.from.as_ref().map(matrix).or(rest) else {
             let help = "add `from`: [[0, 0, 0], [0, 0, 0], [0, 0, 0]] if another part of the sum is where it starts";
-            self.judge.note(&key.key("from"), "within a sum it is open where the ramp starts", help);
+            self.reporter.note(&key.key("from"), "within a sum it is open where the ramp starts", help);
             return None;
         };
         Some(Signal::Ramp { from, to: matrix(&ramp.to), duration: ramp.duration.value() })
@@ -77,7 +77,7 @@ impl Maker<'_, '_> {
         let made = match read(&path, self.symbol, interpolation) {
             Ok(made) => made,
             Err(error) => {
-                self.judge.note(key, error.to_string(), error.help());
+                self.reporter.note(key, error.to_string(), error.help());
                 return None;
             }
         };
@@ -85,11 +85,11 @@ impl Maker<'_, '_> {
         let end = self.setting.end.unwrap_or(last);
         if first > 0.0 {
             let message = format!("table {} begins late, at {first:?} s: the run begins at 0 s", path.display());
-            self.judge.note(key, message, "add a row at t = 0");
+            self.reporter.note(key, message, "add a row at t = 0");
         }
         if last < end {
             let message = format!("table {} ends early, at {last:?} s: time.end is {end:?} s", path.display());
-            self.judge.note(key, message, format!("add rows up to t = {end:?}, or end the run at {last:?} s"));
+            self.reporter.note(key, message, format!("add rows up to t = {end:?}, or end the run at {last:?} s"));
         }
         (first <= 0.0 && last >= end).then_some(made)
     }

@@ -9,7 +9,7 @@
 
 use super::constraint::{self, Kept};
 use super::orientation::orientation;
-use crate::check::{Judge, Placed};
+use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
@@ -34,16 +34,16 @@ pub(super) struct Attitude {
 impl Attitude {
     /// Reads P and Ṗ of a body that starts with a contraction, if it has one; notes what cannot be, what is said twice,
     /// and what only another kind of body has.
-    pub(super) fn of(placed: &Placed<Body>, contraction: Option<Jet>, judge: &mut Judge<'_>) -> Option<Self> {
+    pub(super) fn of(placed: &Placed<Body>, contraction: Option<Jet>, reporter: &mut Reporter<'_>) -> Option<Self> {
         let Placed { key, value } = placed;
         match value.deformable() {
-            None => deformable_keys(value, key, judge),
-            Some(_) => said_twice(value, key, judge),
+            None => deformable_keys(value, key, reporter),
+            Some(_) => said_twice(value, key, reporter),
         }
-        let turned = value.orientation.as_ref().map(|written| orientation(written, &key.key("orientation"), judge));
+        let turned = value.orientation.as_ref().map(|written| orientation(written, &key.key("orientation"), reporter));
         let gradient = value.gradient.map(|rows| {
             let gradient = matrix(&rows);
-            invertible(&gradient, &key.key("gradient"), judge).then_some(gradient)
+            invertible(&gradient, &key.key("gradient"), reporter).then_some(gradient)
         });
         let orientation = turned.unwrap_or(Some(Quaternion::IDENTITY))?;
         let relaxed = || contraction.map_or(orientation.rotation(), |jet| orientation.rotation() * jet.value);
@@ -56,22 +56,22 @@ impl Attitude {
     }
 
     /// The whole start of a body of this kind; notes one that its constraint or its pin does not allow.
-    pub(super) fn start(&self, placed: &Placed<Body>, kind: &BodyKind, judge: &mut Judge<'_>) -> Option<Start> {
+    pub(super) fn start(&self, placed: &Placed<Body>, kind: &BodyKind, reporter: &mut Reporter<'_>) -> Option<Start> {
         match kind {
             BodyKind::Rigid(_) => {
                 let Self { orientation, angular_velocity, .. } = *self;
                 let (position, pin) = (si(&placed.value.position), placed.value.pin.as_ref().map(si));
                 let follows = pin.map(|pin| (orientation.rotation() * pin).cross(&angular_velocity));
-                let velocity = center_velocity(placed, follows, judge)?;
+                let velocity = center_velocity(placed, follows, reporter)?;
                 Some(Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }))
             }
             BodyKind::Affine(affine) => {
-                let (place, velocity) = self.deformable_start(placed, &affine.interior, &Kept::VOLUME, judge)?;
+                let (place, velocity) = self.deformable_start(placed, &affine.interior, &Kept::VOLUME, reporter)?;
                 Some(Start::Affine(place, velocity))
             }
             BodyKind::Contractile(contractile) => {
                 let kept = Kept::beside(&contractile.contraction, &self.contraction);
-                let (place, velocity) = self.deformable_start(placed, &contractile.affine.interior, &kept, judge)?;
+                let (place, velocity) = self.deformable_start(placed, &contractile.affine.interior, &kept, reporter)?;
                 Some(Start::Contractile(place, velocity, self.contraction.value))
             }
         }
@@ -82,12 +82,12 @@ impl Attitude {
         placed: &Placed<Body>,
         body: &AffineBody,
         kept: &Kept,
-        judge: &mut Judge<'_>,
+        reporter: &mut Reporter<'_>,
     ) -> Option<(Placement, Velocity)> {
         let given = (self.gradient, self.gradient_rate);
-        let (gradient, gradient_rate) = constraint::hold(body, kept, given, &placed.key, judge)?;
+        let (gradient, gradient_rate) = constraint::hold(body, kept, given, &placed.key, reporter)?;
         let pin: Option<Vec3> = placed.value.pin.as_ref().map(si);
-        let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), judge)?;
+        let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), reporter)?;
         let place = Placement { position: si(&placed.value.position), gradient };
         Some((place, Velocity { velocity, gradient_rate }))
     }
@@ -117,36 +117,40 @@ pub(super) fn matrix<T: Into<f64> + Copy>(rows: &[[T; 3]; 3]) -> Mat3 {
 }
 
 /// Refuses what only a deformable body has.
-fn deformable_keys(body: &Body, key: &Key, judge: &mut Judge<'_>) {
+fn deformable_keys(body: &Body, key: &Key, reporter: &mut Reporter<'_>) {
     if body.gradient.is_some() {
         let help = "a rigid body starts with an `orientation`; add `affine = {}` for one that deforms";
-        judge.note(&key.key("gradient"), "a rigid body has no placement gradient of its own", help);
+        reporter.note(&key.key("gradient"), "a rigid body has no placement gradient of its own", help);
     }
     if body.gradient_rate.is_some() {
         let help = "a rigid body starts with an `angular_velocity`; add `affine = {}` for one that deforms";
-        judge.note(&key.key("gradient_rate"), "a rigid body has no gradient rate of its own", help);
+        reporter.note(&key.key("gradient_rate"), "a rigid body has no gradient rate of its own", help);
     }
 }
 
 /// Refuses two answers to one question.
-fn said_twice(body: &Body, key: &Key, judge: &mut Judge<'_>) {
+fn said_twice(body: &Body, key: &Key, reporter: &mut Reporter<'_>) {
     if body.gradient.is_some() && body.orientation.is_some() {
         let help = "keep one: with `gradient` = R U leave `orientation` out";
-        judge.note(&key.key("orientation"), "`gradient` already says how the body is turned at the start", help);
+        reporter.note(&key.key("orientation"), "`gradient` already says how the body is turned at the start", help);
     }
     if body.gradient_rate.is_some() && body.angular_velocity.is_some() {
         let help = "keep one: with `gradient_rate` leave `angular_velocity` out, which would give [ω]× P";
-        judge.note(&key.key("angular_velocity"), "`gradient_rate` already says how the body spins at the start", help);
+        reporter.note(
+            &key.key("angular_velocity"),
+            "`gradient_rate` already says how the body spins at the start",
+            help,
+        );
     }
 }
 
 /// Whether a matrix has a positive determinant beyond rounding, and an inverse that numbers can hold; notes it
 /// otherwise.
-pub(super) fn invertible(matrix: &Mat3, key: &Key, judge: &mut Judge<'_>) -> bool {
+pub(super) fn invertible(matrix: &Mat3, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let flaw = flaw(matrix);
     if let Some(message) = &flaw {
         let help = "write a matrix of positive determinant; [[1, 0, 0], [0, 1, 0], [0, 0, 1]] leaves the body as it is";
-        judge.note(key, message, help);
+        reporter.note(key, message, help);
     }
     flaw.is_none()
 }
@@ -165,11 +169,11 @@ pub(super) fn flaw(matrix: &Mat3) -> Option<String> {
 }
 
 /// ṗ₀ as given, or as it follows from the pin; notes a given one that does not agree with the pin.
-fn center_velocity(placed: &Placed<Body>, follows: Option<Vec3>, judge: &mut Judge<'_>) -> Option<Vec3> {
+fn center_velocity(placed: &Placed<Body>, follows: Option<Vec3>, reporter: &mut Reporter<'_>) -> Option<Vec3> {
     let velocity: Vec3 = si(&placed.value.velocity);
     let Some(follows) = follows else { return Some(velocity) };
     let given = placed.key.key("velocity");
-    let written = given.is_written(&judge.document.root);
+    let written = given.is_written(&reporter.document.root);
     // Numbers written with ten digits agree.
     const AGREEMENT: f64 = 1e-9;
     if written && (velocity - follows).norm() > AGREEMENT * follows.norm().max(velocity.norm()) {
@@ -180,7 +184,7 @@ fn center_velocity(placed: &Placed<Body>, follows: Option<Vec3>, judge: &mut Jud
         };
         let message =
             format!("the pin does not allow it: with this {what} the centre of mass moves at [{x:e}, {y:e}, {z:e}]");
-        judge.note(&given, message, format!("leave `velocity` out: it follows from {keys}"));
+        reporter.note(&given, message, format!("leave `velocity` out: it follows from {keys}"));
         return None;
     }
     Some(follows)

@@ -3,7 +3,7 @@
 //! Goes on behind every error. The depth of the recursion is that of the tree, which the parsers limit.
 
 use super::rule::{Field, Limits, Rule, Rules};
-use crate::document::Findings;
+use crate::document::Diagnostics;
 use crate::error::Fault;
 use crate::key::Key;
 use crate::suggest;
@@ -12,20 +12,20 @@ use crate::units::{Dimension, Unit, UnitError, parse_quantity};
 use std::collections::BTreeMap;
 
 /// Notes where the tree departs from the rules of its format.
-pub(crate) fn structure(root: &Node, rules: &Rules, findings: &mut Findings) {
-    findings.look_at(Fault::Structure);
-    Walker { rules, findings }.visit(root, &Key::root(), &rules.root);
-    findings.look_at(Fault::Value);
+pub(crate) fn structure(root: &Node, rules: &Rules, diagnostics: &mut Diagnostics) {
+    diagnostics.look_at(Fault::Structure);
+    Walker { rules, diagnostics }.visit(root, &Key::root(), &rules.root);
+    diagnostics.look_at(Fault::Value);
 }
 
 struct Walker<'a> {
     rules: &'a Rules,
-    findings: &'a mut Findings,
+    diagnostics: &'a mut Diagnostics,
 }
 
 impl Walker<'_> {
     fn visit(&mut self, node: &Node, key: &Key, field: &Field) {
-        if self.findings.is_full() {
+        if self.diagnostics.is_full() {
             return;
         }
         match (&node.value, self.rules.resolve(&field.rule)) {
@@ -45,7 +45,7 @@ impl Walker<'_> {
                 if !(*least..=*most).contains(&count) {
                     let expected = if most == least { format!("{least}") } else { format!("at least {least}") };
                     let message = format!("expected {expected} items, found {count}");
-                    self.findings.at(node.span, key, message, format!("write {}", self.expected(&field.rule)));
+                    self.diagnostics.at(node.span, key, message, format!("write {}", self.expected(&field.rule)));
                 }
                 self.items(items, key, item);
             }
@@ -56,20 +56,20 @@ impl Walker<'_> {
             (Value::Text(text), Rule::Quantity { symbol, unit, example }) => {
                 match in_unit(text, unit, symbol, example) {
                     Ok(number) => self.limits(number, node, key, field.limits, symbol),
-                    Err((message, help)) => self.findings.at(node.span, key, message, help),
+                    Err((message, help)) => self.diagnostics.at(node.span, key, message, help),
                 }
             }
             (Value::Text(text), Rule::Choice { words, .. }) if words.contains(text) => {}
             (Value::Text(text), Rule::Choice { words, tags }) if !words.is_empty() && !tags.contains_key(text) => {
                 let help = suggest::fix(text, words.iter().map(String::as_str), "one of");
-                self.findings.at(node.span, key, format!("\"{text}\" is not known here"), help);
+                self.diagnostics.at(node.span, key, format!("\"{text}\" is not known here"), help);
             }
             (Value::Text(_), Rule::Text) | (Value::Boolean(_), Rule::Boolean) | (_, Rule::Unknown) => {}
             (_, rule) => {
                 let expected = self.expected(rule);
                 let help = mismatch_help(&node.value, rule, &expected);
                 let message = format!("expected {expected}, found {}", node.value.kind());
-                self.findings.at(node.span, key, message, help);
+                self.diagnostics.at(node.span, key, message, help);
             }
         }
     }
@@ -84,7 +84,7 @@ impl Walker<'_> {
                 }
                 None => format!("add `{name}`"),
             };
-            self.findings.at(node.span, &key.key(name), format!("the key \"{name}\" is missing"), help);
+            self.diagnostics.at(node.span, &key.key(name), format!("the key \"{name}\" is missing"), help);
         }
     }
 
@@ -97,14 +97,14 @@ impl Walker<'_> {
         if table.len() != 1 {
             let expected = choices(words, tags);
             let message = format!("expected exactly one key, found {}", table.len());
-            self.findings.at(node.span, key, message, format!("write {expected}"));
+            self.diagnostics.at(node.span, key, message, format!("write {expected}"));
         }
     }
 
     /// Every key of a table: unknown, not in this version, or on to its value.
     fn keys(&mut self, table: &Table, key: &Key, fields: &BTreeMap<String, Field>, what: &str) {
         for (name, entry) in table {
-            if self.findings.is_full() {
+            if self.diagnostics.is_full() {
                 return;
             }
             let place = key.key(name);
@@ -112,7 +112,7 @@ impl Walker<'_> {
                 None => {
                     let elsewhere = if *key == Key::root() { of_another_file(name) } else { None };
                     let help = elsewhere.unwrap_or_else(|| suggest::fix(name, fields.keys().map(String::as_str), what));
-                    self.findings.at(entry.key_span, &place, format!("unknown key \"{name}\""), help);
+                    self.diagnostics.at(entry.key_span, &place, format!("unknown key \"{name}\""), help);
                 }
                 Some(field) => self.visit(&entry.node, &place, field),
             }
@@ -137,9 +137,9 @@ impl Walker<'_> {
                 _ if number.is_nan() => "write the number itself".to_owned(),
                 _ => format!("write a number that is {condition}"),
             };
-            self.findings.look_at(Fault::Value);
-            self.findings.at(node.span, key, message, range);
-            self.findings.look_at(Fault::Structure);
+            self.diagnostics.look_at(Fault::Value);
+            self.diagnostics.at(node.span, key, message, range);
+            self.diagnostics.look_at(Fault::Structure);
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Bodies are checked where they are built.
 
-use super::{Draft, Judge, Placed};
+use super::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Motion, Record, Support, Time};
 use crate::key::{Key, is_name};
 use crate::suggest;
@@ -13,26 +13,26 @@ use std::collections::{BTreeSet, HashSet};
 /// The most samples of a recording.
 const MOST_SAMPLES: f64 = 1e8;
 
-/// Notes what is wrong with the values of a draft, its bodies apart.
-pub(crate) fn values(draft: &Draft, judge: &mut Judge<'_>) {
-    let supports = names("support", judge);
-    let bodies = names("body", judge);
-    if let Some(time) = &draft.time {
-        samples(time, judge);
+/// Notes what is wrong with the values of a partial scene, its bodies apart.
+pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
+    let supports = names("support", reporter);
+    let bodies = names("body", reporter);
+    if let Some(time) = &partial.time {
+        samples(time, reporter);
     }
-    if let Some(record) = &draft.record {
-        once(record, judge);
+    if let Some(record) = &partial.record {
+        once(record, reporter);
     }
-    draft.supports.iter().for_each(|support| directions(support, judge));
-    references("support", &supports, judge);
-    references("body", &bodies, judge);
-    draft.contacts.iter().for_each(|contact| exponents(contact, judge));
+    partial.supports.iter().for_each(|support| directions(support, reporter));
+    references("support", &supports, reporter);
+    references("body", &bodies, reporter);
+    partial.contacts.iter().for_each(|contact| exponents(contact, reporter));
 }
 
 /// The names of an array of tables, well formed or not; notes those that are no names or occur twice.
-fn names(section: &str, judge: &mut Judge<'_>) -> BTreeSet<String> {
+fn names(section: &str, reporter: &mut Reporter<'_>) -> BTreeSet<String> {
     let key = Key::root().key(section);
-    let document = judge.document;
+    let document = reporter.document;
     let items = document.root.get(section).map(Node::items).unwrap_or_default();
     let mut names = BTreeSet::new();
     for (index, item) in items.iter().enumerate() {
@@ -41,73 +41,73 @@ fn names(section: &str, judge: &mut Judge<'_>) -> BTreeSet<String> {
         let place = key.index(index).key("name");
         if !is_name(name) {
             let help = "use letters A to Z and a to z, digits, `_` and `-`";
-            judge.findings.at(node.span, &place, format!("\"{name}\" is not a name"), help);
+            reporter.diagnostics.at(node.span, &place, format!("\"{name}\" is not a name"), help);
         } else if !names.insert(name.to_owned()) {
             let message = format!("the {section} \"{name}\" occurs twice");
-            judge.findings.at(node.span, &place, message, "give each a name of its own");
+            reporter.diagnostics.at(node.span, &place, message, "give each a name of its own");
         }
     }
     names
 }
 
 /// Notes the contacts, well formed or not, that name a support or a body that is not there.
-fn references(section: &str, known: &BTreeSet<String>, judge: &mut Judge<'_>) {
+fn references(section: &str, known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
     let contacts = Key::root().key("contact");
-    let document = judge.document;
+    let document = reporter.document;
     let items = document.root.get("contact").map(Node::items).unwrap_or_default();
     for (index, item) in items.iter().enumerate() {
         let Some(node) = item.get(section) else { continue };
-        if judge.findings.is_full() {
+        if reporter.diagnostics.is_full() {
             return;
         }
         if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
             let help = suggest::fix(name, known.iter().map(String::as_str), section);
             let message = format!("there is no {section} \"{name}\"");
-            judge.findings.at(node.span, &contacts.index(index).key(section), message, help);
+            reporter.diagnostics.at(node.span, &contacts.index(index).key(section), message, help);
         }
     }
 }
 
-fn samples(time: &Time, judge: &mut Judge<'_>) {
+fn samples(time: &Time, reporter: &mut Reporter<'_>) {
     let count = time.end.value() / time.sample.value();
     if count > MOST_SAMPLES {
         let message = format!("{count:.3e} samples are more than {MOST_SAMPLES:e}");
         let help = format!("write a spacing of at least {:e} s", time.end.value() / MOST_SAMPLES);
-        judge.note(&Key::root().key("time").key("sample"), message, help);
+        reporter.note(&Key::root().key("time").key("sample"), message, help);
     }
 }
 
 /// Notes quantities that are asked for twice.
-fn once(record: &Record, judge: &mut Judge<'_>) {
+fn once(record: &Record, reporter: &mut Reporter<'_>) {
     let key = Key::root().key("record").key("quantities");
     let mut seen = HashSet::new();
     for (index, quantity) in record.quantities.iter().enumerate() {
         if !seen.insert(quantity) {
-            judge.note(&key.index(index), "the quantity is already recorded", "write each quantity once");
+            reporter.note(&key.index(index), "the quantity is already recorded", "write each quantity once");
         }
     }
 }
 
-fn directions(support: &Placed<Support>, judge: &mut Judge<'_>) {
+fn directions(support: &Placed<Support>, reporter: &mut Reporter<'_>) {
     let key = &support.key;
     if direction(&support.value.plane.normal).is_none() {
-        judge.note(&key.key("plane").key("normal"), "the normal is zero", "write a direction, [0, 0, 1]");
+        reporter.note(&key.key("plane").key("normal"), "the normal is zero", "write a direction, [0, 0, 1]");
     }
     if let Some(Motion::Oscillate(oscillation)) = &support.value.motion
         && direction(&oscillation.direction).is_none()
     {
         let key = key.key("motion").key("oscillate").key("direction");
-        judge.note(&key, "the direction is zero", "write a direction, [0, 0, 1]");
+        reporter.note(&key, "the direction is zero", "write a direction, [0, 0, 1]");
     }
 }
 
-fn exponents(contact: &Placed<Contact>, judge: &mut Judge<'_>) {
+fn exponents(contact: &Placed<Contact>, reporter: &mut Reporter<'_>) {
     if let Some(adhesion) = &contact.value.adhesion {
         let (attractive, repulsive) = (adhesion.nu_attractive.0, adhesion.nu_repulsive.0);
         if repulsive <= attractive {
             let message = format!("{repulsive:?} is not greater than nu_attractive, which is {attractive:?}");
             let key = contact.key.key("adhesion").key("nu_repulsive");
-            judge.note(&key, message, "adhesion repels below d0 only if nu_repulsive > nu_attractive");
+            reporter.note(&key, message, "adhesion repels below d0 only if nu_repulsive > nu_attractive");
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Stops at the first error of syntax. A key that occurs twice is an error.
 
-use crate::document::Findings;
+use crate::document::Diagnostics;
 use crate::key::Key;
 use crate::tree::{Entry, Node, Span, Table, Value};
 
@@ -10,13 +10,13 @@ use crate::tree::{Entry, Node, Span, Table, Value};
 const DEEPEST: usize = 64;
 
 /// Reads a JSON document.
-pub(super) fn parse(text: &str, findings: &mut Findings) -> Node {
+pub(super) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Node {
     let body = text.trim_start_matches('\u{feff}');
     let mut reader = Reader { text, at: text.len() - body.len() };
     match reader.document() {
         Ok(node) => node,
         Err(Fault { start, end, message, help }) => {
-            findings.at(Span { text: 0, start, end }, &Key::root(), format!("not valid JSON: {message}"), help);
+            diagnostics.at(Span { text: 0, start, end }, &Key::root(), format!("not valid JSON: {message}"), help);
             Node { value: Value::Table(Table::new()), span: Span::default() }
         }
     }

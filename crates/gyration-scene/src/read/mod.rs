@@ -9,7 +9,7 @@ mod toml;
 
 pub(crate) use overrides::apply;
 
-use crate::document::{Document, Findings};
+use crate::document::{Diagnostics, Document};
 use crate::error::{Fault, LoadError, ReadError, SceneErrors};
 use crate::key::Key;
 use crate::tree::Span;
@@ -54,22 +54,22 @@ pub(crate) fn text(path: &Path) -> Result<(String, String), LoadError> {
 /// All errors of its syntax.
 pub(crate) fn document(name: &str, text: &str) -> Result<Document, SceneErrors> {
     let mut document = Document::new(name, text);
-    let mut findings = Findings::of(Fault::Syntax);
+    let mut diagnostics = Diagnostics::of(Fault::Syntax);
     let named_json = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     document.root = if named_json || text.trim_start_matches('\u{feff}').trim_start().starts_with('{') {
-        json::parse(text, &mut findings)
+        json::parse(text, &mut diagnostics)
     } else {
-        toml::parse(text, &mut findings)
+        toml::parse(text, &mut diagnostics)
     };
-    if findings.is_empty() { Ok(document) } else { Err(document.settle(findings)) }
+    if diagnostics.is_empty() { Ok(document) } else { Err(document.errors(diagnostics)) }
 }
 
 fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> SceneErrors {
     let document = Document::new(name, &String::from_utf8_lossy(error.as_bytes()));
     // Up to the first bad byte the text is as it was.
     let at = error.utf8_error().valid_up_to();
-    let mut findings = Findings::of(Fault::Syntax);
+    let mut diagnostics = Diagnostics::of(Fault::Syntax);
     let span = Span { text: 0, start: at, end: at + 1 };
-    findings.at(span, &Key::root(), "not valid UTF-8", "save the file as UTF-8 text");
-    document.settle(findings)
+    diagnostics.at(span, &Key::root(), "not valid UTF-8", "save the file as UTF-8 text");
+    document.errors(diagnostics)
 }

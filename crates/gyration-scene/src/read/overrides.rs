@@ -6,7 +6,7 @@
 //! own text; what is a number already has no text, and no place.
 
 use super::toml;
-use crate::document::{Document, Findings, Text};
+use crate::document::{Diagnostics, Document, Text};
 use crate::key::{Key, name_of};
 use crate::overriding::{Override, Setting};
 use crate::suggest;
@@ -18,7 +18,7 @@ const NAME: &str = "--set";
 const DEEPEST: usize = 32;
 
 /// Applies overrides in their order; what cannot be applied is noted.
-pub(crate) fn apply(document: &mut Document, overrides: &[Override], findings: &mut Findings) {
+pub(crate) fn apply(document: &mut Document, overrides: &[Override], diagnostics: &mut Diagnostics) {
     for one in overrides {
         let text = document.texts.len();
         if one.is_text() {
@@ -26,8 +26,8 @@ pub(crate) fn apply(document: &mut Document, overrides: &[Override], findings: &
         }
         if let Err(fault) = apply_one(&mut document.root, one, text) {
             match fault {
-                Fault::Key(span, message, help) => findings.at(span, &Key::root(), message, help),
-                Fault::Value(errors) => findings.extend(errors),
+                Fault::Key(span, message, help) => diagnostics.at(span, &Key::root(), message, help),
+                Fault::Value(errors) => diagnostics.extend(errors),
             }
         }
     }
@@ -35,7 +35,7 @@ pub(crate) fn apply(document: &mut Document, overrides: &[Override], findings: &
 
 enum Fault {
     Key(Span, String, String),
-    Value(Findings),
+    Value(Diagnostics),
 }
 
 /// A word of a dotted key and its place.
@@ -100,7 +100,7 @@ fn array(numbers: &[f64]) -> Node {
 }
 
 /// A TOML value, or else a bare string.
-fn parsed(raw: &str, text: usize, offset: usize) -> Result<Node, Findings> {
+fn parsed(raw: &str, text: usize, offset: usize) -> Result<Node, Diagnostics> {
     let trimmed = raw.trim();
     let offset = offset + (raw.len() - raw.trim_start().len());
     match toml::parse_value(trimmed, text, offset) {

@@ -1,6 +1,6 @@
 //! TOML into the tree, with every syntax error of the text.
 
-use crate::document::Findings;
+use crate::document::Diagnostics;
 use crate::key::Key;
 use crate::tree::{Entry, Node, Span, Table, Value};
 use std::ops::Range;
@@ -8,9 +8,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
 /// Reads a TOML document.
-pub(super) fn parse(text: &str, findings: &mut Findings) -> Node {
+pub(super) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Node {
     let (table, errors) = DeTable::parse_recoverable(text);
-    note(&errors, 0, 0, text.len(), findings);
+    note(&errors, 0, 0, text.len(), diagnostics);
     Node { value: Value::Table(convert_table(table.into_inner(), 0, 0)), span: Span { text: 0, start: 0, end: 0 } }
 }
 
@@ -18,26 +18,26 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> Node {
 ///
 /// # Errors
 /// All errors of its syntax.
-pub(super) fn parse_value(value: &str, text: usize, offset: usize) -> Result<Node, Findings> {
+pub(super) fn parse_value(value: &str, text: usize, offset: usize) -> Result<Node, Diagnostics> {
     let (parsed, errors) = DeValue::parse_recoverable(value);
     if errors.is_empty() {
         return Ok(convert(parsed, text, offset));
     }
-    let mut findings = Findings::default();
-    note(&errors, text, offset, offset + value.len(), &mut findings);
-    Err(findings)
+    let mut diagnostics = Diagnostics::default();
+    note(&errors, text, offset, offset + value.len(), &mut diagnostics);
+    Err(diagnostics)
 }
 
-/// One finding a place: what follows from the first error there says nothing new.
-fn note(errors: &[Error], text: usize, offset: usize, length: usize, findings: &mut Findings) {
+/// One diagnostic a place: what follows from the first error there says nothing new.
+fn note(errors: &[Error], text: usize, offset: usize, length: usize, diagnostics: &mut Diagnostics) {
     let mut last = None;
     for error in errors {
-        if findings.is_full() {
+        if diagnostics.is_full() {
             return;
         }
         let span = error.span().map_or(Span { text, start: 0, end: length }, |range| shift(range, text, offset));
         if last != Some(span.start) {
-            findings.at(span, &Key::root(), format!("not valid TOML: {}", error.message()), help(error.message()));
+            diagnostics.at(span, &Key::root(), format!("not valid TOML: {}", error.message()), help(error.message()));
         }
         last = Some(span.start);
     }

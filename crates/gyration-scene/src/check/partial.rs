@@ -1,6 +1,6 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
-use crate::document::{Document, Findings};
+use crate::document::{Diagnostics, Document};
 use crate::file::{Body, Contact, Fluid, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
 use crate::tree::Node;
@@ -16,7 +16,7 @@ pub(crate) struct Placed<T> {
 
 /// The well-formed parts of a scene.
 #[derive(Debug, Clone)]
-pub(crate) struct Draft {
+pub(crate) struct PartialScene {
     pub(crate) title: Option<String>,
     pub(crate) world: World,
     pub(crate) time: Option<Time>,
@@ -28,11 +28,11 @@ pub(crate) struct Draft {
     pub(crate) fluid: Option<Fluid>,
 }
 
-impl Draft {
+impl PartialScene {
     /// Takes from the document what nothing has been found against.
-    pub(crate) fn new(document: &Document, findings: &mut Findings) -> Self {
-        let dirty = findings.iter().map(|finding| finding.key.clone()).collect();
-        let mut taker = Taker { root: &document.root, dirty, findings };
+    pub(crate) fn new(document: &Document, diagnostics: &mut Diagnostics) -> Self {
+        let dirty = diagnostics.iter().map(|diagnostic| diagnostic.key.clone()).collect();
+        let mut taker = Taker { root: &document.root, dirty, diagnostics };
         Self {
             title: taker.section("title"),
             world: taker.section("world").unwrap_or_default(),
@@ -65,7 +65,7 @@ impl Draft {
 struct Taker<'a> {
     root: &'a Node,
     dirty: BTreeSet<Key>,
-    findings: &'a mut Findings,
+    diagnostics: &'a mut Diagnostics,
 }
 
 impl Taker<'_> {
@@ -92,7 +92,7 @@ impl Taker<'_> {
         match serde_json::from_value(node.to_json()) {
             Ok(value) => Some(value),
             Err(error) => {
-                self.findings.at(node.span, key, error.to_string(), "see the scene reference");
+                self.diagnostics.at(node.span, key, error.to_string(), "see the scene reference");
                 None
             }
         }
