@@ -61,7 +61,7 @@ struct Ending {
 
 fn end(die: &Die, start: &State) -> Ending {
     let (simulation, outcome) = run(die, start, &mut MemorySink::default());
-    let (statistics, events) = (*simulation.statistics(), simulation.tally().events);
+    let (statistics, events) = (*simulation.statistics(), simulation.run_state().events);
     Ending { outcome, state: simulation.state(), statistics, events }
 }
 

@@ -133,8 +133,8 @@ impl Experiment {
             events: sink.events,
             outcome,
             end: simulation.state(),
-            largest_residual: simulation.tally().largest_residual,
-            energy_in_play: simulation.tally().energy_in_play,
+            largest_residual: simulation.run_state().largest_residual,
+            energy_in_play: simulation.run_state().energy_in_play,
             steps: simulation.statistics().accepted(),
             arrays: arrays(&self.model, &self.plan.extras),
         }

@@ -4,7 +4,7 @@
 //! ignored.
 
 use gyration::tensor::{Mat3, Vec3};
-use gyration_sim::HandStepper;
+use gyration_sim::SteppedRun;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,7 +40,7 @@ impl Arrays {
     }
 
     /// Writes the state into the arrays.
-    pub fn refresh(&self, py: Python<'_>, stepper: &HandStepper) {
+    pub fn refresh(&self, py: Python<'_>, stepper: &SteppedRun) {
         let state = stepper.state();
         let model = stepper.model();
         let bodies = 0..model.bodies.len();

@@ -19,6 +19,7 @@ mod calibration;
 mod convert;
 mod errors;
 mod many;
+mod monitor;
 mod parcel;
 mod picture;
 mod recording;
@@ -28,7 +29,6 @@ mod sensitivities;
 mod simulation;
 mod study;
 mod table;
-mod watch;
 mod worker;
 
 use pyo3::prelude::*;

@@ -5,8 +5,8 @@
 
 use crate::convert::array;
 use crate::errors::{self, reason};
+use crate::monitor::PythonMonitor;
 use crate::scene::Scene;
-use crate::watch::Watch;
 use gyration_record::RecordError;
 use gyration_scene::Scene as Built;
 use gyration_sim::rows::Fields;
@@ -57,9 +57,9 @@ pub fn run_many(
     if let Some(keep) = &keep {
         check_columns(&scenes, keep)?;
     }
-    let mut watch = Watch::new(progress)?.of_runs();
-    let endings = py.detach(|| all(&scenes, threads, keep.as_deref(), &mut watch));
-    watch.finish(py)?;
+    let mut monitor = PythonMonitor::new(progress)?.of_runs();
+    let endings = py.detach(|| all(&scenes, threads, keep.as_deref(), &mut monitor));
+    monitor.finish(py)?;
     let mut columns = keep.unwrap_or_default();
     if columns.is_empty() {
         let mut known = HashSet::new();
@@ -97,7 +97,12 @@ fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
 
 /// Runs all on so many threads, while this one looks at signals; those that are not begun when all are to stop are told
 /// as such.
-fn all(scenes: &[Arc<Built>], threads: NonZeroUsize, keep: Option<&[String]>, watch: &mut Watch) -> Vec<Ending> {
+fn all(
+    scenes: &[Arc<Built>],
+    threads: NonZeroUsize,
+    keep: Option<&[String]>,
+    monitor: &mut PythonMonitor,
+) -> Vec<Ending> {
     let stop = AtomicBool::new(false);
     let mut endings: Vec<Option<Ending>> = scenes.iter().map(|_| None).collect();
     let mut done = 0;
@@ -107,7 +112,7 @@ fn all(scenes: &[Arc<Built>], threads: NonZeroUsize, keep: Option<&[String]>, wa
             endings[index] = Some(ending);
             done += 1;
         }
-        if !watch.ask(f64::from(done), scenes.len() as f64) {
+        if !monitor.ask(f64::from(done), scenes.len() as f64) {
             stop.store(true, Ordering::Relaxed);
         }
     });
@@ -164,7 +169,7 @@ fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<En
     let outcome = simulation.run(&mut last, &mut Together(stop))?;
     // What is stopped has no last row of its own.
     simulation.record_last(&mut last)?.ok();
-    let (statistics, tally) = (*simulation.statistics(), simulation.tally());
+    let (statistics, run_state) = (*simulation.statistics(), simulation.run_state());
     let (kind, why) = match &outcome {
         Outcome::Completed => ("completed".to_owned(), None),
         Outcome::AtRest { .. } => ("at_rest".to_owned(), None),
@@ -177,7 +182,7 @@ fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<En
         steps: statistics.accepted(),
         rejected: statistics.rejected_error + statistics.rejected_domain + statistics.newton_failures,
         evaluations: statistics.rate_evaluations,
-        residual: tally.largest_residual / tally.energy_in_play,
+        residual: run_state.largest_residual / run_state.energy_in_play,
         last: by_column(&job, &last.0, keep),
     })
 }

@@ -1,8 +1,8 @@
 //! A scene into a recording, as `gyration run` does it.
 
 use crate::errors;
+use crate::monitor::PythonMonitor;
 use crate::recording::Recording;
-use crate::watch::Watch;
 use gyration_plot::leave_overview;
 use gyration_record::{Recording as Stored, remove};
 use gyration_scene::Scene;
@@ -30,9 +30,9 @@ pub fn run(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Recording> {
     let (path, kept) = place(&options, scene.name())?;
-    let mut watch = Watch::new(progress)?;
-    let done = py.detach(|| record(scene, &options, &path, &mut watch));
-    watch.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&options, &path)))?;
+    let mut monitor = PythonMonitor::new(progress)?;
+    let done = py.detach(|| record(scene, &options, &path, &mut monitor));
+    monitor.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&options, &path)))?;
     let summary = done?;
     if let Some(warning) = options.output.as_ref().and_then(|_| leave_overview(&path)) {
         py.import("warnings")?.call_method1("warn", (warning,))?;
@@ -60,10 +60,15 @@ fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<T
 }
 
 /// The run itself, and what the program would say of it; nothing if it had ended before.
-fn record(scene: &Scene, options: &RecordOptions, path: &Path, watch: &mut Watch) -> PyResult<Option<String>> {
+fn record(
+    scene: &Scene,
+    options: &RecordOptions,
+    path: &Path,
+    monitor: &mut PythonMonitor,
+) -> PyResult<Option<String>> {
     let job = Job::of(scene, &gyration_cli::provenance());
     let recorded = if options.resume {
-        job.resume(path, watch)
+        job.resume(path, monitor)
     } else {
         // What is there goes only if the new run has a start.
         let start = Simulation::new(job.model, job.start, job.plan);
@@ -71,7 +76,7 @@ fn record(scene: &Scene, options: &RecordOptions, path: &Path, watch: &mut Watch
         if options.force && path.symlink_metadata().is_ok() {
             remove(path).map_err(errors::record)?;
         }
-        job.record(path, watch)
+        job.record(path, monitor)
     };
     match recorded.map_err(errors::run)? {
         Recorded::Ran(summary) => Ok(Some(told(scene, path, &summary)?)),

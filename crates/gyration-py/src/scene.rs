@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What a scene is made of again elsewhere: its name in messages, text, folder, overrides.
-pub type Packed = (String, String, PathBuf, Vec<String>);
+pub type SceneParts = (String, String, PathBuf, Vec<String>);
 
 /// A scene: bodies, supports, laws, how long to run and how precisely. It has no errors, and does not change: `edit`
 /// gives another one.
@@ -29,7 +29,7 @@ pub struct Scene {
 
 impl Scene {
     /// What it is made of, for whoever works in another folder: name, text, folder, edits.
-    fn parts(&self) -> Packed {
+    fn parts(&self) -> SceneParts {
         let base = convert::elsewhere(&self.base);
         (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides())
     }
@@ -232,7 +232,7 @@ impl Scene {
     }
 
     /// For pickle.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Packed)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, SceneParts)> {
         let again = py.import("gyration._gyration")?.getattr("_scene")?;
         Ok((again, self.parts()))
     }

@@ -7,13 +7,13 @@
 use crate::arrays::Arrays;
 use crate::convert::{array, says_stop, shown};
 use crate::errors;
+use crate::monitor::PythonMonitor;
 use crate::scene::Scene;
-use crate::watch::Watch;
 use gyration::load::{Applied, Loads};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene as Built;
 use gyration_sim::events::EVENT_KINDS;
-use gyration_sim::{HandStepper, Reason};
+use gyration_sim::{Reason, SteppedRun};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -24,7 +24,7 @@ use std::sync::Arc;
 #[pyclass(module = "gyration", name = "Simulation")]
 pub struct Simulation {
     scene: Arc<Built>,
-    stepper: HandStepper,
+    stepper: SteppedRun,
     /// What is applied to each body.
     applied: Vec<Applied>,
     columns: Vec<(String, usize)>,
@@ -51,15 +51,15 @@ impl Simulation {
 
     /// Lets the stepper go on without the lock; then shows the new state, whether it came to its end or not. False if
     /// `progress` has stopped it before.
-    fn go(&mut self, py: Python<'_>, until: Option<f64>, watch: &mut Watch) -> PyResult<bool> {
+    fn go(&mut self, py: Python<'_>, until: Option<f64>, monitor: &mut PythonMonitor) -> PyResult<bool> {
         let stepper = &mut self.stepper;
         let stepped = py.detach(|| match until {
-            Some(until) => stepper.advance(until, watch),
+            Some(until) => stepper.advance(until, monitor),
             None => stepper.step(),
         });
         self.arrays.refresh(py, &self.stepper);
         match stepped {
-            Ok(()) => Ok(!watch.is_over()),
+            Ok(()) => Ok(!monitor.is_over()),
             Err(stop) if stop.reason == Reason::Interrupted => Ok(false),
             Err(stop) => Err(errors::stopped(&stop)),
         }
@@ -71,7 +71,7 @@ impl Simulation {
     #[new]
     fn new(py: Python<'_>, scene: &Bound<'_, PyAny>) -> PyResult<Self> {
         let scene = Scene::ready(scene)?;
-        let stepper = py.detach(|| HandStepper::new(scene.built())).map_err(errors::run)?;
+        let stepper = py.detach(|| SteppedRun::new(scene.built())).map_err(errors::run)?;
         let bodies = stepper.model().bodies.len();
         let arrays = Arrays::new(py, bodies)?;
         arrays.refresh(py, &stepper);
@@ -143,7 +143,7 @@ impl Simulation {
 
     /// Makes one step of the solver; returns the time reached [s].
     fn step(&mut self, py: Python<'_>) -> PyResult<f64> {
-        self.go(py, None, &mut Watch::new(None)?)?;
+        self.go(py, None, &mut PythonMonitor::new(None)?)?;
         Ok(self.time())
     }
 
@@ -157,9 +157,9 @@ impl Simulation {
         if !until.is_finite() {
             return Err(errors::arguments(format!("`until` is {until}\n  fix: give a time in seconds")));
         }
-        let mut watch = Watch::new(progress)?;
-        let gone = self.go(py, Some(until), &mut watch);
-        watch.finish(py)?;
+        let mut monitor = PythonMonitor::new(progress)?;
+        let gone = self.go(py, Some(until), &mut monitor);
+        monitor.finish(py)?;
         gone?;
         Ok(self.time())
     }
@@ -320,9 +320,9 @@ pub fn simulate(
     }
     let simulation = Py::new(py, Simulation::new(py, scene)?)?;
     let end = until.unwrap_or_else(|| simulation.borrow(py).end());
-    let mut watch = Watch::new(progress)?.until(end);
-    let done = intervals(py, &simulation, (dt, end), callback, &mut watch);
-    watch.finish(py)?;
+    let mut monitor = PythonMonitor::new(progress)?.until(end);
+    let done = intervals(py, &simulation, (dt, end), callback, &mut monitor);
+    monitor.finish(py)?;
     done.map(|()| simulation)
 }
 
@@ -332,7 +332,7 @@ fn intervals(
     simulation: &Py<Simulation>,
     (dt, end): (f64, f64),
     callback: &Bound<'_, PyAny>,
-    watch: &mut Watch,
+    monitor: &mut PythonMonitor,
 ) -> PyResult<()> {
     // Multiplied, not accumulated; an interval that rounding alone keeps from the end is the last one.
     for interval in (0_u64..).take_while(|interval| (*interval as f64 * dt) < end * (1.0 - 1e-12)) {
@@ -341,7 +341,7 @@ fn intervals(
         }
         let next = ((interval + 1) as f64 * dt).min(end);
         // What the callback left running may hold the simulation: that is an error, not a wait.
-        if !simulation.bind(py).try_borrow_mut()?.go(py, Some(next), watch)? {
+        if !simulation.bind(py).try_borrow_mut()?.go(py, Some(next), monitor)? {
             break;
         }
     }

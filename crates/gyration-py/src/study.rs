@@ -7,10 +7,10 @@
 use crate::convert::{elsewhere, json, overrides, shown};
 use crate::errors;
 use crate::many::workers;
+use crate::monitor::PythonMonitor;
 use crate::parcel::{Parcel, unpack};
-use crate::watch::Watch;
-use crate::worker::Packed;
-use gyration_study::{Progress, Row, Shard, Source, Study, Table, TableLock, Watcher, execute};
+use crate::worker::StudyParts;
+use gyration_study::{Row, Shard, Source, Study, Table, TableLock, execute};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyDict;
@@ -76,7 +76,7 @@ impl Work {
     }
 
     #[getter]
-    fn source(&self) -> Packed {
+    fn source(&self) -> StudyParts {
         let Source { name, text, base, overrides } = self.study.source().clone();
         (name, text, elsewhere(&base), overrides, self.study.fingerprint().to_owned())
     }
@@ -99,15 +99,15 @@ impl Work {
     /// Makes what is missing on threads of this process.
     fn execute(&mut self, py: Python<'_>, threads: Option<i64>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let threads = workers(threads)?;
-        let mut watch = Watch::new(progress)?.of_runs();
+        let mut monitor = PythonMonitor::new(progress)?.of_runs();
         let Self { study, table, folder, .. } = self;
         let table = table.as_mut().ok_or_else(closed)?;
-        let done = py.detach(|| execute(study, table, threads, &mut Told(&mut watch)));
+        let done = py.detach(|| execute(study, table, threads, &mut monitor));
         let message = format!(
             "finished rows are kept; go on with gyration.study(..., output={:?}, resume=True)",
             folder.display().to_string()
         );
-        watch.finish(py).map_err(|error| errors::interrupted(py, error, &message))?;
+        monitor.finish(py).map_err(|error| errors::interrupted(py, error, &message))?;
         done.map_err(errors::study)?;
         Ok(())
     }
@@ -184,14 +184,5 @@ impl Lock {
     /// Leaves it to the process from which this one was forked.
     fn leave(&self) {
         self.0.leave();
-    }
-}
-
-/// Tells Python of progress.
-struct Told<'a>(&'a mut Watch);
-
-impl Watcher for Told<'_> {
-    fn look(&mut self, progress: &Progress) -> bool {
-        !self.0.ask(progress.done as f64, progress.total as f64)
     }
 }

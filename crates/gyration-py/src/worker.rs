@@ -8,8 +8,8 @@
 //! and travel as bytes, beside the rows.
 
 use crate::errors;
+use crate::monitor::PythonMonitor;
 use crate::parcel::{Parcel, pack};
-use crate::watch::Watch;
 use gyration_scene::LoadError;
 use gyration_study::{Recordings, Source, Study, StudyError, Worker};
 use pyo3::prelude::*;
@@ -20,10 +20,10 @@ use tempfile::TempDir;
 
 /// What another process needs to open a study again: name, text, folder, changes; and the word that tells it from every
 /// other, with the files that it refers to and the version of the program.
-pub type Packed = (String, String, PathBuf, Vec<String>, String);
+pub type StudyParts = (String, String, PathBuf, Vec<String>, String);
 
 /// The study that this process worked for last.
-static LAST: Mutex<Option<(Packed, Arc<Study>)>> = Mutex::new(None);
+static LAST: Mutex<Option<(StudyParts, Arc<Study>)>> = Mutex::new(None);
 
 /// What runs leave: a line of JSON each, and the recordings that the study wants of them.
 type Made<Bytes> = (Vec<String>, Vec<Parcel<Bytes>>);
@@ -31,7 +31,7 @@ type Made<Bytes> = (Vec<String>, Vec<Parcel<Bytes>>);
 /// The rows of some runs as lines of JSON, and their recordings, computed without the lock: what a worker does.
 #[pyfunction]
 #[pyo3(name = "_study_rows")]
-pub fn study_rows(py: Python<'_>, source: Packed, numbers: Vec<u64>) -> PyResult<Made<Py<PyBytes>>> {
+pub fn study_rows(py: Python<'_>, source: StudyParts, numbers: Vec<u64>) -> PyResult<Made<Py<PyBytes>>> {
     let study = py.detach(|| again(source)).map_err(|wrong| match wrong {
         Wrong::File(error) => errors::study_file(error),
         Wrong::Other => errors::study_said(OTHER),
@@ -40,9 +40,9 @@ pub fn study_rows(py: Python<'_>, source: Packed, numbers: Vec<u64>) -> PyResult
         Recordings::None => None,
         Recordings::Failures | Recordings::All => Some(temporary()?),
     };
-    let mut watch = Watch::new(None)?;
-    let made = py.detach(|| make(&study, &numbers, folder.as_ref().map(TempDir::path), &mut watch));
-    watch.finish(py)?;
+    let mut monitor = PythonMonitor::new(None)?;
+    let made = py.detach(|| make(&study, &numbers, folder.as_ref().map(TempDir::path), &mut monitor));
+    monitor.finish(py)?;
     let (lines, parcels) = made.map_err(errors::study)?;
     let bytes = |(path, content): (String, Vec<u8>)| (path, PyBytes::new(py, &content).unbind());
     let parcels = parcels.into_iter().map(|(run, files)| (run, files.into_iter().map(bytes).collect()));
@@ -55,11 +55,16 @@ fn temporary() -> PyResult<TempDir> {
 }
 
 /// Makes runs one after the other, until there are no more or Python asks to stop.
-fn make(study: &Study, numbers: &[u64], folder: Option<&Path>, watch: &mut Watch) -> Result<Made<Vec<u8>>, StudyError> {
+fn make(
+    study: &Study,
+    numbers: &[u64],
+    folder: Option<&Path>,
+    monitor: &mut PythonMonitor,
+) -> Result<Made<Vec<u8>>, StudyError> {
     let worker = folder.map_or_else(Worker::new, |folder| Worker::new().recording_into(folder));
     let (mut lines, mut parcels) = (Vec::with_capacity(numbers.len()), Vec::new());
     for run in numbers.iter().copied().filter(|run| *run < study.runs()) {
-        if !watch.ask(0.0, 1.0) {
+        if !monitor.ask(0.0, 1.0) {
             break;
         }
         // Nobody stops this worker: there is a row.
@@ -80,18 +85,18 @@ enum Wrong {
 }
 
 /// The study, from what was sent; workers are asked about one study over and over.
-fn again(packed: Packed) -> Result<Arc<Study>, Wrong> {
+fn again(parts: StudyParts) -> Result<Arc<Study>, Wrong> {
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((known, study)) = &*last
-        && *known == packed
+        && *known == parts
     {
         return Ok(study.clone());
     }
-    let (name, text, base, overrides, fingerprint) = packed.clone();
+    let (name, text, base, overrides, fingerprint) = parts.clone();
     let study = Arc::new(Study::again(&Source { name, text, base, overrides }).map_err(Wrong::File)?);
     if study.fingerprint() != fingerprint {
         return Err(Wrong::Other);
     }
-    *last = Some((packed, study.clone()));
+    *last = Some((parts, study.clone()));
     Ok(study)
 }

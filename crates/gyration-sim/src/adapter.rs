@@ -5,7 +5,7 @@
 //! atol is a fraction of the body's size, of 1 for a rotation, for P and for G, and of the body's own speed scale. One
 //! step may spend a tenth of either.
 
-use crate::resistance::known;
+use crate::resistance::check_resistances;
 use gyration::Inadmissible;
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
@@ -67,7 +67,7 @@ impl<'a> ModelSystem<'a> {
     /// # Errors
     /// [`Inadmissible`] if the start is outside the model.
     pub fn new(model: &'a Model, start: &State, tolerance: Tolerance) -> Result<Self, Inadmissible> {
-        known(model)?;
+        check_resistances(model)?;
         let mut workspace = Workspace::default();
         let mut slopes = vec![0.0; model.dimension()];
         let mut powers = vec![0.0; model.works().len()];

@@ -12,7 +12,7 @@
 //! foremost place, and is followed in eighths of its period where it may meet the body. A body at rest, or one that
 //! leaves, is not held up. Steps are cut by this and never lengthened.
 
-use crate::views::View;
+use crate::step_end::StepEnd;
 use gyration::contact::RelativeMotion;
 use gyration::fluid::Fluid;
 use gyration::model::Model;
@@ -49,16 +49,16 @@ struct Approach<'a> {
 }
 
 /// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
-pub(crate) fn horizon(model: &Model, time: f64, views: &[View], radii: &[f64], longest: f64) -> f64 {
+pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64], longest: f64) -> f64 {
     let mut step = next_kink(model, time).map_or(longest, |kink| longest.min(kink - time));
     for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
         step = step.min(DRIVE_PART / frequency);
     }
-    for ((body, view), radius) in model.bodies.iter().zip(views).zip(radii) {
+    for ((body, end), radius) in model.bodies.iter().zip(ends).zip(radii) {
         let Some(surface) = &body.surface else { continue };
         for contact in &body.contacts {
             let support = &model.supports[contact.support()];
-            let approach = Approach::of(model, contact.support(), time, view, surface, *radius);
+            let approach = Approach::of(model, contact.support(), time, end, surface, *radius);
             step = step.min(match support.motion {
                 SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
                     let near = surface.smallest_gap(&approach.field).0 < body.size;
@@ -93,8 +93,8 @@ fn reach(support: &Support) -> f64 {
 }
 
 impl<'a> Approach<'a> {
-    fn of(model: &Model, index: usize, time: f64, view: &View, surface: &'a Surface, radius: f64) -> Self {
-        let (support, motion) = (&model.supports[index], &view.motion);
+    fn of(model: &Model, index: usize, time: f64, end: &StepEnd, surface: &'a Surface, radius: f64) -> Self {
+        let (support, motion) = (&model.supports[index], &end.motion);
         let mut field = support.gap_field(&motion.placement, time);
         let mut velocity = RelativeMotion::to(support, &motion.velocity, time).velocity;
         if let SupportMotion::Oscillation { .. } = support.motion {
@@ -103,11 +103,11 @@ impl<'a> Approach<'a> {
         }
         let normal: &Vec3 = &support.normal;
         let rate = GapField { height: normal.dot(&velocity), direction: motion.velocity.gradient_rate.tr_mul(normal) };
-        let stretching = view.stretching.map_or(0.0, |stretching| stretching.tr_mul(normal).norm() * radius);
-        let acceleration = (-view.acceleration.dot(normal)).max(0.0) + stretching;
+        let stretching = end.stretching.map_or(0.0, |stretching| stretching.tr_mul(normal).norm() * radius);
+        let acceleration = (-end.acceleration.dot(normal)).max(0.0) + stretching;
         let gradient = &motion.placement.gradient;
         // No point is farther from the centre than |P| times its distance in the reference shape.
-        let (radius, growth, spin) = match view.stretching {
+        let (radius, growth, spin) = match end.stretching {
             None => (radius, 0.0, motion.angular_velocity().norm()),
             Some(_) => {
                 let (size, rate) = (gradient.norm(), motion.velocity.gradient_rate.norm());

@@ -4,12 +4,12 @@
 //! Model, State → Simulation::run → Sink → recording
 //!     step = stepper(rates, jacobian)            adapter.rs shows a model to a stepper
 //!     samples and events from the dense output   rows.rs, events.rs
-//!     audit, next sample, rest                   tally.rs: with the stepper's memory, the checkpoint
+//!     audit, next sample, rest                   run_state.rs: with the stepper's memory, the checkpoint
 //! ```
 
 pub mod adapter;
-mod by_hand;
 mod detached;
+mod detection;
 pub mod events;
 pub mod format;
 mod horizon;
@@ -23,19 +23,19 @@ pub mod replay;
 pub mod resistance;
 pub mod rows;
 mod run;
+mod run_state;
 pub mod sensitivity;
+mod step_end;
+mod stepping;
 mod summary;
 pub mod survey;
-mod tally;
-mod views;
-mod watch;
 
 pub use adapter::Tolerance;
-pub use by_hand::{HandStepper, Refusal};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
 pub use ports::{Monitor, Progress, RunError, Sink};
 pub use record::{Job, MemorySink, Provenance, Recorded, Unwatched};
 pub use resistance::{complete, completed, open};
 pub use run::Simulation;
+pub use stepping::{Refusal, SteppedRun};
 pub use summary::{BodySummary, LedgerSummary, RunSummary};

@@ -11,34 +11,39 @@ use crate::outcome::{Outcome, Stop};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::rows::{Fields, RowScratch};
-use crate::tally::{DISSIPATION, Tally};
-use crate::views::{self, View};
+use crate::run_state::{DISSIPATION, RunState};
+use crate::step_end::{self, StepEnd};
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{Integrator, Statistics, StepReport, System as _};
 
-/// A run under way.
+/// A run under way: a model as its stepper sees it, and the run.
 pub struct Simulation<'a> {
     pub(crate) system: ModelSystem<'a>,
-    pub(crate) integrator: Integrator,
-    pub(crate) plan: RunPlan,
-    pub(crate) tally: Tally,
-    /// The bodies after the last step.
-    pub(crate) views: Vec<View>,
+    pub(crate) run: Run,
+}
+
+/// A run without its model.
+pub(crate) struct Run {
+    pub integrator: Integrator,
+    pub plan: RunPlan,
+    pub state: RunState,
+    /// The bodies at the end of the last step.
+    pub step_ends: Vec<StepEnd>,
     /// A state within the last step; scratch between samples.
-    pub(crate) sampled: State,
+    pub sampled: State,
     /// |f| of the contacts of each body after the last step [N].
-    pub(crate) forces: Vec<f64>,
+    pub forces: Vec<f64>,
     /// Scratch: the events of a step.
-    pub(crate) found: Vec<Event>,
+    pub found: Vec<Event>,
     /// Since when each signal of each body is known within the step [s].
-    pub(crate) since: Vec<[f64; 3]>,
+    pub since: Vec<[f64; 3]>,
     /// What the rows hold, and scratch for them.
-    pub(crate) fields: Fields,
-    pub(crate) rows: RowScratch,
+    pub fields: Fields,
+    pub rows: RowScratch,
     /// The time of the last row [s].
-    pub(crate) recorded: f64,
+    pub recorded: f64,
 }
 
 impl<'a> Simulation<'a> {
@@ -49,13 +54,11 @@ impl<'a> Simulation<'a> {
     pub fn new(model: &'a Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
         let system = ModelSystem::new(model, start, plan.tolerance)
             .map_err(|left| RunError::Start(Stop::by_inadmissible(model, start.time, &left)))?;
-        let integrator = Integrator::new(start.time, &start.bodies, &start.works, plan.options);
-        let mut this = Self {
-            system,
-            integrator,
+        let run = Run {
+            integrator: Integrator::new(start.time, &start.bodies, &start.works, plan.options),
             plan,
-            tally: Tally::new(model.bodies.len()),
-            views: Vec::new(),
+            state: RunState::new(model.bodies.len()),
+            step_ends: Vec::new(),
             sampled: start.clone(),
             forces: Vec::new(),
             found: Vec::new(),
@@ -64,7 +67,8 @@ impl<'a> Simulation<'a> {
             rows: RowScratch::default(),
             recorded: f64::NEG_INFINITY,
         };
-        this.look();
+        let mut this = Self { system, run };
+        this.read_step_end();
         Ok(this)
     }
 
@@ -74,38 +78,38 @@ impl<'a> Simulation<'a> {
     /// [`RunError::Checkpoint`] if the bytes are not a checkpoint of this scene.
     pub fn resume(model: &'a Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
         let mut this = Self::new(model, start, plan)?;
-        let (tally, memory) = Tally::restore(checkpoint).ok_or_else(|| {
+        let (state, memory) = RunState::restore(checkpoint).ok_or_else(|| {
             RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into())
         })?;
-        this.integrator = Integrator::resume(&memory, plan.options)?;
-        this.tally = tally;
-        this.recorded = this.sample_time(this.tally.next_sample.saturating_sub(1));
-        this.look();
+        this.run.integrator = Integrator::resume(&memory, plan.options)?;
+        this.run.state = state;
+        this.run.recorded = this.sample_time(this.run.state.next_sample.saturating_sub(1));
+        this.read_step_end();
         Ok(this)
     }
 
-    /// The audit so far.
-    pub fn tally(&self) -> &Tally {
-        &self.tally
+    /// Next sample, audit and events so far.
+    pub fn run_state(&self) -> &RunState {
+        &self.run.state
     }
 
     /// The counters so far.
     pub fn statistics(&self) -> &Statistics {
-        self.integrator.statistics()
+        self.run.integrator.statistics()
     }
 
     /// The state after the last step.
     pub fn state(&self) -> State {
         State {
-            time: self.integrator.time(),
-            bodies: self.integrator.state().to_vec(),
-            works: self.integrator.quadratures().to_vec(),
+            time: self.run.integrator.time(),
+            bodies: self.run.integrator.state().to_vec(),
+            works: self.run.integrator.quadratures().to_vec(),
         }
     }
 
     /// A checkpoint after the last step.
     pub fn checkpoint(&self) -> Vec<u8> {
-        self.tally.checkpoint(&self.integrator.memory())
+        self.run.state.checkpoint(&self.run.integrator.memory())
     }
 
     /// Records the row t = 0.
@@ -117,13 +121,13 @@ impl<'a> Simulation<'a> {
         if let Err(stop) = self.record(sink)? {
             return Err(RunError::Start(stop));
         }
-        self.tally.next_sample = 1;
+        self.run.state.next_sample = 1;
         self.find_forces();
-        for body in 0..self.views.len() {
-            self.tally.signals[body] = self.signals(body);
+        for body in 0..self.run.step_ends.len() {
+            self.run.state.signals[body] = self.signals(body);
         }
         if self.is_slow() {
-            self.tally.slow_since = self.integrator.time();
+            self.run.state.slow_since = self.run.integrator.time();
         }
         Ok(())
     }
@@ -150,7 +154,7 @@ impl<'a> Simulation<'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Option<Outcome>, RunError> {
         let model = self.system.model();
-        if self.integrator.time() >= self.plan.end {
+        if self.run.integrator.time() >= self.run.plan.end {
             return Ok(Some(Outcome::Completed));
         }
         let report = match self.step(sink)? {
@@ -164,9 +168,9 @@ impl<'a> Simulation<'a> {
             self.record_last(sink)?.ok();
             return Ok(Some(Outcome::AtRest { time: report.end }));
         }
-        let (tally, integrator) = (&self.tally, &self.integrator);
-        sink.step_end(&|| tally.checkpoint(&integrator.memory()))?;
-        let (time, end) = (report.end, self.plan.end);
+        let (state, integrator) = (&self.run.state, &self.run.integrator);
+        sink.step_end(&|| state.checkpoint(&integrator.memory()))?;
+        let (time, end) = (report.end, self.run.plan.end);
         let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
         let asked = monitor.after_step(&progress).filter(|_| time < end);
         Ok(asked.map(|reason| Outcome::Stopped(Stop::by_request(time, reason))))
@@ -175,41 +179,41 @@ impl<'a> Simulation<'a> {
     /// Makes one step and finds its events.
     pub(crate) fn step(&mut self, sink: &mut dyn Sink) -> Result<Result<StepReport, Stop>, RunError> {
         let (target, before) = (self.target(), self.dissipation());
-        let report = match self.integrator.step(&mut self.system, target) {
+        let report = match self.run.integrator.step(&mut self.system, target) {
             Ok(report) => report,
             Err(failure) => return Ok(Err(Stop::by_failure(self.system.model(), &failure))),
         };
-        self.look();
-        self.tally.largest_projection = self.tally.largest_projection.max(report.projection);
-        self.tally.note_dissipation(before, self.dissipation());
+        self.read_step_end();
+        self.run.state.largest_projection = self.run.state.largest_projection.max(report.projection);
+        self.run.state.note_dissipation(before, self.dissipation());
         self.find_events(&report, sink)?;
         Ok(Ok(report))
     }
 
-    /// Takes note of a change of the model.
-    pub(crate) fn renew(&mut self) -> Result<(), Stop> {
+    /// Restarts the stepper after a change of the model.
+    pub(crate) fn restart(&mut self) -> Result<(), Stop> {
         let model = self.system.model();
-        self.integrator.restart(&mut self.system).map_err(|failure| Stop::by_failure(model, &failure))?;
+        self.run.integrator.restart(&mut self.system).map_err(|failure| Stop::by_failure(model, &failure))?;
         // Before the first step the rates at the start stand in the system.
-        let (rates, _) = self.integrator.rates();
-        views::renew(&mut self.views, model, self.integrator.state(), rates);
+        let (rates, _) = self.run.integrator.rates();
+        step_end::read(&mut self.run.step_ends, model, self.run.integrator.state(), rates);
         Ok(())
     }
 
     /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time
     /// at which a support could be reached.
     fn target(&self) -> f64 {
-        let time = self.integrator.time();
-        let mut end = self.plan.end;
-        if let Some(rest) = self.plan.stop_at_rest
-            && self.tally.slow_since.is_finite()
+        let time = self.run.integrator.time();
+        let mut end = self.run.plan.end;
+        if let Some(rest) = self.run.plan.stop_at_rest
+            && self.run.state.slow_since.is_finite()
         {
-            end = end.min((self.tally.slow_since + rest.hold).max(time));
+            end = end.min((self.run.state.slow_since + rest.hold).max(time));
         }
         if end <= time {
-            end = self.plan.end;
+            end = self.run.plan.end;
         }
-        let horizon = horizon(self.system.model(), time, &self.views, self.system.radii(), end - time);
+        let horizon = horizon(self.system.model(), time, &self.run.step_ends, self.system.radii(), end - time);
         let target = time + horizon;
         // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
         if target > time { target.min(end) } else { end }
@@ -223,20 +227,20 @@ impl<'a> Simulation<'a> {
 
     /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
     fn sample_time(&self, k: u64) -> f64 {
-        let time = k as f64 * self.plan.sample;
-        if (time - self.plan.end).abs() <= 1e-9 * self.plan.sample { self.plan.end } else { time }
+        let time = k as f64 * self.run.plan.sample;
+        if (time - self.run.plan.end).abs() <= 1e-9 * self.run.plan.sample { self.run.plan.end } else { time }
     }
 
     /// Records the samples that fall into the last step, and the end; a sample outside the model is a stop.
     fn sample_step(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        while self.sample_time(self.tally.next_sample) <= report.end {
-            self.interpolate(self.sample_time(self.tally.next_sample));
+        while self.sample_time(self.run.state.next_sample) <= report.end {
+            self.interpolate(self.sample_time(self.run.state.next_sample));
             if let Err(stop) = self.record(sink)? {
                 return Ok(Err(stop));
             }
-            self.tally.next_sample += 1;
+            self.run.state.next_sample += 1;
         }
-        if report.end >= self.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
+        if report.end >= self.run.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
     }
 
     /// Records the state after the last step, unless it was just sampled.
@@ -244,90 +248,90 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`RunError::Record`] if the row cannot be stored; within, a stop if the state is outside the model.
     pub fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        if self.recorded >= self.integrator.time() {
+        if self.run.recorded >= self.run.integrator.time() {
             return Ok(Ok(()));
         }
         self.sample_end();
         self.record(sink)
     }
 
-    /// Renews what is known of the bodies after a step, or before the first.
-    pub(crate) fn look(&mut self) {
-        let started = self.integrator.statistics().accepted() > 0;
-        let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
-        views::renew(&mut self.views, self.system.model(), self.integrator.state(), rates);
+    /// Reads the bodies at the end of the last step, or at the start.
+    pub(crate) fn read_step_end(&mut self) {
+        let started = self.run.integrator.statistics().accepted() > 0;
+        let rates = if started { self.run.integrator.rates().0 } else { self.system.first_rates() };
+        step_end::read(&mut self.run.step_ends, self.system.model(), self.run.integrator.state(), rates);
     }
 
     /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
     fn dissipation(&self) -> [f64; 2] {
-        let entries = self.system.model().works().iter().zip(self.integrator.quadratures());
+        let entries = self.system.model().works().iter().zip(self.run.integrator.quadratures());
         DISSIPATION.map(|work| entries.clone().find(|(entry, _)| **entry == work).map_or(0.0, |(_, value)| *value))
     }
 
     /// Samples the state after the last step.
     pub(crate) fn sample_end(&mut self) {
-        self.sampled.time = self.integrator.time();
-        self.sampled.bodies.copy_from_slice(self.integrator.state());
-        self.sampled.works.copy_from_slice(self.integrator.quadratures());
+        self.run.sampled.time = self.run.integrator.time();
+        self.run.sampled.bodies.copy_from_slice(self.run.integrator.state());
+        self.run.sampled.works.copy_from_slice(self.run.integrator.quadratures());
     }
 
     /// The state at a time within the last step.
     pub(crate) fn interpolate(&mut self, time: f64) {
-        if time >= self.integrator.time() {
+        if time >= self.run.integrator.time() {
             return self.sample_end();
         }
-        self.sampled.time = time;
-        let State { bodies, works, .. } = &mut self.sampled;
-        self.integrator.interpolate(time, bodies, works);
+        self.run.sampled.time = time;
+        let State { bodies, works, .. } = &mut self.run.sampled;
+        self.run.integrator.interpolate(time, bodies, works);
         // Between the ends of a step the interpolant is off its manifold by its error.
         self.system.project(time, bodies, works);
     }
 
     /// Records `sampled` and audits it, unless it is outside the model.
     fn record(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        let (model, time) = (self.system.model(), self.sampled.time);
-        let first = self.tally.next_sample == 0;
-        let initial = (!first).then_some(self.tally.initial_energy);
+        let (model, time) = (self.system.model(), self.run.sampled.time);
+        let first = self.run.state.next_sample == 0;
+        let initial = (!first).then_some(self.run.state.initial_energy);
         let viscous = self.system.viscous_energy();
         let workspace = self.system.workspace();
-        let audit = match self.fields.fill(model, workspace, &self.sampled, initial, &mut self.rows) {
+        let audit = match self.run.fields.fill(model, workspace, &self.run.sampled, initial, &mut self.run.rows) {
             Ok(audit) => audit,
             Err(left) => return Ok(Err(Stop::by_inadmissible(model, time, &left))),
         };
         if !audit.energy.is_finite() {
             return Ok(Err(Stop::by_infinite_energy(time)));
         }
-        sink.row(time, &self.rows.row)?;
-        self.recorded = time;
-        let tally = &mut self.tally;
+        sink.row(time, &self.run.rows.row)?;
+        self.run.recorded = time;
+        let state = &mut self.run.state;
         if first {
-            tally.initial_energy = audit.energy;
+            state.initial_energy = audit.energy;
         }
-        tally.energy_in_play = tally.energy_in_play.max(audit.kinetic).max(audit.exchanged).max(viscous);
-        tally.largest_residual = tally.largest_residual.max(audit.residual.abs());
-        tally.smallest_gap = tally.smallest_gap.min(audit.smallest_gap);
+        state.energy_in_play = state.energy_in_play.max(audit.kinetic).max(audit.exchanged).max(viscous);
+        state.largest_residual = state.largest_residual.max(audit.residual.abs());
+        state.smallest_gap = state.smallest_gap.min(audit.smallest_gap);
         Ok(Ok(()))
     }
 
     /// Whether every body's fastest material point is slower than the speed of rest.
     fn is_slow(&self) -> bool {
-        let Some(rest) = self.plan.stop_at_rest else { return false };
+        let Some(rest) = self.run.plan.stop_at_rest else { return false };
         let bodies = &self.system.model().bodies;
         // The centre is never the fastest: looked at first, it spares the search in a body that moves.
-        let speed = |view: &View| view.motion.velocity.velocity.norm();
-        self.views.iter().all(|view| speed(view) < rest.speed)
-            && bodies.iter().zip(&self.views).all(|(body, view)| fastest_speed(body, &view.motion) < rest.speed)
+        let speed = |end: &StepEnd| end.motion.velocity.velocity.norm();
+        self.run.step_ends.iter().all(|view| speed(view) < rest.speed)
+            && bodies.iter().zip(&self.run.step_ends).all(|(body, end)| fastest_speed(body, &end.motion) < rest.speed)
     }
 
     /// Whether every body has now been slow for long enough.
     fn has_come_to_rest(&mut self, report: &StepReport) -> bool {
         let slow = self.is_slow();
         if !slow {
-            self.tally.slow_since = f64::NAN;
-        } else if self.tally.slow_since.is_nan() {
-            self.tally.slow_since = report.end;
+            self.run.state.slow_since = f64::NAN;
+        } else if self.run.state.slow_since.is_nan() {
+            self.run.state.slow_since = report.end;
         }
         // The target of the step was slow_since + hold, whatever the rounding of the difference.
-        slow && self.plan.stop_at_rest.is_some_and(|rest| report.end >= self.tally.slow_since + rest.hold)
+        slow && self.run.plan.stop_at_rest.is_some_and(|rest| report.end >= self.run.state.slow_since + rest.hold)
     }
 }

@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod by_hand;
 mod deforming;
 mod dissipation;
 mod modes;
@@ -13,4 +12,5 @@ mod run_loop;
 mod runs;
 mod sensitivities;
 mod short_range;
+mod stepping;
 mod surfaces;

@@ -6,7 +6,7 @@
 //! `GYRATION_DUMP=FOLDER` writes the scenes there.
 
 use crate::random;
-use crate::random::verdict::{Seen, run};
+use crate::random::verdict::{RunFigures, run};
 use gyration_scene::Scene;
 use gyration_sim::{Outcome, Reason};
 use std::collections::BTreeMap;
@@ -36,23 +36,23 @@ fn cases() -> Range<u64> {
 }
 
 /// The outcome in a word, or what is wrong with the run.
-fn judge(seen: &Seen, rtol: f64) -> Result<&'static str, String> {
-    if seen.gap <= 0.0 {
-        return Err(format!("overlap: a gap of {:e} sizes", seen.gap));
+fn verdict(figures: &RunFigures, rtol: f64) -> Result<&'static str, String> {
+    if figures.gap <= 0.0 {
+        return Err(format!("overlap: a gap of {:e} sizes", figures.gap));
     }
-    if seen.residual > LEDGER * rtol + rounding(seen.gap) {
-        return Err(format!("the ledger is open by {:e} of the energy in play at rtol {rtol:e}", seen.residual));
+    if figures.residual > LEDGER * rtol + rounding(figures.gap) {
+        return Err(format!("the ledger is open by {:e} of the energy in play at rtol {rtol:e}", figures.residual));
     }
-    match &seen.outcome {
+    match &figures.outcome {
         Outcome::Completed => Ok("completed"),
         Outcome::AtRest { .. } => Ok("at rest"),
         Outcome::Stopped(stop) if stop.reason == Reason::Interrupted => Ok("unfinished"),
         Outcome::Stopped(stop) if stop.reason == Reason::SpringCollapsed => Ok("spring collapsed"),
         // Either the field is too weak to keep the body from coming nearer than numbers can tell, or something is
         // wrong.
-        Outcome::Stopped(_) if seen.barrier < 1.0 && seen.gap < NEAR => Ok("touched"),
+        Outcome::Stopped(_) if figures.barrier < 1.0 && figures.gap < NEAR => Ok("touched"),
         Outcome::Stopped(stop) => {
-            let Seen { gap, barrier, .. } = seen;
+            let RunFigures { gap, barrier, .. } = figures;
             Err(format!("unexplained stop, {:?}: {} (gap {gap:e} sizes, barrier {barrier:e})", stop.reason, stop.what))
         }
     }
@@ -70,19 +70,19 @@ fn random_scenes_end_with_an_outcome_a_closed_ledger_and_no_overlap() {
         }
         let scene = Scene::parse("scene.json", &text, folder.path(), &[]).unwrap_or_else(|e| panic!("{case}: {e}"));
         let rtol = scene.built().plan.rtol;
-        let verdict = run(&scene).map_err(|error| error.to_string()).and_then(|seen| {
-            worst = worst.max(seen.residual / (rtol + rounding(seen.gap)));
-            evaluations += seen.evaluations;
+        let verdict = run(&scene).map_err(|error| error.to_string()).and_then(|figures| {
+            worst = worst.max(figures.residual / (rtol + rounding(figures.gap)));
+            evaluations += figures.evaluations;
             println!(
                 "case {case}: {} steps, {} evaluations, gap {:.1e} sizes, residual {:.1e} rtol, barrier {:.1e}: {}",
-                seen.steps,
-                seen.evaluations,
-                seen.gap,
-                seen.residual / rtol,
-                seen.barrier,
-                seen.outcome.in_words()
+                figures.steps,
+                figures.evaluations,
+                figures.gap,
+                figures.residual / rtol,
+                figures.barrier,
+                figures.outcome.in_words()
             );
-            judge(&seen, rtol)
+            verdict(&figures, rtol)
         });
         match verdict {
             Ok(outcome) => *outcomes.entry(outcome).or_insert(0) += 1,
@@ -99,10 +99,10 @@ fn random_scenes_end_with_an_outcome_a_closed_ledger_and_no_overlap() {
 /// Runs a scene within the evaluations that a random one gets, and asks that it ends by itself.
 fn assert_ends_by_itself(text: &str) {
     let scene = Scene::parse("scene.toml", text, std::path::Path::new(""), &[]).unwrap();
-    let seen = run(&scene).unwrap();
-    let words = seen.outcome.in_words();
-    let unfinished = matches!(&seen.outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted);
-    assert!(!unfinished, "{} steps, {} evaluations, then {words}", seen.steps, seen.evaluations);
+    let figures = run(&scene).unwrap();
+    let words = figures.outcome.in_words();
+    let unfinished = matches!(&figures.outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted);
+    assert!(!unfinished, "{} steps, {} evaluations, then {words}", figures.steps, figures.evaluations);
 }
 
 /// The ball rattles ever faster, its frequency grows like gap^−7/2, and t = 1 is never reached: 31 000 steps to 0.93 s.

@@ -3,7 +3,8 @@
 //! `cargo run --release -p gyration-study --example throughput -- STUDY RUNS THREADS` makes the first RUNS runs of a
 //! study in a temporary folder; without a study, of a ball in free fall for one step.
 
-use gyration_study::{Shard, Study, Table, Unwatched, execute};
+use gyration_sim::Unwatched;
+use gyration_study::{Shard, Study, Table, execute};
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::path::Path;

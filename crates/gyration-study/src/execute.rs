@@ -8,20 +8,21 @@ use crate::run::Worker;
 use crate::study::Study;
 use crate::table::Table;
 use crate::value::{Row, Value};
+use gyration_sim::Unwatched;
 use gyration_threads::share;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Watches a study, and may ask it to stop.
-pub trait Watcher {
+pub trait StudyMonitor {
     /// Called now and then; true asks to stop: runs that are under way are given up, and come again when it is resumed.
-    fn look(&mut self, progress: &Progress) -> bool;
+    fn after_rows(&mut self, progress: &StudyProgress) -> bool;
 }
 
 /// Where a study stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
+pub struct StudyProgress {
     /// Rows of the table, those of earlier times included.
     pub done: u64,
     /// Rows that it will have.
@@ -32,12 +33,8 @@ pub struct Progress {
     pub early: u64,
 }
 
-/// Watches nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Unwatched;
-
-impl Watcher for Unwatched {
-    fn look(&mut self, _: &Progress) -> bool {
+impl StudyMonitor for Unwatched {
+    fn after_rows(&mut self, _: &StudyProgress) -> bool {
         false
     }
 }
@@ -50,18 +47,18 @@ pub fn execute(
     study: &Study,
     table: &mut Table,
     threads: NonZeroUsize,
-    watcher: &mut dyn Watcher,
+    monitor: &mut dyn StudyMonitor,
 ) -> Result<bool, StudyError> {
     let stop = Arc::new(AtomicBool::new(false));
     let worker = Worker::new().recording_into(&table.recordings()).stopped_by(Arc::clone(&stop));
-    let mut progress = Progress { done: table.rows(), total: table.runs(), made: 0, early: 0 };
+    let mut progress = StudyProgress { done: table.rows(), total: table.runs(), made: 0, early: 0 };
     let mut written = Ok(());
     let run = |run| study.attempt(run, &worker).transpose();
     share(table.missing(), threads, &stop, run, |rows| {
         if written.is_ok() {
             written = write(table, rows, &mut progress);
         }
-        if watcher.look(&progress) || written.is_err() {
+        if monitor.after_rows(&progress) || written.is_err() {
             stop.store(true, Ordering::Relaxed);
         }
     });
@@ -69,7 +66,11 @@ pub fn execute(
     table.finish()
 }
 
-fn write(table: &mut Table, rows: Vec<Result<Row, StudyError>>, progress: &mut Progress) -> Result<(), StudyError> {
+fn write(
+    table: &mut Table,
+    rows: Vec<Result<Row, StudyError>>,
+    progress: &mut StudyProgress,
+) -> Result<(), StudyError> {
     let mut fault = Ok(());
     let mut whole = Vec::with_capacity(rows.len());
     for row in rows {

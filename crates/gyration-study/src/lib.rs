@@ -31,7 +31,7 @@ mod written;
 
 pub use column::{Column, Kind};
 pub use error::StudyError;
-pub use execute::{Progress, Unwatched, Watcher, execute};
+pub use execute::{StudyMonitor, StudyProgress, execute};
 pub use gallery::studies;
 pub use keep::{Keep, Measure, Pick};
 pub use parameter::{Distribution, Parameter, Steps, Variation};

@@ -177,7 +177,7 @@ fn is_interrupted(outcome: &Outcome) -> bool {
 }
 
 fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool) -> [Value; 7] {
-    let (statistics, tally) = (simulation.statistics(), simulation.tally());
+    let (statistics, run_state) = (simulation.statistics(), simulation.run_state());
     let (name, reason) = match outcome {
         Outcome::Completed => ("completed".to_owned(), Value::Null),
         Outcome::AtRest { .. } => ("at_rest".to_owned(), Value::Null),
@@ -185,7 +185,8 @@ fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool) -> [Value; 
         Outcome::Stopped(stop) => (word(stop.reason), Value::Text(stop.what.clone())),
     };
     let count = |number: u64| Value::Integer(number as i64);
-    let residual = if tally.largest_residual == 0.0 { 0.0 } else { tally.largest_residual / tally.energy_in_play };
+    let residual =
+        if run_state.largest_residual == 0.0 { 0.0 } else { run_state.largest_residual / run_state.energy_in_play };
     [
         Value::Text(name),
         reason,

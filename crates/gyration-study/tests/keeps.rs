@@ -1,7 +1,8 @@
 //! What is kept of a run, against closed forms of free motion.
 
 use gyration_record::Recording;
-use gyration_study::{Shard, Study, Table, Unwatched, Value, execute};
+use gyration_sim::Unwatched;
+use gyration_study::{Shard, Study, Table, Value, execute};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;

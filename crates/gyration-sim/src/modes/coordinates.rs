@@ -14,6 +14,9 @@ use gyration::state::BodyMotion;
 use gyration::tensor::{Mat3, Vec3, axial, cofactor, cross_matrix};
 use nalgebra::{DMatrix, DVector};
 
+/// A part in quadrature below this is rounding.
+const IN_STEP: f64 = 1e-6;
+
 /// The maps between z and the numbers of the state.
 #[derive(Debug, Clone)]
 pub(super) struct Coordinates {
@@ -86,6 +89,21 @@ impl Coordinates {
             Some(pin) => -(gradient * pin.point),
         };
         ModeShape { translation, gradient }
+    }
+
+    /// The shape along z, scaled, with its leading entry positive, and the part in quadrature if there is one.
+    pub fn scaled_shape(
+        &self,
+        body: &Body,
+        real: &DVector<f64>,
+        imaginary: &DVector<f64>,
+    ) -> (ModeShape, Option<ModeShape>) {
+        let radius = 0.5 * body.size;
+        let shape = self.shape(body, real);
+        let factor = shape.leading(radius).signum() / shape.largest_displacement(radius);
+        let out_of_step = imaginary.norm() > IN_STEP * real.norm();
+        let quadrature = out_of_step.then(|| self.shape(body, imaginary).times(factor));
+        (shape.times(factor), quadrature)
     }
 
     /// Motions that have a name, as unit vectors of z: translations along the axes, turns about them, shears in the

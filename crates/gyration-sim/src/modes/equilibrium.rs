@@ -10,7 +10,7 @@
 
 use super::canonical::{self, Basis};
 use super::coordinates::Coordinates;
-use super::held::Held;
+use super::frozen::FrozenBody;
 use super::shape::ModeShape;
 use super::{NoRest, Rest};
 use gyration::body::BodyKind;
@@ -36,30 +36,30 @@ const AWAY: f64 = 1e6;
 const FLAT: f64 = 1e4;
 
 /// Finds the rest state.
-pub(super) fn find(held: &mut Held) -> Result<Rest, NoRest> {
-    held.accelerations(&held.start.clone())?;
-    held_at_all(held)?;
-    let mut search = Search { block: held.start.clone(), reach: 0.5 * held.body().size, last: f64::INFINITY };
+pub(super) fn find(frozen: &mut FrozenBody) -> Result<Rest, NoRest> {
+    frozen.accelerations(&frozen.start.clone())?;
+    is_supported(frozen)?;
+    let mut search = Search { block: frozen.start.clone(), reach: 0.5 * frozen.body().size, last: f64::INFINITY };
     for _ in 0..MOST {
-        let ended = search.step(held)?;
-        gone(held, &search.block)?;
+        let ended = search.step(frozen)?;
+        gone(frozen, &search.block)?;
         if ended {
-            return Ok(rest_at(held, search.block));
+            return Ok(rest_at(frozen, search.block));
         }
     }
-    let left = held.accelerations(&search.block)?;
+    let left = frozen.accelerations(&search.block)?;
     let acceleration = left.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
     Err(NoRest::NotFound { steps: MOST, acceleration })
 }
 
 /// Refuses what gravity moves on for ever: the laws push along the normals of supports alone.
-fn held_at_all(held: &Held) -> Result<(), NoRest> {
-    let body = held.body();
+fn is_supported(frozen: &FrozenBody) -> Result<(), NoRest> {
+    let body = frozen.body();
     if body.pin.is_some() || body.springs.iter().any(|spring| spring.stiffness > 0.0) {
         return Ok(());
     }
-    let normals = held.normals();
-    let mut left = held.gravity();
+    let normals = frozen.normals();
+    let mut left = frozen.gravity();
     let mut spanned: Vec<Vec3> = Vec::new();
     for normal in &normals {
         let new = spanned.iter().fold(*normal, |new, unit| new - unit * unit.dot(&new));
@@ -69,17 +69,17 @@ fn held_at_all(held: &Held) -> Result<(), NoRest> {
         }
     }
     match left.norm() {
-        rounding if rounding <= LEVEL * held.gravity().norm() => Ok(()),
+        rounding if rounding <= LEVEL * frozen.gravity().norm() => Ok(()),
         _ if normals.is_empty() => Err(NoRest::Falls),
         acceleration => Err(NoRest::Slides { along: left / acceleration, acceleration }),
     }
 }
 
 /// Refuses a body that has gone to infinity.
-fn gone(held: &Held, block: &[f64]) -> Result<(), NoRest> {
-    let (now, start) = (held.motion(block).placement, held.motion(&held.start).placement);
+fn gone(frozen: &FrozenBody, block: &[f64]) -> Result<(), NoRest> {
+    let (now, start) = (frozen.motion(block).placement, frozen.motion(&frozen.start).placement);
     let distance = (now.position - start.position).norm();
-    if distance > AWAY * held.body().size {
+    if distance > AWAY * frozen.body().size {
         return Err(NoRest::DrivenAway { distance });
     }
     let stretches = now.gradient.singular_values();
@@ -90,9 +90,9 @@ fn gone(held: &Held, block: &[f64]) -> Result<(), NoRest> {
     Ok(())
 }
 
-fn rest_at(held: &mut Held, block: Vec<f64>) -> Rest {
-    let placement = held.motion(&block).placement;
-    let stretches = match held.body().kind {
+fn rest_at(frozen: &mut FrozenBody, block: Vec<f64>) -> Rest {
+    let placement = frozen.motion(&block).placement;
+    let stretches = match frozen.body().kind {
         BodyKind::Rigid(_) => Vec3::repeat(1.0),
         BodyKind::Affine(_) | BodyKind::Contractile(_) => {
             let mut values: [f64; 3] = placement.gradient.singular_values().into();
@@ -100,8 +100,8 @@ fn rest_at(held: &mut Held, block: Vec<f64>) -> Rest {
             values.into()
         }
     };
-    let gap = held.gaps(&block).into_iter().fold(f64::INFINITY, f64::min);
-    Rest { placement, stretches, pressure: held.pressure(&block), gap, block }
+    let gap = frozen.gaps(&block).into_iter().fold(f64::INFINITY, f64::min);
+    Rest { placement, stretches, pressure: frozen.pressure(&block), gap, block }
 }
 
 struct Search {
@@ -114,22 +114,22 @@ struct Search {
 
 impl Search {
     /// Goes one step; true at the end.
-    fn step(&mut self, held: &mut Held) -> Result<bool, NoRest> {
-        let coordinates = Coordinates::at(held.body(), &self.block);
-        let force = coordinates.force(&held.accelerations(&self.block)?);
-        let stiffness = coordinates.stiffness(&held.slopes(&self.block)?);
-        let gaps = held.gaps(&self.block);
-        let length = gaps.iter().fold(held.body().size, |least, gap| least.min(*gap));
-        let way = self.direction(held, &coordinates, (&stiffness, &force), length);
-        let shape = coordinates.shape(held.body(), &way);
-        let inverse = self.inverse(held);
+    fn step(&mut self, frozen: &mut FrozenBody) -> Result<bool, NoRest> {
+        let coordinates = Coordinates::at(frozen.body(), &self.block);
+        let force = coordinates.force(&frozen.accelerations(&self.block)?);
+        let stiffness = coordinates.stiffness(&frozen.slopes(&self.block)?);
+        let gaps = frozen.gaps(&self.block);
+        let length = gaps.iter().fold(frozen.body().size, |least, gap| least.min(*gap));
+        let way = self.direction(frozen, &coordinates, (&stiffness, &force), length);
+        let shape = coordinates.shape(frozen.body(), &way);
+        let inverse = self.inverse(frozen);
         let size = (shape.translation.norm() / length).max((shape.gradient * inverse).norm());
         // Newton squares a small step: where it does not even halve, rounding is reached.
         if size == 0.0 || (size < SMALL && size > 0.5 * self.last) {
             return Ok(true);
         }
         self.last = size;
-        match self.take(held, &coordinates, (&way, &force), &gaps) {
+        match self.take(frozen, &coordinates, (&way, &force), &gaps) {
             Some(part) => self.reach *= if part == 1.0 { 2.0 } else { 0.5 },
             // No part of it is admissible or of use: at rounding.
             None if size < SMALL => return Ok(true),
@@ -138,29 +138,29 @@ impl Search {
         Ok(false)
     }
 
-    fn inverse(&self, held: &Held) -> Mat3 {
-        held.motion(&self.block).placement.gradient.try_inverse().unwrap_or_else(Mat3::identity)
+    fn inverse(&self, frozen: &FrozenBody) -> Mat3 {
+        frozen.motion(&self.block).placement.gradient.try_inverse().unwrap_or_else(Mat3::identity)
     }
 
     /// The step before it is cut.
     fn direction(
         &self,
-        held: &Held,
+        frozen: &FrozenBody,
         coordinates: &Coordinates,
         (stiffness, force): (&DMatrix<f64>, &DVector<f64>),
         length: f64,
     ) -> DVector<f64> {
         let Basis { vectors, values, zero } = canonical::eigen(stiffness);
         let along = vectors.transpose() * force;
-        let inverse = self.inverse(held);
+        let inverse = self.inverse(frozen);
         let shapes: Vec<ModeShape> =
-            vectors.column_iter().map(|vector| coordinates.shape(held.body(), &vector.into_owned())).collect();
+            vectors.column_iter().map(|vector| coordinates.shape(frozen.body(), &vector.into_owned())).collect();
         let strain = |shape: &ModeShape| (shape.gradient * inverse).norm();
         // The force that the stiffness gives over a length, or a strain, of one.
         let scale = shapes.iter().zip(&values).map(|(shape, value)| {
             value.abs() / (shape.translation.norm() / length).max(strain(shape)).max(f64::MIN_POSITIVE)
         });
-        let scale = scale.fold(held.gravity().norm() * held.body().mass.mass.sqrt(), f64::max);
+        let scale = scale.fold(frozen.gravity().norm() * frozen.body().mass.mass.sqrt(), f64::max);
         // Nor does rounding choose the side to which a body would fall.
         let free = |k: usize| values[k] <= zero && along[k].abs() <= NO_FORCE * scale;
         let per_step = |shape: &ModeShape| (shape.translation.norm() / self.reach).max(strain(shape) / LARGEST_STRAIN);
@@ -185,20 +185,20 @@ impl Search {
     /// Takes the largest part 1, ½, ¼ … of a step that is admissible and goes downhill; none if there is none.
     fn take(
         &mut self,
-        held: &mut Held,
+        frozen: &mut FrozenBody,
         coordinates: &Coordinates,
         (way, force): (&DVector<f64>, &DVector<f64>),
         gaps: &[f64],
     ) -> Option<f64> {
-        let volume = held.motion(&self.block).placement.gradient.determinant();
+        let volume = frozen.motion(&self.block).placement.gradient.determinant();
         let mut part = 1.0;
         for _ in 0..HALVINGS {
             let mut block = self.block.clone();
             coordinates.advance(&mut block, &(part * way));
-            held.project(&mut block);
-            let kept = held.motion(&block).placement.gradient.determinant() > LEAST_KEPT * volume
-                && held.gaps(&block).iter().zip(gaps).all(|(new, old)| *new > LEAST_KEPT * old);
-            if kept && let Ok(ahead) = held.accelerations(&block) {
+            frozen.project(&mut block);
+            let kept = frozen.motion(&block).placement.gradient.determinant() > LEAST_KEPT * volume
+                && frozen.gaps(&block).iter().zip(gaps).all(|(new, old)| *new > LEAST_KEPT * old);
+            if kept && let Ok(ahead) = frozen.accelerations(&block) {
                 let (before, after) = (force.dot(way), coordinates.force(&ahead).dot(way));
                 // Forces at rest are rounding; their work tells nothing.
                 if before + after >= 0.0 || self.last < SMALL {

@@ -8,13 +8,13 @@
 //! deformed area, couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the
 //! start of a run, `spectrum` solves for λ, `words` says what a mode is.
 //!
-//! Everything is about t = 0: supports and couples are held as they are then, and what the bodies' velocities would be
-//! does not matter. Nothing here steps in time.
+//! Everything is about t = 0: supports and couples are frozen as they are then, and what the bodies' velocities would
+//! be does not matter. Nothing here steps in time.
 
 mod canonical;
 mod coordinates;
 mod equilibrium;
-mod held;
+mod frozen;
 mod shape;
 mod spectrum;
 mod words;
@@ -22,12 +22,12 @@ mod words;
 pub use shape::ModeShape;
 
 use coordinates::Coordinates;
+use frozen::FrozenBody;
 use gyration::Inadmissible;
 use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
-use held::Held;
 use nalgebra::Complex;
 
 /// Where a body rests.
@@ -162,8 +162,8 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
     if !model.bodies[body].has_inertia() {
         return Err(NoRest::WithoutInertia);
     }
-    let mut held = Held::new(model, start, body);
-    equilibrium::find(&mut held)
+    let mut frozen = FrozenBody::new(model, start, body);
+    equilibrium::find(&mut frozen)
 }
 
 /// The small motions about a rest state, by frequency: those that grow first, then free, creeping, oscillating ones.
@@ -171,11 +171,11 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
 /// # Errors
 /// [`NoSpectrum`]; none for bodies of moderate numbers.
 pub fn modes(model: &Model, start: &State, body: usize, rest: &Rest) -> Result<Vec<Mode>, NoSpectrum> {
-    let mut held = Held::new(model, start, body);
-    let slopes = held.slopes(&rest.block).map_err(|_| NoSpectrum)?;
-    let coordinates = Coordinates::at(held.body(), &rest.block);
+    let mut frozen = FrozenBody::new(model, start, body);
+    let slopes = frozen.slopes(&rest.block).map_err(|_| NoSpectrum)?;
+    let coordinates = Coordinates::at(frozen.body(), &rest.block);
     let (stiffness, resistance) = (coordinates.stiffness(&slopes), coordinates.resistance(&slopes));
-    let basis = canonical::basis(&stiffness, &coordinates.patterns(held.body(), &rest.placement.gradient));
+    let basis = canonical::basis(&stiffness, &coordinates.patterns(frozen.body(), &rest.placement.gradient));
     let found = spectrum::solve(&stiffness, &resistance, &basis)?;
     let mut modes: Vec<Mode> = found
         .iter()
@@ -184,8 +184,8 @@ pub fn modes(model: &Model, start: &State, body: usize, rest: &Rest) -> Result<V
             if pair.eigenvalues[0].im == 0.0 {
                 imaginary.fill(0.0);
             }
-            let (shape, quadrature) = shape::scaled(&coordinates, held.body(), &real, &imaginary);
-            let in_words = words::of(&shape, held.body(), &rest.placement);
+            let (shape, quadrature) = coordinates.scaled_shape(frozen.body(), &real, &imaginary);
+            let in_words = words::of(&shape, frozen.body(), &rest.placement);
             Mode { eigenvalues: pair.eigenvalues, motion: pair.motion, shape, quadrature, in_words }
         })
         .collect();

@@ -1,8 +1,6 @@
 //! Shapes of modes: δp₀ and δP, so scaled that of all material points at half the body's size from its centre the
 //! fastest moves by one.
 
-use super::coordinates::Coordinates;
-use gyration::body::Body;
 use gyration::kinematics::Placement;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::{Complex, DVector};
@@ -15,9 +13,6 @@ pub struct ModeShape {
     /// δP [1/m], in the same units.
     pub gradient: Mat3,
 }
-
-/// A part in quadrature below this is rounding.
-const IN_STEP: f64 = 1e-6;
 
 impl ModeShape {
     /// The largest |δp₀ + δP X| of points at the distance `radius` [m].
@@ -39,12 +34,12 @@ impl ModeShape {
         starts.map(climb).fold(0.0, f64::max)
     }
 
-    fn times(&self, factor: f64) -> Self {
+    pub(super) fn times(&self, factor: f64) -> Self {
         Self { translation: factor * self.translation, gradient: factor * self.gradient }
     }
 
     /// The entry of the largest size: of δp₀ if the centre moves as fast as the rest, else of δP.
-    fn leading(&self, radius: f64) -> f64 {
+    pub(super) fn leading(&self, radius: f64) -> f64 {
         let largest = |entries: &[f64]| {
             let most = entries.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
             // The first of several that are as large: rounding does not choose.
@@ -62,21 +57,6 @@ pub(super) fn in_step(shape: &DVector<Complex<f64>>) -> (DVector<f64>, DVector<f
     let square: Complex<f64> = shape.iter().map(|entry| entry * entry).sum();
     let turned = shape * Complex::from_polar(1.0, -0.5 * square.arg());
     (turned.map(|entry| entry.re), turned.map(|entry| entry.im))
-}
-
-/// The shape along z, scaled, with its leading entry positive, and the part in quadrature if there is one.
-pub(super) fn scaled(
-    coordinates: &Coordinates,
-    body: &Body,
-    real: &DVector<f64>,
-    imaginary: &DVector<f64>,
-) -> (ModeShape, Option<ModeShape>) {
-    let radius = 0.5 * body.size;
-    let shape = coordinates.shape(body, real);
-    let factor = shape.leading(radius).signum() / shape.largest_displacement(radius);
-    let out_of_step = imaginary.norm() > IN_STEP * real.norm();
-    let quadrature = out_of_step.then(|| coordinates.shape(body, imaginary).times(factor));
-    (shape.times(factor), quadrature)
 }
 
 /// Of a placement, the velocity gradient that a change of P is: δP P⁻¹.

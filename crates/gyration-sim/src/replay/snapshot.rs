@@ -79,7 +79,7 @@ impl BodySnapshot<'_> {
     pub fn traction(&self, point: &Vec3, normal: &Vec3) -> Result<Vec3, ReplayError> {
         let mut traction = Vec3::zeros();
         for contact in self.contacts() {
-            let (field, relative) = self.meet(contact);
+            let (field, relative) = self.relative_to(contact);
             let gap = field.gap(point);
             if gap.is_nan() || gap <= 0.0 {
                 return Err(self.outside(contact, gap));
@@ -106,11 +106,11 @@ impl BodySnapshot<'_> {
         let mut scratch = ContactScratch::default();
         let mut tractions = vec![Vec3::zeros(); cells.len()];
         for contact in self.contacts() {
-            let (field, motion) = self.meet(contact);
+            let (field, motion) = self.relative_to(contact);
             for (cell, force) in tractions.iter_mut().enumerate() {
                 let surface = cells.over(cell, contact, &field);
-                let meeting = Meeting { surface: &surface, field, motion, deformation };
-                let loads = ContactLoads::integrate(&contact.law_set, &meeting, &mut scratch);
+                let contact_state = Meeting { surface: &surface, field, motion, deformation };
+                let loads = ContactLoads::integrate(&contact.law_set, &contact_state, &mut scratch);
                 *force += loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
             }
         }
@@ -125,7 +125,7 @@ impl BodySnapshot<'_> {
     }
 
     /// The gap to the support of a contact, and the motion relative to it.
-    fn meet(&self, contact: &Contact) -> (GapField, RelativeMotion) {
+    fn relative_to(&self, contact: &Contact) -> (GapField, RelativeMotion) {
         let support = &self.model.supports[contact.support()];
         let field = support.gap_field(&self.motion.placement, self.time);
         (field, RelativeMotion::to(support, &self.motion.velocity, self.time))

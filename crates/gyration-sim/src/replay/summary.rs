@@ -1,8 +1,7 @@
 //! The summary of a run from its recording alone.
 //!
-//! The checkpoint holds the last state and the tally of the run, from which a resumed run goes on to the same bytes:
-//! what is told of the recording is what was told when the run ended, but for the time that it took, which nothing
-//! records.
+//! The checkpoint holds the last state and the run state, from which a resumed run goes on to the same bytes: what is
+//! told of the recording is what was told when the run ended, but for the time that it took, which nothing records.
 
 use super::error::ReplayError;
 use super::rebuild;

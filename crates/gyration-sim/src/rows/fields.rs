@@ -15,7 +15,7 @@ pub(super) struct BodyField {
     pub rank: Rank,
     /// Suffixes of the CSV columns, in row-major order; none: not in the CSV.
     pub suffixes: &'static [&'static str],
-    pub value: fn(&Seen) -> Value,
+    pub value: fn(&BodyContext) -> Value,
 }
 
 /// How many numbers a quantity has.
@@ -27,7 +27,7 @@ pub(super) enum Rank {
 }
 
 /// What is known of a body.
-pub(super) struct Seen<'a> {
+pub(super) struct BodyContext<'a> {
     pub body: &'a BodyObservation,
     /// Where it was asked for.
     pub homogeneous: Option<&'a HomogeneousObservation>,
@@ -53,7 +53,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "position of the centre of mass",
         rank: Rank::Vector,
         suffixes: &["x", "y", "z"],
-        value: |seen| Value::Vector(seen.body.motion.placement.position),
+        value: |context| Value::Vector(context.body.motion.placement.position),
     },
     BodyField {
         name: "placement_gradient",
@@ -61,7 +61,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "placement gradient P; a rotation for a rigid body",
         rank: Rank::Matrix,
         suffixes: &PLACEMENT,
-        value: |seen| Value::Matrix(seen.body.motion.placement.gradient),
+        value: |context| Value::Matrix(context.body.motion.placement.gradient),
     },
     BodyField {
         name: "velocity",
@@ -69,7 +69,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "velocity of the centre of mass",
         rank: Rank::Vector,
         suffixes: &["vx", "vy", "vz"],
-        value: |seen| Value::Vector(seen.body.motion.velocity.velocity),
+        value: |context| Value::Vector(context.body.motion.velocity.velocity),
     },
     BodyField {
         name: "gradient_rate",
@@ -77,7 +77,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "rate of the placement gradient",
         rank: Rank::Matrix,
         suffixes: &RATE,
-        value: |seen| Value::Matrix(seen.body.motion.velocity.gradient_rate),
+        value: |context| Value::Matrix(context.body.motion.velocity.gradient_rate),
     },
     BodyField {
         name: CONTRACTION,
@@ -85,7 +85,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "contraction G of a contractile body; NaN for any other",
         rank: Rank::Matrix,
         suffixes: &["G_xx", "G_xy", "G_xz", "G_yx", "G_yy", "G_yz", "G_zx", "G_zy", "G_zz"],
-        value: |seen| Value::Matrix(seen.body.effort.map_or(NO_MATRIX, |effort| effort.contraction)),
+        value: |context| Value::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.contraction)),
     },
     BodyField {
         name: PRESSURE,
@@ -93,7 +93,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "pressure of an incompressible body; NaN for any other",
         rank: Rank::Scalar,
         suffixes: &["pressure"],
-        value: |seen| Value::Scalar(seen.body.pressure.unwrap_or(f64::NAN)),
+        value: |context| Value::Scalar(context.body.pressure.unwrap_or(f64::NAN)),
     },
     BodyField {
         name: GAP,
@@ -101,7 +101,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "smallest distance to a support",
         rank: Rank::Scalar,
         suffixes: &["gap"],
-        value: |seen| Value::Scalar(seen.body.gap),
+        value: |context| Value::Scalar(context.body.gap),
     },
     BodyField {
         name: CONTACT_FORCE,
@@ -109,7 +109,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "force of all contacts",
         rank: Rank::Vector,
         suffixes: &["fx", "fy", "fz"],
-        value: |seen| Value::Vector(seen.body.contact_force),
+        value: |context| Value::Vector(context.body.contact_force),
     },
     BodyField {
         name: "linear_momentum",
@@ -117,7 +117,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "linear momentum",
         rank: Rank::Vector,
         suffixes: &[],
-        value: |seen| Value::Vector(seen.body.linear_momentum),
+        value: |context| Value::Vector(context.body.linear_momentum),
     },
     BodyField {
         name: "angular_momentum",
@@ -125,7 +125,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "angular momentum about the origin",
         rank: Rank::Vector,
         suffixes: &[],
-        value: |seen| Value::Vector(seen.body.angular_momentum),
+        value: |context| Value::Vector(context.body.angular_momentum),
     },
     BodyField {
         name: "affine_momentum",
@@ -133,7 +133,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "affine momentum K = P J Pdot^T about the centre of mass",
         rank: Rank::Matrix,
         suffixes: &[],
-        value: |seen| Value::Matrix(seen.body.affine_momentum),
+        value: |context| Value::Matrix(context.body.affine_momentum),
     },
     BodyField {
         name: CONTRACTION_VELOCITY,
@@ -141,7 +141,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "contraction velocity V_G = Gdot G^-1",
         rank: Rank::Matrix,
         suffixes: &[],
-        value: |seen| Value::Matrix(seen.body.effort.map_or(NO_MATRIX, |effort| effort.velocity)),
+        value: |context| Value::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.velocity)),
     },
     BodyField {
         name: DRIVE,
@@ -149,7 +149,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "drive Q; what it takes, where the contraction is prescribed",
         rank: Rank::Matrix,
         suffixes: &[],
-        value: |seen| Value::Matrix(seen.body.effort.map_or(NO_MATRIX, |effort| effort.drive)),
+        value: |context| Value::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.drive)),
     },
 ];
 
@@ -170,7 +170,7 @@ macro_rules! extra {
             description: $description,
             rank: Rank::$rank,
             suffixes: &[],
-            value: |seen| Value::$rank(seen.homogeneous.map_or($nothing, |seen| seen.$field)),
+            value: |context| Value::$rank(context.homogeneous.map_or($nothing, |context| context.$field)),
         }
     };
 }
@@ -199,7 +199,7 @@ macro_rules! immersed {
             description: $description,
             rank: Rank::$rank,
             suffixes: &[],
-            value: |seen| Value::$rank(seen.immersed.map_or($nothing, $value)),
+            value: |context| Value::$rank(context.immersed.map_or($nothing, $value)),
         }
     };
 }
@@ -207,17 +207,17 @@ macro_rules! immersed {
 /// The fields of a recording with a body in a fluid.
 #[rustfmt::skip]
 pub(super) static IMMERSED_FIELDS: [BodyField; 11] = [
-    immersed!("drag", "N", "force of the fluid, without buoyancy", Vector, NO_VECTOR, |seen| seen.drag),
-    immersed!("rotlet", "N m", "torque of the fluid about the centre of the volume", Vector, NO_VECTOR, |seen| seen.rotlet),
-    immersed!("stresslet", "N m", "stresslet", Matrix, NO_MATRIX, |seen| seen.stresslet),
-    immersed!("particle_stress", "Pa", "particle stress, per volume of particle", Matrix, NO_MATRIX, |seen| seen.particle_stress),
-    immersed!("intrinsic_viscosity", "1", "increment of the viscosity of a dilute suspension, over that of the fluid and the volume fraction", Scalar, f64::NAN, |seen| seen.intrinsic_viscosity),
-    immersed!("normal_stress_1", "Pa", "first normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |seen| seen.normal_stress_differences[0]),
-    immersed!("normal_stress_2", "Pa", "second normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |seen| seen.normal_stress_differences[1]),
-    immersed!("dissipated_power", "W", "power that the disturbance of the flow turns into heat", Scalar, f64::NAN, |seen| seen.dissipated_power),
-    immersed!("semi_axes", "m", "semi-axes of an ellipsoid, descending", Vector, NO_VECTOR, |seen| seen.semi_axes),
-    immersed!("inclination", "rad", "angle of the longest axis from the direction of a simple shear", Scalar, f64::NAN, |seen| seen.inclination),
-    immersed!("orbit_constant", "1", "C/(1 + C) of the orbit of a body of revolution in simple shear", Scalar, f64::NAN, |seen| seen.orbit_constant),
+    immersed!("drag", "N", "force of the fluid, without buoyancy", Vector, NO_VECTOR, |immersed| immersed.drag),
+    immersed!("rotlet", "N m", "torque of the fluid about the centre of the volume", Vector, NO_VECTOR, |immersed| immersed.rotlet),
+    immersed!("stresslet", "N m", "stresslet", Matrix, NO_MATRIX, |immersed| immersed.stresslet),
+    immersed!("particle_stress", "Pa", "particle stress, per volume of particle", Matrix, NO_MATRIX, |immersed| immersed.particle_stress),
+    immersed!("intrinsic_viscosity", "1", "increment of the viscosity of a dilute suspension, over that of the fluid and the volume fraction", Scalar, f64::NAN, |immersed| immersed.intrinsic_viscosity),
+    immersed!("normal_stress_1", "Pa", "first normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |immersed| immersed.normal_stress_differences[0]),
+    immersed!("normal_stress_2", "Pa", "second normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |immersed| immersed.normal_stress_differences[1]),
+    immersed!("dissipated_power", "W", "power that the disturbance of the flow turns into heat", Scalar, f64::NAN, |immersed| immersed.dissipated_power),
+    immersed!("semi_axes", "m", "semi-axes of an ellipsoid, descending", Vector, NO_VECTOR, |immersed| immersed.semi_axes),
+    immersed!("inclination", "rad", "angle of the longest axis from the direction of a simple shear", Scalar, f64::NAN, |immersed| immersed.inclination),
+    immersed!("orbit_constant", "1", "C/(1 + C) of the orbit of a body of revolution in simple shear", Scalar, f64::NAN, |immersed| immersed.orbit_constant),
 ];
 
 const NO_VECTOR: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);

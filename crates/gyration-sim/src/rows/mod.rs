@@ -9,8 +9,8 @@ mod fields;
 pub use extras::Extras;
 
 use fields::{
-    BODY_FIELDS, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, GAP, IMMERSED_FIELDS, PRESSURE,
-    Rank, Seen, Value,
+    BODY_FIELDS, BodyContext, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, GAP, IMMERSED_FIELDS,
+    PRESSURE, Rank, Value,
 };
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
@@ -101,7 +101,7 @@ impl Fields {
         }
         for field in &self.fields {
             for (index, body) in bodies.iter().enumerate() {
-                match (field.value)(&Seen {
+                match (field.value)(&BodyContext {
                     body,
                     homogeneous: homogeneous.get(index),
                     immersed: immersed.get(index).and_then(Option::as_ref),

@@ -146,7 +146,7 @@ impl Sensitivities {
         };
         // Rows with the columns that the quantities know.
         let plan = RunPlan { extras: Extras::default(), ..built.into() };
-        let mut run = Simulation::new(model, &built.state, plan)?;
+        let mut simulation = Simulation::new(model, &built.state, plan)?;
         let vary = |number| Variation::new(scene, number).map_err(|reason| Meaningless { from: 0.0, reason });
         let variations = numbers.into_iter().map(vary).collect();
         let mut tangent = Tangent::new(model, &built.state, &plan, variations)?;
@@ -154,13 +154,13 @@ impl Sensitivities {
             tangent.follow_works();
         }
         let mut sink = MemorySink::default();
-        run.begin(&mut sink)?;
+        simulation.begin(&mut sink)?;
         loop {
-            let before = run.integrator.time();
-            let ended = run.advance(&mut sink, &mut Unwatched)?;
-            let after = run.integrator.time();
+            let before = simulation.run.integrator.time();
+            let ended = simulation.advance(&mut sink, &mut Unwatched)?;
+            let after = simulation.run.integrator.time();
             if after > before {
-                tangent.record(&run.integrator);
+                tangent.record(&simulation.run.integrator);
             }
             for (time, row) in sink.rows.drain(..) {
                 let is_last = ended.is_some() || time >= plan.end;
@@ -169,11 +169,11 @@ impl Sensitivities {
                 }
                 tangent.reach(time);
                 this.note(time, quantities.of_row(&row));
-                this.differentiate(&mut tangent, &mut quantities, &run.integrator);
+                this.differentiate(&mut tangent, &mut quantities, &simulation.run.integrator);
             }
             if after > before {
                 tangent.go_on();
-                tangent.cross(&run.integrator, before);
+                tangent.cross(&simulation.run.integrator, before);
             }
             if let Some(outcome) = ended {
                 this.finish(outcome, &tangent, at);

@@ -6,7 +6,7 @@ use crate::events::EVENT_KINDS;
 use crate::outcome::Outcome;
 use crate::rows::Ledger;
 use crate::run::Simulation;
-use crate::tally::{DISSIPATION, Tally};
+use crate::run_state::{DISSIPATION, RunState};
 use gyration::balance::observe_at;
 use gyration::dynamics::{Workspace, acting};
 use gyration::model::Model;
@@ -94,12 +94,13 @@ impl RunSummary {
     /// The summary of a run that has ended.
     pub fn of(model: &Model, simulation: &mut Simulation, outcome: Outcome, wall: Option<Duration>) -> Self {
         let state = simulation.state();
-        let tally = simulation.tally();
+        let run_state = simulation.run_state();
         let none = || Ledger { energies: Vec::new(), works: Vec::new(), residual: f64::NAN };
         let mut workspace = Workspace::default();
-        let ledger = Ledger::of(model, &mut workspace, &state, Some(tally.initial_energy)).unwrap_or_else(|_| none());
+        let ledger =
+            Ledger::of(model, &mut workspace, &state, Some(run_state.initial_energy)).unwrap_or_else(|_| none());
         let events =
-            EVENT_KINDS.iter().zip(tally.events).map(|(kind, count)| ((*kind).to_string(), json!(count))).collect();
+            EVENT_KINDS.iter().zip(run_state.events).map(|(kind, count)| ((*kind).to_string(), json!(count))).collect();
         let mut read = workspace.read(model, &state).ok();
         let bodies = (0..model.bodies.len())
             .filter_map(|index| {
@@ -124,16 +125,16 @@ impl RunSummary {
             wall_time: wall.map(|wall| wall.as_secs_f64()),
             statistics: statistics(simulation),
             ledger: LedgerSummary {
-                initial_energy: tally.initial_energy,
+                initial_energy: run_state.initial_energy,
                 energies: model.energies().iter().map(|energy| energy.name()).zip(ledger.energies).collect(),
                 works: model.works().iter().map(|work| work.name()).zip(ledger.works).collect(),
                 residual: ledger.residual,
-                largest_residual: tally.largest_residual,
-                energy_in_play: tally.energy_in_play,
-                least_dissipation: least_dissipation(model, tally),
+                largest_residual: run_state.largest_residual,
+                energy_in_play: run_state.energy_in_play,
+                least_dissipation: least_dissipation(model, run_state),
             },
             bodies,
-            smallest_gap: Some(tally.smallest_gap).filter(|gap| gap.is_finite()),
+            smallest_gap: Some(run_state.smallest_gap).filter(|gap| gap.is_finite()),
             events: Value::Object(events),
         }
     }
@@ -156,8 +157,8 @@ impl RunSummary {
 }
 
 /// Of the works that only take and that the model has, once there was a step.
-fn least_dissipation(model: &Model, tally: &Tally) -> Vec<(&'static str, f64)> {
-    let entries = DISSIPATION.iter().zip(tally.largest_gains);
+fn least_dissipation(model: &Model, run_state: &RunState) -> Vec<(&'static str, f64)> {
+    let entries = DISSIPATION.iter().zip(run_state.largest_gains);
     let present = entries.filter(|(work, gain)| model.works().contains(work) && gain.is_finite());
     // Adding zero turns −0 into 0.
     present.map(|(work, gain)| (work.name(), -gain + 0.0)).collect()
@@ -177,6 +178,6 @@ fn statistics(simulation: &Simulation) -> Value {
         "switches": s.switches,
         "smallest_step": s.smallest_step,
         "largest_step": s.largest_step,
-        "largest_projection": simulation.tally().largest_projection,
+        "largest_projection": simulation.run_state().largest_projection,
     })
 }

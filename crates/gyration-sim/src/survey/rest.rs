@@ -110,15 +110,15 @@ impl<'a> Approach<'a> {
     /// F(d) of the central laws [N]; none where it cannot be computed.
     pub fn force(&self, gap: f64) -> Option<f64> {
         let mut scratch = ContactScratch::default();
-        let meeting = self.meeting(gap);
+        let contact_state = self.contact_state(gap);
         let loads =
-            self.contacts.iter().map(|contact| ContactLoads::integrate(&contact.law_set, &meeting, &mut scratch));
+            self.contacts.iter().map(|contact| ContactLoads::integrate(&contact.law_set, &contact_state, &mut scratch));
         let total = loads.map(|loads| loads.ok().map(|loads| loads.total())).sum::<Option<Loads>>()?;
         Some(total.force.dot(&self.normal)).filter(|force| force.is_finite())
     }
 
     /// The body at a gap, without velocity.
-    fn meeting(&self, gap: f64) -> Meeting<'a> {
+    fn contact_state(&self, gap: f64) -> Meeting<'a> {
         Meeting {
             surface: self.surface,
             field: GapField { height: self.depth + gap, direction: self.direction },
@@ -129,10 +129,10 @@ impl<'a> Approach<'a> {
 
     /// ∂f/∂p₀ [N/m] and ∂f/∂ṗ₀ [N s/m] of all laws; none where they are not numbers.
     fn slopes(&self, gap: f64) -> Option<(Mat3, Mat3)> {
-        let (mut scratch, meeting) = (ContactScratch::default(), self.meeting(gap));
+        let (mut scratch, contact_state) = (ContactScratch::default(), self.contact_state(gap));
         let mut slopes = LoadSlopes::default();
         for contact in &self.contacts {
-            ContactSlopes::integrate(&contact.law_set, &meeting, &mut scratch).ok()?.add_to(&mut slopes);
+            ContactSlopes::integrate(&contact.law_set, &contact_state, &mut scratch).ok()?.add_to(&mut slopes);
         }
         let force = |by: &gyration::load::Mat12| -> Mat3 { by.fixed_view::<3, 3>(0, 0).into_owned() };
         let (by_place, by_rate) = (force(&slopes.by_place), force(&slopes.by_rate));

@@ -13,8 +13,8 @@ use gyration_sim::{Job, Monitor, Outcome, Progress, Provenance, Reason, RunError
 /// The most evaluations of a run: enough for some hundred steps. A longer one is audited up to there.
 const MOST_EVALUATIONS: u64 = 6000;
 
-/// What a run has shown.
-pub struct Seen {
+/// Figures of a run.
+pub struct RunFigures {
     /// How it ended.
     pub outcome: Outcome,
     /// Accepted steps.
@@ -33,22 +33,22 @@ pub struct Seen {
 ///
 /// # Errors
 /// What [`Simulation`] returns: the start is outside the model, or a row cannot be stored.
-pub fn run(scene: &Scene) -> Result<Seen, RunError> {
+pub fn run(scene: &Scene) -> Result<RunFigures, RunError> {
     let job = Job::of(scene, &Provenance { version: "test".into(), commit: None });
     let initial = Ledger::of(job.model, &mut Workspace::default(), job.start, None).unwrap().energies.iter().sum();
-    let mut watch = Watch { model: job.model, initial, gap: f64::INFINITY, residual: 0.0, play: 0.0 };
+    let mut auditor = Auditor { model: job.model, initial, gap: f64::INFINITY, residual: 0.0, play: 0.0 };
     let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
-    simulation.begin(&mut watch)?;
-    let outcome = simulation.run(&mut watch, &mut limit())?;
+    simulation.begin(&mut auditor)?;
+    let outcome = simulation.run(&mut auditor, &mut limit())?;
     let (statistics, state) = (*simulation.statistics(), simulation.state());
     let size = job.model.bodies.iter().map(|body| body.size).fold(f64::INFINITY, f64::min);
-    Ok(Seen {
+    Ok(RunFigures {
         outcome,
         steps: statistics.explicit_steps + statistics.implicit_steps,
         evaluations: statistics.rate_evaluations,
-        gap: watch.gap / size,
-        residual: watch.residual / watch.play,
-        barrier: barrier(job.model, &state) / watch.play,
+        gap: auditor.gap / size,
+        residual: auditor.residual / auditor.play,
+        barrier: barrier(job.model, &state) / auditor.play,
     })
 }
 
@@ -67,7 +67,7 @@ impl Monitor for Limit {
 }
 
 /// Audits each sample and the end of each step.
-struct Watch<'a> {
+struct Auditor<'a> {
     model: &'a Model,
     initial: f64,
     gap: f64,
@@ -76,8 +76,8 @@ struct Watch<'a> {
     play: f64,
 }
 
-impl Watch<'_> {
-    fn see(&mut self, state: &State) {
+impl Auditor<'_> {
+    fn audit(&mut self, state: &State) {
         for index in 0..self.model.bodies.len() {
             let gap = smallest_gap(self.model, state.time, index, &state.motion(self.model, index));
             self.gap = self.gap.min(gap);
@@ -89,7 +89,7 @@ impl Watch<'_> {
     }
 }
 
-impl Sink for Watch<'_> {
+impl Sink for Auditor<'_> {
     fn row(&mut self, _: f64, row: &[f64]) -> Result<(), RecordError> {
         assert!(row.iter().all(|number| !number.is_nan()), "a row holds what is not a number: {row:?}");
         // Position, P, velocity and Ṗ of every body stand before the gaps, the residual at the end.
@@ -106,7 +106,7 @@ impl Sink for Watch<'_> {
 
     fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
         let state = state_of(self.model, &checkpoint());
-        self.see(&state);
+        self.audit(&state);
         Ok(())
     }
 }

@@ -2,7 +2,8 @@
 
 #![allow(dead_code, clippy::unwrap_used)]
 
-use gyration_study::{Study, Table, Unwatched, execute};
+use gyration_sim::Unwatched;
+use gyration_study::{Study, Table, execute};
 use std::num::NonZeroUsize;
 use std::path::Path;
 

@@ -55,7 +55,7 @@ fn run_once(shared: &Shared, subject: &Subject, overrides: &[String]) -> Result<
     let mut sink = Publisher { shared, told: Instant::now(), stride: strides };
     let told = first.0.map_or(Ok(()), |(time, row)| sink.row(time, &row));
     let began = Instant::now();
-    let mut watch = Watch { shared, told: Instant::now() };
+    let mut watch = LiveMonitor { shared, told: Instant::now() };
     let outcome = told.map_err(RunError::from).and_then(|()| simulation.run(&mut sink, &mut watch));
     let outcome = outcome.map_err(|error| error.to_string())?;
     if is_superseded(&outcome) {
@@ -146,12 +146,12 @@ impl Sink for Publisher<'_> {
 }
 
 /// Halts the run while it is paused, ends it for another, and says how far it is.
-struct Watch<'a> {
+struct LiveMonitor<'a> {
     shared: &'a Shared,
     told: Instant,
 }
 
-impl Monitor for Watch<'_> {
+impl Monitor for LiveMonitor<'_> {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
         if self.told.elapsed() >= PROGRESS_EVERY {
             self.told = Instant::now();

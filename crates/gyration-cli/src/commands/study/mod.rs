@@ -1,20 +1,20 @@
 //! `gyration study`: thousands of runs of a scene into one table; shards, and their joining.
 
+mod bar;
 mod plot;
 mod summary;
-mod watch;
 
 use crate::arguments::{Study as Arguments, StudyAction};
 use crate::error::{CliError, code};
 use crate::input::{quoted, shown};
 use crate::output;
+use bar::StudyBar;
 use gyration_plot::study::Request;
 use gyration_study::{Digest, Shard, Study, Table, execute as make, merge, studies};
 use gyration_threads::Threads;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use watch::StudyProgress;
 
 /// Does what was asked; the exit code tells whether the table is complete.
 pub fn execute(arguments: &Arguments) -> Result<u8, CliError> {
@@ -59,7 +59,7 @@ fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError
         }
         return Ok(summary::exit_code(&Digest::read(&table.file())?));
     }
-    let mut watch = StudyProgress::new(!arguments.quiet)?;
+    let mut watch = StudyBar::new(!arguments.quiet)?;
     let (began, before) = (Instant::now(), table.rows());
     let made = make(study, &mut table, threads, &mut watch);
     watch.finish();

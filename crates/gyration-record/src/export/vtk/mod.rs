@@ -4,13 +4,13 @@
 //! same at every time, is compressed once. These are the formats that ParaView reads without a library; VTKHDF would
 //! need HDF5. Source: *VTK file formats*, docs.vtk.org, "XML file formats".
 
-mod packed;
+mod compressed;
 mod pvd;
 
-pub use packed::Packed;
+pub use compressed::CompressedNumbers;
 pub use pvd::{Entry, pvd};
 
-use packed::NumberKind;
+use compressed::NumberKind;
 use std::io::{self, Write};
 
 /// Cells of a surface: single points, then triangles.
@@ -24,8 +24,8 @@ pub struct Topology {
 #[derive(Debug, Clone)]
 struct Cells {
     count: usize,
-    connectivity: Packed,
-    offsets: Packed,
+    connectivity: CompressedNumbers,
+    offsets: CompressedNumbers,
 }
 
 /// A named array of points or cells.
@@ -38,7 +38,7 @@ pub struct Field {
     /// Numbers a point or cell: 1, 3, or 9 of a matrix, row by row.
     pub components: usize,
     /// The numbers.
-    pub values: Packed,
+    pub values: CompressedNumbers,
 }
 
 /// A named array of the whole.
@@ -65,7 +65,7 @@ pub struct PolyData<'a> {
     /// Its cells.
     pub topology: &'a Topology,
     /// Places of the points, three numbers each \[m\].
-    pub points: Packed,
+    pub points: CompressedNumbers,
     /// Arrays with a value for each point.
     pub point_data: Vec<Field>,
     /// Arrays with a value for each cell: those of single points first.
@@ -90,7 +90,11 @@ impl Cells {
     fn new(connectivity: &[i32], corners: usize) -> Self {
         let count = connectivity.len() / corners;
         let ends = (1..=count).map(|k| (k * corners) as i32);
-        Self { count, connectivity: Packed::integers(connectivity.iter().copied()), offsets: Packed::integers(ends) }
+        Self {
+            count,
+            connectivity: CompressedNumbers::integers(connectivity.iter().copied()),
+            offsets: CompressedNumbers::integers(ends),
+        }
     }
 }
 
@@ -139,7 +143,7 @@ pub fn vtp(data: &PolyData, out: &mut impl Write) -> io::Result<()> {
 /// The XML, and the numbers that come behind it.
 struct Text<'a, W> {
     out: &'a mut W,
-    appended: Vec<&'a Packed>,
+    appended: Vec<&'a CompressedNumbers>,
     /// Bytes of those.
     length: usize,
 }
@@ -149,7 +153,7 @@ impl<'a, W: Write> Text<'a, W> {
         writeln!(self.out, "{line}")
     }
 
-    fn array(&mut self, name: &str, units: &str, components: usize, values: &'a Packed) -> io::Result<()> {
+    fn array(&mut self, name: &str, units: &str, components: usize, values: &'a CompressedNumbers) -> io::Result<()> {
         let kind = match values.kind() {
             NumberKind::Float64 => "Float64",
             NumberKind::Int32 => "Int32",

@@ -3,7 +3,7 @@
 use gyration::model::Model;
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::Vec3;
-use gyration_record::export::vtk::{Field, Packed, PolyData, Topology, Whole, WholeValues};
+use gyration_record::export::vtk::{CompressedNumbers, Field, PolyData, Topology, Whole, WholeValues};
 use gyration_record::{RecordError, Recording};
 
 /// By how much a sheet is wider than the motion above it.
@@ -57,9 +57,14 @@ impl Sheets {
         let names = self.sheets.iter().map(|sheet| sheet.name.clone()).collect();
         PolyData {
             topology: &self.topology,
-            points: Packed::floats(places.iter().flatten().copied()),
+            points: CompressedNumbers::floats(places.iter().flatten().copied()),
             point_data: Vec::new(),
-            cell_data: vec![Field { name: "support", units: "", components: 1, values: Packed::integers(numbers) }],
+            cell_data: vec![Field {
+                name: "support",
+                units: "",
+                components: 1,
+                values: CompressedNumbers::integers(numbers),
+            }],
             field_data: vec![
                 Whole { name: "TimeValue".into(), values: WholeValues::Numbers(1, vec![time]) },
                 Whole { name: "support_names".into(), values: WholeValues::Names(names) },

@@ -19,7 +19,7 @@ use super::{BodySnapshot, Replay, ReplayError, Snapshot};
 use figures::Figures;
 use ground::Sheets;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_record::export::vtk::{Entry, Field, Packed, PolyData, Whole, WholeValues, vtp};
+use gyration_record::export::vtk::{CompressedNumbers, Entry, Field, PolyData, Whole, WholeValues, vtp};
 use gyration_record::{RecordError, Recording};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -120,7 +120,7 @@ impl<'a> Sample<'a> {
             point_data.push(Field { name: "gap", units: "m", components: 1, values });
         }
         let bodies = self.figures.bodies_of_cells();
-        let numbers = Packed::integers(bodies.iter().map(|body| *body as i32));
+        let numbers = CompressedNumbers::integers(bodies.iter().map(|body| *body as i32));
         let mut cell_data = vec![Field { name: "body", units: "", components: 1, values: numbers }];
         if touch {
             cell_data.push(Field { name: "traction", units: "Pa", components: 3, values: self.tractions(&bodies)? });
@@ -128,9 +128,10 @@ impl<'a> Sample<'a> {
         if deform {
             let of_body: Vec<Mat3> = self.stress.iter().map(|it| it.unwrap_or(Mat3::repeat(f64::NAN))).collect();
             // Rows, where nalgebra has columns.
-            let rows = Packed::floats(bodies.iter().flat_map(|body| of_body[*body].transpose().data.0).flatten());
+            let rows =
+                CompressedNumbers::floats(bodies.iter().flat_map(|body| of_body[*body].transpose().data.0).flatten());
             let equivalent: Vec<f64> = of_body.iter().map(von_mises).collect();
-            let scalars = Packed::floats(bodies.iter().map(|body| equivalent[*body]));
+            let scalars = CompressedNumbers::floats(bodies.iter().map(|body| equivalent[*body]));
             cell_data.push(Field { name: "cauchy_stress", units: "Pa", components: 9, values: rows });
             cell_data.push(Field { name: "von_mises", units: "Pa", components: 1, values: scalars });
         }
@@ -144,17 +145,17 @@ impl<'a> Sample<'a> {
     }
 
     /// The values at all points.
-    fn at_points<const N: usize>(&self, value: impl Fn(&BodySnapshot, &Vec3) -> [f64; N]) -> Packed {
+    fn at_points<const N: usize>(&self, value: impl Fn(&BodySnapshot, &Vec3) -> [f64; N]) -> CompressedNumbers {
         let mut values = Vec::new();
         for (index, points) in self.figures.points().enumerate() {
             let body = self.snapshot.body(index);
             values.extend(points.iter().flat_map(|point| value(&body, point)));
         }
-        Packed::floats(values)
+        CompressedNumbers::floats(values)
     }
 
     /// Of all cells; single points bear none.
-    fn tractions(&self, bodies: &[usize]) -> Result<Packed, ReplayError> {
+    fn tractions(&self, bodies: &[usize]) -> Result<CompressedNumbers, ReplayError> {
         let mut of_triangles = Vec::new();
         for (index, skin) in self.figures.skins().enumerate() {
             if let Some(skin) = skin {
@@ -163,7 +164,7 @@ impl<'a> Sample<'a> {
         }
         let points = bodies.len() - of_triangles.len();
         let all = std::iter::repeat_n(Vec3::zeros(), points).chain(of_triangles);
-        Ok(Packed::floats(all.flat_map(<[f64; 3]>::from)))
+        Ok(CompressedNumbers::floats(all.flat_map(<[f64; 3]>::from)))
     }
 }
 

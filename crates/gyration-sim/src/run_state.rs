@@ -1,7 +1,7 @@
 //! What a run carries from step to step beside the state: the next sample, the audit, the wait for rest.
 //!
-//! A checkpoint is the tally and the stepper's memory as plain little-endian numbers, each list with its length before
-//! it, so that a resumed run goes on to the same bytes.
+//! A checkpoint is the run state and the stepper's memory as plain little-endian numbers, each list with its length
+//! before it, so that a resumed run goes on to the same bytes.
 
 use gyration::ledger::Work;
 use gyration_ode::Memory;
@@ -11,7 +11,7 @@ pub(crate) const DISSIPATION: [Work; 2] = [Work::Contraction, Work::Viscosity];
 
 /// Beside the state, all that the rest of a run depends on.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Tally {
+pub struct RunState {
     /// k of the next sample, at t = k·sample.
     pub next_sample: u64,
     /// Σ energies at t = 0 [J].
@@ -35,7 +35,7 @@ pub struct Tally {
     pub signals: Vec<[f64; 3]>,
 }
 
-impl Tally {
+impl RunState {
     /// At the start of a run.
     pub fn new(bodies: usize) -> Self {
         let signals = vec![[f64::NAN; 3]; bodies];
@@ -50,7 +50,7 @@ impl Tally {
         }
     }
 
-    /// Tally and memory as bytes.
+    /// Run state and memory as bytes.
     pub fn checkpoint(&self, memory: &Memory) -> Vec<u8> {
         let integers = [self.next_sample, self.events[0], self.events[1], self.events[2]];
         let reals = [
@@ -76,7 +76,7 @@ impl Tally {
         bytes
     }
 
-    /// Reads what [`Tally::checkpoint`] wrote; `None` if it is not that.
+    /// Reads what [`RunState::checkpoint`] wrote; `None` if it is not that.
     pub fn restore(bytes: &[u8]) -> Option<(Self, Memory)> {
         let mut rest = bytes;
         let mut list = || {
@@ -103,7 +103,7 @@ impl Tally {
             largest_projection,
             gains @ ..,
         ] = reals.map(f64::from_bits);
-        let tally = Self {
+        let state = Self {
             next_sample: integers[0],
             initial_energy,
             slow_since,
@@ -115,7 +115,7 @@ impl Tally {
             events: [integers[1], integers[2], integers[3]],
             signals: signals.to_vec(),
         };
-        rest.is_empty().then_some((tally, memory))
+        rest.is_empty().then_some((state, memory))
     }
 }
 
@@ -131,11 +131,11 @@ mod tests {
 
     #[test]
     fn a_checkpoint_restores_every_bit() {
-        let mut tally = Tally { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..Tally::new(2) };
-        tally.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
+        let mut state = RunState { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..RunState::new(2) };
+        state.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
         let memory = Memory { integers: vec![1, 2, 3], reals: vec![0.1, f64::INFINITY, -0.0] };
-        let bytes = tally.checkpoint(&memory);
-        let (read, read_memory) = Tally::restore(&bytes).unwrap();
+        let bytes = state.checkpoint(&memory);
+        let (read, read_memory) = RunState::restore(&bytes).unwrap();
         assert_eq!(read.checkpoint(&read_memory), bytes);
         assert_eq!(read_memory, memory);
         assert!(read.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
@@ -144,18 +144,18 @@ mod tests {
 
     #[test]
     fn the_step_that_takes_least_is_kept() {
-        let mut tally = Tally::new(1);
+        let mut state = RunState::new(1);
         let works = [[0.0, 0.0], [-1.0, -3.0], [-1.5, -3.0], [-4.0, -2.0]];
-        works.windows(2).for_each(|pair| tally.note_dissipation(pair[0], pair[1]));
-        assert_eq!(tally.largest_gains, [-0.5, 1.0]);
+        works.windows(2).for_each(|pair| state.note_dissipation(pair[0], pair[1]));
+        assert_eq!(state.largest_gains, [-0.5, 1.0]);
     }
 
     #[test]
     fn damaged_checkpoints_are_refused() {
-        let bytes = Tally::new(1).checkpoint(&Memory { integers: vec![4], reals: vec![1.0] });
-        assert!((0..bytes.len()).all(|length| Tally::restore(&bytes[..length]).is_none()));
+        let bytes = RunState::new(1).checkpoint(&Memory { integers: vec![4], reals: vec![1.0] });
+        assert!((0..bytes.len()).all(|length| RunState::restore(&bytes[..length]).is_none()));
         let mut huge = bytes;
         huge[..8].copy_from_slice(&u64::MAX.to_le_bytes());
-        assert!(Tally::restore(&huge).is_none());
+        assert!(RunState::restore(&huge).is_none());
     }
 }

@@ -13,7 +13,7 @@ const LEVEL: u8 = 1;
 
 /// Numbers ready to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Packed {
+pub struct CompressedNumbers {
     kind: NumberKind,
     bytes: Vec<u8>,
 }
@@ -24,7 +24,7 @@ pub(super) enum NumberKind {
     Int32,
 }
 
-impl Packed {
+impl CompressedNumbers {
     /// Of real numbers.
     pub fn floats(numbers: impl IntoIterator<Item = f64>) -> Self {
         let bytes: Vec<u8> = numbers.into_iter().flat_map(f64::to_le_bytes).collect();
@@ -59,20 +59,20 @@ mod tests {
     use super::*;
 
     /// The bytes before compression, as a reader would find them.
-    fn unpacked(packed: &Packed) -> Vec<u8> {
-        let (header, _) = packed.bytes().as_chunks::<8>();
+    fn decompressed(compressed: &CompressedNumbers) -> Vec<u8> {
+        let (header, _) = compressed.bytes().as_chunks::<8>();
         let number = |k: usize| u64::from_le_bytes(header[k]) as usize;
         let (blocks, size, last) = (number(0), number(1), number(2));
         let mut at = 8 * (3 + blocks);
         let mut bytes = Vec::new();
         for block in 0..blocks {
             let end = at + number(3 + block);
-            let part = miniz_oxide::inflate::decompress_to_vec_zlib(&packed.bytes()[at..end]).unwrap_or_default();
+            let part = miniz_oxide::inflate::decompress_to_vec_zlib(&compressed.bytes()[at..end]).unwrap_or_default();
             assert_eq!(part.len(), if block + 1 == blocks && last > 0 { last } else { size });
             bytes.extend(part);
             at = end;
         }
-        assert_eq!(at, packed.bytes().len());
+        assert_eq!(at, compressed.bytes().len());
         bytes
     }
 
@@ -81,8 +81,8 @@ mod tests {
         for count in [0, 1, 1000, BLOCK / 8, BLOCK / 8 + 1, 3 * BLOCK / 8] {
             let numbers: Vec<f64> = (0..count).map(|k| (k as f64).sqrt()).collect();
             let expected: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-            assert!(unpacked(&Packed::floats(numbers)) == expected, "{count}");
+            assert!(decompressed(&CompressedNumbers::floats(numbers)) == expected, "{count}");
         }
-        assert_eq!(unpacked(&Packed::integers([1, -1])), [1, 0, 0, 0, 255, 255, 255, 255]);
+        assert_eq!(decompressed(&CompressedNumbers::integers([1, -1])), [1, 0, 0, 0, 255, 255, 255, 255]);
     }
 }

@@ -1,4 +1,4 @@
-//! Watches a run from Python: Ctrl-C, and whoever wants to know how far it is.
+//! Monitors a run from Python: Ctrl-C, and whoever wants to know how far it is.
 //!
 //! The run computes without the interpreter's lock; ten times a second it is taken for a moment, to look at signals and
 //! to tell of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are
@@ -6,6 +6,7 @@
 
 use crate::convert::{says_stop, shown};
 use gyration_sim::{Monitor, Progress, Reason};
+use gyration_study::{StudyMonitor, StudyProgress};
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use std::time::{Duration, Instant};
@@ -13,8 +14,8 @@ use std::time::{Duration, Instant};
 /// How often Python is asked.
 const EVERY: Duration = Duration::from_millis(100);
 
-/// What watches a run.
-pub struct Watch {
+/// The monitor of a run, or of many.
+pub struct PythonMonitor {
     listener: Listener,
     asked: Instant,
     /// Of what it tells the end, if not of the part that is under way [s].
@@ -35,7 +36,7 @@ enum Listener {
     Callback(Py<PyAny>),
 }
 
-impl Watch {
+impl PythonMonitor {
     /// From what a user gives for `progress`: None, True, or a callable of (time, end), or of (runs done, runs in all).
     pub fn new(progress: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let listener = match progress {
@@ -116,7 +117,13 @@ impl Watch {
     }
 }
 
-impl Monitor for Watch {
+impl StudyMonitor for PythonMonitor {
+    fn after_rows(&mut self, progress: &StudyProgress) -> bool {
+        !self.ask(progress.done as f64, progress.total as f64)
+    }
+}
+
+impl Monitor for PythonMonitor {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
         (!self.ask(progress.time, self.end.unwrap_or(progress.end))).then_some(Reason::Interrupted)
     }

@@ -1,4 +1,4 @@
-//! Finds the events of a step.
+//! Detects the events of a step.
 //!
 //! The signals are looked at on the quarters of the step, on its interpolant, which costs no evaluation of the rates.
 //! Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
@@ -7,7 +7,7 @@
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
 use crate::ports::{RunError, Sink};
 use crate::run::Simulation;
-use crate::views::View;
+use crate::step_end::StepEnd;
 use gyration::balance::observe;
 use gyration::dynamics::acting;
 use gyration::state::BodyMotion;
@@ -19,70 +19,70 @@ const PARTS: usize = 4;
 impl Simulation<'_> {
     /// The signals of a body after the last step, once the forces there are known.
     pub(crate) fn signals(&mut self, body: usize) -> Signals {
-        let (model, time) = (self.system.model(), self.integrator.time());
-        let (motion, speed) = (self.views[body].motion, self.system.speed_scale(body));
+        let (model, time) = (self.system.model(), self.run.integrator.time());
+        let (motion, speed) = (self.run.step_ends[body].motion, self.system.speed_scale(body));
         let [apex, approach] = self.motion_signals(body, time, &motion);
-        [apex, approach, events::lift_off(model, body, self.forces[body], speed)]
+        [apex, approach, events::lift_off(model, body, self.run.forces[body], speed)]
     }
 
     /// |f| of the contacts of every body after the last step [N]: from its balance where nothing else pulls at it, else by
     /// integration; NaN without contacts.
     pub(crate) fn find_forces(&mut self) {
         let model = self.system.model();
-        self.forces.clear();
-        let told = |(body, view): (usize, &View)| view.contact_force(model, body).unwrap_or(f64::NAN);
-        self.forces.extend(self.views.iter().enumerate().map(told));
+        self.run.forces.clear();
+        let balanced = |(body, end): (usize, &StepEnd)| end.contact_force(model, body).unwrap_or(f64::NAN);
+        self.run.forces.extend(self.run.step_ends.iter().enumerate().map(balanced));
         let unknown = |body: usize, force: f64| force.is_nan() && !model.bodies[body].contacts.is_empty();
-        if !(0..self.forces.len()).any(|body| unknown(body, self.forces[body])) {
+        if !(0..self.run.forces.len()).any(|body| unknown(body, self.run.forces[body])) {
             return;
         }
         self.sample_end();
-        let Ok((instant, scratch)) = self.system.workspace().read(model, &self.sampled) else { return };
-        for (body, force) in self.forces.iter_mut().enumerate().filter(|(body, force)| unknown(*body, **force)) {
+        let Ok((instant, scratch)) = self.system.workspace().read(model, &self.run.sampled) else { return };
+        for (body, force) in self.run.forces.iter_mut().enumerate().filter(|(body, force)| unknown(*body, **force)) {
             *force = acting(&instant.at(model, body), scratch).map_or(f64::NAN, |acting| acting.contact.force.norm());
         }
     }
 
     /// Finds and hands on the events of the last step, in order of time.
     pub(crate) fn find_events(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<(), RunError> {
-        let mut found = std::mem::take(&mut self.found);
+        let mut found = std::mem::take(&mut self.run.found);
         found.clear();
-        self.since.clear();
-        self.since.resize(self.views.len(), [report.start; 3]);
+        self.run.since.clear();
+        self.run.since.resize(self.run.step_ends.len(), [report.start; 3]);
         for part in 1..=PARTS {
             let time = part_of(report, part);
             if part < PARTS {
-                self.integrator.interpolate(time, &mut self.sampled.bodies, &mut self.sampled.works);
+                self.run.integrator.interpolate(time, &mut self.run.sampled.bodies, &mut self.run.sampled.works);
             } else {
                 self.find_forces();
             }
-            for body in 0..self.views.len() {
+            for body in 0..self.run.step_ends.len() {
                 let signals = if part == PARTS { self.signals(body) } else { self.signals_within(body, time) };
                 self.compare(body, time, &signals, &mut found);
             }
         }
         found.sort_by(|a, b| a.time.total_cmp(&b.time));
         for event in &found {
-            self.tally.events[event.kind] += 1;
+            self.run.state.events[event.kind] += 1;
             sink.event(event)?;
             if sink.wants_event_rows() && self.fill_row(event.time) {
-                sink.event_row(event, &self.rows.row)?;
+                sink.event_row(event, &self.run.rows.row)?;
             }
         }
-        self.found = found;
+        self.run.found = found;
         Ok(())
     }
 
     /// Fills the row of a time within the last step; false where that state is outside the model.
     fn fill_row(&mut self, time: f64) -> bool {
         self.interpolate(time);
-        let (model, initial) = (self.system.model(), Some(self.tally.initial_energy));
-        self.fields.fill(model, self.system.workspace(), &self.sampled, initial, &mut self.rows).is_ok()
+        let (model, initial) = (self.system.model(), Some(self.run.state.initial_energy));
+        self.run.fields.fill(model, self.system.workspace(), &self.run.sampled, initial, &mut self.run.rows).is_ok()
     }
 
     /// The signals of a body in the sampled state, but for the one that needs a force.
     fn signals_within(&self, body: usize, time: f64) -> Signals {
-        let motion = self.sampled.motion(self.system.model(), body);
+        let motion = self.run.sampled.motion(self.system.model(), body);
         let [apex, approach] = self.motion_signals(body, time, &motion);
         [apex, approach, f64::NAN]
     }
@@ -90,8 +90,8 @@ impl Simulation<'_> {
     /// Compares the signals of a body with the last significant ones, and collects the events between.
     fn compare(&mut self, body: usize, time: f64, signals: &Signals, found: &mut Vec<Event>) {
         for (kind, after) in signals.iter().enumerate().filter(|(_, after)| events::is_significant(**after)) {
-            let before = std::mem::replace(&mut self.tally.signals[body][kind], *after);
-            let since = std::mem::replace(&mut self.since[body][kind], time);
+            let before = std::mem::replace(&mut self.run.state.signals[body][kind], *after);
+            let since = std::mem::replace(&mut self.run.since[body][kind], time);
             if events::happened(kind, before, *after) {
                 found.push(Event { time: self.locate(body, kind, (since, time)), kind, body });
             }
@@ -103,7 +103,7 @@ impl Simulation<'_> {
         let model = self.system.model();
         let speed = self.system.speed_scale(body);
         let (this, slots) = (&model.bodies[body], model.slots(body));
-        let (workspace, state) = (self.system.workspace(), &mut self.sampled);
+        let (workspace, state) = (self.system.workspace(), &mut self.run.sampled);
         let signal = |time: f64, bodies: &[f64], _: &[f64]| {
             let motion = || BodyMotion::read(this, slots, bodies);
             match kind {
@@ -119,7 +119,7 @@ impl Simulation<'_> {
             }
         };
         let direction = if events::rises(kind) { Direction::Rising } else { Direction::Falling };
-        find_crossing(&mut self.integrator, between, signal, direction, 1).unwrap_or(between.1)
+        find_crossing(&mut self.run.integrator, between, signal, direction, 1).unwrap_or(between.1)
     }
 
     fn motion_signals(&self, body: usize, time: f64, motion: &BodyMotion) -> [f64; 2] {

@@ -1,18 +1,18 @@
-//! Watching a study: a bar with rate, remaining time and runs that ended early; Ctrl-C.
+//! The bar of a study: a bar with rate, remaining time and runs that ended early; Ctrl-C.
 
 use crate::error::CliError;
 use crate::progress::Terminal;
 use gyration_sim::format::{duration, significant};
-use gyration_study::{Progress, Watcher};
+use gyration_study::{StudyMonitor, StudyProgress};
 use std::time::Instant;
 
 /// Watches a study.
-pub struct StudyProgress {
+pub struct StudyBar {
     terminal: Terminal,
     began: Instant,
 }
 
-impl StudyProgress {
+impl StudyBar {
     /// Begins to watch.
     ///
     /// # Errors
@@ -27,9 +27,9 @@ impl StudyProgress {
     }
 }
 
-impl Watcher for StudyProgress {
-    fn look(&mut self, progress: &Progress) -> bool {
-        let Progress { done, total, made, early } = *progress;
+impl StudyMonitor for StudyBar {
+    fn after_rows(&mut self, progress: &StudyProgress) -> bool {
+        let StudyProgress { done, total, made, early } = *progress;
         self.terminal.draw(|bar, now| {
             let rate = made as f64 / (now - self.began).as_secs_f64();
             bar.set_length(total);

@@ -3,13 +3,13 @@
 use gyration::load::Applied;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
-use gyration_sim::{HandStepper, MemorySink, Refusal, Simulation, Unwatched};
+use gyration_sim::{MemorySink, Refusal, Simulation, SteppedRun, Unwatched};
 use proptest::prelude::*;
 use std::path::Path;
 
-fn stepper(text: &str) -> HandStepper {
+fn stepper(text: &str) -> SteppedRun {
     let scene = Scene::parse("hand.toml", text, Path::new(""), &[]).unwrap();
-    HandStepper::new(scene.built()).unwrap()
+    SteppedRun::new(scene.built()).unwrap()
 }
 
 fn force(force: Vec3) -> Applied {
@@ -92,7 +92,7 @@ fn a_force_at_a_point_is_a_force_and_its_moment() {
 fn the_ledger_closes_under_a_force_that_switches() {
     for scene in ["bounce", "elastic-bounce", "hop"] {
         let scene = Scene::open(scene, &["solver.rtol=1e-7".into()]).unwrap();
-        let mut run = HandStepper::new(scene.built()).unwrap();
+        let mut run = SteppedRun::new(scene.built()).unwrap();
         let weight = run.model().bodies[0].mass.mass * 9.81;
         let size = run.model().bodies[0].size;
         let mut exchanged = 0.0_f64;
@@ -176,7 +176,7 @@ fn a_drive_set_by_hand_is_the_drive_of_a_scene() {
         Scene::open("contract-1", &overrides).unwrap()
     };
     let scene = open(&[]);
-    let mut run = HandStepper::new(scene.built()).unwrap();
+    let mut run = SteppedRun::new(scene.built()).unwrap();
     let before = run.time();
     run.set_drive(0, Mat3::from_diagonal(&Vec3::new(2e3, -1e3, -1e3))).unwrap();
     run.advance(0.05, &mut Unwatched).unwrap();
@@ -199,7 +199,7 @@ fn what_makes_no_sense_is_refused() {
 #[test]
 fn stepping_by_hand_without_a_change_makes_the_steps_of_a_run() {
     let scene = Scene::open("bounce", &["time.end=0.4".into(), "time.sample=0.4".into()]).unwrap();
-    let mut run = HandStepper::new(scene.built()).unwrap();
+    let mut run = SteppedRun::new(scene.built()).unwrap();
     run.advance(0.4, &mut Unwatched).unwrap();
     let built = scene.built();
     let mut whole = Simulation::new(&built.model, &built.state, built.into()).unwrap();
@@ -248,7 +248,7 @@ fn contracting(kind: &str) -> String {
 }
 
 /// P of the load on a body in motion: F·ṗ₀ + (M_a + ½ [τ]× P⁻ᵀ)·Ṗ [W].
-fn power(load: &Applied, run: &HandStepper) -> f64 {
+fn power(load: &Applied, run: &SteppedRun) -> f64 {
     let motion = run.motion(0);
     let turning = 0.5 * load.torque.cross_matrix() * motion.placement.gradient.try_inverse().unwrap().transpose();
     load.force.dot(&motion.velocity.velocity) + (load.moment + turning).dot(&motion.velocity.gradient_rate)

@@ -1,4 +1,4 @@
-//! What the run loop needs to know of every body at the end of a step: its motion, and the acceleration of its centre.
+//! The end of a step: the motion of every body, and the acceleration of its centre.
 //!
 //! The stepper has the rates there, so that nothing is integrated anew. Of a pinned body p₀ = a − R r, with the angular
 //! acceleration Ω̇,
@@ -16,7 +16,7 @@ use gyration::tensor::{Mat3, Vec3};
 
 /// A body at the end of a step.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct View {
+pub(crate) struct StepEnd {
     /// Placement, velocity, spin.
     pub motion: BodyMotion,
     /// p̈₀, the acceleration of the centre of mass [m/s²].
@@ -25,7 +25,7 @@ pub(crate) struct View {
     pub stretching: Option<Mat3>,
 }
 
-impl View {
+impl StepEnd {
     /// Reads a body's slots of the state and of its rates.
     fn of(model: &Model, index: usize, state: &[f64], rates: &[f64]) -> Self {
         let (body, slots) = (&model.bodies[index], model.slots(index));
@@ -58,10 +58,10 @@ impl View {
     }
 }
 
-/// Renews the views of all bodies.
-pub(crate) fn renew(views: &mut Vec<View>, model: &Model, state: &[f64], rates: &[f64]) {
-    views.clear();
-    views.extend((0..model.bodies.len()).map(|index| View::of(model, index, state, rates)));
+/// Reads all bodies at the end of a step, or at the start.
+pub(crate) fn read(ends: &mut Vec<StepEnd>, model: &Model, state: &[f64], rates: &[f64]) {
+    ends.clear();
+    ends.extend((0..model.bodies.len()).map(|index| StepEnd::of(model, index, state, rates)));
 }
 
 #[cfg(test)]
@@ -72,21 +72,21 @@ mod tests {
     use gyration::dynamics::{Workspace, rates};
     use gyration_scene::Scene;
 
-    fn views(scene: &Scene, state: &gyration::state::State) -> Vec<View> {
+    fn ends(scene: &Scene, state: &gyration::state::State) -> Vec<StepEnd> {
         let model = &scene.built().model;
         let mut slopes = vec![0.0; model.dimension()];
         let mut powers = vec![0.0; model.works().len()];
         rates(model, &mut Workspace::default(), state.time, &state.bodies, &mut slopes, &mut powers).unwrap();
-        let mut views = Vec::new();
-        renew(&mut views, model, &state.bodies, &slopes);
-        views
+        let mut ends = Vec::new();
+        read(&mut ends, model, &state.bodies, &slopes);
+        ends
     }
 
     #[test]
     fn the_contact_force_of_the_balance_is_that_of_the_integrals() {
         let scene = Scene::open("slide", &[]).unwrap();
         let (model, state) = (&scene.built().model, &scene.built().state);
-        let found = views(&scene, state)[0].contact_force(model, 0).unwrap();
+        let found = ends(&scene, state)[0].contact_force(model, 0).unwrap();
         let integrated = observe(model, &mut Workspace::default(), state, 0).unwrap().contact_force.norm();
         // Differences of accelerations of the size of g: a few roundings of the weight.
         let weight = model.bodies[0].mass.mass * 9.81;
@@ -114,7 +114,7 @@ mod tests {
         let velocity = |k: usize| Vec3::from_column_slice(&sink.rows[k].1[12..15]);
         let last = sink.rows.len() - 1;
         let difference = (3.0 * velocity(last) - 4.0 * velocity(last - 1) + velocity(last - 2)) / 2e-4;
-        let acceleration = views(&scene, &simulation.state())[0].acceleration;
+        let acceleration = ends(&scene, &simulation.state())[0].acceleration;
         // One-sided differences of second order: h²/3 of the third derivative, some 1e3 m/s⁴ here; 1e-5 m/s² in all.
         assert!(
             (acceleration - difference).norm() < 3e-5 * acceleration.norm().max(1.0),

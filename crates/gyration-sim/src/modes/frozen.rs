@@ -1,4 +1,4 @@
-//! One body alone, with supports, loads and contraction held as they are at the start.
+//! A frozen body: one body alone, with supports, loads and contraction as they are at the start.
 
 use crate::adapter::normalize;
 use gyration::Inadmissible;
@@ -17,7 +17,7 @@ use nalgebra::DMatrix;
 
 /// A body and what acts on it at one instant.
 #[derive(Debug)]
-pub(super) struct Held {
+pub(super) struct FrozenBody {
     model: Model,
     workspace: Workspace,
     time: f64,
@@ -27,7 +27,7 @@ pub(super) struct Held {
     pub start: Vec<f64>,
 }
 
-impl Held {
+impl FrozenBody {
     pub fn new(model: &Model, start: &State, index: usize) -> Self {
         let mut supports = model.supports.clone();
         for support in &mut supports {
@@ -46,12 +46,12 @@ impl Held {
             contractile.contraction.source = Source::Prescribed(Signal::Constant(contraction));
         }
         block.truncate(body.dimension());
-        let mut held = Model::new(model.gravity, supports, vec![body]);
+        let mut frozen = Model::new(model.gravity, supports, vec![body]);
         if let Some(fluid) = &model.fluid {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
-            held = held.in_fluid(Fluid { velocity, gradient, ..*fluid });
+            frozen = frozen.in_fluid(Fluid { velocity, gradient, ..*fluid });
         }
-        let model = held;
+        let model = frozen;
         Self { model, workspace: Workspace::default(), time: start.time, index, start: block }
     }
 

@@ -1,4 +1,4 @@
-//! A run under the hand of its caller: step, look, change loads and drives, step again. Enough to close a control loop.
+//! Stepping: a run with a controller in the loop, which reads the state after a step and changes loads and drives.
 //!
 //!   m p̈₀ = m g + f + F,   P̈ J = M + M_a + ½ [τ]× P⁻ᵀ − V S,   Q = Q_applied + feedback
 //!
@@ -7,14 +7,14 @@
 //! change the rates are evaluated anew and the error history is forgotten, the size of the step is not. Nothing is
 //! recorded, and the run does not end by itself: neither at the scene's end nor at rest.
 
-use crate::detached::Detached;
+use crate::detached::DetachedRun;
 use crate::events::Event;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use crate::record::{MemorySink, Unwatched};
 use crate::rows::Ledger;
-use crate::run::Simulation;
+use crate::run::{Run, Simulation};
 use gyration::balance::smallest_gap;
 use gyration::body::BodyKind;
 use gyration::contractile::Source;
@@ -29,10 +29,10 @@ use gyration_record::RecordError;
 use gyration_scene::Built;
 
 /// A run that its caller steps.
-pub struct HandStepper {
+pub struct SteppedRun {
     model: Model,
     /// None while a step is being made.
-    detached: Option<Detached>,
+    detached: Option<DetachedRun>,
     /// Whether the model has changed since the last step.
     changed: bool,
     /// The scene's end [s].
@@ -68,7 +68,7 @@ pub enum Refusal {
     },
 }
 
-impl HandStepper {
+impl SteppedRun {
     /// Prepares a run from the start of a scene.
     ///
     /// # Errors
@@ -90,17 +90,17 @@ impl HandStepper {
 
     /// The time reached [s].
     pub fn time(&self) -> f64 {
-        self.kept().integrator().time()
+        self.run().integrator.time()
     }
 
     /// The counters so far.
     pub fn statistics(&self) -> &Statistics {
-        self.kept().integrator().statistics()
+        self.run().integrator.statistics()
     }
 
     /// The state reached.
     pub fn state(&self) -> State {
-        let integrator = self.kept().integrator();
+        let integrator = &self.run().integrator;
         State { time: integrator.time(), bodies: integrator.state().to_vec(), works: integrator.quadratures().to_vec() }
     }
 
@@ -111,7 +111,7 @@ impl HandStepper {
 
     /// Placement and velocity of a body.
     pub fn motion(&self, body: usize) -> &BodyMotion {
-        &self.kept().views()[body].motion
+        &self.run().step_ends[body].motion
     }
 
     /// The smallest distance of a body to a support [m]; infinite without supports or surface.
@@ -138,15 +138,15 @@ impl HandStepper {
     pub fn ledger(&mut self) -> Result<Ledger, Stop> {
         self.with(|simulation| {
             simulation.sample_end();
-            let (model, initial) = (simulation.system.model(), simulation.tally.initial_energy);
-            let ledger = Ledger::of(model, simulation.system.workspace(), &simulation.sampled, Some(initial));
-            ledger.map_err(|left| Stop::by_inadmissible(model, simulation.sampled.time, &left))
+            let (model, initial) = (simulation.system.model(), simulation.run.state.initial_energy);
+            let ledger = Ledger::of(model, simulation.system.workspace(), &simulation.run.sampled, Some(initial));
+            ledger.map_err(|left| Stop::by_inadmissible(model, simulation.run.sampled.time, &left))
         })
     }
 
     /// The names of the columns, in the order of the CSV, each with its place in the [`row`](Self::row).
     pub fn columns(&self) -> Vec<(String, usize)> {
-        let (arrays, order) = self.kept().fields().arrays(&self.model);
+        let (arrays, order) = self.run().fields.arrays(&self.model);
         let mut places = std::collections::HashMap::new();
         let mut at = 0;
         for array in arrays {
@@ -163,8 +163,8 @@ impl HandStepper {
     pub fn row(&mut self) -> Result<Vec<f64>, Stop> {
         self.with(|simulation| {
             simulation.sample_end();
-            let (model, initial) = (simulation.system.model(), simulation.tally.initial_energy);
-            let Simulation { system, fields, sampled, rows, .. } = simulation;
+            let (model, initial) = (simulation.system.model(), simulation.run.state.initial_energy);
+            let Simulation { system, run: Run { fields, sampled, rows, .. } } = simulation;
             let filled = fields.fill(model, system.workspace(), sampled, Some(initial), rows);
             filled.map_err(|left| Stop::by_inadmissible(model, sampled.time, &left))?;
             Ok(rows.row.clone())
@@ -228,31 +228,31 @@ impl HandStepper {
     }
 
     fn step_towards(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), Stop> {
-        let mut noted = Noted(std::mem::take(&mut self.events));
+        let mut kept = EventList(std::mem::take(&mut self.events));
         let changed = std::mem::take(&mut self.changed);
         let stepped = self.with(|simulation| {
-            simulation.plan.end = end;
+            simulation.run.plan.end = end;
             if changed {
-                simulation.renew()?;
+                simulation.restart()?;
             }
-            let report = match simulation.step(&mut noted) {
+            let report = match simulation.step(&mut kept) {
                 Ok(stepped) => stepped?,
                 Err(error) => unreachable!("events that are kept in memory cannot fail: {error}"),
             };
-            let (model, statistics) = (simulation.system.model(), simulation.integrator.statistics());
+            let (model, statistics) = (simulation.system.model(), simulation.run.integrator.statistics());
             let progress = Progress { time: report.end, end, step: &report, statistics, model };
             match monitor.after_step(&progress).filter(|_| report.end < end) {
                 Some(reason) => Err(Stop::by_request(report.end, reason)),
                 None => Ok(()),
             }
         });
-        self.events = noted.0;
+        self.events = kept.0;
         stepped
     }
 
-    fn kept(&self) -> &Detached {
+    fn run(&self) -> &Run {
         match &self.detached {
-            Some(detached) => detached,
+            Some(detached) => &detached.run,
             None => unreachable!("a step has panicked"),
         }
     }
@@ -275,9 +275,9 @@ impl HandStepper {
 }
 
 /// Keeps events.
-struct Noted(Vec<Event>);
+struct EventList(Vec<Event>);
 
-impl Sink for Noted {
+impl Sink for EventList {
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         self.0.push(*event);
         Ok(())
