@@ -3,22 +3,18 @@
 //!   S_i = S₀ + h Σ_j a_ij (J_j S_j + b_j),   S(t + h) = S₅
 //!
 //! Order 9, L-stable, and exact in the derivatives of what the nodes see. With Z = S − S₀ the equations read (A⁻¹/h)
-//! Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch (`relaxing`).
-//! The rate K = S′ of the step is a polynomial of degree four; how fast its Legendre coefficients κ₀ … κ₄ fall tells
-//! how well the step is resolved. Source: Hairer, Wanner, *Solving Ordinary Differential Equations II*, §IV.5.
+//! Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch
+//! (`stage_equations`). The rate K = S′ of the step is a polynomial of degree four; how fast its Legendre coefficients
+//! κ₀ … κ₄ fall tells how well the step is resolved. Source: Hairer, Wanner, *Solving Ordinary Differential Equations
+//! II*, §IV.5.
 
-use super::relaxing::Equations;
-use nalgebra::{DMatrix, SMatrix};
+use super::stage_equations::{STAGES, Square, StageEquations};
+use nalgebra::DMatrix;
 use std::ops::Range;
-
-/// The number of stages.
-pub(super) const STAGES: usize = 5;
 
 /// c, the zeros of d⁴/dx⁴ (x⁴ (x − 1)⁵).
 pub(super) const NODES: [f64; STAGES] =
     [0.057_104_196_114_517_68, 0.276_843_013_638_123_8, 0.583_590_432_368_916_8, 0.860_240_135_656_219_4, 1.0];
-
-pub(super) type Square = SMatrix<f64, STAGES, STAGES>;
 
 /// The coefficients of the method, from its nodes.
 #[derive(Debug, Clone)]
@@ -75,7 +71,7 @@ impl Rule {
             for (i, (slopes, forcing)) in slopes.iter().zip(&stages.forcing).enumerate() {
                 solved.rows_mut(i * n, n).copy_from(&(*slopes * own + forcing.rows(range.start, n)));
             }
-            Equations::new(self.inverse / size, slopes).solve(&mut solved)?;
+            StageEquations::new(self.inverse / size, slopes).solve(&mut solved)?;
             for (i, increment) in increments.iter_mut().enumerate() {
                 increment.rows_mut(range.start, n).copy_from(&solved.rows(i * n, n));
             }

@@ -18,7 +18,7 @@ mod levels;
 mod number;
 mod probe;
 mod quantity;
-mod relaxing;
+mod stage_equations;
 mod tangent;
 mod variation;
 mod works;

@@ -8,11 +8,12 @@
 //! at rest takes long steps, and what is varied about it may swing), and over several steps of the run where these are
 //! short (`history`). Works are quadratures by the same nodes (`works`).
 
-use super::collocation::{self, NODES, Rule, STAGES, Stages, Step};
+use super::collocation::{self, NODES, Rule, Stages, Step};
 use super::history::History;
 use super::kinks::Kinks;
 use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
+use super::stage_equations::STAGES;
 use super::variation::Variation;
 use super::{GROWN, Meaningless};
 use crate::adapter::ModelSystem;

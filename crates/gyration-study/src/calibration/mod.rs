@@ -17,6 +17,7 @@ mod predict;
 mod read;
 mod rebound;
 mod scale;
+mod scene;
 mod text;
 mod uncertainty;
 

@@ -12,14 +12,14 @@
 //! a speed.
 
 use super::rebound::Drop;
+use super::scene::{body, normal};
 use super::{Calibration, Experiment, Kind};
 use gyration::balance::{observe, smallest_gap};
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
-use gyration_scene::{Override, Scene};
-use gyration_sim::complete;
+use gyration_scene::Scene;
 use gyration_sim::modes::rest;
 
 /// Points of a look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
@@ -85,44 +85,6 @@ impl Calibration {
         let slopes = known.into_iter().enumerate().map(|(index, known)| known.map_or_else(|| slope(index), Ok));
         Ok(Prediction { value, slopes: slopes.collect::<Result<_, String>>()? })
     }
-
-    /// The scene of a measurement.
-    pub(super) fn scene(
-        &self,
-        experiment: &Experiment,
-        condition: f64,
-        values: &[f64],
-        more: &[Override],
-    ) -> Result<Scene, String> {
-        let mut overrides = self.overrides(values);
-        overrides.extend(experiment.settings.iter().cloned());
-        overrides.extend(experiment.key.iter().map(|key| Override::new(key, condition)));
-        overrides.extend(more.iter().cloned());
-        let found = self.template.scene(&overrides).and_then(complete);
-        found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
-    }
-
-    /// The scene on a slope, with the part of gravity that presses.
-    fn tilted(&self, experiment: &Experiment, (scene, slope): (&Scene, f64), values: &[f64]) -> Result<Scene, String> {
-        let model = &scene.built().model;
-        let normal = normal(model, body(model, experiment)?)?;
-        let pressing = -normal * (model.gravity.norm() * slope.cos());
-        let gravity = Override::new("world.gravity", <[f64; 3]>::from(pressing));
-        self.scene(experiment, slope, values, &[gravity])
-    }
-}
-
-/// The index of the body.
-pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
-    let found = model.bodies.iter().position(|body| body.name == experiment.body);
-    found.ok_or_else(|| format!("there is no body `{}`", experiment.body))
-}
-
-/// The normal of the first support that acts on a body.
-pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
-    let contact = model.bodies[body].contacts.first();
-    let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
-    Ok(model.supports[contact.support()].normal)
 }
 
 fn rest_gap(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
@@ -156,11 +118,11 @@ fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, Str
 
 /// Where the velocity of a body's centre stands in the state.
 fn velocity(model: &Model, index: usize) -> Result<usize, String> {
-    let (body, block) = (&model.bodies[index], &model.blocks()[index]);
+    let body = &model.bodies[index];
     if body.pin.is_some() || !body.has_inertia() {
         return Err(format!("{:?} is pinned or has no inertia", body.name));
     }
-    Ok(block.start + if body.affine().is_some() { 12 } else { 7 })
+    Ok(model.slots(index).velocity().start)
 }
 
 fn force(model: &Model, state: &State, index: usize) -> Result<Vec3, String> {

@@ -1,6 +1,6 @@
 //! A body that is dropped, and how high it comes again.
 
-use super::predict::{body, normal};
+use super::scene::{body, normal};
 use super::{Calibration, Experiment, Number};
 use crate::extract::Layout;
 use gyration::balance::smallest_gap;
@@ -62,13 +62,13 @@ impl Drop {
         let built = self.scene.built();
         let plan = RunPlan::from(built);
         let place = Layout::new(&built.model, &plan).position + 3 * self.index;
-        let watch = Watch { body: self.index, place, touched: Cell::new(false), apex: Cell::new(None) };
+        let finder = ApexFinder { body: self.index, place, touched: Cell::new(false), apex: Cell::new(None) };
         let mut run = Simulation::new(&built.model, &built.state, plan).map_err(|e| e.to_string())?;
-        let (mut sink, mut monitor) = (&watch, &watch);
+        let (mut sink, mut monitor) = (&finder, &finder);
         run.begin(&mut sink).map_err(|e| e.to_string())?;
         let outcome = run.run(&mut sink, &mut monitor).map_err(|e| e.to_string())?;
         let none = || format!("it does not rebound: {}", outcome.in_words());
-        watch.apex.get().ok_or_else(none)
+        finder.apex.get().ok_or_else(none)
     }
 
     pub fn rebound(&self) -> Result<f64, String> {
@@ -124,8 +124,8 @@ impl Drop {
     }
 }
 
-/// Waits for the apex behind the first touch.
-struct Watch {
+/// Finds the apex behind the first touch.
+struct ApexFinder {
     body: usize,
     /// Where its centre of mass stands in a row.
     place: usize,
@@ -133,7 +133,7 @@ struct Watch {
     apex: Cell<Option<(f64, Vec3)>>,
 }
 
-impl Sink for &Watch {
+impl Sink for &ApexFinder {
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         if event.body == self.body && event.kind != APEX {
             self.touched.set(true);
@@ -155,7 +155,7 @@ impl Sink for &Watch {
     }
 }
 
-impl Monitor for &Watch {
+impl Monitor for &ApexFinder {
     fn after_step(&mut self, _: &Progress) -> Option<Reason> {
         self.apex.get().map(|_| Reason::Interrupted)
     }

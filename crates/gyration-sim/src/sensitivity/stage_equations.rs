@@ -1,4 +1,5 @@
-//! The stages of a collocation step where many unknowns relax by themselves, as the modes of a memory do.
+//! The equations of the stages of a collocation step, of which many unknowns may relax by themselves, as relaxation
+//! modes do.
 //!
 //!   J = [K C; B −S], S diagonal:   E_k = (A⁻¹/h + S_k)⁻¹ (5×5, over the stages),   Z₂ = E (R₂ + B Z₁),
 //!   (A⁻¹/h − K − C E B) Z₁ = R₁ + C E R₂
@@ -6,8 +7,13 @@
 //! A step of n₁ + n₂ unknowns costs 25 n₁² n₂ and the LU of 5 n₁ rows instead of that of 5 (n₁ + n₂). The form is read
 //! off the matrices themselves, exactly; rows and columns that are zero cost nothing.
 
-use super::collocation::{STAGES, Square};
-use nalgebra::{DMatrix, SVector};
+use nalgebra::{DMatrix, SMatrix, SVector};
+
+/// The number of stages.
+pub(super) const STAGES: usize = 5;
+
+/// A matrix over the stages.
+pub(super) type Square = SMatrix<f64, STAGES, STAGES>;
 
 /// Unknowns that relax by themselves behind so many others.
 fn leading(slopes: &DMatrix<f64>) -> usize {
@@ -20,7 +26,7 @@ fn leading(slopes: &DMatrix<f64>) -> usize {
 }
 
 /// The equations of one block: (`rule` ⊗ I − diag J_i) Z = R, with `rule` = A⁻¹/h, in the order stage by stage.
-pub(super) struct Equations<'a> {
+pub(super) struct StageEquations<'a> {
     rule: Square,
     slopes: [&'a DMatrix<f64>; STAGES],
     /// How many unknowns do not relax by themselves.
@@ -29,7 +35,7 @@ pub(super) struct Equations<'a> {
     decays: Vec<Square>,
 }
 
-impl<'a> Equations<'a> {
+impl<'a> StageEquations<'a> {
     /// Finds their form.
     pub fn new(rule: Square, slopes: [&'a DMatrix<f64>; STAGES]) -> Self {
         let (n, mut lead) = (slopes[0].nrows(), slopes.iter().map(|slopes| leading(slopes)).max().unwrap_or(0));
@@ -155,7 +161,7 @@ mod tests {
             if a == b { rule[(i, j)] - own } else { -own }
         });
         let expected = whole.lu().solve(&right).unwrap();
-        let equations = Equations::new(rule, slopes.each_ref());
+        let equations = StageEquations::new(rule, slopes.each_ref());
         assert_eq!(equations.lead, lead);
         let mut found = right;
         equations.solve(&mut found).unwrap();

@@ -1,0 +1,52 @@
+//! The scenes of measurements: one scene with the numbers and the condition of a measurement, and where its body is.
+
+use super::{Calibration, Experiment};
+use gyration::model::Model;
+use gyration::tensor::Vec3;
+use gyration_scene::{Override, Scene};
+use gyration_sim::complete;
+
+impl Calibration {
+    /// The scene of a measurement.
+    pub(super) fn scene(
+        &self,
+        experiment: &Experiment,
+        condition: f64,
+        values: &[f64],
+        more: &[Override],
+    ) -> Result<Scene, String> {
+        let mut overrides = self.overrides(values);
+        overrides.extend(experiment.settings.iter().cloned());
+        overrides.extend(experiment.key.iter().map(|key| Override::new(key, condition)));
+        overrides.extend(more.iter().cloned());
+        let found = self.template.scene(&overrides).and_then(complete);
+        found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
+    }
+
+    /// The scene on a slope, with the part of gravity that presses.
+    pub(super) fn tilted(
+        &self,
+        experiment: &Experiment,
+        (scene, slope): (&Scene, f64),
+        values: &[f64],
+    ) -> Result<Scene, String> {
+        let model = &scene.built().model;
+        let normal = normal(model, body(model, experiment)?)?;
+        let pressing = -normal * (model.gravity.norm() * slope.cos());
+        let gravity = Override::new("world.gravity", <[f64; 3]>::from(pressing));
+        self.scene(experiment, slope, values, &[gravity])
+    }
+}
+
+/// The index of the body.
+pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
+    let found = model.bodies.iter().position(|body| body.name == experiment.body);
+    found.ok_or_else(|| format!("there is no body `{}`", experiment.body))
+}
+
+/// The normal of the first support that acts on a body.
+pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
+    let contact = model.bodies[body].contacts.first();
+    let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
+    Ok(model.supports[contact.support()].normal)
+}
