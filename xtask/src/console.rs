@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// What the lanes share.
 #[derive(Debug, Default)]
-struct Shared {
+struct ConsoleState {
     /// Whether the main lane is within a step.
     busy: bool,
     /// Blocks of the lane beside that wait.
@@ -18,7 +18,7 @@ struct Shared {
 /// The console of one lane.
 #[derive(Debug, Default)]
 pub struct Console {
-    shared: Arc<Mutex<Shared>>,
+    shared: Arc<Mutex<ConsoleState>>,
     /// The lines of this step, in a lane beside the main one.
     block: Option<String>,
 }
@@ -61,7 +61,7 @@ impl Console {
         let _ = std::io::stdout().flush();
     }
 
-    fn shared(&self) -> MutexGuard<'_, Shared> {
+    fn shared(&self) -> MutexGuard<'_, ConsoleState> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

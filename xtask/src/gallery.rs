@@ -12,7 +12,7 @@ use std::process::{Command, ExitCode};
 
 /// A scene as the program lists it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Entry {
+pub struct ListedScene {
     name: String,
     title: String,
     /// What to look at.
@@ -87,7 +87,7 @@ fn program() -> Command {
 }
 
 /// The scenes, as the program lists them.
-fn list(mut command: Command) -> Result<Vec<Entry>, String> {
+fn list(mut command: Command) -> Result<Vec<ListedScene>, String> {
     let output =
         command.arg("scenes").output().map_err(|error| format!("`gyration scenes` cannot be started: {error}"))?;
     if !output.status.success() {
@@ -103,8 +103,8 @@ pub fn names(program: Command) -> Result<Vec<String>, String> {
 }
 
 /// Entries from a listing: `name  title`, then indented lines; an empty line ends it.
-fn entries(listing: &str) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
+fn entries(listing: &str) -> Vec<ListedScene> {
+    let mut entries: Vec<ListedScene> = Vec::new();
     for line in listing.lines().take_while(|line| !line.is_empty()) {
         match (line.strip_prefix(' '), entries.last_mut()) {
             (Some(told), Some(entry)) => {
@@ -113,21 +113,21 @@ fn entries(listing: &str) -> Vec<Entry> {
             }
             _ => {
                 let (name, title) = line.split_once(' ').unwrap_or((line, ""));
-                entries.push(Entry { name: name.into(), title: title.trim().into(), text: String::new() });
+                entries.push(ListedScene { name: name.into(), title: title.trim().into(), text: String::new() });
             }
         }
     }
     entries
 }
 
-fn page(entries: &[Entry]) -> String {
+fn page(entries: &[ListedScene]) -> String {
     let mut page = String::from(
         "# The gallery\n\n\
          Scenes that run by name: `gyration run NAME`. `gyration scenes NAME` prints the file, to copy and change.\n\
          This page and its pictures are made by `cargo xtask gallery`, which runs every scene and draws\n\
          `gyration plot NAME.gyr strip`; the words stand at the head of each scene.\n\n",
     );
-    for Entry { name, title, text } in entries {
+    for ListedScene { name, title, text } in entries {
         let _ = write!(page, "## `{name}`\n\n**{title}.** {text}\n\n![{title}](pictures/{name}.svg)\n\n");
     }
     page.truncate(page.trim_end().len());
@@ -142,8 +142,11 @@ mod tests {
     fn a_listing_is_read_back() {
         let listing = "dice         A die thrown\n             Look at it,\n             and again.\n\
                        rock-2       A block\n\n`gyration run NAME` runs\n";
-        let entry =
-            |name: &str, title: &str, text: &str| Entry { name: name.into(), title: title.into(), text: text.into() };
+        let entry = |name: &str, title: &str, text: &str| ListedScene {
+            name: name.into(),
+            title: title.into(),
+            text: text.into(),
+        };
         assert_eq!(
             entries(listing),
             [entry("dice", "A die thrown", "Look at it, and again."), entry("rock-2", "A block", "")]

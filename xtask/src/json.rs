@@ -6,21 +6,21 @@ use std::collections::BTreeMap;
 
 /// A value of JSON.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Value {
+pub enum Json {
     /// `null`, `true`, `false` or a number, as written.
     Word(String),
     /// A text without its escapes.
     Text(String),
     /// A list.
-    List(Vec<Value>),
+    List(Vec<Json>),
     /// An object.
-    Map(BTreeMap<String, Value>),
+    Map(BTreeMap<String, Json>),
 }
 
-impl Value {
+impl Json {
     /// Reads a whole text; none if it is not JSON.
     pub fn parse(text: &str) -> Option<Self> {
-        let mut reader = Reader { rest: text };
+        let mut reader = JsonReader { rest: text };
         let value = reader.value()?;
         reader.peek().is_none().then_some(value)
     }
@@ -41,11 +41,11 @@ impl Value {
     }
 }
 
-struct Reader<'a> {
+struct JsonReader<'a> {
     rest: &'a str,
 }
 
-impl Reader<'_> {
+impl JsonReader<'_> {
     /// The next character that is no space; none at the end.
     fn peek(&mut self) -> Option<char> {
         self.rest = self.rest.trim_start();
@@ -59,7 +59,7 @@ impl Reader<'_> {
         Some(())
     }
 
-    fn value(&mut self) -> Option<Value> {
+    fn value(&mut self) -> Option<Json> {
         match self.peek()? {
             '{' => self
                 .members('{', '}', |reader| {
@@ -68,9 +68,9 @@ impl Reader<'_> {
                     reader.take(':')?;
                     Some((key, reader.value()?))
                 })
-                .map(|members| Value::Map(members.into_iter().collect())),
-            '[' => self.members('[', ']', Self::value).map(Value::List),
-            '"' => self.string().map(Value::Text),
+                .map(|members| Json::Map(members.into_iter().collect())),
+            '[' => self.members('[', ']', Self::value).map(Json::List),
+            '"' => self.string().map(Json::Text),
             _ => self.word(),
         }
     }
@@ -91,12 +91,12 @@ impl Reader<'_> {
         }
     }
 
-    fn word(&mut self) -> Option<Value> {
+    fn word(&mut self) -> Option<Json> {
         let end =
             self.rest.find(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c))).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
-        (!word.is_empty()).then(|| Value::Word(word.to_owned()))
+        (!word.is_empty()).then(|| Json::Word(word.to_owned()))
     }
 
     fn string(&mut self) -> Option<String> {
@@ -142,18 +142,18 @@ mod tests {
     #[test]
     fn what_recordings_hold_is_read() {
         let text = r#" {"a": [1.5e-3, -2, true, null], "b": {"c": "x\n\"ä\" \u00e4"}, "d": [], "e": {} } "#;
-        let value = Value::parse(text).unwrap();
-        let words = ["1.5e-3", "-2", "true", "null"].map(|word| Value::Word(word.into()));
-        assert_eq!(value.get("a"), Some(&Value::List(words.to_vec())));
-        assert_eq!(value.get("b").and_then(|b| b.get("c")).and_then(Value::text), Some("x\n\"ä\" ä"));
-        assert_eq!(value.get("d"), Some(&Value::List(Vec::new())));
-        assert_eq!(value.get("e").and_then(Value::entries), Some(&BTreeMap::new()));
+        let value = Json::parse(text).unwrap();
+        let words = ["1.5e-3", "-2", "true", "null"].map(|word| Json::Word(word.into()));
+        assert_eq!(value.get("a"), Some(&Json::List(words.to_vec())));
+        assert_eq!(value.get("b").and_then(|b| b.get("c")).and_then(Json::text), Some("x\n\"ä\" ä"));
+        assert_eq!(value.get("d"), Some(&Json::List(Vec::new())));
+        assert_eq!(value.get("e").and_then(Json::entries), Some(&BTreeMap::new()));
     }
 
     #[test]
     fn what_is_no_json_is_refused() {
         for text in ["", "{", "[1,]", "{\"a\" 1}", "[1] 2", "\"open", "[1 2]", "{a: 1}", "\"\\u12\""] {
-            assert_eq!(Value::parse(text), None, "{text}");
+            assert_eq!(Json::parse(text), None, "{text}");
         }
     }
 }

@@ -1,14 +1,14 @@
 //! The test programs of the workspace: built by cargo, started one by one, so that each can be timed.
 
 use crate::cargo::cargo;
-use crate::json::Value;
+use crate::json::Json;
 use crate::steps::Steps;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What cargo has built for the tests.
 #[derive(Debug, Clone, Default)]
-pub struct Built {
+pub struct TestPrograms {
     /// The test programs, in cargo's order.
     pub programs: Vec<Program>,
     /// The program `gyration`.
@@ -26,12 +26,12 @@ pub struct Program {
 }
 
 /// Builds every test program of the workspace, and what they start; none, with a complaint noted, if that fails.
-pub fn build(steps: &mut Steps) -> Option<Built> {
+pub fn build(steps: &mut Steps) -> Option<TestPrograms> {
     let mut command = cargo();
     command.args(["test", "--workspace", "--no-run", "--message-format=json-render-diagnostics"]);
-    let mut built = Built::default();
+    let mut built = TestPrograms::default();
     let passed = steps.run_reading("build the tests", &mut command, |line| {
-        let message = line.starts_with('{').then(|| Value::parse(line)).flatten();
+        let message = line.starts_with('{').then(|| Json::parse(line)).flatten();
         if let Some(message) = &message {
             built.take(message);
         }
@@ -40,16 +40,16 @@ pub fn build(steps: &mut Steps) -> Option<Built> {
     passed.then_some(built)
 }
 
-impl Built {
+impl TestPrograms {
     /// Reads what cargo says about one artifact.
-    fn take(&mut self, message: &Value) -> Option<()> {
+    fn take(&mut self, message: &Json) -> Option<()> {
         let path = PathBuf::from(message.get("executable")?.text()?);
         let target = message.get("target")?;
         let name = target.get("name")?.text()?;
-        if message.get("profile")?.get("test") == Some(&Value::Word("true".into())) {
+        if message.get("profile")?.get("test") == Some(&Json::Word("true".into())) {
             let folder = Path::new(message.get("manifest_path")?.text()?).parent()?.to_path_buf();
             let package = folder.file_name()?.to_string_lossy().into_owned();
-            let is_test = target.get("kind") == Some(&Value::List(vec![Value::Text("test".into())]));
+            let is_test = target.get("kind") == Some(&Json::List(vec![Json::Text("test".into())]));
             let title = format!("{package}: {}", if is_test { name } else { "unit tests" });
             self.programs.push(Program { title, path, folder });
         } else if name == "gyration" {
@@ -93,14 +93,14 @@ mod tests {
                 r#"{{"reason": "compiler-artifact", "manifest_path": "/r/{folder}/Cargo.toml",
                 "executable": "/t/{name}", "target": {{"kind": ["{kind}"], "name": "{name}"}}, "profile": {{"test": {test}}}}}"#
             );
-            Value::parse(&text).unwrap()
+            Json::parse(&text).unwrap()
         };
-        let mut built = Built::default();
+        let mut built = TestPrograms::default();
         built.take(&artifact("crates/a", "lib", "a", "true"));
         built.take(&artifact("crates/a", "test", "tests", "true"));
         built.take(&artifact("crates/cli", "bin", "gyration", "false"));
         built.take(&artifact("crates/cli", "example", "other", "false"));
-        built.take(&Value::parse(r#"{"reason": "build-finished", "success": true}"#).unwrap());
+        built.take(&Json::parse(r#"{"reason": "build-finished", "success": true}"#).unwrap());
         let titles: Vec<&str> = built.programs.iter().map(|program| program.title.as_str()).collect();
         assert_eq!(titles, ["a: unit tests", "a: tests"]);
         assert_eq!(integration(&built.programs).count(), 1);

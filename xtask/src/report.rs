@@ -8,12 +8,12 @@ const SLOWEST: usize = 10;
 
 /// Stages and programs with what they took.
 #[derive(Debug, Default)]
-pub struct Report {
+pub struct TestReport {
     stages: Vec<(String, Cost)>,
     programs: Vec<(String, Cost)>,
 }
 
-impl Report {
+impl TestReport {
     /// Notes a stage.
     pub fn stage(&mut self, title: &str, cost: Cost) {
         self.stages.push((title.to_owned(), cost));
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn stages_come_in_their_order_and_programs_by_their_time() {
-        let mut report = Report::default();
+        let mut report = TestReport::default();
         for (title, wall) in [("format", 1.0), ("tests", 200.0)] {
             report.stage(title, Cost { wall, cpu: 2.0 * wall });
         }

@@ -5,7 +5,7 @@
 
 use crate::child::{self, Cost};
 use crate::console::Console;
-use crate::report::Report;
+use crate::report::TestReport;
 use crate::tally::Tally;
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -15,7 +15,7 @@ use std::time::Instant;
 pub struct Steps {
     /// What the test programs said.
     pub tally: Tally,
-    report: Report,
+    report: TestReport,
     console: Console,
     complaints: Vec<String>,
     skipped: Vec<String>,

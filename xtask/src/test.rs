@@ -1,7 +1,7 @@
 //! The test command: every check of the repository, in the order in which a mistake is cheapest to find.
 
 use crate::cargo::cargo;
-use crate::programs::{self, Built};
+use crate::programs::{self, TestPrograms};
 use crate::steps::{Steps, succeeds};
 use crate::{answers, fill, gallery, package, python, root, validate, viewer};
 use std::process::{Command, ExitCode};
@@ -48,7 +48,7 @@ pub fn run(extent: Extent) -> ExitCode {
 }
 
 /// The checks of the Rust code; what was built for the tests goes to the lane beside as soon as it is there.
-fn rust(steps: &mut Steps, extent: Extent, built: &Sender<Built>) {
+fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
     steps.run("format", cargo().args(["fmt", "--all", "--check"]));
     fill::check(steps);
     steps.run("lints", cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]));
@@ -73,7 +73,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<Built>) {
 
 /// The viewer and Python: what they need is fetched while Rust is compiled, and they are tested once the program is
 /// built.
-fn beside_rust(steps: &mut Steps, built: &Receiver<Built>) {
+fn beside_rust(steps: &mut Steps, built: &Receiver<TestPrograms>) {
     let browser = viewer::browser(steps);
     let interpreter = python::environment(steps);
     let Ok(built) = built.recv() else { return };

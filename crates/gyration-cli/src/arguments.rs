@@ -4,9 +4,9 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
-use gyration_plot::Quantity;
+use gyration_plot::PlotQuantity;
 #[cfg(feature = "study")]
-use gyration_plot::study::Kind;
+use gyration_plot::study::PlotKind;
 use gyration_sim::resistance::TRIANGLES_ALLOWED;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -33,14 +33,14 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a scene into a recording
-    Run(Run),
+    Run(RunArguments),
     /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching, resolved form
     Check(Check),
     /// Print the rest state of each body, and frequencies, decay rates and shapes of the small motions about it
     Modes(Check),
     /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and
     /// moment
-    Resistance(Resistance),
+    Resistance(ResistanceArguments),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
     /// Turn a recording into a table or a file for other programs
@@ -49,13 +49,13 @@ pub enum Command {
     Plot(Plot),
     /// Write a recording as one HTML file: playback, plots, ledger, scene; readable without network
     #[cfg(feature = "view")]
-    Report(Report),
+    Report(ReportArguments),
     /// Show a recording, or a scene that runs as it is watched, in a browser
     #[cfg(feature = "view")]
-    View(View),
+    View(ViewArguments),
     /// Run a scene many times, with other numbers each, into one table
     #[cfg(feature = "study")]
-    Study(Study),
+    Study(StudyArguments),
     /// Find numbers of a scene, as α, β, ν of its contact laws, from measurements
     #[cfg(feature = "study")]
     Calibrate(Calibrate),
@@ -82,7 +82,7 @@ pub struct SceneArguments {
 
 /// `gyration run`
 #[derive(Debug, Args)]
-pub struct Run {
+pub struct RunArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -116,7 +116,7 @@ pub struct Check {
 
 /// `gyration resistance`
 #[derive(Debug, Args)]
-pub struct Resistance {
+pub struct ResistanceArguments {
     /// Path of a scene, or its name in the gallery; behind a colon one body of it
     #[arg(value_name = "SCENE[:BODY]", value_hint = ValueHint::FilePath)]
     pub scene: String,
@@ -185,7 +185,7 @@ pub struct Plot {
     pub source: String,
     /// What to draw, below each other [default: overview of a recording, laws of a scene]
     #[arg(value_name = "WHAT", value_parser = quantity())]
-    pub what: Vec<Quantity>,
+    pub what: Vec<PlotQuantity>,
     /// File to write: .svg, .png or .pdf; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
@@ -201,7 +201,7 @@ pub struct Plot {
 /// `gyration report`
 #[cfg(feature = "view")]
 #[derive(Debug, Args)]
-pub struct Report {
+pub struct ReportArguments {
     /// Directory of the recording
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub recording: PathBuf,
@@ -213,7 +213,7 @@ pub struct Report {
 /// `gyration view`
 #[cfg(feature = "view")]
 #[derive(Debug, Args)]
-pub struct View {
+pub struct ViewArguments {
     /// Directory of a recording, or a scene: its path or its name in the gallery
     #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath)]
     pub source: String,
@@ -231,7 +231,7 @@ pub struct View {
 /// `gyration study`
 #[cfg(feature = "study")]
 #[derive(Debug, Args)]
-pub struct Study {
+pub struct StudyArguments {
     /// Path of a study, or the name of a ready one; without it, the ready ones are listed
     #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
     pub study: Option<String>,
@@ -288,7 +288,7 @@ pub struct StudyPlot {
     pub colour: Option<String>,
     /// Kind of picture; with this, --x or --y the study's own columns no longer count [default: what the study says, or
     /// by the columns]
-    #[arg(long, value_parser = Kind::WORDS)]
+    #[arg(long, value_parser = PlotKind::WORDS)]
     pub kind: Option<String>,
 }
 
@@ -308,9 +308,9 @@ pub struct Calibrate {
 }
 
 /// Reads the name of a quantity; help lists all of them.
-fn quantity() -> impl TypedValueParser<Value = Quantity> {
-    let named = |quantity: Quantity| PossibleValue::new(quantity.name()).help(quantity.description());
-    PossibleValuesParser::new(Quantity::ALL.map(named)).try_map(|name| Quantity::of_name(&name))
+fn quantity() -> impl TypedValueParser<Value = PlotQuantity> {
+    let named = |quantity: PlotQuantity| PossibleValue::new(quantity.name()).help(quantity.description());
+    PossibleValuesParser::new(PlotQuantity::ALL.map(named)).try_map(|name| PlotQuantity::of_name(&name))
 }
 
 /// Reads how many triangles boundary elements take.

@@ -2,7 +2,7 @@
 //!
 //! A table whose rows have no condition, or all the same, is drawn over the numbers of its rows, counted from one.
 
-use crate::chart::{Axis, Chart, DASHED, Field, LINE, Series, Shapes};
+use crate::chart::{Axis, Chart, DASHED, LINE, Series, ShapeChart, Shapes};
 use crate::draw::{Point, Stroke, color};
 use crate::figure::{Figure, Panel};
 use gyration_scene::unit_of;
@@ -56,5 +56,5 @@ fn panel(curve: &Curve, fitted: &Fitted) -> Panel {
     let y = Axis::linear(measured, unit, all.iter().map(|point| point[1]));
     let title = format!("{}, {}", table.place(), table.body);
     let remarks = vec!["measured, with its".to_owned(), "standard deviation".to_owned()];
-    Panel::Field(Field { chart: Chart { title, x, y, series, remarks, height: HEIGHT }, shapes })
+    Panel::ShapeChart(ShapeChart { chart: Chart { title, x, y, series, remarks, height: HEIGHT }, shapes })
 }

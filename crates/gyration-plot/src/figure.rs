@@ -3,8 +3,8 @@
 //! Charts that follow each other over the same axis share its words.
 
 use crate::chart::frame::{self, BELOW, Content, NAME_SIZE, words_at};
-use crate::chart::{Chart, Field, LEGEND_SIZE, Legend, Shapes};
-use crate::draw::{Anchor, Drawing, Format, Label, Rect, Text, color, font};
+use crate::chart::{Chart, LEGEND_SIZE, Legend, ShapeChart, Shapes};
+use crate::draw::{Anchor, Format, Label, Page, Rect, Text, color, font};
 use crate::strip::Strip;
 
 /// Width of a page [pt]: fits between the margins of A4 and letter paper.
@@ -26,7 +26,7 @@ pub enum Panel {
     /// Series over axes.
     Chart(Chart),
     /// Series over axes, with areas, dots or intervals under them.
-    Field(Field),
+    ShapeChart(ShapeChart),
     /// Outlines at successive times.
     Strip(Strip),
 }
@@ -36,14 +36,14 @@ impl Panel {
     fn chart(&self) -> Option<&Chart> {
         match self {
             Self::Chart(chart) => Some(chart),
-            Self::Field(field) => Some(&field.chart),
+            Self::ShapeChart(field) => Some(&field.chart),
             Self::Strip(_) => None,
         }
     }
 
     /// What stands under the series.
     fn shapes(&self) -> &[Shapes] {
-        if let Self::Field(field) = self { &field.shapes } else { &[] }
+        if let Self::ShapeChart(field) = self { &field.shapes } else { &[] }
     }
 }
 
@@ -59,7 +59,7 @@ pub struct Figure {
 }
 
 /// The left and the right edge of all frames [pt].
-struct Edges {
+struct FrameEdges {
     left: f64,
     right: f64,
 }
@@ -71,9 +71,9 @@ impl Figure {
     }
 
     /// Lays the figure out and draws it.
-    pub fn draw(&self) -> Drawing {
+    pub fn draw(&self) -> Page {
         let edges = self.edges();
-        let mut drawing = Drawing::new(WIDTH, 0.0, self.title.clone());
+        let mut drawing = Page::new(WIDTH, 0.0, self.title.clone());
         let mut y = self.draw_title(&mut drawing);
         for (index, panel) in self.panels.iter().enumerate() {
             if let Panel::Strip(strip) = panel {
@@ -91,16 +91,16 @@ impl Figure {
     }
 
     /// One left edge and one width for all frames; the legends' column is as wide as the widest.
-    fn edges(&self) -> Edges {
+    fn edges(&self) -> FrameEdges {
         let charts = || self.panels.iter().filter_map(|panel| panel.chart());
         let left = charts().map(frame::left_margin).fold(0.0, f64::max);
         let legend = charts().map(|chart| chart.legend().width()).fold(0.0, f64::max);
         let right = if legend > 0.0 { legend + BESIDE } else { 0.0 };
-        Edges { left: MARGIN + left, right: WIDTH - MARGIN - right }
+        FrameEdges { left: MARGIN + left, right: WIDTH - MARGIN - right }
     }
 
     /// Draws the title; returns where it ends.
-    fn draw_title(&self, drawing: &mut Drawing) -> f64 {
+    fn draw_title(&self, drawing: &mut Page) -> f64 {
         let line = |words: &str, y: f64, size: f64| Text {
             label: Label::plain(words),
             ..words_at("", [MARGIN, y], Anchor::Start, size, color::INK)
@@ -134,7 +134,7 @@ fn in_lines(words: &str) -> Vec<String> {
 }
 
 /// Draws a chart below `y`; returns where it ends.
-fn draw_chart(content: &Content, drawing: &mut Drawing, edges: &Edges, y: f64) -> f64 {
+fn draw_chart(content: &Content, drawing: &mut Page, edges: &FrameEdges, y: f64) -> f64 {
     let chart = content.chart;
     let above = if chart.title.is_empty() { BETWEEN } else { ABOVE };
     let legend: Legend = chart.legend();

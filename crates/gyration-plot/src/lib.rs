@@ -29,4 +29,4 @@ mod thin;
 pub use draw::Format;
 pub use error::PlotError;
 pub use figure::Figure;
-pub use show::{OVERVIEW, Quantity, laws, leave_overview, of_recording};
+pub use show::{OVERVIEW, PlotQuantity, laws, leave_overview, of_recording};

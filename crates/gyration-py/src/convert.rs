@@ -106,13 +106,13 @@ pub fn json(object: &Bound<'_, PyAny>) -> PyResult<String> {
 }
 
 /// JSON whose tables are in order.
-enum Tree {
+enum OrderedJson {
     Leaf(Value),
     List(Vec<Self>),
     Table(Vec<(String, Self)>),
 }
 
-impl Serialize for Tree {
+impl Serialize for OrderedJson {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Leaf(value) => value.serialize(serializer),
@@ -122,9 +122,9 @@ impl Serialize for Tree {
     }
 }
 
-fn tree(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Tree> {
+fn tree(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<OrderedJson> {
     check_depth(depth)?;
-    Ok(Tree::Leaf(match plain(object)? {
+    Ok(OrderedJson::Leaf(match plain(object)? {
         Plain::Bool(value) => value.into(),
         Plain::Whole(digits) => match digits.parse::<i64>() {
             Ok(whole) => whole.into(),
@@ -133,11 +133,11 @@ fn tree(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Tree> {
         Plain::Real(value) => real(value)?,
         Plain::Text(text) => text.into(),
         Plain::List(items) => {
-            return Ok(Tree::List(items.iter().map(|item| tree(item, depth + 1)).collect::<PyResult<_>>()?));
+            return Ok(OrderedJson::List(items.iter().map(|item| tree(item, depth + 1)).collect::<PyResult<_>>()?));
         }
         Plain::Table(entries) => {
             let entry = |(key, value): (String, Bound<'_, PyAny>)| Ok((key, tree(&value, depth + 1)?));
-            return Ok(Tree::Table(entries.into_iter().map(entry).collect::<PyResult<_>>()?));
+            return Ok(OrderedJson::Table(entries.into_iter().map(entry).collect::<PyResult<_>>()?));
         }
     }))
 }

@@ -58,7 +58,7 @@ mod _gyration {
     #[pymodule_export]
     use super::simulation::{Simulation, simulate};
     #[pymodule_export]
-    use super::study::{Lock, Work};
+    use super::study::{Lock, StudyWork};
     #[pymodule_export]
     use super::table::{Table, studies};
     #[pymodule_export]

@@ -24,13 +24,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// What many runs ended with, an array a quantity.
 #[pyclass(frozen, module = "gyration", name = "Runs")]
 pub struct Runs {
-    endings: Vec<Ending>,
+    endings: Vec<RunEnd>,
     /// The columns kept, in the order in which they came up.
     columns: Vec<String>,
 }
 
 /// How one run ended.
-struct Ending {
+struct RunEnd {
     outcome: String,
     reason: Option<String>,
     time: f64,
@@ -102,9 +102,9 @@ fn all(
     threads: NonZeroUsize,
     keep: Option<&[String]>,
     monitor: &mut PythonMonitor,
-) -> Vec<Ending> {
+) -> Vec<RunEnd> {
     let stop = AtomicBool::new(false);
-    let mut endings: Vec<Option<Ending>> = scenes.iter().map(|_| None).collect();
+    let mut endings: Vec<Option<RunEnd>> = scenes.iter().map(|_| None).collect();
     let mut done = 0;
     let run = |(index, scene): (usize, &Arc<Built>)| Some((index, run_one(scene, keep, &stop)));
     share(scenes.iter().enumerate(), threads, &stop, run, |ended| {
@@ -116,7 +116,7 @@ fn all(
             stop.store(true, Ordering::Relaxed);
         }
     });
-    let not_begun = || Ending::nothing("interrupted", "stopped before it began".to_owned());
+    let not_begun = || RunEnd::nothing("interrupted", "stopped before it began".to_owned());
     endings.into_iter().map(|ending| ending.unwrap_or_else(not_begun)).collect()
 }
 
@@ -141,11 +141,11 @@ impl Monitor for Together<'_> {
     }
 }
 
-fn run_one(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Ending {
-    ended(scene, keep, stop).unwrap_or_else(|error| Ending::nothing("failed", error.to_string()))
+fn run_one(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> RunEnd {
+    ended(scene, keep, stop).unwrap_or_else(|error| RunEnd::nothing("failed", error.to_string()))
 }
 
-impl Ending {
+impl RunEnd {
     /// That of a run that did not take place.
     fn nothing(outcome: &str, reason: String) -> Self {
         Self {
@@ -161,7 +161,7 @@ impl Ending {
     }
 }
 
-fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<Ending, RunError> {
+fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<RunEnd, RunError> {
     let job = Job::of(scene, &gyration_cli::provenance());
     let mut last = Last::default();
     let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
@@ -175,7 +175,7 @@ fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<En
         Outcome::AtRest { .. } => ("at_rest".to_owned(), None),
         Outcome::Stopped(stop) => (reason(stop), Some(outcome.in_words())),
     };
-    Ok(Ending {
+    Ok(RunEnd {
         outcome: kind,
         reason: why,
         time: simulation.state().time,
@@ -228,7 +228,7 @@ impl Runs {
 
     /// A column as an array, a number a run: NaN where a run does not have it; counters are whole numbers.
     fn __getitem__<'py>(&self, py: Python<'py>, column: &str) -> PyResult<Bound<'py, PyAny>> {
-        let counter = |of: fn(&Ending) -> u64| {
+        let counter = |of: fn(&RunEnd) -> u64| {
             let counts: Vec<i64> = self.endings.iter().map(|ending| of(ending) as i64).collect();
             Ok(PyArray1::from_vec(py, counts).into_any())
         };
@@ -238,7 +238,7 @@ impl Runs {
             "evaluations" => return counter(|ending| ending.evaluations),
             _ => {}
         }
-        let of = |ending: &Ending| match column {
+        let of = |ending: &RunEnd| match column {
             "time" => ending.time,
             "residual" => ending.residual,
             _ => ending.last.iter().find(|(name, _)| name == column).map_or(f64::NAN, |(_, value)| *value),

@@ -1,11 +1,11 @@
 //! `Picture`: a drawing that shows itself in a notebook and can be saved.
 
 use crate::errors;
-use gyration_plot::study::{Request, of_table};
-use gyration_plot::{Figure, Format, PlotError, Quantity, calibration};
+use gyration_plot::study::{PlotRequest, of_table};
+use gyration_plot::{Figure, Format, PlotError, PlotQuantity, calibration};
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
-use gyration_study::Frame;
+use gyration_study::DataFrame;
 use gyration_study::calibration::{Calibration, Fitted};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -37,17 +37,17 @@ pub enum PictureSource {
     /// A fit to measurements.
     Fit(Arc<Calibration>, Arc<Fitted>),
     /// Columns of the table of a study, which lies at this path.
-    Study(Arc<Frame>, PathBuf, Request),
+    Study(Arc<DataFrame>, PathBuf, PlotRequest),
 }
 
 impl PictureSource {
     fn figure(&self) -> Result<Figure, PlotError> {
         match self {
             Self::Recording { recording, quantities, measures, .. } => {
-                let named = quantities.iter().map(|name| Quantity::of_name(name));
+                let named = quantities.iter().map(|name| PlotQuantity::of_name(name));
                 let mut quantities = named.collect::<Result<Vec<_>, _>>()?;
                 if quantities.is_empty() {
-                    quantities.push(Quantity::Overview);
+                    quantities.push(PlotQuantity::Overview);
                 }
                 gyration_plot::of_recording(recording, &quantities, measures)
             }

@@ -6,7 +6,7 @@ use crate::recording::Recording;
 use gyration_plot::leave_overview;
 use gyration_record::{Recording as Stored, remove};
 use gyration_scene::Scene;
-use gyration_sim::{Job, MemorySink, Recorded, RunSummary, Simulation};
+use gyration_sim::{Job, MemorySink, RecordingEnd, RunSummary, Simulation};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -79,8 +79,8 @@ fn record(
         job.record(path, monitor)
     };
     match recorded.map_err(errors::run)? {
-        Recorded::Ran(summary) => Ok(Some(told(scene, path, &summary)?)),
-        Recorded::AlreadyFinished(_) => Ok(None),
+        RecordingEnd::Ran(summary) => Ok(Some(told(scene, path, &summary)?)),
+        RecordingEnd::AlreadyFinished(_) => Ok(None),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Studies: the table that one process keeps, and the rows that others may compute for it.
 //!
-//! `Work` is what `gyration.study` is made of: on the threads of this machine it does all of it; an executor of Python
-//! takes run numbers from it and hands back what `worker` makes of them (`python/gyration/_spread.py`). Rows are those
-//! of `gyration-study` either way, so that the table has the same bytes.
+//! `StudyWork` is what `gyration.study` is made of: on the threads of this machine it does all of it; an executor of
+//! Python takes run numbers from it and hands back what `worker` makes of them (`python/gyration/_spread.py`). Rows are
+//! those of `gyration-study` either way, so that the table has the same bytes.
 
 use crate::convert::{elsewhere, json, overrides, shown};
 use crate::errors;
@@ -10,7 +10,7 @@ use crate::many::workers;
 use crate::monitor::PythonMonitor;
 use crate::parcel::{Parcel, unpack};
 use crate::worker::StudyParts;
-use gyration_study::{Row, Shard, Source, Study, Table, TableLock, execute};
+use gyration_study::{Row, Shard, Study, StudySource, Table, TableLock, execute};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyDict;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 /// A study and its table while it is being made.
 #[pyclass(module = "gyration", name = "_Work")]
-pub struct Work {
+pub struct StudyWork {
     study: Arc<Study>,
     /// None once it has been closed.
     table: Option<Table>,
@@ -44,7 +44,7 @@ fn open(source: &Bound<'_, PyAny>, changes: &[String], base: &Path) -> PyResult<
 }
 
 #[pymethods]
-impl Work {
+impl StudyWork {
     #[new]
     #[pyo3(signature = (source, output, changes, resume, force))]
     fn new(
@@ -77,7 +77,7 @@ impl Work {
 
     #[getter]
     fn source(&self) -> StudyParts {
-        let Source { name, text, base, overrides } = self.study.source().clone();
+        let StudySource { name, text, base, overrides } = self.study.source().clone();
         (name, text, elsewhere(&base), overrides, self.study.fingerprint().to_owned())
     }
 

@@ -4,8 +4,8 @@ use crate::convert::{array, object};
 use crate::errors;
 use crate::picture::{Picture, PictureSource};
 use crate::recording::opener;
-use gyration_plot::study::{Kind, Request};
-use gyration_study::{Data, Frame, FrameColumn, studies as ready};
+use gyration_plot::study::{PlotKind, PlotRequest};
+use gyration_study::{Data, DataFrame, FrameColumn, studies as ready};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "gyration", name = "Table")]
 pub struct Table {
     path: PathBuf,
-    frame: Arc<Frame>,
+    frame: Arc<DataFrame>,
 }
 
 /// The names of the ready studies.
@@ -53,7 +53,7 @@ impl Table {
     /// Opens the table of a study, its folder or a Parquet file of it; a study may still be under way.
     #[classmethod]
     pub fn open(kind: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
-        let frame = kind.py().detach(|| Frame::read(&path)).map_err(errors::study)?;
+        let frame = kind.py().detach(|| DataFrame::read(&path)).map_err(errors::study)?;
         Ok(Self { path, frame: Arc::new(frame) })
     }
 
@@ -143,8 +143,8 @@ impl Table {
         if colour.is_some() && color.is_some() {
             return Err(errors::arguments("`colour` and `color` are the same\n  fix: give one of them"));
         }
-        let kind = kind.as_deref().map(Kind::of_word).transpose().map_err(errors::plot)?;
-        let request = Request { x, y, colour: colour.or(color), kind, ..Request::default() };
+        let kind = kind.as_deref().map(PlotKind::of_word).transpose().map_err(errors::plot)?;
+        let request = PlotRequest { x, y, colour: colour.or(color), kind, ..PlotRequest::default() };
         let source = PictureSource::Study(self.frame.clone(), self.path.clone(), request);
         py.detach(|| Picture::new(source))
     }

@@ -11,7 +11,7 @@ use crate::errors;
 use crate::monitor::PythonMonitor;
 use crate::parcel::{Parcel, pack};
 use gyration_scene::LoadError;
-use gyration_study::{Recordings, Source, Study, StudyError, Worker};
+use gyration_study::{Recordings, Study, StudyError, StudySource, Worker};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::{Path, PathBuf};
@@ -93,7 +93,7 @@ fn again(parts: StudyParts) -> Result<Arc<Study>, Wrong> {
         return Ok(study.clone());
     }
     let (name, text, base, overrides, fingerprint) = parts.clone();
-    let study = Arc::new(Study::again(&Source { name, text, base, overrides }).map_err(Wrong::File)?);
+    let study = Arc::new(Study::again(&StudySource { name, text, base, overrides }).map_err(Wrong::File)?);
     if study.fingerprint() != fingerprint {
         return Err(Wrong::Other);
     }

@@ -15,20 +15,20 @@ pub(crate) struct Stream {
     pub(crate) dim: &'static str,
     pub(crate) rows: usize,
     chunk_rows: usize,
-    parts: Vec<Part>,
+    parts: Vec<GrowingArray>,
     /// Rows of the chunk under way that its files hold, with fill after them; none: there are no such files.
     stored: Option<usize>,
 }
 
 /// One of the arrays: the chunk under way, with fill where no row is yet.
 #[derive(Debug)]
-struct Part {
+struct GrowingArray {
     info: ArrayInfo,
     row_bytes: usize,
     chunk: Vec<u8>,
 }
 
-impl Part {
+impl GrowingArray {
     fn clear_from(&mut self, row: usize) {
         let fill = self.info.data_type.fill_bytes();
         for slot in self.chunk[row * self.row_bytes..].chunks_exact_mut(fill.len()) {
@@ -47,7 +47,7 @@ impl Stream {
         let growing = arrays.iter().filter(|array| array.grows_with(dim));
         let parts = growing.map(|info| {
             let row_bytes = info.row_len() * info.data_type.size();
-            let mut part = Part { info: info.clone(), row_bytes, chunk: vec![0; info.chunk[0] * row_bytes] };
+            let mut part = GrowingArray { info: info.clone(), row_bytes, chunk: vec![0; info.chunk[0] * row_bytes] };
             part.clear_from(0);
             part
         });
@@ -88,7 +88,7 @@ impl Stream {
         match self.stored {
             Some(stored) if stored == rows => {}
             Some(stored) => {
-                let new = |part: &Part| stored * part.row_bytes..rows * part.row_bytes;
+                let new = |part: &GrowingArray| stored * part.row_bytes..rows * part.row_bytes;
                 let files = parts.map(|(part, path)| (path, new(part).start, &part.chunk[new(part)]));
                 disk.overwrite(&files.collect::<Vec<_>>())?;
             }

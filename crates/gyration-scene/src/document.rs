@@ -2,13 +2,13 @@
 //!
 //! Bytes become lines and columns here and nowhere else.
 
-use crate::error::{Excerpt, Fault, SceneError, SceneErrors};
+use crate::error::{ErrorKind, Excerpt, SceneError, SceneErrors};
 use crate::key::Key;
 use crate::tree::{Node, Span, Value};
 
 /// A text with a name: the file, or an override.
 #[derive(Debug, Clone)]
-pub(crate) struct Text {
+pub(crate) struct NamedText {
     pub(crate) name: String,
     pub(crate) content: String,
 }
@@ -16,7 +16,7 @@ pub(crate) struct Text {
 /// The texts of a scene and the tree that stands in them.
 #[derive(Debug, Clone)]
 pub(crate) struct Document {
-    pub(crate) texts: Vec<Text>,
+    pub(crate) texts: Vec<NamedText>,
     pub(crate) root: Node,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct Diagnostic {
     pub(crate) span: Span,
     pub(crate) message: String,
     pub(crate) help: String,
-    pub(crate) fault: Fault,
+    pub(crate) fault: ErrorKind,
 }
 
 /// Collects what is wrong, up to a number that no one reads: a file of megabytes must not take gigabytes of messages.
@@ -35,7 +35,7 @@ pub(crate) struct Diagnostic {
 pub(crate) struct Diagnostics {
     found: Vec<Diagnostic>,
     /// What is being looked at.
-    looking_at: Fault,
+    looking_at: ErrorKind,
 }
 
 /// The most diagnostics that are kept.
@@ -43,12 +43,12 @@ const MOST_DIAGNOSTICS: usize = 2000;
 
 impl Diagnostics {
     /// An empty collection of errors of this kind.
-    pub(crate) fn of(looking_at: Fault) -> Self {
+    pub(crate) fn of(looking_at: ErrorKind) -> Self {
         Self { found: Vec::new(), looking_at }
     }
 
     /// From here on, errors are of this kind.
-    pub(crate) fn look_at(&mut self, fault: Fault) {
+    pub(crate) fn look_at(&mut self, fault: ErrorKind) {
         self.looking_at = fault;
     }
 
@@ -97,7 +97,7 @@ impl IntoIterator for Diagnostics {
 impl Document {
     /// A document of one text with an empty tree.
     pub(crate) fn new(name: &str, content: &str) -> Self {
-        let text = Text { name: name.to_owned(), content: content.to_owned() };
+        let text = NamedText { name: name.to_owned(), content: content.to_owned() };
         Self { texts: vec![text], root: Node { value: Value::Table(Default::default()), span: Span::default() } }
     }
 
@@ -117,23 +117,23 @@ impl Document {
     fn locate(&self, diagnostic: Diagnostic) -> SceneError {
         let key = diagnostic.key.dotted(&self.root);
         let (file, place) = match self.texts.get(diagnostic.span.text) {
-            Some(text) => (text.name.clone(), Place::new(&text.content, diagnostic.span)),
-            None => (String::new(), Place::new("", Span::default())),
+            Some(text) => (text.name.clone(), LineColumn::new(&text.content, diagnostic.span)),
+            None => (String::new(), LineColumn::new("", Span::default())),
         };
-        let Place { line, column, excerpt } = place;
+        let LineColumn { line, column, excerpt } = place;
         let Diagnostic { message, help, fault, span, .. } = diagnostic;
         SceneError { file, line, column, key, message, help, fault, overriding: span.text.checked_sub(1), excerpt }
     }
 }
 
 /// A span of a text as people count.
-struct Place {
+struct LineColumn {
     line: usize,
     column: usize,
     excerpt: Excerpt,
 }
 
-impl Place {
+impl LineColumn {
     fn new(text: &str, span: Span) -> Self {
         let start = text.floor_char_boundary(span.start);
         let before = &text[..start];

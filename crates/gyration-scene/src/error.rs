@@ -22,7 +22,7 @@ pub struct SceneError {
     /// What to do about it; may be empty.
     pub help: String,
     /// Whether it is the text, a place in it, or a value.
-    pub fault: Fault,
+    pub fault: ErrorKind,
     /// Which override it stands in, from zero; none for the file.
     pub overriding: Option<usize>,
     /// The line of the file, cut to a readable width, with its marks.
@@ -31,7 +31,7 @@ pub struct SceneError {
 
 /// What an error is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub enum Fault {
+pub enum ErrorKind {
     /// The text: its syntax.
     Syntax,
     /// The structure: a key that is not known or missing, another kind of value, another unit. No other number mends

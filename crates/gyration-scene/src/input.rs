@@ -9,7 +9,7 @@
 
 use crate::check::{Rules, structure};
 use crate::document::{Diagnostics, Document};
-use crate::error::{Fault, LoadError, SceneErrors};
+use crate::error::{ErrorKind, LoadError, SceneErrors};
 use crate::key::Key;
 use crate::overriding::Override;
 use crate::read;
@@ -55,7 +55,7 @@ impl InputFile {
     /// All errors of its syntax.
     pub fn parse(name: &str, text: &str, rules: &InputRules, overrides: &[String]) -> Result<Self, SceneErrors> {
         let mut document = read::document(name, text)?;
-        let mut diagnostics = Diagnostics::of(Fault::Structure);
+        let mut diagnostics = Diagnostics::of(ErrorKind::Structure);
         read::apply(&mut document, &Override::parse_all(overrides), &mut diagnostics);
         structure(&document.root, &rules.0, &mut diagnostics);
         Ok(Self { document, diagnostics })

@@ -32,10 +32,10 @@ pub mod units;
 mod unknown;
 
 pub use assemble::{Built, Plan, Record, StopAtRest, TRIANGLES};
-pub use error::{Fault, LoadError, NotToml, ReadError, SceneError, SceneErrors};
+pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::{NotInGallery, gallery, gallery_scene};
-pub use overriding::{Override, Setting};
+pub use overriding::{Override, OverrideValue};
 pub use scene::Scene;
 pub use schema::{schema, schema_of};
 pub use template::{Template, unit_of};

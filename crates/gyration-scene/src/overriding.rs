@@ -8,12 +8,12 @@ pub struct Override {
     /// The key; items of arrays by name, else by index from zero.
     pub key: String,
     /// What stands there.
-    pub value: Setting,
+    pub value: OverrideValue,
 }
 
 /// A value of an override.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Setting {
+pub enum OverrideValue {
     /// Nothing was written, not even `=`, which is an error at its place.
     Absent,
     /// A TOML value, or a bare string.
@@ -28,7 +28,7 @@ pub enum Setting {
 
 impl Override {
     /// A value for a key.
-    pub fn new(key: impl Into<String>, value: impl Into<Setting>) -> Self {
+    pub fn new(key: impl Into<String>, value: impl Into<OverrideValue>) -> Self {
         Self { key: key.into(), value: value.into() }
     }
 
@@ -36,7 +36,7 @@ impl Override {
     pub fn parse(text: &str) -> Self {
         match text.split_once('=') {
             Some((key, value)) => Self::new(key, value),
-            None => Self::new(text, Setting::Absent),
+            None => Self::new(text, OverrideValue::Absent),
         }
     }
 
@@ -47,23 +47,23 @@ impl Override {
 
     /// Whether it is a text, with places in it.
     pub(crate) fn is_text(&self) -> bool {
-        matches!(self.value, Setting::Absent | Setting::Written(_))
+        matches!(self.value, OverrideValue::Absent | OverrideValue::Written(_))
     }
 }
 
-impl From<f64> for Setting {
+impl From<f64> for OverrideValue {
     fn from(number: f64) -> Self {
         Self::Number(number)
     }
 }
 
-impl From<&str> for Setting {
+impl From<&str> for OverrideValue {
     fn from(text: &str) -> Self {
         Self::Written(text.to_owned())
     }
 }
 
-impl<const N: usize> From<[f64; N]> for Setting {
+impl<const N: usize> From<[f64; N]> for OverrideValue {
     fn from(numbers: [f64; N]) -> Self {
         Self::Array(numbers.into())
     }
@@ -73,14 +73,14 @@ impl<const N: usize> From<[f64; N]> for Setting {
 impl fmt::Display for Override {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.value {
-            Setting::Absent => f.write_str(&self.key),
+            OverrideValue::Absent => f.write_str(&self.key),
             value => write!(f, "{}={value}", self.key),
         }
     }
 }
 
 /// As it would be written, with all digits.
-impl fmt::Display for Setting {
+impl fmt::Display for OverrideValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Absent => Ok(()),

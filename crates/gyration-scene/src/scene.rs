@@ -2,7 +2,7 @@
 
 use crate::assemble::Built;
 use crate::document::Diagnostics;
-use crate::error::{Fault, NotToml, SceneErrors};
+use crate::error::{ErrorKind, NotToml, SceneErrors};
 use crate::file::SceneFile;
 use crate::key::Key;
 use crate::overriding::Override;
@@ -90,7 +90,7 @@ impl Scene {
         mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, E>,
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
-        let mut diagnostics = Diagnostics::of(Fault::Value);
+        let mut diagnostics = Diagnostics::of(ErrorKind::Value);
         for asked in forms {
             let body = &mut self.built.model.bodies[asked.body];
             let found = form(body, &asked);

@@ -98,7 +98,7 @@ fn read_table(
 }
 
 /// A row of a table.
-struct Row {
+struct WrittenRow {
     /// The byte behind the row before it.
     start: usize,
     /// t \[s\].
@@ -108,7 +108,7 @@ struct Row {
 }
 
 /// The rows; or what is wrong with the one that begins behind a byte.
-fn rows(content: &[u8], entries: usize) -> Result<Vec<Row>, (usize, String)> {
+fn rows(content: &[u8], entries: usize) -> Result<Vec<WrittenRow>, (usize, String)> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -126,7 +126,7 @@ fn rows(content: &[u8], entries: usize) -> Result<Vec<Row>, (usize, String)> {
         }
         let start = start(record.position());
         let (time, value) = row(&record, entries).map_err(|reason| (start, reason))?;
-        rows.push(Row { start, time, value });
+        rows.push(WrittenRow { start, time, value });
     }
     Ok(rows)
 }

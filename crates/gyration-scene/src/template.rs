@@ -3,10 +3,10 @@
 //! [`Scene::parse`] is [`Template::parse`] and [`Template::scene`]; the errors are the same either way. A study opens a
 //! scene thousands of times, each with other numbers.
 
-use crate::assemble::{Setting, assemble, salvage};
+use crate::assemble::{SceneContext, assemble, salvage};
 use crate::check::{PartialScene, RULES, Reporter, structure, values};
 use crate::document::{Diagnostics, Document};
-use crate::error::{Fault, LoadError, ReadError, SceneErrors};
+use crate::error::{ErrorKind, LoadError, ReadError, SceneErrors};
 use crate::gallery;
 use crate::key::name_of;
 use crate::overriding::Override;
@@ -86,15 +86,15 @@ impl Template {
 
     fn checked(&self, overrides: &[Override]) -> Result<Scene, SceneErrors> {
         let mut document = self.document.clone();
-        let mut diagnostics = Diagnostics::of(Fault::Structure);
+        let mut diagnostics = Diagnostics::of(ErrorKind::Structure);
         read::apply(&mut document, overrides, &mut diagnostics);
         structure(&document.root, &RULES, &mut diagnostics);
         let mut partial = PartialScene::new(&document, &mut diagnostics);
         let mut reporter = Reporter { document: &document, diagnostics: &mut diagnostics };
         values(&partial, &mut reporter);
-        let setting = Setting::new(&partial, &document, &self.base);
-        let built = assemble(&mut partial, &setting, &mut reporter);
-        salvage(&document, &setting, &mut diagnostics);
+        let context = SceneContext::new(&partial, &document, &self.base);
+        let built = assemble(&mut partial, &context, &mut reporter);
+        salvage(&document, &context, &mut diagnostics);
         match (partial.complete(), built) {
             (Some(file), Some((built, forms))) if diagnostics.is_empty() => {
                 let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
@@ -191,7 +191,7 @@ pub fn unit_of(key: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Scene, Setting};
+    use crate::{OverrideValue, Scene};
 
     const TEXT: &str =
         "time = { end = 1, sample = 1 }\n[[body]]\nname = \"a\"\nshape = { sphere = { radius = 1 } }\ndensity = 2\n";
@@ -211,14 +211,14 @@ mod tests {
         let wrong = ["time.end=2", "body.0.densty=3", "time.end=-1"].map(Override::parse);
         let errors = template.scene(&wrong).unwrap_err();
         let told: Vec<_> = errors.as_slice().iter().map(|error| (error.overriding, error.fault)).collect();
-        assert_eq!(told, [(Some(1), Fault::Structure), (Some(2), Fault::Value)]);
+        assert_eq!(told, [(Some(1), ErrorKind::Structure), (Some(2), ErrorKind::Value)]);
     }
 
     #[test]
     fn numbers_of_a_program_make_the_scene_that_their_texts_make() {
         let template = Template::parse("x.toml", TEXT, Path::new("")).unwrap();
         let (third, many) = (1.0 / 3.0, [0.1, -2e-300, 7.0]);
-        let quaternion = Setting::Table("quaternion", vec![0.6, 0.0, 0.8, 0.0]);
+        let quaternion = OverrideValue::Table("quaternion", vec![0.6, 0.0, 0.8, 0.0]);
         let sets = [
             vec![Override::new("body.a.density", third), Override::new("body.0.position", many)],
             vec![Override::new("body.a.orientation", quaternion), Override::new("time.end", "2 min")],

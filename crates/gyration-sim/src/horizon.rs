@@ -33,7 +33,7 @@ const DRIVE_PART: f64 = 0.25;
 const PRECISION: f64 = 0.05;
 
 /// The motion of a body towards a plane that stands still or moves with constant velocity.
-struct Approach<'a> {
+struct PlaneApproach<'a> {
     surface: &'a Surface,
     field: GapField,
     /// c₀ and c.
@@ -58,7 +58,7 @@ pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64],
         let Some(surface) = &body.surface else { continue };
         for contact in &body.contacts {
             let support = &model.supports[contact.support()];
-            let approach = Approach::of(model, contact.support(), time, end, surface, *radius);
+            let approach = PlaneApproach::of(model, contact.support(), time, end, surface, *radius);
             step = step.min(match support.motion {
                 SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
                     let near = surface.smallest_gap(&approach.field).0 < body.size;
@@ -92,7 +92,7 @@ fn reach(support: &Support) -> f64 {
     }
 }
 
-impl<'a> Approach<'a> {
+impl<'a> PlaneApproach<'a> {
     fn of(model: &Model, index: usize, time: f64, end: &StepEnd, surface: &'a Surface, radius: f64) -> Self {
         let (support, motion) = (&model.supports[index], &end.motion);
         let mut field = support.gap_field(&motion.placement, time);

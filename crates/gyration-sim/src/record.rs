@@ -45,7 +45,7 @@ pub struct Job<'a> {
 
 /// The end of a recorded run.
 #[derive(Debug)]
-pub enum Recorded {
+pub enum RecordingEnd {
     /// It ran, now.
     Ran(Box<RunSummary>),
     /// It had ended before: there was nothing to resume.
@@ -93,7 +93,7 @@ impl<'a> Job<'a> {
     ///
     /// # Errors
     /// [`RunError`].
-    pub fn record(&self, path: &Path, watch: &mut dyn Monitor) -> Result<Recorded, RunError> {
+    pub fn record(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
         let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
         let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
         let mut sink = RecordingSink { writer, flushed: Instant::now() };
@@ -106,13 +106,13 @@ impl<'a> Job<'a> {
     ///
     /// # Errors
     /// [`RunError`]; `OtherScene` if the recording is of another scene.
-    pub fn resume(&self, path: &Path, watch: &mut dyn Monitor) -> Result<Recorded, RunError> {
+    pub fn resume(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
         let recorded = Recording::open(path)?.attributes().clone();
         if !self.is_recorded_in(&recorded) {
             return Err(RunError::OtherScene { path: path.to_path_buf() });
         }
         if recorded.contains_key("outcome") {
-            return Ok(Recorded::AlreadyFinished(recorded));
+            return Ok(RecordingEnd::AlreadyFinished(recorded));
         }
         let resumed = Writer::resume(path)?;
         let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
@@ -125,7 +125,7 @@ impl<'a> Job<'a> {
         mut simulation: Simulation,
         mut sink: RecordingSink,
         watch: &mut dyn Monitor,
-    ) -> Result<Recorded, RunError> {
+    ) -> Result<RecordingEnd, RunError> {
         let began = Instant::now();
         let mut limited = WallTime { inner: watch, began, most: self.max_wall_time };
         let outcome = simulation.run(&mut sink, &mut limited)?;
@@ -136,7 +136,7 @@ impl<'a> Job<'a> {
         } else {
             sink.writer.flush(&checkpoint)?;
         }
-        Ok(Recorded::Ran(Box::new(summary)))
+        Ok(RecordingEnd::Ran(Box::new(summary)))
     }
 
     /// What the recording holds.

@@ -2,7 +2,7 @@
 
 use gyration_record::Recording;
 use gyration_scene::Scene;
-use gyration_sim::{Job, Monitor, Progress, Provenance, Reason, Recorded, RunSummary, Unwatched};
+use gyration_sim::{Job, Monitor, Progress, Provenance, Reason, RecordingEnd, RunSummary, Unwatched};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -36,8 +36,8 @@ fn run(path: &Path, monitor: &mut dyn Monitor, resume: bool) -> RunSummary {
     let job = Job::of(&scene, &Provenance { version: "0".into(), commit: None });
     let recorded = if resume { job.resume(path, monitor) } else { job.record(path, monitor) };
     match recorded.unwrap() {
-        Recorded::Ran(summary) => *summary,
-        Recorded::AlreadyFinished(_) => panic!("nothing was run"),
+        RecordingEnd::Ran(summary) => *summary,
+        RecordingEnd::AlreadyFinished(_) => panic!("nothing was run"),
     }
 }
 

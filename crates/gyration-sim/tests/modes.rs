@@ -12,7 +12,7 @@ use gyration::state::{RigidStart, Start, State};
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_sim::modes::{Mode, Motion, NoRest, Rest, modes, rest};
+use gyration_sim::modes::{Mode, ModeBehaviour, NoRest, Rest, modes, rest};
 
 const GRAVITY: f64 = 9.81;
 
@@ -94,7 +94,7 @@ fn named<'a>(modes: &'a [Mode], words: &str) -> &'a Mode {
         .unwrap_or_else(|| panic!("no {words} among {:?}", modes.iter().map(|mode| &mode.in_words).collect::<Vec<_>>()))
 }
 
-fn of_motion(modes: &[Mode], motion: Motion) -> Vec<&Mode> {
+fn of_motion(modes: &[Mode], motion: ModeBehaviour) -> Vec<&Mode> {
     modes.iter().filter(|mode| mode.motion == motion).collect()
 }
 
@@ -102,8 +102,8 @@ fn of_motion(modes: &[Mode], motion: Motion) -> Vec<&Mode> {
 fn incompressible_sphere_rings_in_five_modes_and_is_free_in_six() {
     let (_, found) = survey(&model(0.0, vec![], soft(ball(), 1000.0, rubber(), 20.0), Vec3::zeros()));
     assert_eq!(found.len(), 11);
-    let ringing = of_motion(&found, Motion::Oscillates);
-    assert_eq!((ringing.len(), of_motion(&found, Motion::Free).len()), (5, 6));
+    let ringing = of_motion(&found, ModeBehaviour::Oscillates);
+    assert_eq!((ringing.len(), of_motion(&found, ModeBehaviour::Free).len()), (5, 6));
     // ω₀² = 20 (c₁ + c₂)/(ρR²), δ = μV/(2j) = 5μ/(2ρR²), and the damped ω² = ω₀² − δ².
     let (square, decay) = (20.0 * 4000.0 / (1000.0 * 0.01), 5.0);
     for mode in ringing {
@@ -122,7 +122,7 @@ fn incompressible_sphere_rings_in_five_modes_and_is_free_in_six() {
 fn cube_and_box_have_the_frequencies_of_the_closed_form() {
     let cube = Shape::Box(Cuboid { size: Vec3::repeat(0.1) });
     let (_, found) = survey(&model(0.0, vec![], soft(cube, 1000.0, rubber(), 0.0), Vec3::zeros()));
-    let ringing = of_motion(&found, Motion::Oscillates);
+    let ringing = of_motion(&found, ModeBehaviour::Oscillates);
     assert_eq!(ringing.len(), 5);
     for mode in ringing {
         assert_close(&mode.in_words, mode.frequency(), 138.5640646, 1e-9);
@@ -185,7 +185,7 @@ fn rigid_box_rests_on_its_face_and_rocks_about_it() {
         assert_close("gap", rest.gap, 0.0292715643344, 2e-12);
         assert_close("vertical", named(&found, "translation along z").frequency().powi(2), 1947.2413, 2e-8);
         assert_eq!(found.len(), 6);
-        assert_eq!(of_motion(&found, Motion::Free).len(), 3);
+        assert_eq!(of_motion(&found, ModeBehaviour::Free).len(), 3);
         // Nothing has pushed it aside.
         assert!((rest.placement.position.xy() - Vec3::new(0.3, -0.2, 0.0).xy()).norm() < 1e-12);
     }
@@ -198,7 +198,8 @@ fn stiff_affine_box_has_the_slow_modes_of_the_rigid_one() {
     for stiffness in [1e7, 1e9] {
         let (rest, stiff) = survey(&standing(0.3, Some(stiffness)));
         let frequencies = |modes: &[Mode]| -> Vec<f64> {
-            let mut all: Vec<f64> = of_motion(modes, Motion::Oscillates).into_iter().map(Mode::frequency).collect();
+            let mut all: Vec<f64> =
+                of_motion(modes, ModeBehaviour::Oscillates).into_iter().map(Mode::frequency).collect();
             all.sort_by(f64::total_cmp);
             all.truncate(3);
             all
@@ -253,7 +254,7 @@ fn resting_ball(normal: Vec3, friction: f64, deformable: bool) -> (Model, State)
 #[test]
 fn rigid_ball_on_a_table_rolls_freely_and_slides_with_friction() {
     let (_, found) = survey(&resting_ball(Vec3::z(), 2e3, false));
-    let free = of_motion(&found, Motion::Free);
+    let free = of_motion(&found, ModeBehaviour::Free);
     assert_eq!(free.len(), 5);
     // The field is not a point: its friction away from the axis stops rolling too, and a spin about the vertical, but
     // slowly.
@@ -282,10 +283,10 @@ fn soft_ball_rests_flattened_and_its_rest_state_is_in_balance() {
     let second = gyration_sim::modes::rest(&model, &again, 0).unwrap();
     assert!((second.placement.gradient - rest.placement.gradient).norm() < 1e-12);
     assert!((second.placement.position - rest.placement.position).norm() < 1e-12);
-    assert!(of_motion(&found, Motion::Grows).is_empty());
+    assert!(of_motion(&found, ModeBehaviour::Grows).is_empty());
     // In the plane of the table the ball is free to slide and to turn about the vertical.
     for words in ["translation along x", "translation along y", "rotation about z"] {
-        assert_eq!(named(&found, words).motion, Motion::Free);
+        assert_eq!(named(&found, words).motion, ModeBehaviour::Free);
     }
 }
 
@@ -309,7 +310,7 @@ fn box_on_its_corner_finds_a_face() {
         // One of the box's axes stands upright, and the rest state is stable.
         let up = rest.placement.gradient.tr_mul(&Vec3::z()).amax();
         println!("upright to {:.1e}", up - 1.0);
-        assert!((up - 1.0).abs() < 0.05 && of_motion(&found, Motion::Grows).is_empty());
+        assert!((up - 1.0).abs() < 0.05 && of_motion(&found, ModeBehaviour::Grows).is_empty());
         if deformable.is_none() {
             assert!((up - 1.0).abs() < 1e-12);
         }
@@ -319,7 +320,7 @@ fn box_on_its_corner_finds_a_face() {
 #[test]
 fn pendulum_has_its_frequency_hanging_and_its_growth_upside_down() {
     let (length, side) = (0.5, 0.1);
-    for (sign, motion) in [(1.0, Motion::Oscillates), (-1.0, Motion::Grows)] {
+    for (sign, motion) in [(1.0, ModeBehaviour::Oscillates), (-1.0, ModeBehaviour::Grows)] {
         let mut body = bare(Shape::Box(Cuboid { size: Vec3::repeat(side) }), 1000.0);
         let pin = Pin { point: Vec3::new(0.0, 0.0, sign * length), anchor: Vec3::zeros() };
         body.kind = BodyKind::Rigid(RigidInertia::new(&body.mass, Some(&pin)).unwrap());
@@ -331,7 +332,7 @@ fn pendulum_has_its_frequency_hanging_and_its_growth_upside_down() {
         let mode = named(&found, "rotation about x");
         assert_eq!(mode.motion, motion);
         assert_close("pendulum", mode.eigenvalues[0].norm(), rate, 1e-13);
-        assert_eq!(named(&found, "rotation about z").motion, Motion::Free);
+        assert_eq!(named(&found, "rotation about z").motion, ModeBehaviour::Free);
     }
 }
 
@@ -346,7 +347,7 @@ fn pinned_incompressible_body_has_eight_modes() {
     assert_eq!(found.len(), 8);
     // It hangs from its top, stretched by its weight.
     assert!(rest.stretches[0] > 1.01 && (rest.placement.gradient.determinant() - 1.0).abs() < 1e-14);
-    assert_eq!(of_motion(&found, Motion::Free).len(), 1);
+    assert_eq!(of_motion(&found, ModeBehaviour::Free).len(), 1);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use gyration_scene::Scene;
 use gyration_sim::replay::{Replay, ReplayError, SurfaceCells};
-use gyration_sim::{Job, Provenance, Reason, Recorded, RunSummary, Unwatched};
+use gyration_sim::{Job, Provenance, Reason, RecordingEnd, RunSummary, Unwatched};
 use std::path::{Path, PathBuf};
 
 fn record(scene: &Scene, folder: &Path) -> Recording {
@@ -296,7 +296,7 @@ fn a_summary_read_back_is_that_of_the_run() {
         let scene = Scene::open(name, &overrides).unwrap();
         let path = folder.path().join(format!("{name}.gyr"));
         let provenance = Provenance { version: "test".into(), commit: None };
-        let Recorded::Ran(told) = Job::of(&scene, &provenance).record(&path, &mut Unwatched).unwrap() else {
+        let RecordingEnd::Ran(told) = Job::of(&scene, &provenance).record(&path, &mut Unwatched).unwrap() else {
             panic!("{name} had ended before")
         };
         let (again, read) = RunSummary::of_recording(&Recording::open(&path).unwrap()).unwrap();

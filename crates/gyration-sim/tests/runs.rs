@@ -3,7 +3,7 @@
 use gyration_record::Recording;
 use gyration_scene::Scene;
 use gyration_sim::{
-    Job, MemorySink, Monitor, Outcome, Progress, Provenance, Reason, Recorded, RunSummary, Simulation, Unwatched,
+    Job, MemorySink, Monitor, Outcome, Progress, Provenance, Reason, RecordingEnd, RunSummary, Simulation, Unwatched,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -75,7 +75,7 @@ fn assert_resumes(scene: &Scene, interruptions: &[usize]) {
     let expected = bytes(&whole);
     for &steps in interruptions {
         let path = folder.path().join(format!("{steps}.gyr"));
-        let Recorded::Ran(summary) = job.record(&path, &mut StopAfter(steps)).unwrap() else { panic!("not run") };
+        let RecordingEnd::Ran(summary) = job.record(&path, &mut StopAfter(steps)).unwrap() else { panic!("not run") };
         let Outcome::Stopped(stop) = &summary.outcome else { panic!("{steps} steps were too many") };
         assert_eq!(stop.reason, Reason::Interrupted);
         // Interrupted a second time, then run to the end.
@@ -96,7 +96,7 @@ fn a_finished_run_is_not_resumed_and_another_scene_is_refused() {
     let job = Job::of(&scene, &provenance());
     job.record(&path, &mut Unwatched).unwrap();
     let before = bytes(&path);
-    assert!(matches!(job.resume(&path, &mut Unwatched).unwrap(), Recorded::AlreadyFinished(_)));
+    assert!(matches!(job.resume(&path, &mut Unwatched).unwrap(), RecordingEnd::AlreadyFinished(_)));
     assert_eq!(before, bytes(&path));
     let other = gallery("bounce", &["time.end=0.3"]);
     let refused = Job::of(&other, &provenance()).resume(&path, &mut Unwatched).unwrap_err();

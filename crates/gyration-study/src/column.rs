@@ -10,13 +10,13 @@ pub struct Column {
     /// The SI unit of its numbers; none of what is no quantity, or where it is not known.
     pub unit: Option<String>,
     /// What stands in it.
-    pub kind: Kind,
+    pub kind: ColumnKind,
 }
 
 /// What stands in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum ColumnKind {
     /// Integers of 64 bits.
     Integer,
     /// Real numbers.
@@ -29,25 +29,25 @@ pub enum Kind {
 
 impl Column {
     /// A column of this name, unit and kind.
-    pub fn new(name: impl Into<String>, unit: Option<&str>, kind: Kind) -> Self {
+    pub fn new(name: impl Into<String>, unit: Option<&str>, kind: ColumnKind) -> Self {
         Self { name: name.into(), unit: unit.map(str::to_owned), kind }
     }
 }
 
 /// The columns before the parameters.
 pub(crate) fn leading() -> [Column; 3] {
-    ["run", "point", "repetition"].map(|name| Column::new(name, None, Kind::Integer))
+    ["run", "point", "repetition"].map(|name| Column::new(name, None, ColumnKind::Integer))
 }
 
 /// The columns between the parameters and what is kept.
 pub(crate) fn ending() -> [Column; 7] {
     [
-        Column::new("outcome", None, Kind::Text),
-        Column::new("reason", None, Kind::Text),
-        Column::new("time", Some("s"), Kind::Number),
-        Column::new("steps", None, Kind::Integer),
-        Column::new("rejected", None, Kind::Integer),
-        Column::new("evaluations", None, Kind::Integer),
-        Column::new("residual", Some("1"), Kind::Number),
+        Column::new("outcome", None, ColumnKind::Text),
+        Column::new("reason", None, ColumnKind::Text),
+        Column::new("time", Some("s"), ColumnKind::Number),
+        Column::new("steps", None, ColumnKind::Integer),
+        Column::new("rejected", None, ColumnKind::Integer),
+        Column::new("evaluations", None, ColumnKind::Integer),
+        Column::new("residual", Some("1"), ColumnKind::Number),
     ]
 }

@@ -1,7 +1,7 @@
 //! A word that tells a study from every other one with other rows: title, drawing, comments and layout of the files do
 //! not count.
 
-use crate::parameter::{Parameter, Steps, Variation};
+use crate::parameter::{AxisValues, Parameter, Variation};
 use crate::random::hash;
 use crate::read::Read;
 use crate::value::Value;
@@ -40,7 +40,7 @@ pub(crate) fn fingerprint(read: &Read, template: &Template, scene: &Scene) -> St
 
 /// Hashes of the files that values of an axis refer to: texts, or texts within tables, that are names of files.
 fn collect_listed(parameter: &Parameter, base: &Path, files: &mut Vec<String>) {
-    let Variation::Axis { steps: Steps::Listed(listed), .. } = &parameter.variation else { return };
+    let Variation::Axis { steps: AxisValues::Listed(listed), .. } = &parameter.variation else { return };
     for text in listed.iter().flat_map(|(_, cells)| cells).filter_map(Value::text) {
         // A text stands alone, tables are written as TOML.
         for name in std::iter::once(text).chain(text.split('"').skip(1).step_by(2)) {

@@ -1,6 +1,6 @@
 //! What is kept of a run.
 
-use crate::column::{Column, Kind};
+use crate::column::{Column, ColumnKind};
 use gyration::tensor::Vec3;
 
 /// One of the things that are kept.
@@ -18,7 +18,7 @@ pub enum Keep {
         /// Its name.
         column: String,
         /// What of it.
-        measure: Measure,
+        measure: Statistic,
     },
     /// How many events.
     Count {
@@ -72,7 +72,7 @@ pub enum Keep {
 
 /// What is kept of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measure {
+pub enum Statistic {
     /// Its value at the start.
     First,
     /// Its value at the end.
@@ -100,7 +100,7 @@ impl Keep {
     /// Whether it takes the samples of the run, and not only its ends.
     pub(crate) fn needs_samples(&self) -> bool {
         match self {
-            Self::Column { measure, .. } => !matches!(measure, Measure::First | Measure::Last | Measure::Change),
+            Self::Column { measure, .. } => !matches!(measure, Statistic::First | Statistic::Last | Statistic::Change),
             Self::Samples { .. } | Self::Tilt { .. } | Self::Turns { .. } => true,
             Self::Face { .. } | Self::Count { .. } | Self::At { .. } | Self::Distance { .. } => false,
         }
@@ -117,13 +117,13 @@ impl Keep {
     /// Its column of the table; `unit` is that of the column it is made from.
     pub(crate) fn table_column(&self, name: &str, unit: Option<&str>) -> Column {
         match self {
-            Self::Face { .. } => Column::new(name, None, Kind::Text),
-            Self::Column { .. } => Column::new(name, unit, Kind::Number),
-            Self::Count { .. } => Column::new(name, None, Kind::Integer),
-            Self::At { .. } | Self::Samples { .. } => Column::new(name, unit, Kind::List),
-            Self::Tilt { .. } => Column::new(name, Some("rad"), Kind::Number),
-            Self::Turns { .. } => Column::new(name, Some("1"), Kind::Number),
-            Self::Distance { .. } => Column::new(name, Some("m"), Kind::Number),
+            Self::Face { .. } => Column::new(name, None, ColumnKind::Text),
+            Self::Column { .. } => Column::new(name, unit, ColumnKind::Number),
+            Self::Count { .. } => Column::new(name, None, ColumnKind::Integer),
+            Self::At { .. } | Self::Samples { .. } => Column::new(name, unit, ColumnKind::List),
+            Self::Tilt { .. } => Column::new(name, Some("rad"), ColumnKind::Number),
+            Self::Turns { .. } => Column::new(name, Some("1"), ColumnKind::Number),
+            Self::Distance { .. } => Column::new(name, Some("m"), ColumnKind::Number),
         }
     }
 }

@@ -29,15 +29,15 @@ mod table;
 mod value;
 mod written;
 
-pub use column::{Column, Kind};
+pub use column::{Column, ColumnKind};
 pub use error::StudyError;
 pub use execute::{StudyMonitor, StudyProgress, execute};
 pub use gallery::studies;
-pub use keep::{Keep, Measure, Pick};
-pub use parameter::{Distribution, Parameter, Steps, Variation};
+pub use keep::{Keep, Pick, Statistic};
+pub use parameter::{AxisValues, Distribution, Parameter, Variation};
 pub use run::{FAILED, STEP_LIMIT, Worker};
-pub use study::{Recordings, Sampling, Source, Study};
-pub use table::{Data, Described, Digest, Frame, FrameColumn, Shard, Spread, Table, TableLock, merge};
+pub use study::{Recordings, Sampling, Study, StudySource};
+pub use table::{Data, DataFrame, Described, Digest, FrameColumn, Shard, Spread, Table, TableLock, merge};
 pub use value::{Row, Value};
 
 /// The JSON Schema of a study.

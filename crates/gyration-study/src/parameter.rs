@@ -3,11 +3,11 @@
 //! The randomness of a run depends on the seed, its number and the name of the parameter. Of Latin hypercubes and Sobol
 //! points it is the point of the grid that begins the stream, and the repetition that goes along it.
 
-use crate::column::{Column, Kind};
+use crate::column::{Column, ColumnKind};
 use crate::file::Sampling;
-use crate::random::{Sobol, Stream, inverse_normal, permuted, unit};
+use crate::random::{RandomStream, Sobol, inverse_normal, permuted, unit};
 use crate::value::Value;
-use gyration_scene::Setting;
+use gyration_scene::OverrideValue;
 use std::f64::consts::TAU;
 
 /// Something that is varied.
@@ -33,7 +33,7 @@ pub enum Variation {
         /// Which axis, from zero; parameters that vary together share it.
         axis: usize,
         /// Its values.
-        steps: Steps,
+        steps: AxisValues,
     },
     /// At random.
     Random {
@@ -46,7 +46,7 @@ pub enum Variation {
 
 /// The values of an axis.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Steps {
+pub enum AxisValues {
     /// As written: the value as TOML, and its cells.
     Listed(Vec<(String, Vec<Value>)>),
     /// So many numbers from one to another, with equal differences or equal ratios.
@@ -108,13 +108,13 @@ pub(crate) struct Dice {
 
 /// The place of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct RunPlace {
     pub run: u64,
     pub point: u64,
     pub repetition: u64,
 }
 
-impl Steps {
+impl AxisValues {
     /// How many.
     pub fn count(&self) -> u64 {
         match self {
@@ -124,11 +124,11 @@ impl Steps {
     }
 
     /// A value, and its cells.
-    fn at(&self, index: u64) -> (Setting, Vec<Value>) {
+    fn at(&self, index: u64) -> (OverrideValue, Vec<Value>) {
         match self {
             Self::Listed(values) => {
                 let (written, cells) = &values[index as usize];
-                (Setting::Written(written.clone()), cells.clone())
+                (OverrideValue::Written(written.clone()), cells.clone())
             }
             Self::Grid { from, to, count, is_logarithmic } => {
                 let fraction = index as f64 / (*count).saturating_sub(1).max(1) as f64;
@@ -139,7 +139,7 @@ impl Steps {
                     (_, false) => from + (to - from) * fraction,
                     (_, true) => from * libm::exp(libm::log(to / from) * fraction),
                 };
-                (Setting::Number(value), vec![Value::Number(value)])
+                (OverrideValue::Number(value), vec![Value::Number(value)])
             }
         }
     }
@@ -170,11 +170,11 @@ impl Distribution {
     }
 
     /// The value that these numbers are.
-    fn setting(&self, numbers: &[f64]) -> Setting {
+    fn setting(&self, numbers: &[f64]) -> OverrideValue {
         match self {
-            Self::Rotation => Setting::Table("quaternion", numbers.to_vec()),
-            Self::Direction { .. } => Setting::Array(numbers.to_vec()),
-            _ => Setting::Number(numbers[0]),
+            Self::Rotation => OverrideValue::Table("quaternion", numbers.to_vec()),
+            Self::Direction { .. } => OverrideValue::Array(numbers.to_vec()),
+            _ => OverrideValue::Number(numbers[0]),
         }
     }
 
@@ -209,7 +209,7 @@ fn direction([a, b]: [f64; 2]) -> [f64; 3] {
 
 impl Parameter {
     /// The value of a run, and its cells; `indices` are those of the axes at its point.
-    pub(crate) fn at(&self, dice: &Dice, place: Place, indices: &[u64]) -> (Setting, Vec<Value>) {
+    pub(crate) fn at(&self, dice: &Dice, place: RunPlace, indices: &[u64]) -> (OverrideValue, Vec<Value>) {
         match &self.variation {
             Variation::Axis { axis, steps } => steps.at(indices[*axis]),
             Variation::Random { distribution, first } => {
@@ -220,11 +220,11 @@ impl Parameter {
     }
 
     /// The coordinates in (0, 1) of a run.
-    fn coordinates(&self, dice: &Dice, place: Place, dimensions: usize, first: usize) -> Vec<f64> {
-        let Place { run, point, repetition } = place;
-        let mut own = Stream::new(dice.seed, run, &self.name);
+    fn coordinates(&self, dice: &Dice, place: RunPlace, dimensions: usize, first: usize) -> Vec<f64> {
+        let RunPlace { run, point, repetition } = place;
+        let mut own = RandomStream::new(dice.seed, run, &self.name);
         // The stream that all repetitions of a point share has a name that no parameter can have.
-        let mut shared = Stream::new(dice.seed, point, &format!("{}#point", self.name));
+        let mut shared = RandomStream::new(dice.seed, point, &format!("{}#point", self.name));
         let coordinate = |dimension: usize| match dice.sampling {
             Sampling::Random => own.uniform(),
             Sampling::LatinHypercube => {
@@ -251,18 +251,20 @@ impl Parameter {
 /// The columns of a parameter.
 pub(crate) fn columns(name: &str, unit: Option<&str>, variation: &Variation) -> Vec<Column> {
     let numbers = |suffixes: &[&str]| {
-        let column = |suffix: &&str| Column::new(format!("{name}{suffix}"), unit, Kind::Number);
+        let column = |suffix: &&str| Column::new(format!("{name}{suffix}"), unit, ColumnKind::Number);
         suffixes.iter().map(column).collect()
     };
     match variation {
         Variation::Random { distribution, .. } => numbers(distribution.suffixes()),
-        Variation::Axis { steps: Steps::Grid { .. }, .. } => numbers(&[""]),
-        Variation::Axis { steps: Steps::Listed(values), .. } => match values.first() {
-            Some((_, cells)) if matches!(cells[..], [Value::Text(_)]) => vec![Column::new(name, None, Kind::Text)],
+        Variation::Axis { steps: AxisValues::Grid { .. }, .. } => numbers(&[""]),
+        Variation::Axis { steps: AxisValues::Listed(values), .. } => match values.first() {
+            Some((_, cells)) if matches!(cells[..], [Value::Text(_)]) => {
+                vec![Column::new(name, None, ColumnKind::Text)]
+            }
             Some((_, cells)) => match cells.len() {
                 1 => numbers(&[""]),
                 3 => numbers(&[".x", ".y", ".z"]),
-                count => (0..count).map(|k| Column::new(format!("{name}.{k}"), unit, Kind::Number)).collect(),
+                count => (0..count).map(|k| Column::new(format!("{name}.{k}"), unit, ColumnKind::Number)).collect(),
             },
             None => Vec::new(),
         },

@@ -1,7 +1,7 @@
 //! One run of a study: from its number to its row, and to the recording that the study may want of it.
 
 use crate::error::StudyError;
-use crate::extract::{Extractor, Layout};
+use crate::extract::{ColumnPlaces, Extractor};
 use crate::file::Recordings;
 use crate::study::Study;
 use crate::value::{Row, Value};
@@ -103,7 +103,7 @@ impl Study {
         if recording.is_none() && !self.needs_samples() {
             plan.sample = plan.end;
         }
-        let extractor = match Extractor::new(self.keeps(), model, &Layout::new(model, &plan)) {
+        let extractor = match Extractor::new(self.keeps(), model, &ColumnPlaces::new(model, &plan)) {
             Ok(extractor) => extractor,
             Err(message) => return Ok(Some(self.failed(message))),
         };
@@ -116,7 +116,7 @@ impl Study {
         if let Err(error) = simulation.begin(&mut sink) {
             return self.not_begun(error);
         }
-        let mut limits = Limits { stop: &worker.stop, most_steps: self.read.max_steps, is_over: false };
+        let mut limits = RunLimits { stop: &worker.stop, most_steps: self.read.max_steps, is_over: false };
         let outcome = simulation.run(&mut sink, &mut limits).map_err(recorded)?;
         if is_interrupted(&outcome) && !limits.is_over {
             return Ok(None);
@@ -217,14 +217,14 @@ fn first_of(errors: &SceneErrors) -> String {
 }
 
 /// Stops a run when the study is to stop, and after too many steps.
-struct Limits<'a> {
+struct RunLimits<'a> {
     stop: &'a AtomicBool,
     most_steps: Option<u64>,
     /// Whether it took too many steps.
     is_over: bool,
 }
 
-impl Monitor for Limits<'_> {
+impl Monitor for RunLimits<'_> {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
         self.is_over = self.most_steps.is_some_and(|most| progress.statistics.accepted() >= most);
         (self.is_over || self.stop.load(Ordering::Relaxed)).then_some(Reason::Interrupted)

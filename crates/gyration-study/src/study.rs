@@ -9,16 +9,16 @@
 //! depends on the study and the number of its run alone.
 
 use crate::column::{Column, ending, leading};
-use crate::extract::{Extractor, Layout};
+use crate::extract::{ColumnPlaces, Extractor};
 use crate::fingerprint::fingerprint;
 use crate::gallery;
 use crate::keep::Keep;
-use crate::parameter::{Dice, Parameter, Place, Variation};
+use crate::parameter::{Dice, Parameter, RunPlace, Variation};
 use crate::random::Sobol;
 use crate::read::{self, Read};
 use crate::value::Value;
 use gyration_scene::input::{InputFile, fix};
-use gyration_scene::{LoadError, Override, ReadError, Scene, SceneErrors, Setting, Template};
+use gyration_scene::{LoadError, Override, OverrideValue, ReadError, Scene, SceneErrors, Template};
 use gyration_sim::{RunPlan, complete};
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub use crate::file::{Recordings, Sampling};
 /// A study without errors.
 #[derive(Debug, Clone)]
 pub struct Study {
-    source: Source,
+    source: StudySource,
     pub(crate) read: Read,
     pub(crate) template: Template,
     pub(crate) dice: Dice,
@@ -38,7 +38,7 @@ pub struct Study {
 
 /// Where a study comes from: enough to open it again on another machine that has its scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
+pub struct StudySource {
     /// What messages call its file.
     pub name: String,
     /// Its text, verbatim.
@@ -87,12 +87,12 @@ impl Study {
     ///
     /// # Errors
     /// As of [`Study::parse`].
-    pub fn again(source: &Source) -> Result<Self, LoadError> {
+    pub fn again(source: &StudySource) -> Result<Self, LoadError> {
         Self::parse(&source.name, &source.text, &source.base, &source.overrides)
     }
 
     fn new(mut input: InputFile, name: &str, base: &Path, overrides: &[String]) -> Result<Self, LoadError> {
-        let source = Source {
+        let source = StudySource {
             name: name.to_owned(),
             text: input.text().to_owned(),
             base: base.to_owned(),
@@ -126,7 +126,7 @@ impl Study {
     }
 
     /// Where it comes from.
-    pub fn source(&self) -> &Source {
+    pub fn source(&self) -> &StudySource {
         &self.source
     }
 
@@ -205,20 +205,20 @@ impl Study {
     }
 
     /// The scene with these values, ready to run.
-    pub(crate) fn scene_with(&self, values: &[(Setting, Vec<Value>)]) -> Result<Scene, SceneErrors> {
+    pub(crate) fn scene_with(&self, values: &[(OverrideValue, Vec<Value>)]) -> Result<Scene, SceneErrors> {
         complete(self.template.scene(&self.overrides(values))?)
     }
 
-    pub(crate) fn overrides(&self, values: &[(Setting, Vec<Value>)]) -> Vec<Override> {
+    pub(crate) fn overrides(&self, values: &[(OverrideValue, Vec<Value>)]) -> Vec<Override> {
         overrides_of(&self.read, values)
     }
 
     /// The value of each parameter in a run, and its cells.
-    pub(crate) fn values(&self, place: Place) -> Vec<(Setting, Vec<Value>)> {
+    pub(crate) fn values(&self, place: RunPlace) -> Vec<(OverrideValue, Vec<Value>)> {
         values(&self.read, &self.dice, place)
     }
 
-    pub(crate) fn place(&self, run: u64) -> Place {
+    pub(crate) fn place(&self, run: u64) -> RunPlace {
         place(&self.read, run)
     }
 
@@ -254,11 +254,11 @@ fn dice(read: &Read) -> Dice {
     Dice { seed: read.seed, sampling: read.sampling, repetitions: read.repetitions, sobol }
 }
 
-fn place(read: &Read, run: u64) -> Place {
-    Place { run, point: run / read.repetitions, repetition: run % read.repetitions }
+fn place(read: &Read, run: u64) -> RunPlace {
+    RunPlace { run, point: run / read.repetitions, repetition: run % read.repetitions }
 }
 
-fn values(read: &Read, dice: &Dice, place: Place) -> Vec<(Setting, Vec<Value>)> {
+fn values(read: &Read, dice: &Dice, place: RunPlace) -> Vec<(OverrideValue, Vec<Value>)> {
     let mut rest = place.point;
     let mut indices = vec![0; read.axes.len()];
     for (index, length) in indices.iter_mut().zip(&read.axes).rev() {
@@ -268,7 +268,7 @@ fn values(read: &Read, dice: &Dice, place: Place) -> Vec<(Setting, Vec<Value>)> 
     read.parameters.iter().map(|parameter| parameter.at(dice, place, &indices)).collect()
 }
 
-fn overrides_of(read: &Read, values: &[(Setting, Vec<Value>)]) -> Vec<Override> {
+fn overrides_of(read: &Read, values: &[(OverrideValue, Vec<Value>)]) -> Vec<Override> {
     let settings = read.settings.iter().map(|(key, value)| Override::new(key, value.as_str()));
     let varied = read.parameters.iter().zip(values);
     let varied =
@@ -279,7 +279,7 @@ fn overrides_of(read: &Read, values: &[(Setting, Vec<Value>)]) -> Vec<Override> 
 /// The columns of the table; what is kept of a column or a body that is not there is noted.
 fn columns(read: &Read, scene: &Scene, input: &mut InputFile) -> Vec<Column> {
     let built = scene.built();
-    let layout = Layout::new(&built.model, &RunPlan::from(built));
+    let layout = ColumnPlaces::new(&built.model, &RunPlan::from(built));
     let mut columns: Vec<Column> = leading().into();
     columns.extend(read.parameters.iter().flat_map(|parameter| parameter.columns.iter().cloned()));
     columns.extend(ending());

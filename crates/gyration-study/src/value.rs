@@ -3,7 +3,7 @@
 //! A line is an array of the cells: an integer, a number with all its digits, a text, a list of numbers, null. JSON has
 //! no numbers beyond the range: they are the texts `NaN`, `inf`, `-inf` in a column of numbers.
 
-use crate::column::{Column, Kind};
+use crate::column::{Column, ColumnKind};
 use serde_json::Value as Json;
 
 /// A cell of the table.
@@ -57,13 +57,13 @@ impl Value {
         }
     }
 
-    fn from_json(json: Json, kind: Kind) -> Option<Self> {
+    fn from_json(json: Json, kind: ColumnKind) -> Option<Self> {
         match (kind, json) {
             (_, Json::Null) => Some(Self::Null),
-            (Kind::Integer, Json::Number(value)) => value.as_i64().map(Self::Integer),
-            (Kind::Number, value) => number_from_json(&value).map(Self::Number),
-            (Kind::Text, Json::String(text)) => Some(Self::Text(text)),
-            (Kind::List, Json::Array(values)) => {
+            (ColumnKind::Integer, Json::Number(value)) => value.as_i64().map(Self::Integer),
+            (ColumnKind::Number, value) => number_from_json(&value).map(Self::Number),
+            (ColumnKind::Text, Json::String(text)) => Some(Self::Text(text)),
+            (ColumnKind::List, Json::Array(values)) => {
                 values.iter().map(number_from_json).collect::<Option<_>>().map(Self::List)
             }
             _ => None,
@@ -117,7 +117,14 @@ mod tests {
 
     #[test]
     fn a_line_gives_back_every_bit() {
-        let kinds = [Kind::Integer, Kind::Number, Kind::Number, Kind::Text, Kind::List, Kind::Text];
+        let kinds = [
+            ColumnKind::Integer,
+            ColumnKind::Number,
+            ColumnKind::Number,
+            ColumnKind::Text,
+            ColumnKind::List,
+            ColumnKind::Text,
+        ];
         let columns = kinds.map(|kind| Column { name: "x".into(), unit: None, kind });
         let values = vec![
             Value::Integer(1 << 40),

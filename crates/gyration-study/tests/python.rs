@@ -49,7 +49,7 @@ fn check(folder: &Path, part: &str, rows: &[Row]) {
 #[ignore = "needs GYRATION_PYTHON"]
 fn data_frames_read_the_table_and_the_rows_before_it() {
     let sandbox = sandbox();
-    let study = gyration_study::Study::again(&gyration_study::Source {
+    let study = gyration_study::Study::again(&gyration_study::StudySource {
         overrides: vec!["repetitions=30".into()],
         ..study(sandbox.path()).source().clone()
     });

@@ -1,7 +1,7 @@
 //! The table of a study has the same bytes whoever makes it, in whatever order, however often it is interrupted.
 
 use crate::common::{self, complete, sandbox, study};
-use gyration_study::{Frame, Row, Shard, Study, StudyError, Table, Value, merge};
+use gyration_study::{DataFrame, Row, Shard, Study, StudyError, Table, Value, merge};
 use std::fs;
 use std::path::Path;
 
@@ -118,7 +118,7 @@ fn bytes_are_the_same_for_any_number_of_threads_and_shards() {
         let mut table = Table::create(&path, &study, Shard::new(number, 3).unwrap(), false).unwrap();
         complete(&study, &mut table, 2);
     }
-    let frame = Frame::read(&path).unwrap();
+    let frame = DataFrame::read(&path).unwrap();
     assert_eq!(frame.rows() as u64, study.runs());
     let joined = merge(&path, &study, false).unwrap();
     assert!(fs::read(joined).unwrap() == expected, "three shards");
@@ -215,10 +215,10 @@ fn a_frame_has_what_the_rows_have() {
     let mut table = Table::create(&path, &study, Shard::WHOLE, false).unwrap();
     let rows: Vec<Row> = (0..study.runs()).map(|run| study.row(run)).collect();
     table.append(&rows[3..9]).unwrap();
-    let open = Frame::read(&path).unwrap();
+    let open = DataFrame::read(&path).unwrap();
     assert_eq!(open.rows(), 6);
     complete(&study, &mut table, 1);
-    for frame in [Frame::read(&path).unwrap(), Frame::read(&table.file()).unwrap()] {
+    for frame in [DataFrame::read(&path).unwrap(), DataFrame::read(&table.file()).unwrap()] {
         assert_eq!(frame.rows(), rows.len());
         assert_eq!(frame.title(), Some("Where does it go?"));
         assert_eq!(frame.parameters()[0].count, Some(3));

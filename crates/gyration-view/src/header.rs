@@ -11,7 +11,7 @@ pub const PROTOCOL: u64 = 1;
 
 /// What the page is used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mode {
+pub enum PageMode {
     /// The data stand in the page itself.
     Report,
     /// A recording on disk, finished or still growing.
@@ -20,7 +20,7 @@ pub enum Mode {
     Live,
 }
 
-impl Mode {
+impl PageMode {
     /// Its name in a header.
     pub fn name(self) -> &'static str {
         match self {
@@ -66,7 +66,7 @@ impl ArrayEntry {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Header {
     /// What the page is used for.
-    pub mode: Mode,
+    pub mode: PageMode,
     /// Counts the restarts of a live run from one.
     pub run: u64,
     /// The attributes of the recording.
@@ -113,7 +113,7 @@ impl Header {
     pub fn of_recording(recording: &Recording) -> Self {
         let size = |name: &str| recording.array(name).map_or(0, |array| array.shape.first().copied().unwrap_or(0));
         Self {
-            mode: Mode::Recording,
+            mode: PageMode::Recording,
             run: 1,
             attributes: recording.attributes().clone(),
             arrays: recording.arrays().iter().filter_map(ArrayEntry::growing).collect(),
@@ -148,7 +148,7 @@ impl Header {
         let mut columns: Vec<_> = layout.arrays.iter().flat_map(named).collect();
         columns.sort_by_key(|(name, _, _)| layout.csv_order.iter().position(|column| column == name));
         Self {
-            mode: Mode::Live,
+            mode: PageMode::Live,
             run,
             attributes,
             arrays: layout.arrays.iter().map(entry).collect(),

@@ -4,7 +4,7 @@
 //! out of a long recording first, then samples are thinned, one in 2, 3, …, and the header says so.
 
 use crate::error::ViewError;
-use crate::header::{Header, Mode};
+use crate::header::{Header, PageMode};
 use crate::page;
 use crate::stored::{Stored, kept};
 use base64::Engine as _;
@@ -37,7 +37,7 @@ pub fn report(stored: &Stored) -> Result<Report, ViewError> {
     let page = page::html()?;
     let rows = stored.rows();
     let mut header = stored.header().clone();
-    header.mode = Mode::Report;
+    header.mode = PageMode::Report;
     let mut every = 1;
     if !may_fit(&header, rows, every) {
         leave_out_dispensable(&mut header);

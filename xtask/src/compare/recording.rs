@@ -4,7 +4,7 @@
 //! dimension only, so that the files of an array, one behind the other, are the array. Left out are the checkpoint,
 //! which belongs to one version of the program, and the attributes that tell where the numbers come from.
 
-use crate::json::Value;
+use crate::json::Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
     let (groups, none) = ([group(old)?, group(new)?], BTreeMap::new());
     let [attributes, arrays] = [&["attributes"][..], &["consolidated_metadata", "metadata"]].map(|path| {
         groups.each_ref().map(|group| {
-            path.iter().try_fold(group, |value, key| value.get(key)).and_then(Value::entries).unwrap_or(&none)
+            path.iter().try_fold(group, |value, key| value.get(key)).and_then(Json::entries).unwrap_or(&none)
         })
     });
     let mut lines = Vec::new();
@@ -44,13 +44,13 @@ pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
     Ok(lines)
 }
 
-fn group(folder: &Path) -> Result<Value, String> {
+fn group(folder: &Path) -> Result<Json, String> {
     let path = folder.join("zarr.json");
     let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    Value::parse(&text).ok_or_else(|| format!("{}: no JSON", path.display()))
+    Json::parse(&text).ok_or_else(|| format!("{}: no JSON", path.display()))
 }
 
-fn union([old, new]: [&BTreeMap<String, Value>; 2]) -> BTreeSet<&str> {
+fn union([old, new]: [&BTreeMap<String, Json>; 2]) -> BTreeSet<&str> {
     old.keys().chain(new.keys()).map(String::as_str).collect()
 }
 
@@ -75,8 +75,8 @@ fn contents(folder: &Path) -> Result<Vec<u8>, String> {
 }
 
 /// In what an array differs from its older self; none if it does not.
-fn array_difference(metadata: [&Value; 2], old: &[u8], new: &[u8]) -> Option<String> {
-    let [before, after] = metadata.map(|metadata| metadata.get("data_type").and_then(Value::text));
+fn array_difference(metadata: [&Json; 2], old: &[u8], new: &[u8]) -> Option<String> {
+    let [before, after] = metadata.map(|metadata| metadata.get("data_type").and_then(Json::text));
     let mut told = Vec::new();
     if metadata[0] != metadata[1] {
         told.push("the metadata differ".to_owned());

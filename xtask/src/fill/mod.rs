@@ -79,14 +79,14 @@ fn fill(file: &Path) -> Result<bool, String> {
 }
 
 /// What is wrong with a file.
-struct Faults {
+struct FileFaults {
     /// Where text is first not filled, in words.
     not_filled: Option<String>,
     /// `file:line` of the lines that are too wide.
     wide: Vec<String>,
 }
 
-fn faults(file: &Path) -> Result<Faults, String> {
+fn faults(file: &Path) -> Result<FileFaults, String> {
     let (source, filled) = read(file)?;
     let name = file.strip_prefix(root()).unwrap_or(file).display().to_string();
     let not_filled = (source != filled).then(|| {
@@ -95,7 +95,7 @@ fn faults(file: &Path) -> Result<Faults, String> {
     });
     let is_code = name.ends_with(".rs");
     let wide = if is_code { rust::wide(&filled) } else { Vec::new() };
-    Ok(Faults { not_filled, wide: wide.into_iter().map(|line| format!("{name}:{line}")).collect() })
+    Ok(FileFaults { not_filled, wide: wide.into_iter().map(|line| format!("{name}:{line}")).collect() })
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ mod tree;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use tree::{Tree, circles};
+use tree::{ModuleTree, circles};
 
 fn workspace() -> BTreeMap<String, PathBuf> {
     let entries = fs::read_dir(crate::root().join("crates")).unwrap();
@@ -80,7 +80,7 @@ fn crates_and_modules_import_only_what_stands_to_their_left() {
             crates.iter().map(|(name, folder)| (short(name), dependencies(folder, &crates))).collect()
         } else {
             let folder = crates.iter().find(|(name, _)| short(name) == *title).unwrap().1;
-            Tree::read(&folder.join("src")).imports().remove(&Vec::new()).unwrap_or_default()
+            ModuleTree::read(&folder.join("src")).imports().remove(&Vec::new()).unwrap_or_default()
         };
         assert!(imports.len() > 3, "{title}: {imports:?}");
         assert_eq!(misplaced(order, &imports), [], "by the order of {title} in ARCHITECTURE.md");
@@ -90,7 +90,7 @@ fn crates_and_modules_import_only_what_stands_to_their_left() {
 #[test]
 fn modules_side_by_side_import_one_another_in_no_circle() {
     for (name, folder) in workspace() {
-        for (parent, children) in Tree::read(&folder.join("src")).imports() {
+        for (parent, children) in ModuleTree::read(&folder.join("src")).imports() {
             let place = [name.clone()].into_iter().chain(parent).collect::<Vec<_>>().join("::");
             let circles = circles(&children);
             assert!(circles.is_empty(), "in {place} there are circles: {circles:?}");

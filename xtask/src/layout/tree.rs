@@ -14,14 +14,14 @@ pub type Module = Vec<String>;
 
 /// The sources of a crate without its tests, by module.
 #[derive(Debug, Default)]
-pub struct Tree {
+pub struct ModuleTree {
     sources: BTreeMap<Module, String>,
 }
 
 /// Of each module that has children: which child imports which.
 pub type Imports = BTreeMap<Module, BTreeMap<String, BTreeSet<String>>>;
 
-impl Tree {
+impl ModuleTree {
     /// Reads a crate: `source` is its folder `src`.
     pub fn read(source: &Path) -> Self {
         let mut tree = Self::default();
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     fn crate_of(files: &[(&str, &str)]) -> Imports {
-        let mut tree = Tree::default();
+        let mut tree = ModuleTree::default();
         for (module, text) in files {
             let module = module.split("::").filter(|part| !part.is_empty()).map(String::from).collect();
             tree.sources.insert(module, (*text).to_owned());

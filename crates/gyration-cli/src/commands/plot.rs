@@ -4,7 +4,7 @@ use crate::arguments::Plot;
 use crate::error::{CliError, code};
 use crate::input::stem;
 use crate::output;
-use gyration_plot::{Figure, Format, Quantity};
+use gyration_plot::{Figure, Format, PlotQuantity};
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub fn execute(arguments: &Plot) -> Result<u8, CliError> {
     let output = arguments.output.as_deref();
     let format = format(output)?;
-    if !arguments.measures.is_empty() && !arguments.what.contains(&Quantity::Stroke) {
+    if !arguments.measures.is_empty() && !arguments.what.contains(&PlotQuantity::Stroke) {
         return Err(CliError::arguments(
             "--measures names those of `stroke`",
             "ask for it: `gyration plot DIR stroke --measures A,B`",
@@ -53,13 +53,13 @@ pub fn write(
 /// The figure, and what its file is called.
 fn of_scene(arguments: &Plot) -> Result<(Figure, String), CliError> {
     let scene = Scene::open(&arguments.source, &arguments.overrides)?;
-    if let Some(other) = arguments.what.iter().find(|what| **what != Quantity::Laws) {
+    if let Some(other) = arguments.what.iter().find(|what| **what != PlotQuantity::Laws) {
         return Err(CliError::arguments(
             format!("`{}` is drawn from a recording, and {} is a scene", other.name(), arguments.source),
             format!("`gyration run {0}` first, then `gyration plot {1}.gyr`", arguments.source, scene.name()),
         ));
     }
-    Ok((gyration_plot::laws(&scene)?, named(scene.name(), &arguments.what, Quantity::Laws)))
+    Ok((gyration_plot::laws(&scene)?, named(scene.name(), &arguments.what, PlotQuantity::Laws)))
 }
 
 /// The figure, and what its file is called.
@@ -68,13 +68,13 @@ fn of_recording(arguments: &Plot) -> Result<(Figure, String), CliError> {
         return Err(CliError::arguments("--set changes a scene, not a recording", "leave out --set"));
     }
     let path = Path::new(&arguments.source);
-    let what = if arguments.what.is_empty() { &[Quantity::Overview] } else { &arguments.what[..] };
+    let what = if arguments.what.is_empty() { &[PlotQuantity::Overview] } else { &arguments.what[..] };
     let figure = gyration_plot::of_recording(&Recording::open(path)?, what, &arguments.measures)?;
-    Ok((figure, named(&stem(path), what, Quantity::Overview)))
+    Ok((figure, named(&stem(path), what, PlotQuantity::Overview)))
 }
 
 /// `STEM-WHAT`
-fn named(stem: &str, what: &[Quantity], default: Quantity) -> String {
+fn named(stem: &str, what: &[PlotQuantity], default: PlotQuantity) -> String {
     let names = what.iter().map(|quantity| quantity.name()).collect::<Vec<_>>();
     if names.is_empty() { format!("{stem}-{}", default.name()) } else { format!("{stem}-{}", names.join("-")) }
 }

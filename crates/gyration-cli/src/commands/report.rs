@@ -1,6 +1,6 @@
 //! `gyration report`: a recording as one HTML file that needs neither network nor this program.
 
-use crate::arguments::Report;
+use crate::arguments::ReportArguments;
 use crate::error::{CliError, code};
 use crate::input::stem;
 use crate::output;
@@ -9,7 +9,7 @@ use gyration_view::{Stored, report};
 use std::path::PathBuf;
 
 /// Writes the report.
-pub fn execute(arguments: &Report) -> Result<u8, CliError> {
+pub fn execute(arguments: &ReportArguments) -> Result<u8, CliError> {
     let stored = Stored::open(&arguments.recording)?;
     let made = report(&stored)?;
     let default = || PathBuf::from(format!("{}.html", stem(&arguments.recording)));

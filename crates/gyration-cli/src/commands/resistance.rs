@@ -1,12 +1,12 @@
 //! `gyration resistance`: the resistances of bodies in a viscous fluid, as text or JSON.
 
-use crate::arguments::{Resistance, SceneArguments};
+use crate::arguments::{ResistanceArguments, SceneArguments};
 use crate::error::{CliError, code};
 use crate::input;
 use crate::output;
 use gyration_scene::Scene;
 use gyration_sim::format::significant;
-use gyration_sim::resistance::{ResistanceMatrix, ResistanceOptions, Resistances, Response, Vibration};
+use gyration_sim::resistance::{FluidResponse, ResistanceMatrix, ResistanceOptions, Resistances, Vibration};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -18,7 +18,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 const ROUNDING: f64 = 1e-13;
 
 /// Prints the resistance of the bodies.
-pub fn execute(arguments: &Resistance) -> Result<u8, CliError> {
+pub fn execute(arguments: &ResistanceArguments) -> Result<u8, CliError> {
     let (scene, only) = open(arguments)?;
     let options = ResistanceOptions {
         wall: arguments.wall.clone(),
@@ -33,8 +33,8 @@ pub fn execute(arguments: &Resistance) -> Result<u8, CliError> {
 }
 
 /// The scene, and the body named behind a colon.
-fn open(arguments: &Resistance) -> Result<(Scene, Option<String>), CliError> {
-    let Resistance { scene, overrides, .. } = arguments;
+fn open(arguments: &ResistanceArguments) -> Result<(Scene, Option<String>), CliError> {
+    let ResistanceArguments { scene, overrides, .. } = arguments;
     let open = |scene: &str| input::open(&SceneArguments { scene: scene.to_owned(), overrides: overrides.clone() });
     match scene.rsplit_once(':').filter(|_| !Path::new(scene).is_file()) {
         Some((before, body)) => Ok((open(before)?, Some(body.to_owned()))),
@@ -50,12 +50,12 @@ fn in_words(found: &Resistances) -> String {
     let mut text = String::new();
     for body in &found.bodies {
         match &body.response {
-            Response::Steady(matrix) => {
+            FluidResponse::Steady(matrix) => {
                 // Writing to a string does not fail.
                 let _ = writeln!(text, "body {}, {}, {fluid}", body.name, method(matrix));
                 write_matrix(&mut text, matrix);
             }
-            Response::Vibrating(frequency, vibration) => {
+            FluidResponse::Vibrating(frequency, vibration) => {
                 let hertz = significant(*frequency, 6);
                 let _ = writeln!(
                     text,

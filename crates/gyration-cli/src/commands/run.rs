@@ -1,6 +1,6 @@
 //! `gyration run`: a scene into a recording.
 
-use crate::arguments::Run;
+use crate::arguments::RunArguments;
 use crate::error::{CliError, code};
 use crate::input::{quoted, ready, shown};
 use crate::output;
@@ -9,7 +9,7 @@ use crate::provenance::provenance;
 use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, Recording, remove};
 use gyration_scene::Scene;
-use gyration_sim::{Job, MemorySink, Outcome, Reason, Recorded as Ended, RunSummary, Simulation};
+use gyration_sim::{Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunSummary, Simulation};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 const MOST_NAMES: usize = 10_000;
 
 /// Runs the scene; the exit code tells whether it reached its end.
-pub fn execute(arguments: &Run) -> Result<u8, CliError> {
+pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     let scene = ready(&arguments.scene)?;
     let path = directory(arguments, &scene)?;
     let job = Job::of(&scene, &provenance());
@@ -54,7 +54,7 @@ fn exit_code(outcome: &Outcome) -> u8 {
 }
 
 /// Where the recording goes; one that is there must be meant to be resumed or replaced.
-fn directory(arguments: &Run, scene: &Scene) -> Result<PathBuf, CliError> {
+fn directory(arguments: &RunArguments, scene: &Scene) -> Result<PathBuf, CliError> {
     let named = || arguments.output.clone().unwrap_or_else(|| numbered(Path::new(""), scene.name(), 1));
     if arguments.resume || arguments.force {
         return Ok(named());
@@ -89,7 +89,7 @@ fn exists(path: &Path) -> bool {
 }
 
 /// Removes the recording that is to be replaced, once it is known that the new run has a start within the model.
-fn make_room(arguments: &Run, job: &Job, path: &Path) -> Result<(), CliError> {
+fn make_room(arguments: &RunArguments, job: &Job, path: &Path) -> Result<(), CliError> {
     Simulation::new(job.model, job.start, job.plan)?.begin(&mut MemorySink::default())?;
     if arguments.force && path.symlink_metadata().is_ok() {
         remove(path)?;
@@ -97,7 +97,7 @@ fn make_room(arguments: &Run, job: &Job, path: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
-fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Result<(), CliError> {
+fn tell(arguments: &RunArguments, scene: &Scene, path: &Path, summary: &RunSummary) -> Result<(), CliError> {
     let start = summary.energies_at_start(&Recording::open(path)?)?;
     let picture = shown(&path.join(OVERVIEW));
     if arguments.json {
@@ -123,7 +123,7 @@ fn tell(arguments: &Run, scene: &Scene, path: &Path, summary: &RunSummary) -> Re
     Ok(())
 }
 
-fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Result<(), CliError> {
+fn tell_finished(arguments: &RunArguments, path: &Path, attributes: &Attributes) -> Result<(), CliError> {
     let outcome = attributes.get("outcome_in_words").and_then(Value::as_str).unwrap_or("finished");
     if arguments.json {
         let told = ["outcome", "statistics", "largest_residual", "energy_in_play", "events"];
@@ -140,7 +140,7 @@ fn tell_finished(arguments: &Run, path: &Path, attributes: &Attributes) -> Resul
 }
 
 /// The command by which an interrupted run goes on.
-fn resume_command(arguments: &Run, path: &Path) -> String {
+fn resume_command(arguments: &RunArguments, path: &Path) -> String {
     let overrides = arguments.scene.overrides.iter().map(|text| format!(" --set {}", quoted(text)));
     let overrides: String = overrides.collect();
     format!("gyration run {} -o {}{overrides} --resume", quoted(&arguments.scene.scene), quoted(&shown(path)))

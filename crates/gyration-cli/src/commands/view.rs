@@ -1,6 +1,6 @@
 //! `gyration view`: a recording, or a scene that runs as it is watched, on a page of a local server.
 
-use crate::arguments::View;
+use crate::arguments::ViewArguments;
 use crate::error::{CliError, code};
 use crate::output;
 use crate::provenance::provenance;
@@ -9,7 +9,7 @@ use gyration_view::{Live, PageSource, Server, Stored, page};
 use std::path::Path;
 
 /// Serves the page until Ctrl-C.
-pub fn execute(arguments: &View) -> Result<u8, CliError> {
+pub fn execute(arguments: &ViewArguments) -> Result<u8, CliError> {
     let what = source(arguments)?;
     page::html()?;
     let server = Server::bind(arguments.port)?;
@@ -34,7 +34,7 @@ pub fn execute(arguments: &View) -> Result<u8, CliError> {
 }
 
 /// What is to be shown; a scene with errors is refused before anything is served.
-fn source(arguments: &View) -> Result<PageSource, CliError> {
+fn source(arguments: &ViewArguments) -> Result<PageSource, CliError> {
     let path = Path::new(&arguments.source);
     if !path.is_dir() {
         Scene::open(&arguments.source, &arguments.overrides)?;

@@ -8,7 +8,7 @@ use super::ticks::{self, Tick};
 
 /// How values are spread over an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scale {
+pub enum AxisScale {
     /// Evenly.
     Linear,
     /// By their logarithms.
@@ -23,7 +23,7 @@ pub struct Axis {
     /// Its unit; empty for a pure number.
     pub unit: String,
     /// How values are spread.
-    pub scale: Scale,
+    pub scale: AxisScale,
     /// The value at the beginning; > 0 on a logarithmic axis.
     pub low: f64,
     /// The value at the end; > `low`.
@@ -58,7 +58,7 @@ impl Axis {
     /// An axis from `low` to `high` without any margin.
     pub fn exact(name: &str, unit: &str, low: f64, high: f64) -> Self {
         let high = if high > low { high } else { low + low.abs().max(1.0) };
-        Self { name: name.to_owned(), unit: unit.to_owned(), scale: Scale::Linear, low, high, words: Vec::new() }
+        Self { name: name.to_owned(), unit: unit.to_owned(), scale: AxisScale::Linear, low, high, words: Vec::new() }
     }
 
     /// An axis on which names stand one beside the other.
@@ -85,14 +85,21 @@ impl Axis {
         let (low, high) = extremes(positive).unwrap_or((0.1, 10.0));
         let margin = (high / low).powf(0.05).max(1.1);
         let (low, high) = (low / margin, high * margin);
-        Self { name: name.to_owned(), unit: unit.to_owned(), scale: Scale::Logarithmic, low, high, words: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            scale: AxisScale::Logarithmic,
+            low,
+            high,
+            words: Vec::new(),
+        }
     }
 
     /// Where a value stands: 0 at the beginning, 1 at the end.
     pub fn place(&self, value: f64) -> f64 {
         match self.scale {
-            Scale::Linear => (value - self.low) / (self.high - self.low),
-            Scale::Logarithmic => (value / self.low).ln() / (self.high / self.low).ln(),
+            AxisScale::Linear => (value - self.low) / (self.high - self.low),
+            AxisScale::Logarithmic => (value / self.low).ln() / (self.high / self.low).ln(),
         }
     }
 
@@ -101,7 +108,7 @@ impl Axis {
         let largest = self.low.abs().max(self.high.abs());
         let plain = (0.1..1000.0).contains(&largest);
         let simple = !self.unit.is_empty() && self.unit.chars().all(char::is_alphabetic);
-        if plain || !simple || self.scale == Scale::Logarithmic { (1.0, "") } else { ticks::prefix(largest) }
+        if plain || !simple || self.scale == AxisScale::Logarithmic { (1.0, "") } else { ticks::prefix(largest) }
     }
 
     /// What stands beside the axis: name and unit.
@@ -119,8 +126,8 @@ impl Axis {
             return self.words.iter().enumerate().map(tick).collect();
         }
         match self.scale {
-            Scale::Logarithmic => ticks::logarithmic(self.low, self.high, count),
-            Scale::Linear => {
+            AxisScale::Logarithmic => ticks::logarithmic(self.low, self.high, count),
+            AxisScale::Linear => {
                 let factor = self.prefix().0;
                 let with = |count: usize| ticks::linear(factor * self.low, factor * self.high, count);
                 // One tick alone tells no scale.
@@ -178,7 +185,7 @@ mod tests {
 
     #[test]
     fn values_stand_where_the_scale_says() {
-        let axis = Axis { scale: Scale::Logarithmic, ..Axis::exact("x", "m", 1e-2, 1e2) };
+        let axis = Axis { scale: AxisScale::Logarithmic, ..Axis::exact("x", "m", 1e-2, 1e2) };
         assert!((axis.place(1.0) - 0.5).abs() < 1e-15);
     }
 }

@@ -1,10 +1,10 @@
 //! The frame of a chart: grid, ticks, words, title, and the series inside.
 
-use super::axis::{Axis, Scale};
+use super::axis::{Axis, AxisScale};
 use super::series::{Chart, Series};
 use super::shapes::{self, Shapes};
 use super::ticks::Tick;
-use crate::draw::{Anchor, Color, Drawing, Label, Point, Rect, Stroke, Text, color};
+use crate::draw::{Anchor, Color, Label, Page, Point, Rect, Stroke, Text, color};
 
 /// Height of the words at ticks [pt].
 pub const TICK_SIZE: f64 = 8.0;
@@ -49,7 +49,7 @@ pub struct Content<'a> {
 }
 
 /// Draws a chart into the frame.
-pub fn draw(content: &Content, drawing: &mut Drawing, frame: Rect) {
+pub fn draw(content: &Content, drawing: &mut Page, frame: Rect) {
     let Content { chart, shapes, with_words } = *content;
     let level = chart.x.ticks((frame.width / LEVEL_PITCH).max(2.0) as usize);
     let upright = upright_ticks(chart);
@@ -87,12 +87,12 @@ pub fn draw(content: &Content, drawing: &mut Drawing, frame: Rect) {
     draw_names(chart, drawing, frame, with_words);
 }
 
-fn draw_spines(drawing: &mut Drawing, frame: Rect) {
+fn draw_spines(drawing: &mut Page, frame: Rect) {
     let [upper_left, _, lower_right, lower_left] = frame.corners();
     drawing.line(vec![upper_left, lower_left, lower_right], Stroke::solid(color::INK, 0.8), None);
 }
 
-fn draw_names(chart: &Chart, drawing: &mut Drawing, frame: Rect, with_words: bool) {
+fn draw_names(chart: &Chart, drawing: &mut Page, frame: Rect, with_words: bool) {
     let name = |axis: &Axis| Label::new(&axis.label());
     let beside = [frame.x - left_margin(chart) + NAME_SIZE, frame.y + 0.5 * frame.height];
     let text = Text { upright: true, ..words_at("", beside, Anchor::Middle, NAME_SIZE, color::INK) };
@@ -115,13 +115,13 @@ pub fn words_at(words: &str, at: Point, anchor: Anchor, size: f64, color: Color)
 }
 
 /// Lines through the finite values; a value alone becomes a dot.
-fn draw_series(series: &Series, chart: &Chart, drawing: &mut Drawing, frame: Rect) {
+fn draw_series(series: &Series, chart: &Chart, drawing: &mut Page, frame: Rect) {
     // A line's width more than the frame, so that a line along the edge keeps its width.
     let margin = series.stroke.width;
     let clip =
         Rect { x: frame.x, y: frame.y - margin, width: frame.width + margin, height: frame.height + 2.0 * margin };
     let place = |[x, y]: Point| {
-        let y = if chart.y.scale == Scale::Logarithmic { y.max(f64::MIN_POSITIVE) } else { y };
+        let y = if chart.y.scale == AxisScale::Logarithmic { y.max(f64::MIN_POSITIVE) } else { y };
         // Far outside is as good as just outside, and keeps the numbers of the file short.
         let upright = chart.y.place(y).clamp(-1.0, 2.0);
         [frame.x + chart.x.place(x) * frame.width, frame.bottom() - upright * frame.height]
@@ -152,7 +152,7 @@ const HEAD: [f64; 2] = [9.0, 3.6];
 const HEADS: usize = 3;
 
 /// Heads along a line of the page, each as its chord over the head's length runs.
-fn draw_arrows(line: &[Point], stroke: Stroke, drawing: &mut Drawing, clip: Rect) {
+fn draw_arrows(line: &[Point], stroke: Stroke, drawing: &mut Page, clip: Rect) {
     let lengths: Vec<f64> = line.windows(2).map(|pair| distance(pair[0], pair[1])).collect();
     let whole: f64 = lengths.iter().sum();
     let at = |along: f64| {

@@ -1,6 +1,6 @@
 //! Legends: a column of names, each with a piece of its line.
 
-use crate::draw::{Anchor, Drawing, Label, Point, Stroke, Text, color};
+use crate::draw::{Anchor, Label, Page, Point, Stroke, Text, color};
 
 /// Height of the letters [pt].
 pub const SIZE: f64 = 8.0;
@@ -45,7 +45,7 @@ impl Legend {
     }
 
     /// Draws it with its upper left corner at the point.
-    pub fn draw(&self, drawing: &mut Drawing, corner: Point) {
+    pub fn draw(&self, drawing: &mut Page, corner: Point) {
         for (row, (label, stroke)) in self.rows.iter().enumerate() {
             let [x, y] = [corner[0], corner[1] + LEADING * (row as f64 + 0.5)];
             let indent = match stroke {

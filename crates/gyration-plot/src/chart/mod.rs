@@ -10,7 +10,7 @@ mod series;
 mod shapes;
 pub mod ticks;
 
-pub use axis::{Axis, Scale, extremes, raised};
+pub use axis::{Axis, AxisScale, extremes, raised};
 pub use legend::{Legend, SIZE as LEGEND_SIZE};
 pub use series::{Chart, DASH_DOTTED, DASHED, DOTTED, LINE, Series};
-pub use shapes::{Field, Shapes};
+pub use shapes::{ShapeChart, Shapes};

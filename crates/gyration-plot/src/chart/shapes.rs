@@ -4,7 +4,7 @@
 //! over the grid and under the lines.
 
 use super::series::Chart;
-use crate::draw::{Color, Drawing, Mark, Path, Point, Rect, Stroke};
+use crate::draw::{Color, Mark, Page, Path, Point, Rect, Stroke};
 use std::f64::consts::TAU;
 
 /// Marks of one kind and colour; points are values (x, y).
@@ -37,7 +37,7 @@ pub enum Shapes {
 
 /// A chart with shapes under its lines.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Field {
+pub struct ShapeChart {
     /// Axes, lines and remarks.
     pub chart: Chart,
     /// From the lowest to the uppermost.
@@ -50,7 +50,7 @@ const BAR: f64 = 2.2;
 const SEAM: f64 = 0.15;
 
 /// Draws shapes into the frame of a chart.
-pub fn draw(shapes: &Shapes, chart: &Chart, drawing: &mut Drawing, frame: Rect) {
+pub fn draw(shapes: &Shapes, chart: &Chart, drawing: &mut Page, frame: Rect) {
     let place = |[x, y]: Point| {
         [
             frame.x + chart.x.place(x).clamp(-1.0, 2.0) * frame.width,
@@ -109,7 +109,7 @@ mod tests {
         let axis = || Axis::exact("", "", 0.0, 1.0);
         let (x, y) = (axis(), axis());
         let chart = Chart { title: String::new(), x, y, series: Vec::new(), remarks: Vec::new(), height: 100.0 };
-        let mut drawing = Drawing::new(100.0, 100.0, "");
+        let mut drawing = Page::new(100.0, 100.0, "");
         let frame = Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 };
         let corners = vec![[[0.0, 0.0], [0.5, 0.5]], [[0.5, 0.5], [1.0, 1.0]], [[f64::NAN, 0.0], [1.0, 1.0]]];
         draw(&Shapes::Areas { corners, fill: color::GREY }, &chart, &mut drawing, frame);

@@ -8,7 +8,7 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// The outline of letters: lines and quadratic curves [pt], y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Segment {
+pub enum OutlineSegment {
     /// Begins a contour.
     Move(Point),
     /// A straight line.
@@ -40,7 +40,7 @@ pub fn width(words: &str, size: f64, bold: bool) -> f64 {
 }
 
 /// Hands the outline of words that begin at the origin to `each`.
-pub fn outline(words: &str, size: f64, bold: bool, each: &mut dyn FnMut(Segment)) {
+pub fn outline(words: &str, size: f64, bold: bool, each: &mut dyn FnMut(OutlineSegment)) {
     let Some(face) = face(bold) else { return };
     let scale = size / f64::from(face.units_per_em());
     let mut pen = Pen { scale, start: 0.0, each };
@@ -54,7 +54,7 @@ pub fn outline(words: &str, size: f64, bold: bool, each: &mut dyn FnMut(Segment)
 struct Pen<'a> {
     scale: f64,
     start: f64,
-    each: &'a mut dyn FnMut(Segment),
+    each: &'a mut dyn FnMut(OutlineSegment),
 }
 
 impl Pen<'_> {
@@ -66,17 +66,17 @@ impl Pen<'_> {
 impl OutlineBuilder for Pen<'_> {
     fn move_to(&mut self, x: f32, y: f32) {
         let point = self.point(x, y);
-        (self.each)(Segment::Move(point));
+        (self.each)(OutlineSegment::Move(point));
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
         let point = self.point(x, y);
-        (self.each)(Segment::Line(point));
+        (self.each)(OutlineSegment::Line(point));
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
         let (control, point) = (self.point(x1, y1), self.point(x, y));
-        (self.each)(Segment::Curve(control, point));
+        (self.each)(OutlineSegment::Curve(control, point));
     }
 
     /// The font is TrueType, whose curves are quadratic; a cubic would be drawn through its middle.
@@ -85,7 +85,7 @@ impl OutlineBuilder for Pen<'_> {
     }
 
     fn close(&mut self) {
-        (self.each)(Segment::Close);
+        (self.each)(OutlineSegment::Close);
     }
 }
 

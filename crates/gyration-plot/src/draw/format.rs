@@ -1,6 +1,6 @@
 //! The formats of pictures.
 
-use super::marks::Drawing;
+use super::marks::Page;
 use super::{pdf, png, svg};
 use crate::error::PlotError;
 use std::path::Path;
@@ -35,7 +35,7 @@ impl Format {
     }
 }
 
-impl Drawing {
+impl Page {
     /// The bytes of the picture.
     pub fn render(&self, format: Format) -> Vec<u8> {
         match format {

@@ -13,7 +13,7 @@ pub const LOWER: f64 = 0.18;
 
 /// Where a part of a label stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Level {
+pub enum Script {
     /// On the base line.
     Base,
     /// An exponent.
@@ -22,7 +22,7 @@ pub enum Level {
     Lowered,
 }
 
-impl Level {
+impl Script {
     /// Size and shift upwards, as fractions of the size of the label.
     pub fn size_and_shift(self) -> (f64, f64) {
         match self {
@@ -37,7 +37,7 @@ impl Level {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Label {
     /// The parts, from left to right.
-    pub parts: Vec<(Level, String)>,
+    pub parts: Vec<(Script, String)>,
 }
 
 impl Label {
@@ -46,22 +46,22 @@ impl Label {
         let mut label = Self::default();
         let mut rest = markup;
         while let Some((start, level)) = next_mark(rest) {
-            label.push(Level::Base, &rest[..start]);
+            label.push(Script::Base, &rest[..start]);
             let inner = &rest[start + 2..];
             let end = inner.find('}').unwrap_or(inner.len());
             label.push(level, &inner[..end]);
             rest = inner.get(end + 1..).unwrap_or("");
         }
-        label.push(Level::Base, rest);
+        label.push(Script::Base, rest);
         label
     }
 
     /// The words as they are.
     pub fn plain(words: &str) -> Self {
-        Self { parts: vec![(Level::Base, words.to_owned())] }
+        Self { parts: vec![(Script::Base, words.to_owned())] }
     }
 
-    fn push(&mut self, level: Level, words: &str) {
+    fn push(&mut self, level: Script, words: &str) {
         if !words.is_empty() {
             self.parts.push((level, with_minus_signs(words)));
         }
@@ -69,15 +69,15 @@ impl Label {
 
     /// Width [pt] in letters of this size.
     pub fn width(&self, size: f64, bold: bool) -> f64 {
-        let part = |(level, words): &(Level, String)| font::width(words, size * level.size_and_shift().0, bold);
+        let part = |(level, words): &(Script, String)| font::width(words, size * level.size_and_shift().0, bold);
         self.parts.iter().map(part).sum()
     }
 }
 
 /// The next `^{` or `_{`.
-fn next_mark(text: &str) -> Option<(usize, Level)> {
-    let raised = text.find("^{").map(|at| (at, Level::Raised));
-    let lowered = text.find("_{").map(|at| (at, Level::Lowered));
+fn next_mark(text: &str) -> Option<(usize, Script)> {
+    let raised = text.find("^{").map(|at| (at, Script::Raised));
+    let lowered = text.find("_{").map(|at| (at, Script::Lowered));
     [raised, lowered].into_iter().flatten().min_by_key(|(at, _)| *at)
 }
 
@@ -103,11 +103,11 @@ mod tests {
     fn markup_raises_and_lowers() {
         let label = Label::new("10^{-3} d_{0}/a-2");
         let expected = [
-            (Level::Base, "10"),
-            (Level::Raised, "−3"),
-            (Level::Base, " d"),
-            (Level::Lowered, "0"),
-            (Level::Base, "/a-2"),
+            (Script::Base, "10"),
+            (Script::Raised, "−3"),
+            (Script::Base, " d"),
+            (Script::Lowered, "0"),
+            (Script::Base, "/a-2"),
         ];
         assert_eq!(label.parts, expected.map(|(level, words)| (level, words.to_owned())));
     }

@@ -1,7 +1,7 @@
 //! Marks on a page: lines, areas, labels.
 
 use super::color::Color;
-use super::font::{self, Segment};
+use super::font::{self, OutlineSegment};
 use super::geometry::{Point, Rect};
 use super::label::Label;
 
@@ -66,7 +66,7 @@ pub struct Text {
 
 impl Text {
     /// Hands the outlines of the letters, in their place on the page, to `each`.
-    pub(super) fn trace(&self, each: &mut dyn FnMut(Segment)) {
+    pub(super) fn trace(&self, each: &mut dyn FnMut(OutlineSegment)) {
         let mut along = -self.anchor.fraction() * self.label.width(self.size, self.bold);
         for (level, words) in &self.label.parts {
             let (scale, shift) = level.size_and_shift();
@@ -78,10 +78,10 @@ impl Text {
             };
             font::outline(words, size, self.bold, &mut |segment| {
                 each(match segment {
-                    Segment::Move(p) => Segment::Move(place(p)),
-                    Segment::Line(p) => Segment::Line(place(p)),
-                    Segment::Curve(c, p) => Segment::Curve(place(c), place(p)),
-                    Segment::Close => Segment::Close,
+                    OutlineSegment::Move(p) => OutlineSegment::Move(place(p)),
+                    OutlineSegment::Line(p) => OutlineSegment::Line(place(p)),
+                    OutlineSegment::Curve(c, p) => OutlineSegment::Curve(place(c), place(p)),
+                    OutlineSegment::Close => OutlineSegment::Close,
                 });
             });
             along += font::width(words, size, self.bold);
@@ -115,7 +115,7 @@ pub enum Mark {
 
 /// A page.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Drawing {
+pub struct Page {
     /// Width [pt].
     pub width: f64,
     /// Height [pt].
@@ -126,7 +126,7 @@ pub struct Drawing {
     pub marks: Vec<Mark>,
 }
 
-impl Drawing {
+impl Page {
     /// An empty page.
     pub fn new(width: f64, height: f64, title: impl Into<String>) -> Self {
         Self { width, height, title: title.into(), marks: Vec::new() }

@@ -4,16 +4,16 @@
 //! value. There is neither a date nor an identifier in the file.
 
 use super::color::Color;
-use super::font::Segment;
+use super::font::OutlineSegment;
 use super::geometry::{Point, Rect};
-use super::marks::{Drawing, Mark, Path, Stroke, Text};
+use super::marks::{Mark, Page, Path, Stroke, Text};
 
 /// Strength of the compression of streams, 0 to 10.
 const COMPRESSION: u8 = 6;
 
 /// The bytes of the PDF file.
-pub fn render(drawing: &Drawing) -> Vec<u8> {
-    let mut page = Page { content: String::new(), height: drawing.height, opacities: Vec::new() };
+pub fn render(drawing: &Page) -> Vec<u8> {
+    let mut page = PdfPage { content: String::new(), height: drawing.height, opacities: Vec::new() };
     for mark in &drawing.marks {
         match mark {
             Mark::Path(path) => page.path(path),
@@ -78,13 +78,13 @@ impl File {
 }
 
 /// The content of the page; PDF counts y upwards.
-struct Page {
+struct PdfPage {
     content: String,
     height: f64,
     opacities: Vec<f64>,
 }
 
-impl Page {
+impl PdfPage {
     fn point(&self, point: Point) -> String {
         format!("{} {}", number(point[0]), number(self.height - point[1]))
     }
@@ -146,22 +146,22 @@ impl Page {
         let mut outline = String::new();
         let mut pen = text.at;
         text.trace(&mut |segment| match segment {
-            Segment::Move(to) => {
+            OutlineSegment::Move(to) => {
                 outline += &format!("{} m\n", self.point(to));
                 pen = to;
             }
-            Segment::Line(to) => {
+            OutlineSegment::Line(to) => {
                 outline += &format!("{} l\n", self.point(to));
                 pen = to;
             }
-            Segment::Curve(control, to) => {
+            OutlineSegment::Curve(control, to) => {
                 // The cubic with the same course: its control points stand at two thirds of the way.
                 let toward = |end: Point| [0, 1].map(|k| end[k] + 2.0 / 3.0 * (control[k] - end[k]));
                 let (first, second) = (self.point(toward(pen)), self.point(toward(to)));
                 outline += &format!("{first} {second} {} c\n", self.point(to));
                 pen = to;
             }
-            Segment::Close => outline += "h\n",
+            OutlineSegment::Close => outline += "h\n",
         });
         self.content += "q\n";
         self.set_color(&text.color, "rg");

@@ -1,9 +1,9 @@
 //! A drawing as PNG: three pixels a point (216 dpi), letters as outlines.
 
 use super::color::Color;
-use super::font::Segment;
+use super::font::OutlineSegment;
 use super::geometry::Rect;
-use super::marks::{Drawing, Mark, Path, Stroke, Text};
+use super::marks::{Mark, Page, Path, Stroke, Text};
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Paint, PathBuilder, Pixmap, StrokeDash, Transform};
 
 /// Pixels a point.
@@ -12,7 +12,7 @@ const SCALE: f32 = 3.0;
 const MOST_PIXELS: f32 = 16_000.0;
 
 /// The bytes of the PNG file.
-pub fn render(drawing: &Drawing) -> Vec<u8> {
+pub fn render(drawing: &Page) -> Vec<u8> {
     let longest = drawing.width.max(drawing.height) as f32;
     let scale = SCALE.min(MOST_PIXELS / longest);
     let side = |length: f64| ((length as f32 * scale).ceil() as u32).max(1);
@@ -79,13 +79,13 @@ impl Canvas {
         text.trace(&mut |segment| {
             let as_f32 = |point: [f64; 2]| point.map(|c| c as f32);
             match segment {
-                Segment::Move(p) => builder.move_to(as_f32(p)[0], as_f32(p)[1]),
-                Segment::Line(p) => builder.line_to(as_f32(p)[0], as_f32(p)[1]),
-                Segment::Curve(c, p) => {
+                OutlineSegment::Move(p) => builder.move_to(as_f32(p)[0], as_f32(p)[1]),
+                OutlineSegment::Line(p) => builder.line_to(as_f32(p)[0], as_f32(p)[1]),
+                OutlineSegment::Curve(c, p) => {
                     let ([cx, cy], [x, y]) = (as_f32(c), as_f32(p));
                     builder.quad_to(cx, cy, x, y);
                 }
-                Segment::Close => builder.close(),
+                OutlineSegment::Close => builder.close(),
             }
         });
         let Some(outline) = builder.finish() else { return };

@@ -2,15 +2,15 @@
 
 use super::color::Color;
 use super::geometry::{Point, Rect};
-use super::label::{Label, Level};
-use super::marks::{Anchor, Drawing, Mark, Path, Stroke, Text};
+use super::label::{Label, Script};
+use super::marks::{Anchor, Mark, Page, Path, Stroke, Text};
 use std::fmt::Write as _;
 
 /// Families in the order of preference; the last is generic.
 const FONT_FAMILY: &str = "'Noto Sans', 'Helvetica Neue', Helvetica, Arial, sans-serif";
 
 /// The text of the SVG file.
-pub fn render(drawing: &Drawing) -> String {
+pub fn render(drawing: &Page) -> String {
     let (width, height) = (number(drawing.width), number(drawing.height));
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
@@ -37,7 +37,7 @@ pub fn render(drawing: &Drawing) -> String {
 }
 
 /// The different clips, in the order of their first use.
-fn clips(drawing: &Drawing) -> Vec<Rect> {
+fn clips(drawing: &Page) -> Vec<Rect> {
     let mut clips: Vec<Rect> = Vec::new();
     for mark in &drawing.marks {
         if let Mark::Path(Path { clip: Some(clip), .. }) = mark
@@ -130,7 +130,7 @@ fn write_label(svg: &mut String, label: &Label, size: f64) {
     let mut height = 0.0;
     for (level, words) in &label.parts {
         let (scale, shift) = level.size_and_shift();
-        if *level == Level::Base && height == 0.0 {
+        if *level == Script::Base && height == 0.0 {
             *svg += &escape(words);
             continue;
         }
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn titles_cannot_break_the_markup() {
-        let drawing = Drawing::new(10.0, 10.0, "a <b> & \"c\"\u{1}");
+        let drawing = Page::new(10.0, 10.0, "a <b> & \"c\"\u{1}");
         let svg = render(&drawing);
         assert!(svg.contains("<title>a &lt;b&gt; &amp; &quot;c&quot;</title>"));
     }

@@ -20,7 +20,7 @@ const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// A number that a recording has of each body at each sample.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Component {
+pub struct BodyNumber {
     /// The name with its indices lowered.
     pub label: String,
     /// The unit; empty for a pure number.
@@ -33,7 +33,7 @@ pub struct Component {
     offset: usize,
 }
 
-impl Component {
+impl BodyNumber {
     /// The component of this name.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ impl Component {
     }
 }
 
-fn find(name: &str) -> Option<Component> {
+fn find(name: &str) -> Option<BodyNumber> {
     matrix(name).or_else(|| vector(name)).or_else(|| scalar(name))
 }
 
@@ -70,24 +70,24 @@ fn axis(letter: char) -> Option<usize> {
     AXES.iter().position(|axis| *axis == letter)
 }
 
-fn matrix(name: &str) -> Option<Component> {
+fn matrix(name: &str) -> Option<BodyNumber> {
     let (letters, indices) = name.split_once('_')?;
     let (_, array) = MATRICES.iter().find(|(known, _)| *known == letters)?;
     let [row, col] = indices.chars().collect::<Vec<char>>()[..] else { return None };
     let label = format!("{letters}_{{{indices}}}");
-    Some(Component::of_array(array, 9, 3 * axis(row)? + axis(col)?, label))
+    Some(BodyNumber::of_array(array, 9, 3 * axis(row)? + axis(col)?, label))
 }
 
-fn vector(name: &str) -> Option<Component> {
+fn vector(name: &str) -> Option<BodyNumber> {
     let component = axis(name.chars().last()?)?;
     let (letters, array) = VECTORS.iter().find(|(known, _)| *known == &name[..name.len() - 1])?;
     let label = if letters.is_empty() { name.to_owned() } else { format!("{letters}_{{{}}}", AXES[component]) };
-    Some(Component::of_array(array, 3, component, label))
+    Some(BodyNumber::of_array(array, 3, component, label))
 }
 
-fn scalar(name: &str) -> Option<Component> {
+fn scalar(name: &str) -> Option<BodyNumber> {
     let array = SCALARS.into_iter().find(|known| *known == name)?;
-    Some(Component::of_array(array, 1, 0, name.to_owned()))
+    Some(BodyNumber::of_array(array, 1, 0, name.to_owned()))
 }
 
 #[cfg(test)]

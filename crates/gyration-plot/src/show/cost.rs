@@ -8,7 +8,7 @@
 //! body has got some way.
 
 use super::bodies::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
-use super::distance::{Level, NOWHERE};
+use super::distance::{LevelAxes, NOWHERE};
 use super::effort::{self, ARRAYS, Driven, Works};
 use crate::chart::{Axis, Chart, DASHED, Series, extremes};
 use crate::cycle::{AtTime, Cycle, rounded};
@@ -33,8 +33,8 @@ pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
             "without gravity there is no weight to carry, and the cost of transport is work/(weight × distance)",
         );
     }
-    let level = Level::to(&recorded.up());
-    let (driven, farthest): (Vec<Driven>, Vec<f64>) = Way::all(recorded, &level, &driven)?
+    let level = LevelAxes::to(&recorded.up());
+    let (driven, farthest): (Vec<Driven>, Vec<f64>) = BodyPath::all(recorded, &level, &driven)?
         .into_iter()
         .zip(&driven)
         .filter(|(way, it)| way.gained > NOWHERE * recorded.bodies[it.body].size)
@@ -58,15 +58,15 @@ fn starts(recorded: &RecordedScene, driven: &[Driven]) -> Result<Vec<Vec3>, Plot
 
 /// The way of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Way {
+struct BodyPath {
     /// The largest level distance from the start [m].
     farthest: f64,
     /// The level distance gained in the last cycle; without a cycle the farthest [m].
     gained: f64,
 }
 
-impl Way {
-    fn all(recorded: &RecordedScene, level: &Level, driven: &[Driven]) -> Result<Vec<Self>, PlotError> {
+impl BodyPath {
+    fn all(recorded: &RecordedScene, level: &LevelAxes, driven: &[Driven]) -> Result<Vec<Self>, PlotError> {
         let (starts, span) = (starts(recorded, driven)?, recorded.span()?);
         let mut farthest = vec![0.0; driven.len()];
         let mark =
@@ -97,7 +97,12 @@ struct Spent {
 }
 
 impl Spent {
-    fn read(recorded: &RecordedScene, level: &Level, driven: &[Driven], farthest: &[f64]) -> Result<Self, PlotError> {
+    fn read(
+        recorded: &RecordedScene,
+        level: &LevelAxes,
+        driven: &[Driven],
+        farthest: &[f64],
+    ) -> Result<Self, PlotError> {
         let (starts, span) = (starts(recorded, driven)?, recorded.span()?);
         let weights: Vec<f64> =
             driven.iter().map(|it| recorded.bodies[it.body].mass * recorded.gravity.norm()).collect();

@@ -24,9 +24,9 @@ const ASIDE: f64 = 1e-3;
 pub const NOWHERE: f64 = 1e-6;
 
 /// Two level directions with their names.
-pub struct Level([(String, Vec3); 2]);
+pub struct LevelAxes([(String, Vec3); 2]);
 
-impl Level {
+impl LevelAxes {
     /// x and y as far as they are level; else x, or y, made level, and what is normal to it.
     pub fn to(up: &Vec3) -> Self {
         let level = |axis: Vec3| axis - up * up.dot(&axis);
@@ -62,7 +62,7 @@ struct Travels {
 }
 
 impl Travels {
-    fn read(recorded: &RecordedScene, level: &Level) -> Result<Self, PlotError> {
+    fn read(recorded: &RecordedScene, level: &LevelAxes) -> Result<Self, PlotError> {
         let bodies = drawn_bodies(recorded);
         let span = recorded.span()?;
         let cycles: Vec<Option<Cycle>> =
@@ -111,7 +111,7 @@ fn farthest(line: &[Point]) -> f64 {
 
 /// The chart.
 pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
-    let level = Level::to(&recorded.up());
+    let level = LevelAxes::to(&recorded.up());
     let travels = Travels::read(recorded, &level)?;
     let reach = [0, 1].map(|direction| travels.reach(recorded, direction));
     let nowhere = NOWHERE * travels.bodies.iter().map(|body| recorded.bodies[*body].size).fold(0.0, f64::max);
@@ -186,9 +186,9 @@ mod tests {
     fn level_directions_are_level_and_have_the_names_of_axes() {
         let up = Vec3::new(0.3, 0.0, 1.0).normalize();
         for (up, names) in [(Vec3::z(), ["x", "y"]), (Vec3::y(), ["x", "z"]), (Vec3::x(), ["y", "z"])] {
-            assert_eq!(Level::to(&up).0.map(|(name, _)| name), names, "{up}");
+            assert_eq!(LevelAxes::to(&up).0.map(|(name, _)| name), names, "{up}");
         }
-        for (_, axis) in Level::to(&up).0 {
+        for (_, axis) in LevelAxes::to(&up).0 {
             assert!(axis.dot(&up).abs() < 1e-15 && (axis.norm() - 1.0).abs() < 1e-15);
         }
     }

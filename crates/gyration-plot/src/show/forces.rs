@@ -5,7 +5,7 @@
 
 use super::bodies::{body_series, drawn_bodies, time_axis, values};
 use crate::chart::ticks::short;
-use crate::chart::{Axis, Chart, DOTTED, Scale, Series, extremes};
+use crate::chart::{Axis, AxisScale, Chart, DOTTED, Series, extremes};
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::recorded::RecordedScene;
@@ -106,7 +106,7 @@ fn axis(series: &[Series], weight: f64, most: f64) -> Axis {
     let attraction = values(series).any(|force| force < -1e-6 * most);
     if weight > 0.0 && most > VIOLENT * weight && !attraction {
         let floor = Axis::logarithmic("force", "N", [1e-3 * weight, most]);
-        return Axis { low: 1e-3 * weight, scale: Scale::Logarithmic, ..floor };
+        return Axis { low: 1e-3 * weight, scale: AxisScale::Logarithmic, ..floor };
     }
     Axis::linear("force", "N", values(series).chain([0.0]))
 }

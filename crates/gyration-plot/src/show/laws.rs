@@ -34,26 +34,26 @@ pub fn law_panels(model: &Model, start: &State) -> Result<Vec<Panel>, PlotError>
         return Err(PlotError::Nothing { what: "laws", reason: "no contact is given between a body and a support" });
     }
     let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap).collect();
-    let gaps = Gaps { axis: gap_axis(&pairs), rests };
+    let gaps = GapRange { axis: gap_axis(&pairs), rests };
     let charts =
         [law_chart(model, &gaps, &CENTRAL), law_chart(model, &gaps, &VISCOUS), force_chart(model, &pairs, &gaps)];
     Ok(charts.into_iter().flatten().map(Panel::Chart).collect())
 }
 
 /// A body and a support that act on each other.
-struct Pair<'a> {
+struct ContactPair<'a> {
     body: usize,
     support: usize,
     approach: Approach<'a>,
     rests: Vec<RestGap>,
 }
 
-fn pairs<'a>(model: &'a Model, start: &State) -> Vec<Pair<'a>> {
+fn pairs<'a>(model: &'a Model, start: &State) -> Vec<ContactPair<'a>> {
     let mut pairs = Vec::new();
     for body in 0..model.bodies.len().min(MOST_LINES) {
         for support in 0..model.supports.len() {
             if let Some(approach) = Approach::new(model, start, body, support).filter(Approach::acts) {
-                pairs.push(Pair { body, support, rests: approach.rests(), approach });
+                pairs.push(ContactPair { body, support, rests: approach.rests(), approach });
             }
         }
     }
@@ -61,7 +61,7 @@ fn pairs<'a>(model: &'a Model, start: &State) -> Vec<Pair<'a>> {
 }
 
 /// From well below the nearest gap of rest to well above the farthest; without any, by the sizes of the bodies.
-fn gap_axis(pairs: &[Pair]) -> Axis {
+fn gap_axis(pairs: &[ContactPair]) -> Axis {
     let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap);
     let sizes = pairs.iter().map(|pair| pair.approach.size()).flat_map(|size| [1e-3 * size, size]);
     let (low, high) = extremes(rests)
@@ -71,12 +71,12 @@ fn gap_axis(pairs: &[Pair]) -> Axis {
 }
 
 /// The gaps that are drawn, and those of rest.
-struct Gaps {
+struct GapRange {
     axis: Axis,
     rests: Vec<f64>,
 }
 
-impl Gaps {
+impl GapRange {
     fn sampled(&self) -> impl Iterator<Item = f64> + '_ {
         let Axis { low, high, .. } = self.axis;
         (0..POINTS).map(move |k| low * (high / low).powf(k as f64 / (POINTS - 1) as f64))
@@ -106,7 +106,7 @@ const CENTRAL: Laws = Laws { title: "Tractions of the central laws", name: "trac
 const VISCOUS: Laws =
     Laws { title: "Resistances of the viscous laws", name: "traction per speed", unit: "Pa s/m", central: false };
 
-fn law_chart(model: &Model, gaps: &Gaps, laws: &Laws) -> Option<Chart> {
+fn law_chart(model: &Model, gaps: &GapRange, laws: &Laws) -> Option<Chart> {
     let contacts = contacts(model);
     let several = contacts.len() > 1;
     let acting =
@@ -133,7 +133,7 @@ fn hue(kind: LawKind) -> usize {
 }
 
 /// A law's factor over the gap; where it is negative, its magnitude in a dashed line.
-fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &Gaps) -> Vec<Series> {
+fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &GapRange) -> Vec<Series> {
     let kind = law.kind().name();
     let points: Vec<[f64; 2]> = gaps.sampled().map(|gap| [gap, law.factor(gap)]).collect();
     let name = match law {
@@ -169,7 +169,7 @@ fn by_sign(name: String, points: Vec<[f64; 2]>, hue: usize) -> Vec<Series> {
 }
 
 /// The force of the central laws on each body, its weight, and the gaps at which they balance.
-fn force_chart(model: &Model, pairs: &[Pair], gaps: &Gaps) -> Option<Chart> {
+fn force_chart(model: &Model, pairs: &[ContactPair], gaps: &GapRange) -> Option<Chart> {
     let several_supports = model.supports.len() > 1;
     let mut series = Vec::new();
     for (index, pair) in pairs.iter().enumerate() {
@@ -191,7 +191,7 @@ fn force_chart(model: &Model, pairs: &[Pair], gaps: &Gaps) -> Option<Chart> {
 }
 
 /// The weight as a level line, named once, and each gap of rest as an upright one below it.
-fn balance_marks(pair: &Pair, hue: usize, gaps: &Gaps) -> Vec<Series> {
+fn balance_marks(pair: &ContactPair, hue: usize, gaps: &GapRange) -> Vec<Series> {
     let weight = pair.approach.weight;
     let mut marks = Vec::new();
     if weight > 0.0 {
@@ -211,14 +211,14 @@ fn balance_marks(pair: &Pair, hue: usize, gaps: &Gaps) -> Vec<Series> {
 }
 
 /// A chart with title, name and unit of its upward axis; none without anything to draw.
-fn chart([title, name, unit]: [&str; 3], gaps: &Gaps, series: Vec<Series>) -> Option<Chart> {
+fn chart([title, name, unit]: [&str; 3], gaps: &GapRange, series: Vec<Series>) -> Option<Chart> {
     let (low, high) = range(gaps, &series)?;
     let y = Axis::logarithmic(name, unit, [low, high]);
     Some(Chart { title: title.into(), x: gaps.axis.clone(), y, series, remarks: Vec::new(), height: HEIGHT })
 }
 
 /// The values that are drawn: some decades around those at the gaps of rest, as far as there are any.
-fn range(gaps: &Gaps, series: &[Series]) -> Option<(f64, f64)> {
+fn range(gaps: &GapRange, series: &[Series]) -> Option<(f64, f64)> {
     let points = || series.iter().flat_map(|series| &series.points).filter(|point| point[1] > 0.0);
     let (least, most) = extremes(points().map(|point| point[1]))?;
     let near = |gap: f64| points().filter(move |point| (point[0] / gap).ln().abs() < 0.1).map(|point| point[1]);

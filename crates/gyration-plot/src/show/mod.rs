@@ -25,7 +25,7 @@ use gyration_scene::Scene;
 use gyration_sim::replay::{Replay, ReplayError};
 use std::path::Path;
 
-pub use quantity::Quantity;
+pub use quantity::PlotQuantity;
 
 /// The picture that every run leaves in its recording.
 pub const OVERVIEW: &str = "overview.svg";
@@ -34,7 +34,11 @@ pub const OVERVIEW: &str = "overview.svg";
 ///
 /// # Errors
 /// [`PlotError`] where the recording cannot be read or does not have a quantity.
-pub fn of_recording(recording: &Recording, quantities: &[Quantity], measures: &[String]) -> Result<Figure, PlotError> {
+pub fn of_recording(
+    recording: &Recording,
+    quantities: &[PlotQuantity],
+    measures: &[String],
+) -> Result<Figure, PlotError> {
     let recorded = RecordedScene::new(recording)?;
     let mut all = Vec::new();
     for quantity in quantities {
@@ -55,7 +59,7 @@ pub fn laws(scene: &Scene) -> Result<Figure, PlotError> {
 /// Draws the overview into the recording; a picture that fails does not make the run fail, it gives a warning.
 pub fn leave_overview(path: &Path) -> Option<String> {
     let draw = || -> Result<(), PlotError> {
-        let figure = of_recording(&Recording::open(path)?, &[Quantity::Overview], &[])?;
+        let figure = of_recording(&Recording::open(path)?, &[PlotQuantity::Overview], &[])?;
         Ok(write_file(&path.join(OVERVIEW), &figure.render(Format::Svg))?)
     };
     match draw() {
@@ -65,20 +69,20 @@ pub fn leave_overview(path: &Path) -> Option<String> {
 }
 
 /// The panels of one quantity.
-fn panels(recorded: &RecordedScene, quantity: Quantity, measures: &[String]) -> Result<Vec<Panel>, PlotError> {
+fn panels(recorded: &RecordedScene, quantity: PlotQuantity, measures: &[String]) -> Result<Vec<Panel>, PlotError> {
     let charts = match quantity {
-        Quantity::Overview => return overview(recorded),
-        Quantity::Strip => return Ok(vec![Panel::Strip(Strip::of(recorded)?)]),
-        Quantity::Laws => return laws_of(recorded.recording),
-        Quantity::Height => vec![motion::height(recorded)?],
-        Quantity::Gap => vec![motion::gap(recorded)?],
-        Quantity::Stretch => stretch::charts(recorded)?,
-        Quantity::Forces => vec![forces::chart(recorded)?],
-        Quantity::Energy => energy::charts(recorded)?,
-        Quantity::Stroke => stroke::charts(recorded, measures)?,
-        Quantity::Distance => vec![distance::chart(recorded)?],
-        Quantity::Cost => vec![cost::chart(recorded)?],
-        Quantity::Drive => drive::charts(recorded)?,
+        PlotQuantity::Overview => return overview(recorded),
+        PlotQuantity::Strip => return Ok(vec![Panel::Strip(Strip::of(recorded)?)]),
+        PlotQuantity::Laws => return laws_of(recorded.recording),
+        PlotQuantity::Height => vec![motion::height(recorded)?],
+        PlotQuantity::Gap => vec![motion::gap(recorded)?],
+        PlotQuantity::Stretch => stretch::charts(recorded)?,
+        PlotQuantity::Forces => vec![forces::chart(recorded)?],
+        PlotQuantity::Energy => energy::charts(recorded)?,
+        PlotQuantity::Stroke => stroke::charts(recorded, measures)?,
+        PlotQuantity::Distance => vec![distance::chart(recorded)?],
+        PlotQuantity::Cost => vec![cost::chart(recorded)?],
+        PlotQuantity::Drive => drive::charts(recorded)?,
     };
     Ok(charts.into_iter().map(Panel::Chart).collect())
 }
@@ -104,17 +108,17 @@ fn no_replay(problem: ReplayError) -> PlotError {
 fn overview(recorded: &RecordedScene) -> Result<Vec<Panel>, PlotError> {
     let mut all = Vec::new();
     let order = [
-        Quantity::Strip,
-        Quantity::Height,
-        Quantity::Distance,
-        Quantity::Gap,
-        Quantity::Stretch,
-        Quantity::Forces,
-        Quantity::Energy,
-        Quantity::Stroke,
+        PlotQuantity::Strip,
+        PlotQuantity::Height,
+        PlotQuantity::Distance,
+        PlotQuantity::Gap,
+        PlotQuantity::Stretch,
+        PlotQuantity::Forces,
+        PlotQuantity::Energy,
+        PlotQuantity::Stroke,
     ];
     let contracts = recorded.bodies.iter().any(|body| body.contracts());
-    for quantity in order.into_iter().filter(|quantity| contracts || *quantity != Quantity::Distance) {
+    for quantity in order.into_iter().filter(|quantity| contracts || *quantity != PlotQuantity::Distance) {
         match panels(recorded, quantity, &[]) {
             Ok(panels) => all.extend(panels),
             Err(PlotError::Nothing { .. }) => {}

@@ -4,7 +4,7 @@ use crate::error::PlotError;
 
 /// A quantity that may be asked for of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum PlotQuantity {
     /// All that the recording has.
     Overview,
     /// Outlines at successive times.
@@ -31,7 +31,7 @@ pub enum Quantity {
     Laws,
 }
 
-impl Quantity {
+impl PlotQuantity {
     /// All of them.
     pub const ALL: [Self; 12] = [
         Self::Overview,

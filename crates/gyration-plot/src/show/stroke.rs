@@ -5,7 +5,7 @@
 //! behind. Without a period the whole recording is one curve, closed by its chord.
 
 use super::bodies::{MOST_CHARTS, contracting_bodies};
-use super::component::Component;
+use super::component::BodyNumber;
 use super::trace::Trace;
 use crate::chart::{Axis, Chart, DASHED, LINE, Series, extremes};
 use crate::cycle::{AtTime, Cycle, rounded};
@@ -27,11 +27,11 @@ pub fn charts(recorded: &RecordedScene, names: &[String]) -> Result<Vec<Chart>, 
     let mut charts = Vec::new();
     for body in bodies.iter().take(MOST_CHARTS) {
         let measures = match names {
-            [across, upwards] => [Component::named(recorded, across)?, Component::named(recorded, upwards)?],
+            [across, upwards] => [BodyNumber::named(recorded, across)?, BodyNumber::named(recorded, upwards)?],
             [] => default_measures(recorded, *body)?,
             _ => return Err(PlotError::Measure { name: names.join(",") }),
         };
-        charts.push(Plane { recorded, body: *body, measures }.chart()?);
+        charts.push(MeasurePlane { recorded, body: *body, measures }.chart()?);
     }
     let left_out = bodies.len().saturating_sub(MOST_CHARTS);
     if let Some(last) = charts.last_mut().filter(|_| left_out > 0) {
@@ -43,20 +43,20 @@ pub fn charts(recorded: &RecordedScene, names: &[String]) -> Result<Vec<Chart>, 
 /// The two entries of G between which the stroke encloses the largest area.
 ///
 /// Where none encloses any, the two that vary most; where only one varies, it and the entry of P that varies most.
-fn default_measures(recorded: &RecordedScene, body: usize) -> Result<[Component; 2], PlotError> {
+fn default_measures(recorded: &RecordedScene, body: usize) -> Result<[BodyNumber; 2], PlotError> {
     let entries = Entries::read(recorded, body)?;
     let (contraction, placement) = entries.ranges.split_at(9);
     if let Some((across, upwards)) = entries.largest_loop() {
-        return Ok([Component::entry(recorded, "G", across)?, Component::entry(recorded, "G", upwards)?]);
+        return Ok([BodyNumber::entry(recorded, "G", across)?, BodyNumber::entry(recorded, "G", upwards)?]);
     }
     let nothing = PlotError::Nothing { what: "stroke", reason: "the contraction never changes" };
     let Some(first) = largest(contraction, None).filter(|k| contraction[*k] > 0.0) else { return Err(nothing) };
     let second = largest(contraction, Some(first)).filter(|k| contraction[*k] > VARIES * contraction[first]);
     let upwards = match second {
-        Some(second) => Component::entry(recorded, "G", second)?,
-        None => Component::entry(recorded, "P", largest(placement, None).unwrap_or(first))?,
+        Some(second) => BodyNumber::entry(recorded, "G", second)?,
+        None => BodyNumber::entry(recorded, "P", largest(placement, None).unwrap_or(first))?,
     };
-    Ok([Component::entry(recorded, "G", first)?, upwards])
+    Ok([BodyNumber::entry(recorded, "G", first)?, upwards])
 }
 
 /// The index of the largest number but one; of equal ones the first.
@@ -126,10 +126,10 @@ fn encloses(area: f64, ranges: [f64; 2], samples: usize) -> bool {
 }
 
 /// A body in the plane of two measures.
-struct Plane<'a> {
+struct MeasurePlane<'a> {
     recorded: &'a RecordedScene<'a>,
     body: usize,
-    measures: [Component; 2],
+    measures: [BodyNumber; 2],
 }
 
 /// What is drawn in it.
@@ -140,7 +140,7 @@ struct Drawn {
     cycles_before: f64,
 }
 
-impl Plane<'_> {
+impl MeasurePlane<'_> {
     fn arrays(&self) -> [&'static str; 2] {
         [self.measures[0].array, self.measures[1].array]
     }
@@ -210,7 +210,7 @@ impl Plane<'_> {
             series.push(Series { name: "closed by its chord".into(), points: chord, stroke, arrows: false });
         }
         let [across, upwards] = &self.measures;
-        let axis = |measure: &Component, k: usize| {
+        let axis = |measure: &BodyNumber, k: usize| {
             let values = series.iter().flat_map(|series| &series.points).map(|point| point[k]);
             Axis::linear(&measure.label, &measure.unit, values)
         };

@@ -4,7 +4,7 @@ use super::frames::{FRAMES, Outlines, Strip};
 use super::ground::{Cut, Ground};
 use super::silhouette::Silhouette;
 use crate::chart::ticks::{decimals, length_in_words, round_step};
-use crate::draw::{Anchor, Color, Drawing, Label, Point, Rect, Stroke, Text, color};
+use crate::draw::{Anchor, Color, Label, Page, Point, Rect, Stroke, Text, color};
 
 /// Height of times [pt].
 const TIME_SIZE: f64 = 7.5;
@@ -56,12 +56,12 @@ impl PageMap {
 
 /// The rectangle of the picture's plane that is shown [m].
 #[derive(Clone, Copy)]
-struct Bounds {
+struct Viewport {
     low: Point,
     high: Point,
 }
 
-impl Bounds {
+impl Viewport {
     fn width(&self) -> f64 {
         self.high[0] - self.low[0]
     }
@@ -112,8 +112,8 @@ impl Bounds {
 
 impl Strip {
     /// Draws it from the upper edge of the area on; returns where it ends.
-    pub fn draw(&self, drawing: &mut Drawing, area: Rect) -> f64 {
-        let bounds = Bounds::of(self);
+    pub fn draw(&self, drawing: &mut Page, area: Rect) -> f64 {
+        let bounds = Viewport::of(self);
         let bottom = match self.shared {
             true => draw_shared(self, &bounds, drawing, area),
             false => draw_frames(self, &bounds, drawing, area),
@@ -138,7 +138,7 @@ fn caption(words: &str, at: Point, anchor: Anchor) -> Text {
     Text { label: Label::new(words), at, anchor, size: TIME_SIZE, color: color::GREY, bold: false, upright: false }
 }
 
-fn draw_shared(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect) -> f64 {
+fn draw_shared(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect) -> f64 {
     let scale = (area.width / bounds.width()).min(MOST_HEIGHT / bounds.height());
     let floor = area.y + HEADROOM + scale * bounds.height();
     let frame = Rect { height: floor + HATCH - area.y, ..area };
@@ -162,7 +162,7 @@ fn draw_shared(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect
 }
 
 /// The time above the highest body, if nothing is written there yet.
-fn write_time(moment: &Outlines, words: &str, map: &PageMap, drawing: &mut Drawing, written: &mut Vec<Rect>) {
+fn write_time(moment: &Outlines, words: &str, map: &PageMap, drawing: &mut Page, written: &mut Vec<Rect>) {
     let top = |body: &Silhouette| {
         let heights = body.hull.iter().chain([&body.center]).map(|point| map.place(*point)[1]);
         [map.place(body.center)[0], heights.fold(f64::INFINITY, f64::min)]
@@ -183,7 +183,7 @@ fn write_time(moment: &Outlines, words: &str, map: &PageMap, drawing: &mut Drawi
     }
 }
 
-fn draw_frames(strip: &Strip, bounds: &Bounds, drawing: &mut Drawing, area: Rect) -> f64 {
+fn draw_frames(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect) -> f64 {
     let count = strip.frames.len();
     let pitch = |columns: usize| (area.width + GUTTER) / columns as f64;
     let cell_height = |columns: usize| (pitch(columns) - GUTTER) * bounds.height() / bounds.width();
@@ -214,14 +214,14 @@ fn time_in_words(time: f64, decimals: usize) -> String {
     format!("{time:.decimals$} s")
 }
 
-fn draw_paths(strip: &Strip, map: &PageMap, drawing: &mut Drawing, frame: Rect) {
+fn draw_paths(strip: &Strip, map: &PageMap, drawing: &mut Page, frame: Rect) {
     for (body, path) in strip.paths.iter().enumerate() {
         let stroke = Stroke { color: color::series(body).faded(0.55), width: 0.6, dash: &[2.0, 2.0] };
         drawing.line(map.place_line(path), stroke, Some(frame));
     }
 }
 
-fn draw_body(body: &Silhouette, strength: f64, map: &PageMap, drawing: &mut Drawing, frame: Rect) {
+fn draw_body(body: &Silhouette, strength: f64, map: &PageMap, drawing: &mut Page, frame: Rect) {
     let hue: Color = color::series(body.body);
     let placed = |lines: &[Vec<Point>]| lines.iter().map(|line| map.place_line(line)).collect::<Vec<_>>();
     let hull = map.place_line(&body.hull);
@@ -250,7 +250,7 @@ fn draw_body(body: &Silhouette, strength: f64, map: &PageMap, drawing: &mut Draw
 }
 
 /// The supports, behind everything else.
-fn draw_grounds(grounds: &[Ground], map: &PageMap, drawing: &mut Drawing, frame: Rect) {
+fn draw_grounds(grounds: &[Ground], map: &PageMap, drawing: &mut Page, frame: Rect) {
     for ground in grounds {
         match ground {
             Ground::Cut(cut) => draw_cut(cut, map, drawing, frame),
@@ -266,7 +266,7 @@ fn draw_grounds(grounds: &[Ground], map: &PageMap, drawing: &mut Drawing, frame:
 }
 
 /// The line of a support through the frame and hatching on its far side.
-fn draw_cut(ground: &Cut, map: &PageMap, drawing: &mut Drawing, frame: Rect) {
+fn draw_cut(ground: &Cut, map: &PageMap, drawing: &mut Page, frame: Rect) {
     let center = [frame.x + 0.5 * frame.width, frame.y + 0.5 * frame.height];
     let origin = map.place(ground.origin);
     // The page counts downwards.
@@ -288,7 +288,7 @@ fn draw_cut(ground: &Cut, map: &PageMap, drawing: &mut Drawing, frame: Rect) {
 }
 
 /// A bar of a round length, with its length, ending at the point.
-fn draw_scale_bar(scale: f64, drawing: &mut Drawing, end: Point) {
+fn draw_scale_bar(scale: f64, drawing: &mut Page, end: Point) {
     let length = round_step(90.0 / scale, 3);
     let words = length_in_words(length);
     let label = Label::new(&words);

@@ -5,10 +5,10 @@
 
 use super::layout::{HEIGHT, Layers};
 use super::palette;
-use super::request::{Ordinate, Request};
+use super::request::{Ordinate, PlotRequest};
 use super::statistics::{self, Estimate};
-use super::table::{Column, RunTable, Values};
-use crate::chart::{Axis, LINE, Scale, Series, Shapes, raised};
+use super::table::{ColumnValues, RunTable, TableColumn};
+use crate::chart::{Axis, AxisScale, LINE, Series, Shapes, raised};
 use crate::draw::Stroke;
 use crate::error::PlotError;
 use crate::figure::Panel;
@@ -32,13 +32,13 @@ struct Averaged {
 }
 
 /// Places on the level axis, and the runs that stand there.
-struct Places {
+struct AxisPlaces {
     axis: Axis,
     runs: Vec<(f64, Vec<usize>)>,
 }
 
 /// The chart of a table.
-pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
+pub fn panel(table: &RunTable, request: &PlotRequest) -> Result<Panel, PlotError> {
     let x = table.axis_or(request.x.as_deref(), 0)?;
     let measure = match &request.y {
         Some(text) => Ordinate::read(text),
@@ -53,7 +53,7 @@ pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
             "ask for the share of one value, --y COLUMN=VALUE, or for a map: --x NAME --y NAME --colour COLUMN",
         ));
     }
-    let places = Places::of(x, request, table.len())?;
+    let places = AxisPlaces::of(x, request, table.len())?;
     let (mut layers, mut range) = (Layers::default(), Vec::new());
     for (group, runs) in &groups {
         for quantity in &quantities {
@@ -82,14 +82,14 @@ fn quantities(table: &RunTable, measure: &Ordinate) -> Result<Vec<Averaged>, Plo
     };
     if measure.values.is_empty() {
         return match &column.values {
-            Values::Numbers(values) => {
+            ColumnValues::Numbers(values) => {
                 Ok(vec![Averaged { name: column.name.clone(), values: values.clone(), is_share: false }])
             }
-            Values::Words(_) => {
+            ColumnValues::Words(_) => {
                 let of = |word: String| share(word.clone(), &|_, other| other == word);
                 Ok(column.categories().into_iter().map(of).collect())
             }
-            Values::Lists(_) => Err(PlotError::arguments(
+            ColumnValues::Lists(_) => Err(PlotError::arguments(
                 format!("`{}` has several numbers a run, which have no mean over a parameter", column.name),
                 "leave the kind to the program, or ask for `--kind scatter`",
             )),
@@ -105,9 +105,9 @@ fn quantities(table: &RunTable, measure: &Ordinate) -> Result<Vec<Averaged>, Plo
             return Err(PlotError::arguments(problem, format!("it has {}", there.join(", "))));
         }
     }
-    let others: Vec<Option<&Column>> = measure.values.iter().map(|value| table.column(value).ok()).collect();
+    let others: Vec<Option<&TableColumn>> = measure.values.iter().map(|value| table.column(value).ok()).collect();
     let is_hit = |run: usize, word: &str| {
-        let agrees = |(value, other): (&String, &Option<&Column>)| match other {
+        let agrees = |(value, other): (&String, &Option<&TableColumn>)| match other {
             Some(other) => other.word(run).as_deref() == Some(word),
             None => value == word,
         };
@@ -118,7 +118,7 @@ fn quantities(table: &RunTable, measure: &Ordinate) -> Result<Vec<Averaged>, Plo
 }
 
 /// The runs by the column of colour: the one asked for, else a second axis of the grid.
-fn groups(table: &RunTable, request: &Request, x: &Column) -> Result<Vec<(String, Vec<usize>)>, PlotError> {
+fn groups(table: &RunTable, request: &PlotRequest, x: &TableColumn) -> Result<Vec<(String, Vec<usize>)>, PlotError> {
     let column = match &request.colour {
         Some(name) => Some(table.column(name)?),
         None => table.axes().into_iter().find(|column| column.role != x.role),
@@ -126,7 +126,7 @@ fn groups(table: &RunTable, request: &Request, x: &Column) -> Result<Vec<(String
     let Some(column) = column else { return Ok(vec![(String::new(), (0..table.len()).collect())]) };
     let (levels, labels): (Vec<f64>, Vec<String>) = column.labels().into_iter().unzip();
     let word = |run: usize| match &column.values {
-        Values::Numbers(values) => {
+        ColumnValues::Numbers(values) => {
             let at = column.level(&levels, values[run])?;
             Some(labels[at].clone())
         }
@@ -145,13 +145,13 @@ fn groups(table: &RunTable, request: &Request, x: &Column) -> Result<Vec<(String
     Ok(groups)
 }
 
-impl Places {
-    fn of(column: &Column, request: &Request, count: usize) -> Result<Self, PlotError> {
+impl AxisPlaces {
+    fn of(column: &TableColumn, request: &PlotRequest, count: usize) -> Result<Self, PlotError> {
         let categories = column.categories();
         let levels: Vec<f64> = match &column.values {
-            Values::Numbers(_) => column.levels(),
-            Values::Words(_) => (0..categories.len()).map(|k| k as f64).collect(),
-            Values::Lists(_) => {
+            ColumnValues::Numbers(_) => column.levels(),
+            ColumnValues::Words(_) => (0..categories.len()).map(|k| k as f64).collect(),
+            ColumnValues::Lists(_) => {
                 return Err(PlotError::arguments(
                     format!("`{}` is a list, not a parameter", column.name),
                     "name another --x",
@@ -160,10 +160,10 @@ impl Places {
         };
         let beside = request.reference.iter().flat_map(|reference| reference.points.iter().map(|point| point[0]));
         let axis = match &column.values {
-            Values::Words(_) => Axis::of_words(&column.name, categories.clone()),
+            ColumnValues::Words(_) => Axis::of_words(&column.name, categories.clone()),
             _ => column.axis(levels.iter().copied().chain(beside)),
         };
-        let axis = if request.is_logarithmic("x") && axis.low > 0.0 && axis.scale == Scale::Linear {
+        let axis = if request.is_logarithmic("x") && axis.low > 0.0 && axis.scale == AxisScale::Linear {
             Axis::logarithmic(&column.name, &column.unit, levels.iter().copied())
         } else {
             axis
@@ -171,7 +171,7 @@ impl Places {
         let mut runs: Vec<(f64, Vec<usize>)> = levels.iter().map(|level| (*level, Vec::new())).collect();
         for run in 0..count {
             let level = match &column.values {
-                Values::Numbers(values) => column.level(&levels, values[run]),
+                ColumnValues::Numbers(values) => column.level(&levels, values[run]),
                 _ => column.word(run).and_then(|word| categories.iter().position(|other| *other == word)),
             };
             if let Some(level) = level {
@@ -204,8 +204,8 @@ impl Places {
 fn draw(points: &[(f64, Estimate)], name: String, axis: &Axis, beside: f64, layers: &mut Layers) {
     let colour = palette::category(layers.series.len());
     let at = |x: f64| match axis.scale {
-        Scale::Linear => x + beside * (axis.high - axis.low),
-        Scale::Logarithmic => x * (axis.high / axis.low).powf(beside),
+        AxisScale::Linear => x + beside * (axis.high - axis.low),
+        AxisScale::Logarithmic => x * (axis.high / axis.low).powf(beside),
     };
     let ends: Vec<_> = points.iter().map(|(x, e)| [[at(*x), e.low], [at(*x), e.high]]).collect();
     let has_intervals = ends.iter().any(|[low, high]| high[1] > low[1]);
@@ -219,7 +219,7 @@ fn draw(points: &[(f64, Estimate)], name: String, axis: &Axis, beside: f64, laye
     layers.series.push(Series { name, points: line, stroke: Stroke::solid(colour, LINE), arrows: false });
 }
 
-fn upright(request: &Request, quantities: &[Averaged], unit: &str, range: &[f64]) -> Axis {
+fn upright(request: &PlotRequest, quantities: &[Averaged], unit: &str, range: &[f64]) -> Axis {
     let share = quantities.iter().all(|quantity| quantity.is_share);
     let name = match quantities {
         [one] => one.name.clone(),

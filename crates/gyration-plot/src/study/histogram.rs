@@ -4,10 +4,10 @@
 //! of ten; whole numbers of a small range have a bin each.
 
 use super::layout::HEIGHT;
-use super::request::{Ordinate, Request};
-use super::table::{RunTable, Values};
+use super::request::{Ordinate, PlotRequest};
+use super::table::{ColumnValues, RunTable};
 use super::{palette, statistics};
-use crate::chart::{Axis, Chart, DASHED, Field, LINE, Series, Shapes, extremes, raised, ticks};
+use crate::chart::{Axis, Chart, DASHED, LINE, Series, ShapeChart, Shapes, extremes, raised, ticks};
 use crate::draw::{Stroke, color};
 use crate::error::PlotError;
 use crate::figure::Panel;
@@ -23,13 +23,13 @@ const HALF_BAR: f64 = 0.36;
 type Group = (String, Vec<usize>);
 
 /// A chart a group, below one another.
-pub fn panels(table: &RunTable, request: &Request) -> Result<Vec<Panel>, PlotError> {
+pub fn panels(table: &RunTable, request: &PlotRequest) -> Result<Vec<Panel>, PlotError> {
     let wanted = request.x.as_deref().or(request.y.as_deref()).map(|name| table.column(&Ordinate::read(name).column));
     let column = wanted.unwrap_or_else(|| table.kept())?;
     let groups = groups(table, request)?;
     let height = HEIGHT / (groups.len() as f64).sqrt();
     match &column.values {
-        Values::Words(words) => {
+        ColumnValues::Words(words) => {
             let names = column.categories();
             let counted = groups.iter().map(|(title, runs)| {
                 let place = |run: &usize| words[*run].as_ref().and_then(|word| names.iter().position(|n| n == word));
@@ -39,29 +39,29 @@ pub fn panels(table: &RunTable, request: &Request) -> Result<Vec<Panel>, PlotErr
             });
             Ok(counted.collect())
         }
-        Values::Numbers(values) => {
+        ColumnValues::Numbers(values) => {
             let x = column.axis(values.iter().copied());
             let bins = Bins::of(values);
             let of_group = |(title, runs): &Group| {
                 let values: Vec<f64> = runs.iter().map(|run| values[*run]).collect();
-                of_numbers(&bins, &Sample { title, values: &values, by_run: &values, height }, &x)
+                of_numbers(&bins, &GroupValues { title, values: &values, by_run: &values, height }, &x)
             };
             Ok(groups.iter().map(of_group).collect())
         }
-        Values::Lists(lists) => {
+        ColumnValues::Lists(lists) => {
             let values: Vec<f64> = lists.iter().flatten().copied().collect();
             let x = Axis::linear(&column.name, &column.unit, values.iter().copied());
             // The numbers of a run depend on each other: the interval is that of the runs.
             let of_run = |list: &Vec<f64>| statistics::mean(list).value;
             let means: Vec<f64> = lists.iter().map(of_run).collect();
-            let sample = Sample { title: "", values: &values, by_run: &means, height: HEIGHT };
+            let sample = GroupValues { title: "", values: &values, by_run: &means, height: HEIGHT };
             Ok(vec![of_numbers(&Bins::of(&values), &sample, &x)])
         }
     }
 }
 
 /// The runs by the values of a column: that of the colour, else the axis of the grid, if there are few.
-fn groups(table: &RunTable, request: &Request) -> Result<Vec<Group>, PlotError> {
+fn groups(table: &RunTable, request: &PlotRequest) -> Result<Vec<Group>, PlotError> {
     let all = || vec![(String::new(), (0..table.len()).collect())];
     let column = match &request.colour {
         Some(name) => table.column(name)?,
@@ -114,7 +114,7 @@ fn of_words(name: &str, names: &[String], title: &str, counts: &[usize], height:
         remarks.push(format!("P of a larger one {words}"));
     }
     let chart = Chart { title: title.to_owned(), x, y, series, remarks, height };
-    Panel::Field(Field { chart, shapes })
+    Panel::ShapeChart(ShapeChart { chart, shapes })
 }
 
 /// Bins of one width.
@@ -153,7 +153,7 @@ impl Bins {
 }
 
 /// The numbers of a group of runs.
-struct Sample<'a> {
+struct GroupValues<'a> {
     title: &'a str,
     values: &'a [f64],
     /// One number a run.
@@ -163,8 +163,8 @@ struct Sample<'a> {
 }
 
 /// Bars of values, and the mean of those of which each run has one.
-fn of_numbers(bins: &Bins, sample: &Sample, x: &Axis) -> Panel {
-    let Sample { title, values, by_run, height } = *sample;
+fn of_numbers(bins: &Bins, sample: &GroupValues, x: &Axis) -> Panel {
+    let GroupValues { title, values, by_run, height } = *sample;
     let counts = bins.count(values);
     let most = counts.iter().copied().max().unwrap_or(1);
     let y = Axis::exact("runs", "", 0.0, 1.05 * most as f64);
@@ -184,7 +184,7 @@ fn of_numbers(bins: &Bins, sample: &Sample, x: &Axis) -> Panel {
     ];
     let shapes = vec![Shapes::Areas { corners, fill: color::series(0) }];
     let chart = Chart { title: title.to_owned(), x, y, series: Vec::new(), remarks, height };
-    Panel::Field(Field { chart, shapes })
+    Panel::ShapeChart(ShapeChart { chart, shapes })
 }
 
 /// A number with its interval, with as many digits as the interval leaves.

@@ -1,7 +1,7 @@
 //! What pictures of studies share: height, entries of legends, what is known from elsewhere.
 
-use super::request::Request;
-use crate::chart::{Axis, Chart, DASH_DOTTED, DASHED, DOTTED, Field, LINE, Series, Shapes};
+use super::request::PlotRequest;
+use crate::chart::{Axis, Chart, DASH_DOTTED, DASHED, DOTTED, LINE, Series, ShapeChart, Shapes};
 use crate::draw::{Color, Stroke, color};
 use crate::figure::Panel;
 
@@ -36,7 +36,7 @@ pub struct Layers {
 
 impl Layers {
     /// Adds what is known from elsewhere, above everything else: lines, or dots in a ring.
-    pub fn add_references(&mut self, request: &Request) {
+    pub fn add_references(&mut self, request: &PlotRequest) {
         for (index, reference) in request.reference.iter().enumerate() {
             let ink = if index == 0 { color::INK } else { color::GREY };
             if reference.line {
@@ -55,6 +55,6 @@ impl Layers {
     /// The panel of a chart without title.
     pub fn panel(self, x: Axis, y: Axis, remarks: Vec<String>, height: f64) -> Panel {
         let chart = Chart { title: String::new(), x, y, series: self.series, remarks, height };
-        Panel::Field(Field { chart, shapes: self.shapes })
+        Panel::ShapeChart(ShapeChart { chart, shapes: self.shapes })
     }
 }

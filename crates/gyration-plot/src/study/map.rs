@@ -6,9 +6,9 @@
 
 use super::layout::{Layers, heading, left_out, swatch};
 use super::palette::{self, Palette};
-use super::request::{Ordinate, Request};
-use super::table::{Column, Role, RunTable, Values};
-use crate::chart::{Axis, Scale, Shapes};
+use super::request::{Ordinate, PlotRequest};
+use super::table::{ColumnValues, Role, RunTable, TableColumn};
+use crate::chart::{Axis, AxisScale, Shapes};
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::figure::Panel;
@@ -18,9 +18,9 @@ use std::collections::BTreeMap;
 const HEIGHT: f64 = 330.0;
 
 /// The chart of a table.
-pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
+pub fn panel(table: &RunTable, request: &PlotRequest) -> Result<Panel, PlotError> {
     let [x, y] = [(request.x.as_deref(), 0), (request.y.as_deref(), 1)]
-        .map(|(name, index)| table.axis_or(name, index).and_then(Edges::of));
+        .map(|(name, index)| table.axis_or(name, index).and_then(CellEdges::of));
     let (x, y) = (x?, y?);
     let shown = match request.colour.as_deref() {
         Some(name) => Ordinate::read(name),
@@ -38,15 +38,15 @@ pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
         Ok(of_numbers(&cells, &means, &palette))
     };
     let mut layers = match &column.values {
-        Values::Words(words) if shown.values.is_empty() => of_words(&cells, name, &column.categories(), words),
-        Values::Words(words) => {
+        ColumnValues::Words(words) if shown.values.is_empty() => of_words(&cells, name, &column.categories(), words),
+        ColumnValues::Words(words) => {
             let hit = |word: &Option<String>| {
                 word.as_ref().map_or(f64::NAN, |word| f64::from(u8::from(shown.values.contains(word))))
             };
             of_numbers(&words.iter().map(hit).collect::<Vec<_>>())?
         }
-        Values::Numbers(values) => of_numbers(values)?,
-        Values::Lists(lists) => {
+        ColumnValues::Numbers(values) => of_numbers(values)?,
+        ColumnValues::Lists(lists) => {
             let change = |list: &Vec<f64>| list.last().zip(list.first()).map_or(f64::NAN, |(last, first)| last - first);
             of_numbers(&lists.iter().map(change).collect::<Vec<_>>())?
         }
@@ -57,15 +57,15 @@ pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
 }
 
 /// A parameter and the edges of its cells.
-struct Edges<'a> {
-    column: &'a Column,
+struct CellEdges<'a> {
+    column: &'a TableColumn,
     numbers: &'a [f64],
     levels: Vec<f64>,
     edges: Vec<f64>,
 }
 
-impl<'a> Edges<'a> {
-    fn of(column: &'a Column) -> Result<Self, PlotError> {
+impl<'a> CellEdges<'a> {
+    fn of(column: &'a TableColumn) -> Result<Self, PlotError> {
         let levels = column.levels();
         let (Some(numbers), true) = (column.numbers(), levels.len() > 1) else {
             return Err(PlotError::arguments(
@@ -79,8 +79,8 @@ impl<'a> Edges<'a> {
                 "a map needs two axes of the grid; for random numbers there is --kind scatter",
             ));
         }
-        let even = |value: f64| if column.scale() == Scale::Logarithmic { value.ln() } else { value };
-        let back = |value: f64| if column.scale() == Scale::Logarithmic { value.exp() } else { value };
+        let even = |value: f64| if column.scale() == AxisScale::Logarithmic { value.ln() } else { value };
+        let back = |value: f64| if column.scale() == AxisScale::Logarithmic { value.exp() } else { value };
         let places: Vec<f64> = levels.iter().map(|level| even(*level)).collect();
         let last = places.len() - 1;
         let mut edges = vec![back(1.5 * places[0] - 0.5 * places[1])];
@@ -100,13 +100,13 @@ impl<'a> Edges<'a> {
 }
 
 /// The corners of a cell and its runs.
-struct Cell {
+struct MapCell {
     corners: [Point; 2],
     runs: Vec<usize>,
 }
 
 /// The cells that have runs, from the lower left.
-fn cells(x: &Edges, y: &Edges, count: usize) -> Vec<Cell> {
+fn cells(x: &CellEdges, y: &CellEdges, count: usize) -> Vec<MapCell> {
     let mut runs: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
     for run in 0..count {
         if let (Some(across), Some(up)) = (x.place(run), y.place(run)) {
@@ -114,12 +114,12 @@ fn cells(x: &Edges, y: &Edges, count: usize) -> Vec<Cell> {
         }
     }
     let corner = |across: usize, up: usize| [x.edges[across], y.edges[up]];
-    let cell = |((up, across), runs)| Cell { corners: [corner(across, up), corner(across + 1, up + 1)], runs };
+    let cell = |((up, across), runs)| MapCell { corners: [corner(across, up), corner(across + 1, up + 1)], runs };
     runs.into_iter().map(cell).collect()
 }
 
 /// Cells of one colour each, in rows: neighbours of a row are joined.
-fn areas(cells: &[Cell], colours: impl Iterator<Item = Option<usize>>) -> BTreeMap<usize, Vec<[Point; 2]>> {
+fn areas(cells: &[MapCell], colours: impl Iterator<Item = Option<usize>>) -> BTreeMap<usize, Vec<[Point; 2]>> {
     let mut areas: BTreeMap<usize, Vec<[Point; 2]>> = BTreeMap::new();
     let mut previous = None;
     for (cell, colour) in cells.iter().zip(colours) {
@@ -136,8 +136,8 @@ fn areas(cells: &[Cell], colours: impl Iterator<Item = Option<usize>>) -> BTreeM
     areas
 }
 
-fn of_words(cells: &[Cell], title: &str, names: &[String], words: &[Option<String>]) -> Layers {
-    let most_frequent = |cell: &Cell| {
+fn of_words(cells: &[MapCell], title: &str, names: &[String], words: &[Option<String>]) -> Layers {
+    let most_frequent = |cell: &MapCell| {
         let mut counts = vec![0; names.len()];
         let places = cell.runs.iter().filter_map(|run| words[*run].as_ref());
         places.filter_map(|word| names.iter().position(|name| name == word)).for_each(|index| counts[index] += 1);
@@ -152,15 +152,15 @@ fn of_words(cells: &[Cell], title: &str, names: &[String], words: &[Option<Strin
 }
 
 /// The mean of the numbers of each cell, where it has some.
-fn means(cells: &[Cell], values: &[f64]) -> Vec<Option<f64>> {
-    let mean = |cell: &Cell| {
+fn means(cells: &[MapCell], values: &[f64]) -> Vec<Option<f64>> {
+    let mean = |cell: &MapCell| {
         let here: Vec<f64> = cell.runs.iter().map(|run| values[*run]).filter(|value| value.is_finite()).collect();
         (!here.is_empty()).then(|| here.iter().sum::<f64>() / here.len() as f64)
     };
     cells.iter().map(mean).collect()
 }
 
-fn of_numbers(cells: &[Cell], means: &[Option<f64>], palette: &Palette) -> Layers {
+fn of_numbers(cells: &[MapCell], means: &[Option<f64>], palette: &Palette) -> Layers {
     let areas = areas(cells, means.iter().map(|mean| palette.shade((*mean)?)));
     let shapes = |(shade, corners)| Shapes::Areas { corners, fill: palette.colour(shade) };
     Layers { shapes: areas.into_iter().map(shapes).collect(), series: palette.legend() }

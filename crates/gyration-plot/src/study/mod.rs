@@ -28,33 +28,33 @@ mod tests;
 
 use crate::error::PlotError;
 use crate::figure::Figure;
-use gyration_study::{Frame, Study};
+use gyration_study::{DataFrame, Study};
 use request::Ordinate;
-use table::{Role, RunTable, Values};
+use table::{ColumnValues, Role, RunTable};
 
-pub use request::{Kind, Request};
+pub use request::{PlotKind, PlotRequest};
 
 /// The picture of a table, which is called `name` where its study has no title: what is asked for, else what its study
 /// says of it now, else what it said when the table was made, else what the columns suggest.
 ///
 /// # Errors
 /// [`PlotError::Arguments`] where a column does not exist or does not suit the kind of picture.
-pub fn of_table(frame: &Frame, name: &str, asked: Request, study: Option<&Study>) -> Result<Figure, PlotError> {
-    let stated = study.map_or_else(|| Request::of_frame(frame), Request::of_study)?;
+pub fn of_table(frame: &DataFrame, name: &str, asked: PlotRequest, study: Option<&Study>) -> Result<Figure, PlotError> {
+    let stated = study.map_or_else(|| PlotRequest::of_frame(frame), PlotRequest::of_study)?;
     figure(&RunTable::of_frame(frame, name), &asked.or(stated))
 }
 
 /// The picture that a request asks for.
-fn figure(table: &RunTable, request: &Request) -> Result<Figure, PlotError> {
+fn figure(table: &RunTable, request: &PlotRequest) -> Result<Figure, PlotError> {
     if table.len() == 0 {
         return Err(PlotError::arguments("the table has no rows yet", "wait for the first runs"));
     }
     let kind = request.kind.unwrap_or_else(|| kind_of(table, request));
     let panels = match kind {
-        Kind::Histogram => histogram::panels(table, request)?,
-        Kind::Curve => vec![curve::panel(table, request)?],
-        Kind::Map => vec![map::panel(table, request)?],
-        Kind::Scatter => vec![scatter::panel(table, request)?],
+        PlotKind::Histogram => histogram::panels(table, request)?,
+        PlotKind::Curve => vec![curve::panel(table, request)?],
+        PlotKind::Map => vec![map::panel(table, request)?],
+        PlotKind::Scatter => vec![scatter::panel(table, request)?],
     };
     let title = request.title.clone().unwrap_or_else(|| table.title.clone());
     let told = [(table.failures(), "failed"), (table.early(), "ended early")];
@@ -64,7 +64,7 @@ fn figure(table: &RunTable, request: &Request) -> Result<Figure, PlotError> {
 }
 
 /// The kind of picture that suits the columns.
-fn kind_of(table: &RunTable, request: &Request) -> Kind {
+fn kind_of(table: &RunTable, request: &PlotRequest) -> PlotKind {
     let axis = |name: &Option<String>| match table.column(name.as_deref()?).ok()?.role {
         Role::Axis(axis) => Some(axis),
         _ => None,
@@ -72,18 +72,18 @@ fn kind_of(table: &RunTable, request: &Request) -> Kind {
     let (x, y) = (axis(&request.x), axis(&request.y));
     let measure = request.y.as_deref().map(Ordinate::read);
     let measured = measure.as_ref().and_then(|measure| table.column(&measure.column).ok());
-    if measured.or_else(|| table.kept().ok()).is_some_and(|column| matches!(column.values, Values::Lists(_))) {
-        return Kind::Scatter;
+    if measured.or_else(|| table.kept().ok()).is_some_and(|column| matches!(column.values, ColumnValues::Lists(_))) {
+        return PlotKind::Scatter;
     }
     let axes = table.axes().len();
     match (&request.x, &request.y) {
-        (Some(_), Some(_)) if x.is_some() && y.is_some() && x != y => Kind::Map,
-        (Some(_), _) if x.is_some() => Kind::Curve,
-        (Some(_), Some(_)) => Kind::Scatter,
-        (Some(_), None) => Kind::Histogram,
-        (None, Some(_)) if axes > 0 => Kind::Curve,
-        (None, None) if axes > 1 => Kind::Map,
-        (None, None) if axes == 1 => Kind::Curve,
-        _ => Kind::Histogram,
+        (Some(_), Some(_)) if x.is_some() && y.is_some() && x != y => PlotKind::Map,
+        (Some(_), _) if x.is_some() => PlotKind::Curve,
+        (Some(_), Some(_)) => PlotKind::Scatter,
+        (Some(_), None) => PlotKind::Histogram,
+        (None, Some(_)) if axes > 0 => PlotKind::Curve,
+        (None, None) if axes > 1 => PlotKind::Map,
+        (None, None) if axes == 1 => PlotKind::Curve,
+        _ => PlotKind::Histogram,
     }
 }

@@ -2,10 +2,10 @@
 //! logarithm.
 
 use super::layout::{heading, swatch};
-use super::request::Request;
-use super::table::Column;
+use super::request::PlotRequest;
+use super::table::TableColumn;
 use crate::chart::ticks::Tick;
-use crate::chart::{Axis, Scale, Series, extremes};
+use crate::chart::{Axis, AxisScale, Series, extremes};
 use crate::draw::{Color, color};
 use crate::error::PlotError;
 
@@ -46,7 +46,12 @@ impl Palette {
     ///
     /// # Errors
     /// [`PlotError::Arguments`] if they are to be logarithmic, and none is above zero.
-    pub fn requested(request: &Request, column: &Column, name: &str, values: &[f64]) -> Result<Self, PlotError> {
+    pub fn requested(
+        request: &PlotRequest,
+        column: &TableColumn,
+        name: &str,
+        values: &[f64],
+    ) -> Result<Self, PlotError> {
         if request.is_logarithmic("colour") || request.is_logarithmic("color") {
             with_logarithms(name, values)?;
             return Ok(Self::logarithmic(name, &column.unit, values.iter().copied()));
@@ -69,7 +74,7 @@ impl Palette {
     pub fn logarithmic(name: &str, unit: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = extremes(values.into_iter().filter(|value| *value > 0.0)).unwrap_or((0.1, 10.0));
         let (low, high) = if high > low { (low, high) } else { (low / 2.0, high * 2.0) };
-        let axis = Axis { scale: Scale::Logarithmic, ..Axis::exact(name, unit, low, high) };
+        let axis = Axis { scale: AxisScale::Logarithmic, ..Axis::exact(name, unit, low, high) };
         Self { axis, colours: SEQUENCE }
     }
 
@@ -100,7 +105,7 @@ impl Palette {
         let mut ticks = self.axis.ticks(ENTRIES);
         if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
             // A range too short for powers of ten.
-            ticks = Axis { scale: Scale::Linear, ..self.axis.clone() }.ticks(ENTRIES / 2);
+            ticks = Axis { scale: AxisScale::Linear, ..self.axis.clone() }.ticks(ENTRIES / 2);
         }
         let entry = |tick: &Tick| {
             let words = tick.label.as_ref()?;

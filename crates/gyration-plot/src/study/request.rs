@@ -18,7 +18,7 @@ use serde::Deserialize;
 /// A kind of picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum PlotKind {
     /// How often each word or number came.
     Histogram,
     /// Means or shares over a parameter, with their intervals.
@@ -29,7 +29,7 @@ pub enum Kind {
     Scatter,
 }
 
-impl Kind {
+impl PlotKind {
     /// The words of the kinds.
     pub const WORDS: [&str; 4] = ["histogram", "curve", "map", "scatter"];
 
@@ -49,9 +49,9 @@ impl Kind {
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Request {
+pub struct PlotRequest {
     /// The kind of picture.
-    pub kind: Option<Kind>,
+    pub kind: Option<PlotKind>,
     /// The column of the axis to the right.
     pub x: Option<String>,
     /// The column of the axis upwards; `NAME=VALUE,VALUE` is a share.
@@ -80,7 +80,7 @@ pub struct Reference {
     pub line: bool,
 }
 
-impl Request {
+impl PlotRequest {
     /// The request of a `[plot]` table.
     ///
     /// # Errors
@@ -172,17 +172,17 @@ mod tests {
     #[test]
     fn the_study_says_what_the_arguments_do_not() {
         let study = serde_json::json!({ "kind": "map", "x": "a", "y": "b", "color": "c" });
-        let study = Request::of_json(&study).unwrap();
-        assert_eq!(Request::default().or(study.clone()), study);
-        let own = Request { colour: Some("d".into()), ..Request::default() }.or(study.clone());
+        let study = PlotRequest::of_json(&study).unwrap();
+        assert_eq!(PlotRequest::default().or(study.clone()), study);
+        let own = PlotRequest { colour: Some("d".into()), ..PlotRequest::default() }.or(study.clone());
         assert_eq!((own.x.as_deref(), own.colour.as_deref()), (Some("a"), Some("d")));
-        let other = Request { y: Some("e".into()), ..Request::default() }.or(study);
+        let other = PlotRequest { y: Some("e".into()), ..PlotRequest::default() }.or(study);
         assert_eq!((other.kind, other.x, other.colour), (None, None, None));
     }
 
     #[test]
     fn an_unknown_key_is_told() {
-        let error = Request::of_json(&serde_json::json!({ "colors": "c" })).unwrap_err();
+        let error = PlotRequest::of_json(&serde_json::json!({ "colors": "c" })).unwrap_err();
         assert!(error.to_string().contains("colors"), "{error}");
     }
 }

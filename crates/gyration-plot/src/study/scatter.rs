@@ -2,9 +2,9 @@
 
 use super::layout::{HEIGHT, Layers, heading, left_out, swatch};
 use super::palette::{self, Palette, with_logarithms};
-use super::request::{Ordinate, Request};
-use super::table::{Column, Role, RunTable, Values};
-use crate::chart::{Axis, Scale, Shapes};
+use super::request::{Ordinate, PlotRequest};
+use super::table::{ColumnValues, Role, RunTable, TableColumn};
+use crate::chart::{Axis, AxisScale, Shapes};
 use crate::draw::{Point, color};
 use crate::error::PlotError;
 use crate::figure::Panel;
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 const MANY: usize = 2000;
 
 /// The chart of a table.
-pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
+pub fn panel(table: &RunTable, request: &PlotRequest) -> Result<Panel, PlotError> {
     let x = match &request.x {
         Some(name) => table.column(name)?,
         None => table.axis_or(None, 0).or_else(|problem| table.of(Role::Random).next().ok_or(problem))?,
@@ -40,28 +40,28 @@ pub fn panel(table: &RunTable, request: &Request) -> Result<Panel, PlotError> {
     };
     layers.add_references(request);
     let beside = || request.reference.iter().flat_map(|reference| &reference.points);
-    let axis = |column: &Column, side: &str, k: usize| -> Result<Axis, PlotError> {
+    let axis = |column: &TableColumn, side: &str, k: usize| -> Result<Axis, PlotError> {
         let own: Vec<f64> = points.iter().map(|(_, point)| point[k]).collect();
         let values = own.iter().copied().chain(beside().map(|point| point[k]));
-        if request.is_logarithmic(side) || column.scale() == Scale::Logarithmic {
+        if request.is_logarithmic(side) || column.scale() == AxisScale::Logarithmic {
             with_logarithms(&column.name, &own)?;
             return Ok(Axis::logarithmic(&column.name, &column.unit, values));
         }
         Ok(Axis::linear(&column.name, &column.unit, values))
     };
     let (x, y) = (axis(x, "x", 0)?, axis(y, "y", 1)?);
-    let is_out = |axis: &Axis, value: f64| axis.scale == Scale::Logarithmic && value <= 0.0;
+    let is_out = |axis: &Axis, value: f64| axis.scale == AxisScale::Logarithmic && value <= 0.0;
     let without = points.iter().filter(|(_, point)| is_out(&x, point[0]) || is_out(&y, point[1])).count();
     let remarks = left_out(without);
     Ok(layers.panel(x, y, remarks, HEIGHT))
 }
 
 /// The dots of a run; a list goes with a number, or with a list of the same length.
-fn points(x: &Column, y: &Column, run: usize) -> Vec<(usize, Point)> {
-    let numbers = |column: &Column| match &column.values {
-        Values::Numbers(values) => vec![values[run]],
-        Values::Lists(lists) => lists[run].clone(),
-        Values::Words(_) => Vec::new(),
+fn points(x: &TableColumn, y: &TableColumn, run: usize) -> Vec<(usize, Point)> {
+    let numbers = |column: &TableColumn| match &column.values {
+        ColumnValues::Numbers(values) => vec![values[run]],
+        ColumnValues::Lists(lists) => lists[run].clone(),
+        ColumnValues::Words(_) => Vec::new(),
     };
     let (x, y) = (numbers(x), numbers(y));
     let count = if x.is_empty() || y.is_empty() { 0 } else { x.len().max(y.len()) };
@@ -70,10 +70,15 @@ fn points(x: &Column, y: &Column, run: usize) -> Vec<(usize, Point)> {
     (0..count).map(point).filter(|(_, point)| point.iter().all(|value| value.is_finite())).collect()
 }
 
-fn coloured(points: &[(usize, Point)], column: &Column, request: &Request, radius: f64) -> Result<Layers, PlotError> {
+fn coloured(
+    points: &[(usize, Point)],
+    column: &TableColumn,
+    request: &PlotRequest,
+    radius: f64,
+) -> Result<Layers, PlotError> {
     let mut dots: BTreeMap<usize, Vec<Point>> = BTreeMap::new();
     match &column.values {
-        Values::Words(words) => {
+        ColumnValues::Words(words) => {
             let names = column.categories();
             for (run, point) in points {
                 if let Some(index) = words[*run].as_ref().and_then(|word| names.iter().position(|name| name == word)) {
@@ -85,7 +90,7 @@ fn coloured(points: &[(usize, Point)], column: &Column, request: &Request, radiu
             let legend = std::iter::once(heading(&column.name)).chain(names.iter().enumerate().map(entry));
             Ok(Layers { shapes: dots.into_iter().map(shapes).collect(), series: legend.collect() })
         }
-        Values::Numbers(values) => {
+        ColumnValues::Numbers(values) => {
             let palette = Palette::requested(request, column, &column.name, values)?;
             for (run, point) in points {
                 if let Some(shade) = palette.shade(values[*run]) {
@@ -95,7 +100,7 @@ fn coloured(points: &[(usize, Point)], column: &Column, request: &Request, radiu
             let shapes = |(shade, at)| Shapes::Dots { at, radius, fill: palette.colour(shade) };
             Ok(Layers { shapes: dots.into_iter().map(shapes).collect(), series: palette.legend() })
         }
-        Values::Lists(_) => Err(PlotError::arguments(
+        ColumnValues::Lists(_) => Err(PlotError::arguments(
             format!("`{}` has several numbers a run, which no colour tells", column.name),
             "name another --colour",
         )),

@@ -3,10 +3,10 @@
 //! The columns of a parameter with an axis are along that axis of the grid; lists and integers become numbers. A table
 //! that tells nothing of its study has no axes: then `--x` says what goes to the right.
 
-use super::request::Request;
-use super::table::{Column, Role, RunTable, Values};
+use super::request::PlotRequest;
+use super::table::{ColumnValues, Role, RunTable, TableColumn};
 use crate::error::PlotError;
-use gyration_study::{Data, Frame, FrameColumn};
+use gyration_study::{Data, DataFrame, FrameColumn};
 
 /// The columns that every study has beside those of its parameters and of what it keeps.
 const ACCOUNT: [&str; 10] =
@@ -14,7 +14,7 @@ const ACCOUNT: [&str; 10] =
 
 impl RunTable {
     /// The table of a frame.
-    pub fn of_frame(frame: &Frame, name: &str) -> Self {
+    pub fn of_frame(frame: &DataFrame, name: &str) -> Self {
         let parameters = frame.parameters();
         let role = |name: &str| {
             let own = parameters.iter().find(|parameter| parameter.columns.iter().any(|column| column == name));
@@ -24,7 +24,7 @@ impl RunTable {
                 None => Role::Kept,
             }
         };
-        let column = |column: &FrameColumn| Column {
+        let column = |column: &FrameColumn| TableColumn {
             name: column.column.name.clone(),
             unit: column.column.unit.clone().filter(|unit| unit != "1").unwrap_or_default(),
             role: role(&column.column.name),
@@ -35,23 +35,25 @@ impl RunTable {
     }
 }
 
-impl Request {
+impl PlotRequest {
     /// What the study of a frame asks for.
     ///
     /// # Errors
     /// [`PlotError::Arguments`] if its `[plot]` cannot be used.
-    pub fn of_frame(frame: &Frame) -> Result<Self, PlotError> {
+    pub fn of_frame(frame: &DataFrame) -> Result<Self, PlotError> {
         let own = frame.plot().filter(|plot| plot.as_object().is_some_and(|keys| !keys.is_empty()));
         own.map_or_else(|| Ok(Self::default()), Self::of_json)
     }
 }
 
-fn values(data: &Data) -> Values {
+fn values(data: &Data) -> ColumnValues {
     let number = |cell: &Option<f64>| cell.unwrap_or(f64::NAN);
     match data {
-        Data::Integer(cells) => Values::Numbers(cells.iter().map(|cell| number(&cell.map(|n| n as f64))).collect()),
-        Data::Number(cells) => Values::Numbers(cells.iter().map(number).collect()),
-        Data::Text(cells) => Values::Words(cells.clone()),
-        Data::List(cells) => Values::Lists(cells.iter().map(|cell| cell.clone().unwrap_or_default()).collect()),
+        Data::Integer(cells) => {
+            ColumnValues::Numbers(cells.iter().map(|cell| number(&cell.map(|n| n as f64))).collect())
+        }
+        Data::Number(cells) => ColumnValues::Numbers(cells.iter().map(number).collect()),
+        Data::Text(cells) => ColumnValues::Words(cells.clone()),
+        Data::List(cells) => ColumnValues::Lists(cells.iter().map(|cell| cell.clone().unwrap_or_default()).collect()),
     }
 }

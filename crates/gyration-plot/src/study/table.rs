@@ -4,7 +4,7 @@
 //! parameters that the grid goes through, so that their values return.
 
 use crate::chart::ticks::short;
-use crate::chart::{Axis, Scale};
+use crate::chart::{Axis, AxisScale};
 use crate::error::PlotError;
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ pub struct RunTable {
     /// What the study is about.
     pub title: String,
     /// The columns.
-    pub columns: Vec<Column>,
+    pub columns: Vec<TableColumn>,
 }
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct TableColumn {
     /// Its name.
     pub name: String,
     /// Its unit; empty for a pure number.
@@ -27,7 +27,7 @@ pub struct Column {
     /// Where it comes from.
     pub role: Role,
     /// A value a run.
-    pub values: Values,
+    pub values: ColumnValues,
 }
 
 /// Where a column comes from.
@@ -45,7 +45,7 @@ pub enum Role {
 
 /// Values, one a run.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Values {
+pub enum ColumnValues {
     /// Numbers.
     Numbers(Vec<f64>),
     /// Words.
@@ -64,9 +64,9 @@ impl RunTable {
     /// How many runs there are.
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| match &column.values {
-            Values::Numbers(values) => values.len(),
-            Values::Words(values) => values.len(),
-            Values::Lists(values) => values.len(),
+            ColumnValues::Numbers(values) => values.len(),
+            ColumnValues::Words(values) => values.len(),
+            ColumnValues::Lists(values) => values.len(),
         })
     }
 
@@ -74,7 +74,7 @@ impl RunTable {
     ///
     /// # Errors
     /// [`PlotError::Arguments`] if there is none; the names that there are, are the fix.
-    pub fn column(&self, name: &str) -> Result<&Column, PlotError> {
+    pub fn column(&self, name: &str) -> Result<&TableColumn, PlotError> {
         self.columns.iter().find(|column| column.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
             PlotError::arguments(
@@ -85,9 +85,9 @@ impl RunTable {
     }
 
     /// A column for each axis of the grid, in their order: of those that vary together the one with the most values.
-    pub fn axes(&self) -> Vec<&Column> {
-        let mut axes: BTreeMap<usize, &Column> = BTreeMap::new();
-        let values = |column: &Column| column.levels().len().max(column.categories().len());
+    pub fn axes(&self) -> Vec<&TableColumn> {
+        let mut axes: BTreeMap<usize, &TableColumn> = BTreeMap::new();
+        let values = |column: &TableColumn| column.levels().len().max(column.categories().len());
         for column in &self.columns {
             let Role::Axis(axis) = column.role else { continue };
             let known = axes.entry(axis).or_insert(column);
@@ -99,19 +99,19 @@ impl RunTable {
     }
 
     /// The first column of what is kept; the outcome if nothing is.
-    pub fn kept(&self) -> Result<&Column, PlotError> {
+    pub fn kept(&self) -> Result<&TableColumn, PlotError> {
         self.of(Role::Kept).next().map_or_else(|| self.column("outcome"), Ok)
     }
 
     /// The column of a name, or the axis of the grid of this index.
-    pub fn axis_or(&self, name: Option<&str>, index: usize) -> Result<&Column, PlotError> {
+    pub fn axis_or(&self, name: Option<&str>, index: usize) -> Result<&TableColumn, PlotError> {
         let problem = "the study has no such axis of a grid";
         let missing = || PlotError::arguments(problem, "say which columns: --x NAME --y NAME");
         name.map_or_else(|| self.axes().get(index).copied().ok_or_else(missing), |name| self.column(name))
     }
 
     /// The columns of a role.
-    pub fn of(&self, role: Role) -> impl Iterator<Item = &Column> {
+    pub fn of(&self, role: Role) -> impl Iterator<Item = &TableColumn> {
         self.columns.iter().filter(move |column| column.role == role)
     }
 
@@ -126,16 +126,18 @@ impl RunTable {
     }
 
     fn outcomes(&self, is_meant: impl Fn(&str) -> bool) -> usize {
-        let Some(Values::Words(words)) = self.column("outcome").ok().map(|column| &column.values) else { return 0 };
+        let Some(ColumnValues::Words(words)) = self.column("outcome").ok().map(|column| &column.values) else {
+            return 0;
+        };
         words.iter().flatten().filter(|word| is_meant(word)).count()
     }
 }
 
-impl Column {
+impl TableColumn {
     /// The numbers, if it has numbers.
     pub fn numbers(&self) -> Option<&[f64]> {
         match &self.values {
-            Values::Numbers(values) => Some(values),
+            ColumnValues::Numbers(values) => Some(values),
             _ => None,
         }
     }
@@ -143,15 +145,15 @@ impl Column {
     /// The value of a run in words; none if it has none.
     pub fn word(&self, run: usize) -> Option<String> {
         match &self.values {
-            Values::Words(words) => words[run].clone(),
-            Values::Numbers(values) => (!values[run].is_nan()).then(|| short(values[run])),
-            Values::Lists(_) => None,
+            ColumnValues::Words(words) => words[run].clone(),
+            ColumnValues::Numbers(values) => (!values[run].is_nan()).then(|| short(values[run])),
+            ColumnValues::Lists(_) => None,
         }
     }
 
     /// The different words: all six faces where they are faces of a box, else in the order of the alphabet.
     pub fn categories(&self) -> Vec<String> {
-        let Values::Words(words) = &self.values else { return Vec::new() };
+        let ColumnValues::Words(words) = &self.values else { return Vec::new() };
         let mut found: Vec<&str> = words.iter().flatten().map(String::as_str).collect();
         found.sort_unstable();
         found.dedup();
@@ -187,21 +189,21 @@ impl Column {
     }
 
     /// The scale on which the levels are even.
-    pub fn scale(&self) -> Scale {
+    pub fn scale(&self) -> AxisScale {
         let levels = self.levels();
         let even = |spread: &dyn Fn(&[f64]) -> f64| {
             let steps: Vec<f64> = levels.windows(2).map(spread).collect();
             steps.iter().all(|step| (step - steps[0]).abs() < 1e-6 * steps[0].abs())
         };
         let geometric = levels.len() > 2 && levels[0] > 0.0 && even(&|pair| (pair[1] / pair[0]).ln());
-        if geometric && !even(&|pair| pair[1] - pair[0]) { Scale::Logarithmic } else { Scale::Linear }
+        if geometric && !even(&|pair| pair[1] - pair[0]) { AxisScale::Logarithmic } else { AxisScale::Linear }
     }
 
     /// The axis that holds these values of the column.
     pub fn axis(&self, values: impl IntoIterator<Item = f64>) -> Axis {
         match self.scale() {
-            Scale::Linear => Axis::linear(&self.name, &self.unit, values),
-            Scale::Logarithmic => Axis::logarithmic(&self.name, &self.unit, values),
+            AxisScale::Linear => Axis::linear(&self.name, &self.unit, values),
+            AxisScale::Logarithmic => Axis::logarithmic(&self.name, &self.unit, values),
         }
     }
 }
@@ -210,21 +212,21 @@ impl Column {
 mod tests {
     use super::*;
 
-    fn column(values: Values) -> Column {
-        Column { name: "c".into(), unit: String::new(), role: Role::Axis(0), values }
+    fn column(values: ColumnValues) -> TableColumn {
+        TableColumn { name: "c".into(), unit: String::new(), role: Role::Axis(0), values }
     }
 
     #[test]
     fn values_that_grow_by_a_factor_stand_on_a_logarithmic_axis() {
-        assert_eq!(column(Values::Numbers(vec![4.0, 1.0, 2.0, 1.0])).scale(), Scale::Logarithmic);
-        assert_eq!(column(Values::Numbers(vec![1.0, 2.0, 3.0])).scale(), Scale::Linear);
-        assert_eq!(column(Values::Numbers(vec![1.0, 2.0])).scale(), Scale::Linear);
-        assert_eq!(column(Values::Numbers(vec![0.0, 1.0, 10.0])).scale(), Scale::Linear);
+        assert_eq!(column(ColumnValues::Numbers(vec![4.0, 1.0, 2.0, 1.0])).scale(), AxisScale::Logarithmic);
+        assert_eq!(column(ColumnValues::Numbers(vec![1.0, 2.0, 3.0])).scale(), AxisScale::Linear);
+        assert_eq!(column(ColumnValues::Numbers(vec![1.0, 2.0])).scale(), AxisScale::Linear);
+        assert_eq!(column(ColumnValues::Numbers(vec![0.0, 1.0, 10.0])).scale(), AxisScale::Linear);
     }
 
     #[test]
     fn zero_is_one_level_whatever_its_sign() {
-        let column = column(Values::Numbers(vec![0.0, -0.0, 1.0, f64::NAN]));
+        let column = column(ColumnValues::Numbers(vec![0.0, -0.0, 1.0, f64::NAN]));
         assert_eq!(column.levels(), [0.0, 1.0]);
         assert_eq!([0.0, -0.0, 1.0, 2.0].map(|x| column.level(&column.levels(), x)), [Some(0), Some(0), Some(1), None]);
     }
@@ -232,7 +234,7 @@ mod tests {
     #[test]
     fn numbers_are_told_apart_in_few_digits() {
         let labels = |values: &[f64]| -> Vec<String> {
-            column(Values::Numbers(values.to_vec())).labels().into_iter().map(|(_, words)| words).collect()
+            column(ColumnValues::Numbers(values.to_vec())).labels().into_iter().map(|(_, words)| words).collect()
         };
         assert_eq!(labels(&[0.1 + 0.2, 0.014_125_375_446, 2.0]), ["0.01413", "0.3", "2"]);
         assert_eq!(labels(&[1.0, 1.0001, 1.0]), ["1", "1.0001"]);
@@ -241,7 +243,8 @@ mod tests {
 
     #[test]
     fn a_face_that_never_comes_is_a_category_too() {
-        let words = |words: &[&str]| column(Values::Words(words.iter().map(|word| Some((*word).into())).collect()));
+        let words =
+            |words: &[&str]| column(ColumnValues::Words(words.iter().map(|word| Some((*word).into())).collect()));
         assert_eq!(words(&["+z", "-x"]).categories(), FACES);
         assert_eq!(words(&["falls", "stands", "falls"]).categories(), ["falls", "stands"]);
     }

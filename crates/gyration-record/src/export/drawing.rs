@@ -16,8 +16,8 @@ pub(super) type Mat3 = Matrix3<f64>;
 /// All that is drawn.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
-    pub bodies: Vec<Figure>,
-    pub supports: Vec<Ground>,
+    pub bodies: Vec<DrawnBody>,
+    pub supports: Vec<DrawnSupport>,
     /// The distinct surfaces.
     pub surfaces: Vec<SurfaceMesh>,
     /// Against gravity; z without any.
@@ -26,17 +26,17 @@ pub(super) struct Drawing {
 
 /// A body.
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Figure {
+pub(super) struct DrawnBody {
     pub name: String,
     kind: String,
     pub size: f64,
     /// Index of its surface; none for points.
     pub surface: Option<usize>,
-    outline: Outline,
+    outline: DrawnOutline,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-struct Outline {
+struct DrawnOutline {
     points: Vec<[f64; 3]>,
     /// Lines through points, by index.
     polylines: Vec<Vec<usize>>,
@@ -44,16 +44,16 @@ struct Outline {
 
 /// A support: a plane that may move.
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Ground {
+pub(super) struct DrawnSupport {
     pub name: String,
     pub origin: [f64; 3],
     pub normal: [f64; 3],
-    motion: Option<Motion>,
+    motion: Option<DrawnMotion>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Motion {
+enum DrawnMotion {
     Velocity([f64; 3]),
     Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
 }
@@ -79,7 +79,7 @@ impl Drawing {
         }
         let strange =
             |error: serde_json::Error| RecordError::corrupt(recording.path(), format!("attribute `bodies`: {error}"));
-        let bodies: Vec<Figure> = serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange)?;
+        let bodies: Vec<DrawnBody> = serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange)?;
         let count = bodies.iter().filter_map(|body| body.surface).max().map_or(0, |last| last + 1);
         let gravity = Vec3::from(attribute::<[f64; 3]>(recording, "gravity")?);
         Ok(Self {
@@ -113,7 +113,7 @@ fn attribute<T: serde::de::DeserializeOwned>(recording: &Recording, name: &str) 
     serde_json::from_value(value).map_err(strange)
 }
 
-impl Figure {
+impl DrawnBody {
     /// Whether P is a rotation.
     pub fn is_rigid(&self) -> bool {
         self.kind == "rigid"
@@ -131,7 +131,7 @@ impl Figure {
     }
 }
 
-impl Ground {
+impl DrawnSupport {
     /// Whether it moves.
     pub fn moves(&self) -> bool {
         self.motion.is_some()
@@ -141,8 +141,8 @@ impl Ground {
     pub fn displacement(&self, time: f64) -> Vec3 {
         match self.motion {
             None => Vec3::zeros(),
-            Some(Motion::Velocity(velocity)) => Vec3::from(velocity) * time,
-            Some(Motion::Oscillate { direction, amplitude, frequency, phase }) => {
+            Some(DrawnMotion::Velocity(velocity)) => Vec3::from(velocity) * time,
+            Some(DrawnMotion::Oscillate { direction, amplitude, frequency, phase }) => {
                 Vec3::from(direction) * (amplitude * (TAU * frequency * time + phase).sin())
             }
         }

@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// All of it that does not depend on the body's mass.
 #[derive(Debug, Clone)]
-pub(super) struct Parts {
+pub(super) struct AffineParts {
     material: Option<Material>,
     viscosity: Viscosity,
     anisotropic: Option<AnisotropicFriction>,
@@ -26,7 +26,7 @@ pub(super) struct Parts {
     resistances: Vec<LinearResistance>,
 }
 
-impl Parts {
+impl AffineParts {
     /// Reads them at a key; notes what is wrong with any. Tables are relative to `base`.
     pub(super) fn of(written: &file::Affine, key: &Key, base: &Path, reporter: &mut Reporter<'_>) -> Option<Self> {
         let material = written.material.as_ref().map(|it| material(it, &key.key("material"), reporter));

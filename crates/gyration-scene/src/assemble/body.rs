@@ -1,11 +1,11 @@
 //! A body: shape, mass, surface about the centre of mass, kind, springs, pin, and how it starts.
 
-use super::fluid::Immersed;
-use super::kind::Deforming;
-use super::mass::{Source, lone_point, size};
-use super::setting::Setting;
-use super::shape::Maker;
-use super::start::{Attitude, placement};
+use super::context::SceneContext;
+use super::fluid::ImmersedBody;
+use super::kind::WrittenDeformation;
+use super::mass::{MassSource, lone_point, size};
+use super::shape::ShapeBuilder;
+use super::start::{WrittenPlacement, placement};
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
@@ -26,19 +26,19 @@ pub(super) struct Solid {
 
 impl Solid {
     /// Builds a body, without its contacts; notes what is wrong with it.
-    pub(super) fn new(placed: &Placed<Body>, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Self> {
+    pub(super) fn new(placed: &Placed<Body>, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Self> {
         let Placed { key, value } = placed;
-        let deforming = Deforming::of(placed, setting, reporter);
-        let attitude = Attitude::of(placed, deforming.start(), reporter);
-        let source = Source::of(placed, reporter);
+        let deforming = WrittenDeformation::of(placed, context, reporter);
+        let attitude = WrittenPlacement::of(placed, deforming.start(), reporter);
+        let source = MassSource::of(placed, reporter);
         let shape = value.shape.as_ref().map(|written| {
             let density = source.map_or(Some(1.0), |source| source.density(written));
-            Maker { base: setting.base, reporter }.shape(written, &key.key("shape"), density)
+            ShapeBuilder { base: context.base, reporter }.shape(written, &key.key("shape"), density)
         });
         let source = source?;
         let shape = match (shape, source) {
             (Some(shape), _) => shape?,
-            (None, Source::Properties(mass)) => lone_point(&mass),
+            (None, MassSource::Properties(mass)) => lone_point(&mass),
             (None, _) => return None,
         };
         let mass = source.weigh(&shape, key, reporter)?;
@@ -46,7 +46,7 @@ impl Solid {
         let arm = value.pin.as_ref().map(si);
         near(arm.as_ref(), &shape, key, reporter);
         let kind = kind?;
-        let inclusion = Immersed { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(setting, reporter);
+        let inclusion = ImmersedBody { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(context, reporter);
         let start = attitude?.start(placed, &kind, reporter)?;
         let place = placement(&start);
         let body = Moving {

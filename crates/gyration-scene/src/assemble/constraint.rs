@@ -21,7 +21,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// What an incompressible material asks of the start of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Kept {
+pub(super) struct VolumeConstraint {
     /// det P, by the contraction.
     volume: f64,
     /// tr L \[1/s\] and its rounding; none if it is free.
@@ -30,7 +30,7 @@ pub(super) struct Kept {
     kept: &'static str,
 }
 
-impl Kept {
+impl VolumeConstraint {
     /// Of a body that does not contract: det P = 1, tr L = 0.
     pub(super) const VOLUME: Self = Self { volume: 1.0, growth: Some((0.0, 0.0)), kept: "its determinant" };
 
@@ -68,7 +68,7 @@ impl Kept {
 /// P and Ṗ on the constraint of the body, if it has one; notes those too far from it, with the nearest that are on it.
 pub(super) fn hold(
     body: &AffineBody,
-    kept: &Kept,
+    kept: &VolumeConstraint,
     given: (Mat3, Mat3),
     key: &Key,
     reporter: &mut Reporter<'_>,
@@ -83,7 +83,7 @@ pub(super) fn hold(
     let checked = if held.is_some() { gradient } else { kept.nearest(body, &gradient).unwrap_or(gradient) };
     let rate = in_range(&checked, &rate, key, reporter).then_some(rate)?;
     let (rate, fault) = rate_held(body, kept, [&checked, &held.unwrap_or(checked)], &rate)?;
-    if let Some(Fault { message, help }) = &fault {
+    if let Some(Refused { message, help }) = &fault {
         reporter.note(&key.key("gradient_rate"), message, help);
     }
     fault.is_none().then_some((held?, rate))
@@ -91,7 +91,7 @@ pub(super) fn hold(
 
 fn gradient_held(
     body: &AffineBody,
-    kept: &Kept,
+    kept: &VolumeConstraint,
     gradient: &Mat3,
     key: &Key,
     reporter: &mut Reporter<'_>,
@@ -118,7 +118,7 @@ fn gradient_held(
 }
 
 /// Message and fix.
-struct Fault {
+struct Refused {
     message: String,
     help: String,
 }
@@ -127,10 +127,10 @@ struct Fault {
 /// fault.
 fn rate_held(
     body: &AffineBody,
-    kept: &Kept,
+    kept: &VolumeConstraint,
     [checked, held]: [&Mat3; 2],
     rate: &Mat3,
-) -> Option<(Mat3, Option<Fault>)> {
+) -> Option<(Mat3, Option<Refused>)> {
     let Some((asked, allowance)) = kept.growth else { return Some((*rate, None)) };
     let (given, _) = growth(checked, rate)?;
     let (left, rounding) = growth(held, rate)?;
@@ -154,7 +154,7 @@ fn rate_held(
         true => format!("write gradient_rate = {}, or give the material a `bulk` modulus", rows(&nearest)),
         false => format!("write a rate with {wanted}, or give the material a `bulk` modulus"),
     };
-    Some((nearest, Some(Fault { message, help })))
+    Some((nearest, Some(Refused { message, help })))
 }
 
 /// tr Ṗ P⁻¹ \[1/s\] and its rounding: nine products of entries, whose cancellation a fast spin makes visible.

@@ -4,8 +4,8 @@
 //! whole run, det G > 0, without jumps; where an incompressible material follows it, without kinks as well: det P = det
 //! G has to have a second derivative.
 
-use super::setting::Setting;
-use super::signal::{Maker, first_fault, not_finite};
+use super::context::SceneContext;
+use super::signal::{SignalBuilder, first_fault, not_finite};
 use super::start::{flaw, invertible, matrix};
 use crate::check::{Reporter, direction};
 use crate::file::{self, FeltMeasure, OneOrMany};
@@ -17,25 +17,25 @@ use gyration::tensor::Mat3;
 
 /// How a body contracts, and how that starts.
 #[derive(Debug, Clone)]
-pub(super) struct Contracting {
+pub(super) struct WrittenContraction {
     pub(super) contraction: Contraction,
     /// G and its rate at t = 0, the rate being zero unless it is prescribed.
     pub(super) start: Jet,
 }
 
-impl Contracting {
+impl WrittenContraction {
     /// Reads it at a key; notes what is wrong with any part, and what cannot stand beside each other.
     pub(super) fn of(
         written: &file::Contractile,
         key: &Key,
-        setting: &Setting,
+        context: &SceneContext,
         reporter: &mut Reporter<'_>,
     ) -> Option<Self> {
         let viscosity = viscosity(written, key, reporter);
-        let drive = written.drive.as_ref().map(|it| drive(it, &key.key("drive"), setting, reporter));
-        let feedback = feedbacks(written.feedback.as_ref(), &key.key("feedback"), setting, reporter);
+        let drive = written.drive.as_ref().map(|it| drive(it, &key.key("drive"), context, reporter));
+        let feedback = feedbacks(written.feedback.as_ref(), &key.key("feedback"), context, reporter);
         let prescribed =
-            written.prescribed.as_ref().map(|it| prescribed(it, &key.key("prescribed"), setting, reporter));
+            written.prescribed.as_ref().map(|it| prescribed(it, &key.key("prescribed"), context, reporter));
         let initial = initial(written, &key.key("contraction"), reporter);
         if let Some(prescribed) = prescribed {
             let alone = stands_alone(key, reporter);
@@ -127,11 +127,11 @@ fn initial(written: &file::Contractile, key: &Key, reporter: &mut Reporter<'_>) 
 fn drive(
     written: &file::Signal<Pressure>,
     key: &Key,
-    setting: &Setting,
+    context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<Signal> {
-    let signal = Maker { setting, reporter, symbol: 'Q', rest: Mat3::zeros() }.signal(written, key)?;
-    let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), not_finite) else {
+    let signal = SignalBuilder { context, reporter, symbol: 'Q', rest: Mat3::zeros() }.signal(written, key)?;
+    let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), not_finite) else {
         return Some(signal);
     };
     reporter.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
@@ -142,17 +142,17 @@ fn drive(
 fn prescribed(
     written: &file::Signal<f64>,
     key: &Key,
-    setting: &Setting,
+    context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<Signal> {
-    let signal = Maker { setting, reporter, symbol: 'G', rest: Mat3::identity() }.signal(written, key)?;
+    let signal = SignalBuilder { context, reporter, symbol: 'G', rest: Mat3::identity() }.signal(written, key)?;
     if signal.smoothness() == Smoothness::Jumps {
         let help = "use a sine, a ramp or a table: their values do not jump";
         reporter.note(key, "it jumps with a square wave, and the body would have to follow at once", help);
         return None;
     }
     let fault = |value: &Mat3| not_finite(value).or_else(|| flaw(value));
-    let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), fault) else { return Some(signal) };
+    let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), fault) else { return Some(signal) };
     let help = "keep det G > 0 over the whole run: a contraction that varies about none is \
                 { sum = [{ constant = { value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } }, …] }";
     reporter.note(key, format!("at t = {time:?} s {message}"), help);
@@ -170,18 +170,23 @@ fn place(written: Option<&OneOrMany<file::Feedback>>, key: &Key, index: usize) -
 fn feedbacks(
     written: Option<&OneOrMany<file::Feedback>>,
     key: &Key,
-    setting: &Setting,
+    context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<Vec<Feedback>> {
     let parts = written.map(OneOrMany::as_slice).unwrap_or_default().iter().enumerate();
-    let made = parts.map(|(index, part)| feedback(part, &place(written, key, index), setting, reporter));
+    let made = parts.map(|(index, part)| feedback(part, &place(written, key, index), context, reporter));
     // All of them, so that each is checked.
     let made: Vec<Option<Feedback>> = made.collect();
     made.into_iter().collect()
 }
 
-fn feedback(written: &file::Feedback, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Feedback> {
-    let measure = measure(&written.measure, &key.key("measure"), setting, reporter);
+fn feedback(
+    written: &file::Feedback,
+    key: &Key,
+    context: &SceneContext,
+    reporter: &mut Reporter<'_>,
+) -> Option<Feedback> {
+    let measure = measure(&written.measure, &key.key("measure"), context, reporter);
     let (gain, bias) = (matrix(&written.gain), matrix(&written.bias));
     if let Some([least, most]) = written.limits {
         if least >= most {
@@ -197,7 +202,7 @@ fn feedback(written: &file::Feedback, key: &Key, setting: &Setting, reporter: &m
     Some(Feedback { measure: measure?, gain, bias, limits: written.limits })
 }
 
-fn measure(written: &FeltMeasure, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Measure> {
+fn measure(written: &FeltMeasure, key: &Key, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Measure> {
     let mut along = |name: &str, vector: &[f64; 3]| {
         let along = direction(vector);
         if along.is_none() {
@@ -208,7 +213,7 @@ fn measure(written: &FeltMeasure, key: &Key, setting: &Setting, reporter: &mut R
     match written {
         FeltMeasure::Stretch(vector) => along("stretch", vector).map(Measure::Stretch),
         FeltMeasure::Rate(vector) => along("rate", vector).map(Measure::Rate),
-        FeltMeasure::Gap if setting.has_support => Some(Measure::Gap),
+        FeltMeasure::Gap if context.has_support => Some(Measure::Gap),
         FeltMeasure::Gap => {
             let help = "add a [[support]], or let the body feel a `stretch` or a `rate`";
             reporter.note(key, "there is no support that the body could be near", help);

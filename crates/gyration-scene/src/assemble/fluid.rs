@@ -2,8 +2,8 @@
 //!
 //! A velocity gradient of the undisturbed flow has trace zero at all times: nothing of the fluid is made or lost.
 
-use super::setting::Setting;
-use super::signal::{Maker, first_fault, not_finite};
+use super::context::SceneContext;
+use super::signal::{SignalBuilder, first_fault, not_finite};
 use super::start::matrix;
 use crate::check::{Placed, Reporter};
 use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
@@ -19,13 +19,13 @@ use gyration::signal::{Signal, Wave};
 use gyration::tensor::{Mat3, Vec3};
 
 /// The fluid of a scene; notes what is wrong with it.
-pub(super) fn fluid(written: &Written, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Fluid> {
+pub(super) fn fluid(written: &Written, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Fluid> {
     let key = Key::root().key("fluid");
     let velocity = match &written.velocity {
         FlowVelocity::Steady(velocity) => Some(Signal::Constant(beside(&si(velocity)))),
-        FlowVelocity::Changing(signal) => vector_signal(signal, &key.key("velocity"), setting, reporter),
+        FlowVelocity::Changing(signal) => vector_signal(signal, &key.key("velocity"), context, reporter),
     };
-    let gradient = gradient(&written.velocity_gradient, &key.key("velocity_gradient"), setting, reporter);
+    let gradient = gradient(&written.velocity_gradient, &key.key("velocity_gradient"), context, reporter);
     Some(Fluid {
         viscosity: written.viscosity.value(),
         density: written.density.value(),
@@ -34,15 +34,15 @@ pub(super) fn fluid(written: &Written, setting: &Setting, reporter: &mut Reporte
     })
 }
 
-fn gradient(written: &FlowGradient, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Signal> {
+fn gradient(written: &FlowGradient, key: &Key, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Signal> {
     let signal = match written {
         FlowGradient::Steady(rows) => Signal::Constant(matrix(rows)),
         FlowGradient::Changing(signal) => {
-            Maker { setting, reporter, symbol: 'L', rest: Mat3::zeros() }.signal(signal, key)?
+            SignalBuilder { context, reporter, symbol: 'L', rest: Mat3::zeros() }.signal(signal, key)?
         }
     };
     let fault = |value: &Mat3| not_finite(value).or_else(|| swells(value));
-    let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), fault) else { return Some(signal) };
+    let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), fault) else { return Some(signal) };
     let at = if matches!(signal, Signal::Constant(_)) { String::new() } else { format!("at t = {time:?} s ") };
     let help = "change a diagonal entry so that the three add up to 0, for instance [[1, 0, 0], [0, -1, 0], [0, 0, 0]]";
     reporter.note(key, format!("{at}{message}"), help);
@@ -68,7 +68,12 @@ fn beside(vector: &Vec3) -> Mat3 {
     Mat3::from_columns(&[*vector, Vec3::zeros(), Vec3::zeros()])
 }
 
-fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Signal> {
+fn vector_signal(
+    written: &VectorSignal,
+    key: &Key,
+    context: &SceneContext,
+    reporter: &mut Reporter<'_>,
+) -> Option<Signal> {
     let signal = match written {
         VectorSignal::Constant(constant) => Signal::Constant(beside(&si(&constant.value))),
         VectorSignal::Sine(wave) => Signal::Sine(Wave {
@@ -77,19 +82,19 @@ fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, reporter:
             phase: wave.phase.0,
         }),
         VectorSignal::Table(table) => {
-            let mut maker = Maker { setting, reporter, symbol: 'U', rest: Mat3::zeros() };
+            let mut maker = SignalBuilder { context, reporter, symbol: 'U', rest: Mat3::zeros() };
             Signal::Table(maker.table(table, &key.key("table").key("file"), read_vectors)?)
         }
         VectorSignal::Sum(parts) => {
             let key = key.key("sum");
             let parts =
-                parts.iter().enumerate().map(|(index, part)| vector_signal(part, &key.index(index), setting, reporter));
+                parts.iter().enumerate().map(|(index, part)| vector_signal(part, &key.index(index), context, reporter));
             // All of them, so that each is checked.
             let parts: Vec<Option<Signal>> = parts.collect();
             Signal::Sum(parts.into_iter().collect::<Option<_>>()?)
         }
     };
-    let Some((time, message)) = first_fault(&signal, setting.end.unwrap_or(0.0), not_finite) else {
+    let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), not_finite) else {
         return Some(signal);
     };
     reporter.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
@@ -100,25 +105,25 @@ fn vector_signal(written: &VectorSignal, key: &Key, setting: &Setting, reporter:
 pub(super) const HISTORY_ERROR: f64 = 1e-6;
 
 /// A body in the fluid: what is known of it when its kind is.
-pub(super) struct Immersed<'a> {
+pub(super) struct ImmersedBody<'a> {
     pub(super) placed: &'a Placed<Body>,
     pub(super) shape: &'a Shape,
     pub(super) mass: &'a MassProperties,
     pub(super) kind: &'a BodyKind,
 }
 
-impl Immersed<'_> {
+impl ImmersedBody<'_> {
     /// What makes it an inclusion: none if it is none. Outside none where something is wrong, which is noted.
-    pub(super) fn inclusion(&self, setting: &Setting, reporter: &mut Reporter<'_>) -> Option<Option<Inclusion>> {
+    pub(super) fn inclusion(&self, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Option<Inclusion>> {
         let Some(written) = &self.placed.value.inclusion else { return Some(None) };
         let key = self.placed.key.key("inclusion");
-        let around = self.is_in_a_fluid(setting, &key, reporter);
+        let around = self.is_in_a_fluid(context, &key, reporter);
         let still = written.inertia || self.gives_no_velocity(reporter);
-        let remembers = !written.history || self.may_have_history(written, setting, &key, reporter);
+        let remembers = !written.history || self.may_have_history(written, context, &key, reporter);
         let form = self.form(written, reporter).filter(|_| can_be_resolved(written, &key, reporter));
         let filled = self.shape.mass_properties(1.0);
         let (volume, center) = (filled.volume, filled.center - self.mass.center);
-        let history = if written.history && remembers { self.history(written, setting, &key, reporter)? } else { None };
+        let history = if written.history && remembers { self.history(written, context, &key, reporter)? } else { None };
         (around && still && remembers).then_some(Some(Inclusion {
             inertia: written.inertia,
             volume,
@@ -128,12 +133,12 @@ impl Immersed<'_> {
         }))
     }
 
-    fn is_in_a_fluid(&self, setting: &Setting, key: &Key, reporter: &mut Reporter<'_>) -> bool {
-        if !setting.has_fluid {
+    fn is_in_a_fluid(&self, context: &SceneContext, key: &Key, reporter: &mut Reporter<'_>) -> bool {
+        if !context.has_fluid {
             let help = "add a section `[fluid]` with a `viscosity`, or leave `inclusion` out";
             reporter.note(key, "the scene has no fluid", help);
         }
-        setting.has_fluid
+        context.has_fluid
     }
 
     /// Notes velocities that a body without inertia cannot be given.
@@ -158,7 +163,7 @@ impl Immersed<'_> {
     fn may_have_history(
         &self,
         written: &WrittenInclusion,
-        setting: &Setting,
+        context: &SceneContext,
         key: &Key,
         reporter: &mut Reporter<'_>,
     ) -> bool {
@@ -175,7 +180,7 @@ impl Immersed<'_> {
             (sphere && !centered, "the centre of mass is not that of the sphere", "give it a `density` or a `mass`"),
             (self.placed.value.pin.is_some(), "the body is pinned", "leave out one of `pin` and `history`"),
             (
-                setting.fluid.is_some_and(|[_, density]| density == 0.0),
+                context.fluid.is_some_and(|[_, density]| density == 0.0),
                 "the history of the flow is its inertia, and the fluid has no density",
                 "give `fluid.density` in kg/m³, or leave `history` out",
             ),
@@ -190,11 +195,11 @@ impl Immersed<'_> {
     fn history(
         &self,
         written: &WrittenInclusion,
-        setting: &Setting,
+        context: &SceneContext,
         key: &Key,
         reporter: &mut Reporter<'_>,
     ) -> Option<Option<History>> {
-        let (Shape::Sphere(Sphere { radius }), Some(fluid), Some(end)) = (self.shape, setting.fluid, setting.end)
+        let (Shape::Sphere(Sphere { radius }), Some(fluid), Some(end)) = (self.shape, context.fluid, context.end)
         else {
             return Some(None);
         };

@@ -1,8 +1,8 @@
 //! How a body may deform: rigid, affine or contractile, with what each needs of its mass.
 
-use super::affine::{Parts, Places, inverts};
-use super::contractile::{Contracting, feels_no_gap};
-use super::setting::Setting;
+use super::affine::{AffineParts, Places, inverts};
+use super::context::SceneContext;
+use super::contractile::{WrittenContraction, feels_no_gap};
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
@@ -14,19 +14,19 @@ use gyration::tensor::Vec3;
 
 /// What the file says of the deformation of a body. Outside whether it says so, inside whether without error.
 #[derive(Debug, Clone)]
-pub(super) struct Deforming {
-    parts: Option<Option<Parts>>,
-    contracting: Option<Option<Contracting>>,
+pub(super) struct WrittenDeformation {
+    parts: Option<Option<AffineParts>>,
+    contracting: Option<Option<WrittenContraction>>,
 }
 
-impl Deforming {
+impl WrittenDeformation {
     /// Reads it; notes what is wrong with it, and a body of two kinds.
-    pub(super) fn of(placed: &Placed<Body>, setting: &Setting, reporter: &mut Reporter<'_>) -> Self {
+    pub(super) fn of(placed: &Placed<Body>, context: &SceneContext, reporter: &mut Reporter<'_>) -> Self {
         let Placed { key, value } = placed;
         one_kind(value, key, reporter);
-        let parts = value.deformable().map(|(name, it)| Parts::of(it, &key.key(name), setting.base, reporter));
+        let parts = value.deformable().map(|(name, it)| AffineParts::of(it, &key.key(name), context.base, reporter));
         let contracting = value.contractile.as_ref();
-        let contracting = contracting.map(|it| Contracting::of(it, &key.key("contractile"), setting, reporter));
+        let contracting = contracting.map(|it| WrittenContraction::of(it, &key.key("contractile"), context, reporter));
         Self { parts, contracting }
     }
 

@@ -13,7 +13,7 @@ use gyration::tensor::{Mat3, Vec3};
 
 /// Where the mass of a body comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Source {
+pub(super) enum MassSource {
     /// A density \[kg/m³\] for all parts without one.
     Density(f64),
     /// The total mass \[kg\], spread by the densities of the parts, or evenly.
@@ -24,7 +24,7 @@ pub(super) enum Source {
     Shape,
 }
 
-impl Source {
+impl MassSource {
     /// The source of a body's mass; notes a choice that is not exactly one.
     pub(super) fn of(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Self> {
         let Placed { key, value } = body;
@@ -112,7 +112,7 @@ fn superfluous(body: &Body, key: &Key) -> Key {
     }
 }
 
-fn properties(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Source> {
+fn properties(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<MassSource> {
     let key = body.key.key("mass_properties");
     if matches!(body.value.shape, Some(Written::Points(_))) {
         reporter.note(&key, "points bring their own mass", "leave the key out, or choose a shape with a surface");
@@ -127,7 +127,7 @@ fn properties(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Source
         volume: 0.0,
     };
     match properties.validate() {
-        Ok(()) => Some(Source::Properties(properties)),
+        Ok(()) => Some(MassSource::Properties(properties)),
         Err(error) => {
             reporter.note(&key.key("euler_tensor"), error.to_string(), "give J = ∫ρ X⊗X dV about the centre of mass");
             None

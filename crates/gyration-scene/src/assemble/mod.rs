@@ -6,6 +6,7 @@ mod affine;
 mod body;
 mod constraint;
 mod contact;
+mod context;
 mod contractile;
 mod fluid;
 mod kind;
@@ -15,15 +16,14 @@ mod orientation;
 mod overlap;
 mod resolve;
 mod salvage;
-mod setting;
 mod shape;
 mod signal;
 mod start;
 mod support;
 
+pub(crate) use context::SceneContext;
 pub use fluid::TRIANGLES;
 pub(crate) use salvage::salvage;
-pub(crate) use setting::Setting;
 
 use crate::check::{PartialScene, Reporter};
 use crate::file::{self, Method, Recorded, Solver, Time};
@@ -114,12 +114,12 @@ impl Plan {
 /// Fills in what the file leaves to be derived (`resolve`).
 pub(crate) fn assemble(
     partial: &mut PartialScene,
-    setting: &Setting,
+    context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<(Built, Vec<UnknownForm>)> {
     let mut solids: Vec<Option<Solid>> =
-        partial.bodies.iter().map(|body| Solid::new(body, setting, reporter)).collect();
-    let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, setting, reporter));
+        partial.bodies.iter().map(|body| Solid::new(body, context, reporter)).collect();
+    let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
     contact::attach(partial, &mut solids, reporter);
     for (body, solid) in partial.bodies.iter_mut().zip(&solids) {

@@ -5,7 +5,7 @@
 //! missing key can have caused.
 
 use super::body::Solid;
-use super::setting::Setting;
+use super::context::SceneContext;
 use crate::check::{Placed, Reporter};
 use crate::document::{Diagnostics, Document};
 use crate::file::Body;
@@ -21,7 +21,7 @@ const VOLUME: [&str; 2] = ["shape", "mass_properties"];
 const WEIGHTS: [&str; 3] = ["density", "mass", "mass_properties"];
 
 /// Notes what is wrong in the well-formed keys of bodies that are not well formed.
-pub(crate) fn salvage(document: &Document, setting: &Setting, diagnostics: &mut Diagnostics) {
+pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: &mut Diagnostics) {
     let section = Key::root().key("body");
     let dirty: BTreeSet<Key> = diagnostics.iter().map(|diagnostic| diagnostic.key.clone()).collect();
     for (index, node) in document.root.get("body").map(Node::items).unwrap_or_default().iter().enumerate() {
@@ -47,7 +47,7 @@ pub(crate) fn salvage(document: &Document, setting: &Setting, diagnostics: &mut 
         }
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Diagnostics::default();
-        Solid::new(&Placed { key: key.clone(), value }, setting, &mut Reporter { document, diagnostics: &mut found });
+        Solid::new(&Placed { key: key.clone(), value }, context, &mut Reporter { document, diagnostics: &mut found });
         let counts = |place: &Key| checked.iter().any(|name| key.key(name).holds(place));
         diagnostics.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
     }

@@ -14,13 +14,13 @@ use gyration_geometry::{MeshError, hull, read_mesh};
 use std::path::Path;
 
 /// Where shapes come from and where complaints go.
-pub(super) struct Maker<'a, 'b> {
+pub(super) struct ShapeBuilder<'a, 'b> {
     /// The folder that paths are relative to.
     pub(super) base: &'a Path,
     pub(super) reporter: &'a mut Reporter<'b>,
 }
 
-impl Maker<'_, '_> {
+impl ShapeBuilder<'_, '_> {
     /// The shape at a key. Parts of unions without a density get that of the body, if there is one.
     pub(super) fn shape(&mut self, shape: &file::Shape, key: &Key, density: Option<f64>) -> Option<Shape> {
         let made = match shape {

@@ -3,7 +3,7 @@
 //! Between 0 and the end of the run a signal is looked at 64 times in the whole and in each period of its fastest wave,
 //! and 8 times between neighbours among the times of its tables and the ends of its ramps.
 
-use super::setting::Setting;
+use super::context::SceneContext;
 use super::start::matrix;
 use crate::check::Reporter;
 use crate::file::{Interpolation as Written, Ramp, Signal as WrittenSignal, Table, Wave as WrittenWave};
@@ -17,8 +17,8 @@ use std::path::Path;
 pub(super) type Reader = fn(&Path, char, Interpolation) -> Result<TensorTable, TableFault>;
 
 /// Makes signals of one kind of tensor.
-pub(super) struct Maker<'a, 'b> {
-    pub(super) setting: &'a Setting<'a>,
+pub(super) struct SignalBuilder<'a, 'b> {
+    pub(super) context: &'a SceneContext<'a>,
     pub(super) reporter: &'a mut Reporter<'b>,
     /// What messages call the tensor.
     pub(super) symbol: char,
@@ -26,7 +26,7 @@ pub(super) struct Maker<'a, 'b> {
     pub(super) rest: Mat3,
 }
 
-impl Maker<'_, '_> {
+impl SignalBuilder<'_, '_> {
     /// The signal at a key; notes what is wrong with any part of it.
     pub(super) fn signal<T: Into<f64> + Copy>(&mut self, written: &WrittenSignal<T>, key: &Key) -> Option<Signal> {
         self.part(written, key, Some(self.rest))
@@ -73,7 +73,7 @@ impl Maker<'_, '_> {
             Written::Linear => Interpolation::Linear,
             Written::Cubic => Interpolation::Cubic,
         };
-        let path = self.setting.base.join(&table.file);
+        let path = self.context.base.join(&table.file);
         let made = match read(&path, self.symbol, interpolation) {
             Ok(made) => made,
             Err(error) => {
@@ -82,7 +82,7 @@ impl Maker<'_, '_> {
             }
         };
         let [first, last] = made.span();
-        let end = self.setting.end.unwrap_or(last);
+        let end = self.context.end.unwrap_or(last);
         if first > 0.0 {
             let message = format!("table {} begins late, at {first:?} s: the run begins at 0 s", path.display());
             self.reporter.note(key, message, "add a row at t = 0");

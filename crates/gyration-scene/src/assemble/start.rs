@@ -7,7 +7,7 @@
 //! ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible body starts on its constraint
 //! (`constraint`).
 
-use super::constraint::{self, Kept};
+use super::constraint::{self, VolumeConstraint};
 use super::orientation::orientation;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
@@ -22,7 +22,7 @@ use gyration::tensor::{Mat3, Vec3, cross_matrix};
 
 /// P and Ṗ as the file has them, before any constraint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Attitude {
+pub(super) struct WrittenPlacement {
     orientation: Quaternion,
     angular_velocity: Vec3,
     gradient: Mat3,
@@ -31,7 +31,7 @@ pub(super) struct Attitude {
     contraction: Jet,
 }
 
-impl Attitude {
+impl WrittenPlacement {
     /// Reads P and Ṗ of a body that starts with a contraction, if it has one; notes what cannot be, what is said twice,
     /// and what only another kind of body has.
     pub(super) fn of(placed: &Placed<Body>, contraction: Option<Jet>, reporter: &mut Reporter<'_>) -> Option<Self> {
@@ -66,11 +66,12 @@ impl Attitude {
                 Some(Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }))
             }
             BodyKind::Affine(affine) => {
-                let (place, velocity) = self.deformable_start(placed, &affine.interior, &Kept::VOLUME, reporter)?;
+                let (place, velocity) =
+                    self.deformable_start(placed, &affine.interior, &VolumeConstraint::VOLUME, reporter)?;
                 Some(Start::Affine(place, velocity))
             }
             BodyKind::Contractile(contractile) => {
-                let kept = Kept::beside(&contractile.contraction, &self.contraction);
+                let kept = VolumeConstraint::beside(&contractile.contraction, &self.contraction);
                 let (place, velocity) = self.deformable_start(placed, &contractile.affine.interior, &kept, reporter)?;
                 Some(Start::Contractile(place, velocity, self.contraction.value))
             }
@@ -81,7 +82,7 @@ impl Attitude {
         &self,
         placed: &Placed<Body>,
         body: &AffineBody,
-        kept: &Kept,
+        kept: &VolumeConstraint,
         reporter: &mut Reporter<'_>,
     ) -> Option<(Placement, Velocity)> {
         let given = (self.gradient, self.gradient_rate);

@@ -18,15 +18,15 @@ pub(crate) static RULES: LazyLock<Rules> = LazyLock::new(|| Rules::new(&SCHEMA))
 /// All rules, the shared ones by name.
 #[derive(Debug)]
 pub(crate) struct Rules {
-    pub(super) root: Field,
+    pub(super) root: FieldRule,
     shared: BTreeMap<String, Rule>,
 }
 
 /// What may stand at a place.
 #[derive(Debug, Clone)]
-pub(super) struct Field {
+pub(super) struct FieldRule {
     pub(super) rule: Rule,
-    pub(super) limits: Limits,
+    pub(super) limits: NumberLimits,
     pub(super) description: String,
 }
 
@@ -36,15 +36,15 @@ pub(super) enum Rule {
     /// A shared rule.
     Shared(String),
     /// A table with these keys.
-    Table { fields: BTreeMap<String, Field>, required: Vec<String> },
+    Table { fields: BTreeMap<String, FieldRule>, required: Vec<String> },
     /// A table with keys of the user's choice.
-    Named(Box<Field>),
+    Named(Box<FieldRule>),
     /// An array of so many items.
-    Array { item: Box<Field>, least: usize, most: usize },
+    Array { item: Box<FieldRule>, least: usize, most: usize },
     /// One table of this kind, or an array of them.
-    Several(Box<Field>),
+    Several(Box<FieldRule>),
     /// An array of the first kind, or a table of the second.
-    Either(Box<Field>, Box<Field>),
+    Either(Box<FieldRule>, Box<FieldRule>),
     /// True or false.
     Boolean,
     /// A pure number.
@@ -54,14 +54,14 @@ pub(super) enum Rule {
     /// Any string.
     Text,
     /// One of these strings, or a table with one of these keys; there may be none of either.
-    Choice { words: Vec<String>, tags: BTreeMap<String, Field> },
+    Choice { words: Vec<String>, tags: BTreeMap<String, FieldRule> },
     /// A schema that is not understood: nothing is checked.
     Unknown,
 }
 
 /// Between what a number must lie.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Limits {
+pub(super) struct NumberLimits {
     /// At least this.
     pub(super) least: Option<f64>,
     /// At most this.
@@ -111,11 +111,11 @@ impl Rules {
     }
 }
 
-fn field(schema: &Json) -> Field {
+fn field(schema: &Json) -> FieldRule {
     let number = |keyword: &str| schema.get(keyword).and_then(Json::as_f64);
-    Field {
+    FieldRule {
         rule: rule(schema),
-        limits: Limits { least: number("minimum"), most: number("maximum"), above: number("exclusiveMinimum") },
+        limits: NumberLimits { least: number("minimum"), most: number("maximum"), above: number("exclusiveMinimum") },
         description: text(schema, "description").unwrap_or_default().to_owned(),
     }
 }
@@ -181,7 +181,7 @@ fn array(schema: &Json) -> Rule {
     Rule::Array { item: Box::new(field(schema.get("items").unwrap_or(&Json::Null))), least, most }
 }
 
-fn fields(schema: &Json) -> BTreeMap<String, Field> {
+fn fields(schema: &Json) -> BTreeMap<String, FieldRule> {
     let properties = schema.get("properties").and_then(Json::as_object);
     properties.into_iter().flatten().map(|(name, property)| (name.clone(), field(property))).collect()
 }
@@ -194,7 +194,7 @@ fn text<'a>(schema: &'a Json, keyword: &str) -> Option<&'a str> {
 mod tests {
     use super::*;
 
-    fn assert_understood(field: &Field, place: &str) {
+    fn assert_understood(field: &FieldRule, place: &str) {
         match &field.rule {
             Rule::Unknown => panic!("{place} is not understood"),
             Rule::Shared(name) => assert!(RULES.shared.contains_key(name), "{place}: {name} is not defined"),
@@ -221,7 +221,7 @@ mod tests {
     fn every_part_of_the_schema_is_understood() {
         assert_understood(&RULES.root, "scene");
         for (name, rule) in &RULES.shared {
-            let shared = Field { rule: rule.clone(), ..field(&Json::Null) };
+            let shared = FieldRule { rule: rule.clone(), ..field(&Json::Null) };
             assert_understood(&shared, name);
         }
     }

@@ -2,20 +2,20 @@
 //!
 //! Goes on behind every error. The depth of the recursion is that of the tree, which the parsers limit.
 
-use super::rule::{Field, Limits, Rule, Rules};
+use super::rule::{FieldRule, NumberLimits, Rule, Rules};
 use crate::document::Diagnostics;
-use crate::error::Fault;
+use crate::error::ErrorKind;
 use crate::key::Key;
 use crate::suggest;
 use crate::tree::{Node, Table, Value};
-use crate::units::{Dimension, Unit, UnitError, parse_quantity};
+use crate::units::{Unit, UnitDimension, UnitError, parse_quantity};
 use std::collections::BTreeMap;
 
 /// Notes where the tree departs from the rules of its format.
 pub(crate) fn structure(root: &Node, rules: &Rules, diagnostics: &mut Diagnostics) {
-    diagnostics.look_at(Fault::Structure);
+    diagnostics.look_at(ErrorKind::Structure);
     Walker { rules, diagnostics }.visit(root, &Key::root(), &rules.root);
-    diagnostics.look_at(Fault::Value);
+    diagnostics.look_at(ErrorKind::Value);
 }
 
 struct Walker<'a> {
@@ -24,7 +24,7 @@ struct Walker<'a> {
 }
 
 impl Walker<'_> {
-    fn visit(&mut self, node: &Node, key: &Key, field: &Field) {
+    fn visit(&mut self, node: &Node, key: &Key, field: &FieldRule) {
         if self.diagnostics.is_full() {
             return;
         }
@@ -74,7 +74,14 @@ impl Walker<'_> {
         }
     }
 
-    fn table(&mut self, table: &Table, node: &Node, key: &Key, fields: &BTreeMap<String, Field>, required: &[String]) {
+    fn table(
+        &mut self,
+        table: &Table,
+        node: &Node,
+        key: &Key,
+        fields: &BTreeMap<String, FieldRule>,
+        required: &[String],
+    ) {
         self.keys(table, key, fields, "known keys");
         for name in required.iter().filter(|name| !table.contains_key(*name)) {
             let help = match fields.get(name) {
@@ -88,11 +95,17 @@ impl Walker<'_> {
         }
     }
 
-    fn items(&mut self, items: &[Node], key: &Key, item: &Field) {
+    fn items(&mut self, items: &[Node], key: &Key, item: &FieldRule) {
         items.iter().enumerate().for_each(|(index, node)| self.visit(node, &key.index(index), item));
     }
 
-    fn tagged(&mut self, table: &Table, node: &Node, key: &Key, (words, tags): (&[String], &BTreeMap<String, Field>)) {
+    fn tagged(
+        &mut self,
+        table: &Table,
+        node: &Node,
+        key: &Key,
+        (words, tags): (&[String], &BTreeMap<String, FieldRule>),
+    ) {
         self.keys(table, key, tags, "one of");
         if table.len() != 1 {
             let expected = choices(words, tags);
@@ -102,7 +115,7 @@ impl Walker<'_> {
     }
 
     /// Every key of a table: unknown, not in this version, or on to its value.
-    fn keys(&mut self, table: &Table, key: &Key, fields: &BTreeMap<String, Field>, what: &str) {
+    fn keys(&mut self, table: &Table, key: &Key, fields: &BTreeMap<String, FieldRule>, what: &str) {
         for (name, entry) in table {
             if self.diagnostics.is_full() {
                 return;
@@ -119,9 +132,9 @@ impl Walker<'_> {
         }
     }
 
-    fn limits(&mut self, number: f64, node: &Node, key: &Key, limits: Limits, unit: &str) {
+    fn limits(&mut self, number: f64, node: &Node, key: &Key, limits: NumberLimits, unit: &str) {
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let Limits { least, most, above } = limits;
+        let NumberLimits { least, most, above } = limits;
         let broken = match (least, most, above) {
             _ if number.is_nan() => Some("a number".to_owned()),
             _ if number.is_infinite() => Some("finite".to_owned()),
@@ -137,9 +150,9 @@ impl Walker<'_> {
                 _ if number.is_nan() => "write the number itself".to_owned(),
                 _ => format!("write a number that is {condition}"),
             };
-            self.diagnostics.look_at(Fault::Value);
+            self.diagnostics.look_at(ErrorKind::Value);
             self.diagnostics.at(node.span, key, message, range);
-            self.diagnostics.look_at(Fault::Structure);
+            self.diagnostics.look_at(ErrorKind::Structure);
         }
     }
 
@@ -185,7 +198,7 @@ fn of_another_file(name: &str) -> Option<String> {
 }
 
 /// One of some words, or a table with one of some keys.
-fn choices(words: &[String], tags: &BTreeMap<String, Field>) -> String {
+fn choices(words: &[String], tags: &BTreeMap<String, FieldRule>) -> String {
     let keys: Vec<&str> = tags.keys().map(String::as_str).collect();
     let words = match words {
         [] => String::new(),
@@ -229,7 +242,7 @@ fn in_unit(text: &str, wanted: &Unit, symbol: &str, example: &str) -> Result<f64
     if unit.dimension == wanted.dimension {
         return Ok(number * unit.size);
     }
-    if unit.dimension == Dimension::default() {
+    if unit.dimension == UnitDimension::default() {
         return Err((
             format!("\"{text}\" has no unit"),
             format!("write {number:?} without quotes, in {symbol}, or add a unit"),

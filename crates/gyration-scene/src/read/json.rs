@@ -12,10 +12,10 @@ const DEEPEST: usize = 64;
 /// Reads a JSON document.
 pub(super) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Node {
     let body = text.trim_start_matches('\u{feff}');
-    let mut reader = Reader { text, at: text.len() - body.len() };
+    let mut reader = JsonReader { text, at: text.len() - body.len() };
     match reader.document() {
         Ok(node) => node,
-        Err(Fault { start, end, message, help }) => {
+        Err(SyntaxError { start, end, message, help }) => {
             diagnostics.at(Span { text: 0, start, end }, &Key::root(), format!("not valid JSON: {message}"), help);
             Node { value: Value::Table(Table::new()), span: Span::default() }
         }
@@ -23,20 +23,20 @@ pub(super) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Node {
 }
 
 /// An error of syntax.
-struct Fault {
+struct SyntaxError {
     start: usize,
     end: usize,
     message: String,
     help: &'static str,
 }
 
-struct Reader<'a> {
+struct JsonReader<'a> {
     text: &'a str,
     at: usize,
 }
 
-impl<'a> Reader<'a> {
-    fn document(&mut self) -> Result<Node, Fault> {
+impl<'a> JsonReader<'a> {
+    fn document(&mut self) -> Result<Node, SyntaxError> {
         let node = self.value(0)?;
         self.blanks();
         if self.at < self.text.len() {
@@ -45,7 +45,7 @@ impl<'a> Reader<'a> {
         Ok(node)
     }
 
-    fn value(&mut self, depth: usize) -> Result<Node, Fault> {
+    fn value(&mut self, depth: usize) -> Result<Node, SyntaxError> {
         self.blanks();
         let start = self.at;
         if depth > DEEPEST {
@@ -62,7 +62,7 @@ impl<'a> Reader<'a> {
         Ok(Node { value, span: Span { text: 0, start, end: self.at } })
     }
 
-    fn table(&mut self, depth: usize) -> Result<Table, Fault> {
+    fn table(&mut self, depth: usize) -> Result<Table, SyntaxError> {
         let mut table = Table::new();
         self.at += 1;
         self.blanks();
@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
             let node = self.value(depth + 1)?;
             if table.insert(key.clone(), Entry { key_span, node }).is_some() {
                 let message = format!("the key \"{key}\" occurs twice");
-                return Err(Fault { start, end: key_span.end, message, help: "keep one of the two" });
+                return Err(SyntaxError { start, end: key_span.end, message, help: "keep one of the two" });
             }
             self.blanks();
             if self.eat('}') {
@@ -97,7 +97,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn array(&mut self, depth: usize) -> Result<Vec<Node>, Fault> {
+    fn array(&mut self, depth: usize) -> Result<Vec<Node>, SyntaxError> {
         let mut items = Vec::new();
         self.at += 1;
         self.blanks();
@@ -117,7 +117,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A string: its end is found here, its escapes are left to the JSON library.
-    fn string(&mut self) -> Result<String, Fault> {
+    fn string(&mut self) -> Result<String, SyntaxError> {
         let start = self.at;
         let bytes = self.text.as_bytes();
         let mut end = start + 1;
@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
         }
         self.at = end + 1;
         let raw = self.text.get(start..self.at).unwrap_or_default();
-        serde_json::from_str(raw).map_err(|_| Fault {
+        serde_json::from_str(raw).map_err(|_| SyntaxError {
             start,
             end: self.at,
             message: "a string with a control character or an unknown escape".to_owned(),
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A number; one that does not fit is infinite, which the checker refuses.
-    fn number(&mut self) -> Result<f64, Fault> {
+    fn number(&mut self) -> Result<f64, SyntaxError> {
         let start = self.at;
         let is_part = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E');
         let raw = self.take_while(is_part);
@@ -152,12 +152,12 @@ impl<'a> Reader<'a> {
             Ok(number) if !padded && !bare_point => Ok(number),
             _ => {
                 let message = format!("{raw} is not a number");
-                Err(Fault { start, end: self.at, message, help: "write 0.5, -1 or 1e-6" })
+                Err(SyntaxError { start, end: self.at, message, help: "write 0.5, -1 or 1e-6" })
             }
         }
     }
 
-    fn word(&mut self) -> Result<Value, Fault> {
+    fn word(&mut self) -> Result<Value, SyntaxError> {
         let start = self.at;
         match self.take_while(|c| c.is_ascii_alphabetic()) {
             "true" => Ok(Value::Boolean(true)),
@@ -165,7 +165,7 @@ impl<'a> Reader<'a> {
             "null" => Ok(Value::Null),
             word => {
                 let message = format!("unexpected {word}");
-                Err(Fault { start, end: self.at, message, help: "put strings into double quotes" })
+                Err(SyntaxError { start, end: self.at, message, help: "put strings into double quotes" })
             }
         }
     }
@@ -193,8 +193,8 @@ impl<'a> Reader<'a> {
         found
     }
 
-    fn fault(&self, message: &str, help: &'static str) -> Fault {
+    fn fault(&self, message: &str, help: &'static str) -> SyntaxError {
         let end = self.at + self.peek().map_or(0, char::len_utf8);
-        Fault { start: self.at, end, message: message.to_owned(), help }
+        SyntaxError { start: self.at, end, message: message.to_owned(), help }
     }
 }

@@ -10,7 +10,7 @@ mod toml;
 pub(crate) use overrides::apply;
 
 use crate::document::{Diagnostics, Document};
-use crate::error::{Fault, LoadError, ReadError, SceneErrors};
+use crate::error::{ErrorKind, LoadError, ReadError, SceneErrors};
 use crate::key::Key;
 use crate::tree::Span;
 use std::fs::File;
@@ -54,7 +54,7 @@ pub(crate) fn text(path: &Path) -> Result<(String, String), LoadError> {
 /// All errors of its syntax.
 pub(crate) fn document(name: &str, text: &str) -> Result<Document, SceneErrors> {
     let mut document = Document::new(name, text);
-    let mut diagnostics = Diagnostics::of(Fault::Syntax);
+    let mut diagnostics = Diagnostics::of(ErrorKind::Syntax);
     let named_json = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     document.root = if named_json || text.trim_start_matches('\u{feff}').trim_start().starts_with('{') {
         json::parse(text, &mut diagnostics)
@@ -68,7 +68,7 @@ fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> SceneErrors {
     let document = Document::new(name, &String::from_utf8_lossy(error.as_bytes()));
     // Up to the first bad byte the text is as it was.
     let at = error.utf8_error().valid_up_to();
-    let mut diagnostics = Diagnostics::of(Fault::Syntax);
+    let mut diagnostics = Diagnostics::of(ErrorKind::Syntax);
     let span = Span { text: 0, start: at, end: at + 1 };
     diagnostics.at(span, &Key::root(), "not valid UTF-8", "save the file as UTF-8 text");
     document.errors(diagnostics)

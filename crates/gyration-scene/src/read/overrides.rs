@@ -6,9 +6,9 @@
 //! own text; what is a number already has no text, and no place.
 
 use super::toml;
-use crate::document::{Diagnostics, Document, Text};
+use crate::document::{Diagnostics, Document, NamedText};
 use crate::key::{Key, name_of};
-use crate::overriding::{Override, Setting};
+use crate::overriding::{Override, OverrideValue};
 use crate::suggest;
 use crate::tree::{Entry, Node, Span, Table, Value};
 
@@ -22,18 +22,18 @@ pub(crate) fn apply(document: &mut Document, overrides: &[Override], diagnostics
     for one in overrides {
         let text = document.texts.len();
         if one.is_text() {
-            document.texts.push(Text { name: NAME.to_owned(), content: one.to_string() });
+            document.texts.push(NamedText { name: NAME.to_owned(), content: one.to_string() });
         }
         if let Err(fault) = apply_one(&mut document.root, one, text) {
             match fault {
-                Fault::Key(span, message, help) => diagnostics.at(span, &Key::root(), message, help),
-                Fault::Value(errors) => diagnostics.extend(errors),
+                OverrideError::Key(span, message, help) => diagnostics.at(span, &Key::root(), message, help),
+                OverrideError::Value(errors) => diagnostics.extend(errors),
             }
         }
     }
 }
 
-enum Fault {
+enum OverrideError {
     Key(Span, String, String),
     Value(Diagnostics),
 }
@@ -44,18 +44,18 @@ struct Word<'a> {
     span: Span,
 }
 
-fn apply_one(root: &mut Node, Override { key, value }: &Override, text: usize) -> Result<(), Fault> {
+fn apply_one(root: &mut Node, Override { key, value }: &Override, text: usize) -> Result<(), OverrideError> {
     let written = || words(key, text);
     let (words, value) = match value {
-        Setting::Absent => {
+        OverrideValue::Absent => {
             let span = Span { text, start: 0, end: key.len() };
             let help = "write KEY=VALUE, body.die.mass=0.01";
-            return Err(Fault::Key(span, "an override without a value".into(), help.into()));
+            return Err(OverrideError::Key(span, "an override without a value".into(), help.into()));
         }
-        Setting::Written(raw) => (written()?, parsed(raw, text, key.len() + 1).map_err(Fault::Value)?),
-        Setting::Number(number) => (written()?, node(Value::Number(*number))),
-        Setting::Array(numbers) => (written()?, array(numbers)),
-        Setting::Table(name, numbers) => {
+        OverrideValue::Written(raw) => (written()?, parsed(raw, text, key.len() + 1).map_err(OverrideError::Value)?),
+        OverrideValue::Number(number) => (written()?, node(Value::Number(*number))),
+        OverrideValue::Array(numbers) => (written()?, array(numbers)),
+        OverrideValue::Table(name, numbers) => {
             let entry = Entry { key_span: Span::default(), node: array(numbers) };
             (written()?, node(Value::Table([((*name).to_owned(), entry)].into())))
         }
@@ -68,7 +68,7 @@ fn apply_one(root: &mut Node, Override { key, value }: &Override, text: usize) -
     Ok(())
 }
 
-fn words(key: &str, text: usize) -> Result<Vec<Word<'_>>, Fault> {
+fn words(key: &str, text: usize) -> Result<Vec<Word<'_>>, OverrideError> {
     let mut words = Vec::new();
     let mut start = 0;
     let mut quoted = false;
@@ -83,7 +83,7 @@ fn words(key: &str, text: usize) -> Result<Vec<Word<'_>>, Fault> {
         start = span.end + 1;
         if name.is_empty() || words.len() == DEEPEST {
             let help = "write a dotted key, body.die.velocity or contact.0.friction.beta";
-            return Err(Fault::Key(span, "not a dotted key".into(), help.into()));
+            return Err(OverrideError::Key(span, "not a dotted key".into(), help.into()));
         }
         words.push(Word { name, span });
     }
@@ -113,8 +113,8 @@ fn parsed(raw: &str, text: usize, offset: usize) -> Result<Node, Diagnostics> {
     }
 }
 
-fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Result<&'a mut Node, Fault> {
-    let fault = |message: String, help: String| Err(Fault::Key(word.span, message, help));
+fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Result<&'a mut Node, OverrideError> {
+    let fault = |message: String, help: String| Err(OverrideError::Key(word.span, message, help));
     match &mut at.value {
         Value::Table(table) => {
             if next.is_some_and(|next| next.name.parse::<usize>().is_ok()) && !table.contains_key(word.name) {

@@ -17,7 +17,7 @@ use std::fmt;
 
 /// The exponents of the base units in a product of units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Dimension {
+pub struct UnitDimension {
     /// Power of the metre.
     pub length: i32,
     /// Power of the kilogram.
@@ -28,7 +28,7 @@ pub struct Dimension {
     pub angle: i32,
 }
 
-impl Dimension {
+impl UnitDimension {
     /// The dimension with these exponents of metre, kilogram, second and radian.
     pub const fn new(length: i32, mass: i32, time: i32, angle: i32) -> Self {
         Self { length, mass, time, angle }
@@ -56,7 +56,7 @@ impl Dimension {
 }
 
 /// Writes the base units, `kg m^-1 s^-2`; `1` for a pure number.
-impl fmt::Display for Dimension {
+impl fmt::Display for UnitDimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut separator = "";
         for (symbol, power) in [("kg", self.mass), ("m", self.length), ("s", self.time), ("rad", self.angle)] {
@@ -77,12 +77,12 @@ pub struct Unit {
     /// How many SI units make one of these.
     pub size: f64,
     /// The exponents of the base units.
-    pub dimension: Dimension,
+    pub dimension: UnitDimension,
 }
 
 impl Unit {
     /// The pure number one.
-    pub(crate) const ONE: Self = Self { size: 1.0, dimension: Dimension::new(0, 0, 0, 0) };
+    pub(crate) const ONE: Self = Self { size: 1.0, dimension: UnitDimension::new(0, 0, 0, 0) };
 
     /// The product of two units; none if it leaves the range of exponents.
     pub(crate) fn times(self, other: Self) -> Option<Self> {

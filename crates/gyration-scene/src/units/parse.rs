@@ -67,7 +67,7 @@ pub fn parse_quantity(text: &str) -> Result<(f64, Unit), UnitError> {
 /// # Errors
 /// `UnknownUnit`, `Malformed`.
 pub fn parse_unit(text: &str) -> Result<Unit, UnitError> {
-    let mut reader = Reader { rest: text, text };
+    let mut reader = UnitReader { rest: text, text };
     let unit = reader.product(0)?;
     if reader.rest.is_empty() { Ok(unit) } else { Err(reader.malformed()) }
 }
@@ -96,12 +96,12 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-struct Reader<'a> {
+struct UnitReader<'a> {
     text: &'a str,
     rest: &'a str,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> UnitReader<'a> {
     fn product(&mut self, depth: usize) -> Result<Unit, UnitError> {
         let mut unit = self.factor(depth)?;
         loop {

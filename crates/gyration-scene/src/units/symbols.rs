@@ -3,7 +3,7 @@
 //! An exact symbol wins over a prefixed one, so that `min` is the minute and `cd` nothing at all. Only units that take
 //! prefixes in practice do (`mbar`, `kN`, but no `kmin`).
 
-use super::{Dimension, Unit};
+use super::{Unit, UnitDimension};
 use std::f64::consts::PI;
 
 /// A symbol, its size in SI units, its dimension (m, kg, s, rad), whether prefixes apply.
@@ -78,5 +78,5 @@ pub(super) fn nearest(symbol: &str) -> Option<String> {
 
 fn unit(row: &Row, factor: f64) -> Unit {
     let [length, mass, time, angle] = row.2;
-    Unit { size: row.1 * factor, dimension: Dimension::new(length, mass, time, angle) }
+    Unit { size: row.1 * factor, dimension: UnitDimension::new(length, mass, time, angle) }
 }

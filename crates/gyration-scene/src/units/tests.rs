@@ -1,11 +1,11 @@
 use super::*;
 use std::f64::consts::PI;
 
-const LENGTH: Dimension = Dimension::new(1, 0, 0, 0);
-const PRESSURE: Dimension = Dimension::new(-1, 1, -2, 0);
+const LENGTH: UnitDimension = UnitDimension::new(1, 0, 0, 0);
+const PRESSURE: UnitDimension = UnitDimension::new(-1, 1, -2, 0);
 
 /// Text, value in SI, dimension. Products of two or three decimal factors round: 4 units in the last place.
-const TABLE: &[(&str, f64, Dimension)] = &[
+const TABLE: &[(&str, f64, UnitDimension)] = &[
     ("2 cm", 0.02, LENGTH),
     ("2cm", 0.02, LENGTH),
     ("-3.5e2 um", -3.5e-4, LENGTH),
@@ -13,32 +13,32 @@ const TABLE: &[(&str, f64, Dimension)] = &[
     ("30 kPa", 3e4, PRESSURE),
     ("1 N/m^2", 1.0, PRESSURE),
     ("2 mbar", 200.0, PRESSURE),
-    ("15 deg", PI / 12.0, Dimension::new(0, 0, 0, 1)),
-    ("15°", PI / 12.0, Dimension::new(0, 0, 0, 1)),
-    ("3 rpm", PI / 10.0, Dimension::new(0, 0, -1, 1)),
-    ("2 rev/s", 4.0 * PI, Dimension::new(0, 0, -1, 1)),
-    ("10 min", 600.0, Dimension::new(0, 0, 1, 0)),
-    ("2 h", 7200.0, Dimension::new(0, 0, 1, 0)),
-    ("5 m/s", 5.0, Dimension::new(1, 0, -1, 0)),
-    ("36 km/h", 10.0, Dimension::new(1, 0, -1, 0)),
-    ("9.81 m/s^2", 9.81, Dimension::new(1, 0, -2, 0)),
-    ("9.81 m s^-2", 9.81, Dimension::new(1, 0, -2, 0)),
-    ("9.81 m·s⁻²", 9.81, Dimension::new(1, 0, -2, 0)),
-    ("1200 kg/m^3", 1200.0, Dimension::new(-3, 1, 0, 0)),
-    ("2 g/cm3", 2000.0, Dimension::new(-3, 1, 0, 0)),
-    ("1 kg/L", 1000.0, Dimension::new(-3, 1, 0, 0)),
-    ("0.1 N s/m", 0.1, Dimension::new(0, 1, -1, 0)),
-    ("3 Pa s/m", 3.0, Dimension::new(-2, 1, -1, 0)),
-    ("20 mPa s", 0.02, Dimension::new(-1, 1, -1, 0)),
-    ("3 mN m", 3e-3, Dimension::new(2, 1, -2, 0)),
-    ("3 kN·cm", 30.0, Dimension::new(2, 1, -2, 0)),
-    ("10 N/m", 10.0, Dimension::new(0, 1, -2, 0)),
-    ("4 g cm^2", 4e-7, Dimension::new(2, 1, 0, 0)),
-    ("1 J/(kg m)", 1.0, Dimension::new(1, 0, -2, 0)),
-    ("50 mHz", 0.05, Dimension::new(0, 0, -1, 0)),
-    ("5 s^-1", 5.0, Dimension::new(0, 0, -1, 0)),
-    ("7 1/s", 7.0, Dimension::new(0, 0, -1, 0)),
-    ("4", 4.0, Dimension::new(0, 0, 0, 0)),
+    ("15 deg", PI / 12.0, UnitDimension::new(0, 0, 0, 1)),
+    ("15°", PI / 12.0, UnitDimension::new(0, 0, 0, 1)),
+    ("3 rpm", PI / 10.0, UnitDimension::new(0, 0, -1, 1)),
+    ("2 rev/s", 4.0 * PI, UnitDimension::new(0, 0, -1, 1)),
+    ("10 min", 600.0, UnitDimension::new(0, 0, 1, 0)),
+    ("2 h", 7200.0, UnitDimension::new(0, 0, 1, 0)),
+    ("5 m/s", 5.0, UnitDimension::new(1, 0, -1, 0)),
+    ("36 km/h", 10.0, UnitDimension::new(1, 0, -1, 0)),
+    ("9.81 m/s^2", 9.81, UnitDimension::new(1, 0, -2, 0)),
+    ("9.81 m s^-2", 9.81, UnitDimension::new(1, 0, -2, 0)),
+    ("9.81 m·s⁻²", 9.81, UnitDimension::new(1, 0, -2, 0)),
+    ("1200 kg/m^3", 1200.0, UnitDimension::new(-3, 1, 0, 0)),
+    ("2 g/cm3", 2000.0, UnitDimension::new(-3, 1, 0, 0)),
+    ("1 kg/L", 1000.0, UnitDimension::new(-3, 1, 0, 0)),
+    ("0.1 N s/m", 0.1, UnitDimension::new(0, 1, -1, 0)),
+    ("3 Pa s/m", 3.0, UnitDimension::new(-2, 1, -1, 0)),
+    ("20 mPa s", 0.02, UnitDimension::new(-1, 1, -1, 0)),
+    ("3 mN m", 3e-3, UnitDimension::new(2, 1, -2, 0)),
+    ("3 kN·cm", 30.0, UnitDimension::new(2, 1, -2, 0)),
+    ("10 N/m", 10.0, UnitDimension::new(0, 1, -2, 0)),
+    ("4 g cm^2", 4e-7, UnitDimension::new(2, 1, 0, 0)),
+    ("1 J/(kg m)", 1.0, UnitDimension::new(1, 0, -2, 0)),
+    ("50 mHz", 0.05, UnitDimension::new(0, 0, -1, 0)),
+    ("5 s^-1", 5.0, UnitDimension::new(0, 0, -1, 0)),
+    ("7 1/s", 7.0, UnitDimension::new(0, 0, -1, 0)),
+    ("4", 4.0, UnitDimension::new(0, 0, 0, 0)),
 ];
 
 #[test]
@@ -75,5 +75,5 @@ fn what_is_no_quantity_is_refused_with_its_reason() {
 #[test]
 fn dimensions_print_their_base_units() {
     assert_eq!(PRESSURE.to_string(), "kg m^-1 s^-2");
-    assert_eq!(Dimension::default().to_string(), "1");
+    assert_eq!(UnitDimension::default().to_string(), "1");
 }

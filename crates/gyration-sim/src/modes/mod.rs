@@ -102,7 +102,7 @@ pub enum NoRest {
 
 /// What a small motion does in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
+pub enum ModeBehaviour {
     /// λ = −δ ± iω, δ ≥ 0.
     Oscillates,
     /// Two real λ < 0.
@@ -119,7 +119,7 @@ pub struct Mode {
     /// λ₁, λ₂ [1/s]: a conjugate pair, the positive frequency first, or two real numbers, the slower motion first.
     pub eigenvalues: [Complex<f64>; 2],
     /// What it does in time.
-    pub motion: Motion,
+    pub motion: ModeBehaviour,
     /// How the body moves.
     pub shape: ModeShape,
     /// The part of the motion that is a quarter of a period ahead; none if all points move in step.
@@ -149,7 +149,7 @@ impl Mode {
     pub fn damping_ratio(&self) -> Option<f64> {
         let [first, second] = self.eigenvalues;
         let product = (first * second).re;
-        let bound = matches!(self.motion, Motion::Oscillates | Motion::Creeps) && product > 0.0;
+        let bound = matches!(self.motion, ModeBehaviour::Oscillates | ModeBehaviour::Creeps) && product > 0.0;
         bound.then(|| 0.0 - (first + second).re / (2.0 * product.sqrt()))
     }
 }
@@ -196,10 +196,10 @@ pub fn modes(model: &Model, start: &State, body: usize, rest: &Rest) -> Result<V
 /// Free first, then by the size of the slower eigenvalue.
 fn order(mode: &Mode) -> (u8, f64) {
     let rank = match mode.motion {
-        Motion::Grows => 0,
-        Motion::Free => 1,
-        Motion::Creeps => 2,
-        Motion::Oscillates => 3,
+        ModeBehaviour::Grows => 0,
+        ModeBehaviour::Free => 1,
+        ModeBehaviour::Creeps => 2,
+        ModeBehaviour::Oscillates => 3,
     };
     (rank, mode.eigenvalues[0].norm().max(if rank == 1 { mode.eigenvalues[1].norm() } else { 0.0 }))
 }

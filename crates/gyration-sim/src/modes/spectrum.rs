@@ -9,7 +9,7 @@
 //! parts; a part of one is λ² + cλ + k = 0.
 
 use super::canonical::Basis;
-use super::{Motion, NoSpectrum};
+use super::{ModeBehaviour, NoSpectrum};
 use nalgebra::{Complex, DMatrix, DVector, Schur};
 
 type C64 = Complex<f64>;
@@ -27,14 +27,14 @@ const SWEEPS: usize = 10_000;
 
 /// A pair of eigenvalues and how the body moves, in the coordinates z.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Pair {
+pub(super) struct EigenPair {
     pub eigenvalues: [C64; 2],
-    pub motion: Motion,
+    pub motion: ModeBehaviour,
     pub shape: DVector<C64>,
 }
 
 /// All of them, one a coordinate.
-pub(super) fn solve(k: &DMatrix<f64>, c: &DMatrix<f64>, basis: &Basis) -> Result<Vec<Pair>, NoSpectrum> {
+pub(super) fn solve(k: &DMatrix<f64>, c: &DMatrix<f64>, basis: &Basis) -> Result<Vec<EigenPair>, NoSpectrum> {
     let into = |matrix: &DMatrix<f64>| basis.vectors.transpose() * matrix * &basis.vectors;
     let mut stiffness = into(k);
     for mut column in stiffness.column_iter_mut() {
@@ -53,7 +53,7 @@ pub(super) fn solve(k: &DMatrix<f64>, c: &DMatrix<f64>, basis: &Basis) -> Result
             let mut whole = DVector::zeros(basis.values.len());
             part.iter().zip(pair.shape.iter()).for_each(|(at, value)| whole[*at] = *value);
             let vectors = basis.vectors.map(|entry| C64::new(entry, 0.0));
-            Pair { shape: vectors * whole, ..pair }
+            EigenPair { shape: vectors * whole, ..pair }
         }));
     }
     Ok(pairs)
@@ -104,7 +104,7 @@ impl Oscillator {
     }
 
     /// λ² + cλ + k = 0.
-    fn single(&self, i: usize) -> Pair {
+    fn single(&self, i: usize) -> EigenPair {
         let (k, c) = (self.stiffness[(i, i)], self.resistance[(i, i)]);
         let square = 0.25 * c * c - k;
         let eigenvalues = if square < 0.0 {
@@ -117,7 +117,7 @@ impl Oscillator {
             [slow, fast].map(|value| C64::new(value + 0.0, 0.0))
         };
         let motion = judge(&eigenvalues, 0.0, !self.bound(i));
-        Pair { eigenvalues, motion, shape: DVector::from_element(1, C64::new(1.0, 0.0)) }
+        EigenPair { eigenvalues, motion, shape: DVector::from_element(1, C64::new(1.0, 0.0)) }
     }
 
     /// The first-order system of a part: x of the bound coordinates, then y of all.
@@ -139,7 +139,7 @@ impl Oscillator {
         matrix
     }
 
-    fn coupled(&self, part: &[usize]) -> Result<Vec<Pair>, NoSpectrum> {
+    fn coupled(&self, part: &[usize]) -> Result<Vec<EigenPair>, NoSpectrum> {
         let bound: Vec<usize> = part.iter().copied().filter(|i| self.bound(*i)).collect();
         let matrix = self.first_order(part, &bound);
         let schur = Schur::try_new(matrix.clone(), f64::EPSILON, SWEEPS).ok_or(NoSpectrum)?;
@@ -161,7 +161,7 @@ impl Oscillator {
             if value.im > ROUNDING * fastest {
                 let eigenvalues = [C64::new(snap(value.re), value.im), C64::new(snap(value.re), -value.im)];
                 let motion = judge(&eigenvalues, ROUNDING * fastest, false);
-                pairs.push(Pair { eigenvalues, motion, shape: shape(value, &vector) });
+                pairs.push(EigenPair { eigenvalues, motion, shape: shape(value, &vector) });
             } else if value.im >= -ROUNDING * fastest {
                 reals.push((snap(value.re), shape(value, &vector)));
             }
@@ -172,7 +172,13 @@ impl Oscillator {
 
     /// Joins real eigenvalues to pairs: those that move along free coordinates most with the zeros of these, the others
     /// by likeness.
-    fn joined(&self, part: &[usize], mut reals: Vec<(f64, DVector<C64>)>, neutral: usize, rounding: f64) -> Vec<Pair> {
+    fn joined(
+        &self,
+        part: &[usize],
+        mut reals: Vec<(f64, DVector<C64>)>,
+        neutral: usize,
+        rounding: f64,
+    ) -> Vec<EigenPair> {
         let freedom = |shape: &DVector<C64>| -> f64 {
             part.iter().zip(shape.iter()).filter(|(i, _)| !self.bound(**i)).map(|(_, value)| value.norm_sqr()).sum()
         };
@@ -180,7 +186,7 @@ impl Oscillator {
         let mut pairs = Vec::new();
         let pair = |slow: f64, fast: f64, shape: DVector<C64>, free: bool| {
             let eigenvalues = [slow, fast].map(|value| C64::new(value, 0.0));
-            Pair { eigenvalues, motion: judge(&eigenvalues, rounding, free), shape }
+            EigenPair { eigenvalues, motion: judge(&eigenvalues, rounding, free), shape }
         };
         for (value, shape) in reals.drain(..neutral.min(reals.len())) {
             pairs.push(pair(0.0, value, shape, true));
@@ -198,15 +204,15 @@ impl Oscillator {
 }
 
 /// What a pair does; `free` if one of its zeros is that of a free coordinate.
-fn judge(eigenvalues: &[C64; 2], rounding: f64, free: bool) -> Motion {
+fn judge(eigenvalues: &[C64; 2], rounding: f64, free: bool) -> ModeBehaviour {
     if eigenvalues.iter().any(|value| value.re > rounding) {
-        Motion::Grows
+        ModeBehaviour::Grows
     } else if free {
-        Motion::Free
+        ModeBehaviour::Free
     } else if eigenvalues[0].im != 0.0 {
-        Motion::Oscillates
+        ModeBehaviour::Oscillates
     } else {
-        Motion::Creeps
+        ModeBehaviour::Creeps
     }
 }
 
@@ -242,12 +248,12 @@ mod tests {
     use super::super::canonical;
     use super::*;
 
-    fn pairs(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<Pair> {
+    fn pairs(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<EigenPair> {
         solve(k, c, &canonical::basis(k, &[])).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// |λ² ξ + λ C ξ + K ξ| relative to the sizes of the three.
-    fn residual(pair: &Pair, k: &DMatrix<f64>, c: &DMatrix<f64>) -> f64 {
+    fn residual(pair: &EigenPair, k: &DMatrix<f64>, c: &DMatrix<f64>) -> f64 {
         let complex = |matrix: &DMatrix<f64>| matrix.map(|entry| C64::new(entry, 0.0));
         let (value, shape) = (pair.eigenvalues[0], &pair.shape);
         let parts = [shape * (value * value), complex(c) * shape * value, complex(k) * shape];
@@ -266,7 +272,7 @@ mod tests {
             let residual = residual(pair, &k, &c);
             println!("{} residual {residual:.1e}", pair.eigenvalues[0]);
             // Rounding of a Schur form of order six.
-            assert!(residual < 1e-12 && pair.motion == Motion::Oscillates);
+            assert!(residual < 1e-12 && pair.motion == ModeBehaviour::Oscillates);
         }
     }
 
@@ -279,7 +285,7 @@ mod tests {
         k[(2, 2)] = 1e8;
         let mut found = pairs(&k, &c);
         found.sort_by(|a, b| a.eigenvalues[1].re.total_cmp(&b.eigenvalues[1].re));
-        let free: Vec<&Pair> = found.iter().filter(|pair| pair.motion == Motion::Free).collect();
+        let free: Vec<&EigenPair> = found.iter().filter(|pair| pair.motion == ModeBehaviour::Free).collect();
         let [sliding, rolling] = free[..] else { panic!("{found:?}") };
         assert_eq!(rolling.eigenvalues, [C64::new(0.0, 0.0); 2]);
         // Rounding beside a stiffness of 1e8.
@@ -292,7 +298,7 @@ mod tests {
     fn slow_creep_beside_fast_decay_keeps_its_digits() {
         let (k, c) = (DMatrix::from_element(1, 1, 1e-4), DMatrix::from_element(1, 1, 1e6));
         let [pair] = &pairs(&k, &c)[..] else { panic!("one pair") };
-        assert_eq!(pair.motion, Motion::Creeps);
+        assert_eq!(pair.motion, ModeBehaviour::Creeps);
         assert!((pair.eigenvalues[0].re / -1e-10 - 1.0).abs() < 1e-15, "{}", pair.eigenvalues[0]);
     }
 }

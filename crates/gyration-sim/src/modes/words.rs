@@ -34,7 +34,7 @@ pub(super) fn of(shape: &ModeShape, body: &Body, placement: &Placement) -> Strin
     let energy = |part: &Mat3| (part * current).dot(part);
     // The centre of a pinned body goes where the pin lets it.
     let translation = if body.pin.is_some() { 0.0 } else { body.mass.mass * shape.translation.norm_squared() };
-    let axes = Axes { own: Polar::of(&placement.gradient).rotation };
+    let axes = NamedAxes { own: Polar::of(&placement.gradient).rotation };
     let mut parts = [
         (translation, format!("translation along {}", axes.name(&shape.translation))),
         (energy(&skew), format!("rotation about {}", axes.name(&axial(&skew)))),
@@ -48,11 +48,11 @@ pub(super) fn of(shape: &ModeShape, body: &Body, placement: &Placement) -> Strin
 }
 
 /// Directions with names: those of space, and the columns of R.
-struct Axes {
+struct NamedAxes {
     own: Mat3,
 }
 
-impl Axes {
+impl NamedAxes {
     /// The index of the axis that a direction is along.
     fn of_space(direction: &Vec3) -> Option<usize> {
         (0..3).find(|k| direction[*k].abs() > PLAIN * direction.norm())
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     fn strain(rows: [f64; 9]) -> String {
-        Axes { own: *nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), 0.3).matrix() }
+        NamedAxes { own: *nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), 0.3).matrix() }
             .strain(&Mat3::from_row_slice(&rows))
     }
 

@@ -25,7 +25,7 @@ use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_record::Recording;
 use nalgebra::{Rotation3, UnitQuaternion};
-use window::{Row, Window};
+use window::{Window, WindowRow};
 
 /// The model of a recording, and its states by their row.
 #[derive(Debug, Clone)]
@@ -97,7 +97,7 @@ impl Replay {
 }
 
 /// A body's part of the state from its row: the inverse of `State::motion`.
-fn start(body: &Body, row: &Row, index: usize) -> Start {
+fn start(body: &Body, row: &WindowRow, index: usize) -> Start {
     let placement = Placement { position: row.position(index), gradient: row.gradient(index) };
     let velocity = Velocity { velocity: row.velocity(index), gradient_rate: row.gradient_rate(index) };
     match &body.kind {

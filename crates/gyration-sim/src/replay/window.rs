@@ -11,13 +11,13 @@ use std::ops::Range;
 pub(super) struct Window {
     recording: Recording,
     rows: Range<usize>,
-    arrays: Arrays,
+    arrays: WindowArrays,
     /// Works of the row last asked for, in the order of `Model::works`.
     works: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Default)]
-struct Arrays {
+struct WindowArrays {
     time: Vec<f64>,
     position: Vec<f64>,
     gradient: Vec<f64>,
@@ -31,8 +31,8 @@ struct Arrays {
 
 /// One row.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row<'a> {
-    arrays: &'a Arrays,
+pub(super) struct WindowRow<'a> {
+    arrays: &'a WindowArrays,
     works: &'a [f64],
     at: usize,
     bodies: usize,
@@ -40,11 +40,11 @@ pub(super) struct Row<'a> {
 
 impl Window {
     pub(super) fn new(recording: &Recording) -> Self {
-        Self { recording: recording.clone(), rows: 0..0, arrays: Arrays::default(), works: Vec::new() }
+        Self { recording: recording.clone(), rows: 0..0, arrays: WindowArrays::default(), works: Vec::new() }
     }
 
     /// A row; its chunk is read if it is not the one at hand.
-    pub(super) fn row(&mut self, model: &Model, row: usize) -> Result<Row<'_>, ReplayError> {
+    pub(super) fn row(&mut self, model: &Model, row: usize) -> Result<WindowRow<'_>, ReplayError> {
         if !self.rows.contains(&row) {
             let rows = self.recording.rows();
             if row >= rows {
@@ -53,17 +53,17 @@ impl Window {
             let step = self.recording.chunk_rows();
             let from = row - row % step;
             let wanted = from..rows.min(from + step);
-            self.arrays = Arrays::read(&self.recording, model, wanted.clone())?;
+            self.arrays = WindowArrays::read(&self.recording, model, wanted.clone())?;
             self.rows = wanted;
         }
         let at = row - self.rows.start;
         self.works.clear();
         self.works.extend(self.arrays.works.iter().map(|work| work[at]));
-        Ok(Row { arrays: &self.arrays, works: &self.works, at, bodies: model.bodies.len() })
+        Ok(WindowRow { arrays: &self.arrays, works: &self.works, at, bodies: model.bodies.len() })
     }
 }
 
-impl Arrays {
+impl WindowArrays {
     fn read(recording: &Recording, model: &Model, rows: Range<usize>) -> Result<Self, RecordError> {
         // What the array is called, and how many numbers each body has in it.
         let read = |name: &str, numbers: usize| {
@@ -90,7 +90,7 @@ impl Arrays {
     }
 }
 
-impl Row<'_> {
+impl WindowRow<'_> {
     pub(super) fn time(&self) -> f64 {
         self.arrays.time[self.at]
     }

@@ -87,12 +87,12 @@ pub struct BodyResistance {
     /// Its name.
     pub name: String,
     /// What the fluid answers with.
-    pub response: Response,
+    pub response: FluidResponse,
 }
 
 /// What a fluid answers with to a motion.
 #[derive(Debug, Clone)]
-pub enum Response {
+pub enum FluidResponse {
     /// A steady one: the matrix H.
     Steady(Box<ResistanceMatrix>),
     /// Small vibrations at a frequency [Hz]: complex resistances.
@@ -123,11 +123,11 @@ impl Resistances {
             let fix = format!("write one of {}, or the scene alone", names.join(", "));
             return Err(NoSuchResistance::new(format!("the scene has no body {:?}", only.unwrap_or_default()), fix));
         }
-        let request = Request::of(scene, options)?;
+        let request = ResistanceRequest::of(scene, options)?;
         let of = |(index, body): (usize, &Body)| {
             let response = match options.frequency {
-                Some(frequency) => Response::Vibrating(frequency, request.vibration(body, frequency)?),
-                None => Response::Steady(Box::new(request.matrix(scene, index)?)),
+                Some(frequency) => FluidResponse::Vibrating(frequency, request.vibration(body, frequency)?),
+                None => FluidResponse::Steady(Box::new(request.matrix(scene, index)?)),
             };
             Ok(BodyResistance { name: body.name.clone(), response })
         };
@@ -145,8 +145,8 @@ impl Resistances {
 impl BodyResistance {
     fn to_json(&self) -> Value {
         match &self.response {
-            Response::Steady(found) => found.to_json(&self.name),
-            Response::Vibrating(frequency, found) => {
+            FluidResponse::Steady(found) => found.to_json(&self.name),
+            FluidResponse::Vibrating(frequency, found) => {
                 let Vibration { translation, rotation, strain, expansion } = found;
                 json!({
                     "name": self.name,
@@ -181,7 +181,7 @@ impl ResistanceMatrix {
 }
 
 /// What is asked, and of which fluid.
-struct Request {
+struct ResistanceRequest {
     /// η; 1 where the scene has no fluid.
     viscosity: f64,
     /// 0 where the scene has no fluid, or one without inertia.
@@ -193,7 +193,7 @@ struct Request {
     wall: Option<Wall>,
 }
 
-impl Request {
+impl ResistanceRequest {
     fn of(scene: &Scene, options: &ResistanceOptions) -> Result<Self, NoSuchResistance> {
         let model = &scene.built().model;
         let wall = options.wall.as_ref().map(|name| {

@@ -8,8 +8,8 @@ mod deforming;
 mod elements;
 
 pub use bodies::{
-    BodyResistance, NoSuchResistance, ResistanceMatrix, ResistanceOptions, Resistances, Response, TRIANGLES_ALLOWED,
-    Vibration,
+    BodyResistance, FluidResponse, NoSuchResistance, ResistanceMatrix, ResistanceOptions, Resistances,
+    TRIANGLES_ALLOWED, Vibration,
 };
 pub use deforming::DeformingSurface;
 pub use elements::{BoundaryElements, BoundaryResistance, NoResistance, Wall, boundary_resistance};

@@ -15,7 +15,7 @@ pub(super) struct BodyField {
     pub rank: Rank,
     /// Suffixes of the CSV columns, in row-major order; none: not in the CSV.
     pub suffixes: &'static [&'static str],
-    pub value: fn(&BodyContext) -> Value,
+    pub value: fn(&BodyContext) -> FieldValue,
 }
 
 /// How many numbers a quantity has.
@@ -35,7 +35,7 @@ pub(super) struct BodyContext<'a> {
     pub immersed: Option<&'a ImmersionObservation>,
 }
 
-pub(super) enum Value {
+pub(super) enum FieldValue {
     Scalar(f64),
     Vector(Vec3),
     Matrix(Mat3),
@@ -53,7 +53,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "position of the centre of mass",
         rank: Rank::Vector,
         suffixes: &["x", "y", "z"],
-        value: |context| Value::Vector(context.body.motion.placement.position),
+        value: |context| FieldValue::Vector(context.body.motion.placement.position),
     },
     BodyField {
         name: "placement_gradient",
@@ -61,7 +61,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "placement gradient P; a rotation for a rigid body",
         rank: Rank::Matrix,
         suffixes: &PLACEMENT,
-        value: |context| Value::Matrix(context.body.motion.placement.gradient),
+        value: |context| FieldValue::Matrix(context.body.motion.placement.gradient),
     },
     BodyField {
         name: "velocity",
@@ -69,7 +69,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "velocity of the centre of mass",
         rank: Rank::Vector,
         suffixes: &["vx", "vy", "vz"],
-        value: |context| Value::Vector(context.body.motion.velocity.velocity),
+        value: |context| FieldValue::Vector(context.body.motion.velocity.velocity),
     },
     BodyField {
         name: "gradient_rate",
@@ -77,7 +77,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "rate of the placement gradient",
         rank: Rank::Matrix,
         suffixes: &RATE,
-        value: |context| Value::Matrix(context.body.motion.velocity.gradient_rate),
+        value: |context| FieldValue::Matrix(context.body.motion.velocity.gradient_rate),
     },
     BodyField {
         name: CONTRACTION,
@@ -85,7 +85,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "contraction G of a contractile body; NaN for any other",
         rank: Rank::Matrix,
         suffixes: &["G_xx", "G_xy", "G_xz", "G_yx", "G_yy", "G_yz", "G_zx", "G_zy", "G_zz"],
-        value: |context| Value::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.contraction)),
+        value: |context| FieldValue::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.contraction)),
     },
     BodyField {
         name: PRESSURE,
@@ -93,7 +93,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "pressure of an incompressible body; NaN for any other",
         rank: Rank::Scalar,
         suffixes: &["pressure"],
-        value: |context| Value::Scalar(context.body.pressure.unwrap_or(f64::NAN)),
+        value: |context| FieldValue::Scalar(context.body.pressure.unwrap_or(f64::NAN)),
     },
     BodyField {
         name: GAP,
@@ -101,7 +101,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "smallest distance to a support",
         rank: Rank::Scalar,
         suffixes: &["gap"],
-        value: |context| Value::Scalar(context.body.gap),
+        value: |context| FieldValue::Scalar(context.body.gap),
     },
     BodyField {
         name: CONTACT_FORCE,
@@ -109,7 +109,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "force of all contacts",
         rank: Rank::Vector,
         suffixes: &["fx", "fy", "fz"],
-        value: |context| Value::Vector(context.body.contact_force),
+        value: |context| FieldValue::Vector(context.body.contact_force),
     },
     BodyField {
         name: "linear_momentum",
@@ -117,7 +117,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "linear momentum",
         rank: Rank::Vector,
         suffixes: &[],
-        value: |context| Value::Vector(context.body.linear_momentum),
+        value: |context| FieldValue::Vector(context.body.linear_momentum),
     },
     BodyField {
         name: "angular_momentum",
@@ -125,7 +125,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "angular momentum about the origin",
         rank: Rank::Vector,
         suffixes: &[],
-        value: |context| Value::Vector(context.body.angular_momentum),
+        value: |context| FieldValue::Vector(context.body.angular_momentum),
     },
     BodyField {
         name: "affine_momentum",
@@ -133,7 +133,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "affine momentum K = P J Pdot^T about the centre of mass",
         rank: Rank::Matrix,
         suffixes: &[],
-        value: |context| Value::Matrix(context.body.affine_momentum),
+        value: |context| FieldValue::Matrix(context.body.affine_momentum),
     },
     BodyField {
         name: CONTRACTION_VELOCITY,
@@ -141,7 +141,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "contraction velocity V_G = Gdot G^-1",
         rank: Rank::Matrix,
         suffixes: &[],
-        value: |context| Value::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.velocity)),
+        value: |context| FieldValue::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.velocity)),
     },
     BodyField {
         name: DRIVE,
@@ -149,7 +149,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
         description: "drive Q; what it takes, where the contraction is prescribed",
         rank: Rank::Matrix,
         suffixes: &[],
-        value: |context| Value::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.drive)),
+        value: |context| FieldValue::Matrix(context.body.effort.map_or(NO_MATRIX, |effort| effort.drive)),
     },
 ];
 
@@ -170,7 +170,7 @@ macro_rules! extra {
             description: $description,
             rank: Rank::$rank,
             suffixes: &[],
-            value: |context| Value::$rank(context.homogeneous.map_or($nothing, |context| context.$field)),
+            value: |context| FieldValue::$rank(context.homogeneous.map_or($nothing, |found| found.$field)),
         }
     };
 }
@@ -199,7 +199,7 @@ macro_rules! immersed {
             description: $description,
             rank: Rank::$rank,
             suffixes: &[],
-            value: |context| Value::$rank(context.immersed.map_or($nothing, $value)),
+            value: |context| FieldValue::$rank(context.immersed.map_or($nothing, $value)),
         }
     };
 }

@@ -9,8 +9,8 @@ mod fields;
 pub use extras::Extras;
 
 use fields::{
-    BODY_FIELDS, BodyContext, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, GAP, IMMERSED_FIELDS,
-    PRESSURE, Rank, Value,
+    BODY_FIELDS, BodyContext, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, FieldValue, GAP,
+    IMMERSED_FIELDS, PRESSURE, Rank,
 };
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
@@ -106,10 +106,10 @@ impl Fields {
                     homogeneous: homogeneous.get(index),
                     immersed: immersed.get(index).and_then(Option::as_ref),
                 }) {
-                    Value::Scalar(value) => row.push(value),
-                    Value::Vector(value) => row.extend(value.iter()),
+                    FieldValue::Scalar(value) => row.push(value),
+                    FieldValue::Vector(value) => row.extend(value.iter()),
                     // nalgebra stores columns; rows are recorded.
-                    Value::Matrix(value) => row.extend(value.transpose().iter()),
+                    FieldValue::Matrix(value) => row.extend(value.transpose().iter()),
                 }
             }
         }

@@ -18,7 +18,7 @@ pub(super) const NODES: [f64; STAGES] =
 
 /// The coefficients of the method, from its nodes.
 #[derive(Debug, Clone)]
-pub(super) struct Rule {
+pub(super) struct CollocationRule {
     /// A: integrals of the Lagrange polynomials up to the nodes.
     integrals: Square,
     /// A⁻¹.
@@ -29,7 +29,7 @@ pub(super) struct Rule {
 
 /// What the equation is at the nodes of a step.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Stages {
+pub(super) struct NodeValues {
     /// J, block by block, of each node.
     pub slopes: Vec<Vec<DMatrix<f64>>>,
     /// b, a column for each column of S, of each node.
@@ -38,14 +38,14 @@ pub(super) struct Stages {
 
 /// A step made.
 #[derive(Debug, Clone)]
-pub(super) struct Step {
+pub(super) struct CollocationStep {
     /// S at the nodes; the last is the end.
     pub values: Vec<DMatrix<f64>>,
     /// The rates S′ at the nodes.
     pub rates: Vec<DMatrix<f64>>,
 }
 
-impl Rule {
+impl CollocationRule {
     pub fn new() -> Self {
         let powers = Square::from_fn(|i, k| NODES[i].powi(k as i32));
         let antiderivatives = Square::from_fn(|i, k| NODES[i].powi(k as i32 + 1) / (k as f64 + 1.0));
@@ -60,7 +60,13 @@ impl Rule {
     }
 
     /// Makes a step of a size from S₀; none if the equations have no solution.
-    pub fn step(&self, blocks: &[Range<usize>], start: &DMatrix<f64>, size: f64, stages: &Stages) -> Option<Step> {
+    pub fn step(
+        &self,
+        blocks: &[Range<usize>],
+        start: &DMatrix<f64>,
+        size: f64,
+        stages: &NodeValues,
+    ) -> Option<CollocationStep> {
         let (rows, columns) = start.shape();
         let mut increments = vec![DMatrix::zeros(rows, columns); STAGES];
         for (block, range) in blocks.iter().enumerate() {
@@ -82,7 +88,7 @@ impl Rule {
         };
         let rates = (0..STAGES).map(rate).collect();
         let values = increments.into_iter().map(|increment| increment + start).collect();
-        Some(Step { values, rates })
+        Some(CollocationStep { values, rates })
     }
 
     /// |κ₀| … |κ₄| of one column of rates at the nodes, each the largest over the rows, measured in their scales.
@@ -135,11 +141,13 @@ mod tests {
         slopes: impl Fn(f64) -> DMatrix<f64>,
         forcing: impl Fn(f64) -> DMatrix<f64>,
     ) -> DMatrix<f64> {
-        let (rule, size, blocks) = (Rule::new(), 1.0 / steps as f64, vec![Range { start: 0, end: start.nrows() }]);
+        let (rule, size, blocks) =
+            (CollocationRule::new(), 1.0 / steps as f64, vec![Range { start: 0, end: start.nrows() }]);
         let mut value = start.clone();
         for k in 0..steps {
             let times = NODES.map(|node| (k as f64 + node) * size);
-            let stages = Stages { slopes: times.map(|t| vec![slopes(t)]).into(), forcing: times.map(&forcing).into() };
+            let stages =
+                NodeValues { slopes: times.map(|t| vec![slopes(t)]).into(), forcing: times.map(&forcing).into() };
             value = rule.step(&blocks, &value, size, &stages).unwrap().values.pop().unwrap();
         }
         value
@@ -175,7 +183,7 @@ mod tests {
 
     #[test]
     fn polynomials_are_integrated_exactly() {
-        let rule = Rule::new();
+        let rule = CollocationRule::new();
         for degree in 0..=8 {
             let sum: f64 = (0..STAGES).map(|i| rule.weight(i) * NODES[i].powi(degree)).sum();
             // Rounding of the weights, from a Vandermonde matrix.

@@ -16,7 +16,7 @@ const POINTS: usize = 10;
 
 /// Steps of the run, one after the other.
 #[derive(Debug, Clone, Default)]
-pub(super) struct History {
+pub(super) struct StepHistory {
     steps: VecDeque<Piece>,
     /// Pieces to be used again.
     spare: Vec<Piece>,
@@ -34,7 +34,7 @@ fn angle(point: usize) -> f64 {
     (point as f64 + 0.5) * PI / POINTS as f64
 }
 
-impl History {
+impl StepHistory {
     /// Takes down the last step of a run.
     pub fn record(&mut self, run: &Integrator) {
         let Some((from, to)) = run.last_step() else { return };
@@ -127,7 +127,7 @@ mod tests {
     fn a_step_does_not_pass_over_short_ones() {
         let piece = |from: f64, to: f64| Piece { from, to, values: Vec::new() };
         let steps = [piece(0.0, 1.0), piece(1.0, 1.01), piece(1.01, 1.02), piece(1.02, 2.0)];
-        let history = History { steps: steps.into(), spare: Vec::new() };
+        let history = StepHistory { steps: steps.into(), spare: Vec::new() };
         // Up to the first short one, then no more than five of them; behind them as far as wanted.
         for (from, to, expected) in
             [(0.0, 2.0, 1.0), (0.0, 0.5, 0.5), (1.0, 2.0, 1.05), (1.019, 2.0, 1.069), (1.02, 2.0, 2.0)]
@@ -142,7 +142,7 @@ mod tests {
         let value = |t: f64| 1.0 + t - 3.0 * t.powi(4) + 2.0 * t.powi(8);
         let times = (0..POINTS).map(|point| 2.0 + 0.5 - 0.5 * angle(point).cos());
         let values = times.flat_map(|time| [value(time), 7.0]).collect();
-        let history = History { steps: [Piece { from: 2.0, to: 3.0, values }].into(), spare: Vec::new() };
+        let history = StepHistory { steps: [Piece { from: 2.0, to: 3.0, values }].into(), spare: Vec::new() };
         for time in [2.0, 2.1, 2.0 + 0.5 - 0.5 * angle(3).cos(), 2.7, 3.0] {
             let mut found = [0.0; 2];
             history.at(time, &mut found);

@@ -4,7 +4,7 @@
 //! of a prescribed contraction; with the instant t_k(p) it takes S along by (f⁻ − f⁺) dt_k/dp. Differences by p are
 //! taken on one side of a kink, so far from it that the neighbours' kinks do not lie between.
 
-use super::variation::{Fault, Variation};
+use super::variation::{NoDerivative, SceneVariation};
 use crate::horizon::next_kink;
 use gyration::model::Model;
 
@@ -40,16 +40,16 @@ pub(super) struct Kinks {
 
 impl Kinks {
     /// Those of a run to its end [s].
-    pub fn of(model: &Model, end: f64, variation: &mut Variation) -> Result<Self, Fault> {
+    pub fn of(model: &Model, end: f64, variation: &mut SceneVariation) -> Result<Self, NoDerivative> {
         let times = kinks(model, end);
         if times.is_empty() || variation.starts_only() {
             return Ok(Self::default());
         }
         if times.len() >= MOST {
-            return Err(Fault::Reason(format!("its signals have more than {MOST} kinks")));
+            return Err(NoDerivative::Reason(format!("its signals have more than {MOST} kinks")));
         }
         let apart = nearest(&times, end);
-        let movement = |variation: &mut Variation| {
+        let movement = |variation: &mut SceneVariation| {
             let mut part = false;
             let moves = variation.times(|model| {
                 let moved = kinks(model, end);
@@ -71,13 +71,13 @@ impl Kinks {
                 continue;
             }
             if part {
-                return Err(Fault::Reason(
+                return Err(NoDerivative::Reason(
                     "two of its signals have a kink at the same time, and one of them moves".into(),
                 ));
             }
             // Those of both ends of an edge have to find room in it.
             if margin > apart / 6.0 {
-                return Err(Fault::Reason("the kinks of its signals move too far for their distance".into()));
+                return Err(NoDerivative::Reason("the kinks of its signals move too far for their distance".into()));
             }
             variation.keep_step();
             let kinks = times.into_iter().zip(moves).map(|(time, moves)| Kink { time, moves }).collect();

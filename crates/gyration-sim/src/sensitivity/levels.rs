@@ -1,7 +1,7 @@
 //! The steps of differences by a number, and the neighbouring scenes of each.
 
 use super::difference::{CENTRAL, FORWARD, Stencil};
-use super::number::Number;
+use super::number::SceneNumber;
 use gyration_scene::Scene;
 
 /// The first step, as a part of the number.
@@ -15,7 +15,7 @@ const LARGEST: f64 = 1e-2;
 
 /// The neighbouring scenes at one step.
 #[derive(Debug)]
-pub(super) struct Level {
+pub(super) struct Neighbours {
     pub step: f64,
     pub stencil: Stencil,
     pub scenes: Vec<Scene>,
@@ -23,30 +23,30 @@ pub(super) struct Level {
 
 /// The steps that a number has been varied by, the larger ones first.
 #[derive(Debug)]
-pub(super) struct Levels {
+pub(super) struct VariationSteps {
     /// The number.
-    pub number: Number,
+    pub number: SceneNumber,
     base: Scene,
-    levels: Vec<Level>,
+    levels: Vec<Neighbours>,
     /// The one in use.
     at: usize,
     /// Whether no larger one may be taken.
     keeps_step: bool,
 }
 
-impl Levels {
+impl VariationSteps {
     /// Prepares the first step at which there are neighbours.
     ///
     /// # Errors
     /// Why there are none, in words.
-    pub fn new(scene: &Scene, number: Number) -> Result<Self, String> {
+    pub fn new(scene: &Scene, number: SceneNumber) -> Result<Self, String> {
         let mut this = Self { number, base: scene.clone(), levels: Vec::new(), at: 0, keeps_step: false };
         this.first_level()?;
         Ok(this)
     }
 
     /// The neighbours in use.
-    pub fn current(&self) -> &Level {
+    pub fn current(&self) -> &Neighbours {
         &self.levels[self.at]
     }
 
@@ -118,7 +118,7 @@ impl Levels {
     }
 
     /// The neighbours at a step, a part of the scale.
-    fn level(&self, part: f64, stencil: Stencil) -> Result<Level, String> {
+    fn level(&self, part: f64, stencil: Stencil) -> Result<Neighbours, String> {
         let step = part * self.scale();
         let scene = |(offset, _): &(f64, f64)| self.number.scene_at(&self.base, self.number.value + offset * step);
         let scenes = stencil.iter().map(scene).collect::<Result<Vec<_>, _>>()?;
@@ -129,6 +129,6 @@ impl Levels {
         if !scenes.iter().all(same) {
             return Err("it changes which equations there are".into());
         }
-        Ok(Level { step, stencil, scenes })
+        Ok(Neighbours { step, stencil, scenes })
     }
 }

@@ -31,10 +31,10 @@ use crate::rows::Extras;
 use crate::run::Simulation;
 use gyration_ode::Integrator;
 use gyration_scene::Scene;
-use number::Number;
+use number::SceneNumber;
 use quantity::Quantities;
 use tangent::Tangent;
-use variation::Variation;
+use variation::SceneVariation;
 
 /// The part of the motion that may be lost to the growth of errors: rtol times growth.
 const GROWN: f64 = 0.1;
@@ -134,7 +134,7 @@ impl Sensitivities {
     pub fn along(scene: &Scene, keys: &[String], quantities: &[String], at: At) -> Result<Self, SensitivityError> {
         let built = scene.built();
         let model = &built.model;
-        let numbers = keys.iter().map(|key| Number::find(scene, key)).collect::<Result<Vec<_>, _>>()?;
+        let numbers = keys.iter().map(|key| SceneNumber::find(scene, key)).collect::<Result<Vec<_>, _>>()?;
         let mut quantities = Quantities::find(model, quantities)?;
         let mut this = Self {
             outcome: Outcome::Completed,
@@ -147,7 +147,7 @@ impl Sensitivities {
         // Rows with the columns that the quantities know.
         let plan = RunPlan { extras: Extras::default(), ..built.into() };
         let mut simulation = Simulation::new(model, &built.state, plan)?;
-        let vary = |number| Variation::new(scene, number).map_err(|reason| Meaningless { from: 0.0, reason });
+        let vary = |number| SceneVariation::new(scene, number).map_err(|reason| Meaningless { from: 0.0, reason });
         let variations = numbers.into_iter().map(vary).collect();
         let mut tangent = Tangent::new(model, &built.state, &plan, variations)?;
         if quantities.with_works {

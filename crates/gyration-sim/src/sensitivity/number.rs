@@ -10,7 +10,7 @@ use serde_json::Value;
 
 /// A number of a scene.
 #[derive(Debug, Clone)]
-pub(super) struct Number {
+pub(super) struct SceneNumber {
     /// Its dotted key.
     pub key: String,
     /// What it is, in SI units.
@@ -30,7 +30,7 @@ const METHOD_TABLES: [&str; 3] = ["solver", "record", "time"];
 /// Keys anywhere that do.
 const METHOD_KEYS: [&str; 4] = ["triangles", "spacing", "tolerance", "history_error"];
 
-impl Number {
+impl SceneNumber {
     /// Finds a number by its key.
     ///
     /// # Errors

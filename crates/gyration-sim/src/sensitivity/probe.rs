@@ -1,7 +1,7 @@
 //! Scales of the state, and derivatives of what is known in a state along a direction of it.
 
 use super::Meaningless;
-use super::variation::Fault;
+use super::variation::NoDerivative;
 use crate::adapter::{ModelSystem, Tolerance};
 use crate::outcome::Stop;
 use gyration::Inadmissible;
@@ -44,10 +44,10 @@ pub(super) fn reason(model: &Model, time: f64, left: &Inadmissible) -> String {
 }
 
 /// A fault in words.
-pub(super) fn meaningless(model: &Model, time: f64, fault: &Fault) -> Meaningless {
+pub(super) fn meaningless(model: &Model, time: f64, fault: &NoDerivative) -> Meaningless {
     let reason = match fault {
-        Fault::Reason(reason) => reason.clone(),
-        Fault::Inadmissible(left) => format!("with a little more or less of it, {}", reason(model, time, left)),
+        NoDerivative::Reason(reason) => reason.clone(),
+        NoDerivative::Inadmissible(left) => format!("with a little more or less of it, {}", reason(model, time, left)),
     };
     Meaningless { from: time, reason }
 }

@@ -2,7 +2,7 @@
 
 use super::SensitivityError;
 use super::probe::along;
-use super::variation::{Fault, Variation};
+use super::variation::{NoDerivative, SceneVariation};
 use crate::rows::{Extras, Fields, RowScratch};
 use gyration::Inadmissible;
 use gyration::dynamics::Workspace;
@@ -62,8 +62,8 @@ impl Quantities {
         state: &State,
         direction: &[f64],
         scales: &[f64],
-        variation: &mut Variation,
-    ) -> Result<Vec<f64>, Fault> {
+        variation: &mut SceneVariation,
+    ) -> Result<Vec<f64>, NoDerivative> {
         let Self { fields, scratch, places, .. } = self;
         let mut fill = |model: &Model, workspace: &mut Workspace, state: &State| -> Result<Vec<f64>, Inadmissible> {
             fields.fill(model, workspace, state, None, scratch)?;

@@ -8,13 +8,13 @@
 //! at rest takes long steps, and what is varied about it may swing), and over several steps of the run where these are
 //! short (`history`). Works are quadratures by the same nodes (`works`).
 
-use super::collocation::{self, NODES, Rule, Stages, Step};
-use super::history::History;
+use super::collocation::{self, CollocationRule, CollocationStep, NODES, NodeValues};
+use super::history::StepHistory;
 use super::kinks::Kinks;
 use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
 use super::stage_equations::STAGES;
-use super::variation::Variation;
+use super::variation::SceneVariation;
 use super::{GROWN, Meaningless};
 use crate::adapter::ModelSystem;
 use crate::outcome::Stop;
@@ -49,7 +49,7 @@ const INSIDE: f64 = 1e-10;
 /// The equations at the nodes of a step.
 #[derive(Default)]
 pub(super) struct Nodes {
-    stages: Stages,
+    stages: NodeValues,
     /// The state there, just inside of the step.
     pub states: Vec<State>,
     /// ∂g/∂p, a column for each number.
@@ -59,9 +59,9 @@ pub(super) struct Nodes {
 /// S and W after a time of the run.
 pub(super) struct Tangent<'a> {
     pub(super) system: ModelSystem<'a>,
-    rule: Rule,
+    rule: CollocationRule,
     /// The numbers, with what their kinks do; none for those without a derivative.
-    pub(super) variations: Vec<Result<(Variation, Kinks), Meaningless>>,
+    pub(super) variations: Vec<Result<(SceneVariation, Kinks), Meaningless>>,
     /// S; the last column is the perturbation.
     pub(super) state: DMatrix<f64>,
     /// W.
@@ -70,7 +70,7 @@ pub(super) struct Tangent<'a> {
     size: f64,
     tolerance: f64,
     follows_works: bool,
-    history: History,
+    history: StepHistory,
     /// The state at a node, and its scales.
     pub(super) at: State,
     pub(super) scales: Vec<f64>,
@@ -87,7 +87,7 @@ impl<'a> Tangent<'a> {
         model: &'a Model,
         start: &State,
         plan: &RunPlan,
-        variations: Vec<Result<Variation, Meaningless>>,
+        variations: Vec<Result<SceneVariation, Meaningless>>,
     ) -> Result<Self, RunError> {
         let outside = |left| RunError::Start(Stop::by_inadmissible(model, start.time, &left));
         let mut system = ModelSystem::new(model, start, SCALES).map_err(outside)?;
@@ -113,7 +113,7 @@ impl<'a> Tangent<'a> {
         let works = DMatrix::zeros(model.works().len(), columns);
         Ok(Self {
             system,
-            rule: Rule::new(),
+            rule: CollocationRule::new(),
             variations: prepared,
             state,
             works,
@@ -121,7 +121,7 @@ impl<'a> Tangent<'a> {
             size: f64::INFINITY,
             tolerance: SHARE * plan.tolerance.rtol,
             follows_works: false,
-            history: History::default(),
+            history: StepHistory::default(),
             at: start.clone(),
             scales,
             growth: 1.0,
@@ -294,7 +294,7 @@ impl<'a> Tangent<'a> {
 
     /// The largest error of a step over the columns, each relative to what it has grown to; works by the energy in
     /// play.
-    fn error(&self, step: &Step, powers: &[DMatrix<f64>], size: f64) -> f64 {
+    fn error(&self, step: &CollocationStep, powers: &[DMatrix<f64>], size: f64) -> f64 {
         let (n, columns) = self.state.shape();
         let (scales, energies) = self.scales.split_at(n);
         let of_column = |column: usize| {

@@ -8,8 +8,8 @@
 //! refused, as for a β of zero, all points stand on the other.
 
 use super::difference::Difference;
-use super::levels::Levels;
-use super::number::Number;
+use super::levels::VariationSteps;
+use super::number::SceneNumber;
 use gyration::Inadmissible;
 use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
@@ -28,8 +28,8 @@ const BEND: f64 = 1e-5;
 const NOTHING: f64 = 1e-6;
 /// What the number's change does.
 #[derive(Debug)]
-pub(super) struct Variation {
-    levels: Levels,
+pub(super) struct SceneVariation {
+    levels: VariationSteps,
     starts_only: bool,
     workspace: Workspace,
     /// How often slopes on both sides are still compared.
@@ -46,31 +46,31 @@ pub(super) struct Variation {
 
 /// A derivative that could not be had.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Fault {
+pub(super) enum NoDerivative {
     /// In words.
     Reason(String),
     /// A neighbouring model does not know the state.
     Inadmissible(Inadmissible),
 }
 
-impl From<Inadmissible> for Fault {
+impl From<Inadmissible> for NoDerivative {
     fn from(left: Inadmissible) -> Self {
         Self::Inadmissible(left)
     }
 }
 
-impl Variation {
+impl SceneVariation {
     /// Prepares the neighbouring scenes.
     ///
     /// # Errors
     /// Why the derivative by this number has no meaning, in words.
-    pub fn new(scene: &Scene, number: Number) -> Result<Self, String> {
+    pub fn new(scene: &Scene, number: SceneNumber) -> Result<Self, String> {
         if let Some(reason) = number.is_no_quantity() {
             return Err(reason);
         }
         Ok(Self {
             starts_only: number.starts_only(scene),
-            levels: Levels::new(scene, number)?,
+            levels: VariationSteps::new(scene, number)?,
             workspace: Workspace::default(),
             comparisons: COMPARISONS,
             largest: 0.0,
@@ -91,7 +91,7 @@ impl Variation {
     }
 
     /// ∂y₀/∂p.
-    pub fn start(&mut self, scales: &[f64]) -> Result<Vec<f64>, Fault> {
+    pub fn start(&mut self, scales: &[f64]) -> Result<Vec<f64>, NoDerivative> {
         self.differentiate(scales, |scene, _, out| {
             out.extend_from_slice(&scene.built().state.bodies);
             Ok(())
@@ -99,7 +99,7 @@ impl Variation {
     }
 
     /// ∂f/∂p, and ∂g/∂p of the works behind it.
-    pub fn rates(&mut self, time: f64, bodies: &[f64], scales: &[f64]) -> Result<Vec<f64>, Fault> {
+    pub fn rates(&mut self, time: f64, bodies: &[f64], scales: &[f64]) -> Result<Vec<f64>, NoDerivative> {
         let works = scales.len() - bodies.len();
         if self.starts_only {
             return Ok(vec![0.0; bodies.len() + works]);
@@ -116,7 +116,7 @@ impl Variation {
         &mut self,
         state: &State,
         mut row: impl FnMut(&Model, &mut Workspace, &State, &mut Vec<f64>) -> Result<(), Inadmissible>,
-    ) -> Result<Vec<f64>, Fault> {
+    ) -> Result<Vec<f64>, NoDerivative> {
         self.differentiate(&[], |scene, workspace, out| row(&scene.built().model, workspace, state, out))
     }
 
@@ -128,7 +128,7 @@ impl Variation {
         &mut self,
         scales: &[f64],
         mut evaluate: impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
-    ) -> Result<Vec<f64>, Fault> {
+    ) -> Result<Vec<f64>, NoDerivative> {
         let mut coarse: Option<Difference> = None;
         loop {
             let found = self.evaluate(scales, &mut evaluate);
@@ -154,8 +154,8 @@ impl Variation {
                         self.doubt = self.doubt.max(coarse.bend / self.largest);
                         Ok(coarse.derivative)
                     }
-                    (None, Some(left)) => Err(Fault::Inadmissible(left)),
-                    (None, None) => Err(Fault::Reason(reason)),
+                    (None, Some(left)) => Err(NoDerivative::Inadmissible(left)),
+                    (None, None) => Err(NoDerivative::Reason(reason)),
                 };
             }
         }
@@ -256,7 +256,7 @@ impl Variation {
     }
 
     /// A list of times [s] that each neighbour has, differentiated: the kinks of its signals.
-    pub fn times(&mut self, mut times: impl FnMut(&Model) -> Vec<f64>) -> Result<Vec<f64>, Fault> {
+    pub fn times(&mut self, mut times: impl FnMut(&Model) -> Vec<f64>) -> Result<Vec<f64>, NoDerivative> {
         self.differentiate(&[], |scene, _, out| {
             out.extend(times(&scene.built().model));
             Ok(())

@@ -5,7 +5,7 @@
 //!
 //! Powers g have no exact derivative at hand: they are differentiated along S by differences.
 
-use super::collocation::Step;
+use super::collocation::CollocationStep;
 use super::kinks::ends_at_kink;
 use super::probe::{along, reason};
 use super::tangent::{Nodes, Tangent};
@@ -18,7 +18,7 @@ const BESIDE: f64 = 16.0 * f64::EPSILON;
 
 impl Tangent<'_> {
     /// W′ at the nodes of a step, a column for each number.
-    pub(super) fn powers(&mut self, step: &Step, nodes: &Nodes) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
+    pub(super) fn powers(&mut self, step: &CollocationStep, nodes: &Nodes) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
         let mut all = nodes.powers.clone();
         for ((powers, state), values) in all.iter_mut().zip(&nodes.states).zip(&step.values) {
             for column in 0..self.variations.len() {

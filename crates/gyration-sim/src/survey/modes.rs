@@ -1,6 +1,6 @@
 //! Rest states and the small motions about them, in a form to print.
 
-use crate::modes::{Mode, ModeShape, Motion, modes, rest};
+use crate::modes::{Mode, ModeBehaviour, ModeShape, modes, rest};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Mat3;
@@ -81,15 +81,15 @@ impl ModeSurvey {
         let largest = mode.eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max);
         let clean = |rate: f64| if rate.abs() <= ROUNDING * largest { 0.0 } else { rate };
         let decay_rates = match mode.motion {
-            Motion::Oscillates => mode.decay_rates().map(clean),
+            ModeBehaviour::Oscillates => mode.decay_rates().map(clean),
             _ => mode.decay_rates(),
         };
         Self {
             motion: match mode.motion {
-                Motion::Oscillates => "oscillates",
-                Motion::Creeps => "creeps",
-                Motion::Free => "free",
-                Motion::Grows => "unstable",
+                ModeBehaviour::Oscillates => "oscillates",
+                ModeBehaviour::Creeps => "creeps",
+                ModeBehaviour::Free => "free",
+                ModeBehaviour::Grows => "unstable",
             },
             in_words: mode.in_words.clone(),
             frequency_hz: mode.frequency() / TAU,

@@ -1,17 +1,17 @@
 //! What no file of measurements may say: what cannot be measured, and numbers that are found and set at once.
 
-use super::{Kind, Number};
+use super::{ExperimentKind, FreeNumber};
 use gyration_scene::Template;
 use gyration_scene::input::InputFile;
 use std::collections::BTreeMap;
 
 /// Whether anything could have been measured so: a rebound gives back no more than the drop, within three deviations.
-pub(super) fn is_possible(kind: Kind, condition: f64, measured: f64, deviation: f64) -> bool {
-    measured > 0.0 && (kind != Kind::Drop || measured < condition + 3.0 * deviation)
+pub(super) fn is_possible(kind: ExperimentKind, condition: f64, measured: f64, deviation: f64) -> bool {
+    measured > 0.0 && (kind != ExperimentKind::Drop || measured < condition + 3.0 * deviation)
 }
 
 /// Notes numbers of the scene that are found twice, or set by what was measured.
-pub(super) fn keys_once(input: &mut InputFile, numbers: &[Number], template: &Template) {
+pub(super) fn keys_once(input: &mut InputFile, numbers: &[FreeNumber], template: &Template) {
     let mut seen: BTreeMap<String, &str> = BTreeMap::new();
     for number in numbers {
         for key in &number.keys {
@@ -23,7 +23,7 @@ pub(super) fn keys_once(input: &mut InputFile, numbers: &[Number], template: &Te
     }
     let is_part =
         |one: &str, other: &str| one == other || one.strip_prefix(other).is_some_and(|rest| rest.starts_with('.'));
-    for kind in [Kind::Drop, Kind::Gap, Kind::Slope, Kind::PullOff] {
+    for kind in [ExperimentKind::Drop, ExperimentKind::Gap, ExperimentKind::Slope, ExperimentKind::PullOff] {
         let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
         for index in (0..count).map(|index| index.to_string()) {
             let place = [kind.word(), index.as_str()];

@@ -2,7 +2,7 @@
 //!
 //!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂u
 
-use super::{Calibration, Experiment, Fitted, Kind};
+use super::{Calibration, Experiment, ExperimentKind, Fitted};
 use gyration_threads::on_own_threads;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -47,7 +47,7 @@ impl Calibration {
         let high = table.conditions.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let beyond = BEYOND * (high - low);
         let (low, high) = (if low > 0.0 { (low - beyond).max(0.5 * low) } else { low - beyond }, high + beyond);
-        let points = if table.kind == Kind::Drop { RUNS } else { POINTS };
+        let points = if table.kind == ExperimentKind::Drop { RUNS } else { POINTS };
         let count = if high > low && (table.key.is_some() || table.kind.condition().is_some()) { points } else { 1 };
         let even = (0..count).map(|k| low + (high - low) * k as f64 / (count - 1).max(1) as f64);
         // Through what was measured, as long as that is little.

@@ -3,7 +3,7 @@
 //! What it sees is u (`scale`) and the weighted residuals r = (m − y)/σ. A trial that cannot be computed counts as a
 //! bad one: the search then tries a shorter step.
 
-use super::least_squares::{Ending, Minimum, Problem, minimize};
+use super::least_squares::{Minimum, Problem, SearchEnd, minimize};
 use super::{Calibration, CalibrationError, Experiment};
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -26,7 +26,7 @@ pub(super) struct Found {
 }
 
 /// The measurements, and the start as one more of each number.
-struct Measured<'a> {
+struct Residuals<'a> {
     calibration: &'a Calibration,
     start: DVector<f64>,
 }
@@ -65,13 +65,13 @@ impl Calibration {
         self.predictions()?;
         let u = self.numbers.iter().map(|number| number.scale.inward(number.start));
         let start = DVector::from_iterator(self.numbers.len(), u);
-        let problem = Measured { calibration: self, start: start.clone() };
+        let problem = Residuals { calibration: self, start: start.clone() };
         let Minimum { u, ending, evaluations } = minimize(&problem, start, TOLERANCE);
         let ending = match ending {
-            Ending::Converged => "converged",
-            Ending::Rounding => "as near as rounding lets one come",
-            Ending::Patience => return Err(CalibrationError::Search("it did not come to an end".into())),
-            Ending::Stranded => {
+            SearchEnd::Converged => "converged",
+            SearchEnd::Rounding => "as near as rounding lets one come",
+            SearchEnd::Patience => return Err(CalibrationError::Search("it did not come to an end".into())),
+            SearchEnd::Stranded => {
                 let reason = "where it arrived derivatives cannot be computed";
                 return Err(CalibrationError::Search(reason.into()));
             }
@@ -80,7 +80,7 @@ impl Calibration {
     }
 }
 
-impl Problem for Measured<'_> {
+impl Problem for Residuals<'_> {
     fn residuals(&self, u: &DVector<f64>) -> DVector<f64> {
         let values = self.calibration.values_at(u.as_slice());
         let residual = |(table, row): (&Experiment, usize)| {
@@ -114,7 +114,7 @@ impl Calibration {
 
     /// Derivatives by the numbers as derivatives by u, over a deviation.
     pub(super) fn inward(&self, slopes: &[f64], values: &[f64], deviation: f64) -> Vec<f64> {
-        let entry = |((number, value), slope): ((&super::Number, &f64), &f64)| {
+        let entry = |((number, value), slope): ((&super::FreeNumber, &f64), &f64)| {
             slope * number.scale.outward(number.scale.inward(*value)).1 / deviation
         };
         self.numbers.iter().zip(values).zip(slopes).map(entry).collect()

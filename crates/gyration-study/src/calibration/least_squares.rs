@@ -29,7 +29,7 @@ pub(super) trait Problem {
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Ending {
+pub(super) enum SearchEnd {
     /// To the tolerance.
     Converged,
     /// Rounding lets one come no nearer.
@@ -44,7 +44,7 @@ pub(super) enum Ending {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Minimum {
     pub u: DVector<f64>,
-    pub ending: Ending,
+    pub ending: SearchEnd,
     /// How often r was computed.
     pub evaluations: usize,
 }
@@ -58,11 +58,11 @@ pub(super) fn minimize(problem: &impl Problem, mut u: DVector<f64>, tolerance: f
     loop {
         let end = |u: &DVector<f64>, ending| Minimum { u: u.clone(), ending, evaluations };
         let Some(jacobian) = problem.jacobian(&u).filter(|_| norm.is_finite()) else {
-            return end(&u, Ending::Stranded);
+            return end(&u, SearchEnd::Stranded);
         };
         let angle = largest_cosine(&jacobian, &residuals);
         if norm == 0.0 || angle <= tolerance {
-            return end(&u, Ending::Converged);
+            return end(&u, SearchEnd::Converged);
         }
         let region = region.get_or_insert_with(|| Region::new(&jacobian, &u));
         region.widen_scale(&jacobian);
@@ -81,11 +81,11 @@ pub(super) fn minimize(problem: &impl Problem, mut u: DVector<f64>, tolerance: f
             let length = region.scale.component_mul(&u).norm();
             let is_within = |tolerance: f64| gain.is_within(tolerance) || region.radius <= tolerance * length;
             let ending = if is_within(tolerance) {
-                Some(Ending::Converged)
+                Some(SearchEnd::Converged)
             } else if is_within(f64::EPSILON) || angle <= f64::EPSILON {
-                Some(Ending::Rounding)
+                Some(SearchEnd::Rounding)
             } else if evaluations >= PATIENCE * (u.len() + 1) {
-                Some(Ending::Patience)
+                Some(SearchEnd::Patience)
             } else {
                 None
             };
@@ -119,7 +119,7 @@ struct Region {
 }
 
 /// A step to a minimum of the linear model within the region.
-struct Step {
+struct TrustStep {
     /// p.
     way: DVector<f64>,
     /// ‖D p‖.
@@ -141,7 +141,7 @@ impl Region {
     }
 
     /// The step whose length is Δ within a tenth, or that to the minimum where this is shorter.
-    fn step(&self, jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> Step {
+    fn step(&self, jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> TrustStep {
         let damped = |damping: f64| Damped::new(jacobian, residuals, &self.scale, damping);
         let mut trial = damped(0.0);
         let gradient = jacobian.tr_mul(residuals).component_div(&self.scale).norm();
@@ -171,7 +171,7 @@ impl Region {
     }
 
     /// Follows what a step has brought.
-    fn adapt(&mut self, gain: &Gain, step: &Step) {
+    fn adapt(&mut self, gain: &Gain, step: &TrustStep) {
         if std::mem::take(&mut self.is_new) {
             self.radius = self.radius.min(step.length);
         }
@@ -191,7 +191,7 @@ impl Region {
 /// The triangle R of J above √λ D, and the step that it gives.
 struct Damped {
     triangle: DMatrix<f64>,
-    step: Step,
+    step: TrustStep,
 }
 
 impl Damped {
@@ -206,7 +206,7 @@ impl Damped {
         // A matrix of full rank has a solution.
         let way = triangle.solve_upper_triangular(&right.rows(0, count)).unwrap_or_else(|| DVector::zeros(count));
         let length = scale.component_mul(&way).norm();
-        Self { triangle, step: Step { way, length, damping } }
+        Self { triangle, step: TrustStep { way, length, damping } }
     }
 
     /// By how much λ is to change, so that ‖D p‖ gets to Δ: Newton's method on 1/‖D p‖, which is nearly linear in λ.
@@ -227,7 +227,7 @@ struct Gain {
 
 impl Gain {
     /// From ‖r‖ before and behind a step and ‖J p‖.
-    fn new(before: f64, behind: f64, change: f64, step: &Step) -> Self {
+    fn new(before: f64, behind: f64, change: f64, step: &TrustStep) -> Self {
         // Ten times as much is no nearer to being told apart from any other.
         let brought = if 0.1 * behind < before { 1.0 - (behind / before).powi(2) } else { -1.0 };
         let (linear, damped) = ((change / before).powi(2), step.damping * (step.length / before).powi(2));
@@ -282,7 +282,7 @@ mod tests {
     fn a_curved_valley_is_followed_to_its_end() {
         for start in [[-1.2, 1.0], [-12.0, 10.0], [-120.0, 100.0]] {
             let found = minimize(&rosenbrock(), DVector::from_row_slice(&start), 1e-12);
-            assert_eq!(found.ending, Ending::Converged);
+            assert_eq!(found.ending, SearchEnd::Converged);
             assert!((found.u - DVector::repeat(2, 1.0)).norm() < 1e-10);
             // MINPACK takes 16 from the first of these starts (Moré, Garbow, Hillstrom 1981).
             assert!(found.evaluations < 40, "{}", found.evaluations);
@@ -304,7 +304,7 @@ mod tests {
                 },
             );
             let found = minimize(&problem, DVector::from_row_slice(&units).map(f64::recip), 1e-12);
-            assert_eq!(found.ending, Ending::Converged);
+            assert_eq!(found.ending, SearchEnd::Converged);
             let back = found.u.component_mul(&DVector::from_row_slice(&units));
             // The condition of the matrix is below ten.
             assert!((back - &exact).norm() < 1e-9, "{units:?}");
@@ -319,9 +319,9 @@ mod tests {
             |u: &DVector<f64>| (u[0] > 0.0).then(|| vec![1.0 / u[0]]),
         );
         let found = minimize(&problem, DVector::from_element(1, 30.0), 1e-12);
-        assert_eq!(found.ending, Ending::Converged);
+        assert_eq!(found.ending, SearchEnd::Converged);
         assert!((found.u[0] - std::f64::consts::E).abs() < 1e-10, "{}", found.u[0]);
         let stranded = minimize(&problem, DVector::from_element(1, -1.0), 1e-12);
-        assert_eq!((stranded.ending, stranded.evaluations), (Ending::Stranded, 1));
+        assert_eq!((stranded.ending, stranded.evaluations), (SearchEnd::Stranded, 1));
     }
 }

@@ -34,13 +34,13 @@ pub struct Calibration {
     name: String,
     template: Template,
     settings: Vec<Override>,
-    numbers: Vec<Number>,
+    numbers: Vec<FreeNumber>,
     experiments: Vec<Experiment>,
 }
 
 /// A number to find.
 #[derive(Debug, Clone, PartialEq)]
-struct Number {
+struct FreeNumber {
     name: String,
     keys: Vec<String>,
     start: f64,
@@ -49,7 +49,7 @@ struct Number {
 
 /// What was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ExperimentKind {
     /// Dropped; the rebound was measured.
     Drop,
     /// Laid down; the gap was measured.
@@ -64,7 +64,7 @@ pub enum Kind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
     /// What was done.
-    pub kind: Kind,
+    pub kind: ExperimentKind,
     /// Which of its kind, from zero.
     pub index: usize,
     /// The body.
@@ -103,7 +103,7 @@ pub enum CalibrationError {
     Search(String),
 }
 
-impl Kind {
+impl ExperimentKind {
     /// The word of its section in the file.
     pub fn word(self) -> &'static str {
         match self {
@@ -162,7 +162,7 @@ impl Calibration {
 
     /// The overrides of a search at some point of it, in the order of the numbers.
     fn overrides(&self, values: &[f64]) -> Vec<Override> {
-        let set = |(number, value): (&Number, &f64)| -> Vec<Override> {
+        let set = |(number, value): (&FreeNumber, &f64)| -> Vec<Override> {
             number.keys.iter().map(|key| Override::new(key, *value)).collect()
         };
         self.settings.iter().cloned().chain(self.numbers.iter().zip(values).flat_map(set)).collect()

@@ -13,7 +13,7 @@
 
 use super::rebound::Drop;
 use super::scene::{body, normal};
-use super::{Calibration, Experiment, Kind};
+use super::{Calibration, Experiment, ExperimentKind};
 use gyration::balance::{observe, smallest_gap};
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
@@ -47,13 +47,13 @@ impl Calibration {
     /// Why nothing would be, in words.
     pub(super) fn value(&self, experiment: &Experiment, condition: f64, values: &[f64]) -> Result<f64, String> {
         match experiment.kind {
-            Kind::Drop => Drop::of(self, experiment, condition, values)?.rebound(),
-            Kind::Gap => rest_gap(&self.scene(experiment, condition, values, &[])?, experiment),
-            Kind::Slope => {
+            ExperimentKind::Drop => Drop::of(self, experiment, condition, values)?.rebound(),
+            ExperimentKind::Gap => rest_gap(&self.scene(experiment, condition, values, &[])?, experiment),
+            ExperimentKind::Slope => {
                 let scene = self.scene(experiment, condition, values, &[])?;
                 speed(&self.tilted(experiment, (&scene, condition), values)?, experiment, condition)
             }
-            Kind::PullOff => pull_off(&self.scene(experiment, condition, values, &[])?, experiment),
+            ExperimentKind::PullOff => pull_off(&self.scene(experiment, condition, values, &[])?, experiment),
         }
     }
 
@@ -69,7 +69,7 @@ impl Calibration {
         values: &[f64],
     ) -> Result<Prediction, String> {
         let (value, known) = match experiment.kind {
-            Kind::Drop => Drop::of(self, experiment, condition, values)?.predicted(self)?,
+            ExperimentKind::Drop => Drop::of(self, experiment, condition, values)?.predicted(self)?,
             _ => (self.value(experiment, condition, values)?, vec![None; values.len()]),
         };
         let slope = |index: usize| {

@@ -4,7 +4,7 @@ use super::check::{is_possible, keys_once};
 use super::csv::Csv;
 use super::file::{self, CalibrationFile};
 use super::scale::Scale;
-use super::{Calibration, Experiment, Kind, Number};
+use super::{Calibration, Experiment, ExperimentKind, FreeNumber};
 use crate::written::{measured, measured_in, toml};
 use gyration_scene::input::{InputFile, InputRules, fix};
 use gyration_scene::{LoadError, Override, Template, unit_of};
@@ -52,7 +52,7 @@ impl Calibration {
             keys_once(&mut input, &numbers, template);
         }
         let mut experiments = Vec::new();
-        for kind in [Kind::Drop, Kind::Gap, Kind::Slope, Kind::PullOff] {
+        for kind in [ExperimentKind::Drop, ExperimentKind::Gap, ExperimentKind::Slope, ExperimentKind::PullOff] {
             let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
             let tables = (0..count).filter_map(|index| experiment(&mut input, kind, index, base, resolved.as_ref()));
             experiments.extend(tables.collect::<Vec<_>>());
@@ -109,7 +109,7 @@ fn number_at(resolved: &Json, key: &str) -> Option<f64> {
     key.split('.').try_fold(resolved.clone(), |at, word| step(&at, word.trim()))?.as_f64()
 }
 
-fn number(input: &mut InputFile, name: &str, resolved: Option<&Json>) -> Option<Number> {
+fn number(input: &mut InputFile, name: &str, resolved: Option<&Json>) -> Option<FreeNumber> {
     let place = ["fit", name];
     let written: file::Fit = input.take(&place)?;
     let keys = match (written.key, written.keys) {
@@ -177,12 +177,12 @@ fn number(input: &mut InputFile, name: &str, resolved: Option<&Json>) -> Option<
         );
         return None;
     }
-    Some(Number { name: name.to_owned(), keys, start, scale: Scale { kind, size, bounds } })
+    Some(FreeNumber { name: name.to_owned(), keys, start, scale: Scale { kind, size, bounds } })
 }
 
 fn experiment(
     input: &mut InputFile,
-    kind: Kind,
+    kind: ExperimentKind,
     index: usize,
     base: &Path,
     resolved: Option<&Json>,
@@ -245,7 +245,7 @@ fn experiment(
         input.note(&inside("deviation"), "the deviations do not suit the measurements", help);
         return None;
     }
-    let most = if kind == Kind::Slope { FRAC_PI_2 } else { f64::INFINITY };
+    let most = if kind == ExperimentKind::Slope { FRAC_PI_2 } else { f64::INFINITY };
     if kind.condition().is_some() && conditions.iter().any(|condition| *condition <= 0.0 || *condition >= most) {
         let message = format!("one value of `{condition}` is no {condition} that can be measured at");
         input.note(

@@ -1,8 +1,8 @@
 //! A body that is dropped, and how high it comes again.
 
 use super::scene::{body, normal};
-use super::{Calibration, Experiment, Number};
-use crate::extract::Layout;
+use super::{Calibration, Experiment, FreeNumber};
+use crate::extract::ColumnPlaces;
 use gyration::balance::smallest_gap;
 use gyration::tensor::Vec3;
 use gyration_record::RecordError;
@@ -61,7 +61,7 @@ impl Drop {
     fn apex(&self) -> Result<(f64, Vec3), String> {
         let built = self.scene.built();
         let plan = RunPlan::from(built);
-        let place = Layout::new(&built.model, &plan).position + 3 * self.index;
+        let place = ColumnPlaces::new(&built.model, &plan).position + 3 * self.index;
         let finder = ApexFinder { body: self.index, place, touched: Cell::new(false), apex: Cell::new(None) };
         let mut run = Simulation::new(&built.model, &built.state, plan).map_err(|e| e.to_string())?;
         let (mut sink, mut monitor) = (&finder, &finder);
@@ -101,7 +101,7 @@ impl Drop {
     pub fn predicted(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
         let gravity = self.scene.built().model.gravity;
         let is_level = -gravity.dot(&self.normal) > (1.0 - LEVEL) * gravity.norm();
-        let of_contact = |number: &Number| is_level && number.keys.iter().all(|key| key.starts_with("contact."));
+        let of_contact = |number: &FreeNumber| is_level && number.keys.iter().all(|key| key.starts_with("contact."));
         let keys: Vec<String> = calibration
             .numbers
             .iter()
@@ -113,7 +113,7 @@ impl Drop {
         }
         let (value, by_key) = self.at_apex(&keys)?;
         let mut by_key = by_key.into_iter();
-        let slope = |number: &Number| match of_contact(number) {
+        let slope = |number: &FreeNumber| match of_contact(number) {
             true => {
                 let own: Vec<Option<f64>> = by_key.by_ref().take(number.keys.len()).collect();
                 own.into_iter().sum()

@@ -104,12 +104,12 @@ impl Calibration {
         let residuals = self.residuals(&values)?;
         let (rows, count) = (slopes.len(), values.len());
         let jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
-        let Directions { covariance, all } = Directions::of(&jacobian);
+        let Eigendirections { covariance, all } = Eigendirections::of(&jacobian);
         let scales: Vec<f64> =
             self.numbers.iter().zip(&values).map(|(number, value)| number.scale.slope(*value)).collect();
         let error = |index: usize| covariance[(index, index)].sqrt();
         // Whether a direction keeps a number from being told, or is itself not told by that number.
-        let opens = |direction: &Direction, index: usize| match direction.spread {
+        let opens = |direction: &Eigendirection, index: usize| match direction.spread {
             Some(spread) => direction.along[index].abs() * spread * scales[index] > LOOSE,
             None => direction.along[index].abs() * LOOSE > error(index).max(NOISE),
         };
@@ -118,7 +118,7 @@ impl Calibration {
                 || error(index) * scales[index] > LOOSE
                 || all.iter().any(|direction| opens(direction, index))
         };
-        let undetermined = |direction: &Direction| {
+        let undetermined = |direction: &Eigendirection| {
             let taking: Vec<bool> = (0..count).map(|index| opens(direction, index)).collect();
             let is_any = direction.spread.is_none() || taking.contains(&true);
             is_any.then(|| self.undetermined((&direction.along, &taking), &values))
@@ -134,7 +134,7 @@ impl Calibration {
             }
         }
         let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
-        let number = |(index, number): (usize, &super::Number)| {
+        let number = |(index, number): (usize, &super::FreeNumber)| {
             let (_, slope) = number.scale.outward(number.scale.inward(values[index]));
             FittedNumber {
                 name: number.name.clone(),
@@ -180,7 +180,7 @@ impl Calibration {
             .map(|(number, _)| number.name.as_str())
             .collect();
         // From u to relative changes.
-        let relative = |((number, value), part): ((&super::Number, &f64), &f64)| {
+        let relative = |((number, value), part): ((&super::FreeNumber, &f64), &f64)| {
             let size = if *value == 0.0 { number.scale.size } else { value.abs() };
             part * number.scale.outward(number.scale.inward(*value)).1 / size
         };
@@ -215,19 +215,19 @@ impl Calibration {
 }
 
 /// A direction in u.
-struct Direction {
+struct Eigendirection {
     along: Vec<f64>,
     /// 1/s, the standard error along it; none where nothing was fitted.
     spread: Option<f64>,
 }
 
 /// The eigenvectors of JᵀJ, and C from those along which something was fitted.
-struct Directions {
+struct Eigendirections {
     covariance: DMatrix<f64>,
-    all: Vec<Direction>,
+    all: Vec<Eigendirection>,
 }
 
-impl Directions {
+impl Eigendirections {
     fn of(jacobian: &DMatrix<f64>) -> Self {
         let normal = jacobian.transpose() * jacobian;
         let eigen = normal.symmetric_eigen();
@@ -241,7 +241,7 @@ impl Directions {
             if is_fitted {
                 covariance += vector * vector.transpose() / *value;
             }
-            all.push(Direction {
+            all.push(Eigendirection {
                 along: vector.iter().copied().collect(),
                 spread: is_fitted.then(|| 1.0 / value.sqrt()),
             });

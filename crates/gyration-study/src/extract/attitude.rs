@@ -2,7 +2,7 @@
 //!
 //! Upright is against gravity, or z where there is none.
 
-use super::layout::Layout;
+use super::layout::ColumnPlaces;
 use crate::value::Value;
 use gyration::model::Model;
 use gyration::tensor::{Mat3, Polar, Vec3};
@@ -18,13 +18,13 @@ fn up(model: &Model) -> Vec3 {
 
 /// Where P and p₀ of a body stand in a row.
 #[derive(Clone, Copy)]
-struct Motion {
+struct MotionPlaces {
     position: usize,
     gradient: usize,
 }
 
-impl Motion {
-    fn new(layout: &Layout, body: usize) -> Self {
+impl MotionPlaces {
+    fn new(layout: &ColumnPlaces, body: usize) -> Self {
         Self { position: layout.position + 3 * body, gradient: layout.gradient + 9 * body }
     }
 
@@ -38,16 +38,16 @@ impl Motion {
 }
 
 /// The material axis whose face looks most nearly straight down: the normal of a face is along P⁻ᵀ e.
-pub(super) struct Face {
-    motion: Motion,
+pub(super) struct LowestFace {
+    motion: MotionPlaces,
     up: Vec3,
     at_start: bool,
     gradient: Option<Mat3>,
 }
 
-impl Face {
-    pub fn new(model: &Model, layout: &Layout, body: usize, at_start: bool) -> Self {
-        Self { motion: Motion::new(layout, body), up: up(model), at_start, gradient: None }
+impl LowestFace {
+    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, at_start: bool) -> Self {
+        Self { motion: MotionPlaces::new(layout, body), up: up(model), at_start, gradient: None }
     }
 
     pub fn row(&mut self, row: &[f64]) {
@@ -68,7 +68,7 @@ impl Face {
 
 /// The largest angle between the vertical and the material line that was upright at the start [rad].
 pub(super) struct Tilt {
-    motion: Motion,
+    motion: MotionPlaces,
     up: Vec3,
     /// P⁻¹ up at the start.
     line: Option<Vec3>,
@@ -76,8 +76,8 @@ pub(super) struct Tilt {
 }
 
 impl Tilt {
-    pub fn new(model: &Model, layout: &Layout, body: usize) -> Self {
-        Self { motion: Motion::new(layout, body), up: up(model), line: None, largest: 0.0 }
+    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize) -> Self {
+        Self { motion: MotionPlaces::new(layout, body), up: up(model), line: None, largest: 0.0 }
     }
 
     pub fn row(&mut self, row: &[f64]) {
@@ -99,7 +99,7 @@ impl Tilt {
 ///   matter: the twist 2 atan2(q·a, w) of the quaternion (w, q) of R, P = R U, modulo 2π
 ///   form: ½ atan2(2 B₁₂, B₁₁ − B₂₂), B = P J Pᵀ in the plane normal to a, modulo π
 pub(super) struct Turns {
-    motion: Motion,
+    motion: MotionPlaces,
     axis: Vec3,
     /// J and two directions of the plane, if the form is looked at.
     form: Option<(Mat3, [Vec3; 2])>,
@@ -109,10 +109,10 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    pub fn new(model: &Model, layout: &Layout, body: usize, (axis, of_form): (Vec3, bool)) -> Self {
+    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, (axis, of_form): (Vec3, bool)) -> Self {
         let across = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
         let form = of_form.then(|| (model.bodies[body].mass.euler_tensor, [across, axis.cross(&across)]));
-        Self { motion: Motion::new(layout, body), axis, form, last: None, wound: 0.0 }
+        Self { motion: MotionPlaces::new(layout, body), axis, form, last: None, wound: 0.0 }
     }
 
     pub fn row(&mut self, row: &[f64]) {
@@ -145,7 +145,7 @@ fn twist(rotation: &Mat3, axis: &Vec3) -> f64 {
 
 /// The level distance of the centre of mass from its start [m].
 pub(super) struct Distance {
-    motion: Motion,
+    motion: MotionPlaces,
     up: Vec3,
     along: Option<Vec3>,
     per: Option<f64>,
@@ -154,8 +154,15 @@ pub(super) struct Distance {
 }
 
 impl Distance {
-    pub fn new(model: &Model, layout: &Layout, body: usize, (along, per): (Option<Vec3>, Option<f64>)) -> Self {
-        Self { motion: Motion::new(layout, body), up: up(model), along, per, start: None, end: (0.0, Vec3::zeros()) }
+    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, (along, per): (Option<Vec3>, Option<f64>)) -> Self {
+        Self {
+            motion: MotionPlaces::new(layout, body),
+            up: up(model),
+            along,
+            per,
+            start: None,
+            end: (0.0, Vec3::zeros()),
+        }
     }
 
     pub fn row(&mut self, time: f64, row: &[f64]) {

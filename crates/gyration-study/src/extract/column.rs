@@ -1,19 +1,19 @@
 //! What is kept of a column: one number over the samples, or a list.
 
-use crate::keep::{Measure, Pick};
+use crate::keep::{Pick, Statistic};
 use crate::value::Value;
 use std::collections::VecDeque;
 
 /// Where the numbers of a column come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Source {
+pub(crate) enum ColumnSource {
     /// The time of the row.
     Time,
     /// This place of the row.
     Row(usize),
 }
 
-impl Source {
+impl ColumnSource {
     fn of(self, time: f64, row: &[f64]) -> f64 {
         match self {
             Self::Time => time,
@@ -23,9 +23,9 @@ impl Source {
 }
 
 /// One number of a column.
-pub(super) struct Measured {
-    source: Source,
-    measure: Measure,
+pub(super) struct ColumnStatistic {
+    source: ColumnSource,
+    measure: Statistic,
     first: Option<(f64, f64)>,
     last: (f64, f64),
     extreme: f64,
@@ -33,8 +33,8 @@ pub(super) struct Measured {
     integral: f64,
 }
 
-impl Measured {
-    pub fn new(source: Source, measure: Measure) -> Self {
+impl ColumnStatistic {
+    pub fn new(source: ColumnSource, measure: Statistic) -> Self {
         Self { source, measure, first: None, last: (f64::NAN, f64::NAN), extreme: f64::NAN, integral: 0.0 }
     }
 
@@ -49,7 +49,7 @@ impl Measured {
         self.last = (time, value);
         // What is not a number is passed over.
         self.extreme = match self.measure {
-            Measure::Minimum => self.extreme.min(value),
+            Statistic::Minimum => self.extreme.min(value),
             _ => self.extreme.max(value),
         };
     }
@@ -58,25 +58,25 @@ impl Measured {
         let Some((began, first)) = self.first else { return Value::Null };
         let (ended, last) = self.last;
         Value::Number(match self.measure {
-            Measure::First => first,
-            Measure::Last => last,
-            Measure::Change => last - first,
-            Measure::Minimum | Measure::Maximum => self.extreme,
-            Measure::Mean if ended > began => self.integral / (ended - began),
-            Measure::Mean => first,
+            Statistic::First => first,
+            Statistic::Last => last,
+            Statistic::Change => last - first,
+            Statistic::Minimum | Statistic::Maximum => self.extreme,
+            Statistic::Mean if ended > began => self.integral / (ended - began),
+            Statistic::Mean => first,
         })
     }
 }
 
 /// Several values of a column.
 pub(super) struct Listed {
-    source: Source,
+    source: ColumnSource,
     pick: Pick,
     values: VecDeque<f64>,
 }
 
 impl Listed {
-    pub fn new(source: Source, pick: Pick) -> Self {
+    pub fn new(source: ColumnSource, pick: Pick) -> Self {
         Self { source, pick, values: VecDeque::new() }
     }
 
@@ -100,8 +100,8 @@ impl Listed {
 mod tests {
     use super::*;
 
-    fn measured(measure: Measure, rows: &[(f64, f64)]) -> Option<f64> {
-        let mut measured = Measured::new(Source::Row(0), measure);
+    fn measured(measure: Statistic, rows: &[(f64, f64)]) -> Option<f64> {
+        let mut measured = ColumnStatistic::new(ColumnSource::Row(0), measure);
         rows.iter().for_each(|(time, value)| measured.row(*time, &[*value]));
         measured.value().number()
     }
@@ -109,18 +109,25 @@ mod tests {
     #[test]
     fn measures_are_those_of_the_samples() {
         let rows = [(0.0, 1.0), (1.0, 3.0), (3.0, -1.0)];
-        let all = [Measure::First, Measure::Last, Measure::Change, Measure::Minimum, Measure::Maximum, Measure::Mean];
+        let all = [
+            Statistic::First,
+            Statistic::Last,
+            Statistic::Change,
+            Statistic::Minimum,
+            Statistic::Maximum,
+            Statistic::Mean,
+        ];
         // The mean by hand: (2·1 + 1·2)/3.
         let expected = [1.0, -1.0, -2.0, -1.0, 3.0, 4.0 / 3.0];
         assert_eq!(all.map(|measure| measured(measure, &rows)), expected.map(Some));
         assert_eq!(all.map(|measure| measured(measure, &[])), [None; 6]);
-        assert_eq!(measured(Measure::Mean, &rows[..1]), Some(1.0));
+        assert_eq!(measured(Statistic::Mean, &rows[..1]), Some(1.0));
     }
 
     #[test]
     fn lists_keep_the_first_or_the_last() {
         let listed = |pick| {
-            let mut listed = Listed::new(Source::Time, pick);
+            let mut listed = Listed::new(ColumnSource::Time, pick);
             (0..5).for_each(|k| listed.row(f64::from(k), &[]));
             listed.value()
         };

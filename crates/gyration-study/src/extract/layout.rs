@@ -1,6 +1,6 @@
 //! Where the columns of a recording stand in a row of the run.
 
-use super::column::Source;
+use super::column::ColumnSource;
 use gyration::model::Model;
 use gyration_record::ArraySpec;
 use gyration_scene::input::fix;
@@ -9,7 +9,7 @@ use gyration_sim::rows::Fields;
 
 /// The columns of a model and their places.
 #[derive(Debug, Clone)]
-pub(crate) struct Layout {
+pub(crate) struct ColumnPlaces {
     arrays: Vec<ArraySpec>,
     bodies: Vec<String>,
     /// Where the arrays of position and placement gradient begin.
@@ -17,7 +17,7 @@ pub(crate) struct Layout {
     pub gradient: usize,
 }
 
-impl Layout {
+impl ColumnPlaces {
     /// The layout of the rows of a model.
     pub fn new(model: &Model, plan: &RunPlan) -> Self {
         let (arrays, _) = Fields::new(model, &plan.extras).arrays(model);
@@ -40,14 +40,14 @@ impl Layout {
     ///
     /// # Errors
     /// The fix, if there is none of this name.
-    pub fn source(&self, column: &str) -> Result<Source, String> {
+    pub fn source(&self, column: &str) -> Result<ColumnSource, String> {
         if column == "t" {
-            return Ok(Source::Time);
+            return Ok(ColumnSource::Time);
         }
         let mut start = 0;
         for array in &self.arrays {
             if let Some(index) = array.columns.iter().position(|name| name == column) {
-                return Ok(Source::Row(start + index));
+                return Ok(ColumnSource::Row(start + index));
             }
             start += array.row_len();
         }

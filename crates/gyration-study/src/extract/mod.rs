@@ -6,12 +6,12 @@ mod attitude;
 mod column;
 mod layout;
 
-pub(crate) use layout::Layout;
+pub(crate) use layout::ColumnPlaces;
 
 use crate::keep::Keep;
 use crate::value::Value;
-use attitude::{Distance, Face, Tilt, Turns};
-use column::{Listed, Measured, Source};
+use attitude::{Distance, LowestFace, Tilt, Turns};
+use column::{ColumnSource, ColumnStatistic, Listed};
 use gyration::model::Model;
 use gyration_record::RecordError;
 use gyration_sim::Sink;
@@ -26,11 +26,11 @@ pub(crate) struct Extractor {
 
 /// Works out one thing.
 enum Extraction {
-    Measured(Measured),
+    Statistic(ColumnStatistic),
     Count { event: usize, body: Option<usize>, count: i64 },
     At { event: usize, body: Option<usize>, listed: Listed },
     Samples(Listed),
-    Face(Face),
+    Face(LowestFace),
     Tilt(Tilt),
     Turns(Turns),
     Distance(Distance),
@@ -41,7 +41,7 @@ impl Extractor {
     ///
     /// # Errors
     /// A column or a body that the model does not have, in words.
-    pub fn new(keeps: &[(String, Keep)], model: &Model, layout: &Layout) -> Result<Self, String> {
+    pub fn new(keeps: &[(String, Keep)], model: &Model, layout: &ColumnPlaces) -> Result<Self, String> {
         let extractions =
             keeps.iter().map(|(_, keep)| extraction(keep, model, layout)).collect::<Result<_, String>>()?;
         Ok(Self { extractions, at_events: keeps.iter().any(|(_, keep)| matches!(keep, Keep::At { .. })) })
@@ -50,7 +50,7 @@ impl Extractor {
     /// What is kept, in order.
     pub fn finish(self) -> Vec<Value> {
         let value = |extraction| match extraction {
-            Extraction::Measured(measured) => measured.value(),
+            Extraction::Statistic(statistic) => statistic.value(),
             Extraction::Count { count, .. } => Value::Integer(count),
             Extraction::At { listed, .. } | Extraction::Samples(listed) => listed.value(),
             Extraction::Face(face) => face.value(),
@@ -62,20 +62,20 @@ impl Extractor {
     }
 }
 
-fn extraction(keep: &Keep, model: &Model, layout: &Layout) -> Result<Extraction, String> {
+fn extraction(keep: &Keep, model: &Model, layout: &ColumnPlaces) -> Result<Extraction, String> {
     let body = |name: &String| layout.body(name).map_err(|fix| format!("there is no body \"{name}\": {fix}"));
     let one_of = |name: &Option<String>| name.as_ref().map(body).transpose();
-    let source = |column: &String| -> Result<Source, String> {
+    let source = |column: &String| -> Result<ColumnSource, String> {
         layout.source(column).map_err(|fix| format!("there is no column \"{column}\": {fix}"))
     };
     Ok(match keep {
-        Keep::Column { column, measure } => Extraction::Measured(Measured::new(source(column)?, *measure)),
+        Keep::Column { column, measure } => Extraction::Statistic(ColumnStatistic::new(source(column)?, *measure)),
         Keep::Count { event, body } => Extraction::Count { event: *event, body: one_of(body)?, count: 0 },
         Keep::At { event, body, column, pick } => {
             Extraction::At { event: *event, body: one_of(body)?, listed: Listed::new(source(column)?, *pick) }
         }
         Keep::Samples { column, pick } => Extraction::Samples(Listed::new(source(column)?, *pick)),
-        Keep::Face { body: name, at_start } => Extraction::Face(Face::new(model, layout, body(name)?, *at_start)),
+        Keep::Face { body: name, at_start } => Extraction::Face(LowestFace::new(model, layout, body(name)?, *at_start)),
         Keep::Tilt { body: name } => Extraction::Tilt(Tilt::new(model, layout, body(name)?)),
         Keep::Turns { body: name, axis, of_form } => {
             Extraction::Turns(Turns::new(model, layout, body(name)?, (*axis, *of_form)))
@@ -90,7 +90,7 @@ impl Sink for Extractor {
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         for extraction in &mut self.extractions {
             match extraction {
-                Extraction::Measured(measured) => measured.row(time, row),
+                Extraction::Statistic(statistic) => statistic.row(time, row),
                 Extraction::Samples(listed) => listed.row(time, row),
                 Extraction::Face(face) => face.row(row),
                 Extraction::Tilt(tilt) => tilt.row(row),

@@ -8,4 +8,4 @@ mod stream;
 pub(crate) use normal::inverse_normal;
 pub(crate) use permutation::permuted;
 pub(crate) use sobol::{MOST_DIMENSIONS, Sobol};
-pub(crate) use stream::{Stream, hash, unit};
+pub(crate) use stream::{RandomStream, hash, unit};

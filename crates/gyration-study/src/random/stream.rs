@@ -9,9 +9,9 @@ use chacha20::rand_core::{Rng, SeedableRng};
 
 /// A stream of random numbers.
 #[derive(Debug)]
-pub struct Stream(ChaCha8Rng);
+pub struct RandomStream(ChaCha8Rng);
 
-impl Stream {
+impl RandomStream {
     /// The stream of a seed, a number (of a run, of a point) and a name (of a parameter).
     pub fn new(seed: u64, number: u64, name: &str) -> Self {
         let mut key = [0; 32];
@@ -56,7 +56,7 @@ mod tests {
         let mut cells = [0.0; 64];
         for run in 0..RUNS {
             let [row, column] =
-                [one, other].map(|(seed, name)| (8.0 * Stream::new(seed, run, name).uniform()) as usize);
+                [one, other].map(|(seed, name)| (8.0 * RandomStream::new(seed, run, name).uniform()) as usize);
             cells[8 * row + column] += 1.0;
         }
         let expected = RUNS as f64 / 64.0;
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn streams_of_neighbouring_runs_are_independent() {
         // Means and products of neighbours: standard deviations 1/√(12 N) and 1/√N; four of them are allowed.
-        let first: Vec<f64> = (0..10_001).map(|run| Stream::new(0, run, "a").uniform() - 0.5).collect();
+        let first: Vec<f64> = (0..10_001).map(|run| RandomStream::new(0, run, "a").uniform() - 0.5).collect();
         let mean = first.iter().sum::<f64>() / 1e4;
         let correlation = 12.0 / 1e4 * first.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
         assert!(mean.abs() < 4.0 / 120e3_f64.sqrt() && correlation.abs() < 0.04, "{mean} {correlation}");

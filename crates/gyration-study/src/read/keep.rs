@@ -1,7 +1,7 @@
 //! `[keep]`: one thing each, with what belongs to it.
 
 use crate::file;
-use crate::keep::{Keep, Measure, Pick};
+use crate::keep::{Keep, Pick, Statistic};
 use crate::written::measured;
 use gyration::tensor::Vec3;
 use gyration_scene::input::InputFile;
@@ -30,7 +30,7 @@ const WAYS: [(&str, &[&str]); 14] = [
 const MOST_LISTED: f64 = 1e6;
 
 /// Notes what is wrong with one thing that is kept.
-struct Reader<'a> {
+struct KeepReader<'a> {
     input: &'a mut InputFile,
     name: &'a str,
 }
@@ -40,14 +40,14 @@ pub(super) fn keeps(input: &mut InputFile) -> Vec<(String, Keep)> {
     let mut keeps = Vec::new();
     for name in input.keys(&["keep"]) {
         let Some(written) = input.take::<file::Keep>(&["keep", &name]) else { continue };
-        if let Some(keep) = (Reader { input, name: &name }).keep(&written) {
+        if let Some(keep) = (KeepReader { input, name: &name }).keep(&written) {
             keeps.push((name, keep));
         }
     }
     keeps
 }
 
-impl Reader<'_> {
+impl KeepReader<'_> {
     fn note(&mut self, keys: &[&str], message: impl Into<String>, help: impl Into<String>) {
         self.input.note(&[&["keep", self.name][..], keys].concat(), message, help);
     }
@@ -68,12 +68,12 @@ impl Reader<'_> {
                 };
                 Some(Keep::Face { body: written.face.clone()?, at_start })
             }
-            "first" => column(&text(&written.first), Measure::First),
-            "last" => column(&text(&written.last), Measure::Last),
-            "change" => column(&written.change, Measure::Change),
-            "minimum" => column(&written.minimum, Measure::Minimum),
-            "maximum" => column(&written.maximum, Measure::Maximum),
-            "mean" => column(&written.mean, Measure::Mean),
+            "first" => column(&text(&written.first), Statistic::First),
+            "last" => column(&text(&written.last), Statistic::Last),
+            "change" => column(&written.change, Statistic::Change),
+            "minimum" => column(&written.minimum, Statistic::Minimum),
+            "maximum" => column(&written.maximum, Statistic::Maximum),
+            "mean" => column(&written.mean, Statistic::Mean),
             "count" => {
                 let event = self.event("count", written.count.as_deref()?)?;
                 Some(Keep::Count { event, body: written.body.clone() })

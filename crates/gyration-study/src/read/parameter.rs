@@ -1,7 +1,7 @@
 //! `[parameter.NAME]`: keys, and exactly one way in which they vary.
 
 use crate::file::{self, Direction, Grid, Measured, Normal, Range, Spacing};
-use crate::parameter::{Distribution, Parameter, Steps, Variation, columns};
+use crate::parameter::{AxisValues, Distribution, Parameter, Variation, columns};
 use crate::value::Value;
 use crate::written::{measured, toml, unit_at};
 use gyration_scene::input::InputFile;
@@ -13,7 +13,7 @@ const WAYS: [&str; 7] = ["values", "grid", "uniform", "log_uniform", "normal", "
 const MOST_STEPS: f64 = 1_099_511_627_776.0;
 
 /// Reads a parameter at a place.
-struct Reader<'a> {
+struct ParameterReader<'a> {
     input: &'a mut InputFile,
     name: &'a str,
     /// The key whose unit its numbers have.
@@ -51,7 +51,7 @@ fn parameter(input: &mut InputFile, name: &str, written: &file::Parameter, first
         input.note(&place, format!("expected exactly one way in which it varies, found {found}"), help);
         return None;
     };
-    let mut reader = Reader { input, name, key: keys[0].clone() };
+    let mut reader = ParameterReader { input, name, key: keys[0].clone() };
     let variation = match way {
         "values" => reader.listed(written.values.as_deref().unwrap_or_default()),
         "grid" => reader.grid(written.grid.as_ref()?),
@@ -108,7 +108,7 @@ fn axes(input: &mut InputFile, found: &mut [(Parameter, Option<String>)]) -> Vec
     lengths
 }
 
-impl Reader<'_> {
+impl ParameterReader<'_> {
     /// Notes what is wrong at a key of the parameter.
     fn note(&mut self, keys: &[&str], message: impl Into<String>, help: impl Into<String>) {
         self.input.note(&[&["parameter", self.name][..], keys].concat(), message, help);
@@ -201,7 +201,7 @@ impl Reader<'_> {
             self.note(&["grid", "to"], format!("all values are {to:?}"), "write another end, or count = 1");
             return None;
         }
-        let steps = Steps::Grid { from, to, count: count as u64, is_logarithmic };
+        let steps = AxisValues::Grid { from, to, count: count as u64, is_logarithmic };
         Some(Variation::Axis { axis: 0, steps })
     }
 
@@ -227,7 +227,7 @@ impl Reader<'_> {
             None => vec![Value::Text(value.as_str().map_or_else(|| toml(value), str::to_owned))],
         };
         let listed = values.iter().enumerate().map(|(index, value)| (toml(value), cells(index, value)));
-        Some(Variation::Axis { axis: 0, steps: Steps::Listed(listed.collect()) })
+        Some(Variation::Axis { axis: 0, steps: AxisValues::Listed(listed.collect()) })
     }
 
     /// The numbers of a value.

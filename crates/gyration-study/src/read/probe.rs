@@ -2,7 +2,7 @@
 
 use super::Read;
 use gyration_scene::input::InputFile;
-use gyration_scene::{Fault, Override, Scene, SceneErrors, Template};
+use gyration_scene::{ErrorKind, Override, Scene, SceneErrors, Template};
 use std::collections::BTreeSet;
 
 /// The scene of the first run; if a value of it is not possible, that of the scene alone, and without what the study
@@ -24,7 +24,7 @@ pub(crate) fn probe(
         Err(errors) => errors,
     };
     let mut blamed = BTreeSet::new();
-    for error in errors.as_slice().iter().filter(|error| error.fault != Fault::Value) {
+    for error in errors.as_slice().iter().filter(|error| error.fault != ErrorKind::Value) {
         let Some(index) = error.overriding else { continue };
         let (place, key) = owner(read, index);
         let place: Vec<&str> = place.iter().map(String::as_str).collect();
@@ -38,7 +38,7 @@ pub(crate) fn probe(
     }
     let settings = &overrides[..read.settings.len()];
     match template.scene(settings) {
-        Ok(scene) if errors.as_slice().iter().all(|error| error.fault == Fault::Value) => Ok(Some(scene)),
+        Ok(scene) if errors.as_slice().iter().all(|error| error.fault == ErrorKind::Value) => Ok(Some(scene)),
         Ok(_) => Err(errors),
         Err(alone) => Err(alone),
     }

@@ -1,7 +1,7 @@
 //! What is told of a table beside its rows: in the metadata of the Parquet files, and in `study.json`.
 
 use super::shard::Shard;
-use crate::parameter::{Distribution, Parameter, Steps, Variation};
+use crate::parameter::{AxisValues, Distribution, Parameter, Variation};
 use crate::study::Study;
 use serde_json::{Value as Json, json};
 
@@ -35,7 +35,7 @@ fn describe_parameter(parameter: &Parameter) -> Json {
     });
     match &parameter.variation {
         Variation::Axis { axis, steps } => {
-            let is_logarithmic = matches!(steps, Steps::Grid { is_logarithmic: true, .. });
+            let is_logarithmic = matches!(steps, AxisValues::Grid { is_logarithmic: true, .. });
             told["axis"] = json!(axis);
             told["count"] = json!(steps.count());
             told["scale"] = json!(if is_logarithmic { "log" } else { "linear" });

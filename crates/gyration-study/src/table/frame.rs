@@ -3,7 +3,7 @@
 use super::parquet::Input;
 use super::shard::Shard;
 use super::{MANIFEST, PORTION, ROWS, TABLE, journal};
-use crate::column::{Column, Kind};
+use crate::column::{Column, ColumnKind};
 use crate::error::StudyError;
 use crate::value::{Row, Value};
 use serde::Deserialize;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// A table in memory.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Frame {
+pub struct DataFrame {
     columns: Vec<FrameColumn>,
     rows: usize,
     description: Json,
@@ -61,12 +61,12 @@ pub struct Described {
 }
 
 impl Data {
-    fn new(kind: Kind) -> Self {
+    fn new(kind: ColumnKind) -> Self {
         match kind {
-            Kind::Integer => Self::Integer(Vec::new()),
-            Kind::Number => Self::Number(Vec::new()),
-            Kind::Text => Self::Text(Vec::new()),
-            Kind::List => Self::List(Vec::new()),
+            ColumnKind::Integer => Self::Integer(Vec::new()),
+            ColumnKind::Number => Self::Number(Vec::new()),
+            ColumnKind::Text => Self::Text(Vec::new()),
+            ColumnKind::List => Self::List(Vec::new()),
         }
     }
 
@@ -111,7 +111,7 @@ impl FrameColumn {
     }
 }
 
-impl Frame {
+impl DataFrame {
     /// Reads a table: a folder `NAME.study`, finished or not, or a Parquet file of one.
     ///
     /// # Errors

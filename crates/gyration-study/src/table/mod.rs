@@ -25,7 +25,7 @@ mod shard;
 mod writer;
 
 pub use digest::{Digest, Spread};
-pub use frame::{Data, Described, Frame, FrameColumn};
+pub use frame::{Data, DataFrame, Described, FrameColumn};
 pub use lock::TableLock;
 pub use merge::merge;
 pub use shard::Shard;

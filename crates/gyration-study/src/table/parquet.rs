@@ -4,7 +4,7 @@
 //! The three numbers of the run are required, all other cells optional; a list is the three-level LIST of the format.
 //! What is written depends on the rows alone.
 
-use crate::column::{Column, Kind};
+use crate::column::{Column, ColumnKind};
 use crate::error::StudyError;
 use crate::value::{Row, Value};
 use ::parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
@@ -34,7 +34,7 @@ const KEY: &str = "gyration";
 pub(super) struct Output {
     path: PathBuf,
     writer: SerializedFileWriter<File>,
-    kinds: Vec<Kind>,
+    kinds: Vec<ColumnKind>,
     waiting: Vec<Row>,
 }
 
@@ -105,10 +105,10 @@ fn schema(columns: &[Column]) -> Result<TypePtr> {
         let repetition = if index < REQUIRED { Repetition::REQUIRED } else { Repetition::OPTIONAL };
         let primitive = |kind| Type::primitive_type_builder(&column.name, kind).with_repetition(repetition);
         let field = match column.kind {
-            Kind::Integer => primitive(Physical::INT64).build()?,
-            Kind::Number => primitive(Physical::DOUBLE).build()?,
-            Kind::Text => primitive(Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String)).build()?,
-            Kind::List => list(&column.name)?,
+            ColumnKind::Integer => primitive(Physical::INT64).build()?,
+            ColumnKind::Number => primitive(Physical::DOUBLE).build()?,
+            ColumnKind::Text => primitive(Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String)).build()?,
+            ColumnKind::List => list(&column.name)?,
         };
         Ok(Arc::new(field))
     });
@@ -130,23 +130,23 @@ fn list(name: &str) -> Result<Type> {
         .build()
 }
 
-fn write_column(column: &mut SerializedColumnWriter, rows: &[Row], index: usize, kind: Kind) -> Result<()> {
+fn write_column(column: &mut SerializedColumnWriter, rows: &[Row], index: usize, kind: ColumnKind) -> Result<()> {
     let cells = || rows.iter().map(|row| row.values.get(index).unwrap_or(&Value::Null));
     let present: Vec<i16> = cells().map(|cell| i16::from(*cell != Value::Null)).collect();
     let levels = (index >= REQUIRED).then_some(present.as_slice());
     match (column.untyped(), kind) {
-        (ColumnWriter::Int64ColumnWriter(writer), Kind::Integer) => {
+        (ColumnWriter::Int64ColumnWriter(writer), ColumnKind::Integer) => {
             let integer = |cell: &Value| if let Value::Integer(value) = cell { Some(*value) } else { None };
             writer.write_batch(&cells().filter_map(integer).collect::<Vec<_>>(), levels, None)?;
         }
-        (ColumnWriter::DoubleColumnWriter(writer), Kind::Number) => {
+        (ColumnWriter::DoubleColumnWriter(writer), ColumnKind::Number) => {
             writer.write_batch(&cells().filter_map(Value::number).collect::<Vec<_>>(), levels, None)?;
         }
-        (ColumnWriter::ByteArrayColumnWriter(writer), Kind::Text) => {
+        (ColumnWriter::ByteArrayColumnWriter(writer), ColumnKind::Text) => {
             let texts: Vec<ByteArray> = cells().filter_map(Value::text).map(ByteArray::from).collect();
             writer.write_batch(&texts, levels, None)?;
         }
-        (ColumnWriter::DoubleColumnWriter(writer), Kind::List) => {
+        (ColumnWriter::DoubleColumnWriter(writer), ColumnKind::List) => {
             let (mut values, mut defined, mut repeated) = (Vec::new(), Vec::new(), Vec::new());
             for cell in cells() {
                 // 0: no list; 1: an empty one; 2: a value, that begins a list (0) or goes on with it (1).
@@ -171,7 +171,7 @@ fn write_column(column: &mut SerializedColumnWriter, rows: &[Row], index: usize,
 pub(crate) struct Input {
     path: PathBuf,
     reader: SerializedFileReader<File>,
-    kinds: Vec<Kind>,
+    kinds: Vec<ColumnKind>,
     group: usize,
     columns: Vec<ColumnReader>,
     /// Rows of the group that are still to be read.
@@ -243,20 +243,20 @@ impl Input {
     }
 }
 
-fn kind(field: &TypePtr) -> Option<Kind> {
+fn kind(field: &TypePtr) -> Option<ColumnKind> {
     if field.is_group() {
-        return Some(Kind::List);
+        return Some(ColumnKind::List);
     }
     match field.get_physical_type() {
-        Physical::INT64 => Some(Kind::Integer),
-        Physical::DOUBLE => Some(Kind::Number),
-        Physical::BYTE_ARRAY => Some(Kind::Text),
+        Physical::INT64 => Some(ColumnKind::Integer),
+        Physical::DOUBLE => Some(ColumnKind::Number),
+        Physical::BYTE_ARRAY => Some(ColumnKind::Text),
         _ => None,
     }
 }
 
 /// The next cells of a column.
-fn read_column(reader: &mut ColumnReader, kind: Kind, count: usize, is_required: bool) -> Result<Vec<Value>> {
+fn read_column(reader: &mut ColumnReader, kind: ColumnKind, count: usize, is_required: bool) -> Result<Vec<Value>> {
     let (mut defined, mut repeated) = (Vec::new(), Vec::new());
     macro_rules! values {
         ($reader:expr, $read_repeated:expr) => {{
@@ -275,17 +275,17 @@ fn read_column(reader: &mut ColumnReader, kind: Kind, count: usize, is_required:
         }};
     }
     let cells = match (reader, kind) {
-        (ColumnReader::Int64ColumnReader(reader), Kind::Integer) => {
+        (ColumnReader::Int64ColumnReader(reader), ColumnKind::Integer) => {
             optional(values!(reader, false).map(Value::Integer), &defined, is_required)
         }
-        (ColumnReader::DoubleColumnReader(reader), Kind::Number) => {
+        (ColumnReader::DoubleColumnReader(reader), ColumnKind::Number) => {
             optional(values!(reader, false).map(Value::Number), &defined, is_required)
         }
-        (ColumnReader::ByteArrayColumnReader(reader), Kind::Text) => {
+        (ColumnReader::ByteArrayColumnReader(reader), ColumnKind::Text) => {
             let text = |bytes: ByteArray| Value::Text(String::from_utf8_lossy(bytes.data()).into_owned());
             optional(values!(reader, false).map(text), &defined, is_required)
         }
-        (ColumnReader::DoubleColumnReader(reader), Kind::List) => {
+        (ColumnReader::DoubleColumnReader(reader), ColumnKind::List) => {
             let values = values!(reader, true);
             lists(values, &defined, &repeated)
         }

@@ -7,7 +7,7 @@ mod runner;
 mod shared;
 mod store;
 
-pub(crate) use shared::Shared;
+pub(crate) use shared::LiveState;
 pub(crate) use store::{Cursor, Message};
 
 use gyration_sim::Provenance;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// A scene that runs as it is watched.
 #[derive(Clone)]
 pub struct Live {
-    shared: Arc<Shared>,
+    shared: Arc<LiveState>,
 }
 
 impl Live {
@@ -27,7 +27,7 @@ impl Live {
     /// # Errors
     /// Those of the system, which may have no thread to give.
     pub fn start(scene: &str, overrides: &[String], provenance: Provenance) -> Result<Self, io::Error> {
-        let shared = Arc::new(Shared::new(overrides.to_vec()));
+        let shared = Arc::new(LiveState::new(overrides.to_vec()));
         let subject = Subject { scene: scene.to_owned(), provenance };
         let of_thread = Arc::clone(&shared);
         std::thread::Builder::new().name("run".into()).spawn(move || runner::run(&of_thread, &subject))?;
@@ -35,7 +35,7 @@ impl Live {
     }
 
     /// A page has come: the run may begin.
-    pub(crate) fn watch(&self) -> Arc<Shared> {
+    pub(crate) fn watch(&self) -> Arc<LiveState> {
         self.shared.watch();
         Arc::clone(&self.shared)
     }

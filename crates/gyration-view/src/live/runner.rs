@@ -1,6 +1,6 @@
 //! The thread that runs a scene again and again, as pages ask for it.
 
-use super::shared::Shared;
+use super::shared::LiveState;
 use crate::blob;
 use crate::header::Header;
 use gyration::body::BodyKind;
@@ -28,7 +28,7 @@ pub(super) struct Subject {
 }
 
 /// Runs what is wanted, for ever.
-pub(super) fn run(shared: &Shared, subject: &Subject) {
+pub(super) fn run(shared: &LiveState, subject: &Subject) {
     loop {
         let overrides = shared.next();
         if let Err(problem) = run_once(shared, subject, &overrides) {
@@ -39,7 +39,7 @@ pub(super) fn run(shared: &Shared, subject: &Subject) {
 }
 
 /// Runs the scene once, or says in words why not.
-fn run_once(shared: &Shared, subject: &Subject, overrides: &[String]) -> Result<(), String> {
+fn run_once(shared: &LiveState, subject: &Subject, overrides: &[String]) -> Result<(), String> {
     let scene = gyration_sim::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
     let mut job = Job::of(&scene, &subject.provenance);
     // Bodies that deform are coloured by their stress, which is recorded on request only.
@@ -85,7 +85,7 @@ fn thin(job: &mut Job, layout: &Layout) -> Option<(usize, usize)> {
 }
 
 /// Begins a run in the store; the numbers in a row.
-fn publish(shared: &Shared, job: &Job, layout: &Layout, thinned: Option<(usize, usize)>) -> usize {
+fn publish(shared: &LiveState, job: &Job, layout: &Layout, thinned: Option<(usize, usize)>) -> usize {
     let mut store = shared.store();
     let mut header = Header::of_layout(layout, job.all_attributes(), store.next_run());
     if let Some((kept, of)) = thinned {
@@ -118,7 +118,7 @@ impl Sink for FirstRow {
 
 /// Publishes rows and events.
 struct Publisher<'a> {
-    shared: &'a Shared,
+    shared: &'a LiveState,
     told: Instant,
     stride: usize,
 }
@@ -147,7 +147,7 @@ impl Sink for Publisher<'_> {
 
 /// Halts the run while it is paused, ends it for another, and says how far it is.
 struct LiveMonitor<'a> {
-    shared: &'a Shared,
+    shared: &'a LiveState,
     told: Instant,
 }
 

@@ -4,9 +4,9 @@ use super::store::Store;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// What thread and pages share.
-pub(crate) struct Shared {
+pub(crate) struct LiveState {
     pub(crate) store: Mutex<Store>,
-    control: Mutex<Control>,
+    control: Mutex<PageRequests>,
     /// Rung when `control` changes.
     told: Condvar,
     /// Changes whenever there is something new to take.
@@ -15,7 +15,7 @@ pub(crate) struct Shared {
 
 /// What pages want of the thread.
 #[derive(Debug, Default)]
-struct Control {
+struct PageRequests {
     /// A run to begin, with these overrides.
     wanted: Option<Vec<String>>,
     paused: bool,
@@ -23,12 +23,12 @@ struct Control {
     watched: bool,
 }
 
-impl Shared {
+impl LiveState {
     /// For a run with these overrides, which begins with the first page.
     pub(super) fn new(overrides: Vec<String>) -> Self {
         Self {
             store: Mutex::new(Store::default()),
-            control: Mutex::new(Control { wanted: Some(overrides), ..Control::default() }),
+            control: Mutex::new(PageRequests { wanted: Some(overrides), ..PageRequests::default() }),
             told: Condvar::new(),
             news: tokio::sync::watch::Sender::new(0),
         }
@@ -64,12 +64,12 @@ impl Shared {
         self.news.send_modify(|count| *count += 1);
     }
 
-    fn tell(&self, change: impl FnOnce(&mut Control)) {
+    fn tell(&self, change: impl FnOnce(&mut PageRequests)) {
         change(&mut self.control());
         self.told.notify_all();
     }
 
-    fn control(&self) -> MutexGuard<'_, Control> {
+    fn control(&self) -> MutexGuard<'_, PageRequests> {
         self.control.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

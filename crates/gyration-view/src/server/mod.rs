@@ -25,7 +25,7 @@ use axum::response::{Html, IntoResponse, Response};
 use axum::routing::get;
 use serde::Deserialize;
 use serde_json::json;
-use shown::{Refusal, Shown};
+use shown::{BadRequest, Shown};
 use std::future::Future;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::{Arc, PoisonError, RwLock};
@@ -101,11 +101,11 @@ fn router(shown: Arc<Shown>, port: u16) -> Router {
 async fn index() -> Response {
     match page::html() {
         Ok(html) => Html(html).into_response(),
-        Err(error) => Refusal::from(error).into_response(),
+        Err(error) => BadRequest::from(error).into_response(),
     }
 }
 
-async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, Refusal> {
+async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, BadRequest> {
     let json = match &*shown {
         Shown::Live(_) => json!({ "protocol": crate::header::PROTOCOL, "mode": "live" }),
         Shown::Recording(stored) => {
@@ -121,7 +121,7 @@ async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, Refusal>
 
 /// Rows of a blob; all without.
 #[derive(Debug, Deserialize)]
-struct Rows {
+struct RowsQuery {
     from: Option<usize>,
     to: Option<usize>,
 }
@@ -129,15 +129,15 @@ struct Rows {
 async fn blob_of(
     State(shown): State<Arc<Shown>>,
     Path(name): Path<String>,
-    Query(rows): Query<Rows>,
-) -> Result<Response, Refusal> {
+    Query(rows): Query<RowsQuery>,
+) -> Result<Response, BadRequest> {
     let Shown::Recording(stored) = &*shown else {
-        return Err(Refusal(StatusCode::NOT_FOUND, "a live run is sent by websocket, at /api/live".to_owned()));
+        return Err(BadRequest(StatusCode::NOT_FOUND, "a live run is sent by websocket, at /api/live".to_owned()));
     };
     let stored = Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner));
     let rows = rows.from.unwrap_or(0)..rows.to.unwrap_or(stored.rows());
     // Reading may take long: other requests are answered meanwhile.
     let read = tokio::task::spawn_blocking(move || stored.blob(&name, rows, 1)).await;
-    let bytes = read.map_err(|error| Refusal(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))??;
+    let bytes = read.map_err(|error| BadRequest(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))??;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
 }

@@ -17,9 +17,9 @@ pub(super) enum Shown {
 
 /// A request that cannot be met, in words.
 #[derive(Debug)]
-pub(super) struct Refusal(pub(super) StatusCode, pub(super) String);
+pub(super) struct BadRequest(pub(super) StatusCode, pub(super) String);
 
-impl From<ViewError> for Refusal {
+impl From<ViewError> for BadRequest {
     fn from(error: ViewError) -> Self {
         let status = match &error {
             ViewError::Record(RecordError::NoSuchArray { .. }) => StatusCode::NOT_FOUND,
@@ -30,7 +30,7 @@ impl From<ViewError> for Refusal {
     }
 }
 
-impl IntoResponse for Refusal {
+impl IntoResponse for BadRequest {
     fn into_response(self) -> Response {
         (self.0, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], self.1).into_response()
     }

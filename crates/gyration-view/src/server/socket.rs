@@ -1,7 +1,7 @@
 //! The websocket of a live run: what is new goes out, what the watcher wants comes in.
 
-use super::shown::{Refusal, Shown};
-use crate::live::{Cursor, Live, Message, Shared};
+use super::shown::{BadRequest, Shown};
+use crate::live::{Cursor, Live, LiveState, Message};
 use axum::extract::State;
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
 use axum::http::StatusCode;
@@ -25,9 +25,9 @@ enum Wish {
 }
 
 /// Opens the websocket.
-pub(super) async fn live(State(shown): State<Arc<Shown>>, upgrade: WebSocketUpgrade) -> Result<Response, Refusal> {
+pub(super) async fn live(State(shown): State<Arc<Shown>>, upgrade: WebSocketUpgrade) -> Result<Response, BadRequest> {
     let Shown::Live(live) = &*shown else {
-        return Err(Refusal(StatusCode::NOT_FOUND, "this is a recording: see /api/header".to_owned()));
+        return Err(BadRequest(StatusCode::NOT_FOUND, "this is a recording: see /api/header".to_owned()));
     };
     let live: Live = live.clone();
     Ok(upgrade.max_message_size(MOST_BYTES).on_upgrade(|socket| async move {
@@ -37,7 +37,7 @@ pub(super) async fn live(State(shown): State<Arc<Shown>>, upgrade: WebSocketUpgr
 }
 
 /// Sends what is new and does what is wanted, until the page goes away.
-async fn converse(mut socket: WebSocket, shared: &Arc<Shared>) -> Result<(), axum::Error> {
+async fn converse(mut socket: WebSocket, shared: &Arc<LiveState>) -> Result<(), axum::Error> {
     let mut news = shared.news.subscribe();
     let mut cursor = Cursor::default();
     loop {
@@ -65,7 +65,7 @@ async fn converse(mut socket: WebSocket, shared: &Arc<Shared>) -> Result<(), axu
     }
 }
 
-async fn grant(shared: &Shared, text: &str, socket: &mut WebSocket) -> Result<(), axum::Error> {
+async fn grant(shared: &LiveState, text: &str, socket: &mut WebSocket) -> Result<(), axum::Error> {
     match serde_json::from_str(text) {
         Ok(Wish::Pause) => shared.pause(true),
         Ok(Wish::Resume) => shared.pause(false),

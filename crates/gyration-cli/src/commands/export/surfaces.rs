@@ -5,7 +5,7 @@
 
 use crate::error::CliError;
 use crate::output;
-use gyration_record::export::vtk::{Entry, pvd};
+use gyration_record::export::vtk::{SeriesFile, pvd};
 use gyration_record::{RecordError, Recording, cannot_write, replace_file};
 use gyration_sim::replay::ReplayError;
 use gyration_sim::replay::vtk::SurfaceSeries;
@@ -45,7 +45,7 @@ pub fn write(recording: &Recording, list: &Path, every: usize) -> Result<String,
 }
 
 /// The files of all samples, and the number of cells of each.
-fn write_samples(recording: &Recording, rows: &[usize], folder: &Path) -> Result<(Vec<Entry>, usize), CliError> {
+fn write_samples(recording: &Recording, rows: &[usize], folder: &Path) -> Result<(Vec<SeriesFile>, usize), CliError> {
     let explain = |error| explain(recording, error);
     let mut series = SurfaceSeries::open(recording).map_err(explain)?;
     let mut entries = Vec::new();

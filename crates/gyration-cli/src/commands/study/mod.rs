@@ -4,12 +4,12 @@ mod bar;
 mod plot;
 mod summary;
 
-use crate::arguments::{Study as Arguments, StudyAction};
+use crate::arguments::{StudyAction, StudyArguments};
 use crate::error::{CliError, code};
 use crate::input::{quoted, shown};
 use crate::output;
 use bar::StudyBar;
-use gyration_plot::study::Request;
+use gyration_plot::study::PlotRequest;
 use gyration_study::{Digest, Shard, Study, Table, execute as make, merge, studies};
 use gyration_threads::Threads;
 use std::num::NonZeroUsize;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Does what was asked; the exit code tells whether the table is complete.
-pub fn execute(arguments: &Arguments) -> Result<u8, CliError> {
+pub fn execute(arguments: &StudyArguments) -> Result<u8, CliError> {
     let Some(name) = &arguments.study else { return list() };
     // A table is drawn wherever it comes from: its study need not be there.
     if let Some(StudyAction::Plot(wanted)) = &arguments.action {
@@ -44,9 +44,9 @@ fn list() -> Result<u8, CliError> {
 }
 
 /// Makes the runs that are missing.
-fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
+fn run(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, CliError> {
     let shard = shard(arguments.shard.as_deref())?;
-    Request::of_study(study)?;
+    PlotRequest::of_study(study)?;
     let threads = Threads::asked(arguments.threads.map(NonZeroUsize::get))
         .map_err(|wrong| CliError::arguments(wrong.to_string(), wrong.fix()))?;
     let mut table = match arguments.resume {
@@ -68,7 +68,8 @@ fn run(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError
     if is_complete {
         let digest = Digest::read(&table.file())?;
         if !arguments.quiet {
-            let effort = summary::Effort { runs: made, seconds: began.elapsed().as_secs_f64(), threads: threads.get() };
+            let effort =
+                summary::StudyCost { runs: made, seconds: began.elapsed().as_secs_f64(), threads: threads.get() };
             output::say(&summary::in_words(study, &digest, &effort));
             output::say(&format!("table      {}", shown(&table.file())));
         }
@@ -91,12 +92,12 @@ fn shard(text: Option<&str>) -> Result<Shard, CliError> {
     }
 }
 
-fn join(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliError> {
+fn join(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, CliError> {
     let began = Instant::now();
     let file = merge(path, study, arguments.force)?;
     let digest = Digest::read(&file)?;
     if !arguments.quiet {
-        let effort = summary::Effort { runs: 0, seconds: began.elapsed().as_secs_f64(), threads: 1 };
+        let effort = summary::StudyCost { runs: 0, seconds: began.elapsed().as_secs_f64(), threads: 1 };
         output::say(&summary::in_words(study, &digest, &effort));
         output::say(&format!("table      {}", shown(&file)));
     }
@@ -104,7 +105,7 @@ fn join(arguments: &Arguments, study: &Study, path: &Path) -> Result<u8, CliErro
 }
 
 /// The command by which an interrupted study goes on.
-fn resume_command(arguments: &Arguments, path: &Path) -> String {
+fn resume_command(arguments: &StudyArguments, path: &Path) -> String {
     let study = arguments.study.as_deref().unwrap_or_default();
     let mut command = format!("gyration study {} -o {}", quoted(study), quoted(&shown(path)));
     for text in &arguments.overrides {

@@ -1,25 +1,25 @@
 //! `gyration study STUDY plot`: the picture of a table.
 
-use crate::arguments::{Study as Arguments, StudyPlot};
+use crate::arguments::{StudyArguments, StudyPlot};
 use crate::commands::plot::{format, write};
 use crate::error::CliError;
-use gyration_plot::study::{Kind, Request, of_table};
-use gyration_study::{Frame, Study};
+use gyration_plot::study::{PlotKind, PlotRequest, of_table};
+use gyration_study::{DataFrame, Study};
 use std::path::{Path, PathBuf};
 
 /// Draws the table of a study: its folder, a Parquet file, or the folder that a run of the study has left here.
-pub fn execute(study: &str, arguments: &StudyPlot, beside: &Arguments) -> Result<u8, CliError> {
+pub fn execute(study: &str, arguments: &StudyPlot, beside: &StudyArguments) -> Result<u8, CliError> {
     let output = beside.output.as_deref();
     let format = format(output)?;
     let path = table(study)?;
-    let frame = Frame::read(&path)?;
+    let frame = DataFrame::read(&path)?;
     let stem = stem(&path);
-    let asked = Request {
-        kind: arguments.kind.as_deref().map(Kind::of_word).transpose()?,
+    let asked = PlotRequest {
+        kind: arguments.kind.as_deref().map(PlotKind::of_word).transpose()?,
         x: arguments.x.clone(),
         y: arguments.y.clone(),
         colour: arguments.colour.clone(),
-        ..Request::default()
+        ..PlotRequest::default()
     };
     let figure = of_table(&frame, &stem, asked, opened(study, &beside.overrides)?.as_ref())?;
     write(&figure, output, format, || PathBuf::from(format!("{stem}.svg")))

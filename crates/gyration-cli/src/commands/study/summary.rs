@@ -3,13 +3,13 @@
 use crate::error::code;
 use crate::output;
 use gyration_sim::format::{duration, significant};
-use gyration_study::{Column, Digest, FAILED, Kind, Spread, Study};
+use gyration_study::{Column, ColumnKind, Digest, FAILED, Spread, Study};
 
 /// The most different texts that are listed.
 const MOST_LISTED: usize = 12;
 
 /// What it took.
-pub struct Effort {
+pub struct StudyCost {
     /// Runs made now.
     pub runs: u64,
     /// Wall time [s].
@@ -19,7 +19,7 @@ pub struct Effort {
 }
 
 /// The summary, a line a thing.
-pub fn in_words(study: &Study, digest: &Digest, effort: &Effort) -> String {
+pub fn in_words(study: &Study, digest: &Digest, effort: &StudyCost) -> String {
     let mut lines = Vec::new();
     if let Some(title) = study.title() {
         lines.push(title.to_owned());
@@ -58,7 +58,7 @@ pub fn exit_code(digest: &Digest) -> u8 {
     code::ENDED_EARLY
 }
 
-fn throughput(effort: &Effort) -> String {
+fn throughput(effort: &StudyCost) -> String {
     let rate = effort.runs as f64 / effort.seconds;
     let threads = match effort.threads {
         1 => "on one thread".to_owned(),
@@ -73,14 +73,14 @@ fn throughput(effort: &Effort) -> String {
 
 /// A kept column in a few words: counts, or mean ± standard deviation and the range.
 fn told(column: &Column, spread: &Spread) -> String {
-    if column.kind == Kind::Text {
+    if column.kind == ColumnKind::Text {
         return counted(spread);
     }
     if spread.count == 0 {
         return "none".to_owned();
     }
     let unit = column.unit.as_deref().filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
-    let lists = if column.kind == Kind::List { ", in lists" } else { "" };
+    let lists = if column.kind == ColumnKind::List { ", in lists" } else { "" };
     let range = format!("{} to {}", significant(spread.least, 4), significant(spread.greatest, 4));
     format!("{} ± {}{unit} ({range}){lists}", significant(spread.mean, 5), significant(spread.deviation(), 3))
 }

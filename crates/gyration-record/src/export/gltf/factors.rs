@@ -21,7 +21,7 @@ const SWEEPS: usize = 20;
 
 /// The factors of one placement gradient.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Factors {
+pub(super) struct GradientFactors {
     /// U.
     pub outer: UnitQuaternion<f64>,
     /// The diagonal of S, > 0.
@@ -30,7 +30,7 @@ pub(super) struct Factors {
     pub inner: UnitQuaternion<f64>,
 }
 
-impl Factors {
+impl GradientFactors {
     /// Those of no deformation.
     pub fn identity() -> Self {
         let one = UnitQuaternion::identity();
@@ -79,7 +79,7 @@ impl Factors {
 /// Half-way between two placement gradients: their rotations turned half-way, their stretches √(PᵀP) averaged.
 pub(super) fn natural_mean(p: &Mat3, q: &Mat3) -> Option<Mat3> {
     let [a, b] = [p, q].map(|gradient| {
-        let factors = Factors::identity().follow(gradient)?;
+        let factors = GradientFactors::identity().follow(gradient)?;
         let turn = factors.outer * factors.inner;
         Some((turn, turn.to_rotation_matrix().into_inner().transpose() * gradient))
     });

@@ -5,7 +5,7 @@
 //! flickers through the other.
 
 use super::shading::single;
-use crate::export::drawing::{Ground, Vec3};
+use crate::export::drawing::{DrawnSupport, Vec3};
 
 /// Steps of the grid along the longer side, about.
 const STEPS: f64 = 12.0;
@@ -29,7 +29,7 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// A sheet under spheres: centre \[m\] and radius \[m\] of each.
-    pub fn under(ground: &Ground, carried: &[(Vec3, f64)]) -> Self {
+    pub fn under(ground: &DrawnSupport, carried: &[(Vec3, f64)]) -> Self {
         let (origin, normal) = (Vec3::from(ground.origin), Vec3::from(ground.normal).normalize());
         // Along x, or along y on a plane that faces x.
         let axis = if normal.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn sheet_lies_in_the_plane_under_all_that_it_carries() {
-        let ground: Ground = serde_json::from_value(serde_json::json!({
+        let ground: DrawnSupport = serde_json::from_value(serde_json::json!({
             "name": "slope", "origin": [1.0, 2.0, 3.0], "normal": [0.6, 0.0, 0.8], "motion": null,
         }))
         .unwrap_or_else(|error| panic!("{error}"));

@@ -18,7 +18,7 @@ mod shading;
 #[cfg(test)]
 mod tests;
 
-use super::drawing::{Drawing, Figure, Ground, Vec3};
+use super::drawing::{Drawing, DrawnBody, DrawnSupport, Vec3};
 use crate::error::RecordError;
 use crate::recording::Recording;
 use container::Numbers;
@@ -47,7 +47,7 @@ pub fn gltf(recording: &Recording, path: &Path) -> Result<usize, RecordError> {
     let drawing = Drawing::of(recording)?;
     let rows = keys(&recording.times()?, drawing.bodies.len());
     let tracks = tracks(recording, &drawing, &rows)?;
-    let document = Document::new(&drawing, &tracks);
+    let document = GltfDocument::new(&drawing, &tracks);
     let file = File::create(path).map_err(RecordError::io("create", path))?;
     let mut out = BufWriter::new(file);
     let written = document.write(recording, &mut out).and_then(|()| out.flush());
@@ -57,7 +57,7 @@ pub fn gltf(recording: &Recording, path: &Path) -> Result<usize, RecordError> {
 
 /// The document under construction.
 #[derive(Default)]
-struct Document {
+struct GltfDocument {
     numbers: Numbers,
     nodes: Vec<Value>,
     meshes: Vec<Value>,
@@ -66,7 +66,7 @@ struct Document {
     channels: Vec<Value>,
 }
 
-impl Document {
+impl GltfDocument {
     fn new(drawing: &Drawing, tracks: &[Track]) -> Self {
         let mut this = Self::default();
         let up = UnitQuaternion::rotation_between(&drawing.up, &Vec3::y());
@@ -98,7 +98,7 @@ impl Document {
     }
 
     /// The nodes of a body; returns the outer one.
-    fn body(&mut self, index: usize, figure: &Figure, track: &Track, surfaces: &[Value]) -> usize {
+    fn body(&mut self, index: usize, figure: &DrawnBody, track: &Track, surfaces: &[Value]) -> usize {
         let mesh = self.figure(index, figure, surfaces);
         let (outer, inner) = (self.nodes.len(), self.nodes.len() + 1);
         let Some((position, factors)) = track.positions.first().zip(track.factors.first()) else {
@@ -125,7 +125,7 @@ impl Document {
         self.nodes.push(json!({
             "name": format!("{}, axes of stretch", figure.name), "rotation": quaternion(&factors.inner), "mesh": mesh,
         }));
-        let each = |of: fn(&factors::Factors) -> [f32; 4]| track.factors.iter().map(of).collect::<Vec<_>>();
+        let each = |of: fn(&factors::GradientFactors) -> [f32; 4]| track.factors.iter().map(of).collect::<Vec<_>>();
         let scales: Vec<_> = track.factors.iter().map(|factors| single(&factors.stretches)).collect();
         self.animate(outer, "rotation", times, &each(|factors| quaternion(&factors.outer)));
         self.animate(outer, "scale", times, &scales);
@@ -134,7 +134,7 @@ impl Document {
     }
 
     /// The mesh of a body: its surface and its wireframe, by which the eye sees a ball turn; or its points.
-    fn figure(&mut self, index: usize, figure: &Figure, surfaces: &[Value]) -> usize {
+    fn figure(&mut self, index: usize, figure: &DrawnBody, surfaces: &[Value]) -> usize {
         let [fill, line] = paint::body(index, &figure.name).map(|material| self.add_material(material));
         let Some(surface) = figure.surface.and_then(|surface| surfaces.get(surface)) else {
             let points: Vec<_> = figure.points().map(|point| single(&point)).collect();
@@ -154,7 +154,7 @@ impl Document {
     }
 
     /// The node of a support.
-    fn support(&mut self, ground: &Ground, carried: &[(Vec3, f64)], times: &[f64]) -> usize {
+    fn support(&mut self, ground: &DrawnSupport, carried: &[(Vec3, f64)], times: &[f64]) -> usize {
         let sheet = Sheet::under(ground, carried);
         let [surface, grid] = [paint::sheet(), paint::grid()].map(|material| self.add_material(material));
         let normals = [single(&sheet.normal); 4];
@@ -229,7 +229,7 @@ impl Document {
 
 /// Where the bodies come in the whole motion: centres and half of their sizes.
 fn carried(drawing: &Drawing, tracks: &[Track]) -> Vec<(Vec3, f64)> {
-    let of_body = |(figure, track): (&Figure, &Track)| {
+    let of_body = |(figure, track): (&DrawnBody, &Track)| {
         let half = 0.5 * figure.size;
         track.positions.iter().map(|position| (*position, half)).collect::<Vec<_>>()
     };

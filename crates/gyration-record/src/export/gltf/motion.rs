@@ -5,9 +5,9 @@
 //! half-way is compared with the natural mean of the two placements: where it is further off than the eye can see,
 //! because the axes of stretch turn, the interval is halved by a key at that mean.
 
-use super::factors::{Factors, natural_mean};
+use super::factors::{GradientFactors, natural_mean};
 use crate::error::RecordError;
-use crate::export::drawing::{Drawing, Figure, Mat3, Vec3};
+use crate::export::drawing::{Drawing, DrawnBody, Mat3, Vec3};
 use crate::recording::Recording;
 
 /// Keys a second that the eye asks for.
@@ -40,7 +40,7 @@ pub(super) struct Track {
     /// p₀ \[m\].
     pub positions: Vec<Vec3>,
     /// P; of a rigid body a rotation alone.
-    pub factors: Vec<Factors>,
+    pub factors: Vec<GradientFactors>,
 }
 
 /// The samples that become keys.
@@ -100,7 +100,7 @@ pub(super) fn poses(recording: &Recording, bodies: usize, rows: &[usize]) -> Res
 /// `Corrupt` where det P ≤ 0 or a number is missing; those of reading.
 pub(super) fn tracks(recording: &Recording, drawing: &Drawing, rows: &[usize]) -> Result<Vec<Track>, RecordError> {
     let poses = poses(recording, drawing.bodies.len(), rows)?;
-    let one = |(figure, poses): (&Figure, &Vec<Pose>)| {
+    let one = |(figure, poses): (&DrawnBody, &Vec<Pose>)| {
         Track::of(poses, figure.is_rigid()).map_err(|time| {
             let reason = format!("the placement of `{}` at {time} s is none: det P must be > 0", figure.name);
             RecordError::corrupt(recording.path(), reason)
@@ -124,7 +124,7 @@ impl Track {
 
     /// Adds the key `to`, and before it those that the way there needs; none where P is no placement.
     fn approach(&mut self, from: &Pose, to: &Pose, halvings: usize) -> Option<()> {
-        let last = self.factors.last().copied().unwrap_or(Factors::identity());
+        let last = self.factors.last().copied().unwrap_or(GradientFactors::identity());
         let next = last.follow(&to.gradient)?;
         if halvings > 0 && to.time > from.time {
             let mean = natural_mean(&from.gradient, &to.gradient)?;

@@ -1,6 +1,6 @@
 //! The factors of P: exact at every key, near the natural mean between, and never spinning.
 
-use super::factors::{Factors, natural_mean};
+use super::factors::{GradientFactors, natural_mean};
 use super::motion::{Pose, Track, keys};
 use crate::export::drawing::{Mat3, Vec3};
 use nalgebra::Rotation3;
@@ -26,7 +26,7 @@ fn shown(track: &Track, time: f64) -> Mat3 {
     let (a, b) = (&track.factors[after - 1], &track.factors[after]);
     let part = (time - track.times[after - 1]) / (track.times[after] - track.times[after - 1]);
     let [outer, inner] = [(a.outer, b.outer), (a.inner, b.inner)].map(|(a, b)| a.slerp(&b, part));
-    Factors { outer, stretches: a.stretches.lerp(&b.stretches, part), inner }.product()
+    GradientFactors { outer, stretches: a.stretches.lerp(&b.stretches, part), inner }.product()
 }
 
 /// Checks a track at its keys, half-way between the poses, and that nothing spins.

@@ -8,7 +8,7 @@ mod compressed;
 mod pvd;
 
 pub use compressed::CompressedNumbers;
-pub use pvd::{Entry, pvd};
+pub use pvd::{SeriesFile, pvd};
 
 use compressed::NumberKind;
 use std::io::{self, Write};
@@ -30,7 +30,7 @@ struct Cells {
 
 /// A named array of points or cells.
 #[derive(Debug, Clone)]
-pub struct Field {
+pub struct DataArray {
     /// Its name, as it appears in menus.
     pub name: &'static str,
     /// Its unit; empty for a pure number.
@@ -67,9 +67,9 @@ pub struct PolyData<'a> {
     /// Places of the points, three numbers each \[m\].
     pub points: CompressedNumbers,
     /// Arrays with a value for each point.
-    pub point_data: Vec<Field>,
+    pub point_data: Vec<DataArray>,
     /// Arrays with a value for each cell: those of single points first.
-    pub cell_data: Vec<Field>,
+    pub cell_data: Vec<DataArray>,
     /// Arrays of the whole.
     pub field_data: Vec<Whole>,
 }
@@ -103,7 +103,7 @@ impl Cells {
 /// # Errors
 /// Those of writing.
 pub fn vtp(data: &PolyData, out: &mut impl Write) -> io::Result<()> {
-    let mut text = Text { out, appended: Vec::new(), length: 0 };
+    let mut text = VtkText { out, appended: Vec::new(), length: 0 };
     let topology = data.topology;
     text.line(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
@@ -141,14 +141,14 @@ pub fn vtp(data: &PolyData, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// The XML, and the numbers that come behind it.
-struct Text<'a, W> {
+struct VtkText<'a, W> {
     out: &'a mut W,
     appended: Vec<&'a CompressedNumbers>,
     /// Bytes of those.
     length: usize,
 }
 
-impl<'a, W: Write> Text<'a, W> {
+impl<'a, W: Write> VtkText<'a, W> {
     fn line(&mut self, line: &str) -> io::Result<()> {
         writeln!(self.out, "{line}")
     }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 /// A file of the series.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
+pub struct SeriesFile {
     /// Its time \[s\].
     pub time: f64,
     /// Which of several files of the same time it is.
@@ -17,13 +17,13 @@ pub struct Entry {
 ///
 /// # Errors
 /// Those of writing.
-pub fn pvd(entries: &[Entry], out: &mut impl Write) -> io::Result<()> {
+pub fn pvd(entries: &[SeriesFile], out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">"
     )?;
     writeln!(out, "<Collection>")?;
-    for Entry { time, part, file } in entries {
+    for SeriesFile { time, part, file } in entries {
         let file = escaped(file);
         writeln!(out, "<DataSet timestep=\"{time:e}\" part=\"{part}\" file=\"{file}\"/>")?;
     }

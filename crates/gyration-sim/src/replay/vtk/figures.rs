@@ -18,13 +18,13 @@ const ALL_TRIANGLES: usize = 400_000;
 pub(super) struct Figures {
     /// The distinct surfaces.
     skins: Vec<SurfaceCells>,
-    of_body: Vec<Figure>,
+    of_body: Vec<Representation>,
     topology: Topology,
 }
 
 /// How a body is shown: by its skin, or by points that stand for it.
 #[derive(Debug, Clone)]
-enum Figure {
+enum Representation {
     Skin(usize),
     Points(Vec<Vec3>),
 }
@@ -35,10 +35,10 @@ impl Figures {
         let each = (ALL_TRIANGLES / bodies.len().max(1)).clamp(1, TRIANGLES);
         let skins: Vec<SurfaceCells> = surfaces.distinct().iter().map(|body| SurfaceCells::of(body, each)).collect();
         let figure = |(body, surface): (&Body, &Option<usize>)| match surface {
-            Some(surface) => Figure::Skin(*surface),
-            None => Figure::Points(body.shape.outline().points.iter().map(|p| p - body.mass.center).collect()),
+            Some(surface) => Representation::Skin(*surface),
+            None => Representation::Points(body.shape.outline().points.iter().map(|p| p - body.mass.center).collect()),
         };
-        let of_body: Vec<Figure> = bodies.iter().zip(surfaces.of_bodies()).map(figure).collect();
+        let of_body: Vec<Representation> = bodies.iter().zip(surfaces.of_bodies()).map(figure).collect();
         let topology = topology(&skins, &of_body);
         Self { skins, of_body, topology }
     }
@@ -50,24 +50,24 @@ impl Figures {
     /// The material points of each body, from its centre of mass.
     pub(super) fn points(&self) -> impl Iterator<Item = &[Vec3]> {
         self.of_body.iter().map(|figure| match figure {
-            Figure::Skin(skin) => self.skins[*skin].surface().points.as_slice(),
-            Figure::Points(points) => points,
+            Representation::Skin(skin) => self.skins[*skin].surface().points.as_slice(),
+            Representation::Points(points) => points,
         })
     }
 
     /// The skin of each body, if it has one.
     pub(super) fn skins(&self) -> impl Iterator<Item = Option<&SurfaceCells>> {
         self.of_body.iter().map(|figure| match figure {
-            Figure::Skin(skin) => Some(&self.skins[*skin]),
-            Figure::Points(_) => None,
+            Representation::Skin(skin) => Some(&self.skins[*skin]),
+            Representation::Points(_) => None,
         })
     }
 
     /// The body of each cell: single points come first, then triangles.
     pub(super) fn bodies_of_cells(&self) -> Vec<usize> {
         let single = self.of_body.iter().map(|figure| match figure {
-            Figure::Skin(_) => 0,
-            Figure::Points(points) => points.len(),
+            Representation::Skin(_) => 0,
+            Representation::Points(points) => points.len(),
         });
         let triangles = self.skins().map(|skin| skin.map_or(0, SurfaceCells::len));
         let repeated = |(body, count): (usize, usize)| std::iter::repeat_n(body, count);
@@ -75,16 +75,16 @@ impl Figures {
     }
 }
 
-fn topology(skins: &[SurfaceCells], of_body: &[Figure]) -> Topology {
+fn topology(skins: &[SurfaceCells], of_body: &[Representation]) -> Topology {
     let (mut points, mut verts, mut triangles) = (0, Vec::new(), Vec::new());
     for figure in of_body {
         let own = match figure {
-            Figure::Skin(skin) => {
+            Representation::Skin(skin) => {
                 let surface = skins[*skin].surface();
                 triangles.extend(surface.triangles.iter().flatten().map(|corner| (points + corner) as i32));
                 surface.points.len()
             }
-            Figure::Points(own) => {
+            Representation::Points(own) => {
                 verts.extend((points..points + own.len()).map(|point| point as i32));
                 own.len()
             }

@@ -3,7 +3,7 @@
 use gyration::model::Model;
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::Vec3;
-use gyration_record::export::vtk::{CompressedNumbers, Field, PolyData, Topology, Whole, WholeValues};
+use gyration_record::export::vtk::{CompressedNumbers, DataArray, PolyData, Topology, Whole, WholeValues};
 use gyration_record::{RecordError, Recording};
 
 /// By how much a sheet is wider than the motion above it.
@@ -59,7 +59,7 @@ impl Sheets {
             topology: &self.topology,
             points: CompressedNumbers::floats(places.iter().flatten().copied()),
             point_data: Vec::new(),
-            cell_data: vec![Field {
+            cell_data: vec![DataArray {
                 name: "support",
                 units: "",
                 components: 1,

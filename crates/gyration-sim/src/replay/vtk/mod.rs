@@ -19,7 +19,7 @@ use super::{BodySnapshot, Replay, ReplayError, Snapshot};
 use figures::Figures;
 use ground::Sheets;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_record::export::vtk::{CompressedNumbers, Entry, Field, PolyData, Whole, WholeValues, vtp};
+use gyration_record::export::vtk::{CompressedNumbers, DataArray, PolyData, SeriesFile, Whole, WholeValues, vtp};
 use gyration_record::{RecordError, Recording};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -62,13 +62,13 @@ impl SurfaceSeries {
     ///
     /// # Errors
     /// Those of [`Replay::state`]; `Inadmissible`; `Record` with the file that cannot be written.
-    pub fn write(&mut self, row: usize, folder: &Path) -> Result<Vec<Entry>, ReplayError> {
+    pub fn write(&mut self, row: usize, folder: &Path) -> Result<Vec<SeriesFile>, ReplayError> {
         let (stress, field_data) = (self.replay.cauchy_stress(row)?, self.field_data(row)?);
         let snapshot = self.replay.snapshot(row)?;
         let time = snapshot.state().time;
-        let sample = Sample { figures: &self.figures, snapshot, stress };
+        let sample = VtkSample { figures: &self.figures, snapshot, stress };
         let data = PolyData { field_data, ..sample.poly_data()? };
-        let mut entries = vec![Entry { time, part: 0, file: format!("bodies-{row:06}.vtp") }];
+        let mut entries = vec![SeriesFile { time, part: 0, file: format!("bodies-{row:06}.vtp") }];
         write(&data, &folder.join(&entries[0].file))?;
         if let Some(sheets) = &self.sheets {
             // Supports that stand still need one file for all times.
@@ -77,7 +77,7 @@ impl SurfaceSeries {
             if sheets.move_with_time() || !folder.join(&file).exists() {
                 write(&sheets.at(time), &folder.join(&file))?;
             }
-            entries.push(Entry { time, part: 1, file });
+            entries.push(SeriesFile { time, part: 1, file });
         }
         Ok(entries)
     }
@@ -100,30 +100,35 @@ impl SurfaceSeries {
 }
 
 /// What is known at one sample.
-struct Sample<'a> {
+struct VtkSample<'a> {
     figures: &'a Figures,
     snapshot: Snapshot<'a>,
     /// Of each body; none of a rigid one.
     stress: Vec<Option<Mat3>>,
 }
 
-impl<'a> Sample<'a> {
+impl<'a> VtkSample<'a> {
     /// The surface, without the arrays of the whole.
     fn poly_data(&self) -> Result<PolyData<'a>, ReplayError> {
         let model = self.snapshot.model();
         let touch = model.bodies.iter().any(|body| !body.contacts.is_empty());
         let deform = self.stress.iter().any(Option::is_some);
         let velocity = self.at_points(|body, x| body.motion().velocity.at(x).into());
-        let mut point_data = vec![Field { name: "velocity", units: "m/s", components: 3, values: velocity }];
+        let mut point_data = vec![DataArray { name: "velocity", units: "m/s", components: 3, values: velocity }];
         if !model.supports.is_empty() {
             let values = self.at_points(|body, x| [body.gap(x)]);
-            point_data.push(Field { name: "gap", units: "m", components: 1, values });
+            point_data.push(DataArray { name: "gap", units: "m", components: 1, values });
         }
         let bodies = self.figures.bodies_of_cells();
         let numbers = CompressedNumbers::integers(bodies.iter().map(|body| *body as i32));
-        let mut cell_data = vec![Field { name: "body", units: "", components: 1, values: numbers }];
+        let mut cell_data = vec![DataArray { name: "body", units: "", components: 1, values: numbers }];
         if touch {
-            cell_data.push(Field { name: "traction", units: "Pa", components: 3, values: self.tractions(&bodies)? });
+            cell_data.push(DataArray {
+                name: "traction",
+                units: "Pa",
+                components: 3,
+                values: self.tractions(&bodies)?,
+            });
         }
         if deform {
             let of_body: Vec<Mat3> = self.stress.iter().map(|it| it.unwrap_or(Mat3::repeat(f64::NAN))).collect();
@@ -132,8 +137,8 @@ impl<'a> Sample<'a> {
                 CompressedNumbers::floats(bodies.iter().flat_map(|body| of_body[*body].transpose().data.0).flatten());
             let equivalent: Vec<f64> = of_body.iter().map(von_mises).collect();
             let scalars = CompressedNumbers::floats(bodies.iter().map(|body| equivalent[*body]));
-            cell_data.push(Field { name: "cauchy_stress", units: "Pa", components: 9, values: rows });
-            cell_data.push(Field { name: "von_mises", units: "Pa", components: 1, values: scalars });
+            cell_data.push(DataArray { name: "cauchy_stress", units: "Pa", components: 9, values: rows });
+            cell_data.push(DataArray { name: "von_mises", units: "Pa", components: 1, values: scalars });
         }
         Ok(PolyData {
             topology: self.figures.topology(),

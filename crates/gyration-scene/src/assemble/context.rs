@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// What the rest of a scene says to a body.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Setting<'a> {
+pub(crate) struct SceneContext<'a> {
     /// The folder that paths are relative to.
     pub(super) base: &'a Path,
     /// When the run ends \[s\], if the file says so without error.
@@ -20,8 +20,8 @@ pub(crate) struct Setting<'a> {
     pub(super) fluid: Option<[f64; 2]>,
 }
 
-impl<'a> Setting<'a> {
-    /// The setting of a scene whose paths are relative to `base`.
+impl<'a> SceneContext<'a> {
+    /// The context of a scene whose paths are relative to `base`.
     pub(crate) fn new(partial: &PartialScene, document: &Document, base: &'a Path) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
         Self {
