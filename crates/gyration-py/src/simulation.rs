@@ -321,29 +321,38 @@ pub fn simulate(
     let simulation = Py::new(py, Simulation::new(py, scene)?)?;
     let end = until.unwrap_or_else(|| simulation.borrow(py).end());
     let mut monitor = PythonMonitor::new(progress)?.until(end);
-    let done = intervals(py, &simulation, (dt, end), callback, &mut monitor);
+    let done = Intervals { dt, end }.run(py, &simulation, callback, &mut monitor);
     monitor.finish(py)?;
     done.map(|()| simulation)
 }
 
-/// Control intervals up to the end, or until somebody has had enough.
-fn intervals(
-    py: Python<'_>,
-    simulation: &Py<Simulation>,
-    (dt, end): (f64, f64),
-    callback: &Bound<'_, PyAny>,
-    monitor: &mut PythonMonitor,
-) -> PyResult<()> {
-    // Multiplied, not accumulated; an interval that rounding alone keeps from the end is the last one.
-    for interval in (0_u64..).take_while(|interval| (*interval as f64 * dt) < end * (1.0 - 1e-12)) {
-        if says_stop(&callback.call1((simulation,))?)? {
-            break;
+/// Control intervals of one length up to an end [s].
+struct Intervals {
+    dt: f64,
+    end: f64,
+}
+
+impl Intervals {
+    /// Goes from one to the next, until somebody has had enough.
+    fn run(
+        &self,
+        py: Python<'_>,
+        simulation: &Py<Simulation>,
+        callback: &Bound<'_, PyAny>,
+        monitor: &mut PythonMonitor,
+    ) -> PyResult<()> {
+        let Self { dt, end } = *self;
+        // Multiplied, not accumulated; an interval that rounding alone keeps from the end is the last one.
+        for interval in (0_u64..).take_while(|interval| (*interval as f64 * dt) < end * (1.0 - 1e-12)) {
+            if says_stop(&callback.call1((simulation,))?)? {
+                break;
+            }
+            let next = ((interval + 1) as f64 * dt).min(end);
+            // What the callback left running may hold the simulation: that is an error, not a wait.
+            if !simulation.bind(py).try_borrow_mut()?.go(py, Some(next), monitor)? {
+                break;
+            }
         }
-        let next = ((interval + 1) as f64 * dt).min(end);
-        // What the callback left running may hold the simulation: that is an error, not a wait.
-        if !simulation.bind(py).try_borrow_mut()?.go(py, Some(next), monitor)? {
-            break;
-        }
+        Ok(())
     }
-    Ok(())
 }

@@ -64,7 +64,7 @@ const VECTOR: [&str; 3] = ["x", "y", "z"];
 /// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that
 /// do not increase.
 pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
-    read_table(path, (symbol, &TENSOR), interpolation)
+    read_table(path, symbol, &TENSOR, interpolation)
 }
 
 /// The same for a table of vectors, which are the first columns of its tensors.
@@ -72,12 +72,13 @@ pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolati
 /// # Errors
 /// As of [`read_tensors`].
 pub(crate) fn read_vectors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
-    read_table(path, (symbol, &VECTOR), interpolation)
+    read_table(path, symbol, &VECTOR, interpolation)
 }
 
 fn read_table(
     path: &Path,
-    (symbol, entries): (char, &[&str]),
+    symbol: char,
+    entries: &[&str],
     interpolation: Interpolation,
 ) -> Result<TensorTable, TableFault> {
     let bytes = read::bytes(path)?;

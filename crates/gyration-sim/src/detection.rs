@@ -93,13 +93,13 @@ impl Simulation<'_> {
             let before = std::mem::replace(&mut self.run.state.signals[body][kind], *after);
             let since = std::mem::replace(&mut self.run.since[body][kind], time);
             if events::happened(kind, before, *after) {
-                found.push(Event { time: self.locate(body, kind, (since, time)), kind, body });
+                found.push(Event { time: self.locate(body, kind, since, time), kind, body });
             }
         }
     }
 
     /// The time of an event between two times of the last step [s].
-    fn locate(&mut self, body: usize, kind: usize, between: (f64, f64)) -> f64 {
+    fn locate(&mut self, body: usize, kind: usize, since: f64, until: f64) -> f64 {
         let model = self.system.model();
         let speed = self.system.speed_scale(body);
         let (this, slots) = (&model.bodies[body], model.slots(body));
@@ -119,7 +119,7 @@ impl Simulation<'_> {
             }
         };
         let direction = if events::rises(kind) { Direction::Rising } else { Direction::Falling };
-        find_crossing(&mut self.run.integrator, between, signal, direction, 1).unwrap_or(between.1)
+        find_crossing(&mut self.run.integrator, (since, until), signal, direction, 1).unwrap_or(until)
     }
 
     fn motion_signals(&self, body: usize, time: f64, motion: &BodyMotion) -> [f64; 2] {

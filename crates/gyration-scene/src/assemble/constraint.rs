@@ -65,15 +65,22 @@ impl VolumeConstraint {
     }
 }
 
+/// P and Ṗ of a body as it starts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GradientStart {
+    pub gradient: Mat3,
+    pub rate: Mat3,
+}
+
 /// P and Ṗ on the constraint of the body, if it has one; notes those too far from it, with the nearest that are on it.
 pub(super) fn hold(
     body: &AffineBody,
     kept: &VolumeConstraint,
-    given: (Mat3, Mat3),
+    given: GradientStart,
     key: &Key,
     reporter: &mut Reporter<'_>,
-) -> Option<(Mat3, Mat3)> {
-    let (gradient, rate) = given;
+) -> Option<GradientStart> {
+    let GradientStart { gradient, rate } = given;
     if !body.is_incompressible() {
         return in_range(&gradient, &rate, key, reporter).then_some(given);
     }
@@ -86,7 +93,7 @@ pub(super) fn hold(
     if let Some(Refused { message, help }) = &fault {
         reporter.note(&key.key("gradient_rate"), message, help);
     }
-    fault.is_none().then_some((held?, rate))
+    fault.is_none().then_some(GradientStart { gradient: held?, rate })
 }
 
 fn gradient_held(

@@ -7,7 +7,7 @@
 //! ṗ₀ = −Ṗ r, r being the pin; a velocity that is given must agree. An incompressible body starts on its constraint
 //! (`constraint`).
 
-use super::constraint::{self, VolumeConstraint};
+use super::constraint::{self, GradientStart, VolumeConstraint};
 use super::orientation::orientation;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
@@ -85,8 +85,9 @@ impl WrittenPlacement {
         kept: &VolumeConstraint,
         reporter: &mut Reporter<'_>,
     ) -> Option<(Placement, Velocity)> {
-        let given = (self.gradient, self.gradient_rate);
-        let (gradient, gradient_rate) = constraint::hold(body, kept, given, &placed.key, reporter)?;
+        let given = GradientStart { gradient: self.gradient, rate: self.gradient_rate };
+        let GradientStart { gradient, rate: gradient_rate } =
+            constraint::hold(body, kept, given, &placed.key, reporter)?;
         let pin: Option<Vec3> = placed.value.pin.as_ref().map(si);
         let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), reporter)?;
         let place = Placement { position: si(&placed.value.position), gradient };

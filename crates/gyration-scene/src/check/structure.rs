@@ -31,7 +31,7 @@ impl Walker<'_> {
         match (&node.value, self.rules.resolve(&field.rule)) {
             (Value::Table(table), Rule::Table { fields, required }) => self.table(table, node, key, fields, required),
             (Value::Table(table), Rule::Choice { words, tags }) if !tags.is_empty() => {
-                self.tagged(table, node, key, (words, tags));
+                self.tagged(table, node, key, words, tags);
             }
             (Value::Table(table), Rule::Named(field)) => {
                 table.iter().for_each(|(name, entry)| self.visit(&entry.node, &key.key(name), field));
@@ -99,13 +99,7 @@ impl Walker<'_> {
         items.iter().enumerate().for_each(|(index, node)| self.visit(node, &key.index(index), item));
     }
 
-    fn tagged(
-        &mut self,
-        table: &Table,
-        node: &Node,
-        key: &Key,
-        (words, tags): (&[String], &BTreeMap<String, FieldRule>),
-    ) {
+    fn tagged(&mut self, table: &Table, node: &Node, key: &Key, words: &[String], tags: &BTreeMap<String, FieldRule>) {
         self.keys(table, key, tags, "one of");
         if table.len() != 1 {
             let expected = choices(words, tags);

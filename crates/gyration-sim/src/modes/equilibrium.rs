@@ -104,6 +104,16 @@ fn rest_at(frozen: &mut FrozenBody, block: Vec<f64>) -> Rest {
     Rest { placement, stretches, pressure: frozen.pressure(&block), gap, block }
 }
 
+/// The balance at a configuration.
+struct Balance {
+    coordinates: Coordinates,
+    /// Forces along z.
+    force: DVector<f64>,
+    /// K.
+    stiffness: DMatrix<f64>,
+    gaps: Vec<f64>,
+}
+
 struct Search {
     block: Vec<f64>,
     /// The longest way of the centre in a step [m].
@@ -116,12 +126,15 @@ impl Search {
     /// Goes one step; true at the end.
     fn step(&mut self, frozen: &mut FrozenBody) -> Result<bool, NoRest> {
         let coordinates = Coordinates::at(frozen.body(), &self.block);
-        let force = coordinates.force(&frozen.accelerations(&self.block)?);
-        let stiffness = coordinates.stiffness(&frozen.slopes(&self.block)?);
-        let gaps = frozen.gaps(&self.block);
-        let length = gaps.iter().fold(frozen.body().size, |least, gap| least.min(*gap));
-        let way = self.direction(frozen, &coordinates, (&stiffness, &force), length);
-        let shape = coordinates.shape(frozen.body(), &way);
+        let balance = Balance {
+            force: coordinates.force(&frozen.accelerations(&self.block)?),
+            stiffness: coordinates.stiffness(&frozen.slopes(&self.block)?),
+            gaps: frozen.gaps(&self.block),
+            coordinates,
+        };
+        let length = balance.gaps.iter().fold(frozen.body().size, |least, gap| least.min(*gap));
+        let way = self.direction(frozen, &balance, length);
+        let shape = balance.coordinates.shape(frozen.body(), &way);
         let inverse = self.inverse(frozen);
         let size = (shape.translation.norm() / length).max((shape.gradient * inverse).norm());
         // Newton squares a small step: where it does not even halve, rounding is reached.
@@ -129,7 +142,7 @@ impl Search {
             return Ok(true);
         }
         self.last = size;
-        match self.take(frozen, &coordinates, (&way, &force), &gaps) {
+        match self.take(frozen, &balance, &way) {
             Some(part) => self.reach *= if part == 1.0 { 2.0 } else { 0.5 },
             // No part of it is admissible or of use: at rounding.
             None if size < SMALL => return Ok(true),
@@ -143,13 +156,8 @@ impl Search {
     }
 
     /// The step before it is cut.
-    fn direction(
-        &self,
-        frozen: &FrozenBody,
-        coordinates: &Coordinates,
-        (stiffness, force): (&DMatrix<f64>, &DVector<f64>),
-        length: f64,
-    ) -> DVector<f64> {
+    fn direction(&self, frozen: &FrozenBody, balance: &Balance, length: f64) -> DVector<f64> {
+        let Balance { coordinates, force, stiffness, .. } = balance;
         let Basis { vectors, values, zero } = canonical::eigen(stiffness);
         let along = vectors.transpose() * force;
         let inverse = self.inverse(frozen);
@@ -183,13 +191,8 @@ impl Search {
     }
 
     /// Takes the largest part 1, ½, ¼ … of a step that is admissible and goes downhill; none if there is none.
-    fn take(
-        &mut self,
-        frozen: &mut FrozenBody,
-        coordinates: &Coordinates,
-        (way, force): (&DVector<f64>, &DVector<f64>),
-        gaps: &[f64],
-    ) -> Option<f64> {
+    fn take(&mut self, frozen: &mut FrozenBody, balance: &Balance, way: &DVector<f64>) -> Option<f64> {
+        let Balance { coordinates, force, gaps, .. } = balance;
         let volume = frozen.motion(&self.block).placement.gradient.determinant();
         let mut part = 1.0;
         for _ in 0..HALVINGS {

@@ -26,7 +26,7 @@ pub(super) struct Difference {
 }
 
 impl Difference {
-    pub fn of((step, stencil): (f64, Stencil), values: &[Vec<f64>], scales: &[f64]) -> Self {
+    pub fn of(step: f64, stencil: Stencil, values: &[Vec<f64>], scales: &[f64]) -> Self {
         let length = values.iter().map(Vec::len).min().unwrap_or(0);
         let at = |i: usize| {
             let terms = stencil.iter().zip(values).map(|((_, weight), values)| weight * values[i]);
@@ -64,7 +64,7 @@ mod tests {
     /// The derivative of f at 1 by a stencil of a step.
     fn differentiate(step: f64, stencil: Stencil, f: impl Fn(f64) -> f64) -> Difference {
         let values: Vec<Vec<f64>> = stencil.iter().map(|(offset, _)| vec![f(1.0 + offset * step)]).collect();
-        Difference::of((step, stencil), &values, &[1.0])
+        Difference::of(step, stencil, &values, &[1.0])
     }
 
     #[test]

@@ -75,7 +75,7 @@ impl StepHistory {
     /// How far a step from one time towards another may go, if none of the steps of the run that it passes is shorter
     /// than it by more than a factor: where the run looks closely, an impact may stand between the nodes of a long
     /// step, and none of them sees it.
-    pub fn limit(&self, (from, to): (f64, f64), factor: f64) -> f64 {
+    pub fn limit(&self, from: f64, to: f64, factor: f64) -> f64 {
         let first = self.steps.partition_point(|piece| piece.to <= from);
         let mut limit = to;
         for piece in self.steps.range(first..).take_while(|piece| piece.from < to) {
@@ -132,7 +132,7 @@ mod tests {
         for (from, to, expected) in
             [(0.0, 2.0, 1.0), (0.0, 0.5, 0.5), (1.0, 2.0, 1.05), (1.019, 2.0, 1.069), (1.02, 2.0, 2.0)]
         {
-            let limit = history.limit((from, to), 5.0);
+            let limit = history.limit(from, to, 5.0);
             assert!((limit - expected).abs() < 1e-12, "{from} to {to}: {limit}");
         }
     }

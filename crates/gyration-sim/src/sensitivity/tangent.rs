@@ -202,12 +202,12 @@ impl<'a> Tangent<'a> {
 
     /// Tries a step towards a time; where it comes to none, all is lost.
     fn step_to(&mut self, wanted: f64) {
-        let end = self.history.limit((self.time, wanted), SPAN);
+        let end = self.history.limit(self.time, wanted, SPAN);
         let size = end - self.time;
         if size <= SMALLEST * self.history.step_at(self.time) {
             return self.lose_all("it changes faster than can be followed".into());
         }
-        match self.attempt((self.time, end)) {
+        match self.attempt(end) {
             // What kept it short may be over behind it.
             Ok(next) if self.time == end && end < wanted => self.size = self.size.max(next),
             Ok(next) => self.size = next,
@@ -215,10 +215,10 @@ impl<'a> Tangent<'a> {
         }
     }
 
-    /// Tries a step, and keeps it if its error is small; gives the size to go on with.
-    fn attempt(&mut self, between: (f64, f64)) -> Result<f64, Inadmissible> {
-        let size = between.1 - between.0;
-        let nodes = self.nodes(between)?;
+    /// Tries a step to a time, and keeps it if its error is small; gives the size to go on with.
+    fn attempt(&mut self, end: f64) -> Result<f64, Inadmissible> {
+        let size = end - self.time;
+        let nodes = self.nodes(self.time, end)?;
         let blocks = self.system.blocks().to_vec();
         let Some(step) = self.rule.step(&blocks, &self.state, size, &nodes.stages) else { return Ok(CHANGE.0 * size) };
         let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
@@ -231,13 +231,13 @@ impl<'a> Tangent<'a> {
             self.works += powers * (size * self.rule.weight(node));
         }
         self.state = step.values.into_iter().next_back().unwrap_or_default();
-        self.time = between.1;
+        self.time = end;
         self.note_growth();
         Ok(size * (0.9 * error.powf(-0.1)).clamp(CHANGE.0, CHANGE.1))
     }
 
     /// The equations at the nodes of a step, and the states there.
-    fn nodes(&mut self, (from, to): (f64, f64)) -> Result<Nodes, Inadmissible> {
+    fn nodes(&mut self, from: f64, to: f64) -> Result<Nodes, Inadmissible> {
         let model = self.system.model();
         let mut nodes = Nodes::default();
         for (node, part) in NODES.iter().enumerate() {

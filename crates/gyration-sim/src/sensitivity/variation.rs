@@ -222,7 +222,7 @@ impl SceneVariation {
             values.clear();
             evaluate(scene, &mut self.workspace, values)?;
         }
-        let found = Difference::of((level.step, level.stencil), &self.values, scales);
+        let found = Difference::of(level.step, level.stencil, &self.values, scales);
         self.noise = found.noise;
         Ok(found)
     }

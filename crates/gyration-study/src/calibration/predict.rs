@@ -51,7 +51,7 @@ impl Calibration {
             ExperimentKind::Gap => rest_gap(&self.scene(experiment, condition, values, &[])?, experiment),
             ExperimentKind::Slope => {
                 let scene = self.scene(experiment, condition, values, &[])?;
-                speed(&self.tilted(experiment, (&scene, condition), values)?, experiment, condition)
+                speed(&self.tilted(experiment, &scene, condition, values)?, experiment, condition)
             }
             ExperimentKind::PullOff => pull_off(&self.scene(experiment, condition, values, &[])?, experiment),
         }

@@ -27,7 +27,8 @@ impl Calibration {
     pub(super) fn tilted(
         &self,
         experiment: &Experiment,
-        (scene, slope): (&Scene, f64),
+        scene: &Scene,
+        slope: f64,
         values: &[f64],
     ) -> Result<Scene, String> {
         let model = &scene.built().model;

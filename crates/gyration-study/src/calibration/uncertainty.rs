@@ -121,7 +121,7 @@ impl Calibration {
         let undetermined = |direction: &Eigendirection| {
             let taking: Vec<bool> = (0..count).map(|index| opens(direction, index)).collect();
             let is_any = direction.spread.is_none() || taking.contains(&true);
-            is_any.then(|| self.undetermined((&direction.along, &taking), &values))
+            is_any.then(|| self.undetermined(&direction.along, &taking, &values))
         };
         let mut undetermined: Vec<_> = all.iter().filter_map(undetermined).collect();
         for index in (0..count).filter(|index| is_open(*index)) {
@@ -130,7 +130,7 @@ impl Calibration {
             if !undetermined.iter().any(is_named) {
                 let alone: Vec<bool> = (0..count).map(|other| other == index).collect();
                 let along: Vec<f64> = alone.iter().map(|own| f64::from(u8::from(*own))).collect();
-                undetermined.push(self.undetermined((&along, &alone), &values));
+                undetermined.push(self.undetermined(&along, &alone, &values));
             }
         }
         let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
@@ -172,7 +172,7 @@ impl Calibration {
     }
 
     /// What a direction leaves open: the numbers that take part, and the one that moves most.
-    fn undetermined(&self, (direction, taking): (&[f64], &[bool]), values: &[f64]) -> Undetermined {
+    fn undetermined(&self, direction: &[f64], taking: &[bool], values: &[f64]) -> Undetermined {
         let beside = self.numbers.iter().zip(values);
         let on_bound: Vec<&str> = beside
             .clone()

@@ -109,7 +109,7 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, (axis, of_form): (Vec3, bool)) -> Self {
+    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, axis: Vec3, of_form: bool) -> Self {
         let across = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
         let form = of_form.then(|| (model.bodies[body].mass.euler_tensor, [across, axis.cross(&across)]));
         Self { motion: MotionPlaces::new(layout, body), axis, form, last: None, wound: 0.0 }
@@ -154,7 +154,7 @@ pub(super) struct Distance {
 }
 
 impl Distance {
-    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, (along, per): (Option<Vec3>, Option<f64>)) -> Self {
+    pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, along: Option<Vec3>, per: Option<f64>) -> Self {
         Self {
             motion: MotionPlaces::new(layout, body),
             up: up(model),

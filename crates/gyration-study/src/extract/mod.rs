@@ -78,10 +78,10 @@ fn extraction(keep: &Keep, model: &Model, layout: &ColumnPlaces) -> Result<Extra
         Keep::Face { body: name, at_start } => Extraction::Face(LowestFace::new(model, layout, body(name)?, *at_start)),
         Keep::Tilt { body: name } => Extraction::Tilt(Tilt::new(model, layout, body(name)?)),
         Keep::Turns { body: name, axis, of_form } => {
-            Extraction::Turns(Turns::new(model, layout, body(name)?, (*axis, *of_form)))
+            Extraction::Turns(Turns::new(model, layout, body(name)?, *axis, *of_form))
         }
         Keep::Distance { body: name, along, per } => {
-            Extraction::Distance(Distance::new(model, layout, body(name)?, (*along, *per)))
+            Extraction::Distance(Distance::new(model, layout, body(name)?, *along, *per))
         }
     })
 }
