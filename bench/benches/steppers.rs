@@ -22,51 +22,86 @@ const SIZE: usize = 13;
 const WORKS: usize = 3;
 const STEPS: u32 = 1000;
 
-/// A chain of weakly coupled oscillators, y'_i = y_{i+1} − y_{i−1} − c y_i around a ring, w'_k = y_k².
-struct Ring {
-    block: Range<usize>,
+/// y' = M y, w'_k = y_k², M with few entries, in blocks of one size.
+struct Linear {
+    works: usize,
+    /// Errors allowed of the numbers of a block, by turns.
+    scales: [f64; 2],
+    blocks: Vec<Range<usize>>,
+    pattern: Pattern,
+    /// Row, column and value of the entries that are not zero.
+    entries: Vec<(usize, usize, f64)>,
 }
 
 const DECAY: f64 = 1e-3;
 
-impl System for Ring {
+impl Linear {
+    /// A ring of weakly coupled oscillators in one block, y'_i = y_{i+1} − y_{i−1} − c y_i.
+    fn ring() -> Self {
+        let row = |i: usize| [(i, (i + 1) % SIZE, 1.0), (i, (i + SIZE - 1) % SIZE, -1.0), (i, i, -DECAY)];
+        let entries = (0..SIZE).flat_map(row).collect();
+        let blocks = std::iter::once(0..SIZE).collect();
+        Self { works: WORKS, scales: [1.0; 2], blocks, pattern: Pattern::uncoupled(), entries }
+    }
+
+    /// Unit masses between two walls, a block (x, v) each: x_i'' = k Δx_i + c Δx'_i, Δx_i = x_{i−1} − 2x_i + x_{i+1}.
+    fn chain(bodies: usize) -> Self {
+        let bond = |i: usize, j: usize, sign: f64| {
+            [(2 * i + 1, 2 * j, sign * STIFFNESS), (2 * i + 1, 2 * j + 1, sign * DAMPING)]
+        };
+        let near = move |i: usize| i.saturating_sub(1)..(i + 2).min(bodies);
+        let row = move |i: usize| {
+            let bonds = near(i).flat_map(move |j| bond(i, j, if i == j { -2.0 } else { 1.0 }));
+            std::iter::once((2 * i, 2 * i + 1, 1.0)).chain(bonds)
+        };
+        let neighbours = (1..bodies).flat_map(|i| [(i - 1, i), (i, i - 1)]);
+        Self {
+            works: 0,
+            scales: [1e-7, 1e-5],
+            blocks: (0..bodies).map(|i| 2 * i..2 * i + 2).collect(),
+            pattern: Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]),
+            entries: (0..bodies).flat_map(row).collect(),
+        }
+    }
+}
+
+impl System for Linear {
     type Inadmissible = Infallible;
 
     fn dimension(&self) -> usize {
-        SIZE
+        self.blocks.iter().map(ExactSizeIterator::len).sum()
     }
 
     fn quadratures(&self) -> usize {
-        WORKS
+        self.works
     }
 
     fn blocks(&self) -> &[Range<usize>] {
-        std::slice::from_ref(&self.block)
+        &self.blocks
+    }
+
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
     }
 
     fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Infallible> {
-        for i in 0..SIZE {
-            let (after, before) = (y[if i + 1 == SIZE { 0 } else { i + 1 }], y[if i == 0 { SIZE - 1 } else { i - 1 }]);
-            dy[i] = after - before - DECAY * y[i];
-        }
-        for (power, value) in dw.iter_mut().zip(y) {
-            *power = value * value;
-        }
+        dy.fill(0.0);
+        self.entries.iter().for_each(|(row, column, value)| dy[*row] += value * y[*column]);
+        dw.iter_mut().zip(y).for_each(|(power, value)| *power = value * value);
         Ok(())
     }
 
     fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
-        let blocks = jacobian.diagonal_mut();
-        for i in 0..SIZE {
-            blocks[0][(i, (i + 1) % SIZE)] = 1.0;
-            blocks[0][(i, (i + SIZE - 1) % SIZE)] = -1.0;
-            blocks[0][(i, i)] = -DECAY;
+        let size = self.blocks[0].len();
+        for (row, column, value) in &self.entries {
+            let block = jacobian.block_mut(row / size, column / size).expect("it is in the pattern");
+            block[(row % size, column % size)] = *value;
         }
         Ok(())
     }
 
     fn error_scales(&mut self, _: f64, _: &[f64], _: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
-        y_scale.fill(1.0);
+        y_scale.iter_mut().zip(self.scales.iter().cycle()).for_each(|(scale, value)| *scale = *value);
         w_scale.fill(1.0);
     }
 
@@ -79,7 +114,7 @@ impl System for Ring {
 fn make_steps(method: Method, steps: u32) -> u64 {
     let h = 0.01;
     let start: Vec<f64> = (0..SIZE).map(|i| (1.7 * i as f64).sin()).collect();
-    let mut ring = Ring { block: 0..SIZE };
+    let mut ring = Linear::ring();
     let options = Options { method, max_step: h, initial_step: Some(h) };
     let mut integrator = Integrator::new(0.0, &start, &[0.0; WORKS], options);
     for _ in 0..steps {
@@ -121,81 +156,15 @@ fn costs_of_mechanics(shape: &str, height: f64) -> (f64, f64) {
     (call, derivatives)
 }
 
-/// Unit masses between two walls, x_i'' = Δ(k x + c x')_i with Δx_i = x_{i−1} − 2x_i + x_{i+1}: a block (x, v) each.
-struct Chain {
-    blocks: Vec<Range<usize>>,
-    pattern: Pattern,
-}
-
 const STIFFNESS: f64 = 1e6;
 const DAMPING: f64 = 1e4;
 const LENGTHS: [usize; 4] = [10, 100, 1000, 10_000];
 const CHAIN_STEPS: u32 = 20;
 
-impl Chain {
-    fn new(bodies: usize) -> Self {
-        let neighbours = (1..bodies).flat_map(|i| [(i - 1, i), (i, i - 1)]);
-        Self {
-            blocks: (0..bodies).map(|i| 2 * i..2 * i + 2).collect(),
-            pattern: Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]),
-        }
-    }
-}
-
-impl System for Chain {
-    type Inadmissible = Infallible;
-
-    fn dimension(&self) -> usize {
-        2 * self.blocks.len()
-    }
-
-    fn quadratures(&self) -> usize {
-        0
-    }
-
-    fn blocks(&self) -> &[Range<usize>] {
-        &self.blocks
-    }
-
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
-    }
-
-    fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], _: &mut [f64]) -> Result<(), Infallible> {
-        let n = self.blocks.len();
-        let pull = |i: usize| STIFFNESS * y[2 * i] + DAMPING * y[2 * i + 1];
-        for i in 0..n {
-            let (before, after) = (if i > 0 { pull(i - 1) } else { 0.0 }, if i + 1 < n { pull(i + 1) } else { 0.0 });
-            (dy[2 * i], dy[2 * i + 1]) = (y[2 * i + 1], before - 2.0 * pull(i) + after);
-        }
-        Ok(())
-    }
-
-    fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
-        for i in 0..self.blocks.len() {
-            for j in i.saturating_sub(1)..(i + 2).min(self.blocks.len()) {
-                let block = jacobian.block_mut(i, j).expect("neighbours couple");
-                let sign = if i == j { -2.0 } else { 1.0 };
-                (block[(1, 0)], block[(1, 1)]) = (sign * STIFFNESS, sign * DAMPING);
-            }
-            jacobian.diagonal_mut()[i][(0, 1)] = 1.0;
-        }
-        Ok(())
-    }
-
-    fn error_scales(&mut self, _: f64, _: &[f64], _: &[f64], y_scale: &mut [f64], _: &mut [f64]) {
-        y_scale.chunks_exact_mut(2).for_each(|body| body.copy_from_slice(&[1e-7, 1e-5]));
-    }
-
-    fn project(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) -> f64 {
-        0.0
-    }
-}
-
 /// Implicit steps of a chain, the first of which makes room; seconds of one, and the integrator at the end.
 fn chain_steps(bodies: usize) -> (f64, Integrator) {
     let start: Vec<f64> = (0..2 * bodies).map(|i| if i % 2 == 0 { (1.7 * i as f64).sin() } else { 0.0 }).collect();
-    let mut chain = Chain::new(bodies);
+    let mut chain = Linear::chain(bodies);
     let options = Options { method: Method::Implicit, initial_step: Some(1e-5), ..Options::default() };
     let mut integrator = Integrator::new(0.0, &start, &[], options);
     integrator.step(&mut chain, 1.0).expect("a linear system");
