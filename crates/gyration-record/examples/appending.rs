@@ -1,6 +1,6 @@
 //! Measures the writer: MB/s appended, the cost of a flush, and the same late in a long run.
 //!
-//! `cargo run --release -p gyration-record --example throughput -- FOLDER [ROWS]`
+//! `cargo run --release -p gyration-record --example appending -- FOLDER [ROWS]`
 
 use gyration_record::{
     ArraySpec, Attributes, Dimension, Layout, RecordError, Recording, Writer, chunk_rows_for, export,
@@ -11,7 +11,7 @@ use std::time::Instant;
 fn main() -> Result<(), RecordError> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
     let rows = std::env::args().nth(2).and_then(|rows| rows.parse().ok()).unwrap_or(400_000);
-    let path = Path::new(&folder).join("throughput.gyr");
+    let path = Path::new(&folder).join("appending.gyr");
     // Like one rigid body: position, P, velocity, Ṗ, gap, force and sixteen entries of the ledger.
     let sizes: [&[usize]; 6] = [&[3], &[3, 3], &[3], &[3, 3], &[], &[3]];
     let dims = |sizes: &[usize]| {
