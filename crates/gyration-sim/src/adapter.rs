@@ -77,8 +77,8 @@ impl<'a> ModelSystem<'a> {
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
-        let settled = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
-        let viscous = settled.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
+        let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
+        let viscous = inertialess.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
         Ok(Prepared { workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes }.on(model))
     }
 

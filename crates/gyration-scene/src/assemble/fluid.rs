@@ -119,12 +119,13 @@ impl ImmersedBody<'_> {
         let key = self.placed.key.key("inclusion");
         let around = self.is_in_a_fluid(context, &key, reporter);
         let still = written.inertia || self.gives_no_velocity(reporter);
-        let remembers = !written.history || self.may_have_history(written, context, &key, reporter);
+        let has_kernel = !written.history || self.may_have_history(written, context, &key, reporter);
         let form = self.form(written, reporter).filter(|_| can_be_resolved(written, &key, reporter));
         let filled = self.shape.mass_properties(1.0);
         let (volume, center) = (filled.volume, filled.center - self.mass.center);
-        let history = if written.history && remembers { self.history(written, context, &key, reporter)? } else { None };
-        (around && still && remembers).then_some(Some(Inclusion {
+        let history =
+            if written.history && has_kernel { self.history(written, context, &key, reporter)? } else { None };
+        (around && still && has_kernel).then_some(Some(Inclusion {
             inertia: written.inertia,
             volume,
             center,
@@ -191,7 +192,7 @@ impl ImmersedBody<'_> {
         !faults.iter().any(|(applies, ..)| *applies)
     }
 
-    /// What the fluid remembers of a sphere over the run; notes numbers that are out of all proportion.
+    /// The history force on a sphere over the run; notes numbers that are out of all proportion.
     fn history(
         &self,
         written: &WrittenInclusion,

@@ -31,11 +31,11 @@ pub(super) fn resolve(body: &mut Body, start: &Start) {
             }
         }
     }
-    settles(body);
+    inclusion_start(body);
 }
 
 /// The velocities of a body without inertia are no part of its start; a history has an error.
-fn settles(body: &mut Body) {
+fn inclusion_start(body: &mut Body) {
     if let Some(inclusion) = body.inclusion.as_mut().filter(|inclusion| inclusion.history) {
         inclusion.history_error.get_or_insert(super::fluid::HISTORY_ERROR);
     }

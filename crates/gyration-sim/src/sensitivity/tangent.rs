@@ -148,7 +148,7 @@ impl<'a> Tangent<'a> {
         let State { time, bodies, works } = &mut self.at;
         *time = self.time;
         run.interpolate(*time, bodies, works);
-        self.settle();
+        self.project();
     }
 
     /// The derivatives of quantities by one of the numbers, in the state looked at.
@@ -243,7 +243,7 @@ impl<'a> Tangent<'a> {
         for (node, part) in NODES.iter().enumerate() {
             self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
             self.history.at(self.at.time, &mut self.at.bodies);
-            self.settle();
+            self.project();
             let mut slopes = BlockMatrix::new(model.blocks(), self.system.pattern());
             // A step may end at a kink, behind which the model is another one.
             let inside = self.at.time - INSIDE * (to - from);
@@ -258,7 +258,7 @@ impl<'a> Tangent<'a> {
     }
 
     /// Puts the state at hand on its manifold, and finds its scales.
-    fn settle(&mut self) {
+    fn project(&mut self) {
         let State { time, bodies, works } = &mut self.at;
         self.system.project(*time, bodies, works);
         fill_scales(&mut self.system, &self.at, &mut self.scales);
