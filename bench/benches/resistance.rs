@@ -6,21 +6,21 @@
 //! made, once and on one thread, for callgrind.
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
-use gyration_stokes::{Faces, Options, Plane, Resistance, Surface};
+use gyration_stokes::{ClosedSurface, Faces, StokesOptions, StokesResistance, WallPlane};
 use std::time::Instant;
 
 /// Twenty triangles, cut into four again and again.
-fn ellipsoid(refinements: u32) -> Surface {
-    Surface::ellipsoid([1.0, 0.5, 0.2], refinements).expect("the ellipsoid is a surface")
+fn ellipsoid(refinements: u32) -> ClosedSurface {
+    ClosedSurface::ellipsoid([1.0, 0.5, 0.2], refinements).expect("the ellipsoid is a surface")
 }
 
-fn resistance(surface: &Surface, wall: Option<Plane>) -> Resistance {
-    let options = Options { faces: Faces::Curved, wall, ..Options::default() };
+fn resistance(surface: &ClosedSurface, wall: Option<WallPlane>) -> StokesResistance {
+    let options = StokesOptions { faces: Faces::Curved, wall, ..StokesOptions::default() };
     surface.resistance(&options).expect("the ellipsoid has a resistance")
 }
 
 /// The fastest of some calls [s].
-fn fastest(calls: u32, work: impl Fn() -> Resistance) -> f64 {
+fn fastest(calls: u32, work: impl Fn() -> StokesResistance) -> f64 {
     let time = |_| {
         let begin = Instant::now();
         std::hint::black_box(work());
@@ -32,7 +32,7 @@ fn fastest(calls: u32, work: impl Fn() -> Resistance) -> f64 {
 fn main() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
     let asked = std::env::args().skip(1).find_map(|word| word.parse::<u32>().ok());
-    let wall = Plane { point: [0.0, 0.0, -0.5], normal: [0.0, 0.0, 1.0] };
+    let wall = WallPlane { point: [0.0, 0.0, -0.5], normal: [0.0, 0.0, 1.0] };
     if let Some(triangles) = asked {
         let surface = ellipsoid((triangles / 20).ilog(4));
         one.install(|| std::hint::black_box(resistance(&surface, None)));

@@ -3,7 +3,7 @@
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, Contractile};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
-use gyration::contractile::{Contraction, Source, Spin};
+use gyration::contractile::{Contraction, ContractionSource, Spin};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::material::{Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm};
 use gyration::model::Model;
@@ -73,7 +73,7 @@ pub fn contracting_cube(material: Material) -> (Model, State) {
         let affine = body.affine().cloned().unwrap_or_else(|| panic!("the cube deforms"));
         let wave =
             Wave { amplitude: Mat3::new(3.0, 0.5, 0.0, 0.0, -1.0, 0.0, 0.3, 0.0, 2.0), frequency: 2.0, phase: 0.3 };
-        let source = Source::Driven { drive: Signal::Sine(wave), feedback: Vec::new() };
+        let source = ContractionSource::Driven { drive: Signal::Sine(wave), feedback: Vec::new() };
         let contraction = Contraction { viscosity: 0.8, kept_volume: None, spin: Spin::Full, source };
         Body { kind: BodyKind::Contractile(Box::new(Contractile::new(affine, contraction))), ..body }
     });

@@ -4,7 +4,7 @@
 //!   spheroids: Happel and Brenner §4-26, Lamb §339;   any ellipsoid: Carlson's R_F and R_D, and averages over a sphere (`independent`)
 
 use crate::independent::inclusion::{Averages, carlson_d, carlson_f, stress};
-use gyration::fluid::Ellipsoid;
+use gyration::fluid::FluidEllipsoid;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_validation::{Case, Experiment, largest};
 use std::f64::consts::PI;
@@ -89,7 +89,7 @@ fn drag_of_ellipsoids_is_that_of_carlsons_integrals() {
         let [a, b, c] = axes.map(|axis| axis * axis);
         let whole = 2.0 * carlson_f(a, b, c);
         let own = [carlson_d(b, c, a) * a, carlson_d(c, a, b) * b, carlson_d(a, b, c) * c];
-        let force = Ellipsoid::new(axes, VISCOSITY).force(&Vec3::repeat(1.0));
+        let force = FluidEllipsoid::new(axes, VISCOSITY).force(&Vec3::repeat(1.0));
         let known = own.map(|own| -16.0 * PI * VISCOSITY / (whole + own * 2.0 / 3.0));
         case.check(
             "largest relative error of the drag",
@@ -111,7 +111,7 @@ fn motions() -> Vec<(Mat3, Mat3)> {
 fn stress_on_ellipsoids_is_that_of_averages_over_directions() {
     for (name, axes) in FORMS {
         let case = Case { row: Some(29), name, source: "averages over the directions of waves, by Gauss's rule" };
-        let (at, body) = (Averages::of_axes(axes), Ellipsoid::new(axes, VISCOSITY));
+        let (at, body) = (Averages::of_axes(axes), FluidEllipsoid::new(axes, VISCOSITY));
         let errors = motions().into_iter().map(|(gradient, flow)| {
             let rows = |m: &Mat3| [0, 1, 2].map(|i| [m[(i, 0)], m[(i, 1)], m[(i, 2)]]);
             let known = stress(&at, VISCOSITY, &rows(&gradient), &rows(&flow));
@@ -144,12 +144,12 @@ fn spheroids_sink_askew_as_their_two_drags_say() {
     for (name, r) in [("prolate spheroid, r = 4", 4.0), ("oblate spheroid, r = 0.25", 0.25)] {
         let case = Case { row: Some(29), name, source: "Happel and Brenner, §5-11" };
         let [along, across] = spheroid(r);
-        let force = Ellipsoid::new([1.0, 1.0, r], VISCOSITY).force(&Vec3::repeat(1.0)) / (-6.0 * PI * VISCOSITY);
+        let force = FluidEllipsoid::new([1.0, 1.0, r], VISCOSITY).force(&Vec3::repeat(1.0)) / (-6.0 * PI * VISCOSITY);
         case.check("drag along the axis", along, force.z, 1e-12);
         case.check("drag across the axis", across, force.x, 1e-12);
     }
     // A disc: 16ηR along its axis, 32/3 ηR across; a needle: half as much along as across, but for logarithms.
-    let disc = Ellipsoid::new([1.0, 1.0, 1e-9], VISCOSITY).force(&Vec3::repeat(1.0)) / -VISCOSITY;
+    let disc = FluidEllipsoid::new([1.0, 1.0, 1e-9], VISCOSITY).force(&Vec3::repeat(1.0)) / -VISCOSITY;
     let case = Case { row: Some(29), name: "disc 1 : 1 : 1e-9", source: "16ηR and 32ηR/3" };
     case.check("drag along the axis", 16.0, disc.z, 1e-8);
     case.check("drag across the axis", 32.0 / 3.0, disc.x, 1e-8);

@@ -8,7 +8,7 @@
 #[path = "../../crates/gyration-stokes/tests/reference/mod.rs"]
 mod reference;
 
-use gyration_stokes::{Options, Surface};
+use gyration_stokes::{ClosedSurface, StokesOptions};
 use gyration_validation::Case;
 use reference::Mat12;
 
@@ -24,8 +24,8 @@ struct Measured {
 /// The matrix of an ellipsoid of 20·4^n triangles, and its errors; the estimate must bound the error and mean
 /// something.
 fn measured(axes: [f64; 3], refinements: u32) -> Measured {
-    let surface = Surface::ellipsoid(axes, refinements).unwrap_or_else(|error| panic!("{error}"));
-    let resistance = surface.resistance(&Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    let surface = ClosedSurface::ellipsoid(axes, refinements).unwrap_or_else(|error| panic!("{error}"));
+    let resistance = surface.resistance(&StokesOptions::default()).unwrap_or_else(|error| panic!("{error}"));
     let (exact, matrix) = (reference::ellipsoid(axes), reference::matrix(&resistance.matrix));
     let flat = reference::largest_error(&(matrix - reference::matrix(&resistance.curvature)), &exact);
     let curved = reference::largest_error(&matrix, &exact);

@@ -4,14 +4,14 @@ use std::fmt;
 
 /// A place in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePlace {
     /// A line of a text, counted from 1.
     Line(usize),
     /// A byte of a binary file, counted from 0.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePlace {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(formatter, "line {line}"),
@@ -25,7 +25,7 @@ impl fmt::Display for Place {
 #[error("{place}: {trouble}")]
 pub struct FileFault {
     /// Where.
-    pub place: Place,
+    pub place: FilePlace,
     /// What.
     pub trouble: Trouble,
 }
@@ -87,7 +87,7 @@ pub enum Trouble {
 
 impl Trouble {
     /// The trouble at a place.
-    pub(crate) fn at(self, place: Place) -> FileFault {
+    pub(crate) fn at(self, place: FilePlace) -> FileFault {
         FileFault { place, trouble: self }
     }
 
@@ -98,13 +98,13 @@ impl Trouble {
 }
 
 /// The finite number that a word of a text stands for.
-pub(crate) fn coordinate(word: Option<&str>, place: Place) -> Result<f64, FileFault> {
+pub(crate) fn coordinate(word: Option<&str>, place: FilePlace) -> Result<f64, FileFault> {
     let word = word.ok_or(Trouble::Truncated { expected: "a coordinate" }.at(place))?;
     let value = word.parse().map_err(|_| Trouble::unexpected("a number", word).at(place))?;
     finite(value, place)
 }
 
 /// The value, if it is finite.
-pub(crate) fn finite(value: f64, place: Place) -> Result<f64, FileFault> {
+pub(crate) fn finite(value: f64, place: FilePlace) -> Result<f64, FileFault> {
     if value.is_finite() { Ok(value) } else { Err(Trouble::NotFinite { value }.at(place)) }
 }

@@ -25,7 +25,7 @@ const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 pub(crate) struct Cloud(pub Vec<Coord3D<f64>>);
 
 /// A triangle of a hull under way.
-struct Face {
+struct HullFace {
     corners: [usize; 3],
     /// Points that see it and wait here.
     waiting: Vec<usize>,
@@ -36,7 +36,7 @@ struct Face {
 /// A hull under way: its faces, and which of them has an edge in this sense.
 #[derive(Default)]
 struct Hull {
-    faces: Vec<Face>,
+    faces: Vec<HullFace>,
     face_at: HashMap<[usize; 2], usize>,
 }
 
@@ -73,7 +73,7 @@ impl Cloud {
     }
 
     /// The waiting point that is farthest from a face: the sooner it is in, the fewer are left outside.
-    fn farthest(&self, face: &Face) -> Option<usize> {
+    fn farthest(&self, face: &HullFace) -> Option<usize> {
         let height = |point: &&usize| self.height(face.corners, **point);
         face.waiting.iter().max_by(|p, q| height(p).total_cmp(&height(q))).copied()
     }
@@ -165,7 +165,7 @@ impl Hull {
         for side in [[a, b], [b, c], [c, a]] {
             self.face_at.insert(side, index);
         }
-        self.faces.push(Face { corners, waiting: Vec::new(), stands: true });
+        self.faces.push(HullFace { corners, waiting: Vec::new(), stands: true });
         index
     }
 

@@ -15,6 +15,6 @@ mod ply_header;
 mod polygon;
 mod stl;
 
-pub use fault::{FileFault, Place, Trouble};
+pub use fault::{FileFault, FilePlace, Trouble};
 pub use hull::{HullError, hull};
 pub use mesh::{MAX_MESH_BYTES, MeshError, parse_mesh, read_mesh};

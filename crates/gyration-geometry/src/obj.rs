@@ -6,7 +6,7 @@
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 
-use crate::fault::{FileFault, Place, Trouble, coordinate};
+use crate::fault::{FileFault, FilePlace, Trouble, coordinate};
 use crate::polygon::add_polygon;
 
 /// Reads an OBJ file.
@@ -14,7 +14,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     let mut mesh = Polyhedron::default();
     let mut corners = Vec::new();
     for (index, line) in String::from_utf8_lossy(bytes).lines().enumerate() {
-        let place = Place::Line(index + 1);
+        let place = FilePlace::Line(index + 1);
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {
@@ -35,7 +35,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
 }
 
 /// The vertex, from 0, that a corner such as `3`, `-1` or `3/1/2` stands for.
-fn vertex_index(word: &str, count: usize, place: Place) -> Result<usize, FileFault> {
+fn vertex_index(word: &str, count: usize, place: FilePlace) -> Result<usize, FileFault> {
     let number = word.split('/').next().unwrap_or(word);
     let index: i64 = number.parse().map_err(|_| Trouble::unexpected("a vertex number", word).at(place))?;
     let from_zero = if index > 0 { index - 1 } else { index.saturating_add(count as i64) };

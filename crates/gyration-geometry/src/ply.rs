@@ -6,14 +6,14 @@
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 
-use crate::fault::{FileFault, Place, Trouble, finite};
-use crate::ply_header::{Element, Encoding, Header, Scalar, read_header};
+use crate::fault::{FileFault, FilePlace, Trouble, finite};
+use crate::ply_header::{Element, Encoding, PlyHeader, Scalar, read_header};
 use crate::polygon::add_polygon;
 
 /// Reads a PLY file.
 pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     let header = read_header(bytes)?;
-    let mut values = Values::after(&header, bytes);
+    let mut values = PlyValues::after(&header, bytes);
     let mut mesh = Polyhedron::default();
     for element in &header.elements {
         check_count(element, header.encoding, values.rest())?;
@@ -28,7 +28,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
 
 /// Refuses an element that cannot be in the file, before anything is allocated or read for it.
 fn check_count(element: &Element, encoding: Encoding, rest: usize) -> Result<(), FileFault> {
-    let place = Place::Line(element.line);
+    let place = FilePlace::Line(element.line);
     if element.properties.is_empty() {
         return Err(Trouble::unexpected("properties of the element", &element.name).at(place));
     }
@@ -41,10 +41,10 @@ fn check_count(element: &Element, encoding: Encoding, rest: usize) -> Result<(),
     Ok(())
 }
 
-fn read_vertices(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedron) -> Result<(), FileFault> {
+fn read_vertices(element: &Element, values: &mut PlyValues<'_>, mesh: &mut Polyhedron) -> Result<(), FileFault> {
     let scalar = |name: &str| element.properties.iter().position(|p| p.name == name && p.count.is_none());
     let [Some(x), Some(y), Some(z)] = ["x", "y", "z"].map(scalar) else {
-        return Err(Trouble::unexpected("the properties x, y and z", &element.name).at(Place::Line(element.line)));
+        return Err(Trouble::unexpected("the properties x, y and z", &element.name).at(FilePlace::Line(element.line)));
     };
     let mut record = vec![0.0; element.properties.len()];
     for _ in 0..element.count {
@@ -62,10 +62,10 @@ fn read_vertices(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedr
     Ok(())
 }
 
-fn read_faces(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedron) -> Result<(), FileFault> {
+fn read_faces(element: &Element, values: &mut PlyValues<'_>, mesh: &mut Polyhedron) -> Result<(), FileFault> {
     let is_corners = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
     if !element.properties.iter().any(|property| property.count.is_some() && is_corners(&property.name)) {
-        return Err(Trouble::unexpected("a list vertex_indices", &element.name).at(Place::Line(element.line)));
+        return Err(Trouble::unexpected("a list vertex_indices", &element.name).at(FilePlace::Line(element.line)));
     }
     let mut corners = Vec::new();
     for _ in 0..element.count {
@@ -84,7 +84,7 @@ fn read_faces(element: &Element, values: &mut Values<'_>, mesh: &mut Polyhedron)
 }
 
 fn read_corners(
-    values: &mut Values<'_>,
+    values: &mut PlyValues<'_>,
     [count, kind]: [Scalar; 2],
     vertices: usize,
     corners: &mut Vec<usize>,
@@ -101,19 +101,19 @@ fn read_corners(
 }
 
 /// The values behind the header, one after the other.
-struct Values<'a> {
+struct PlyValues<'a> {
     encoding: Encoding,
     bytes: &'a [u8],
     offset: usize,
     line: usize,
     /// Where the value read last stands.
-    last: Place,
+    last: FilePlace,
 }
 
-impl<'a> Values<'a> {
-    fn after(header: &Header, bytes: &'a [u8]) -> Self {
+impl<'a> PlyValues<'a> {
+    fn after(header: &PlyHeader, bytes: &'a [u8]) -> Self {
         let (offset, line) = (header.bytes, header.lines + 1);
-        Self { encoding: header.encoding, bytes, offset, line, last: Place::Line(line) }
+        Self { encoding: header.encoding, bytes, offset, line, last: FilePlace::Line(line) }
     }
 
     fn rest(&self) -> usize {
@@ -129,7 +129,7 @@ impl<'a> Values<'a> {
     }
 
     fn next_of_bytes(&mut self, kind: Scalar, is_big_endian: bool) -> Result<f64, FileFault> {
-        self.last = Place::Byte(self.offset);
+        self.last = FilePlace::Byte(self.offset);
         let size = kind.size();
         let Some(raw) = self.bytes.get(self.offset..self.offset + size) else {
             return Err(Trouble::Truncated { expected: "a value" }.at(self.last));
@@ -150,7 +150,7 @@ impl<'a> Values<'a> {
         let length = rest[start..].iter().position(is_space).unwrap_or(rest.len() - start);
         self.line += rest[..start].iter().filter(|&&byte| byte == b'\n').count();
         self.offset += start + length;
-        self.last = Place::Line(self.line);
+        self.last = FilePlace::Line(self.line);
         let word = String::from_utf8_lossy(&rest[start..start + length]);
         if word.is_empty() {
             return Err(Trouble::Truncated { expected: "a value" }.at(self.last));

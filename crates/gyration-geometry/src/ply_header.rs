@@ -1,6 +1,6 @@
 //! The header of a PLY file: its format, and which elements with which properties follow.
 
-use crate::fault::{FileFault, Place, Trouble};
+use crate::fault::{FileFault, FilePlace, Trouble};
 
 /// How the values behind the header are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub(crate) struct Element {
 
 /// The header and where it ends.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Header {
+pub(crate) struct PlyHeader {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
     pub bytes: usize,
@@ -90,7 +90,7 @@ impl Element {
 }
 
 /// Reads the header, up to and with the line `end_header`.
-pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, FileFault> {
+pub(crate) fn read_header(bytes: &[u8]) -> Result<PlyHeader, FileFault> {
     let mut lines = HeaderLines { bytes, offset: 0, number: 0 };
     let first = lines.next_line()?;
     if first != "ply" {
@@ -120,7 +120,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, FileFault> {
     }
     let no_format = Trouble::unexpected("`format ascii|binary_little_endian|binary_big_endian 1.0`", "end_header");
     let encoding = encoding.ok_or(no_format.at(lines.place()))?;
-    Ok(Header { encoding, elements, bytes: lines.offset, lines: lines.number })
+    Ok(PlyHeader { encoding, elements, bytes: lines.offset, lines: lines.number })
 }
 
 fn encoding_of(name: &str) -> Option<Encoding> {
@@ -150,8 +150,8 @@ struct HeaderLines<'a> {
 }
 
 impl HeaderLines<'_> {
-    fn place(&self) -> Place {
-        Place::Line(self.number)
+    fn place(&self) -> FilePlace {
+        FilePlace::Line(self.number)
     }
 
     fn next_line(&mut self) -> Result<String, FileFault> {

@@ -6,7 +6,7 @@
 
 use gyration::tensor::Vec3;
 
-use crate::fault::{FileFault, Place, Trouble};
+use crate::fault::{FileFault, FilePlace, Trouble};
 
 /// Turned-over area that is rounding, relative to that of the polygon; 1e-7 is single precision.
 const TURNED_OVER: f64 = 1e-6;
@@ -19,7 +19,7 @@ pub(crate) fn add_polygon(
     corners: &[usize],
     vertices: &[Vec3],
     triangles: &mut Vec<[usize; 3]>,
-    place: Place,
+    place: FilePlace,
 ) -> Result<(), FileFault> {
     match *corners {
         [] | [_] | [_, _] => Err(Trouble::FewCorners { corners: corners.len() }.at(place)),

@@ -7,7 +7,7 @@
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 
-use crate::fault::{FileFault, Place, Trouble, coordinate, finite};
+use crate::fault::{FileFault, FilePlace, Trouble, coordinate, finite};
 
 /// Bytes before the first triangle.
 const HEADER: usize = 84;
@@ -24,20 +24,20 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     }
     match announced {
         Some(count) => read_binary(&bytes[HEADER..], count),
-        None => Err(Trouble::Truncated { expected: "the header of 84 bytes" }.at(Place::Byte(bytes.len()))),
+        None => Err(Trouble::Truncated { expected: "the header of 84 bytes" }.at(FilePlace::Byte(bytes.len()))),
     }
 }
 
 fn read_binary(body: &[u8], count: u32) -> Result<Polyhedron, FileFault> {
     if body.len() / TRIANGLE < count as usize {
         let trouble = Trouble::Announced { announced: count.into(), what: "triangles".into(), bytes: body.len() };
-        return Err(trouble.at(Place::Byte(80)));
+        return Err(trouble.at(FilePlace::Byte(80)));
     }
     let mut corners = Vec::with_capacity(3 * count as usize);
     for (index, record) in body.chunks_exact(TRIANGLE).take(count as usize).enumerate() {
         for corner in 0..3 {
             let offset = 12 + 12 * corner;
-            let place = Place::Byte(HEADER + index * TRIANGLE + offset);
+            let place = FilePlace::Byte(HEADER + index * TRIANGLE + offset);
             let value = |axis: usize| finite(f32::from_bits(u32_at(record, offset + 4 * axis)).into(), place);
             corners.push(Vec3::new(value(0)?, value(1)?, value(2)?));
         }
@@ -54,7 +54,7 @@ fn read_text(text: &str) -> Result<Polyhedron, FileFault> {
     let mut is_inside_solid = false;
     let mut last_line = 0;
     for (index, line) in text.lines().enumerate() {
-        let place = Place::Line(index + 1);
+        let place = FilePlace::Line(index + 1);
         let mut words = line.split_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
             None | Some("facet" | "outer" | "endfacet") => {}
@@ -71,7 +71,7 @@ fn read_text(text: &str) -> Result<Polyhedron, FileFault> {
         last_line = index + 1;
     }
     if is_inside_solid {
-        return Err(Trouble::Truncated { expected: "`endsolid`" }.at(Place::Line(last_line)));
+        return Err(Trouble::Truncated { expected: "`endsolid`" }.at(FilePlace::Line(last_line)));
     }
     Ok(triangles_of(corners))
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gyration::shape::{Polyhedron, PolyhedronError};
 use gyration::tensor::Vec3;
-use gyration_geometry::{MAX_MESH_BYTES, MeshError, Place, Trouble, parse_mesh, read_mesh};
+use gyration_geometry::{FilePlace, MAX_MESH_BYTES, MeshError, Trouble, parse_mesh, read_mesh};
 use tempfile::TempDir;
 
 /// Faces of the unit cube [0,1]³, corners by the bits of x, y, z; counter-clockwise from outside.
@@ -121,7 +121,7 @@ impl Folder {
         read_mesh(&self.path(name), 1.0)
     }
 
-    fn fault(&self, name: &str, content: impl AsRef<[u8]>) -> (Place, Trouble) {
+    fn fault(&self, name: &str, content: impl AsRef<[u8]>) -> (FilePlace, Trouble) {
         match self.read(name, content) {
             Err(MeshError::Malformed { fault, .. }) => (fault.place, fault.trouble),
             other => panic!("{name}: expected a malformed file, got {other:?}"),
@@ -229,7 +229,7 @@ fn polygon_without_a_fan_is_refused() {
         "v 0 0 0\nv 5 0 0\nv 5 2 0\nv 4 2 0\nv 4 1 0\nv 3 1 0\nv 3 2 0\nv 2 2 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n";
     let face = format!("f {}\n", (1..=12).map(|k| k.to_string()).collect::<Vec<_>>().join(" "));
     let (place, trouble) = Folder::new().fault("a.obj", format!("{comb}{face}"));
-    assert_eq!((place, trouble), (Place::Line(13), Trouble::Polygon { corners: 12 }));
+    assert_eq!((place, trouble), (FilePlace::Line(13), Trouble::Polygon { corners: 12 }));
 }
 
 #[test]
@@ -298,7 +298,10 @@ fn announced_counts_beyond_the_file_are_refused() {
     let folder = Folder::new();
     let mut stl = binary_stl(&triangles(), "");
     stl[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
-    assert!(matches!(folder.fault("a.stl", &stl), (Place::Byte(80), Trouble::Announced { announced: 4294967295, .. })));
+    assert!(matches!(
+        folder.fault("a.stl", &stl),
+        (FilePlace::Byte(80), Trouble::Announced { announced: 4294967295, .. })
+    ));
     for format in ["ascii", "binary_little_endian", "binary_big_endian"] {
         for (vertices, faces) in [(u64::MAX, 6), (0, u64::MAX), (1 << 40, 1)] {
             let (place, trouble) = folder.fault("a.ply", ply_header(format, vertices, faces) + "1 2 3 4");
@@ -312,16 +315,16 @@ fn numbers_that_are_not_finite_are_refused_with_their_place() {
     let folder = Folder::new();
     for bad in ["nan", "inf", "-inf", "1e999"] {
         let (place, trouble) = folder.fault("a.obj", obj(&quads()).replacen("v 1 ", &format!("v {bad} "), 1));
-        assert!(matches!((place, &trouble), (Place::Line(4), Trouble::NotFinite { .. })), "{place} {trouble}");
+        assert!(matches!((place, &trouble), (FilePlace::Line(4), Trouble::NotFinite { .. })), "{place} {trouble}");
         let (place, _) =
             folder.fault("a.stl", text_stl(&triangles()).replacen("vertex 0 ", &format!("vertex {bad} "), 1));
-        assert_eq!(place, Place::Line(4));
+        assert_eq!(place, FilePlace::Line(4));
         let (place, _) = folder.fault("a.ply", text_ply().replacen("\n0 0 255 0", &format!("\n0 {bad} 255 0"), 1));
-        assert_eq!(place, Place::Line(15));
+        assert_eq!(place, FilePlace::Line(15));
     }
     let mut stl = binary_stl(&triangles(), "");
     stl[84 + 50 + 24..84 + 50 + 28].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert!(matches!(folder.fault("a.stl", &stl), (Place::Byte(158), Trouble::NotFinite { .. })));
+    assert!(matches!(folder.fault("a.stl", &stl), (FilePlace::Byte(158), Trouble::NotFinite { .. })));
 }
 
 #[test]
@@ -342,10 +345,10 @@ fn indices_beyond_the_vertices_are_refused() {
         [("f 1 2 9", 9.0), ("f 0 1 2", 0.0), ("f -9 1 2", -9.0), ("f -9223372036854775808 1 2", i64::MIN as f64)]
     {
         let (place, trouble) = folder.fault("a.obj", obj(&[]) + face);
-        assert_eq!((place, trouble), (Place::Line(11), Trouble::NoSuchVertex { index, count: 8 }));
+        assert_eq!((place, trouble), (FilePlace::Line(11), Trouble::NoSuchVertex { index, count: 8 }));
     }
     let (place, trouble) = folder.fault("a.ply", text_ply().replacen("\n4 0 2 3 1", "\n4 0 2 3 8", 1));
-    assert_eq!((place, trouble), (Place::Line(23), Trouble::NoSuchVertex { index: 8.0, count: 8 }));
+    assert_eq!((place, trouble), (FilePlace::Line(23), Trouble::NoSuchVertex { index: 8.0, count: 8 }));
     assert!(matches!(folder.fault("a.obj", obj(&[]) + "f 1 2").1, Trouble::FewCorners { corners: 2 }));
 }
 

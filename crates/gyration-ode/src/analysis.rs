@@ -30,12 +30,12 @@ pub(crate) struct Analysis {
     /// Where the factors of each step begin, and where the last end.
     pub offsets: Vec<usize>,
     /// The blocks of the matrix: row, column and where they go.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<BlockEntry>,
 }
 
 /// A block of the matrix, by the steps of its row and its column, and its place among the factors.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Entry {
+pub(crate) struct BlockEntry {
     pub row: usize,
     pub column: usize,
     pub place: usize,
@@ -67,7 +67,7 @@ impl Analysis {
             for (column, _) in matrix.row(*row) {
                 if let (Some(i), Some(j)) = (local(row), local(&column)) {
                     let place = analysis.find(steps[i], steps[j]);
-                    analysis.entries.push(Entry { row: steps[i], column: steps[j], place });
+                    analysis.entries.push(BlockEntry { row: steps[i], column: steps[j], place });
                 }
             }
         }
@@ -146,7 +146,7 @@ impl Analysis {
         let reduced = self
             .entries
             .iter()
-            .map(|Entry { row, column, .. }| size(*row) * self.local[*column].len() as f64 * size(*column));
+            .map(|BlockEntry { row, column, .. }| size(*row) * self.local[*column].len() as f64 * size(*column));
         (alone, all + reduced.sum::<f64>())
     }
 }

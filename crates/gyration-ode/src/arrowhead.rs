@@ -22,14 +22,14 @@ pub(crate) fn leading(jacobian: &DMatrix<f64>) -> Option<usize> {
 
 /// C row by row, B row by row, and S.
 #[derive(Debug, Clone, Default)]
-struct Parts {
+struct ArrowheadParts {
     lead: usize,
     into: Vec<f64>,
     from: Vec<f64>,
     decay: Vec<f64>,
 }
 
-impl Parts {
+impl ArrowheadParts {
     /// Room for a matrix of this size: at most half of the unknowns do not relax.
     fn new(size: usize) -> Self {
         let half = || Vec::with_capacity(size * size / 4 + 1);
@@ -65,7 +65,7 @@ impl Parts {
 /// The factors of γ/h I − J.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RealArrowhead {
-    parts: Parts,
+    parts: ArrowheadParts,
     reduced: RealLu,
     /// (s + S)⁻¹.
     inverse: Vec<f64>,
@@ -74,7 +74,7 @@ pub(crate) struct RealArrowhead {
 impl RealArrowhead {
     pub fn new(size: usize) -> Self {
         let (reduced, inverse) = (RealLu::new(size / 2), Vec::with_capacity(size));
-        Self { parts: Parts::new(size), reduced, inverse }
+        Self { parts: ArrowheadParts::new(size), reduced, inverse }
     }
 
     /// Factorizes shift · I − J, of which the first `lead` unknowns do not relax by themselves.
@@ -113,7 +113,7 @@ impl RealArrowhead {
 /// The factors of (α + iβ)/h I − J.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ComplexArrowhead {
-    parts: Parts,
+    parts: ArrowheadParts,
     reduced: ComplexLu,
     /// Real and imaginary parts of (s + S)⁻¹.
     inverse: Vec<(f64, f64)>,
@@ -122,7 +122,7 @@ pub(crate) struct ComplexArrowhead {
 impl ComplexArrowhead {
     pub fn new(size: usize) -> Self {
         let (reduced, inverse) = (ComplexLu::new(size / 2), Vec::with_capacity(size));
-        Self { parts: Parts::new(size), reduced, inverse }
+        Self { parts: ArrowheadParts::new(size), reduced, inverse }
     }
 
     /// Factorizes (shift.0 + i shift.1) I − J.

@@ -56,7 +56,7 @@ impl Switch {
     }
 
     /// After an implicit step: whether the explicit method should take over.
-    pub fn leave_implicit(&mut self, spectral_radius: f64, effort: &Effort) -> bool {
+    pub fn leave_implicit(&mut self, spectral_radius: f64, effort: &ImplicitEffort) -> bool {
         self.stay += 1;
         if self.stay == SHORT_STAY {
             self.patience = 0;
@@ -83,7 +83,7 @@ impl Switch {
 
 /// An implicit step and what it has taken.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Effort {
+pub(crate) struct ImplicitEffort {
     pub h: f64,
     pub max_step: f64,
     pub evaluations: u64,
@@ -91,7 +91,7 @@ pub(crate) struct Effort {
     pub linear: f64,
 }
 
-impl Effort {
+impl ImplicitEffort {
     /// Whether the explicit method promises to advance further for its cost.
     pub fn exceeds_explicit(&self, spectral_radius: f64) -> bool {
         let explicit = (EXPLICIT_REACH / spectral_radius).min(self.max_step) / EXPLICIT_COST;
@@ -115,7 +115,7 @@ mod tests {
             }
             explicit_steps.push(steps);
             switch.change(Stepper::Implicit, &mut statistics);
-            let effort = Effort { h: 0.1, max_step: 1.0, evaluations: 10, linear: 1.0 };
+            let effort = ImplicitEffort { h: 0.1, max_step: 1.0, evaluations: 10, linear: 1.0 };
             while !switch.leave_implicit(1.0, &effort) {}
             switch.change(Stepper::Explicit, &mut statistics);
         }

@@ -56,7 +56,7 @@ impl WithSimd for Combine<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { rates, out, base, h, row } = self;
-        let sums = Sums::<S> { rates: S::as_simd_f64s(rates.groups.as_flattened()).0, row, h: simd.splat_f64s(h) };
+        let sums = StageSums::<S> { rates: S::as_simd_f64s(rates.groups.as_flattened()).0, row, h: simd.splat_f64s(h) };
         let per_row = rates.per_row * WIDEST / S::F64_LANES;
         let (base, base_rest) = S::as_simd_f64s(base);
         let (out, out_rest) = S::as_mut_simd_f64s(out);
@@ -80,13 +80,13 @@ impl WithSimd for Combine<'_> {
 }
 
 /// What is summed, in registers.
-struct Sums<'a, S: Simd> {
+struct StageSums<'a, S: Simd> {
     rates: &'a [S::f64s],
     row: Row,
     h: S::f64s,
 }
 
-impl<S: Simd> Sums<'_, S> {
+impl<S: Simd> StageSums<'_, S> {
     /// out = base + h Σ a_j k_j of at most N registers side by side, the place of the first in a row being given;
     /// returns N.
     #[inline(always)]

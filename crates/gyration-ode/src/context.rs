@@ -1,6 +1,6 @@
 //! What a stepper works on: the system with its layout and counters, and instants of the solution.
 
-use crate::layout::Layout;
+use crate::layout::SystemLayout;
 use crate::report::{Cause, Statistics};
 use crate::system::System;
 
@@ -23,7 +23,7 @@ impl Point {
 /// The system, with its layout and the counters, as a stepper sees it during an attempt.
 pub(crate) struct Context<'a, S: System> {
     pub system: &'a mut S,
-    pub layout: &'a Layout,
+    pub layout: &'a SystemLayout,
     pub statistics: &'a mut Statistics,
 }
 

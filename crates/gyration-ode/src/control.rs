@@ -36,7 +36,7 @@ const HEEDED_STEPS: f64 = 16.0;
 
 /// What the next step size depends on, besides the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Control {
+pub(crate) struct StepControl {
     /// The error of the last explicit step; 0 if there is none.
     pub explicit_error: f64,
     /// The size of the last explicit step.
@@ -51,7 +51,7 @@ pub(crate) struct Control {
     pub heeded: f64,
 }
 
-impl Control {
+impl StepControl {
     /// The factor on the step after an attempt that was rejected.
     pub fn retreat<I>(stepper: Stepper, cause: &Cause<I>) -> f64 {
         match (cause, stepper) {

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use crate::analysis::Analysis;
 use crate::block_matrix::BlockMatrix;
-use crate::kernel::Kernel;
+use crate::kernel::BlockArithmetic;
 use crate::linear::Singular;
 use crate::reduction::Reduction;
 
@@ -26,7 +26,7 @@ pub(crate) struct BlockLu<K> {
     reduction: Reduction<K>,
 }
 
-impl<K: Kernel> BlockLu<K> {
+impl<K: BlockArithmetic> BlockLu<K> {
     /// Room for the factors of a component.
     pub fn new(analysis: &Analysis) -> Self {
         let unknowns = analysis.firsts.last().copied().unwrap_or(0);
@@ -67,13 +67,13 @@ impl<K: Kernel> BlockLu<K> {
         let pivots = &mut self.pivots[analysis.firsts[step]..analysis.firsts[step + 1]];
         K::factorize(diagonal, pivots)?;
         let (below, beside) = others.split_at_mut(others.len() / 2);
-        let mut blocks = Row { at: 0, width: K::PARTS * n };
+        let mut blocks = BlockRow { at: 0, width: K::PARTS * n };
         for other in followers {
             let size = analysis.size(*other);
             K::solve_columns(diagonal, pivots, &mut beside[blocks.next(size)], size);
         }
         let origin = K::PARTS * analysis.offsets[step + 1];
-        let mut rows = Row { at: 0, width: K::PARTS * n };
+        let mut rows = BlockRow { at: 0, width: K::PARTS * n };
         for (k, i) in followers.iter().enumerate() {
             let size = analysis.size(*i);
             let row = rows.next(size);
@@ -113,7 +113,7 @@ impl<K: Kernel> BlockLu<K> {
             let (before, after) = work.split_at_mut(place(step).end);
             let x = &mut before[place(step).start..];
             K::solve(diagonal, &pivots[analysis.firsts[step]..analysis.firsts[step + 1]], x);
-            let mut blocks = Row { at: 0, width: K::PARTS * analysis.size(step) };
+            let mut blocks = BlockRow { at: 0, width: K::PARTS * analysis.size(step) };
             for other in analysis.followers(step) {
                 let target = place(*other).start - place(step).end..place(*other).end - place(step).end;
                 K::subtract_image(&mut after[target], &below[blocks.next(analysis.size(*other))], x);
@@ -123,7 +123,7 @@ impl<K: Kernel> BlockLu<K> {
             let (_, _, beside) = own(step);
             let (before, after) = work.split_at_mut(place(step).end);
             let x = &mut before[place(step).start..];
-            let mut blocks = Row { at: 0, width: K::PARTS * analysis.size(step) };
+            let mut blocks = BlockRow { at: 0, width: K::PARTS * analysis.size(step) };
             for other in analysis.followers(step) {
                 let source = place(*other).start - place(step).end..place(*other).end - place(step).end;
                 K::subtract_image(x, &beside[blocks.next(analysis.size(*other))], &after[source]);
@@ -140,12 +140,12 @@ impl<K: Kernel> BlockLu<K> {
 
 /// Blocks that lie one after the other, all of so many numbers in one direction.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct BlockRow {
     at: usize,
     width: usize,
 }
 
-impl Row {
+impl BlockRow {
     /// The place of the next block, of so many numbers in the other direction.
     fn next(&mut self, size: usize) -> Range<usize> {
         let start = self.at;
@@ -156,21 +156,21 @@ impl Row {
 
 /// The factors of a later step, followed by its followers.
 struct Target<'a, K> {
-    below: Row,
-    beside: Row,
+    below: BlockRow,
+    beside: BlockRow,
     followers: &'a [usize],
     kernel: PhantomData<K>,
 }
 
-impl<'a, K: Kernel> Target<'a, K> {
+impl<'a, K: BlockArithmetic> Target<'a, K> {
     /// The factors of a step, counted from an origin; those below begin with the diagonal.
     fn of(analysis: &'a Analysis, step: usize, origin: usize) -> Self {
         let (begin, end) = (K::PARTS * analysis.offsets[step], K::PARTS * analysis.offsets[step + 1]);
         let width = K::PARTS * analysis.size(step);
         let middle = (begin + end + width * analysis.size(step)) / 2;
         Self {
-            below: Row { at: begin - origin, width },
-            beside: Row { at: middle - origin, width },
+            below: BlockRow { at: begin - origin, width },
+            beside: BlockRow { at: middle - origin, width },
             followers: analysis.followers(step),
             kernel: PhantomData,
         }

@@ -12,7 +12,7 @@ use crate::integrator::Integrator;
 
 /// Which crossings count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
+pub enum CrossingDirection {
     /// From negative to zero or positive.
     Rising,
     /// From positive to zero or negative.
@@ -21,7 +21,7 @@ pub enum Direction {
     Either,
 }
 
-impl Direction {
+impl CrossingDirection {
     fn crossed(self, before: f64, after: f64) -> bool {
         let rising = before < 0.0 && after >= 0.0;
         let falling = before > 0.0 && after <= 0.0;
@@ -41,7 +41,7 @@ pub fn find_crossing(
     integrator: &mut Integrator,
     (start, end): (f64, f64),
     mut function: impl FnMut(f64, &[f64], &[f64]) -> f64,
-    direction: Direction,
+    direction: CrossingDirection,
     samples: usize,
 ) -> Option<f64> {
     integrator.last_step()?;

@@ -10,7 +10,7 @@
 use crate::combination::Rates;
 use crate::context::{Context, Point};
 use crate::interpolant::interpolation_weights;
-use crate::layout::Layout;
+use crate::layout::SystemLayout;
 use crate::newton::Convergence;
 use crate::norm::{Norm, norm};
 use crate::prince::{ERROR, NODES, ROWS, STAGES, WEIGHTS};
@@ -91,7 +91,7 @@ impl Explicit {
     ///   |λ| ≈ ‖Δf‖/‖Δu‖,   Re λ ≈ Δf·Δu/‖Δu‖²,   the largest over the components
     ///
     /// Differences at the level of rounding say nothing and give 0.
-    fn stability_used(&self, layout: &Layout, from: &Point, to: &Point, h: f64) -> f64 {
+    fn stability_used(&self, layout: &SystemLayout, from: &Point, to: &Point, h: f64) -> f64 {
         let last = self.rates.row(STAGES - 1);
         let mut largest: f64 = 0.0;
         for component in layout.components.iter() {

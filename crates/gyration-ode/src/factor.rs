@@ -9,14 +9,14 @@ use crate::analysis::Analysis;
 use crate::block_matrix::BlockMatrix;
 use crate::elimination::BlockLu;
 use crate::kernel::{Complex, Real};
-use crate::layout::Layout;
+use crate::layout::SystemLayout;
 use crate::linear::Singular;
 use crate::radau::{COMPLEX, REAL};
 use crate::shifted::{ComplexShifted, RealShifted};
 
 /// The pair of factorizations of every component.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Factors {
+pub(crate) struct ComponentFactors {
     single: Vec<Single>,
     coupled: Vec<Coupled>,
     relative_cost: f64,
@@ -39,9 +39,9 @@ struct Coupled {
     complex: BlockLu<Complex>,
 }
 
-impl Factors {
+impl ComponentFactors {
     /// Analyses a pattern; room for its factors.
-    pub fn new(layout: &Layout, matrix: &BlockMatrix) -> Self {
+    pub fn new(layout: &SystemLayout, matrix: &BlockMatrix) -> Self {
         let mut factors = Self::default();
         for component in layout.components.iter() {
             if let [block] = *component {
@@ -126,7 +126,12 @@ mod tests {
     use proptest::prelude::*;
 
     /// Blocks of several sizes, one of them empty, with these pairs and numbers below one in size.
-    fn system(sizes: &[usize], pairs: &[(usize, usize)], local: &[usize], entries: &[f64]) -> (BlockMatrix, Layout) {
+    fn system(
+        sizes: &[usize],
+        pairs: &[(usize, usize)],
+        local: &[usize],
+        entries: &[f64],
+    ) -> (BlockMatrix, SystemLayout) {
         let ends = sizes.iter().scan(0, |end, size| {
             *end += size;
             Some(*end - size..*end)
@@ -141,10 +146,10 @@ mod tests {
                 block.rows_mut(0, local[i].min(sizes[i])).fill(0.0);
             }
         }
-        (jacobian, Layout::new(&blocks, &pattern, 0))
+        (jacobian, SystemLayout::new(&blocks, &pattern, 0))
     }
 
-    fn dense(jacobian: &BlockMatrix, layout: &Layout) -> DMatrix<f64> {
+    fn dense(jacobian: &BlockMatrix, layout: &SystemLayout) -> DMatrix<f64> {
         let mut whole = DMatrix::zeros(layout.dimension, layout.dimension);
         for (row, range) in layout.blocks().iter().enumerate() {
             for (column, block) in jacobian.row(row) {
@@ -164,7 +169,7 @@ mod tests {
         ) {
             let pairs: Vec<_> = pairs.into_iter().filter(|(i, j)| i != j).collect();
             let (jacobian, layout) = system(&[3, 1, 2, 0, 4, 2, 4], &pairs, &local, &entries);
-            let mut factors = Factors::new(&layout, &jacobian);
+            let mut factors = ComponentFactors::new(&layout, &jacobian);
             // Small enough a step for shifts of 23 and more, beyond the sums of 16 numbers: no cancellation.
             let h = 0.1;
             prop_assert!(factors.factorize(h, &jacobian).is_ok());
@@ -190,7 +195,7 @@ mod tests {
         let own = &mut jacobian.diagonal_mut()[1];
         own.rows_mut(0, 2).fill(0.0);
         (own[(0, 2)], own[(1, 3)]) = (1.0, 1.0);
-        let mut factors = Factors::new(&layout, &jacobian);
+        let mut factors = ComponentFactors::new(&layout, &jacobian);
         let (mut alone, h) = (RealShifted::new(4), 0.3);
         factors.factorize(h, &jacobian).unwrap();
         alone.factorize(REAL / h, &jacobian.diagonal()[1]).unwrap();
@@ -208,7 +213,7 @@ mod tests {
         for n in [40, 400] {
             let pairs: Vec<_> = (1..n).flat_map(|i| [(0, i), (i, 0)]).collect();
             let (jacobian, layout) = system(&vec![2; n], &pairs, &vec![0; n], &[0.5]);
-            let factors = Factors::new(&layout, &jacobian);
+            let factors = ComponentFactors::new(&layout, &jacobian);
             assert_eq!(factors.entries(), 3 * 4 * (3 * n - 2));
             // A third of eight products for each block, and twice eight more for all but the middle.
             assert!((factors.relative_cost() - (n as f64 + 6.0 * (n - 1) as f64) / n as f64).abs() < 1e-12);

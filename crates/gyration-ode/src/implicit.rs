@@ -12,8 +12,8 @@
 
 use crate::context::{Context, Point};
 use crate::explicit::Trial;
-use crate::layout::Layout;
-use crate::newton::{Plan, Stages, multiply, set_triple, triple};
+use crate::layout::SystemLayout;
+use crate::newton::{NewtonPlan, StageEquations, multiply, set_triple, triple};
 use crate::norm::norm;
 use crate::radau::{ERROR, MATRIX, REAL};
 use crate::report::Cause;
@@ -22,7 +22,7 @@ use crate::system::System;
 /// Scratch of the implicit stepper and the polynomial of its last step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Implicit {
-    pub stages: Stages,
+    pub stages: StageEquations,
     error: Vec<f64>,
     /// A state beside the start of the step, and its rate.
     beside: Vec<f64>,
@@ -32,11 +32,11 @@ pub(crate) struct Implicit {
 impl Implicit {
     /// Holds the polynomial of a step before, and no scratch yet.
     pub fn holding(collocation: Vec<f64>) -> Self {
-        Self { stages: Stages::holding(collocation), ..Self::default() }
+        Self { stages: StageEquations::holding(collocation), ..Self::default() }
     }
 
     /// Sizes the scratch for a layout; the polynomial stays.
-    pub fn resize(&mut self, layout: &Layout) {
+    pub fn resize(&mut self, layout: &SystemLayout) {
         self.stages.resize(layout);
         for vector in [&mut self.error, &mut self.beside, &mut self.beside_rate] {
             vector.resize(layout.width, 0.0);
@@ -52,7 +52,7 @@ impl Implicit {
         &mut self,
         context: &mut Context<'_, S>,
         from: &Point,
-        plan: &Plan,
+        plan: &NewtonPlan,
         to: &mut Point,
     ) -> Result<Trial, Cause<S::Inadmissible>> {
         let layout = context.layout;
@@ -84,7 +84,7 @@ impl Implicit {
     }
 
     /// y₁ = y₀ + z₃; w is left for later.
-    fn arrive(&self, layout: &Layout, from: &Point, to: &mut Point) {
+    fn arrive(&self, layout: &SystemLayout, from: &Point, to: &mut Point) {
         to.u.copy_from_slice(&from.u);
         let last = &self.stages.increments[2 * layout.width..];
         for (value, z) in to.u.iter_mut().zip(last).take(layout.dimension) {
@@ -93,7 +93,7 @@ impl Implicit {
     }
 
     /// The error of y into `error`, that of w left at 0.
-    fn estimate_state_error<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point, plan: &Plan) {
+    fn estimate_state_error<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point, plan: &NewtonPlan) {
         let layout = context.layout;
         let Self { stages, error, .. } = self;
         error.fill(0.0);
@@ -105,7 +105,7 @@ impl Implicit {
     }
 
     /// Increments and new values of the quadratures.
-    fn integrate_quadratures(&mut self, layout: &Layout, from: &Point, h: f64, to: &mut Point) {
+    fn integrate_quadratures(&mut self, layout: &SystemLayout, from: &Point, h: f64, to: &mut Point) {
         let width = layout.width;
         for j in layout.dimension..width {
             let [g1, g2, _] = triple(&self.stages.rates, width, j);
@@ -116,7 +116,7 @@ impl Implicit {
     }
 
     /// The error of w into `error`, that of y being there.
-    fn estimate_quadrature_error<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point, plan: &Plan) {
+    fn estimate_quadrature_error<S: System>(&mut self, context: &mut Context<'_, S>, from: &Point, plan: &NewtonPlan) {
         let layout = context.layout;
         quadrature_error(layout, &self.stages, &from.rate, plan.h, &mut self.error);
         let size = norm(layout, &self.error, &from.scale, &from.scale).value;
@@ -135,7 +135,7 @@ impl Implicit {
 }
 
 /// e = (γ/h I − J)⁻¹ (f + Σ e_i z_i/h) of y.
-fn state_error(layout: &Layout, stages: &mut Stages, rate: &[f64], h: f64, error: &mut [f64]) {
+fn state_error(layout: &SystemLayout, stages: &mut StageEquations, rate: &[f64], h: f64, error: &mut [f64]) {
     for (j, (value, f)) in error.iter_mut().zip(rate).enumerate().take(layout.dimension) {
         *value = f + defect(stages, layout.width, j) / h;
     }
@@ -143,14 +143,14 @@ fn state_error(layout: &Layout, stages: &mut Stages, rate: &[f64], h: f64, error
 }
 
 /// e = (h/γ) (g + Σ e_i z_i/h) of w.
-fn quadrature_error(layout: &Layout, stages: &Stages, rate: &[f64], h: f64, error: &mut [f64]) {
+fn quadrature_error(layout: &SystemLayout, stages: &StageEquations, rate: &[f64], h: f64, error: &mut [f64]) {
     for (j, (value, g)) in error.iter_mut().zip(rate).enumerate().skip(layout.dimension) {
         *value = (h * g + defect(stages, layout.width, j)) / REAL;
     }
 }
 
 /// Σ e_i z_i of a component.
-fn defect(stages: &Stages, width: usize, j: usize) -> f64 {
+fn defect(stages: &StageEquations, width: usize, j: usize) -> f64 {
     let z = triple(&stages.increments, width, j);
     ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2]
 }

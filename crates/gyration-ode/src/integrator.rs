@@ -1,22 +1,22 @@
 //! The integrator: its state, its start, its checkpoint. How it steps is in `step`.
 //!
-//! Size and stepper of the next step, the error history and everything else that is carried along is in `Progress`, so
-//! that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it.
+//! Size and stepper of the next step, the error history and everything else that is carried along is in `StepperState`,
+//! so that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it.
 
 use crate::context::Point;
-use crate::control::Control;
+use crate::control::StepControl;
 use crate::explicit::Explicit;
 use crate::implicit::Implicit;
-use crate::layout::Layout;
-use crate::memory::{Memory, MemoryError, Progress, Vectors, decode, encode};
+use crate::layout::SystemLayout;
+use crate::memory::{CheckpointVectors, Memory, MemoryError, StepperState, decode, encode};
 use crate::report::{Method, Options, Statistics, Stepper};
 
 /// Integrates a system step by step from a first state.
 #[derive(Debug, Clone)]
 pub struct Integrator {
     pub(crate) options: Options,
-    pub(crate) layout: Layout,
-    pub(crate) progress: Progress,
+    pub(crate) layout: SystemLayout,
+    pub(crate) progress: StepperState,
     /// The accepted state.
     pub(crate) current: Point,
     /// The start of the last step; while stepping, the state attempted.
@@ -49,18 +49,18 @@ impl Integrator {
     /// # Panics
     /// If the longest step is not positive.
     pub fn new(t: f64, y: &[f64], w: &[f64], options: Options) -> Self {
-        let vectors = Vectors {
+        let vectors = CheckpointVectors {
             t,
             u: [y, w].concat(),
             rate: vec![0.0; y.len() + w.len()],
             collocation: vec![0.0; 3 * (y.len() + w.len())],
         };
-        let progress = Progress {
+        let progress = StepperState {
             dimension: y.len(),
             started: false,
             step: 0.0,
             stepper: Stepper::Explicit,
-            control: Control::default(),
+            control: StepControl::default(),
             contraction: 1.0,
             collocation_step: 0.0,
             switch: Default::default(),
@@ -78,7 +78,7 @@ impl Integrator {
         Ok(Self::assemble(progress, vectors, options))
     }
 
-    fn assemble(mut progress: Progress, vectors: Vectors, options: Options) -> Self {
+    fn assemble(mut progress: StepperState, vectors: CheckpointVectors, options: Options) -> Self {
         assert!(options.max_step > 0.0, "the longest step must be positive");
         progress.stepper = match options.method {
             Method::Auto => progress.stepper,
@@ -90,7 +90,7 @@ impl Integrator {
         current.rate = vectors.rate;
         Self {
             options,
-            layout: Layout { dimension: progress.dimension, width, ..Layout::default() },
+            layout: SystemLayout { dimension: progress.dimension, width, ..SystemLayout::default() },
             progress,
             other: current.clone(),
             current,

@@ -8,7 +8,7 @@ use nalgebra::DMatrixView;
 use crate::linear::{Singular, divide, dot, factorize_complex, factorize_real, solve_complex, solve_real};
 
 /// What an elimination by blocks asks of its numbers.
-pub(crate) trait Kernel {
+pub(crate) trait BlockArithmetic {
     /// How many floating-point numbers stand for one number.
     const PARTS: usize;
     /// The shift s of s I − J.
@@ -40,7 +40,7 @@ pub(crate) trait Kernel {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Real;
 
-impl Kernel for Real {
+impl BlockArithmetic for Real {
     const PARTS: usize = 1;
     type Shift = f64;
 
@@ -104,7 +104,7 @@ impl Kernel for Real {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Complex;
 
-impl Kernel for Complex {
+impl BlockArithmetic for Complex {
     const PARTS: usize = 2;
     type Shift = (f64, f64);
 

@@ -7,7 +7,7 @@ use crate::system::System;
 
 /// Sizes, blocks and pattern, copied from the system: u = (y, w) is one vector to the steppers.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Layout {
+pub(crate) struct SystemLayout {
     /// The number of components of y.
     pub dimension: usize,
     /// The number of components of u = (y, w).
@@ -22,7 +22,7 @@ pub(crate) struct Layout {
     pub components: Components,
 }
 
-impl Layout {
+impl SystemLayout {
     /// The layout of so many quadratures and these blocks.
     ///
     /// # Panics

@@ -54,7 +54,7 @@ mod system;
 mod trees;
 
 pub use block_matrix::BlockMatrix;
-pub use events::{Direction, find_crossing};
+pub use events::{CrossingDirection, find_crossing};
 pub use integrator::Integrator;
 pub use memory::{Memory, MemoryError};
 pub use pattern::Pattern;

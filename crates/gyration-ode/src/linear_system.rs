@@ -1,8 +1,8 @@
 //! The linear equations of a step: the Jacobian, and the factors made of it.
 
 use crate::block_matrix::BlockMatrix;
-use crate::factor::Factors;
-use crate::layout::Layout;
+use crate::factor::ComponentFactors;
+use crate::layout::SystemLayout;
 use crate::linear::Singular;
 use crate::spectrum::{least_spectral_radius, spectral_radius};
 
@@ -13,28 +13,28 @@ use crate::spectrum::{least_spectral_radius, spectral_radius};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LinearSystem {
     jacobian: BlockMatrix,
-    factors: Factors,
+    factors: ComponentFactors,
     /// Whether both have the layout of the system.
     ready: bool,
 }
 
 impl LinearSystem {
     /// Takes note of a new layout.
-    pub fn set_layout(&mut self, layout: &Layout) {
+    pub fn set_layout(&mut self, layout: &SystemLayout) {
         self.ready = false;
         if layout.pattern.is_uncoupled() {
             self.make_room(layout);
         }
     }
 
-    fn make_room(&mut self, layout: &Layout) {
+    fn make_room(&mut self, layout: &SystemLayout) {
         self.jacobian = BlockMatrix::new(layout.blocks(), &layout.pattern);
-        self.factors = Factors::new(layout, &self.jacobian);
+        self.factors = ComponentFactors::new(layout, &self.jacobian);
         self.ready = true;
     }
 
     /// The Jacobian, filled with zeros.
-    pub fn cleared(&mut self, layout: &Layout) -> &mut BlockMatrix {
+    pub fn cleared(&mut self, layout: &SystemLayout) -> &mut BlockMatrix {
         if self.ready {
             self.jacobian.clear();
         } else {
@@ -72,12 +72,12 @@ impl LinearSystem {
     }
 
     /// A lower bound of the spectral radius of the Jacobian.
-    pub fn least_spectral_radius(&self, layout: &Layout) -> f64 {
+    pub fn least_spectral_radius(&self, layout: &SystemLayout) -> f64 {
         least_spectral_radius(&self.jacobian, layout)
     }
 
     /// The spectral radius of the Jacobian; `work` has room for two vectors.
-    pub fn spectral_radius(&self, layout: &Layout, scale: &[f64], work: &mut [f64]) -> f64 {
+    pub fn spectral_radius(&self, layout: &SystemLayout, scale: &[f64], work: &mut [f64]) -> f64 {
         spectral_radius(&self.jacobian, layout, scale, work)
     }
 }

@@ -6,7 +6,7 @@
 //! interpolant of the last step is not part of it: sample before you stop.
 
 use crate::auto::Switch;
-use crate::control::Control;
+use crate::control::StepControl;
 use crate::report::{Statistics, Stepper};
 
 /// The version of the layout of the numbers.
@@ -56,7 +56,7 @@ pub enum MemoryError {
 
 /// The state between two steps, in a form that can be computed with.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Progress {
+pub(crate) struct StepperState {
     /// Number of components of y.
     pub dimension: usize,
     /// Whether rate and step are known.
@@ -66,7 +66,7 @@ pub(crate) struct Progress {
     /// The stepper to try it with.
     pub stepper: Stepper,
     /// The error history.
-    pub control: Control,
+    pub control: StepControl,
     /// The speed at which Newton's method last converged, θ/(1 − θ).
     pub contraction: f64,
     /// The step of the collocation polynomial; 0 if the last step left none.
@@ -78,7 +78,7 @@ pub(crate) struct Progress {
 }
 
 /// The vectors of a checkpoint: u = (y, w), its rate, and the collocation polynomial (three times as long).
-pub(crate) struct Vectors {
+pub(crate) struct CheckpointVectors {
     pub t: f64,
     pub u: Vec<f64>,
     pub rate: Vec<f64>,
@@ -86,8 +86,8 @@ pub(crate) struct Vectors {
 }
 
 /// Writes a checkpoint.
-pub(crate) fn encode(progress: &Progress, t: f64, u: &[f64], rate: &[f64], collocation: &[f64]) -> Memory {
-    let Progress { control, switch, statistics: s, .. } = progress;
+pub(crate) fn encode(progress: &StepperState, t: f64, u: &[f64], rate: &[f64], collocation: &[f64]) -> Memory {
+    let StepperState { control, switch, statistics: s, .. } = progress;
     let integers = vec![
         VERSION,
         progress.dimension as u64,
@@ -133,7 +133,7 @@ pub(crate) fn encode(progress: &Progress, t: f64, u: &[f64], rate: &[f64], collo
 ///
 /// # Errors
 /// `MemoryError` if the numbers are not those of a checkpoint.
-pub(crate) fn decode(memory: &Memory) -> Result<(Progress, Vectors), MemoryError> {
+pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors), MemoryError> {
     let (ints, reals) = (&memory.integers, &memory.reals);
     let found = ints.first().copied().unwrap_or(0);
     if found != VERSION {
@@ -149,18 +149,18 @@ pub(crate) fn decode(memory: &Memory) -> Result<(Progress, Vectors), MemoryError
         return Err(wrong);
     }
     let (vectors, rest) = reals[1..].split_at(5 * width);
-    let vectors = Vectors {
+    let vectors = CheckpointVectors {
         t: reals[0],
         u: vectors[..width].to_vec(),
         rate: vectors[width..2 * width].to_vec(),
         collocation: vectors[2 * width..].to_vec(),
     };
-    let progress = Progress {
+    let progress = StepperState {
         dimension: dimension as usize,
         started: ints[3] != 0,
         step: rest[0],
         stepper: if ints[4] != 0 { Stepper::Implicit } else { Stepper::Explicit },
-        control: Control {
+        control: StepControl {
             explicit_error: rest[1],
             explicit_step: rest[2],
             implicit_error: rest[3],

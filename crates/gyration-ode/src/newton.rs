@@ -11,7 +11,7 @@
 //! stages lie one stage after the other. Source: Hairer, Wanner II, §IV.8.
 
 use crate::context::{Context, Point};
-use crate::layout::Layout;
+use crate::layout::SystemLayout;
 use crate::linear_system::LinearSystem;
 use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
 use crate::report::Cause;
@@ -30,7 +30,7 @@ const NOISE: f64 = 1e3 * f64::EPSILON;
 
 /// What an implicit attempt is given besides its two points.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Plan {
+pub(crate) struct NewtonPlan {
     pub h: f64,
     /// The time of the last node, t₀ + h as it is represented.
     pub end: f64,
@@ -60,7 +60,7 @@ pub(crate) struct Convergence {
 
 /// The unknowns of the three stages and the factors of their equations.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Stages {
+pub(crate) struct StageEquations {
     /// z₁, z₂, z₃ of u = (y, w); Newton's method is for y, the rest is filled in by the quadratures.
     pub increments: Vec<f64>,
     /// The rates at the three stages.
@@ -75,14 +75,14 @@ pub(crate) struct Stages {
     pub linear: LinearSystem,
 }
 
-impl Stages {
+impl StageEquations {
     /// Holds the polynomial of a step before, and no scratch yet.
     pub fn holding(collocation: Vec<f64>) -> Self {
         Self { collocation, ..Self::default() }
     }
 
     /// Sizes the scratch for a layout; the polynomial stays.
-    pub fn resize(&mut self, layout: &Layout) {
+    pub fn resize(&mut self, layout: &SystemLayout) {
         let (n, width) = (layout.dimension, layout.width);
         for triple in [&mut self.increments, &mut self.rates, &mut self.collocation] {
             triple.resize(3 * width, 0.0);
@@ -136,7 +136,7 @@ impl Stages {
     }
 
     /// The spectral radius of the Jacobian of this step; spends the scratch of the corrections.
-    pub fn spectral_radius(&mut self, layout: &Layout, scale: &[f64]) -> f64 {
+    pub fn spectral_radius(&mut self, layout: &SystemLayout, scale: &[f64]) -> f64 {
         self.linear.spectral_radius(layout, scale, &mut self.correction)
     }
 
@@ -157,7 +157,7 @@ impl Stages {
         &mut self,
         context: &mut Context<'_, S>,
         from: &Point,
-        plan: &Plan,
+        plan: &NewtonPlan,
     ) -> Result<Convergence, Cause<S::Inadmissible>> {
         let layout = context.layout;
         let (tolerance, noise) = tolerance(layout, from);
@@ -196,7 +196,7 @@ impl Stages {
         &mut self,
         context: &mut Context<'_, S>,
         from: &Point,
-        plan: &Plan,
+        plan: &NewtonPlan,
     ) -> Result<(), Cause<S::Inadmissible>> {
         if self.predict(context.layout, plan.h / plan.collocation_step) && self.evaluate(context, from, plan).is_ok() {
             return Ok(());
@@ -207,7 +207,7 @@ impl Stages {
     }
 
     /// z_i = q(1 + c_i h/h_old) − q(1), with q the polynomial of the step before; false where that is too far off.
-    fn predict(&mut self, layout: &Layout, ratio: f64) -> bool {
+    fn predict(&mut self, layout: &SystemLayout, ratio: f64) -> bool {
         // Without such a step the ratio is infinite.
         if ratio > EXTRAPOLATION_REACH {
             return false;
@@ -229,7 +229,7 @@ impl Stages {
         &mut self,
         context: &mut Context<'_, S>,
         from: &Point,
-        plan: &Plan,
+        plan: &NewtonPlan,
     ) -> Result<(), Cause<S::Inadmissible>> {
         (0..3).try_for_each(|i| self.evaluate_stage(context, from, plan, i))
     }
@@ -242,7 +242,7 @@ impl Stages {
         &mut self,
         context: &mut Context<'_, S>,
         from: &Point,
-        plan: &Plan,
+        plan: &NewtonPlan,
         i: usize,
     ) -> Result<(), Cause<S::Inadmissible>> {
         let width = self.stage.len();
@@ -252,7 +252,7 @@ impl Stages {
     }
 
     /// One correction of z and W; returns the size of Δz relative to the scales.
-    fn correct(&mut self, layout: &Layout, h: f64, scale: &[f64]) -> f64 {
+    fn correct(&mut self, layout: &SystemLayout, h: f64, scale: &[f64]) -> f64 {
         let (n, width) = (layout.dimension, layout.width);
         let (gamma, alpha, beta) = (REAL / h, COMPLEX.0 / h, COMPLEX.1 / h);
         for j in 0..n {
@@ -284,14 +284,14 @@ impl Stages {
 /// its solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
 /// Ten: the scales s are relative to gaps, which are a hundredth of what y measures. Never below ten roundings of the
 /// state. Source: radau5.f, which knows the relative tolerance itself.
-fn tolerance(layout: &Layout, from: &Point) -> (f64, f64) {
+fn tolerance(layout: &SystemLayout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
     let wanted = (10.0 * size.max(1.0).powf(-0.5)).clamp(1e-4, 1e-2);
     (wanted.max(10.0 * f64::EPSILON * size), NOISE * size)
 }
 
 /// The largest root mean square over the blocks of y, of three vectors together; a NaN is the largest of all.
-fn block_norm(layout: &Layout, scale: &[f64], vectors: impl Fn(usize) -> [f64; 3]) -> f64 {
+fn block_norm(layout: &SystemLayout, scale: &[f64], vectors: impl Fn(usize) -> [f64; 3]) -> f64 {
     let mut largest = 0.0;
     for block in layout.blocks().iter().filter(|block| !block.is_empty()) {
         let squares: f64 = block.clone().map(|j| vectors(j).map(|v| (v / scale[j]).powi(2)).iter().sum::<f64>()).sum();

@@ -7,7 +7,7 @@
 //! the smaller of the errors allowed at the two ends of the step: a state that approaches a boundary, where little is
 //! allowed, is judged by what is allowed where it arrives and not by what was allowed where it came from.
 
-use crate::layout::Layout;
+use crate::layout::SystemLayout;
 use crate::report::Cause;
 
 /// The size of an error and the component that is worst.
@@ -29,7 +29,7 @@ impl Norm {
 }
 
 /// The norm of a vector over the groups, by the smaller of two scales; a NaN is the largest of all.
-pub(crate) fn norm(layout: &Layout, error: &[f64], start: &[f64], end: &[f64]) -> Norm {
+pub(crate) fn norm(layout: &SystemLayout, error: &[f64], start: &[f64], end: &[f64]) -> Norm {
     let mut result = Norm { value: 0.0, component: 0 };
     for group in layout.groups.iter().filter(|group| !group.is_empty()) {
         let (mut squares, mut component, mut largest) = (0.0, group.start, 0.0);
@@ -57,8 +57,8 @@ mod tests {
     use super::*;
     use crate::pattern::Pattern;
 
-    fn layout() -> Layout {
-        Layout::new(&[0..2, 2..3], &Pattern::uncoupled(), 1)
+    fn layout() -> SystemLayout {
+        SystemLayout::new(&[0..2, 2..3], &Pattern::uncoupled(), 1)
     }
 
     #[test]

@@ -213,7 +213,7 @@ pub(crate) const ERROR: Row = &[
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::trees::{Tree, residual};
+    use crate::trees::{RootedTree, residual};
 
     pub(crate) fn full(row: Row) -> Vec<f64> {
         let mut full = vec![0.0; STAGES + 1];
@@ -232,7 +232,7 @@ pub(crate) mod tests {
 
     pub(crate) fn worst(order: usize, weights: &[f64], theta: f64) -> f64 {
         let rows = tableau();
-        Tree::of_order(order).iter().map(|tree| residual(tree, &rows, weights, theta).abs()).fold(0.0, f64::max)
+        RootedTree::of_order(order).iter().map(|tree| residual(tree, &rows, weights, theta).abs()).fold(0.0, f64::max)
     }
 
     #[test]

@@ -60,7 +60,7 @@ pub(crate) fn basis(theta: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trees::{Tree, residual};
+    use crate::trees::{RootedTree, residual};
     use nalgebra::Matrix3;
 
     fn matrix(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
@@ -89,12 +89,15 @@ mod tests {
     fn every_tree_up_to_order_five_satisfies_its_condition() {
         let rows: Vec<Vec<f64>> = MATRIX.iter().map(|row| row.to_vec()).collect();
         for order in 1..=5 {
-            for tree in Tree::of_order(order) {
+            for tree in RootedTree::of_order(order) {
                 assert!(residual(&tree, &rows, &MATRIX[2], 1.0).abs() < 1e-15, "order {order}");
             }
         }
         let worst = |order| -> f64 {
-            Tree::of_order(order).iter().map(|tree| residual(tree, &rows, &MATRIX[2], 1.0).abs()).fold(0.0, f64::max)
+            RootedTree::of_order(order)
+                .iter()
+                .map(|tree| residual(tree, &rows, &MATRIX[2], 1.0).abs())
+                .fold(0.0, f64::max)
         };
         assert!(worst(6) > 1e-4, "order 6 must not hold");
     }
@@ -107,7 +110,10 @@ mod tests {
         let mut weights = vec![1.0 / REAL];
         weights.extend((0..3).map(|j| MATRIX[2][j] + (0..3).map(|i| ERROR[i] * MATRIX[i][j]).sum::<f64>() / REAL));
         let worst = |order| -> f64 {
-            Tree::of_order(order).iter().map(|tree| residual(tree, &rows, &weights, 1.0).abs()).fold(0.0, f64::max)
+            RootedTree::of_order(order)
+                .iter()
+                .map(|tree| residual(tree, &rows, &weights, 1.0).abs())
+                .fold(0.0, f64::max)
         };
         assert!(worst(1).max(worst(2)).max(worst(3)) < 1e-15);
         assert!(worst(4) > 1e-3);

@@ -8,9 +8,9 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use crate::analysis::{Analysis, Entry};
+use crate::analysis::{Analysis, BlockEntry};
 use crate::block_matrix::BlockMatrix;
-use crate::kernel::Kernel;
+use crate::kernel::BlockArithmetic;
 use crate::linear::Singular;
 
 /// What brings the unknowns of local rates into the others, and back.
@@ -23,19 +23,19 @@ pub(crate) struct Reduction<K> {
     entries: Vec<f64>,
     /// The unknowns of local rates, step by step.
     work: Vec<f64>,
-    places: Places,
+    places: Offsets,
     kernel: PhantomData<K>,
 }
 
 /// Where the numbers of each step or entry begin, and where the last end, in units of one number.
 #[derive(Debug, Clone)]
-struct Places {
+struct Offsets {
     local: Vec<usize>,
     firsts: Vec<usize>,
     entries: Vec<usize>,
 }
 
-impl<K: Kernel> Reduction<K> {
+impl<K: BlockArithmetic> Reduction<K> {
     /// Room for the factors of a component.
     pub fn new(analysis: &Analysis) -> Self {
         let begins = |sizes: &mut dyn Iterator<Item = usize>| {
@@ -50,7 +50,7 @@ impl<K: Kernel> Reduction<K> {
         let steps = locals().zip(&analysis.unknowns);
         let entries =
             analysis.entries.iter().map(|entry| analysis.size(entry.row) * analysis.local[entry.column].len());
-        let places = Places {
+        let places = Offsets {
             local: begins(&mut steps.map(|(n, others)| n * (n + others.len()))),
             firsts: begins(&mut locals()),
             entries: begins(&mut entries.into_iter()),
@@ -84,7 +84,7 @@ impl<K: Kernel> Reduction<K> {
                 K::solve_columns(factors, pivots, coupling, others);
             }
         }
-        for (index, Entry { row, column, .. }) in analysis.entries.iter().enumerate() {
+        for (index, BlockEntry { row, column, .. }) in analysis.entries.iter().enumerate() {
             let (rows, columns) = (analysis.size(*row), analysis.local[*column].len());
             if columns > 0 {
                 let block = jacobian.block(analysis.blocks[*row], analysis.blocks[*column]).ok_or(Singular)?;
@@ -115,7 +115,7 @@ impl<K: Kernel> Reduction<K> {
             let factors = &self.local[part::<K>(&self.places.local, step)][..K::PARTS * unknowns.len().pow(2)];
             K::solve(factors, &self.pivots[self.places.firsts[step]..self.places.firsts[step + 1]], x);
         }
-        for (index, Entry { row, column, .. }) in analysis.entries.iter().enumerate() {
+        for (index, BlockEntry { row, column, .. }) in analysis.entries.iter().enumerate() {
             let x = &self.work[part::<K>(&self.places.firsts, *column)];
             if !x.is_empty() {
                 let matrix = &self.entries[part::<K>(&self.places.entries, index)];
@@ -138,6 +138,6 @@ impl<K: Kernel> Reduction<K> {
 }
 
 /// The range of a step or an entry, in floating-point numbers.
-fn part<K: Kernel>(places: &[usize], index: usize) -> Range<usize> {
+fn part<K: BlockArithmetic>(places: &[usize], index: usize) -> Range<usize> {
     K::PARTS * places[index]..K::PARTS * places[index + 1]
 }

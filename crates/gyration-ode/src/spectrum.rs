@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use crate::block_matrix::BlockMatrix;
-use crate::layout::Layout;
+use crate::layout::SystemLayout;
 
 /// Applications of the Jacobian that let the largest eigenvalues prevail, and those over which growth is measured.
 const POWER_ITERATIONS: (usize, usize) = (4, 8);
 
 /// A lower bound of the spectral radius for next to nothing: ρ ≥ |tr J|/n.
-pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, layout: &Layout) -> f64 {
+pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, layout: &SystemLayout) -> f64 {
     let bounds = layout.components.iter().filter_map(|component| {
         let blocks = component.iter().map(|block| &jacobian.diagonal()[*block]);
         let (trace, n) = blocks.fold((0.0, 0), |(trace, n), block| (trace + block.trace(), n + block.nrows()));
@@ -25,25 +25,25 @@ pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, layout: &Layout) -> 
 /// in components relative to their scales, which makes unlike units comparable; the mean over k applications irons out
 /// what a complex pair does to the norm. The start is fixed and has no symmetry. A nilpotent block (free flight)
 /// gives 0. An estimate, good to a factor of two.
-pub(crate) fn spectral_radius(jacobian: &BlockMatrix, layout: &Layout, scale: &[f64], work: &mut [f64]) -> f64 {
+pub(crate) fn spectral_radius(jacobian: &BlockMatrix, layout: &SystemLayout, scale: &[f64], work: &mut [f64]) -> f64 {
     let (vector, rest) = work.split_at_mut(layout.dimension);
     let image = &mut rest[..layout.dimension];
     let growths = layout.components.iter().map(|blocks| {
-        let component = Component { jacobian, ranges: layout.blocks(), blocks, scale };
+        let component = CoupledBlocks { jacobian, ranges: layout.blocks(), blocks, scale };
         component.power_growth(vector, image)
     });
     growths.fold(0.0, f64::max)
 }
 
 /// Blocks that hang together, within vectors of the whole state.
-struct Component<'a> {
+struct CoupledBlocks<'a> {
     jacobian: &'a BlockMatrix,
     ranges: &'a [Range<usize>],
     blocks: &'a [usize],
     scale: &'a [f64],
 }
 
-impl Component<'_> {
+impl CoupledBlocks<'_> {
     fn indices(&self) -> impl Iterator<Item = usize> {
         self.blocks.iter().flat_map(|block| self.ranges[*block].clone())
     }
@@ -103,11 +103,11 @@ mod tests {
     use crate::pattern::Pattern;
     use nalgebra::{DMatrix, DVector};
 
-    fn whole(matrix: DMatrix<f64>) -> (BlockMatrix, Layout) {
+    fn whole(matrix: DMatrix<f64>) -> (BlockMatrix, SystemLayout) {
         let (blocks, pattern) = ([0..0, 0..matrix.nrows()], Pattern::uncoupled());
         let mut jacobian = BlockMatrix::new(&blocks, &pattern);
         jacobian.diagonal_mut()[1].copy_from(&matrix);
-        (jacobian, Layout::new(&blocks, &pattern, 0))
+        (jacobian, SystemLayout::new(&blocks, &pattern, 0))
     }
 
     fn radius(matrix: DMatrix<f64>, scale: &[f64]) -> f64 {
@@ -142,7 +142,7 @@ mod tests {
         for (pair, value) in [((0, 2), 1e4), ((2, 0), -1e4)] {
             jacobian.block_mut(pair.0, pair.1).unwrap()[(0, 0)] = value;
         }
-        let rho = spectral_radius(&jacobian, &Layout::new(&blocks, &pattern, 0), &[1.0; 2], &mut [0.0; 4]);
+        let rho = spectral_radius(&jacobian, &SystemLayout::new(&blocks, &pattern, 0), &[1.0; 2], &mut [0.0; 4]);
         assert!((rho / 1e4 - 1.0).abs() < 1e-9, "{rho}");
     }
 

@@ -4,13 +4,13 @@
 //!
 //! An attempt writes only to `other`; the accepted state is untouched until the two are swapped.
 
-use crate::auto::{EXPLICIT_REACH, Effort};
+use crate::auto::{EXPLICIT_REACH, ImplicitEffort};
 use crate::context::Context;
-use crate::control::{Control, initial_step};
+use crate::control::{StepControl, initial_step};
 use crate::explicit::{Explicit, Trial};
 use crate::integrator::{Integrator, LastStep};
-use crate::layout::Layout;
-use crate::newton::{Ahead, Convergence, Plan};
+use crate::layout::SystemLayout;
+use crate::newton::{Ahead, Convergence, NewtonPlan};
 use crate::report::{Cause, Failure, Limit, Method, StepReport, Stepper};
 use crate::system::System;
 
@@ -65,7 +65,7 @@ impl Integrator {
                 // The next attempt is on safer ground.
                 self.linearize(system, None)?;
             }
-            h = attempt.h * Control::retreat(self.progress.stepper, &cause);
+            h = attempt.h * StepControl::retreat(self.progress.stepper, &cause);
             if h < self.least_step() {
                 if self.options.method != Method::Auto || other_tried {
                     return Err(Failure::StepTooSmall { time: self.current.t, step: h, cause });
@@ -93,7 +93,7 @@ impl Integrator {
         let time = current.t;
         let rates = context.evaluate(time, &current.u, &mut current.rate);
         rates.map_err(|cause| Failure::NoRates { time, cause })?;
-        progress.control = Control::default();
+        progress.control = StepControl::default();
         progress.contraction = 1.0;
         progress.collocation_step = 0.0;
         self.last = LastStep::None;
@@ -105,7 +105,7 @@ impl Integrator {
         if self.open && self.layout.fits(system) {
             return Ok(());
         }
-        let layout = Layout::of(system);
+        let layout = SystemLayout::of(system);
         assert!(
             layout.dimension == self.layout.dimension && layout.width == self.layout.width,
             "the system has {} and {} components, the state {} and {}",
@@ -185,7 +185,7 @@ impl Integrator {
         match progress.stepper {
             Stepper::Explicit => self.explicit.attempt(&mut context, current, attempt.h, other),
             Stepper::Implicit => {
-                let plan = Plan {
+                let plan = NewtonPlan {
                     h: attempt.h,
                     end: attempt.end,
                     collocation_step: progress.collocation_step,
@@ -300,7 +300,7 @@ impl Integrator {
             Stepper::Implicit => {
                 let stages = &mut self.implicit.stages;
                 let (step, max_step) = (self.progress.step, self.options.max_step);
-                let effort = Effort { h: step, max_step, evaluations, linear: stages.linear.relative_cost() };
+                let effort = ImplicitEffort { h: step, max_step, evaluations, linear: stages.linear.relative_cost() };
                 let mut radius = stages.linear.least_spectral_radius(&self.layout);
                 // In a stiff stretch the bound says enough.
                 if effort.exceeds_explicit(radius) {
@@ -322,7 +322,7 @@ impl Integrator {
         };
         progress.switch.change(progress.stepper, &mut progress.statistics);
         // The errors of one method say nothing on the other.
-        progress.control = Control::default();
+        progress.control = StepControl::default();
         progress.contraction = 1.0;
     }
 }

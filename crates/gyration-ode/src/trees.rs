@@ -7,25 +7,25 @@
 
 /// A rooted tree: its subtrees, in a fixed order.
 #[derive(Debug, Clone)]
-pub(crate) struct Tree(Vec<Tree>);
+pub(crate) struct RootedTree(Vec<RootedTree>);
 
-impl Tree {
+impl RootedTree {
     /// All trees with so many nodes, each once.
-    pub fn of_order(order: usize) -> Vec<Tree> {
-        let mut known: Vec<Vec<Tree>> = vec![vec![]];
+    pub fn of_order(order: usize) -> Vec<RootedTree> {
+        let mut known: Vec<Vec<RootedTree>> = vec![vec![]];
         for nodes in 1..=order {
             let forests = forests(&known, nodes - 1, nodes - 1, usize::MAX);
-            known.push(forests.into_iter().map(Tree).collect());
+            known.push(forests.into_iter().map(RootedTree).collect());
         }
         known.swap_remove(order)
     }
 
     fn nodes(&self) -> usize {
-        1 + self.0.iter().map(Tree::nodes).sum::<usize>()
+        1 + self.0.iter().map(RootedTree::nodes).sum::<usize>()
     }
 
     fn density(&self) -> f64 {
-        self.nodes() as f64 * self.0.iter().map(Tree::density).product::<f64>()
+        self.nodes() as f64 * self.0.iter().map(RootedTree::density).product::<f64>()
     }
 
     fn elementary_weights(&self, rows: &[Vec<f64>]) -> Vec<f64> {
@@ -41,7 +41,7 @@ impl Tree {
 }
 
 /// Multisets of trees with `nodes` nodes together, whose first tree does not come after (`largest`, `index`).
-fn forests(known: &[Vec<Tree>], nodes: usize, largest: usize, index: usize) -> Vec<Vec<Tree>> {
+fn forests(known: &[Vec<RootedTree>], nodes: usize, largest: usize, index: usize) -> Vec<Vec<RootedTree>> {
     if nodes == 0 {
         return vec![vec![]];
     }
@@ -61,7 +61,7 @@ fn forests(known: &[Vec<Tree>], nodes: usize, largest: usize, index: usize) -> V
 }
 
 /// Σ_i b_i Φ_i(τ) − θ^|τ| / γ(τ); `rows` may be ragged, missing entries being zero.
-pub(crate) fn residual(tree: &Tree, rows: &[Vec<f64>], weights: &[f64], theta: f64) -> f64 {
+pub(crate) fn residual(tree: &RootedTree, rows: &[Vec<f64>], weights: &[f64], theta: f64) -> f64 {
     let phi = tree.elementary_weights(rows);
     let sum: f64 = weights.iter().zip(&phi).map(|(b, phi)| b * phi).sum();
     sum - theta.powi(tree.nodes() as i32) / tree.density()
@@ -69,6 +69,6 @@ pub(crate) fn residual(tree: &Tree, rows: &[Vec<f64>], weights: &[f64], theta: f
 
 #[test]
 fn trees_are_counted_right() {
-    let counts: Vec<usize> = (1..=8).map(|order| Tree::of_order(order).len()).collect();
+    let counts: Vec<usize> = (1..=8).map(|order| RootedTree::of_order(order).len()).collect();
     assert_eq!(counts, [1, 1, 2, 4, 9, 20, 48, 115]);
 }

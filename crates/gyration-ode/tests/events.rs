@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use crate::common::{oscillator, with};
-use gyration_ode::{Direction, Integrator, Method, find_crossing};
+use gyration_ode::{CrossingDirection, Integrator, Method, find_crossing};
 
 /// The first crossing in the whole of the last step.
 fn in_last_step(
     integrator: &mut Integrator,
     function: impl FnMut(f64, &[f64], &[f64]) -> f64,
-    direction: Direction,
+    direction: CrossingDirection,
     samples: usize,
 ) -> Option<f64> {
     let step = integrator.last_step()?;
@@ -17,7 +17,7 @@ fn in_last_step(
 }
 
 /// All crossings of x = cos t up to an end.
-fn crossings(method: Method, direction: Direction, end: f64) -> Vec<f64> {
+fn crossings(method: Method, direction: CrossingDirection, end: f64) -> Vec<f64> {
     let mut problem = oscillator(1.0).tolerances(1e-12, 1e-12);
     let mut integrator = Integrator::new(0.0, &[1.0, 0.0], &[0.0], with(method));
     let mut found = Vec::new();
@@ -31,8 +31,11 @@ fn crossings(method: Method, direction: Direction, end: f64) -> Vec<f64> {
 #[test]
 fn crossings_are_found_at_their_times() {
     for (method, tolerance) in [(Method::Explicit, 1e-11), (Method::Implicit, 1e-11)] {
-        let every =
-            [(Direction::Either, 0.5, 1.0, 6), (Direction::Falling, 0.5, 2.0, 3), (Direction::Rising, 1.5, 2.0, 3)];
+        let every = [
+            (CrossingDirection::Either, 0.5, 1.0, 6),
+            (CrossingDirection::Falling, 0.5, 2.0, 3),
+            (CrossingDirection::Rising, 1.5, 2.0, 3),
+        ];
         for (direction, first, spacing, count) in every {
             let found = crossings(method, direction, 18.0);
             assert_eq!(found.len(), count, "{method:?} {direction:?}: {found:?}");
@@ -60,7 +63,7 @@ fn roots_are_closed_in_to_rounding() {
             evaluations += 1;
             y[0].powi(3) + 1e-3 * (w[0] - w[0])
         };
-        let t = in_last_step(&mut integrator, function, Direction::Falling, 1).unwrap();
+        let t = in_last_step(&mut integrator, function, CrossingDirection::Falling, 1).unwrap();
         let (mut y, mut w) = ([0.0; 2], [0.0]);
         integrator.interpolate(t, &mut y, &mut w);
         assert!(y[0] <= 0.0 && y[0] > -1e-14, "{}", y[0]);
@@ -83,7 +86,7 @@ fn a_crossing_at_the_end_of_a_step_is_counted_once() {
     for end in [0.5, 1.0] {
         while integrator.time() < end {
             integrator.step(&mut problem, end).unwrap();
-            found.extend(in_last_step(&mut integrator, |t, _, _| t - 0.5, Direction::Rising, 3));
+            found.extend(in_last_step(&mut integrator, |t, _, _| t - 0.5, CrossingDirection::Rising, 3));
         }
     }
     assert_eq!(found, [0.5]);

@@ -4,7 +4,7 @@
 //! `Scene::complete` is given the form. What is wrong with a surface is then noted at its key, as any other error.
 
 use crate::document::Document;
-use gyration::fluid::{FixedForm, Form, Resistance, Resolution, SurfaceForm, Table};
+use gyration::fluid::{FixedForm, Form, ResistanceSource, ResistanceTable, Resolution, SurfaceForm};
 use gyration::load::Mat12;
 use gyration::shape::Shape;
 use gyration::tensor::Mat3;
@@ -24,7 +24,9 @@ pub struct UnknownForm {
 impl UnknownForm {
     /// What stands in the model until the form is known.
     pub(crate) fn stand_in(&self) -> Form {
-        let table = self.resolution.and_then(|resolution| Table::new(Box::new(NotYet), &Mat3::identity(), resolution));
+        let table = self
+            .resolution
+            .and_then(|resolution| ResistanceTable::new(Box::new(NotYet), &Mat3::identity(), resolution));
         match table {
             Some(table) => Form::Surface(SurfaceForm(Arc::new(table))),
             None => Form::Fixed(Box::new(FixedForm { matrix: Mat12::repeat(f64::NAN), error: f64::NAN })),
@@ -36,7 +38,7 @@ impl UnknownForm {
 #[derive(Debug)]
 struct NotYet;
 
-impl Resistance for NotYet {
+impl ResistanceSource for NotYet {
     fn matrix(&self, _: &Mat3) -> Result<Mat12, f64> {
         Err(f64::NAN)
     }

@@ -2,7 +2,7 @@
 
 use crate::common::{BLOCK, assert_resolves_to_itself, block, start};
 use gyration::body::{BodyKind, Contractile};
-use gyration::contractile::{Feedback, Measure, Source, Spin};
+use gyration::contractile::{ContractionSource, Feedback, FeedbackMeasure, Spin};
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
 use gyration_scene::{Scene, schema};
@@ -24,12 +24,16 @@ fn driven(keys: &str) -> Scene {
 }
 
 fn drive(scene: &Scene) -> (&Signal, &[Feedback]) {
-    let Source::Driven { drive, feedback } = &contractile(scene).contraction.source else { panic!("it is driven") };
+    let ContractionSource::Driven { drive, feedback } = &contractile(scene).contraction.source else {
+        panic!("it is driven")
+    };
     (drive, feedback)
 }
 
 fn prescribed(scene: &Scene) -> &Signal {
-    let Source::Prescribed(signal) = &contractile(scene).contraction.source else { panic!("G is prescribed") };
+    let ContractionSource::Prescribed(signal) = &contractile(scene).contraction.source else {
+        panic!("G is prescribed")
+    };
     signal
 }
 
@@ -115,9 +119,9 @@ fn tables_are_read_relative_to_the_scene_and_interpolated_as_they_say() {
 #[test]
 fn feedback_is_one_table_or_several() {
     let gain = format!("gain = {STRETCH}");
-    let gap = Feedback { measure: Measure::Gap, gain: along_z(100.0), bias: Mat3::zeros(), limits: None };
-    let stretch = Feedback { measure: Measure::Stretch(Vec3::z()), bias: along_z(-3000.0), ..gap };
-    let rate = Feedback { measure: Measure::Rate(Vec3::x()), limits: Some([-1.0, 2.0]), ..gap };
+    let gap = Feedback { measure: FeedbackMeasure::Gap, gain: along_z(100.0), bias: Mat3::zeros(), limits: None };
+    let stretch = Feedback { measure: FeedbackMeasure::Stretch(Vec3::z()), bias: along_z(-3000.0), ..gap };
+    let rate = Feedback { measure: FeedbackMeasure::Rate(Vec3::x()), limits: Some([-1.0, 2.0]), ..gap };
     let floor = "\n[[support]]\nname = \"floor\"\nplane = { origin = [0, 0, -5] }";
     let stretch_words =
         format!("{{ measure = {{ stretch = [0, 0, 2] }}, {gain}, bias = [[0, 0, 0], [0, 0, 0], [0, 0, \"-3 kPa\"]] }}");
@@ -299,8 +303,8 @@ fn the_offered_start_of_a_contractile_body_is_accepted() {
         let scene = block(&lines(&offered.join("\n")));
         let det = |matrix: &Mat3| matrix.determinant();
         let volume = match &contractile(&scene).contraction.source {
-            Source::Prescribed(signal) => det(&signal.at(0.0)),
-            Source::Driven { .. } => 6.0,
+            ContractionSource::Prescribed(signal) => det(&signal.at(0.0)),
+            ContractionSource::Driven { .. } => 6.0,
         };
         assert!((det(&start(&scene).placement.gradient) / volume - 1.0).abs() < 1e-14);
         assert_resolves_to_itself(&scene);

@@ -11,7 +11,7 @@ use crate::step_end::StepEnd;
 use gyration::balance::observe;
 use gyration::dynamics::acting;
 use gyration::state::BodyMotion;
-use gyration_ode::{Direction, StepReport, find_crossing};
+use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
 /// On how many parts of a step an event is looked for.
 const PARTS: usize = 4;
@@ -118,7 +118,7 @@ impl Simulation<'_> {
                 _ => events::approach(model, time, body, &motion(), speed),
             }
         };
-        let direction = if events::rises(kind) { Direction::Rising } else { Direction::Falling };
+        let direction = if events::rises(kind) { CrossingDirection::Rising } else { CrossingDirection::Falling };
         find_crossing(&mut self.run.integrator, (since, until), signal, direction, 1).unwrap_or(until)
     }
 

@@ -17,7 +17,7 @@ use crate::rows::Ledger;
 use crate::run::{Run, Simulation};
 use gyration::balance::smallest_gap;
 use gyration::body::BodyKind;
-use gyration::contractile::Source;
+use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, acting};
 use gyration::load::{Applied, Loads};
 use gyration::model::Model;
@@ -197,7 +197,7 @@ impl SteppedRun {
         let BodyKind::Contractile(contractile) = &mut self.model.bodies[body].kind else {
             return Err(Refusal::NoDrive { body: name });
         };
-        let Source::Driven { drive, .. } = &mut contractile.contraction.source else {
+        let ContractionSource::Driven { drive, .. } = &mut contractile.contraction.source else {
             return Err(Refusal::NoDrive { body: name });
         };
         let constant = Signal::Constant(value);

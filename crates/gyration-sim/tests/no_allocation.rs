@@ -5,7 +5,7 @@
 
 use allocation_counter::measure;
 use gyration::state::State;
-use gyration_ode::{BlockMatrix, Direction, Integrator, Method, Options, Statistics, System, find_crossing};
+use gyration_ode::{BlockMatrix, CrossingDirection, Integrator, Method, Options, Statistics, System, find_crossing};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::adapter::ModelSystem;
@@ -97,7 +97,7 @@ fn steps_after_the_first(scene: &Scene, method: Method, end: f64) -> (u64, Stati
             let report = integrator.step(&mut system, end).unwrap();
             integrator.interpolate(0.5 * (report.start + report.end), &mut sample.bodies, &mut sample.works);
             let step = integrator.last_step().unwrap();
-            find_crossing(&mut integrator, step, |_, y, _| y[9], Direction::Rising, 4);
+            find_crossing(&mut integrator, step, |_, y, _| y[9], CrossingDirection::Rising, 4);
         }
     });
     (counted.count_total, *integrator.statistics())

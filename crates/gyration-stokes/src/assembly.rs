@@ -11,7 +11,7 @@ use crate::dense::Symmetric;
 use crate::pair::{Block, block};
 use crate::panel::Panel;
 use crate::vector::Vec3;
-use crate::wall::{Image, Wall};
+use crate::wall::{Image, WallImages};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ pub(crate) struct SingleLayer {
 }
 
 /// Nine rows of the matrix, from one triangle and those that follow it.
-struct Strip {
+struct RowStrip {
     rows: Vec<f64>,
     /// Its share of e, at all nodes.
     expansion: Vec<f64>,
@@ -40,7 +40,7 @@ struct Strip {
 
 impl SingleLayer {
     /// Of all pairs of these triangles, `nodes` nodes in all.
-    pub fn new(panels: &[Panel], nodes: usize, wall: Option<&Wall>) -> Self {
+    pub fn new(panels: &[Panel], nodes: usize, wall: Option<&WallImages>) -> Self {
         let order = 3 * nodes;
         let mut half = Symmetric::new(order);
         let (mut expansion, mut pressure) = (vec![0.0; order], 0.0);
@@ -48,8 +48,8 @@ impl SingleLayer {
         let batch = (BATCH_BYTES / (80 * order)).clamp(16, 256);
         for (round, these) in panels.chunks(batch).enumerate() {
             let first = round * batch;
-            let make = |k: usize| Strip::new(panels, first + k, order, wall);
-            let strips: Vec<Strip> = (0..these.len()).into_par_iter().map(make).collect();
+            let make = |k: usize| RowStrip::new(panels, first + k, order, wall);
+            let strips: Vec<RowStrip> = (0..these.len()).into_par_iter().map(make).collect();
             let corners = corners_by_node(these, nodes);
             let rows = half.values.par_chunks_mut(3 * stride).zip(&corners).filter(|(_, corners)| !corners.is_empty());
             rows.for_each(|(rows, corners)| {
@@ -78,8 +78,8 @@ fn corners_by_node(panels: &[Panel], nodes: usize) -> Vec<Vec<(usize, usize)>> {
     corners
 }
 
-impl Strip {
-    fn new(panels: &[Panel], triangle: usize, order: usize, wall: Option<&Wall>) -> Self {
+impl RowStrip {
+    fn new(panels: &[Panel], triangle: usize, order: usize, wall: Option<&WallImages>) -> Self {
         let mut strip = Self { rows: vec![0.0; 9 * order], expansion: vec![0.0; order], pressure: 0.0 };
         let panel = &panels[triangle];
         for (k, other) in panels[triangle..].iter().enumerate() {

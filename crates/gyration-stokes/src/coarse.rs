@@ -11,7 +11,7 @@
 //! smooth surfaces p is larger and the estimate generous.
 
 use crate::dense::{Columns, SIDES, Symmetric};
-use crate::surface::Surface;
+use crate::surface::ClosedSurface;
 use rayon::prelude::*;
 
 /// A coarse space: for each node the coarse nodes that it follows, with weights of sum one.
@@ -21,7 +21,7 @@ pub(crate) struct CoarseSpace {
 }
 
 impl CoarseSpace {
-    pub fn new(surface: &Surface) -> Self {
+    pub fn new(surface: &ClosedSurface) -> Self {
         let around = neighbours(surface);
         let mut names: Vec<Option<usize>> = vec![None; around.len()];
         let mut count = 0;
@@ -96,7 +96,7 @@ impl CoarseSpace {
 }
 
 /// The nodes around each node in the order of the triangles, and how far they are.
-fn neighbours(surface: &Surface) -> Vec<Vec<(usize, f64)>> {
+fn neighbours(surface: &ClosedSurface) -> Vec<Vec<(usize, f64)>> {
     let mut around: Vec<Vec<(usize, f64)>> = vec![Vec::new(); surface.node_count];
     for (nodes, corners) in surface.nodes.iter().zip(&surface.triangles) {
         for k in 0..3 {

@@ -9,7 +9,7 @@
 //! flow misses the motion by −δ ∂_n(u_fluid − u), whose tangential part is ψ_t and whose normal part is −q.
 
 use crate::dense::{Columns, SIDES};
-use crate::motion::{Mat12, Motion, inner_work};
+use crate::motion::{Mat12, UnitMotion, inner_work};
 use crate::panel::Panel;
 use crate::vector::Vec3;
 
@@ -64,12 +64,12 @@ fn rises(panels: &[Panel], normals: &[Vec3]) -> Vec<f64> {
 pub(crate) fn risen(panels: &[Panel], normals: &[Vec3], densities: &Columns) -> Mat12 {
     let rises = rises(panels, normals);
     let volume: f64 = panels.iter().zip(&rises).map(|(panel, rise)| panel.area * rise).sum();
-    rise_energy(panels, &rises, densities) - Motion::matrix(|one, other| volume * inner_work(one, other))
+    rise_energy(panels, &rises, densities) - UnitMotion::matrix(|one, other| volume * inner_work(one, other))
 }
 
 /// ∫ δ [φ_t·φ′_t + q φ′_n + q′ φ_n] dA for all motions, φ = −ψ by unknown.
 fn rise_energy(panels: &[Panel], rises: &[f64], densities: &Columns) -> Mat12 {
-    let expansion = Motion::all().map(|motion| motion.expansion());
+    let expansion = UnitMotion::all().map(|motion| motion.expansion());
     let mut sum = Mat12::zeros();
     for (panel, rise) in panels.iter().zip(rises) {
         let normal = panel.normal();

@@ -29,7 +29,7 @@ const TOUCHING_SQUARED: f64 = 1e-28;
 
 /// A triangle in its plane, with what its sides need from everywhere.
 #[derive(Debug, Clone)]
-pub(crate) struct Outline {
+pub(crate) struct PlaneTriangle {
     /// Counter-clockwise.
     pub corners: [[f64; 2]; 3],
     /// Tangents and lengths of the sides from each corner.
@@ -38,7 +38,7 @@ pub(crate) struct Outline {
     pub doubled: f64,
 }
 
-impl Outline {
+impl PlaneTriangle {
     pub fn new(corners: [[f64; 2]; 3]) -> Self {
         let side = |from: [f64; 2], to: [f64; 2]| {
             let along = [to[0] - from[0], to[1] - from[1]];
@@ -52,7 +52,7 @@ impl Outline {
 }
 
 /// One side as seen from the foot of x.
-struct Side {
+struct TriangleSide {
     m: [f64; 2],
     tau: [f64; 2],
     t: f64,
@@ -66,7 +66,7 @@ struct Side {
     rest: f64,
 }
 
-impl Side {
+impl TriangleSide {
     /// From its first corner as seen from the foot, its tangent and its length.
     #[inline(always)]
     fn new(from: [f64; 2], (tau, length): ([f64; 2], f64), w: f64) -> Self {
@@ -98,13 +98,13 @@ fn solid_angle([a, b, c]: &[[f64; 2]; 3], doubled: f64, w: f64) -> f64 {
 
 impl StokesletMoments {
     /// Over a triangle, from the height w over a foot in its plane; x must not lie on a side.
-    pub fn new(outline: &Outline, foot: [f64; 2], w: f64) -> Self {
+    pub fn new(outline: &PlaneTriangle, foot: [f64; 2], w: f64) -> Self {
         let around = outline.corners.map(|[u, v]| [u - foot[0], v - foot[1]]);
         let angle = solid_angle(&around, outline.doubled, w);
         let mut a0 = -w * angle;
         let (mut a1, mut b1, mut b2, mut b3) = ([0.0; 2], [0.0; 2], [0.0; 3], [[0.0; 3]; 2]);
         for (from, side) in around.into_iter().zip(outline.sides) {
-            let Side { m, tau, t, rise, f, half, rest } = Side::new(from, side, w);
+            let TriangleSide { m, tau, t, rise, f, half, rest } = TriangleSide::new(from, side, w);
             a0 += t * f;
             // m (t m f + τ [r]) and ∫ρρ/r ds.
             let across = t * f;
@@ -186,7 +186,8 @@ mod tests {
     fn closed_forms_agree_with_quadrature_above_beside_and_below() {
         for (dx, dy, w) in [(0.0, 0.0, 0.3), (0.1, 0.2, -0.2), (1.5, 0.4, 0.0), (-0.8, 0.9, 0.5), (0.4, -1.1, -0.1)] {
             let around = CORNERS.map(|[x, y]| [x - dx, y - dy]);
-            let (closed, summed) = (StokesletMoments::new(&Outline::new(around), [0.0; 2], w), by_parts(&around, w, 5));
+            let (closed, summed) =
+                (StokesletMoments::new(&PlaneTriangle::new(around), [0.0; 2], w), by_parts(&around, w, 5));
             // The rule of degree 6 on parts of a thirtieth, no nearer than 0.1.
             assert!(difference(&closed, &summed) < 1e-9, "{dx} {dy} {w}: {:e}", difference(&closed, &summed));
         }
@@ -194,19 +195,21 @@ mod tests {
 
     #[test]
     fn closed_forms_are_finite_and_continuous_in_the_plane_of_the_triangle() {
-        let (on, above) = [0.0, 1e-9].map(|w| StokesletMoments::new(&Outline::new(CORNERS), [0.0; 2], w)).into();
+        let (on, above) = [0.0, 1e-9].map(|w| StokesletMoments::new(&PlaneTriangle::new(CORNERS), [0.0; 2], w)).into();
         // The off-diagonal −w∫ρ/r³ changes by w ln w, the rest by w.
         assert!(difference(&on, &above) < 1e-7);
         // From beyond the end of a side, on its line.
         let along = [[0.5, 0.0], [1.5, 0.0], [0.8, 0.6]];
-        let (closed, summed) = (StokesletMoments::new(&Outline::new(along), [0.0; 2], 0.0), by_parts(&along, 0.0, 7));
+        let (closed, summed) =
+            (StokesletMoments::new(&PlaneTriangle::new(along), [0.0; 2], 0.0), by_parts(&along, 0.0, 7));
         assert!(difference(&closed, &summed) < 1e-9);
     }
 
     #[test]
     fn closed_forms_hold_for_needles() {
         let needle = [[-0.1, 1e-3], [0.9, 2e-3], [0.2, 3e-3]];
-        let (closed, summed) = (StokesletMoments::new(&Outline::new(needle), [0.0; 2], 0.0), by_parts(&needle, 0.0, 8));
+        let (closed, summed) =
+            (StokesletMoments::new(&PlaneTriangle::new(needle), [0.0; 2], 0.0), by_parts(&needle, 0.0, 8));
         // The quadrature is what errs: the foot lies a third of the needle's width off it.
         assert!(difference(&closed, &summed) < 1e-5 * 1e-3_f64.sqrt());
     }

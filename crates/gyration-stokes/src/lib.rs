@@ -1,9 +1,9 @@
 //! The resistance of a closed surface in slow viscous flow, by boundary elements.
 //!
 //! Plain numbers in, plain numbers out: points and triangles give the 12×12 matrix from velocity and velocity gradient
-//! to force and affine moment, for a fluid of viscosity one. [`Surface`] is the mesh, [`Options`] say about which
-//! centre and what the triangles stand for, [`Resistance`] is the answer with its estimated error. The method stands in
-//! `resistance.rs`.
+//! to force and affine moment, for a fluid of viscosity one. [`ClosedSurface`] is the mesh, [`StokesOptions`] say about
+//! which centre and what the triangles stand for, [`StokesResistance`] is the answer with its estimated error. The
+//! method stands in `resistance.rs`.
 //!
 //! ```
 //! use gyration_stokes::{Options, Surface};
@@ -36,6 +36,6 @@ mod wall;
 
 pub use error::StokesError;
 pub use mesh::MAX_REFINEMENTS;
-pub use resistance::{DEFAULT_MAX_BYTES, Faces, Options, Resistance};
-pub use surface::Surface;
-pub use wall::Plane;
+pub use resistance::{DEFAULT_MAX_BYTES, Faces, StokesOptions, StokesResistance};
+pub use surface::ClosedSurface;
+pub use wall::WallPlane;

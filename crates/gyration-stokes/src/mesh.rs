@@ -1,13 +1,13 @@
 //! Meshes: icospheres, ellipsoids, and the uniform refinement of any surface.
 
 use crate::error::StokesError;
-use crate::surface::Surface;
+use crate::surface::ClosedSurface;
 use std::collections::HashMap;
 
 /// Refinements of an icosphere: 1.3 million triangles, far more than a matrix can be made of.
 pub const MAX_REFINEMENTS: u32 = 8;
 
-impl Surface {
+impl ClosedSurface {
     /// An icosphere of radius one about the origin: 20·4^`refinements` triangles, corners on the sphere.
     ///
     /// # Errors
@@ -27,7 +27,7 @@ impl Surface {
     /// An ellipsoid of these semi-axes about the origin: the icosphere stretched, corners on the ellipsoid.
     ///
     /// Its volume is smaller than the ellipsoid's; [`crate::Faces::Curved`] accounts for it. Alternatively
-    /// [`Surface::inflated`] to the true volume.
+    /// [`ClosedSurface::inflated`] to the true volume.
     ///
     /// # Errors
     /// A semi-axis that is not positive and finite, or so unlike the others that triangles become degenerate; more than
@@ -42,7 +42,7 @@ impl Surface {
     /// Each triangle cut into four at the midpoints of its sides, the midpoints put where `project` says.
     ///
     /// # Errors
-    /// Those of [`Surface::new`], for what the projection spoils.
+    /// Those of [`ClosedSurface::new`], for what the projection spoils.
     pub fn refined(&self, project: impl Fn([f64; 3]) -> [f64; 3]) -> Result<Self, StokesError> {
         let mut points = self.points();
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();

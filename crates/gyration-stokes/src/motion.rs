@@ -13,11 +13,11 @@ pub(crate) type Mat12 = SMatrix<f64, SIDES, SIDES>;
 
 /// One of the twelve unit motions; of its velocity only the right sides know.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
+pub(crate) struct UnitMotion {
     pub gradient: Mat3,
 }
 
-impl Motion {
+impl UnitMotion {
     /// In the order of the rows of the matrix.
     pub fn all() -> [Self; SIDES] {
         std::array::from_fn(|k| {
@@ -47,7 +47,7 @@ impl Motion {
 }
 
 /// 2 (E:E′ − q q′): the work of the inner stress per volume, which the single layer counts and the fluid does not.
-pub(crate) fn inner_work(one: &Motion, other: &Motion) -> f64 {
+pub(crate) fn inner_work(one: &UnitMotion, other: &UnitMotion) -> f64 {
     2.0 * (one.strain().dot(&other.strain()) - one.expansion() * other.expansion())
 }
 
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn expansion_is_the_trace_of_the_rows() {
-        let diagonal: Vec<usize> = (0..12).filter(|&k| Motion::all()[k].expansion() != 0.0).collect();
+        let diagonal: Vec<usize> = (0..12).filter(|&k| UnitMotion::all()[k].expansion() != 0.0).collect();
         assert_eq!(diagonal, [3, 7, 11]);
     }
 }

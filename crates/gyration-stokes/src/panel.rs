@@ -1,7 +1,7 @@
 //! A flat triangle with all that the integrals need: axes, corners in its plane, slopes of its shape functions.
 
-use crate::inner::Outline;
-use crate::surface::Surface;
+use crate::inner::PlaneTriangle;
+use crate::surface::ClosedSurface;
 use crate::vector::{Mat3, Vec3};
 
 /// A flat triangle.
@@ -17,7 +17,7 @@ pub(crate) struct Panel {
     /// Columns: along the first side, across it in the plane, the outward normal.
     pub axes: Mat3,
     /// The corners in the first two axes, from the first corner.
-    pub outline: Outline,
+    pub outline: PlaneTriangle,
     /// Gradients of the three shape functions in the plane.
     pub slopes: [[f64; 2]; 3],
     /// The points of the rule of degree 2: λ = (2/3, 1/6, 1/6) and its permutations.
@@ -46,14 +46,14 @@ impl Panel {
             radius: corners.iter().map(|p| (p - centroid).norm()).fold(0.0, f64::max),
             area: 0.5 * doubled,
             axes: Mat3::from_columns(&[first, second, normal]),
-            outline: Outline::new(plane),
+            outline: PlaneTriangle::new(plane),
             slopes: [slope(0), slope(1), slope(2)],
             points: corners.map(|p| 0.5 * (p + centroid)),
         }
     }
 
     /// All the triangles of a surface.
-    pub fn all(surface: &Surface) -> Vec<Self> {
+    pub fn all(surface: &ClosedSurface) -> Vec<Self> {
         let corners = surface.triangles.iter().map(|t| t.map(|corner| surface.points[corner]));
         corners.zip(&surface.nodes).map(|(corners, nodes)| Self::new(corners, *nodes)).collect()
     }

@@ -23,11 +23,11 @@ use crate::curvature::{Weight, node_normals, risen};
 use crate::dense::{self, Columns, SIDES};
 use crate::error::StokesError;
 use crate::estimate::largest_share;
-use crate::motion::{Mat12, Motion, inner_work, right_sides};
+use crate::motion::{Mat12, UnitMotion, inner_work, right_sides};
 use crate::panel::Panel;
-use crate::surface::Surface;
+use crate::surface::ClosedSurface;
 use crate::vector::Vec3;
-use crate::wall::{Plane, Wall};
+use crate::wall::{WallImages, WallPlane};
 use gyration_threads::on_own_threads;
 
 /// Bytes of matrices that are taken unless said otherwise: 16,000 unknowns, some 10,000 triangles of a smooth surface.
@@ -46,18 +46,18 @@ pub enum Faces {
 
 /// What is asked of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
+pub struct StokesOptions {
     /// The centre c of the motions and moments [length].
     pub centre: [f64; 3],
     /// What the triangles stand for.
     pub faces: Faces,
     /// A plane wall without slip that bounds the fluid.
-    pub wall: Option<Plane>,
+    pub wall: Option<WallPlane>,
     /// Bytes that the matrices may take.
     pub max_bytes: u64,
 }
 
-impl Default for Options {
+impl Default for StokesOptions {
     fn default() -> Self {
         Self { centre: [0.0; 3], faces: Faces::default(), wall: None, max_bytes: DEFAULT_MAX_BYTES }
     }
@@ -65,7 +65,7 @@ impl Default for Options {
 
 /// The resistance of a body in a fluid of viscosity one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Resistance {
+pub struct StokesResistance {
     /// H: (f; N row by row) = −H (U; L row by row), f = ∫ t dA, N_ij = ∫ t_i (x − c)_j dA. Symmetric, positive
     /// definite.
     pub matrix: [[f64; 12]; 12],
@@ -85,28 +85,29 @@ pub struct Resistance {
     densities: Columns,
 }
 
-impl Surface {
+impl ClosedSurface {
     /// The resistance matrix about a centre.
     ///
     /// # Errors
     /// Matrices larger than allowed; a centre that is not finite; a wall that is touched, crossed or too near for the
     /// triangles that face it; a surface that crosses itself, if that makes the single layer indefinite; a mesh so
     /// coarse that a motion is not resisted.
-    pub fn resistance(&self, options: &Options) -> Result<Resistance, StokesError> {
+    pub fn resistance(&self, options: &StokesOptions) -> Result<StokesResistance, StokesError> {
         self.check(options)?;
         on_own_threads(|| self.resistance_here(options))
     }
 
-    fn resistance_here(&self, options: &Options) -> Result<Resistance, StokesError> {
+    fn resistance_here(&self, options: &StokesOptions) -> Result<StokesResistance, StokesError> {
         let panels = Panel::all(self);
         let normals = node_normals(&panels, self.node_count, Weight::Angle);
-        let wall = options.wall.as_ref().map(|plane| Wall::new(plane, &panels)).transpose()?;
+        let wall = options.wall.as_ref().map(|plane| WallImages::new(plane, &panels)).transpose()?;
         let layer = SingleLayer::new(&panels, self.node_count, wall.as_ref());
         let pressure = layer.pressure;
-        let Solution { densities, energy, lost } = self.solve(layer, &panels, options)?;
+        let LayerSolution { densities, energy, lost } = self.solve(layer, &panels, options)?;
         let volume = self.volume();
-        let beside = |x: &Motion, y: &Motion| pressure * x.expansion() * y.expansion() - volume * inner_work(x, y);
-        let mut matrix = energy + Motion::matrix(beside);
+        let beside =
+            |x: &UnitMotion, y: &UnitMotion| pressure * x.expansion() * y.expansion() - volume * inner_work(x, y);
+        let mut matrix = energy + UnitMotion::matrix(beside);
         let mut uncertain = vec![lost];
         let (mut curvature, mut second_order) = (Mat12::zeros(), 0.0);
         if options.faces == Faces::Curved {
@@ -119,10 +120,10 @@ impl Surface {
         let error = largest_share(&matrix, &uncertain)? + second_order;
         let rows = |matrix: Mat12| std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
         let (matrix, curvature) = (rows(matrix), rows(curvature));
-        Ok(Resistance { matrix, error, curvature, nodes: self.nodes.clone(), normals, densities })
+        Ok(StokesResistance { matrix, error, curvature, nodes: self.nodes.clone(), normals, densities })
     }
 
-    fn check(&self, options: &Options) -> Result<(), StokesError> {
+    fn check(&self, options: &StokesOptions) -> Result<(), StokesError> {
         if let Some(&value) = options.centre.iter().find(|value| !value.is_finite()) {
             return Err(StokesError::BadOption { what: "centre", must_be: "finite", value });
         }
@@ -135,7 +136,12 @@ impl Surface {
     }
 
     /// Solves S φ = b for the twelve motions, φ = −ψ without pressure in the body.
-    fn solve(&self, layer: SingleLayer, panels: &[Panel], options: &Options) -> Result<Solution, StokesError> {
+    fn solve(
+        &self,
+        layer: SingleLayer,
+        panels: &[Panel],
+        options: &StokesOptions,
+    ) -> Result<LayerSolution, StokesError> {
         let SingleLayer { half: mut matrix, expansion, pressure } = layer;
         let sides = right_sides(panels, &options.centre.into(), &expansion);
         regularize(&mut matrix, panels);
@@ -150,7 +156,7 @@ impl Surface {
         let energy = products(&densities, &sides);
         let lost = (energy - products(&coarse_densities, &coarse_sides)) * coarse.factor();
         set_pressure(&mut densities, panels, &expansion, (pressure, self.volume()));
-        Ok(Solution { densities, energy, lost })
+        Ok(LayerSolution { densities, energy, lost })
     }
 
     fn indefinite(&self, unknown: usize) -> StokesError {
@@ -161,7 +167,7 @@ impl Surface {
 }
 
 /// The single layer solved for the twelve motions.
-struct Solution {
+struct LayerSolution {
     /// φ = −ψ.
     densities: Columns,
     /// ⟨S⁺ b, b′⟩.
@@ -198,7 +204,7 @@ fn regularize(half: &mut dense::Symmetric, panels: &[Panel]) {
 
 /// Adds the multiple of n to each density with which ∫ φ·v dA = q Π: no pressure in the body but that of the wall.
 fn set_pressure(densities: &mut Columns, panels: &[Panel], expansion: &[f64], (wall, volume): (f64, f64)) {
-    let mut pressure = Motion::all().map(|motion| -motion.expansion() * wall / volume);
+    let mut pressure = UnitMotion::all().map(|motion| -motion.expansion() * wall / volume);
     for (density, v) in densities.iter().zip(expansion) {
         (0..SIDES).for_each(|k| pressure[k] += density[k] * v / volume);
     }
@@ -210,10 +216,10 @@ fn set_pressure(densities: &mut Columns, panels: &[Panel], expansion: &[f64], (w
     }
 }
 
-impl Resistance {
+impl StokesResistance {
     /// The traction t at the corners of each triangle, for the motion x = (U; L row by row) [force/area].
     pub fn tractions(&self, motion: &[f64; 12]) -> Vec<[[f64; 3]; 3]> {
-        let unit = Motion::all();
+        let unit = UnitMotion::all();
         let at = |node: usize| {
             let mut traction = Vec3::zeros();
             for (k, (weight, motion)) in motion.iter().zip(&unit).enumerate() {

@@ -18,7 +18,7 @@ pub(crate) const THINNEST: f64 = 1e-4;
 
 /// A closed surface of flat triangles with outward normals.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
+pub struct ClosedSurface {
     pub(crate) points: Vec<Vec3>,
     pub(crate) triangles: Vec<[usize; 3]>,
     /// For each triangle the node at each corner: the points, doubled at edges.
@@ -28,7 +28,7 @@ pub struct Surface {
     pub(crate) neighbours: Vec<[usize; 3]>,
 }
 
-impl Surface {
+impl ClosedSurface {
     /// The surface of these triangles, points counted from 0.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl Surface {
     /// The same triangles and edges with every point moved.
     ///
     /// # Errors
-    /// As [`Surface::new`], for what moving can spoil.
+    /// As [`ClosedSurface::new`], for what moving can spoil.
     pub fn moved(&self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Result<Self, StokesError> {
         let points: Vec<Vec3> = self.points.iter().map(|p| Vec3::from(place((*p).into()))).collect();
         check_shapes(&points, &self.triangles)?;

@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 
 /// A plane wall that bounds the fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
+pub struct WallPlane {
     /// A point of it [length].
     pub point: [f64; 3],
     /// Its normal into the fluid, of any length.
@@ -29,7 +29,7 @@ pub struct Plane {
 
 /// The wall with what the images need.
 #[derive(Debug, Clone)]
-pub(crate) struct Wall {
+pub(crate) struct WallImages {
     point: Vec3,
     normal: Vec3,
     mirror: Mat3,
@@ -58,17 +58,17 @@ const HALVINGS: u32 = 4;
 
 /// A part of a triangle with the barycentric coordinates of its corners.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct SubTriangle {
     corners: [Vec3; 3],
     weights: [Vec3; 3],
 }
 
-impl Wall {
+impl WallImages {
     /// The wall, for a body of these triangles.
     ///
     /// # Errors
     /// A normal without direction; a triangle that touches the wall, crosses it or is too large for its gap.
-    pub fn new(plane: &Plane, panels: &[Panel]) -> Result<Self, StokesError> {
+    pub fn new(plane: &WallPlane, panels: &[Panel]) -> Result<Self, StokesError> {
         let (point, normal) = (Vec3::from(plane.point), Vec3::from(plane.normal));
         let length = normal.norm();
         let value = length + point.sum();
@@ -118,12 +118,12 @@ impl Wall {
         let mut image =
             Image { block: [[0.0; 9]; 9], here: [Vec3::zeros(); 3], there: [Vec3::zeros(); 3], pressure: 0.0 };
         let normals = (one.normal(), other.normal());
-        self.add((Part::of(one), Part::of(other)), normals, HALVINGS, &mut image);
+        self.add((SubTriangle::of(one), SubTriangle::of(other)), normals, HALVINGS, &mut image);
         image.pressure *= normals.0.dot(&self.normal) * normals.1.dot(&self.normal) / PI;
         image
     }
 
-    fn add(&self, (one, other): (Part, Part), normals: (Vec3, Vec3), halvings: u32, image: &mut Image) {
+    fn add(&self, (one, other): (SubTriangle, SubTriangle), normals: (Vec3, Vec3), halvings: u32, image: &mut Image) {
         let distance = (one.centroid() - self.image(&other.centroid())).norm();
         if halvings > 0 && distance < FAR * (one.radius() + other.radius()) {
             for part in one.quarters() {
@@ -170,7 +170,7 @@ impl Wall {
     }
 }
 
-impl Part {
+impl SubTriangle {
     fn of(panel: &Panel) -> Self {
         Self { corners: panel.corners, weights: [Vec3::x(), Vec3::y(), Vec3::z()] }
     }
@@ -209,16 +209,16 @@ impl Part {
 mod tests {
     use super::*;
 
-    fn wall() -> Wall {
-        let plane = Plane { point: [0.1, -0.2, 0.3], normal: [0.5, -1.0, 2.0] };
-        Wall::new(&plane, &[]).unwrap()
+    fn wall() -> WallImages {
+        let plane = WallPlane { point: [0.1, -0.2, 0.3], normal: [0.5, -1.0, 2.0] };
+        WallImages::new(&plane, &[]).unwrap()
     }
 
     fn free(r: &Vec3) -> Mat3 {
         Mat3::identity() / r.norm() + r * r.transpose() / r.norm().powi(3)
     }
 
-    fn above(wall: &Wall, height: f64, along: [f64; 2]) -> Vec3 {
+    fn above(wall: &WallImages, height: f64, along: [f64; 2]) -> Vec3 {
         let e = wall.normal;
         let (u, v) = (e.cross(&Vec3::x()).normalize(), e.cross(&e.cross(&Vec3::x())).normalize());
         wall.point + e * height + u * along[0] + v * along[1]

@@ -1,12 +1,13 @@
 //! Ellipsoids against the closed form: accuracy, and what the estimate of the error is worth.
 
 use crate::reference;
-use gyration_stokes::{Faces, Options, Resistance, StokesError, Surface};
+use gyration_stokes::{ClosedSurface, Faces, StokesError, StokesOptions, StokesResistance};
 
 const SHAPES: [[f64; 3]; 4] = [[2.0, 1.0, 1.0], [1.0, 0.5, 0.2], [5.0, 1.0, 1.0], [1.3, 0.8, 1.0]];
 
-fn measured(axes: [f64; 3], refinements: u32, faces: Faces) -> Result<(Resistance, f64), StokesError> {
-    let resistance = Surface::ellipsoid(axes, refinements)?.resistance(&Options { faces, ..Options::default() })?;
+fn measured(axes: [f64; 3], refinements: u32, faces: Faces) -> Result<(StokesResistance, f64), StokesError> {
+    let resistance = ClosedSurface::ellipsoid(axes, refinements)?
+        .resistance(&StokesOptions { faces, ..StokesOptions::default() })?;
     let error = reference::largest_error(&reference::matrix(&resistance.matrix), &reference::ellipsoid(axes));
     Ok((resistance, error))
 }
@@ -49,9 +50,9 @@ fn flat_triangles_give_less_than_the_ellipsoid() {
 fn inflation_to_the_true_volume_removes_most_of_the_loss() {
     let axes = [2.0, 1.0, 1.0];
     let volume = 4.0 / 3.0 * std::f64::consts::PI * axes.iter().product::<f64>();
-    let surface = Surface::ellipsoid(axes, 2).unwrap().inflated([0.0; 3], volume).unwrap();
+    let surface = ClosedSurface::ellipsoid(axes, 2).unwrap().inflated([0.0; 3], volume).unwrap();
     assert!((surface.volume() / volume - 1.0).abs() < 1e-14);
-    let options = Options { faces: Faces::Flat, ..Options::default() };
+    let options = StokesOptions { faces: Faces::Flat, ..StokesOptions::default() };
     let matrix = reference::matrix(&surface.resistance(&options).unwrap().matrix);
     let error = reference::largest_error(&matrix, &reference::ellipsoid(axes));
     println!("inflated: error {error:.2e}");

@@ -1,13 +1,13 @@
 //! What is no surface, or asks too much, is refused with the triangle and the fix.
 
-use gyration_stokes::{Options, StokesError, Surface};
+use gyration_stokes::{ClosedSurface, StokesError, StokesOptions};
 
 const POINTS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const TRIANGLES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
 #[test]
 fn tetrahedron_is_taken() {
-    let surface = Surface::new(&POINTS, &TRIANGLES).unwrap();
+    let surface = ClosedSurface::new(&POINTS, &TRIANGLES).unwrap();
     assert!((surface.volume() - 1.0 / 6.0).abs() < 1e-15);
     assert_eq!((surface.points(), surface.triangles()), (POINTS.to_vec(), TRIANGLES.to_vec()));
     // Every corner is one of three edges.
@@ -16,7 +16,7 @@ fn tetrahedron_is_taken() {
 
 #[test]
 fn too_few_triangles_are_refused() {
-    assert_eq!(Surface::new(&POINTS, &TRIANGLES[..3]), Err(StokesError::TooFew { count: 3 }));
+    assert_eq!(ClosedSurface::new(&POINTS, &TRIANGLES[..3]), Err(StokesError::TooFew { count: 3 }));
 }
 
 #[test]
@@ -24,7 +24,7 @@ fn hole_is_refused_with_a_triangle_at_it() {
     let mut triangles = TRIANGLES.to_vec();
     triangles.extend([[1, 2, 3]]);
     triangles.remove(0);
-    let error = Surface::new(&POINTS, &triangles).unwrap_err();
+    let error = ClosedSurface::new(&POINTS, &triangles).unwrap_err();
     assert!(matches!(error, StokesError::NotClosed { triangle: 0, from: 0, to: 1, neighbours: 0 }), "{error}");
 }
 
@@ -32,19 +32,19 @@ fn hole_is_refused_with_a_triangle_at_it() {
 fn flipped_triangle_is_refused() {
     let mut triangles = TRIANGLES;
     triangles[3] = [1, 3, 2];
-    assert!(matches!(Surface::new(&POINTS, &triangles), Err(StokesError::NotClosed { .. })));
+    assert!(matches!(ClosedSurface::new(&POINTS, &triangles), Err(StokesError::NotClosed { .. })));
 }
 
 #[test]
 fn inward_surface_is_refused_with_its_volume() {
     let inward = TRIANGLES.map(|[a, b, c]| [a, c, b]);
-    let Err(StokesError::Inward { volume }) = Surface::new(&POINTS, &inward) else { panic!("not refused") };
+    let Err(StokesError::Inward { volume }) = ClosedSurface::new(&POINTS, &inward) else { panic!("not refused") };
     assert!((volume + 1.0 / 6.0).abs() < 1e-15);
 }
 
 #[test]
 fn reflection_is_refused() {
-    let surface = Surface::new(&POINTS, &TRIANGLES).unwrap();
+    let surface = ClosedSurface::new(&POINTS, &TRIANGLES).unwrap();
     assert!(matches!(surface.moved(|[x, y, z]| [-x, y, z]), Err(StokesError::Inward { .. })));
 }
 
@@ -52,19 +52,19 @@ fn reflection_is_refused() {
 fn triangle_without_area_is_refused_by_name() {
     let mut points = POINTS;
     points[3] = [0.5, 0.0, 1e-7];
-    let error = Surface::new(&points, &TRIANGLES).unwrap_err();
+    let error = ClosedSurface::new(&points, &TRIANGLES).unwrap_err();
     assert!(matches!(error, StokesError::Degenerate { triangle: 1, .. }), "{error}");
     assert!(error.to_string().starts_with("triangle 1 is degenerate"));
     let repeated = [[0, 2, 1], [0, 1, 1], [0, 3, 2], [1, 2, 3]];
-    assert!(matches!(Surface::new(&POINTS, &repeated), Err(StokesError::Degenerate { triangle: 1, .. })));
+    assert!(matches!(ClosedSurface::new(&POINTS, &repeated), Err(StokesError::Degenerate { triangle: 1, .. })));
 }
 
 #[test]
 fn points_that_are_not_finite_or_missing_are_refused() {
     let mut points = POINTS;
     points[2][1] = f64::NAN;
-    assert_eq!(Surface::new(&points, &TRIANGLES), Err(StokesError::NotFinite { point: 2 }));
-    let error = Surface::new(&POINTS[..3], &TRIANGLES).unwrap_err();
+    assert_eq!(ClosedSurface::new(&points, &TRIANGLES), Err(StokesError::NotFinite { point: 2 }));
+    let error = ClosedSurface::new(&POINTS[..3], &TRIANGLES).unwrap_err();
     assert_eq!(error, StokesError::NoSuchPoint { triangle: 1, point: 3, count: 3 });
 }
 
@@ -73,30 +73,32 @@ fn two_bodies_are_refused() {
     let far = POINTS.map(|p| p.map(|x| x + 10.0));
     let points = [POINTS, far].concat();
     let triangles = [TRIANGLES, TRIANGLES.map(|t| t.map(|k| k + 4))].concat();
-    assert_eq!(Surface::new(&points, &triangles), Err(StokesError::NotConnected { triangle: 4 }));
+    assert_eq!(ClosedSurface::new(&points, &triangles), Err(StokesError::NotConnected { triangle: 4 }));
 }
 
 #[test]
 fn matrix_beyond_the_memory_granted_is_refused_with_its_bytes() {
-    let error =
-        Surface::icosphere(2).unwrap().resistance(&Options { max_bytes: 1 << 20, ..Options::default() }).unwrap_err();
+    let error = ClosedSurface::icosphere(2)
+        .unwrap()
+        .resistance(&StokesOptions { max_bytes: 1 << 20, ..StokesOptions::default() })
+        .unwrap_err();
     let StokesError::TooLarge { triangles: 320, unknowns: 486, bytes, limit } = error else { panic!("{error}") };
     assert!(limit == 1 << 20 && bytes > 8 * 486 * 486);
 }
 
 #[test]
 fn centre_that_is_not_finite_is_refused() {
-    let options = Options { centre: [0.0, f64::INFINITY, 0.0], ..Options::default() };
-    let error = Surface::icosphere(0).unwrap().resistance(&options).unwrap_err();
+    let options = StokesOptions { centre: [0.0, f64::INFINITY, 0.0], ..StokesOptions::default() };
+    let error = ClosedSurface::icosphere(0).unwrap().resistance(&options).unwrap_err();
     assert!(matches!(error, StokesError::BadOption { what: "centre", .. }));
 }
 
 #[test]
 fn ellipsoid_without_thickness_is_refused() {
-    assert!(matches!(Surface::ellipsoid([1.0, 1.0, 0.0], 1), Err(StokesError::BadOption { .. })));
+    assert!(matches!(ClosedSurface::ellipsoid([1.0, 1.0, 0.0], 1), Err(StokesError::BadOption { .. })));
 }
 
 #[test]
 fn refinement_without_end_is_refused() {
-    assert!(matches!(Surface::icosphere(9), Err(StokesError::BadOption { .. })));
+    assert!(matches!(ClosedSurface::icosphere(9), Err(StokesError::BadOption { .. })));
 }

@@ -1,20 +1,23 @@
 //! What holds for any body: symmetry, scales, turning, change of centre, threads, edges.
 
 use crate::reference::{self, Mat12};
-use gyration_stokes::{Faces, Options, Surface};
+use gyration_stokes::{ClosedSurface, Faces, StokesOptions};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// A lopsided body: no symmetry to hide behind.
-fn pear() -> Surface {
-    Surface::icosphere(1).unwrap().moved(|[x, y, z]| [x * (1.0 + 0.3 * z) + 0.2, 0.7 * y + 0.1 * x, 1.4 * z]).unwrap()
+fn pear() -> ClosedSurface {
+    ClosedSurface::icosphere(1)
+        .unwrap()
+        .moved(|[x, y, z]| [x * (1.0 + 0.3 * z) + 0.2, 0.7 * y + 0.1 * x, 1.4 * z])
+        .unwrap()
 }
 
-fn matrix(surface: &Surface, centre: [f64; 3]) -> Mat12 {
-    reference::matrix(&surface.resistance(&Options { centre, ..Options::default() }).unwrap().matrix)
+fn matrix(surface: &ClosedSurface, centre: [f64; 3]) -> Mat12 {
+    reference::matrix(&surface.resistance(&StokesOptions { centre, ..StokesOptions::default() }).unwrap().matrix)
 }
 
 /// A box of these sides about the origin, `n` cells along each.
-fn cuboid(sides: [f64; 3], n: u32) -> Surface {
+fn cuboid(sides: [f64; 3], n: u32) -> ClosedSurface {
     let (mut points, mut triangles) = (Vec::new(), Vec::new());
     for face in 0..6 {
         let (axis, sign) = (face % 3, if face < 3 { 1.0 } else { -1.0 });
@@ -34,7 +37,7 @@ fn cuboid(sides: [f64; 3], n: u32) -> Surface {
             triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Surface::new(&points, &triangles).unwrap()
+    ClosedSurface::new(&points, &triangles).unwrap()
 }
 
 #[test]
@@ -82,7 +85,7 @@ fn resistances_grow_with_the_powers_of_the_size() {
     let size = 1e-6;
     let small = pear().moved(|p| p.map(|x| size * x)).unwrap();
     let (there, here) =
-        (small.resistance(&Options::default()).unwrap(), pear().resistance(&Options::default()).unwrap());
+        (small.resistance(&StokesOptions::default()).unwrap(), pear().resistance(&StokesOptions::default()).unwrap());
     for (i, j) in (0..144).map(|k| (k / 12, k % 12)) {
         let power = 1 + i32::from(i >= 3) + i32::from(j >= 3);
         let (expected, found) = (here.matrix[i][j] * size.powi(power), there.matrix[i][j]);
@@ -95,7 +98,7 @@ fn resistances_grow_with_the_powers_of_the_size() {
 fn resistance_has_the_same_bytes_on_any_number_of_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| pear().resistance(&Options::default()).unwrap())
+        pool.install(|| pear().resistance(&StokesOptions::default()).unwrap())
     };
     let single = on(1);
     assert!([2, 3, 7].iter().all(|&threads| on(threads) == single));
@@ -104,7 +107,7 @@ fn resistance_has_the_same_bytes_on_any_number_of_threads() {
 #[test]
 fn box_converges_within_its_estimates_and_between_spheres() {
     use std::f64::consts::PI;
-    let resistance = |n| cuboid([1.0; 3], n).resistance(&Options::default()).unwrap();
+    let resistance = |n| cuboid([1.0; 3], n).resistance(&StokesOptions::default()).unwrap();
     let results = [2, 4, 8].map(resistance);
     let finest = reference::matrix(&results[2].matrix);
     for result in &results {
@@ -122,8 +125,8 @@ fn box_converges_within_its_estimates_and_between_spheres() {
 
 #[test]
 fn cube_of_twelve_triangles_is_solved() {
-    let resistance = cuboid([1.0; 3], 1).resistance(&Options::default()).unwrap();
-    let fine = cuboid([1.0; 3], 6).resistance(&Options::default()).unwrap();
+    let resistance = cuboid([1.0; 3], 1).resistance(&StokesOptions::default()).unwrap();
+    let fine = cuboid([1.0; 3], 6).resistance(&StokesOptions::default()).unwrap();
     let error = resistance.matrix[0][0] / fine.matrix[0][0] - 1.0;
     println!("cube of twelve triangles: drag {error:+.2e} from that of 432");
     assert!(error.abs() < 0.05);
@@ -132,7 +135,7 @@ fn cube_of_twelve_triangles_is_solved() {
 #[test]
 fn unequal_triangles_do_no_harm() {
     // One triangle of a sphere is cut into needles that meet at a point next to a corner.
-    let sphere = Surface::icosphere(1).unwrap();
+    let sphere = ClosedSurface::icosphere(1).unwrap();
     let (mut points, mut triangles) = (sphere.points(), sphere.triangles());
     let [a, b, c] = triangles[7];
     let [pa, pb, pc] = [a, b, c].map(|k| points[k as usize]);
@@ -140,8 +143,8 @@ fn unequal_triangles_do_no_harm() {
     let new = (points.len() - 1) as u32;
     triangles[7] = [a, b, new];
     triangles.extend([[b, c, new], [c, a, new]]);
-    let uneven = Surface::new(&points, &triangles).unwrap();
-    let options = Options { faces: Faces::Flat, ..Options::default() };
+    let uneven = ClosedSurface::new(&points, &triangles).unwrap();
+    let options = StokesOptions { faces: Faces::Flat, ..StokesOptions::default() };
     let [plain, cut] = [&sphere, &uneven].map(|s| reference::matrix(&s.resistance(&options).unwrap().matrix));
     let change = reference::largest_error(&cut, &plain);
     println!("needles change the matrix by {change:.1e}");
@@ -150,7 +153,7 @@ fn unequal_triangles_do_no_harm() {
 }
 
 /// A solid of revolution about z from its meridian (radius, height), from the lower pole to the upper one.
-fn revolution(meridian: &[[f64; 2]], n: u32) -> Surface {
+fn revolution(meridian: &[[f64; 2]], n: u32) -> ClosedSurface {
     let (mut points, mut triangles) = (vec![[0.0, 0.0, meridian[0][1]]], Vec::new());
     let rings = &meridian[1..meridian.len() - 1];
     for [radius, height] in rings {
@@ -167,7 +170,7 @@ fn revolution(meridian: &[[f64; 2]], n: u32) -> Surface {
             triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Surface::new(&points, &triangles).unwrap()
+    ClosedSurface::new(&points, &triangles).unwrap()
 }
 
 #[test]
@@ -189,8 +192,8 @@ fn cylinder_and_cone_with_edges_and_a_tip_converge_within_their_estimates() {
         revolution(&meridian, 6 * n)
     };
     let (inside, around) = (6.0 * std::f64::consts::PI, 6.0 * std::f64::consts::PI * 2.0_f64.sqrt());
-    for (name, body) in [("cylinder", &cylinder as &dyn Fn(u32) -> Surface), ("cone", &cone)] {
-        let [coarse, fine] = [2, 4].map(|n| body(n).resistance(&Options::default()).unwrap());
+    for (name, body) in [("cylinder", &cylinder as &dyn Fn(u32) -> ClosedSurface), ("cone", &cone)] {
+        let [coarse, fine] = [2, 4].map(|n| body(n).resistance(&StokesOptions::default()).unwrap());
         let [first, second] = [&coarse, &fine].map(|r| reference::matrix(&r.matrix));
         let change = reference::largest_error(&first, &second);
         println!(

@@ -1,7 +1,7 @@
 //! A sphere against its closed forms: 6πR, 8πR³, 3V a strain, 4 Ṙ/R an area, and the traction of each.
 
 use crate::reference;
-use gyration_stokes::{Faces, Options, Surface};
+use gyration_stokes::{ClosedSurface, Faces, StokesOptions};
 use std::f64::consts::PI;
 
 const VOLUME: f64 = 4.0 / 3.0 * PI;
@@ -13,7 +13,7 @@ fn close(measured: f64, exact: f64, tolerance: f64) {
 
 #[test]
 fn sphere_resists_translation_spin_strain_and_expansion_as_it_must() {
-    let m = Surface::icosphere(2).unwrap().resistance(&Options::default()).unwrap().matrix;
+    let m = ClosedSurface::icosphere(2).unwrap().resistance(&StokesOptions::default()).unwrap().matrix;
     // The remainder after the first order in the rise, which is l²/8R = 0.011: some squares of it.
     let tolerance = 1e-3;
     close(m[0][0], 6.0 * PI, tolerance);
@@ -32,8 +32,8 @@ fn sphere_resists_translation_spin_strain_and_expansion_as_it_must() {
 
 #[test]
 fn tractions_of_a_sphere_are_uniform_under_translation_and_expansion() {
-    let surface = Surface::icosphere(2).unwrap();
-    let resistance = surface.resistance(&Options::default()).unwrap();
+    let surface = ClosedSurface::icosphere(2).unwrap();
+    let resistance = surface.resistance(&StokesOptions::default()).unwrap();
     let mut motion = [0.0; 12];
     motion[2] = 1.0;
     // −3/2R along the motion; nodal values of linear elements err by some squares of the mesh size of 0.3.
@@ -60,8 +60,8 @@ fn tractions_of_a_sphere_are_uniform_under_translation_and_expansion() {
 fn loss_of_flat_triangles_falls_with_the_square_of_the_mesh_size() {
     let exact = reference::ellipsoid([1.0; 3]);
     let error = |refinements| {
-        let options = Options { faces: Faces::Flat, ..Options::default() };
-        let matrix = Surface::icosphere(refinements).unwrap().resistance(&options).unwrap().matrix;
+        let options = StokesOptions { faces: Faces::Flat, ..StokesOptions::default() };
+        let matrix = ClosedSurface::icosphere(refinements).unwrap().resistance(&options).unwrap().matrix;
         reference::largest_error(&reference::matrix(&matrix), &exact)
     };
     let order = (error(1) / error(2)).log2();

@@ -2,15 +2,15 @@
 //! feels.
 
 use crate::reference::{self, Mat12};
-use gyration_stokes::{Options, Plane, StokesError, Surface};
+use gyration_stokes::{ClosedSurface, StokesError, StokesOptions, WallPlane};
 use std::f64::consts::PI;
 
-const WALL: Plane = Plane { point: [0.0; 3], normal: [0.0, 0.0, 2.0] };
+const WALL: WallPlane = WallPlane { point: [0.0; 3], normal: [0.0, 0.0, 2.0] };
 
 /// A unit sphere with its centre at a height over the wall z = 0.
 fn sphere(height: f64, refinements: u32) -> Result<Mat12, StokesError> {
-    let surface = Surface::icosphere(refinements)?.moved(|[x, y, z]| [x, y, z + height])?;
-    let options = Options { centre: [0.0, 0.0, height], wall: Some(WALL), ..Options::default() };
+    let surface = ClosedSurface::icosphere(refinements)?.moved(|[x, y, z]| [x, y, z + height])?;
+    let options = StokesOptions { centre: [0.0, 0.0, height], wall: Some(WALL), ..StokesOptions::default() };
     Ok(reference::matrix(&surface.resistance(&options)?.matrix))
 }
 
@@ -85,7 +85,7 @@ fn growing_sphere_is_pushed_off_the_wall_by_its_image() {
 #[test]
 fn wall_makes_every_motion_harder() {
     let (near, far) = (sphere(1.3, 1).unwrap(), sphere(1e6, 1).unwrap());
-    let free = Surface::icosphere(1).unwrap().resistance(&Options::default()).unwrap();
+    let free = ClosedSurface::icosphere(1).unwrap().resistance(&StokesOptions::default()).unwrap();
     assert_eq!(near, near.transpose());
     // A flow that must vanish on the wall as well dissipates more (Helmholtz); expansion is another flow.
     let lower = (near - far).remove_columns_at(&[3, 7, 11]).remove_rows_at(&[3, 7, 11]);
@@ -98,7 +98,10 @@ fn wall_makes_every_motion_harder() {
 fn wall_that_is_crossed_or_too_near_is_refused() {
     assert!(matches!(sphere(0.9, 1), Err(StokesError::WallCrossed { .. })));
     assert!(matches!(sphere(1.01, 1), Err(StokesError::WallTooNear { .. })));
-    let wall = Some(Plane { point: [0.0; 3], normal: [0.0; 3] });
-    let error = Surface::icosphere(0).unwrap().resistance(&Options { wall, ..Options::default() }).unwrap_err();
+    let wall = Some(WallPlane { point: [0.0; 3], normal: [0.0; 3] });
+    let error = ClosedSurface::icosphere(0)
+        .unwrap()
+        .resistance(&StokesOptions { wall, ..StokesOptions::default() })
+        .unwrap_err();
     assert!(matches!(error, StokesError::BadOption { .. }), "{error}");
 }

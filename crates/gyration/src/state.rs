@@ -1,7 +1,7 @@
 //! The state: time, the numbers of every body, and the works done so far. Minimal: the rest follows from the model.
 
 use crate::body::{Body, BodyKind, Pin, Slots, matrix, vector};
-use crate::contractile::{Contraction, Source};
+use crate::contractile::{Contraction, ContractionSource};
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
@@ -121,8 +121,8 @@ impl State {
 /// G from its slot, or as it is prescribed at a time [s].
 pub fn contraction_at(contraction: &Contraction, time: f64, extra: &[f64]) -> Mat3 {
     match &contraction.source {
-        Source::Driven { .. } => matrix(extra),
-        Source::Prescribed(signal) => signal.at(time),
+        ContractionSource::Driven { .. } => matrix(extra),
+        ContractionSource::Prescribed(signal) => signal.at(time),
     }
 }
 
@@ -189,6 +189,7 @@ impl BodyMotion {
     }
 
     /// The motion of P and Ṗ. A pinned body's centre follows the pin: p₀ = a − P r, ṗ₀ = −Ṗ r.
+    #[inline]
     fn of(pin: Option<&Pin>, gradient: Mat3, gradient_rate: Mat3, center: impl FnOnce() -> (Vec3, Vec3)) -> Self {
         let (position, velocity) = match pin {
             None => center(),

@@ -2,7 +2,7 @@
 //! solved.
 
 use gyration::affine::{AffineBody, Gyration, Viscosity};
-use gyration::contractile::{Command, Contraction, Decomposition, Pull, Source, Spin};
+use gyration::contractile::{Contraction, ContractionCommand, ContractionSource, Decomposition, Pull, Spin};
 use gyration::material::{Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm};
 use gyration::shape::{Cuboid, Shape};
 use gyration::signal::Signal;
@@ -28,7 +28,7 @@ fn body(material: Option<Material>, viscosity: f64) -> AffineBody {
 }
 
 fn contraction(kept_volume: Option<f64>, spin: Spin) -> Contraction {
-    let source = Source::Driven { drive: Signal::Constant(Mat3::zeros()), feedback: Vec::new() };
+    let source = ContractionSource::Driven { drive: Signal::Constant(Mat3::zeros()), feedback: Vec::new() };
     Contraction { viscosity: 0.8, kept_volume, spin, source }
 }
 
@@ -59,7 +59,7 @@ proptest! {
             let (body, how) = (body(material, viscosity), contraction(kept, spin));
             let (at, split) = start(&body, &how, &numbers);
             let pull = Pull { body: &body, contraction: &how, at: &at, decomposition: &split };
-            let solved = pull.balance(&Command::Drive(drive), &moment);
+            let solved = pull.balance(&ContractionCommand::Drive(drive), &moment);
             let (v, f) = (solved.contraction_velocity, split.elastic);
             let back = f.try_inverse().unwrap();
             // S = det G ∂φ/∂F G⁻ᵀ + μ sym(Ḟ F⁻¹) P⁻ᵀ − π P⁻ᵀ
@@ -103,13 +103,13 @@ proptest! {
             let (body, how) = (body(material, 0.6), contraction(None, Spin::Full));
             let (at, split) = start(&body, &how, &numbers);
             let driven = Pull { body: &body, contraction: &how, at: &at, decomposition: &split };
-            let driven = driven.balance(&Command::Drive(drive), &moment);
-            let how = Contraction { source: Source::Prescribed(Signal::Constant(split.contraction)), ..how };
+            let driven = driven.balance(&ContractionCommand::Drive(drive), &moment);
+            let how = Contraction { source: ContractionSource::Prescribed(Signal::Constant(split.contraction)), ..how };
             let pull = Pull { body: &body, contraction: &how, at: &at, decomposition: &split };
             // The second derivative of det G that goes with the acceleration of the driven body.
             let l = at.velocity_gradient;
             let growing = (driven.acceleration * at.inverse).trace() - (l * l).trace();
-            let prescribed = pull.balance(&Command::Velocity(driven.contraction_velocity, growing), &moment);
+            let prescribed = pull.balance(&ContractionCommand::Velocity(driven.contraction_velocity, growing), &moment);
             let scale = 1.0 + driven.stress.norm();
             prop_assert!((prescribed.drive - drive).norm() < 1e-11 * scale, "{}", (prescribed.drive - drive).norm());
             prop_assert!((prescribed.stress - driven.stress).norm() < 1e-11 * scale);

@@ -3,7 +3,7 @@
 use crate::moving::*;
 use gyration::body::{Affine, Body, BodyKind, Contractile};
 use gyration::contact::AreaMeasure;
-use gyration::contractile::{Contraction, Feedback, Measure, Source, Spin};
+use gyration::contractile::{Contraction, ContractionSource, Feedback, FeedbackMeasure, Spin};
 use gyration::dynamics::Workspace;
 use gyration::dynamics::jacobian;
 use gyration::kinematics::{Placement, Velocity};
@@ -26,23 +26,23 @@ fn wave(seed: f64) -> Signal {
 }
 
 /// A drive, with parts that answer to all that a body feels.
-fn driven() -> Source {
+fn driven() -> ContractionSource {
     let feedback = |measure, seed| Feedback { measure, gain: tensor(seed), bias: tensor(2.0 * seed), limits: None };
     let along = Vec3::new(0.6, 0.0, 0.8);
     let feedback = vec![
-        feedback(Measure::Gap, 0.4),
-        feedback(Measure::Stretch(along), 0.7),
-        feedback(Measure::Rate(along), 1.1),
-        Feedback { limits: Some([0.0, 0.1]), ..feedback(Measure::Stretch(along), 1.9) },
+        feedback(FeedbackMeasure::Gap, 0.4),
+        feedback(FeedbackMeasure::Stretch(along), 0.7),
+        feedback(FeedbackMeasure::Rate(along), 1.1),
+        Feedback { limits: Some([0.0, 0.1]), ..feedback(FeedbackMeasure::Stretch(along), 1.9) },
     ];
-    Source::Driven { drive: Signal::Sum(vec![wave(0.2), Signal::Constant(tensor(0.9))]), feedback }
+    ContractionSource::Driven { drive: Signal::Sum(vec![wave(0.2), Signal::Constant(tensor(0.9))]), feedback }
 }
 
 /// G = I + a small wave.
-fn prescribed() -> Source {
+fn prescribed() -> ContractionSource {
     let Signal::Sine(wave) = wave(0.6) else { unreachable!("a wave is a sine") };
     let small = Signal::Sine(Wave { amplitude: 0.1 * wave.amplitude, ..wave });
-    Source::Prescribed(Signal::Sum(vec![Signal::Constant(Mat3::identity()), small]))
+    ContractionSource::Prescribed(Signal::Sum(vec![Signal::Constant(Mat3::identity()), small]))
 }
 
 /// A body of every kind of contraction, compressible or not, viscous or not, free or pinned.

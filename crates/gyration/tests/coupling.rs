@@ -6,7 +6,7 @@
 use crate::moving::{Variant, body, shapes, supports};
 use gyration::body::{Body, BodyKind, Contractile, RigidInertia};
 use gyration::contact::AreaMeasure;
-use gyration::contractile::{Contraction, Source, Spin};
+use gyration::contractile::{Contraction, ContractionSource, Spin};
 use gyration::dynamics::{Coupling, Lift, Lower, Workspace, rates};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::load::{Applied, Frame, Mat12};
@@ -34,7 +34,7 @@ fn bodies() -> Vec<Body> {
     for pinned in [false, true] {
         for incompressible in [false, true] {
             let soft = body(shape.clone(), [6.0, 5.0, 4.0, 3.0], variant(incompressible, pinned));
-            let source = Source::Driven { drive: Signal::Constant(Mat3::identity()), feedback: Vec::new() };
+            let source = ContractionSource::Driven { drive: Signal::Constant(Mat3::identity()), feedback: Vec::new() };
             for kept_volume in [None, Some(1.0)] {
                 let contraction = Contraction { viscosity: 0.8, kept_volume, spin: Spin::Full, source: source.clone() };
                 let contractile = Contractile::new(soft.affine().unwrap().clone(), contraction);

@@ -9,7 +9,7 @@ use crate::solids::{
     DENSITY, approximated, assert_close, corner_tetrahedron, cuboid, difference, points, rotation, solids, union_of,
 };
 use gyration::mass::{MassError, MassProperties};
-use gyration::shape::{Cone, MassPoint, Part, Points, Polyhedron, Shape, Sphere, Union};
+use gyration::shape::{Cone, MassPoint, Points, Polyhedron, Shape, Sphere, Union, UnionPart};
 use gyration::tensor::{Mat3, Vec3};
 use proptest::prelude::*;
 
@@ -117,7 +117,7 @@ fn mesh_far_from_its_origin_loses_nothing() {
 
 #[test]
 fn halves_of_a_box_add_up_to_it() {
-    let half = |x: f64, density| Part {
+    let half = |x: f64, density| UnionPart {
         shape: cuboid(0.5, 0.4, 0.3),
         offset: Vec3::x() * x,
         rotation: Mat3::identity(),

@@ -6,8 +6,8 @@ use crate::solids::{
     DENSITY, approximated, assert_close, corner_tetrahedron, cuboid, difference, points, rotation, solids,
 };
 use gyration::shape::{
-    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Feature, MassPoint, Outline, Part, Points, Polyhedron, PolyhedronError,
-    SILHOUETTE_POINTS, Shape, ShapeError, Sphere, Torus, Union,
+    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, Feature, MassPoint, Outline, Points, Polyhedron, PolyhedronError,
+    SILHOUETTE_POINTS, Shape, ShapeError, Sphere, Torus, Union, UnionPart,
 };
 use gyration::surface::GapField;
 use gyration::tensor::Vec3;
@@ -44,17 +44,26 @@ fn wrong_parameters_are_named() {
 
 #[test]
 fn wrong_parts_are_named() {
-    let good = Part { shape: cuboid(1.0, 1.0, 1.0), offset: Vec3::zeros(), rotation: rotation(), density: 1.0 };
-    let error = |part: Part| match Shape::Union(Union { parts: vec![good.clone(), part] }).validate() {
+    let good = UnionPart { shape: cuboid(1.0, 1.0, 1.0), offset: Vec3::zeros(), rotation: rotation(), density: 1.0 };
+    let error = |part: UnionPart| match Shape::Union(Union { parts: vec![good.clone(), part] }).validate() {
         Err(ShapeError::Member { index: 1, source, .. }) => *source,
         other => panic!("{other:?}"),
     };
-    let mirrored = error(Part { rotation: -rotation(), ..good.clone() });
+    let mirrored = error(UnionPart { rotation: -rotation(), ..good.clone() });
     assert!(matches!(mirrored, ShapeError::NotARotation { determinant, .. } if determinant < 0.0), "{mirrored}");
-    assert!(matches!(error(Part { rotation: rotation() * 1.001, ..good.clone() }), ShapeError::NotARotation { .. }));
-    assert!(matches!(error(Part { density: -1.0, ..good.clone() }), ShapeError::NotPositive { .. }));
-    assert!(matches!(error(Part { offset: Vec3::repeat(f64::NAN), ..good.clone() }), ShapeError::NotFinite { .. }));
-    assert!(matches!(error(Part { shape: cuboid(0.0, 1.0, 1.0), ..good.clone() }), ShapeError::NotPositive { .. }));
+    assert!(matches!(
+        error(UnionPart { rotation: rotation() * 1.001, ..good.clone() }),
+        ShapeError::NotARotation { .. }
+    ));
+    assert!(matches!(error(UnionPart { density: -1.0, ..good.clone() }), ShapeError::NotPositive { .. }));
+    assert!(matches!(
+        error(UnionPart { offset: Vec3::repeat(f64::NAN), ..good.clone() }),
+        ShapeError::NotFinite { .. }
+    ));
+    assert!(matches!(
+        error(UnionPart { shape: cuboid(0.0, 1.0, 1.0), ..good.clone() }),
+        ShapeError::NotPositive { .. }
+    ));
 }
 
 #[test]
@@ -130,7 +139,7 @@ fn bounds_hold_the_shape_tightly() {
     let torus = Shape::Torus(Torus { major_radius: 0.7, minor_radius: 0.2 });
     assert_close("size of the torus", torus.size(), 1.8, 1e-15);
     let cylinder = Shape::Cylinder(Cylinder { radius: 0.3, height: 0.8 });
-    let lying = Part {
+    let lying = UnionPart {
         shape: cylinder,
         offset: Vec3::x(),
         rotation: Rotation3::from_axis_angle(&Vec3::y_axis(), TAU / 4.0).into_inner(),

@@ -10,7 +10,7 @@
 use crate::check::Reporter;
 use crate::key::Key;
 use gyration::affine::AffineBody;
-use gyration::contractile::{Contraction, Source};
+use gyration::contractile::{Contraction, ContractionSource};
 use gyration::signal::Jet;
 use gyration::tensor::Mat3;
 
@@ -37,9 +37,9 @@ impl VolumeConstraint {
     /// Of a body that starts with this contraction.
     pub(super) fn beside(contraction: &Contraction, start: &Jet) -> Self {
         let growth = match (&contraction.source, contraction.kept_volume) {
-            (Source::Prescribed(_), _) => growth(&start.value, &start.rate),
-            (Source::Driven { .. }, Some(_)) => Some((0.0, 0.0)),
-            (Source::Driven { .. }, None) => None,
+            (ContractionSource::Prescribed(_), _) => growth(&start.value, &start.rate),
+            (ContractionSource::Driven { .. }, Some(_)) => Some((0.0, 0.0)),
+            (ContractionSource::Driven { .. }, None) => None,
         };
         Self { volume: start.value.determinant(), growth, kept: "det P/det G" }
     }

@@ -11,7 +11,7 @@ use crate::check::{Reporter, direction};
 use crate::file::{self, FeltMeasure, OneOrMany};
 use crate::key::Key;
 use crate::quantity::Pressure;
-use gyration::contractile::{Contraction, Feedback, Measure, Source, Spin};
+use gyration::contractile::{Contraction, ContractionSource, Feedback, FeedbackMeasure, Spin};
 use gyration::signal::{Jet, Signal, Smoothness};
 use gyration::tensor::Mat3;
 
@@ -41,7 +41,7 @@ impl WrittenContraction {
             let alone = stands_alone(key, reporter);
             let (viscosity, signal) = (viscosity?, prescribed?);
             let start = signal.jet(0.0);
-            let source = Source::Prescribed(signal);
+            let source = ContractionSource::Prescribed(signal);
             let contraction = Contraction { viscosity, kept_volume: None, spin: Spin::Full, source };
             return alone.then_some(Self { contraction, start });
         }
@@ -52,13 +52,14 @@ impl WrittenContraction {
             file::Spin::Symmetric => Spin::Symmetric,
         };
         let kept_volume = written.isochoric.unwrap_or_default().then(|| initial.determinant());
-        let contraction = Contraction { viscosity, kept_volume, spin, source: Source::Driven { drive, feedback } };
+        let contraction =
+            Contraction { viscosity, kept_volume, spin, source: ContractionSource::Driven { drive, feedback } };
         Some(Self { contraction, start: Jet { value: initial, ..Jet::default() } })
     }
 
     /// Whether a body of such a material can contract like this; notes it at the contractile table otherwise.
     pub(super) fn suits(&self, is_incompressible: bool, key: &Key, reporter: &mut Reporter<'_>) -> bool {
-        let Source::Prescribed(signal) = &self.contraction.source else { return true };
+        let ContractionSource::Prescribed(signal) = &self.contraction.source else { return true };
         let suits = !is_incompressible || signal.smoothness() == Smoothness::Smooth;
         if !suits {
             let message =
@@ -202,7 +203,12 @@ fn feedback(
     Some(Feedback { measure: measure?, gain, bias, limits: written.limits })
 }
 
-fn measure(written: &FeltMeasure, key: &Key, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Measure> {
+fn measure(
+    written: &FeltMeasure,
+    key: &Key,
+    context: &SceneContext,
+    reporter: &mut Reporter<'_>,
+) -> Option<FeedbackMeasure> {
     let mut along = |name: &str, vector: &[f64; 3]| {
         let along = direction(vector);
         if along.is_none() {
@@ -211,9 +217,9 @@ fn measure(written: &FeltMeasure, key: &Key, context: &SceneContext, reporter: &
         along
     };
     match written {
-        FeltMeasure::Stretch(vector) => along("stretch", vector).map(Measure::Stretch),
-        FeltMeasure::Rate(vector) => along("rate", vector).map(Measure::Rate),
-        FeltMeasure::Gap if context.has_support => Some(Measure::Gap),
+        FeltMeasure::Stretch(vector) => along("stretch", vector).map(FeedbackMeasure::Stretch),
+        FeltMeasure::Rate(vector) => along("rate", vector).map(FeedbackMeasure::Rate),
+        FeltMeasure::Gap if context.has_support => Some(FeedbackMeasure::Gap),
         FeltMeasure::Gap => {
             let help = "add a [[support]], or let the body feel a `stretch` or a `rate`";
             reporter.note(key, "there is no support that the body could be near", help);

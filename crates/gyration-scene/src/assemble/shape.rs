@@ -6,8 +6,8 @@ use crate::file;
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::shape::{
-    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Part, Points, Polyhedron, Shape, ShapeError, Sphere, Torus,
-    Union,
+    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Points, Polyhedron, Shape, ShapeError, Sphere, Torus, Union,
+    UnionPart,
 };
 use gyration::tensor::Vec3;
 use gyration_geometry::{MeshError, hull, read_mesh};
@@ -94,11 +94,11 @@ impl ShapeBuilder<'_, '_> {
         let parts = key.key("parts");
         let place = |(index, part)| self.part(part, &parts.index(index), density);
         // Every part is looked at, before the first that failed ends it.
-        let made: Vec<Option<Part>> = union.parts.iter().enumerate().map(place).collect();
+        let made: Vec<Option<UnionPart>> = union.parts.iter().enumerate().map(place).collect();
         Some(Union { parts: made.into_iter().collect::<Option<_>>()? })
     }
 
-    fn part(&mut self, part: &file::Part, key: &Key, inherited: Option<f64>) -> Option<Part> {
+    fn part(&mut self, part: &file::Part, key: &Key, inherited: Option<f64>) -> Option<UnionPart> {
         let density = part.density.map(|density| density.value()).or(inherited);
         let turned = orientation(&part.orientation, &key.key("orientation"), self.reporter);
         let shape = self.shape(&part.shape, &key.key("shape"), density);
@@ -111,6 +111,6 @@ impl ShapeBuilder<'_, '_> {
             let help = "give the part a `density`, or the body, or neither any part and the body its `mass`";
             self.reporter.note(&key.key("density"), "the part has no density", help);
         }
-        Some(Part { shape: shape?, offset: si(&part.offset), rotation: turned?.rotation(), density: weight? })
+        Some(UnionPart { shape: shape?, offset: si(&part.offset), rotation: turned?.rotation(), density: weight? })
     }
 }

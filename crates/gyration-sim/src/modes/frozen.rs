@@ -5,7 +5,7 @@ use gyration::Inadmissible;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, Slots, matrix};
 use gyration::contact::{Action, Term};
-use gyration::contractile::Source;
+use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
 use gyration::model::Model;
@@ -43,7 +43,7 @@ impl FrozenBody {
         if let (BodyKind::Contractile(contractile), Some(contraction)) =
             (&mut body.kind, start.contraction(model, index))
         {
-            contractile.contraction.source = Source::Prescribed(Signal::Constant(contraction));
+            contractile.contraction.source = ContractionSource::Prescribed(Signal::Constant(contraction));
         }
         block.truncate(body.dimension());
         let mut frozen = Model::new(model.gravity, supports, vec![body]);

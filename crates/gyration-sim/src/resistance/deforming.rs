@@ -5,7 +5,7 @@
 //! the same small error.
 
 use super::elements::{BoundaryElements, BoundaryResistance, NoResistance, boundary_resistance};
-use gyration::fluid::{Resistance, Resolution, Table};
+use gyration::fluid::{ResistanceSource, ResistanceTable, Resolution};
 use gyration::load::Mat12;
 use gyration::shape::Shape;
 use gyration::tensor::{Mat3, Vec3};
@@ -43,13 +43,13 @@ impl DeformingSurface {
     }
 
     /// Its table; none of a shape without volume.
-    pub fn table(self, resolution: Resolution) -> Option<Table> {
+    pub fn table(self, resolution: Resolution) -> Option<ResistanceTable> {
         let second = self.second;
-        Table::new(Box::new(self), &second, resolution)
+        ResistanceTable::new(Box::new(self), &second, resolution)
     }
 }
 
-impl Resistance for DeformingSurface {
+impl ResistanceSource for DeformingSurface {
     fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64> {
         let found = self.resistance(stretch).map_err(|_| f64::NAN)?;
         if found.error <= MOST_OF_ELEMENTS { Ok(found.matrix) } else { Err(found.error) }

@@ -7,7 +7,7 @@
 use gyration::load::Mat12;
 use gyration::shape::{Shape, Triangulation};
 use gyration::tensor::{Mat3, Vec3};
-use gyration_stokes::{Faces, Options, Plane, StokesError, Surface};
+use gyration_stokes::{ClosedSurface, Faces, StokesError, StokesOptions, WallPlane};
 use std::sync::{Mutex, PoisonError};
 
 /// How a shape is to be resolved.
@@ -93,9 +93,9 @@ pub fn boundary_resistance(shape: &Shape, elements: &BoundaryElements) -> Result
     drop(kept);
     let points: Vec<[f64; 3]> = mesh.points.iter().map(|point| (*point).into()).collect();
     let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|triangle| triangle.map(|corner| corner as u32)).collect();
-    let wall = elements.wall.map(|Wall { point, normal }| Plane { point: point.into(), normal: normal.into() });
-    let options = Options { faces, wall, ..Options::default() };
-    let found = Surface::new(&points, &triangles)?.resistance(&options)?;
+    let wall = elements.wall.map(|Wall { point, normal }| WallPlane { point: point.into(), normal: normal.into() });
+    let options = StokesOptions { faces, wall, ..StokesOptions::default() };
+    let found = ClosedSurface::new(&points, &triangles)?.resistance(&options)?;
     let matrix = Mat12::from_fn(|row, column| found.matrix[row][column]);
     let found = BoundaryResistance { matrix, error: found.error, triangles: triangles.len() };
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);

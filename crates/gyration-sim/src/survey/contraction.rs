@@ -1,7 +1,7 @@
 //! What makes a body contract, in words. A signal is told by its kind and its largest entries.
 
 use crate::format::significant;
-use gyration::contractile::{Contraction, Feedback, Measure, Source, Spin};
+use gyration::contractile::{Contraction, ContractionSource, Feedback, FeedbackMeasure, Spin};
 use gyration::signal::{Interpolation, Signal, Wave};
 use gyration::tensor::{Mat3, Vec3};
 
@@ -13,8 +13,8 @@ pub fn contraction(it: &Contraction) -> Vec<String> {
         format!("contraction viscosity {} Pa s{volume}{spin}", significant(it.viscosity, 5))
     });
     let made = match &it.source {
-        Source::Prescribed(signal) => vec![format!("contraction prescribed: {}", words(signal, ""))],
-        Source::Driven { drive, feedback } => {
+        ContractionSource::Prescribed(signal) => vec![format!("contraction prescribed: {}", words(signal, ""))],
+        ContractionSource::Driven { drive, feedback } => {
             let silent = *drive == Signal::Constant(Mat3::zeros());
             let drive = match (silent, feedback.is_empty()) {
                 (true, true) => Some("no drive".to_owned()),
@@ -60,9 +60,9 @@ fn words(signal: &Signal, unit: &str) -> String {
 fn answer(feedback: &Feedback) -> String {
     let along = |a: &Vec3| format!("[{}, {}, {}]", significant(a.x, 4), significant(a.y, 4), significant(a.z, 4));
     let (what, unit) = match &feedback.measure {
-        Measure::Gap => ("the gap".to_owned(), "Pa/m"),
-        Measure::Stretch(a) => (format!("the stretch along {}", along(a)), "Pa"),
-        Measure::Rate(a) => (format!("the rate of stretch along {}", along(a)), "Pa s"),
+        FeedbackMeasure::Gap => ("the gap".to_owned(), "Pa/m"),
+        FeedbackMeasure::Stretch(a) => (format!("the stretch along {}", along(a)), "Pa"),
+        FeedbackMeasure::Rate(a) => (format!("the rate of stretch along {}", along(a)), "Pa s"),
     };
     let limits =
         feedback.limits.map(|[least, most]| format!(", within {} and {}", significant(least, 5), significant(most, 5)));
@@ -85,14 +85,18 @@ mod tests {
     fn what_makes_a_body_contract_is_told() {
         let sine = Signal::Sine(Wave { amplitude: along_z(-100.0), frequency: 5.0, phase: 0.5 });
         let ramp = Signal::Ramp { from: Mat3::zeros(), to: along_z(2e7), duration: 0.25 };
-        let gap =
-            Feedback { measure: Measure::Gap, gain: along_z(-3e4), bias: Mat3::zeros(), limits: Some([0.0, 0.01]) };
-        let rate = Feedback { measure: Measure::Rate(Vec3::x()), limits: None, ..gap };
+        let gap = Feedback {
+            measure: FeedbackMeasure::Gap,
+            gain: along_z(-3e4),
+            bias: Mat3::zeros(),
+            limits: Some([0.0, 0.01]),
+        };
+        let rate = Feedback { measure: FeedbackMeasure::Rate(Vec3::x()), limits: None, ..gap };
         let driven = |drive: &Signal, feedback: &[Feedback]| Contraction {
             viscosity: 50.0,
             kept_volume: Some(1.0),
             spin: Spin::Symmetric,
-            source: Source::Driven { drive: drive.clone(), feedback: feedback.to_vec() },
+            source: ContractionSource::Driven { drive: drive.clone(), feedback: feedback.to_vec() },
         };
         let silent = Signal::Constant(Mat3::zeros());
         let viscosity = "contraction viscosity 50 Pa s, keeps the volume, without spin";
@@ -104,7 +108,7 @@ mod tests {
         assert_eq!(contraction(&driven(&sum, &[])), [viscosity, told]);
         assert_eq!(contraction(&driven(&silent, &[gap, rate])), [viscosity, felt, rates]);
         assert_eq!(contraction(&driven(&silent, &[])), [viscosity, "no drive"]);
-        let source = Source::Prescribed(Signal::Sum(vec![Signal::Constant(Mat3::identity()), sine]));
+        let source = ContractionSource::Prescribed(Signal::Sum(vec![Signal::Constant(Mat3::identity()), sine]));
         let prescribed = Contraction { viscosity: 0.0, kept_volume: None, spin: Spin::Full, source };
         let told = "contraction prescribed: constant of up to 1 + sine of up to 100 at 5 Hz, phase 0.5 rad";
         assert_eq!(contraction(&prescribed), [told]);

@@ -12,7 +12,7 @@ use crate::tensor::{Mat3, Vec3};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feedback {
     /// What the body feels.
-    pub measure: Measure,
+    pub measure: FeedbackMeasure,
     /// A, in Pa per unit of the measure.
     pub gain: Mat3,
     /// B \[Pa\].
@@ -23,7 +23,7 @@ pub struct Feedback {
 
 /// What a body feels of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Measure {
+pub enum FeedbackMeasure {
     /// The smallest distance to a support \[m\].
     Gap,
     /// The stretch |P a| along a unit vector a of the reference shape.
@@ -58,7 +58,7 @@ pub struct Felt {
     pub by_rate: Mat3,
 }
 
-impl Measure {
+impl FeedbackMeasure {
     /// The measure in a motion; the nearest support is asked for where it counts, and none is infinitely far.
     pub fn of(&self, placement: &Placement, velocity: &Velocity, nearest: impl FnOnce() -> Option<Nearest>) -> Felt {
         match self {

@@ -15,7 +15,7 @@ use crate::simd::{F64x4, SimdMat3, SimdVec3};
 
 /// A⁻¹ at an elastic gradient, in its axes: V = X ∘ R + Y ∘ Rᵀ, entry by entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Mobility {
+pub(super) struct ContractionMobility {
     /// X, with 1/(μ_γ + μ) on its diagonal.
     pub own: SimdMat3,
     /// Y, zero on its diagonal.
@@ -24,7 +24,7 @@ pub(super) struct Mobility {
 
 /// The principal axes and values of C = FᵀF.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Axes {
+pub(super) struct ElasticAxes {
     /// N.
     pub axes: SimdMat3,
     /// F N = F⁻ᵀ N diag(c).
@@ -34,7 +34,7 @@ pub(super) struct Axes {
     pub inverses: [f64; 3],
 }
 
-impl Axes {
+impl ElasticAxes {
     /// Of an elastic gradient, where a viscosity needs them.
     #[inline(always)]
     pub fn of(elastic: &SimdMat3, viscosity: f64) -> Option<Self> {
@@ -77,10 +77,10 @@ fn pair([gamma, half]: [f64; 2], spin: Spin, [ratio, inverse]: [f64; 2]) -> [f64
     }
 }
 
-impl Mobility {
+impl ContractionMobility {
     /// Of μ_γ and μ [Pa s]; without axes, μ = 0 and all axes will do.
     #[inline(always)]
-    pub fn new([gamma, viscosity]: [f64; 2], spin: Spin, axes: Option<&Axes>) -> Self {
+    pub fn new([gamma, viscosity]: [f64; 2], spin: Spin, axes: Option<&ElasticAxes>) -> Self {
         let s = 1.0 / (gamma + viscosity);
         let solve = |i: usize, j: usize| {
             let ratios = axes.map_or([1.0; 2], |axes| [axes.ratio(i, j), axes.ratio(j, i)]);
@@ -98,7 +98,7 @@ impl Mobility {
     ///
     ///   s (μ_γ + (μ/4)(1/ρ + 1)) R_ij − s (μ/4)(ρ + 1) R_ji
     #[inline(always)]
-    pub fn rest(&self, [gamma, viscosity]: [f64; 2], axes: &Axes) -> Self {
+    pub fn rest(&self, [gamma, viscosity]: [f64; 2], axes: &ElasticAxes) -> Self {
         let (r, part) = (axes.ratios(), 0.25 * viscosity);
         // 1/ρ of (i, j) is ρ of (j, i).
         let (mut own, mut other): (SimdMat3, SimdMat3) = (self.own * gamma, SimdMat3::default());
@@ -150,8 +150,8 @@ mod tests {
         for f in [f, Mat3::identity(), Mat3::from_diagonal(&[1.0, 1.0 + 1e-9, 2.0].into())] {
             for coefficients in [[0.7, 0.0], [0.7, 2.0], [0.01, 30.0]] {
                 let solve = |spin| {
-                    let axes = Axes::of(&SimdMat3::of(&f), coefficients[1]);
-                    let mobility = Mobility::new(coefficients, spin, axes.as_ref());
+                    let axes = ElasticAxes::of(&SimdMat3::of(&f), coefficients[1]);
+                    let mobility = ContractionMobility::new(coefficients, spin, axes.as_ref());
                     let n = axes.map_or(Mat3::identity(), |axes| axes.axes.matrix());
                     n * mobility.velocity(&SimdMat3::of(&(n.transpose() * r * n))).matrix() * n.transpose()
                 };

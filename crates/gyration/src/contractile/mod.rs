@@ -20,7 +20,7 @@ mod turned;
 mod vectors;
 
 pub use decomposition::Decomposition;
-pub use feedback::{Feedback, Felt, Measure, Nearest};
+pub use feedback::{Feedback, FeedbackMeasure, Felt, Nearest};
 pub use restore::Restored;
 pub(crate) use slopes::ContractileSlopes;
 
@@ -28,7 +28,7 @@ use crate::affine::{AffineBody, Gyration};
 use crate::signal::{Jet, Signal};
 use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::Mat3;
-use solution::Solution;
+use solution::ContractionSolution;
 
 /// How a body contracts, and what makes it do so.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Contraction {
     /// Which part of V_G there is.
     pub spin: Spin,
     /// What G follows.
-    pub source: Source,
+    pub source: ContractionSource,
 }
 
 /// Which part of the contraction velocity there is.
@@ -55,7 +55,7 @@ pub enum Spin {
 
 /// What makes a body contract.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Source {
+pub enum ContractionSource {
     /// Q is given, and G is part of the state.
     Driven {
         /// The part of Q that is given in time \[Pa\].
@@ -83,29 +83,29 @@ pub struct Pull<'a> {
 impl Contraction {
     /// Whether G is part of the state.
     pub fn is_driven(&self) -> bool {
-        matches!(self.source, Source::Driven { .. })
+        matches!(self.source, ContractionSource::Driven { .. })
     }
 
     /// The parts of the drive that answer to the body.
     pub fn feedback(&self) -> &[Feedback] {
         match &self.source {
-            Source::Driven { feedback, .. } => feedback,
-            Source::Prescribed(_) => &[],
+            ContractionSource::Driven { feedback, .. } => feedback,
+            ContractionSource::Prescribed(_) => &[],
         }
     }
 
     /// The signal of the drive, or of G.
     pub fn signal(&self) -> &Signal {
         match &self.source {
-            Source::Driven { drive, .. } => drive,
-            Source::Prescribed(signal) => signal,
+            ContractionSource::Driven { drive, .. } => drive,
+            ContractionSource::Prescribed(signal) => signal,
         }
     }
 }
 
 /// What drives or prescribes the contraction at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Command {
+pub enum ContractionCommand {
     /// Q \[Pa\].
     Drive(Mat3),
     /// V_G \[1/s\] and d(tr V_G)/dt \[1/s²\].
@@ -136,16 +136,16 @@ pub struct ContractileBalance {
 }
 
 /// V_G and d(tr V_G)/dt where G is prescribed: V_G = Ġ G⁻¹, d(tr V_G)/dt = tr(G̈ G⁻¹) − tr V_G².
-pub fn velocity_of(jet: &Jet, decomposition: &Decomposition) -> Command {
+pub fn velocity_of(jet: &Jet, decomposition: &Decomposition) -> ContractionCommand {
     let velocity = jet.rate * decomposition.inverse;
     let growing = (jet.acceleration * decomposition.inverse).trace() - (velocity * velocity).trace();
-    Command::Velocity(velocity, growing)
+    ContractionCommand::Velocity(velocity, growing)
 }
 
 /// A balance to be solved.
 struct Balance<'a, 'b> {
     pull: &'b Pull<'a>,
-    command: &'b Command,
+    command: &'b ContractionCommand,
     moment: &'b Mat3,
 }
 
@@ -155,13 +155,13 @@ impl WithF64x4 for Balance<'_, '_> {
     #[inline(always)]
     fn run<F: F64x4>(self, zeros: F) -> ContractileBalance {
         let Self { pull, command, moment } = self;
-        Solution::new(pull, command, &SimdMat3::of(moment).with(zeros)).balance(pull, command)
+        ContractionSolution::new(pull, command, &SimdMat3::of(moment).with(zeros)).balance(pull, command)
     }
 }
 
 impl Pull<'_> {
     /// Solves the balance and the law of contraction; `moment` is M [N m].
-    pub fn balance(&self, command: &Command, moment: &Mat3) -> ContractileBalance {
+    pub fn balance(&self, command: &ContractionCommand, moment: &Mat3) -> ContractileBalance {
         dispatch_f64x4(Balance { pull: self, command, moment })
     }
 }
@@ -181,7 +181,7 @@ mod tests {
     use crate::tensor::Vec3;
 
     /// All columns of the derivative, in memory.
-    struct Derivative<'a, 'b>(&'b Pull<'a>, &'b Command);
+    struct Derivative<'a, 'b>(&'b Pull<'a>, &'b ContractionCommand);
 
     impl WithF64x4 for Derivative<'_, '_> {
         type Output = Vec<[f64; 54]>;
@@ -209,12 +209,12 @@ mod tests {
             let material = Material::MooneyRivlin(MooneyRivlin { c1: 2.0, c2: 1.0, bulk });
             let viscosity = Viscosity { kirchhoff: viscosity, shear: 0.1, bulk: 0.2 };
             let body = AffineBody::new(&mass, None, Some(material), viscosity).unwrap();
-            let source = Source::Driven { drive: Signal::Constant(entries(0.3)), feedback: Vec::new() };
+            let source = ContractionSource::Driven { drive: Signal::Constant(entries(0.3)), feedback: Vec::new() };
             let contraction = Contraction { viscosity: 0.8, kept_volume: None, spin: Spin::Full, source };
             let at = Gyration::of(&(Mat3::identity() + 0.2 * entries(0.1)), &entries(1.3)).unwrap();
             let decomposition = Decomposition::of(&at.gradient, &(Mat3::identity() + 0.1 * entries(2.2))).unwrap();
             let pull = Pull { body: &body, contraction: &contraction, at: &at, decomposition: &decomposition };
-            let command = Command::Drive(entries(0.3));
+            let command = ContractionCommand::Drive(entries(0.3));
             let moment = entries(0.9);
             let balance = || Balance { pull: &pull, command: &command, moment: &moment };
             assert_eq!(dispatch_f64x4(balance()), balance().run([0.0; 4]));

@@ -4,7 +4,7 @@
 //! since the pressure acts on V_G at once; where det G is kept or prescribed, P and Ṗ follow, as those of an
 //! incompressible affine body.
 
-use super::{Contraction, Source};
+use super::{Contraction, ContractionSource};
 use crate::affine::{AffineBody, Correction};
 use crate::tensor::Mat3;
 
@@ -27,12 +27,12 @@ impl Contraction {
     pub fn restore(&self, body: &AffineBody, time: f64, (p, rate, g): (&Mat3, &Mat3, &Mat3)) -> Restored {
         let incompressible = body.is_incompressible();
         let (contraction, growth) = match &self.source {
-            Source::Prescribed(signal) => {
+            ContractionSource::Prescribed(signal) => {
                 let jet = signal.jet(time);
                 let growth = jet.value.try_inverse().map_or(f64::NAN, |inverse| (jet.rate * inverse).trace());
                 (jet.value, growth)
             }
-            Source::Driven { .. } => match self.kept_volume {
+            ContractionSource::Driven { .. } => match self.kept_volume {
                 Some(volume) => (with_volume(g, volume), 0.0),
                 None if incompressible => (with_volume(g, p.determinant()), 0.0),
                 None => (*g, 0.0),

@@ -15,10 +15,10 @@
 //! one B are done at once (`batch`).
 
 use super::batch::{Broadcast, MatrixBatch, along, broadcast};
-use super::mobility::{Axes, Mobility};
-use super::turned::{Elastic, Reaction, Turned, Volume, diagonal};
-use super::vectors::{Row, Side, Vectors, strained};
-use super::{Command, Pull, Spin};
+use super::mobility::{ContractionMobility, ElasticAxes};
+use super::turned::{Turned, TurnedElastic, TurnedReaction, Volume, diagonal};
+use super::vectors::{ColumnVectors, DyadVectors, RowVectors, strained};
+use super::{ContractionCommand, Pull, Spin};
 use crate::affine::AffineBody;
 use crate::simd::{F64x4, SimdMat3, SimdVec3, UNIT};
 use crate::tensor::Mat3;
@@ -41,11 +41,11 @@ pub(crate) struct ContractileSlopes<'a, F> {
     /// V_Gᵀ, outside the axes.
     velocity: SimdMat3<F>,
     /// Of F⁻¹e_j, for δP; of −e_j, for δG; for δṖ.
-    spatial: Side<F>,
-    relaxed: Side<F>,
+    spatial: RowVectors<F>,
+    relaxed: RowVectors<F>,
     strained: [SimdMat3<F>; 2],
-    rows: [Row; 3],
-    reaction: Option<Reaction>,
+    columns: [ColumnVectors; 3],
+    reaction: Option<TurnedReaction>,
 }
 
 /// How the contraction velocity answers to stress, and what is left of the stress.
@@ -66,11 +66,11 @@ impl<'a> Pull<'a> {
     pub(crate) fn slopes_in<F: F64x4>(
         &self,
         registers: F,
-        command: &Command,
+        command: &ContractionCommand,
         moment: &Mat3,
     ) -> ContractileSlopes<'a, F> {
         let Pull { body, decomposition, .. } = *self;
-        let axes = Axes::at(&SimdMat3::of(&decomposition.elastic));
+        let axes = ElasticAxes::at(&SimdMat3::of(&decomposition.elastic));
         let elastic = self.elastic(&axes, registers);
         let mobility = self.mobility(&axes);
         let turned = self.turned((&axes, &mobility), &elastic, command, moment);
@@ -92,18 +92,18 @@ impl<'a> Pull<'a> {
             spatial: vectors.spatial(&turned.back),
             relaxed: vectors.relaxed(&(turned.axes * -1.0)),
             strained: vectors.strained(&turned.back),
-            rows: vectors.rows(&inverse),
+            columns: vectors.columns(&inverse),
             reaction: turned.reaction,
         }
     }
 
     /// What the vectors are made of.
     #[inline(always)]
-    fn vectors<F: F64x4>(&self, axes: &Axes, elastic: &Elastic<F>, turned: &Turned<F>) -> Vectors<F> {
+    fn vectors<F: F64x4>(&self, axes: &ElasticAxes, elastic: &TurnedElastic<F>, turned: &Turned<F>) -> DyadVectors<F> {
         let (registers, full) = (turned.axes.0[0].0, elastic.along);
         let straight = diagonal([full.at(0, 0), full.at(1, 1), full.at(2, 2)]).with(registers);
         let weights = diagonal(elastic.mandel).with(registers);
-        Vectors {
+        DyadVectors {
             values: three(axes.values, registers),
             inverses: three(axes.inverses, registers),
             mandel: three(elastic.mandel, registers),
@@ -119,22 +119,22 @@ impl<'a> Pull<'a> {
 
     /// How V_G answers to stress.
     #[inline(always)]
-    fn mobility(&self, axes: &Axes) -> Mobility {
+    fn mobility(&self, axes: &ElasticAxes) -> ContractionMobility {
         let Pull { body, contraction, .. } = *self;
         if contraction.is_driven() {
-            Mobility::new([contraction.viscosity, body.viscosity.kirchhoff], contraction.spin, Some(axes))
+            ContractionMobility::new([contraction.viscosity, body.viscosity.kirchhoff], contraction.spin, Some(axes))
         } else {
-            Mobility::none()
+            ContractionMobility::none()
         }
     }
 
     #[inline(always)]
-    fn law<F: F64x4>(&self, mobility: &Mobility, axes: &Axes, registers: F) -> Law<F> {
+    fn law<F: F64x4>(&self, mobility: &ContractionMobility, axes: &ElasticAxes, registers: F) -> Law<F> {
         let Pull { body, contraction, .. } = *self;
         let coefficients = [contraction.viscosity, body.viscosity.kirchhoff];
         let volume = self.volume();
         let rest = match (volume, contraction.spin) {
-            (Volume::Prescribed, _) => Some(pair(&Mobility::all(), registers)),
+            (Volume::Prescribed, _) => Some(pair(&ContractionMobility::all(), registers)),
             (_, Spin::Full) => None,
             (_, Spin::Symmetric) => Some(pair(&mobility.rest(coefficients, axes), registers)),
         };
@@ -149,7 +149,7 @@ impl<'a> Pull<'a> {
 }
 
 #[inline(always)]
-fn pair<F: F64x4>(Mobility { own, other }: &Mobility, registers: F) -> [Broadcast<F>; 2] {
+fn pair<F: F64x4>(ContractionMobility { own, other }: &ContractionMobility, registers: F) -> [Broadcast<F>; 2] {
     [Broadcast::of(own, registers), Broadcast::of(other, registers)]
 }
 
@@ -163,7 +163,7 @@ fn fixed<F: F64x4>(matrix: &SimdMat3<F>) -> Broadcast<F> {
     Broadcast::of(&matrix.kept(), matrix.0[0].0)
 }
 
-/// δĠ and δP̈ along the three rows of a column, M kept and without what a `Reaction` does to δP̈.
+/// δĠ and δP̈ along the three rows of a column, M kept and without what a `TurnedReaction` does to δP̈.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Along<F> {
     pub rate: MatrixBatch<F>,
@@ -207,34 +207,34 @@ impl<F: F64x4> ContractileSlopes<'_, F> {
     /// Along δP_jB for all j.
     #[inline(always)]
     pub fn along_gradient(&self, b: usize) -> Along<F> {
-        let (side, row) = (&self.spatial, &self.rows[b]);
-        let stress = side.stretched(row);
+        let (row, column) = (&self.spatial, &self.columns[b]);
+        let stress = row.stretched(column);
         // tr Λ = tr L changes by −u·Λᵀw.
-        let (energy, growth) = (along(&side.u.0, &row.heavy), along(&side.u.0, &row.pulled));
+        let (energy, growth) = (along(&row.u.0, &column.heavy), along(&row.u.0, &column.pulled));
         let [velocity, total] = self.answer(&stress, &energy, &growth);
-        self.along(&velocity, &total.plus_dyad(&row.w, &side.total))
+        self.along(&velocity, &total.plus_dyad(&column.w, &row.total))
     }
 
     /// Along δṖ_jB for all j.
     #[inline(always)]
     pub fn along_rate(&self, b: usize) -> Along<F> {
-        let row = &self.rows[b];
-        let growth = along(&self.spatial.u.0, &row.w);
-        let [velocity, total] = self.answer(&strained(&self.strained, row), &self.none(), &growth);
+        let column = &self.columns[b];
+        let growth = along(&self.spatial.u.0, &column.w);
+        let [velocity, total] = self.answer(&strained(&self.strained, column), &self.none(), &growth);
         self.along(&velocity, &total)
     }
 
     /// Along δG_jB for all j.
     #[inline(always)]
     pub fn along_contraction(&self, b: usize) -> Along<F> {
-        let (side, row) = (&self.relaxed, &self.rows[b]);
+        let (row, column) = (&self.relaxed, &self.columns[b]);
         // −tr γ.
-        let growth = along(&side.u.0, &row.w);
-        let stress = side.stretched(row).plus_diagonal(&self.mandel, &(growth * -1.0));
-        let energy = along(&side.u.0, &row.heavy) - growth * self.energy;
+        let growth = along(&row.u.0, &column.w);
+        let stress = row.stretched(column).plus_diagonal(&self.mandel, &(growth * -1.0));
+        let energy = along(&row.u.0, &column.heavy) - growth * self.energy;
         // tr Λ = tr L does not depend on G.
         let [velocity, total] = self.answer(&stress, &energy, &self.none());
-        let total = total.plus_dyad(&row.w, &side.total).plus_dyad(&row.total, &side.u);
+        let total = total.plus_dyad(&column.w, &row.total).plus_dyad(&column.total, &row.u);
         let Along { rate, acceleration } = self.along(&velocity, &total);
         Along { rate: rate.plus_dyad_transposed(&self.velocity, &UNIT[b]), acceleration }
     }
@@ -258,7 +258,7 @@ impl<F: F64x4> ContractileSlopes<'_, F> {
     /// What tr(δP̈ P⁻¹) has to be along δP_jB or δṖ_jB, where it is held.
     #[inline(always)]
     pub fn asked(&self, by_rate: bool, (j, b): (usize, usize)) -> f64 {
-        let Some(Reaction { by_gradient, by_rate: rate, .. }) = &self.reaction else { return 0.0 };
+        let Some(TurnedReaction { by_gradient, by_rate: rate, .. }) = &self.reaction else { return 0.0 };
         if by_rate { 2.0 * rate.at(j, b) } else { by_gradient.at(j, b) }
     }
 

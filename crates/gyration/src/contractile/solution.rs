@@ -13,8 +13,8 @@
 //! Elastic stresses are symmetric to the last bit, and used without the mean that a pressure takes over, for the reason
 //! told in `affine::solution`.
 
-use super::mobility::{Axes, Mobility};
-use super::{Command, ContractileBalance, Contraction, Pull};
+use super::mobility::{ContractionMobility, ElasticAxes};
+use super::{ContractileBalance, Contraction, ContractionCommand, Pull};
 use crate::affine::Constraint;
 use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
@@ -23,7 +23,7 @@ const THIRD: f64 = 1.0 / 3.0;
 
 /// What the derivative needs again.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Solution<F> {
+pub(super) struct ContractionSolution<F> {
     /// F.
     pub elastic: SimdMat3<F>,
     /// P⁻ᵀ.
@@ -35,7 +35,7 @@ pub(super) struct Solution<F> {
     /// V_G.
     pub velocity: SimdMat3<F>,
     /// Of F, where there is viscosity.
-    pub axes: Option<Axes>,
+    pub axes: Option<ElasticAxes>,
     /// sym(Ḟ F⁻¹); zero without viscosity.
     straining: SimdMat3<F>,
     /// τ − π I, without internal friction that acts on L.
@@ -62,15 +62,15 @@ struct Loaded<F> {
 }
 
 /// F and what turns the law of contraction into its axes.
-struct Frame<F> {
+struct ElasticFrame<F> {
     elastic: SimdMat3<F>,
     /// G and P⁻ᵀ.
     own: SimdMat3<F>,
     across: SimdMat3<F>,
-    axes: Option<Axes>,
+    axes: Option<ElasticAxes>,
 }
 
-impl<F: F64x4> Frame<F> {
+impl<F: F64x4> ElasticFrame<F> {
     /// F⁻¹.
     #[inline(always)]
     fn back(&self) -> SimdMat3<F> {
@@ -80,7 +80,7 @@ impl<F: F64x4> Frame<F> {
     /// Fᵀ X F⁻ᵀ + Q, in the axes.
     #[inline(always)]
     fn pulled(&self, stress: &SimdMat3<F>, drive: &SimdMat3<F>) -> SimdMat3<F> {
-        let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
+        let Some(ElasticAxes { axes, carried, inverses, .. }) = &self.axes else {
             return self.elastic.transpose().times(stress).times_transposed(&self.back()) + *drive;
         };
         let registers = stress.0[0].0;
@@ -90,13 +90,18 @@ impl<F: F64x4> Frame<F> {
 
     /// V_G, F V_G F⁻¹ and the multiple of I that the law of contraction takes away.
     #[inline(always)]
-    fn contract(&self, pull: &Pull<'_>, command: &Command, loaded: &Loaded<F>) -> (SimdMat3<F>, SimdMat3<F>, f64) {
+    fn contract(
+        &self,
+        pull: &Pull<'_>,
+        command: &ContractionCommand,
+        loaded: &Loaded<F>,
+    ) -> (SimdMat3<F>, SimdMat3<F>, f64) {
         let Pull { body, contraction, .. } = *pull;
         let Loaded { deviator, strain_rate, free, growth } = loaded;
         let registers = deviator.0[0].0;
         let drive = match command {
-            Command::Drive(drive) => SimdMat3::load(drive, registers),
-            Command::Velocity(velocity, _) => {
+            ContractionCommand::Drive(drive) => SimdMat3::load(drive, registers),
+            ContractionCommand::Velocity(velocity, _) => {
                 let velocity = SimdMat3::load(velocity, registers);
                 return (velocity, self.elastic.times(&velocity).times(&self.back()), 0.0);
             }
@@ -109,7 +114,8 @@ impl<F: F64x4> Frame<F> {
             (None, true) => (stress.trace() - (contraction.viscosity + viscosity) * growth) * THIRD,
             (None, false) => *free,
         };
-        let mobility = Mobility::new([contraction.viscosity, viscosity], contraction.spin, self.axes.as_ref());
+        let mobility =
+            ContractionMobility::new([contraction.viscosity, viscosity], contraction.spin, self.axes.as_ref());
         let [velocity, carried] = self.pushed(&mobility.velocity(&stress.plus_unit(-excess)));
         (velocity, carried, excess)
     }
@@ -117,7 +123,7 @@ impl<F: F64x4> Frame<F> {
     /// V and F V F⁻¹ of a V in the axes.
     #[inline(always)]
     fn pushed(&self, velocity: &SimdMat3<F>) -> [SimdMat3<F>; 2] {
-        let Some(Axes { axes, carried, inverses, .. }) = &self.axes else {
+        let Some(ElasticAxes { axes, carried, inverses, .. }) = &self.axes else {
             return [*velocity, self.elastic.times(velocity).times(&self.back())];
         };
         let registers = velocity.0[0].0;
@@ -126,9 +132,9 @@ impl<F: F64x4> Frame<F> {
     }
 }
 
-impl<F: F64x4> Solution<F> {
+impl<F: F64x4> ContractionSolution<F> {
     #[inline(always)]
-    pub fn new(pull: &Pull<'_>, command: &Command, moment: &SimdMat3<F>) -> Self {
+    pub fn new(pull: &Pull<'_>, command: &ContractionCommand, moment: &SimdMat3<F>) -> Self {
         let Pull { body, contraction, at, decomposition } = *pull;
         let registers = moment.0[0].0;
         let elastic = SimdMat3::load(&decomposition.elastic, registers);
@@ -148,7 +154,7 @@ impl<F: F64x4> Solution<F> {
         let own_pressure = incompressible && contraction.gives_pressure();
 
         let own = SimdMat3::load(&decomposition.contraction, registers);
-        let frame = Frame { elastic, own, across, axes: Axes::of(&elastic.kept(), viscosity) };
+        let frame = ElasticFrame { elastic, own, across, axes: ElasticAxes::of(&elastic.kept(), viscosity) };
         let loaded = Loaded { deviator, strain_rate, free: energy - mean, growth: l.trace() };
         let (velocity, carried, excess) = frame.contract(pull, command, &loaded);
 
@@ -170,7 +176,7 @@ impl<F: F64x4> Solution<F> {
         let mut acceleration = body.per_inertia(&free);
         let constraint = if incompressible && !own_pressure { Some(Constraint::new(body, &across)) } else { None };
         if let Some(constraint) = &constraint {
-            let growing = if let Command::Velocity(_, growing) = command { *growing } else { 0.0 };
+            let growing = if let ContractionCommand::Velocity(_, growing) = command { *growing } else { 0.0 };
             let push = constraint.push(&free, l.dot(&l.transpose()) + growing);
             acceleration += constraint.way * push;
             kirchhoff = kirchhoff.plus_unit(-push / body.volume);
@@ -195,13 +201,13 @@ impl<F: F64x4> Solution<F> {
 
     /// What is told of it.
     #[inline(always)]
-    pub fn balance(&self, pull: &Pull<'_>, command: &Command) -> ContractileBalance {
+    pub fn balance(&self, pull: &Pull<'_>, command: &ContractionCommand) -> ContractileBalance {
         let Pull { body, contraction, decomposition, .. } = *pull;
         let Self { elastic, across, l, velocity, straining, kirchhoff, medium, .. } = self;
         let own = SimdMat3::load(&decomposition.contraction, across.0[0].0);
         let drive = match command {
-            Command::Drive(drive) => *drive,
-            Command::Velocity(velocity, _) => {
+            ContractionCommand::Drive(drive) => *drive,
+            ContractionCommand::Velocity(velocity, _) => {
                 let back = own.times_transposed(across);
                 let mandel = elastic.transpose().times(kirchhoff).times_transposed(&back);
                 velocity * contraction.viscosity - mandel.matrix() + Mat3::from_diagonal_element(self.energy)

@@ -9,9 +9,9 @@
 //! e = gφ + π of an incompressible one, and tr A(V_G) = 0 where det G is kept. Where V_G is prescribed, or the pressure
 //! is that of the second derivative of det P, V_G and Z are those of `solution`.
 
-use super::mobility::{Axes, Mobility};
-use super::solution::Solution;
-use super::{Command, Pull};
+use super::mobility::{ContractionMobility, ElasticAxes};
+use super::solution::ContractionSolution;
+use super::{ContractionCommand, Pull};
 use crate::material::Coaxial;
 use crate::simd::{F64x4, SimdMat3, SimdVec3};
 use crate::tensor::Mat3;
@@ -31,7 +31,7 @@ pub(super) enum Volume {
 
 /// What a pressure adds that is that of the second derivative of det P.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reaction {
+pub(super) struct TurnedReaction {
     /// P⁻ᵀ, P⁻ᵀ J⁻¹ and 1/tr(P⁻ᵀ J⁻¹ P⁻¹).
     pub across: SimdMat3,
     pub way: SimdMat3,
@@ -43,7 +43,7 @@ pub(super) struct Reaction {
 
 /// The material in the axes, times g.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Elastic<F> {
+pub(super) struct TurnedElastic<F> {
     /// gφ and m.
     pub energy: f64,
     pub mandel: [f64; 3],
@@ -65,7 +65,7 @@ pub(super) struct Turned<F> {
     pub total: SimdMat3<F>,
     /// V_Gᵀ, outside the axes.
     pub velocity: SimdMat3<F>,
-    pub reaction: Option<Reaction>,
+    pub reaction: Option<TurnedReaction>,
 }
 
 impl Pull<'_> {
@@ -80,14 +80,14 @@ impl Pull<'_> {
     }
 
     #[inline(always)]
-    pub(super) fn elastic<F: F64x4>(&self, axes: &Axes, registers: F) -> Elastic<F> {
+    pub(super) fn elastic<F: F64x4>(&self, axes: &ElasticAxes, registers: F) -> TurnedElastic<F> {
         let Pull { body, at, decomposition, .. } = *self;
         let g = decomposition.volume_ratio;
         let Coaxial { energy, mandel: [x, y, z], own, other, along } = match &body.material {
             Some(material) => material.coaxial(&axes.values, at.volume_ratio / g),
             None => Coaxial::default(),
         };
-        Elastic {
+        TurnedElastic {
             energy: g * energy,
             mandel: [g * x, g * y, g * z],
             own: own.with(registers) * g,
@@ -99,9 +99,9 @@ impl Pull<'_> {
     #[inline(always)]
     pub(super) fn turned<F: F64x4>(
         &self,
-        (axes, mobility): (&Axes, &Mobility),
-        elastic: &Elastic<F>,
-        command: &Command,
+        (axes, mobility): (&ElasticAxes, &ContractionMobility),
+        elastic: &TurnedElastic<F>,
+        command: &ContractionCommand,
         moment: &Mat3,
     ) -> Turned<F> {
         let (registers, volume) = (elastic.own.0[0].0, self.volume());
@@ -112,7 +112,7 @@ impl Pull<'_> {
         let l = SimdMat3::load(&self.at.velocity_gradient, registers);
         let pulled = back.transpose().times(&l).times(&carried);
         let constrained = self.body.is_incompressible() && !self.contraction.gives_pressure();
-        if let (Command::Drive(drive), false) = (command, constrained) {
+        if let (ContractionCommand::Drive(drive), false) = (command, constrained) {
             let mandel = diagonal(elastic.mandel).with(registers);
             let drive = n.transpose().times(&SimdMat3::load(drive, registers)).times(&n);
             let loaded = (mandel + pulled.entrywise(&ratios)) + (pulled.transpose() * half + drive);
@@ -124,7 +124,7 @@ impl Pull<'_> {
             let velocity = n.times(&velocity.transpose()).times_transposed(&n);
             return Turned { axes: n, back, pulled, kept, total, velocity, reaction: None };
         }
-        let solution = Solution::new(self, command, &SimdMat3::of(moment).with(registers));
+        let solution = ContractionSolution::new(self, command, &SimdMat3::of(moment).with(registers));
         let total = carried.transpose().times(&solution.kirchhoff).times(&back);
         let over = n.transpose().times(&solution.velocity).times(&n) - pulled;
         let (kept, reaction) = (over.entrywise(&ratios), reaction(&solution));
@@ -153,12 +153,12 @@ pub(super) fn diagonal([x, y, z]: [f64; 3]) -> SimdMat3 {
 }
 
 #[inline(always)]
-fn reaction<F: F64x4>(solution: &Solution<F>) -> Option<Reaction> {
+fn reaction<F: F64x4>(solution: &ContractionSolution<F>) -> Option<TurnedReaction> {
     let constraint = solution.constraint.as_ref()?;
-    let Solution { l, across, acceleration, .. } = solution;
+    let ContractionSolution { l, across, acceleration, .. } = solution;
     let carried = l.transpose().times(across);
     let straight = across.times_transposed(acceleration).times(across);
-    Some(Reaction {
+    Some(TurnedReaction {
         across: across.kept(),
         way: constraint.way.kept(),
         compliance: constraint.compliance,

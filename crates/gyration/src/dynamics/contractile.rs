@@ -8,7 +8,8 @@ use super::loads::Acting;
 use crate::affine::Gyration;
 use crate::body::{Contractile, Slots};
 use crate::contractile::{
-    Command, ContractileBalance, ContractileSlopes, Decomposition, Feedback, Felt, Pull, Source, velocity_of,
+    ContractileBalance, ContractileSlopes, ContractionCommand, ContractionSource, Decomposition, Feedback, Felt, Pull,
+    velocity_of,
 };
 use crate::instant::BodyAt;
 use crate::ledger::Work;
@@ -37,13 +38,13 @@ impl<'a> ContractileMotion<'a> {
     }
 
     /// Q, or V_G.
-    pub fn command(&self) -> Command {
+    pub fn command(&self) -> ContractionCommand {
         let time = self.at.time;
         match &self.contractile.contraction.source {
-            Source::Prescribed(signal) => velocity_of(&signal.jet(time), self.decomposition),
-            Source::Driven { drive, .. } => {
+            ContractionSource::Prescribed(signal) => velocity_of(&signal.jet(time), self.decomposition),
+            ContractionSource::Driven { drive, .. } => {
                 let answers = self.felt().map(|(felt, feedback)| feedback.answer(felt.value).0);
-                Command::Drive(drive.at(time) + answers.sum::<Mat3>())
+                ContractionCommand::Drive(drive.at(time) + answers.sum::<Mat3>())
             }
         }
     }
@@ -76,7 +77,12 @@ impl<'a> ContractileMotion<'a> {
 
     /// The derivatives of P̈ and Ġ, with Q or V_G as it is.
     #[inline(always)]
-    pub fn slopes_in<F: F64x4>(&self, registers: F, command: &Command, moment: &Mat3) -> ContractileSlopes<'a, F> {
+    pub fn slopes_in<F: F64x4>(
+        &self,
+        registers: F,
+        command: &ContractionCommand,
+        moment: &Mat3,
+    ) -> ContractileSlopes<'a, F> {
         self.pull().slopes_in(registers, command, moment)
     }
 

@@ -1,6 +1,6 @@
 //! A body in the fluid at one instant: the form of the fluid's loads that goes with its kind.
 
-use crate::fluid::{Form, Immersed, RigidDrag, Unresolved};
+use crate::fluid::{Form, Immersed, RigidDrag, UnresolvedForm};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
 use crate::load::{Loads, Wrench, WrenchSlope};
@@ -15,7 +15,7 @@ pub(crate) fn immersion<'a>(at: &BodyAt<'a>) -> Result<Option<Immersed<'a>>, Ina
     let (Some(fluid), Some(inclusion)) = (&at.model.fluid, &at.body.inclusion) else { return Ok(None) };
     let Some(gyration) = at.gyration() else { return Ok(None) };
     let around = (fluid, &fluid.flow(at.time), &at.model.gravity);
-    let unresolved = |Unresolved { quantity, value }| at.outside(quantity, value);
+    let unresolved = |UnresolvedForm { quantity, value }| at.outside(quantity, value);
     Immersed::of(inclusion, around, (&at.motion.placement, &at.motion.velocity), gyration).map_err(unresolved)
 }
 

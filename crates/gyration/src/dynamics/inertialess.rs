@@ -18,7 +18,7 @@ use super::contractile::ContractileMotion;
 use super::jacobian::body_jacobian;
 use super::powers::Powers;
 use crate::body::{Slots, matrix};
-use crate::contractile::Command;
+use crate::contractile::ContractionCommand;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, Instant, KindAt};
 use crate::model::Model;
@@ -80,7 +80,11 @@ impl Kept {
                     return None;
                 }
                 let moving = ContractileMotion { at, contractile, gyration, decomposition };
-                let growth = if let Command::Velocity(velocity, _) = moving.command() { velocity.trace() } else { 0.0 };
+                let growth = if let ContractionCommand::Velocity(velocity, _) = moving.command() {
+                    velocity.trace()
+                } else {
+                    0.0
+                };
                 (&contractile.affine, gyration, growth)
             }
         };

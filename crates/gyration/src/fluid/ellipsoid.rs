@@ -12,7 +12,7 @@
 //! diagonal and everything follows from `moments`. Derivatives by Q are those of B, δB = −B δQ B, so that equal axes
 //! are no special case. Source: `physics.md` §7, written without axes.
 
-use super::moments::Moments;
+use super::moments::EllipsoidMoments;
 use crate::material::Spectrum;
 use crate::simd::SimdMat3;
 use crate::tensor::{Mat3, Vec3};
@@ -20,13 +20,13 @@ use std::f64::consts::PI;
 
 /// An ellipsoid in a fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ellipsoid {
+pub struct FluidEllipsoid {
     /// Its principal axes, a column each.
     pub axes: Mat3,
     /// a_i² \[m²\].
     pub squares: [f64; 3],
     viscosity: f64,
-    moments: Moments,
+    moments: EllipsoidMoments,
     /// Of T N − 𝓜:T.
     inverse: Inverse,
 }
@@ -73,7 +73,7 @@ pub struct FormSlope {
     change: Mat3,
 }
 
-impl Ellipsoid {
+impl FluidEllipsoid {
     /// The image of an ellipsoid of semi-axes A under P: `carried` = P A \[m\], det > 0, in a fluid of viscosity η > 0
     /// \[Pa s\].
     pub fn of(carried: &Mat3, viscosity: f64) -> Self {
@@ -87,7 +87,7 @@ impl Ellipsoid {
     }
 
     fn along(axes: Mat3, squares: [f64; 3], viscosity: f64) -> Self {
-        let moments = Moments::of(squares);
+        let moments = EllipsoidMoments::of(squares);
         Self { axes, squares, viscosity, moments, inverse: Inverse::of(&moments.fourth) }
     }
 
@@ -148,7 +148,7 @@ impl Ellipsoid {
 
     /// What changes with Q along δQ \[m²\], in the principal axes.
     pub fn along_form(&self, change: &Mat3) -> FormSlope {
-        let (volume, Moments { second, narrow, fourth, .. }) = (self.volume(), &self.moments);
+        let (volume, EllipsoidMoments { second, narrow, fourth, .. }) = (self.volume(), &self.moments);
         let growth = 0.5 * (0..3).map(|i| change[(i, i)] / self.squares[i]).sum::<f64>();
         // δW_ij = (4/V) m_ij δQ_ij − δ_ij (a_i²/V) Σ_p n_ip δQ_pp.
         let mut weight = Mat3::zeros();
@@ -180,7 +180,7 @@ impl Ellipsoid {
 
     /// δ𝓜:T, entry by entry of δQ: few are not zero.
     fn fourth_along(&self, slope: &FormSlope, t: &Mat3) -> Mat3 {
-        let (d, Moments { fourth, sixth, .. }) = (&slope.change, &self.moments);
+        let (d, EllipsoidMoments { fourth, sixth, .. }) = (&slope.change, &self.moments);
         let s = t + t.transpose();
         let traces = |m: &[f64; 3]| m[0] * t[(0, 0)] + m[1] * t[(1, 1)] + m[2] * t[(2, 2)];
         let mut change = Mat3::zeros();

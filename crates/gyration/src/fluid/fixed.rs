@@ -7,7 +7,7 @@
 //! is symmetric and the same everywhere: it turns and moves nothing. Source: `physics.md` §7.
 
 use super::ambient::{Flow, Fluid};
-use super::ellipsoid::Ellipsoid;
+use super::ellipsoid::FluidEllipsoid;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{Mat12, Wrench, WrenchSlope};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
@@ -79,15 +79,15 @@ impl FixedForm {
 
     /// The resistance of an ellipsoid about its centre, for viscosity 1.
     pub fn of_ellipsoid(semi_axes: &Vec3) -> Mat12 {
-        Self::of(&Ellipsoid::new((*semi_axes).into(), 1.0))
+        Self::of(&FluidEllipsoid::new((*semi_axes).into(), 1.0))
     }
 
     /// The same of the image of an ellipsoid of semi-axes A under P, `carried` = P A \[m\], in the axes of space.
     pub fn of_image(carried: &Mat3) -> Mat12 {
-        Self::of(&Ellipsoid::of(carried, 1.0))
+        Self::of(&FluidEllipsoid::of(carried, 1.0))
     }
 
-    pub(super) fn of(ellipsoid: &Ellipsoid) -> Mat12 {
+    pub(super) fn of(ellipsoid: &FluidEllipsoid) -> Mat12 {
         let [a, b, c] = ellipsoid.squares;
         let volume = 4.0 / 3.0 * std::f64::consts::PI * (a * b * c).sqrt();
         let mut matrix = Mat12::zeros();

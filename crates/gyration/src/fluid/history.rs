@@ -9,7 +9,7 @@
 //! and I_a stand on the left of the balance. Source: `history`; Maxey and Riley (1983).
 
 use super::ambient::{Flow, Fluid};
-use super::unsteady::{Exponentials, Unresolved};
+use super::unsteady::{Exponentials, UnresolvedHistory};
 use crate::tensor::{Mat3, Vec3, axial};
 use std::f64::consts::PI;
 
@@ -58,8 +58,13 @@ impl History {
     /// time \[s\], to an error as in [`Exponentials`].
     ///
     /// # Errors
-    /// [`Unresolved`] for numbers out of all proportion.
-    pub fn of_sphere(radius: f64, [viscosity, density]: [f64; 2], span: f64, error: f64) -> Result<Self, Unresolved> {
+    /// [`UnresolvedHistory`] for numbers out of all proportion.
+    pub fn of_sphere(
+        radius: f64,
+        [viscosity, density]: [f64; 2],
+        span: f64,
+        error: f64,
+    ) -> Result<Self, UnresolvedHistory> {
         let tau = density * radius * radius / viscosity;
         let translation = Exponentials::of_translation(tau, span, error)?;
         let rotation = Exponentials::of_rotation(tau, span, error)?;

@@ -3,7 +3,7 @@
 use super::ambient::{Flow, Fluid};
 use super::inclusion::{Form, ImmersedEllipsoid, Inclusion};
 use super::surface::ImmersedSurface;
-use super::table::Unresolved;
+use super::table::UnresolvedForm;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{LoadSlopes, Loads};
@@ -26,13 +26,13 @@ impl<'a> Immersed<'a> {
     /// Of a body in motion, in a fluid and its flow, under gravity; none if its form is fixed.
     ///
     /// # Errors
-    /// [`Unresolved`] where its resistance is not known as well as was asked for.
+    /// [`UnresolvedForm`] where its resistance is not known as well as was asked for.
     pub fn of(
         inclusion: &'a Inclusion,
         around: (&Fluid, &Flow, &Vec3),
         moving: (&Placement, &Velocity),
         at: &Gyration,
-    ) -> Result<Option<Self>, Unresolved> {
+    ) -> Result<Option<Self>, UnresolvedForm> {
         Ok(match inclusion.form {
             Form::Fixed(_) => None,
             Form::Ellipsoid(_) => ImmersedEllipsoid::of(inclusion, around, moving, at).map(Self::Ellipsoid),

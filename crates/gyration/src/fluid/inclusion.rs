@@ -6,10 +6,10 @@
 //! acts, there. Hydrostatic pressure does not press on the body: it counts as a force. Source: `physics.md` §7.
 
 use super::ambient::{Flow, Fluid};
-use super::ellipsoid::{Ellipsoid, Stress};
+use super::ellipsoid::{FluidEllipsoid, Stress};
 use super::fixed::FixedForm;
 use super::history::History;
-use super::table::Table;
+use super::table::ResistanceTable;
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
@@ -44,7 +44,7 @@ pub enum Form {
 
 /// A form of which there is a table; equal if the table is the same one.
 #[derive(Debug, Clone)]
-pub struct SurfaceForm(pub Arc<Table>);
+pub struct SurfaceForm(pub Arc<ResistanceTable>);
 
 impl PartialEq for SurfaceForm {
     fn eq(&self, other: &Self) -> bool {
@@ -58,7 +58,7 @@ pub struct ImmersedEllipsoid<'a> {
     inclusion: &'a Inclusion,
     semi_axes: &'a Vec3,
     /// Its principal axes and resistance.
-    pub ellipsoid: Ellipsoid,
+    pub ellipsoid: FluidEllipsoid,
     /// Relative velocity of its centre, in the principal axes \[m/s\].
     slip: Vec3,
     /// L in the principal axes \[1/s\].
@@ -82,7 +82,7 @@ impl<'a> ImmersedEllipsoid<'a> {
         at: &Gyration,
     ) -> Option<Self> {
         let Form::Ellipsoid(semi_axes) = &inclusion.form else { return None };
-        let ellipsoid = Ellipsoid::of(&(at.gradient * Mat3::from_diagonal(semi_axes)), fluid.viscosity);
+        let ellipsoid = FluidEllipsoid::of(&(at.gradient * Mat3::from_diagonal(semi_axes)), fluid.viscosity);
         let place = placement.place(&inclusion.center);
         let slip = ellipsoid.axes.tr_mul(&(velocity.at(&inclusion.center) - flow.at(&place)));
         let gradient = ellipsoid.seen(&at.velocity_gradient);
@@ -148,7 +148,7 @@ impl<'a> ImmersedEllipsoid<'a> {
                 }
             }
         }
-        let directions = Directions::of(self, at);
+        let directions = DerivativeTerms::of(self, at);
         for coordinate in 3..COORDINATES {
             let (j, b) = ((coordinate - 3) % 3, (coordinate - 3) / 3);
             add(false, coordinate, &self.along_gradient(&directions, (j, b)));
@@ -171,7 +171,7 @@ impl<'a> ImmersedEllipsoid<'a> {
     }
 
     /// δf and δM_c along δP = e_j ⊗ e_B.
-    fn along_gradient(&self, directions: &Directions, (j, b): (usize, usize)) -> Loads {
+    fn along_gradient(&self, directions: &DerivativeTerms, (j, b): (usize, usize)) -> Loads {
         let Self { ellipsoid, gradient, stress, volume, weight, .. } = self;
         let axis: Vec3 = ellipsoid.axes.row(j).transpose();
         let back = &directions.back[b];
@@ -186,7 +186,7 @@ impl<'a> ImmersedEllipsoid<'a> {
     }
 
     /// δM_c along δṖ = e_j ⊗ e_B.
-    fn along_rate(&self, directions: &Directions, (j, b): (usize, usize)) -> Loads {
+    fn along_rate(&self, directions: &DerivativeTerms, (j, b): (usize, usize)) -> Loads {
         let axis: Vec3 = self.ellipsoid.axes.row(j).transpose();
         let change = self.ellipsoid.along_gradient(&(axis * directions.back[b].transpose()));
         Loads { force: Vec3::zeros(), moment: directions.moment(&change, self.volume) }
@@ -202,7 +202,7 @@ impl<'a> ImmersedEllipsoid<'a> {
 const FORMS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
 
 /// What the columns of the derivative have in common; in the principal axes N.
-struct Directions {
+struct DerivativeTerms {
     /// Nᵀ P A² e_B.
     swept: [Vec3; 3],
     /// Nᵀ P⁻ᵀ e_B.
@@ -214,7 +214,7 @@ struct Directions {
     forms: [(Vec3, Mat3); 6],
 }
 
-impl Directions {
+impl DerivativeTerms {
     fn of(body: &ImmersedEllipsoid, at: &Gyration) -> Self {
         let axes = &body.ellipsoid.axes;
         let swept = axes.tr_mul(&(at.gradient * Mat3::from_diagonal(&body.semi_axes.component_mul(body.semi_axes))));

@@ -23,7 +23,7 @@ pub struct Simplex {
 
 /// A place in a simplex.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct LatticePlace {
     /// Where it is.
     pub simplex: Simplex,
     /// w_k.
@@ -34,7 +34,7 @@ pub struct Place {
 /// form does not choose between the cells on either side of the plane of symmetry.
 const ROUNDING: f64 = 1e-12;
 
-impl Place {
+impl LatticePlace {
     /// Of coordinates in a lattice of spacing h; none where they are not finite.
     pub fn of(strain: &Strain, spacing: f64) -> Option<Self> {
         let scaled = strain / spacing;
@@ -98,12 +98,12 @@ mod tests {
     #[test]
     fn weights_are_shares_and_give_the_place_back() {
         for s in places() {
-            let place = Place::of(&s, SPACING).unwrap_or_else(|| panic!("{s}"));
+            let place = LatticePlace::of(&s, SPACING).unwrap_or_else(|| panic!("{s}"));
             assert!(place.weights.iter().all(|weight| *weight >= 0.0));
             let corners = place.simplex.corners();
             let back: Strain = corners.iter().zip(place.weights).map(|(node, w)| w * strain(node, SPACING)).sum();
             assert!((back - s).norm() < 1e-14);
-            let center = Place::of(&place.simplex.center(SPACING), SPACING).unwrap_or_else(|| panic!("{s}"));
+            let center = LatticePlace::of(&place.simplex.center(SPACING), SPACING).unwrap_or_else(|| panic!("{s}"));
             assert_eq!(center.simplex, place.simplex);
         }
     }
@@ -111,10 +111,10 @@ mod tests {
     #[test]
     fn rounding_does_not_leave_a_plane_of_symmetry() {
         for rounding in [-1e-16, 0.0, 1e-16] {
-            let place = Place::of(&Strain::from([0.1, 0.2, 0.05, rounding, 0.0]), SPACING);
+            let place = LatticePlace::of(&Strain::from([0.1, 0.2, 0.05, rounding, 0.0]), SPACING);
             let corners = place.map(|place| place.simplex.corners());
             assert!(corners.is_some_and(|corners| corners.iter().all(|node| node[3] >= 0)));
         }
-        assert_eq!(Place::of(&Strain::repeat(f64::NAN), SPACING), None);
+        assert_eq!(LatticePlace::of(&Strain::repeat(f64::NAN), SPACING), None);
     }
 }

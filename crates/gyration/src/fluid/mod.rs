@@ -35,11 +35,11 @@ mod tests;
 pub mod unsteady;
 
 pub use ambient::{Flow, Fluid};
-pub use ellipsoid::{Ellipsoid, FormSlope, Stress};
+pub use ellipsoid::{FluidEllipsoid, FormSlope, Stress};
 pub use fixed::{DragSlopes, FixedForm, RigidDrag};
 pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, SurfaceForm};
-pub use moments::Moments;
+pub use moments::EllipsoidMoments;
 pub use surface::ImmersedSurface;
-pub use table::{Resistance, Resolution, Table, Unresolved, largest_error};
+pub use table::{ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};

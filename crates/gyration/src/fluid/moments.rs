@@ -28,7 +28,7 @@ const LANES: usize = 4;
 
 /// The integrals of an ellipsoid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Moments {
+pub struct EllipsoidMoments {
     /// L_i.
     pub second: [f64; 3],
     /// n_ij, symmetric \[1/m²\].
@@ -47,14 +47,14 @@ const PAIRS: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
 
 /// Sums over s, term by term in a fixed place.
 #[derive(Default)]
-struct Sums {
+struct EllipsoidSums {
     second: [[f64; LANES]; 3],
     narrow: [[f64; LANES]; 6],
     fourth: [[f64; LANES]; 6],
     sixth: [[f64; LANES]; 10],
 }
 
-impl Moments {
+impl EllipsoidMoments {
     /// The integrals for the squares a_i² > 0 of the semi-axes \[m²\].
     pub fn of(squares: [f64; 3]) -> Self {
         let largest = squares[0].max(squares[1]).max(squares[2]);
@@ -70,13 +70,13 @@ struct Summation<'a> {
 }
 
 impl WithF64x4 for Summation<'_> {
-    type Output = Sums;
+    type Output = EllipsoidSums;
 
     #[inline(always)]
-    fn run<F: F64x4>(self, _: F) -> Sums {
+    fn run<F: F64x4>(self, _: F) -> EllipsoidSums {
         let squares = self.squares;
         let least = squares[0].min(squares[1]).min(squares[2]);
-        let mut sums = Sums::default();
+        let mut sums = EllipsoidSums::default();
         let mut s = [BELOW * least, 0.0, 0.0, 0.0];
         for lane in 1..LANES {
             s[lane] = s[lane - 1] * GROWTH;
@@ -112,7 +112,7 @@ fn add(sum: &mut [f64; LANES], term: &[f64; LANES]) {
     }
 }
 
-impl Sums {
+impl EllipsoidSums {
     #[inline(always)]
     fn add(&mut self, squares: &[f64; 3], s: &[f64; LANES]) {
         let mut sums = [[0.0; LANES]; 3];
@@ -146,10 +146,10 @@ impl Sums {
         }
     }
 
-    fn moments(&self, squares: &[f64; 3], unit: f64) -> Moments {
+    fn moments(&self, squares: &[f64; 3], unit: f64) -> EllipsoidMoments {
         let total = |lanes: &[f64; LANES]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
         let volume = STEP * (squares[0] * squares[1] * squares[2]).sqrt();
-        let mut moments = Moments::default();
+        let mut moments = EllipsoidMoments::default();
         for i in 0..3 {
             moments.second[i] = 0.5 * volume * total(&self.second[i]);
             for j in 0..3 {
@@ -182,8 +182,8 @@ fn batch(mut indices: [usize; 3]) -> usize {
 mod tests {
     use super::*;
 
-    fn of(axes: [f64; 3]) -> Moments {
-        Moments::of(axes.map(|a| a * a))
+    fn of(axes: [f64; 3]) -> EllipsoidMoments {
+        EllipsoidMoments::of(axes.map(|a| a * a))
     }
 
     const CASES: [[f64; 3]; 6] =
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn sums_over_directions_are_one_and_the_second_moments() {
         for axes in CASES {
-            let Moments { second, fourth, narrow, sixth } = of(axes);
+            let EllipsoidMoments { second, fourth, narrow, sixth } = of(axes);
             let total: f64 = second.iter().sum();
             // Some 150 roundings of each sum.
             assert!((total - 1.0).abs() < 2e-14, "{axes:?}: {total}");
@@ -230,13 +230,13 @@ mod tests {
     #[test]
     fn derivatives_by_the_squares_follow_from_the_next_moments() {
         let squares = [1.3, 0.4, 2.2];
-        let at = Moments::of(squares);
+        let at = EllipsoidMoments::of(squares);
         for k in 0..3 {
             let step = 1e-5;
             let shifted = |by: f64| {
                 let mut moved = squares;
                 moved[k] += by;
-                Moments::of(moved)
+                EllipsoidMoments::of(moved)
             };
             let (ahead, behind) = (shifted(step), shifted(-step));
             for i in 0..3 {

@@ -9,9 +9,9 @@
 //!
 //! so that positive definite C make positive definite H, and derivatives of H are exact where those of C are.
 
-use super::ellipsoid::{Ellipsoid, FormSlope};
+use super::ellipsoid::{FluidEllipsoid, FormSlope};
 use super::fixed::{FixedForm, packed, parted};
-use super::stretch::Stretch;
+use super::stretch::PrincipalStretch;
 use crate::load::Mat12;
 use crate::tensor::Mat3;
 use nalgebra::SVector;
@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy)]
 pub struct ReferenceEllipsoid {
     /// The ellipsoid.
-    pub ellipsoid: Ellipsoid,
+    pub ellipsoid: FluidEllipsoid,
     /// E B Bᵀ with the squares B Bᵀ of the reference ellipsoid.
     swept: Mat3,
     /// A.
@@ -31,9 +31,9 @@ pub struct ReferenceEllipsoid {
 impl ReferenceEllipsoid {
     /// The image under E of the ellipsoid of the squares B Bᵀ \[m²\]; none where rounding leaves no positive
     /// resistance.
-    pub fn of(root: &Mat3, stretch: &Stretch) -> Option<Self> {
+    pub fn of(root: &Mat3, stretch: &PrincipalStretch) -> Option<Self> {
         let carried = stretch.matrix() * root;
-        let ellipsoid = Ellipsoid::of(&carried, 1.0);
+        let ellipsoid = FluidEllipsoid::of(&carried, 1.0);
         let lower = FixedForm::of(&ellipsoid).cholesky()?.l();
         Some(Self { ellipsoid, swept: carried * root.transpose(), lower })
     }
@@ -51,7 +51,7 @@ impl ReferenceEllipsoid {
     }
 
     /// ∂A/∂s_m.
-    pub fn slopes(&self, stretch: &Stretch) -> [Mat12; 5] {
+    pub fn slopes(&self, stretch: &PrincipalStretch) -> [Mat12; 5] {
         let forms = std::array::from_fn(|m| {
             // Q = E B Bᵀ E.
             let half = self.swept * stretch.along(m);
@@ -98,7 +98,7 @@ mod tests {
         let step = 1e-5;
         for s in [Strain::zeros(), Strain::from([0.3, -0.2, 0.5, 0.1, -0.4])] {
             let at = |s: &Strain| {
-                let stretch = Stretch::at(s);
+                let stretch = PrincipalStretch::at(s);
                 (ReferenceEllipsoid::of(&root, &stretch).unwrap_or_else(|| panic!("{s}")), stretch)
             };
             let (here, stretch) = at(&s);

@@ -41,14 +41,14 @@ fn components(x: &Mat3) -> Strain {
 
 /// E, by its principal stretches.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct PrincipalStretch {
     /// n_i, a column each.
     axes: Mat3,
     /// l_i, which add up to nought.
     logarithms: [f64; 3],
 }
 
-impl Stretch {
+impl PrincipalStretch {
     /// E of a symmetric U, det U > 0.
     pub fn of(stretch: &Mat3) -> Self {
         let spectrum = Spectrum::of(&SimdMat3::of(stretch));
@@ -112,11 +112,11 @@ mod tests {
     #[test]
     fn a_form_is_its_coordinates() {
         for s in STRAINS.map(Strain::from) {
-            let stretch = Stretch::at(&s);
+            let stretch = PrincipalStretch::at(&s);
             assert!((stretch.strain() - s).norm() < 1e-14);
             assert!((stretch.matrix().determinant() - 1.0).abs() < 1e-14);
             // The size does not count; the squares of stretches are known to rounding.
-            let again = Stretch::of(&(3.0 * stretch.matrix()));
+            let again = PrincipalStretch::of(&(3.0 * stretch.matrix()));
             assert!((again.strain() - s).norm() < 1e-14, "{:?}", again.strain());
             assert!((stretch.strain().norm() - logarithm(&s).norm()).abs() < 1e-15);
         }
@@ -127,12 +127,12 @@ mod tests {
         let step = 1e-5;
         for s in STRAINS.map(Strain::from) {
             for m in 0..5 {
-                let shifted = |sign: f64| Stretch::at(&(s + Strain::ith(m, sign * step))).matrix();
+                let shifted = |sign: f64| PrincipalStretch::at(&(s + Strain::ith(m, sign * step))).matrix();
                 let difference = (shifted(1.0) - shifted(-1.0)) / (2.0 * step);
-                let exact = Stretch::at(&s).along(m);
+                let exact = PrincipalStretch::at(&s).along(m);
                 // Third derivatives are of the order of E: step².
                 assert!((difference - exact).norm() < 1e-9, "{s}, {m}");
-                let back = Stretch::at(&s).strain_along(&exact);
+                let back = PrincipalStretch::at(&s).strain_along(&exact);
                 assert!((back - Strain::ith(m, 1.0)).norm() < 1e-13, "{s}, {m}: {back}");
             }
         }

@@ -13,8 +13,8 @@ use super::ambient::{Flow, Fluid};
 use super::fixed::{packed, parted};
 use super::inclusion::{Form, Inclusion, SurfaceForm};
 use super::reference::ReferenceEllipsoid;
-use super::stretch::{Strain, Stretch};
-use super::table::{Interpolant, Table, Unresolved};
+use super::stretch::{PrincipalStretch, Strain};
+use super::table::{FormInterpolant, ResistanceTable, UnresolvedForm};
 use crate::affine::Gyration;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, Mat12, numbers, unit};
@@ -26,9 +26,9 @@ type Vec12 = SVector<f64, 12>;
 /// The resistance of a body as deformed as it is.
 #[derive(Debug, Clone)]
 struct Resisting {
-    interpolant: Interpolant,
+    interpolant: FormInterpolant,
     reference: ReferenceEllipsoid,
-    stretch: Stretch,
+    stretch: PrincipalStretch,
     /// H(E) for viscosity 1.
     matrix: Mat12,
     /// The diagonal of D.
@@ -61,8 +61,8 @@ fn scales(velocity: f64, gradient: f64) -> Vec12 {
 }
 
 impl Resisting {
-    fn of(table: &Table, polar: &Polar, volume_ratio: f64, viscosity: f64) -> Result<Self, Unresolved> {
-        let stretch = Stretch::of(&polar.stretch);
+    fn of(table: &ResistanceTable, polar: &Polar, volume_ratio: f64, viscosity: f64) -> Result<Self, UnresolvedForm> {
+        let stretch = PrincipalStretch::of(&polar.stretch);
         let interpolant = table.around(&stretch)?;
         let reference = table.reference(&stretch)?;
         let matrix = reference.resistance(&interpolant.ratio());
@@ -94,13 +94,13 @@ impl<'a> ImmersedSurface<'a> {
     /// Of a body in motion; none if its form is another.
     ///
     /// # Errors
-    /// [`Unresolved`] where its resistance is not known as well as was asked for.
+    /// [`UnresolvedForm`] where its resistance is not known as well as was asked for.
     pub fn of(
         inclusion: &'a Inclusion,
         (fluid, flow, gravity): (&Fluid, &Flow, &Vec3),
         (placement, velocity): (&Placement, &Velocity),
         at: &Gyration,
-    ) -> Result<Option<Self>, Unresolved> {
+    ) -> Result<Option<Self>, UnresolvedForm> {
         let Form::Surface(SurfaceForm(table)) = &inclusion.form else { return Ok(None) };
         let polar = Polar::of(&at.gradient);
         let resisting = Resisting::of(table, &polar, at.volume_ratio, fluid.viscosity)?;

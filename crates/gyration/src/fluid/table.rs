@@ -12,9 +12,9 @@
 //! quarter of the tolerance: the error falls with the square of the spacing, and it may be four times as large
 //! elsewhere.
 
-use super::lattice::{CORNERS, Node, Place, Simplex, strain};
+use super::lattice::{CORNERS, LatticePlace, Node, Simplex, strain};
 use super::reference::ReferenceEllipsoid;
-use super::stretch::{Strain, Stretch};
+use super::stretch::{PrincipalStretch, Strain};
 use crate::inadmissible::Quantity;
 use crate::load::Mat12;
 use crate::tensor::Mat3;
@@ -24,7 +24,7 @@ use std::fmt::Debug;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A surface whose resistance can be computed, at a price.
-pub trait Resistance: Debug + Send + Sync {
+pub trait ResistanceSource: Debug + Send + Sync {
     /// H(E) for viscosity 1, symmetric and positive definite, of the image of the surface under a symmetric E of
     /// determinant 1, about the centre of its volume.
     ///
@@ -44,7 +44,7 @@ pub struct Resolution {
 
 /// What stands in the way of a resistance, and by how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unresolved {
+pub struct UnresolvedForm {
     /// `Elements` or `Interpolation`.
     pub quantity: Quantity,
     /// The relative error.
@@ -56,8 +56,8 @@ pub type Corners = [Arc<Mat12>; CORNERS];
 
 /// The resistance of a surface under any E.
 #[derive(Debug)]
-pub struct Table {
-    source: Box<dyn Resistance>,
+pub struct ResistanceTable {
+    source: Box<dyn ResistanceSource>,
     /// B, whose B Bᵀ are the squares of the ellipsoid of the same second moments \[m\].
     root: Mat3,
     resolution: Resolution,
@@ -69,13 +69,13 @@ pub struct Table {
 struct Known {
     spacing: Option<f64>,
     nodes: BTreeMap<Node, Arc<Mat12>>,
-    simplices: BTreeMap<Simplex, Result<Arc<Corners>, Unresolved>>,
+    simplices: BTreeMap<Simplex, Result<Arc<Corners>, UnresolvedForm>>,
 }
 
 /// C around a place.
 #[derive(Debug, Clone)]
-pub struct Interpolant {
-    place: Place,
+pub struct FormInterpolant {
+    place: LatticePlace,
     spacing: f64,
     corners: Arc<Corners>,
 }
@@ -86,10 +86,10 @@ const FINEST: f64 = 1.0 / 64.0;
 /// By how much the error may be larger elsewhere than beside the undeformed form.
 const MARGIN: f64 = 4.0;
 
-impl Table {
+impl ResistanceTable {
     /// The table of a surface, of which nothing is computed yet. `second` = ∫ x ⊗ x dV/V about the centre of its volume
     /// \[m²\], without turn and deformation; none where that is not positive definite.
-    pub fn new(source: Box<dyn Resistance>, second: &Mat3, resolution: Resolution) -> Option<Self> {
+    pub fn new(source: Box<dyn ResistanceSource>, second: &Mat3, resolution: Resolution) -> Option<Self> {
         // Of an ellipsoid, a_i² = 5 ∫ x_i² dV/V.
         let root = (5.0 * second).cholesky()?.l();
         Some(Self { source, root, resolution, known: Mutex::default() })
@@ -98,9 +98,9 @@ impl Table {
     /// H(E) for viscosity 1, of a symmetric E of determinant 1.
     ///
     /// # Errors
-    /// [`Unresolved`] where it is not known as well as was asked for, or not at all.
-    pub fn matrix(&self, stretch: &Mat3) -> Result<Mat12, Unresolved> {
-        let stretch = Stretch::of(stretch);
+    /// [`UnresolvedForm`] where it is not known as well as was asked for, or not at all.
+    pub fn matrix(&self, stretch: &Mat3) -> Result<Mat12, UnresolvedForm> {
+        let stretch = PrincipalStretch::of(stretch);
         let ratio = self.around(&stretch)?.ratio();
         Ok(self.reference(&stretch)?.resistance(&ratio))
     }
@@ -108,21 +108,22 @@ impl Table {
     /// The ellipsoid that stands for the surface under E.
     ///
     /// # Errors
-    /// [`Unresolved`] where the form is so extreme that rounding leaves no positive resistance.
-    pub(super) fn reference(&self, stretch: &Stretch) -> Result<ReferenceEllipsoid, Unresolved> {
-        ReferenceEllipsoid::of(&self.root, stretch).ok_or(Unresolved { quantity: Quantity::Elements, value: f64::NAN })
+    /// [`UnresolvedForm`] where the form is so extreme that rounding leaves no positive resistance.
+    pub(super) fn reference(&self, stretch: &PrincipalStretch) -> Result<ReferenceEllipsoid, UnresolvedForm> {
+        ReferenceEllipsoid::of(&self.root, stretch)
+            .ok_or(UnresolvedForm { quantity: Quantity::Elements, value: f64::NAN })
     }
 
     /// C around E.
     ///
     /// # Errors
-    /// [`Unresolved`] where the interpolant is not as near to the matrices as was asked for, or where there is no
+    /// [`UnresolvedForm`] where the interpolant is not as near to the matrices as was asked for, or where there is no
     /// matrix.
-    pub(super) fn around(&self, stretch: &Stretch) -> Result<Interpolant, Unresolved> {
+    pub(super) fn around(&self, stretch: &PrincipalStretch) -> Result<FormInterpolant, UnresolvedForm> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let spacing = self.spacing(&mut known)?;
-        let place = Place::of(&stretch.strain(), spacing)
-            .ok_or(Unresolved { quantity: Quantity::Elements, value: f64::NAN })?;
+        let place = LatticePlace::of(&stretch.strain(), spacing)
+            .ok_or(UnresolvedForm { quantity: Quantity::Elements, value: f64::NAN })?;
         let corners = match known.simplices.get(&place.simplex) {
             Some(found) => found.clone()?,
             None => {
@@ -131,7 +132,7 @@ impl Table {
                 found?
             }
         };
-        Ok(Interpolant { place, spacing, corners })
+        Ok(FormInterpolant { place, spacing, corners })
     }
 
     /// How many matrices have been computed for nodes, and how many simplices have been entered, each of which took one
@@ -141,15 +142,15 @@ impl Table {
         (known.nodes.len(), known.simplices.len())
     }
 
-    fn spacing(&self, known: &mut Known) -> Result<f64, Unresolved> {
+    fn spacing(&self, known: &mut Known) -> Result<f64, UnresolvedForm> {
         if let Some(spacing) = self.resolution.spacing.or(known.spacing) {
             return Ok(spacing);
         }
         let mut spacing = COARSEST;
         loop {
             let mut nodes = BTreeMap::new();
-            let place = Place::of(&Strain::zeros(), spacing);
-            let simplex = place.ok_or(Unresolved { quantity: Quantity::Elements, value: f64::NAN })?.simplex;
+            let place = LatticePlace::of(&Strain::zeros(), spacing);
+            let simplex = place.ok_or(UnresolvedForm { quantity: Quantity::Elements, value: f64::NAN })?.simplex;
             let corners = self.corners(&simplex, spacing, &mut nodes)?;
             let error = self.error(&simplex, spacing, &corners)?;
             if error <= self.resolution.tolerance / MARGIN || spacing <= FINEST {
@@ -166,11 +167,11 @@ impl Table {
         simplex: &Simplex,
         spacing: f64,
         nodes: &mut BTreeMap<Node, Arc<Mat12>>,
-    ) -> Result<Arc<Corners>, Unresolved> {
+    ) -> Result<Arc<Corners>, UnresolvedForm> {
         let corners = self.corners(simplex, spacing, nodes)?;
         let error = self.error(simplex, spacing, &corners)?;
         if error.is_nan() || error > self.resolution.tolerance {
-            return Err(Unresolved { quantity: Quantity::Interpolation, value: error });
+            return Err(UnresolvedForm { quantity: Quantity::Interpolation, value: error });
         }
         Ok(Arc::new(corners))
     }
@@ -180,7 +181,7 @@ impl Table {
         simplex: &Simplex,
         spacing: f64,
         nodes: &mut BTreeMap<Node, Arc<Mat12>>,
-    ) -> Result<Corners, Unresolved> {
+    ) -> Result<Corners, UnresolvedForm> {
         let mut found = Vec::with_capacity(CORNERS);
         for node in simplex.corners() {
             let corner = match nodes.entry(node) {
@@ -189,20 +190,20 @@ impl Table {
             };
             found.push(Arc::clone(corner));
         }
-        found.try_into().map_err(|_| Unresolved { quantity: Quantity::Elements, value: f64::NAN })
+        found.try_into().map_err(|_| UnresolvedForm { quantity: Quantity::Elements, value: f64::NAN })
     }
 
     /// C of the matrix at s itself.
-    fn ratio(&self, strain: &Strain) -> Result<Mat12, Unresolved> {
-        let fault = |value| Unresolved { quantity: Quantity::Elements, value };
-        let stretch = Stretch::at(strain);
+    fn ratio(&self, strain: &Strain) -> Result<Mat12, UnresolvedForm> {
+        let fault = |value| UnresolvedForm { quantity: Quantity::Elements, value };
+        let stretch = PrincipalStretch::at(strain);
         let reference = self.reference(&stretch)?;
         let matrix = self.source.matrix(&stretch.matrix()).map_err(fault)?;
         reference.ratio(&matrix).ok_or_else(|| fault(f64::NAN))
     }
 
     /// The relative error of the interpolant at the centre of a simplex.
-    fn error(&self, simplex: &Simplex, spacing: f64, corners: &Corners) -> Result<f64, Unresolved> {
+    fn error(&self, simplex: &Simplex, spacing: f64, corners: &Corners) -> Result<f64, UnresolvedForm> {
         let exact = self.ratio(&simplex.center(spacing))?;
         let mean = corners.iter().map(|corner| **corner).sum::<Mat12>() / CORNERS as f64;
         Ok(largest_error(&mean, &exact))
@@ -224,7 +225,7 @@ pub fn largest_error(approximate: &Mat12, exact: &Mat12) -> f64 {
     })
 }
 
-impl Interpolant {
+impl FormInterpolant {
     /// C.
     pub fn ratio(&self) -> Mat12 {
         self.corners.iter().zip(self.place.weights).map(|(corner, weight)| **corner * weight).sum()

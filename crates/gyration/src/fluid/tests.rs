@@ -10,14 +10,14 @@ fn close(a: f64, b: f64) {
     assert!((a - b).abs() < 1e-13 * b.abs().max(1.0), "{a} {b}");
 }
 
-fn total(body: &Ellipsoid, gradient: &Mat3, flow: &Mat3) -> Mat3 {
+fn total(body: &FluidEllipsoid, gradient: &Mat3, flow: &Mat3) -> Mat3 {
     body.shown(&body.stress(&body.seen(gradient), &body.seen(flow)).total)
 }
 
 #[test]
 fn sphere_has_the_resistances_of_the_books() {
     let radius = 1.7;
-    let ball = Ellipsoid::new([radius; 3], ETA);
+    let ball = FluidEllipsoid::new([radius; 3], ETA);
     close(ball.force(&Vec3::new(0.0, 2.0, 0.0))[1], -6.0 * PI * ETA * radius * 2.0);
     let volume = 4.0 / 3.0 * PI * radius.powi(3);
     // Moment about z: ∫ (x t_y − y t_x) = V (σ_yx − σ_xy).
@@ -38,7 +38,7 @@ fn prolate_spheroid_has_its_closed_drag() {
         let log = ((1.0 + e) / (1.0 - e)).ln();
         let along = 16.0 * PI * ETA * ratio * e.powi(3) / ((1.0 + e * e) * log - 2.0 * e);
         let across = 32.0 * PI * ETA * ratio * e.powi(3) / (2.0 * e + (3.0 * e * e - 1.0) * log);
-        let force = Ellipsoid::new([ratio, 1.0, 1.0], ETA).force(&Vec3::new(1.0, 1.0, 0.0));
+        let force = FluidEllipsoid::new([ratio, 1.0, 1.0], ETA).force(&Vec3::new(1.0, 1.0, 0.0));
         // 1 − e loses digits in the closed form: of 1000, six.
         assert!((force[0] / -along - 1.0).abs() < 1e-10, "{ratio}");
         assert!((force[1] / -across - 1.0).abs() < 1e-10, "{ratio}");
@@ -49,7 +49,7 @@ fn prolate_spheroid_has_its_closed_drag() {
 #[test]
 fn spheroid_without_couple_turns_as_jeffery_says() {
     for ratio in [0.01_f64, 0.5, 3.0, 200.0] {
-        let grain = Ellipsoid::new([ratio, 1.0, 1.0], ETA);
+        let grain = FluidEllipsoid::new([ratio, 1.0, 1.0], ETA);
         let flow = Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         let turn = -1.0 / (ratio * ratio + 1.0);
         let stress = total(&grain, &cross_matrix(&(turn * Vec3::z())), &flow);
@@ -64,7 +64,7 @@ fn basis(k: usize) -> Mat3 {
 #[test]
 fn resistance_is_symmetric_and_takes_energy() {
     let carried = Mat3::new(1.0, 0.3, -0.2, 0.1, 0.4, 0.7, -0.5, 0.2, 2.5);
-    let grain = Ellipsoid::of(&carried, ETA);
+    let grain = FluidEllipsoid::of(&carried, ETA);
     let still = Mat3::zeros();
     for k in 0..9 {
         for l in 0..9 {
@@ -80,7 +80,7 @@ fn resistance_is_symmetric_and_takes_energy() {
 fn turning_everything_turns_the_answer() {
     let carried = Mat3::new(1.0, 0.3, -0.2, 0.1, 0.4, 0.7, -0.5, 0.2, 2.5);
     let turn = crate::kinematics::Quaternion::from_axis_angle(&Vec3::new(1.0, -2.0, 0.4), 0.8).rotation();
-    let (one, other) = (Ellipsoid::of(&carried, ETA), Ellipsoid::of(&(turn * carried), ETA));
+    let (one, other) = (FluidEllipsoid::of(&carried, ETA), FluidEllipsoid::of(&(turn * carried), ETA));
     let gradient = Mat3::new(0.2, -0.7, 0.1, 0.9, 0.3, -0.4, 0.5, 0.6, -0.8);
     let turned = |tensor: &Mat3| turn * tensor * turn.transpose();
     let flow = Mat3::new(0.1, 1.0, 0.0, 0.3, -0.3, 0.0, 0.2, 0.0, 0.2);
@@ -97,7 +97,7 @@ fn form_slopes_agree_with_differences() {
     let velocity = Vec3::new(0.4, -1.1, 0.3);
     let general = Mat3::new(1.0, 0.3, -0.2, 0.1, 0.4, 0.7, -0.5, 0.2, 2.5);
     for carried in [general, Mat3::identity(), Mat3::from_diagonal(&Vec3::new(2.0, 1.0, 1.0))] {
-        let at = Ellipsoid::of(&carried, ETA);
+        let at = FluidEllipsoid::of(&carried, ETA);
         let stress = at.stress(&at.seen(&gradient), &at.seen(&flow));
         for k in 0..9 {
             let step = 1e-5;
@@ -105,8 +105,8 @@ fn form_slopes_agree_with_differences() {
             let slope = at.along_form(&at.seen(&change));
             let exact = at.shown(&at.stress_along(&slope, &stress, &at.seen(&gradient)));
             let exact_force = at.axes * at.force_along(&slope, &at.axes.tr_mul(&velocity));
-            let shifted = |by: f64| Ellipsoid::of(&(carried + by * basis(k)), ETA);
-            let force = |body: &Ellipsoid| body.axes * body.force(&body.axes.tr_mul(&velocity));
+            let shifted = |by: f64| FluidEllipsoid::of(&(carried + by * basis(k)), ETA);
+            let force = |body: &FluidEllipsoid| body.axes * body.force(&body.axes.tr_mul(&velocity));
             let (ahead, behind) = (shifted(step), shifted(-step));
             let difference = (total(&ahead, &gradient, &flow) - total(&behind, &gradient, &flow)) / (2.0 * step);
             let force_difference = (force(&ahead) - force(&behind)) / (2.0 * step);

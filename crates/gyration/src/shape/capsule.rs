@@ -12,7 +12,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{CIRCLE_POINTS, Outline, SILHOUETTE_POINTS, circle, directions};
 use super::triangulation::Triangulation;
-use super::turned::{Stretch, turned};
+use super::turned::{ProfileStretch, turned};
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -88,8 +88,8 @@ impl Capsule {
     /// The wall and the half spheres, in about `count` triangles.
     pub fn triangulation(&self, count: usize) -> Triangulation {
         let (radius, top) = (self.radius, 0.5 * self.height);
-        let half = |z: f64, angles| Stretch::Arc { center: [0.0, z], radius, angles };
-        let wall = Stretch::Line { from: [radius, -top], to: [radius, top] };
+        let half = |z: f64, angles| ProfileStretch::Arc { center: [0.0, z], radius, angles };
+        let wall = ProfileStretch::Line { from: [radius, -top], to: [radius, top] };
         turned(&[half(-top, [-FRAC_PI_2, 0.0]), wall, half(top, [0.0, FRAC_PI_2])], count)
     }
 

@@ -10,7 +10,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, SILHOUETTE_POINTS, circle};
 use super::triangulation::Triangulation;
-use super::turned::{Stretch, turned};
+use super::turned::{ProfileStretch, turned};
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -79,8 +79,8 @@ impl Cone {
     /// The wall and the base, in about `count` triangles.
     pub fn triangulation(&self, count: usize) -> Triangulation {
         let (rim, apex) = ([self.radius, -0.5 * self.height], [0.0, 0.5 * self.height]);
-        let base = Stretch::Line { from: [0.0, rim[1]], to: rim };
-        turned(&[base, Stretch::Line { from: rim, to: apex }], count)
+        let base = ProfileStretch::Line { from: [0.0, rim[1]], to: rim };
+        turned(&[base, ProfileStretch::Line { from: rim, to: apex }], count)
     }
 
     /// The apex and points of the rim.

@@ -8,7 +8,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, SILHOUETTE_POINTS, circle};
 use super::triangulation::Triangulation;
-use super::turned::{Stretch, turned};
+use super::turned::{ProfileStretch, turned};
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -72,7 +72,7 @@ impl Cylinder {
     /// The wall and the two ends, in about `count` triangles.
     pub fn triangulation(&self, count: usize) -> Triangulation {
         let (radius, top) = (self.radius, 0.5 * self.height);
-        let line = |from, to| Stretch::Line { from, to };
+        let line = |from, to| ProfileStretch::Line { from, to };
         let bottom = line([0.0, -top], [radius, -top]);
         turned(&[bottom, line([radius, -top], [radius, top]), line([radius, top], [0.0, top])], count)
     }

@@ -41,7 +41,7 @@ pub use polyhedron::Polyhedron;
 pub use sphere::Sphere;
 pub use torus::Torus;
 pub use triangulation::Triangulation;
-pub use union::{Part, Union};
+pub use union::{Union, UnionPart};
 
 use crate::mass::MassProperties;
 use crate::surface::Surface;

@@ -8,7 +8,7 @@ use super::error::{ShapeError, positive};
 use super::feature::Feature;
 use super::outline::{Outline, circle};
 use super::triangulation::Triangulation;
-use super::turned::{Stretch, turned};
+use super::turned::{ProfileStretch, turned};
 use crate::mass::MassProperties;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
@@ -76,7 +76,8 @@ impl Torus {
 
     /// The tube, in about `count` triangles.
     pub fn triangulation(&self, count: usize) -> Triangulation {
-        let tube = Stretch::Arc { center: [self.major_radius, 0.0], radius: self.minor_radius, angles: [0.0, TAU] };
+        let tube =
+            ProfileStretch::Arc { center: [self.major_radius, 0.0], radius: self.minor_radius, angles: [0.0, TAU] };
         turned(&[tube], count)
     }
 

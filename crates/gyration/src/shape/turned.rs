@@ -25,7 +25,7 @@ const TRIALS: usize = 400;
 
 /// A stretch of a profile, in (radius, height) \[m\].
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Stretch {
+pub(super) enum ProfileStretch {
     /// A straight line.
     Line {
         /// Where it begins.
@@ -52,7 +52,7 @@ struct Ring {
     points: usize,
 }
 
-impl Stretch {
+impl ProfileStretch {
     fn length(&self) -> f64 {
         match *self {
             Self::Line { from, to } => (to[0] - from[0]).hypot(to[1] - from[1]),
@@ -93,7 +93,7 @@ impl Stretch {
 }
 
 /// The surface that a profile makes, in about `count` triangles.
-pub(super) fn turned(profile: &[Stretch], count: usize) -> Triangulation {
+pub(super) fn turned(profile: &[ProfileStretch], count: usize) -> Triangulation {
     let area = profile.iter().map(|stretch| TAU * stretch.length() * stretch.at(0.5)[0]).sum::<f64>();
     // The side of `count` equilateral triangles of the same area, and a little less, since counts are rounded.
     let first = 0.95 * (4.0 * area / (3.0_f64.sqrt() * count as f64)).sqrt();
@@ -121,7 +121,7 @@ pub(super) fn over_wall(corners: &[Vec3; 3], weights: &[f64; 3], flat: &Vec3) ->
 }
 
 /// The rings of a profile, one a point; the last is left out where it is the first again.
-fn rings(profile: &[Stretch], spacing: f64) -> Vec<Ring> {
+fn rings(profile: &[ProfileStretch], spacing: f64) -> Vec<Ring> {
     let widest = profile.iter().flat_map(|stretch| [0.0, 0.5, 1.0].map(|fraction| stretch.at(fraction)[0]));
     // The widest ring is round to the eye.
     let around = spacing.min(TAU * widest.fold(0.0, f64::max) / CIRCLE_POINTS as f64);

@@ -19,12 +19,12 @@ const ROTATION_TOLERANCE: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Union {
     /// The parts, at least one.
-    pub parts: Vec<Part>,
+    pub parts: Vec<UnionPart>,
 }
 
 /// A shape within a union.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct UnionPart {
     /// The shape in its own frame.
     pub shape: Shape,
     /// a, where its frame's origin stands in the union's frame \[m\].
@@ -56,7 +56,7 @@ impl Union {
 
     /// Mass properties, with every part's own density multiplied by `factor`.
     pub fn mass_properties(&self, factor: f64) -> MassProperties {
-        MassProperties::sum(self.parts.iter().map(Part::mass_properties)).scaled(factor)
+        MassProperties::sum(self.parts.iter().map(UnionPart::mass_properties)).scaled(factor)
     }
 
     /// The support function h(n) = max over the parts of a_k·n + h_k(R_kᵀn) \[m\].
@@ -66,7 +66,7 @@ impl Union {
 
     /// The surfaces of all parts, also where one covers another; none if all are points.
     pub fn surface(&self) -> Option<Surface> {
-        let of_part = |part: &Part| Some(part.shape.surface()?.transformed(&part.rotation, &part.offset));
+        let of_part = |part: &UnionPart| Some(part.shape.surface()?.transformed(&part.rotation, &part.offset));
         let mut surfaces: Vec<Surface> = self.parts.iter().filter_map(of_part).collect();
         // In pairs: one after the other, the first of n parts would be copied n times.
         while surfaces.len() > 1 {
@@ -105,12 +105,12 @@ impl Union {
     /// Points of all parts; their hull is that of the whole, so draw the parts one by one where gaps between them
     /// matter.
     pub fn silhouette_points(&self) -> Vec<Vec3> {
-        let points: Vec<Vec3> = self.parts.iter().flat_map(Part::silhouette_points).collect();
+        let points: Vec<Vec3> = self.parts.iter().flat_map(UnionPart::silhouette_points).collect();
         extreme_points(&points)
     }
 }
 
-impl Part {
+impl UnionPart {
     /// Mass properties in the union's frame.
     pub fn mass_properties(&self) -> MassProperties {
         self.shape.mass_properties(self.density).transformed(&self.rotation, &self.offset)

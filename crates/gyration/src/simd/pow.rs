@@ -174,12 +174,12 @@ mod tests {
     use pulp::WithSimd;
 
     /// d^−ν and ln d of a row.
-    struct Powers {
+    struct RowPowers {
         gaps: Row,
         exponent: SplitExponent,
     }
 
-    impl WithSimd for Powers {
+    impl WithSimd for RowPowers {
         type Output = (Row, Row);
 
         #[inline(always)]
@@ -202,7 +202,7 @@ mod tests {
                 let gaps: Row =
                     std::array::from_fn(|i| 10_f64.powi(decade) * (1.0 + 0.2231 * (i + 8 * step) as f64 / 8.0));
                 for exponent in [-1.0, -0.3, 0.5, 1.0, 3.2, 6.3, 12.7, 17.0] {
-                    let (powers, logs) = dispatch(Powers { gaps, exponent: SplitExponent::new(exponent) });
+                    let (powers, logs) = dispatch(RowPowers { gaps, exponent: SplitExponent::new(exponent) });
                     for i in 0..WIDTH {
                         worst.0 = worst.0.max((powers[i] / gaps[i].powf(-exponent) - 1.0).abs());
                         worst.1 = worst.1.max((logs[i] - gaps[i].ln()).abs() / gaps[i].ln().abs().max(1e-3));
@@ -219,7 +219,7 @@ mod tests {
     fn powers_out_of_range_are_zero_or_infinite() {
         let mut gaps = [1.0; WIDTH];
         gaps[..4].copy_from_slice(&[1e-200, 1e200, 2e-154, 1e154]);
-        let (powers, _) = dispatch(Powers { gaps, exponent: SplitExponent::new(2.5) });
+        let (powers, _) = dispatch(RowPowers { gaps, exponent: SplitExponent::new(2.5) });
         assert_eq!(powers[..4], [f64::INFINITY, 0.0, f64::INFINITY, 0.0]);
     }
 }

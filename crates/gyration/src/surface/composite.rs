@@ -213,6 +213,7 @@ impl Surface {
     }
 
     /// Whether all gaps are finite and above a floor [m].
+    #[inline]
     pub(crate) fn is_above(&self, field: &GapField, floor: f64) -> bool {
         let fits = |gap: f64| gap > floor && gap < f64::INFINITY;
         let patches = || self.patches.iter().all(|patch| fits(field.gap(&patch.support(&-field.direction))));

@@ -4,7 +4,7 @@
 //! The ratio C to the ellipsoid of the same second moments is linear in the coordinates of the form, so that what is
 //! interpolated is exact: differences may cross from one simplex into the next.
 
-use gyration::fluid::{FixedForm, Form, Inclusion, Resistance, Resolution, SurfaceForm, Table};
+use gyration::fluid::{FixedForm, Form, Inclusion, ResistanceSource, ResistanceTable, Resolution, SurfaceForm};
 use gyration::load::Mat12;
 use gyration::model::Model;
 use gyration::tensor::{Mat3, Vec3};
@@ -16,7 +16,7 @@ const SEMI_AXES: Vec3 = Vec3::new(0.5, 0.3, 0.4);
 #[derive(Debug)]
 struct Linear;
 
-impl Resistance for Linear {
+impl ResistanceSource for Linear {
     fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64> {
         let eigen = stretch.symmetric_eigen();
         let logarithm =
@@ -38,7 +38,7 @@ pub fn of_any_form(mut model: Model) -> Model {
     // Rounding of matrices of condition 1e3.
     let resolution = Resolution { tolerance: 1e-10, spacing: None };
     let surface = || {
-        let table = Table::new(Box::new(Linear), &second, resolution).unwrap();
+        let table = ResistanceTable::new(Box::new(Linear), &second, resolution).unwrap();
         Form::Surface(SurfaceForm(Arc::new(table)))
     };
     for body in &mut model.bodies {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gyration::mass::MassProperties;
 use gyration::shape::{
-    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Part, Points, Polyhedron, Shape, Sphere, Torus, Union,
+    Capsule, Cone, Cuboid, Cylinder, Ellipsoid, MassPoint, Points, Polyhedron, Shape, Sphere, Torus, Union, UnionPart,
 };
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::Rotation3;
@@ -30,8 +30,12 @@ pub fn corner_tetrahedron(a: f64) -> Polyhedron {
 
 /// Three parts of different densities.
 pub fn union_of(scale: f64) -> Shape {
-    let part =
-        |shape, z: f64, density| Part { shape, offset: Vec3::new(0.1, 0.0, z) * scale, rotation: rotation(), density };
+    let part = |shape, z: f64, density| UnionPart {
+        shape,
+        offset: Vec3::new(0.1, 0.0, z) * scale,
+        rotation: rotation(),
+        density,
+    };
     Shape::Union(Union {
         parts: vec![
             part(Shape::Cone(Cone { radius: 0.3 * scale, height: 0.8 * scale }), 0.5, 3.0),

@@ -12,36 +12,39 @@ struct Skew {
     reach: f64,
 }
 
-impl Resistance for Skew {
+impl ResistanceSource for Skew {
     fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64> {
-        if Stretch::of(stretch).strain().norm() > self.reach {
+        if PrincipalStretch::of(stretch).strain().norm() > self.reach {
             return Err(0.3);
         }
         Ok(FixedForm::of_image(&(stretch * self.carried)))
     }
 }
 
-fn table(tolerance: f64, spacing: Option<f64>, reach: f64) -> Table {
+fn table(tolerance: f64, spacing: Option<f64>, reach: f64) -> ResistanceTable {
     let source = Skew { carried: Mat3::from_diagonal(&Vec3::new(1.0, 0.6, 0.5)), reach };
-    let table = Table::new(Box::new(source), &Mat3::from_diagonal_element(0.1), Resolution { tolerance, spacing });
+    let table =
+        ResistanceTable::new(Box::new(source), &Mat3::from_diagonal_element(0.1), Resolution { tolerance, spacing });
     table.unwrap_or_else(|| panic!("a sphere has a volume"))
 }
 
 /// Forms all around the undeformed one.
-fn forms() -> impl DoubleEndedIterator<Item = Stretch> {
+fn forms() -> impl DoubleEndedIterator<Item = PrincipalStretch> {
     (0..60).map(|n| {
-        Stretch::at(&Strain::from_fn(|m, _| 0.5 * (1.7 * f64::from(n) * (1.0 + m as f64) + 0.3 * m as f64).sin()))
+        PrincipalStretch::at(&Strain::from_fn(|m, _| {
+            0.5 * (1.7 * f64::from(n) * (1.0 + m as f64) + 0.3 * m as f64).sin()
+        }))
     })
 }
 
 /// H of the table, and its error.
-fn measured(table: &Table, stretch: &Stretch) -> Result<(Mat12, f64), Unresolved> {
+fn measured(table: &ResistanceTable, stretch: &PrincipalStretch) -> Result<(Mat12, f64), UnresolvedForm> {
     let matrix = table.matrix(&stretch.matrix())?;
     let exact = table.source.matrix(&stretch.matrix()).unwrap_or_else(|_| Mat12::zeros());
     Ok((matrix, largest_error(&matrix, &exact)))
 }
 
-fn largest(table: &Table) -> f64 {
+fn largest(table: &ResistanceTable) -> f64 {
     forms().map(|form| measured(table, &form).map_or(f64::NAN, |(_, error)| error)).fold(0.0, f64::max)
 }
 
@@ -68,7 +71,7 @@ fn forms_that_are_resolved_too_coarsely_have_no_resistance() {
     let coarse = table(1e-3, Some(0.5), 10.0);
     let refused = forms().filter_map(|form| measured(&coarse, &form).err()).collect::<Vec<_>>();
     assert!(!refused.is_empty());
-    for Unresolved { quantity, value } in refused {
+    for UnresolvedForm { quantity, value } in refused {
         assert_eq!(quantity, Quantity::Interpolation);
         assert!(value > 1e-3, "{value}");
     }
@@ -77,15 +80,15 @@ fn forms_that_are_resolved_too_coarsely_have_no_resistance() {
 #[test]
 fn forms_without_a_matrix_have_no_resistance() {
     let short = table(1e-1, Some(0.5), 1.2);
-    let far = Stretch::at(&Strain::from([1.4, 0.1, 0.2, 0.05, 0.0]));
+    let far = PrincipalStretch::at(&Strain::from([1.4, 0.1, 0.2, 0.05, 0.0]));
     let refused = short.around(&far).err().unwrap_or_else(|| panic!("{short:?}"));
-    assert_eq!(refused, Unresolved { quantity: Quantity::Elements, value: 0.3 });
+    assert_eq!(refused, UnresolvedForm { quantity: Quantity::Elements, value: 0.3 });
 }
 
 #[test]
 fn numbers_do_not_depend_on_the_order_of_the_questions() {
     let (one, other) = (table(1e-2, None, 10.0), table(1e-2, None, 10.0));
-    let bits = |table: &Table, form: &Stretch| {
+    let bits = |table: &ResistanceTable, form: &PrincipalStretch| {
         let (matrix, _) = measured(table, form).unwrap_or_else(|error| panic!("{error:?}"));
         matrix.iter().map(|entry| entry.to_bits()).collect::<Vec<_>>()
     };

@@ -7,8 +7,8 @@
 //! from the built sum itself; nothing rests on an estimate of convergence.
 
 use super::exponentials::Exponentials;
-use super::interpolant::Interpolant;
-use super::kernel::Kernel;
+use super::interpolant::RationalInterpolant;
+use super::kernel::HistoryKernel;
 use super::points::{count, points};
 
 /// The errors that can be asked for: below, rounding is felt.
@@ -22,7 +22,7 @@ const SPANS: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
     "a history of {tau:e} s cannot be kept over {span:e} s to {error:e}: both times must be > 0, \
      their ratio within 1e-12 and 1e12, the error within 1e-10 and 0.1"
 )]
-pub struct Unresolved {
+pub struct UnresolvedHistory {
     /// τ = ρR²/η [s].
     pub tau: f64,
     /// The time over which the history is to be kept [s].
@@ -37,9 +37,10 @@ impl Exponentials {
     ///   force = −6πηR [w + (τ/9 + rest) w′ + Σ c_k (w − y_k)]
     ///
     /// # Errors
-    /// [`Unresolved`] if a time is not positive, if span/τ is outside 1e-12 … 1e12 or the error outside 1e-10 … 0.1.
-    pub fn of_translation(tau: f64, span: f64, error: f64) -> Result<Self, Unresolved> {
-        Self::of(Kernel::Translation, tau, span, error)
+    /// [`UnresolvedHistory`] if a time is not positive, if span/τ is outside 1e-12 … 1e12 or the error outside 1e-10 …
+    /// 0.1.
+    pub fn of_translation(tau: f64, span: f64, error: f64) -> Result<Self, UnresolvedHistory> {
+        Self::of(HistoryKernel::Translation, tau, span, error)
     }
 
     /// The kernel ⅓(√(τ/(πt)) − e^(t/τ) erfc √(t/τ)) of a sphere's rotation, over (0, span] to `error`; τ = ρR²/η and
@@ -49,13 +50,13 @@ impl Exponentials {
     ///
     /// # Errors
     /// As [`Self::of_translation`].
-    pub fn of_rotation(tau: f64, span: f64, error: f64) -> Result<Self, Unresolved> {
-        Self::of(Kernel::Rotation, tau, span, error)
+    pub fn of_rotation(tau: f64, span: f64, error: f64) -> Result<Self, UnresolvedHistory> {
+        Self::of(HistoryKernel::Rotation, tau, span, error)
     }
 
     /// The kernel κ, over (0, span] to `error`.
-    fn of(kernel: Kernel, tau: f64, span: f64, error: f64) -> Result<Self, Unresolved> {
-        let unresolved = Unresolved { tau, span, error };
+    fn of(kernel: HistoryKernel, tau: f64, span: f64, error: f64) -> Result<Self, UnresolvedHistory> {
+        let unresolved = UnresolvedHistory { tau, span, error };
         let admissible = tau > 0.0 && tau.is_finite() && SPANS.contains(&(span / tau)) && ERRORS.contains(&error);
         let sum = if admissible { fewest(kernel, span / tau, error) } else { None };
         sum.map(|sum| sum.in_seconds(tau)).ok_or(unresolved)
@@ -74,7 +75,7 @@ const MISSED: f64 = 1e-3;
 const LOWEST: [f64; 5] = [1.65, 2.12, 2.72, 3.49, 4.48];
 
 /// The sum with the fewest modes that reaches the error over (0, span]; none if 200 do not.
-fn fewest(kernel: Kernel, span: f64, error: f64) -> Option<Exponentials> {
+fn fewest(kernel: HistoryKernel, span: f64, error: f64) -> Option<Exponentials> {
     // ε is about 20 e^−Λ when span ≤ τ, and down to 10 e^−Λ when span > τ: the count begins below what is needed.
     let least = (count((9.0 / error).ln(), span, span.min(1.0)) / 2.0) as usize;
     (least.max(1)..=MOST_MODES).find_map(|modes| {
@@ -85,7 +86,7 @@ fn fewest(kernel: Kernel, span: f64, error: f64) -> Option<Exponentials> {
 }
 
 /// The best sum of this many modes, by coarse measurements.
-fn best(kernel: Kernel, span: f64, modes: usize) -> Option<Exponentials> {
+fn best(kernel: HistoryKernel, span: f64, modes: usize) -> Option<Exponentials> {
     let tried = LOWEST.map(|lowest| {
         let mut sum = built(kernel, &places(kernel, span, modes, lowest));
         sum.error = measured(kernel, span, &sum, COARSE);
@@ -97,11 +98,11 @@ fn best(kernel: Kernel, span: f64, modes: usize) -> Option<Exponentials> {
 /// The points at which 1/√p is interpolated, 2n + 1 for n modes.
 ///
 /// The kernel of rotation asks for p = 1 among them: see [`built`].
-fn places(kernel: Kernel, span: f64, modes: usize, lowest: f64) -> Vec<f64> {
+fn places(kernel: HistoryKernel, span: f64, modes: usize, lowest: f64) -> Vec<f64> {
     let reference = span.min(1.0);
     match kernel {
-        Kernel::Translation => points(2 * modes + 1, lowest, span, reference),
-        Kernel::Rotation => {
+        HistoryKernel::Translation => points(2 * modes + 1, lowest, span, reference),
+        HistoryKernel::Rotation => {
             let mut places = points(2 * modes, lowest, span, reference);
             places.insert(places.partition_point(|x| *x < 1.0), 1.0);
             places
@@ -116,9 +117,9 @@ fn places(kernel: Kernel, span: f64, modes: usize, lowest: f64) -> Vec<f64> {
 ///   ⅓ (1 − p g(p))/(1 − p) = ⅓ [rest + Σ c_k s_k/(1 + s_k) /(p + s_k)]
 ///
 /// interpolates it at the same points, but p = 1, with the same rates and positive weights.
-fn built(kernel: Kernel, places: &[f64]) -> Exponentials {
-    let Interpolant { rates, mut weights, mut rest } = Interpolant::new(places);
-    if kernel == Kernel::Rotation {
+fn built(kernel: HistoryKernel, places: &[f64]) -> Exponentials {
+    let RationalInterpolant { rates, mut weights, mut rest } = RationalInterpolant::new(places);
+    if kernel == HistoryKernel::Rotation {
         weights.iter_mut().zip(&rates).for_each(|(weight, rate)| *weight *= rate / (3.0 * (1.0 + rate)));
         rest /= 3.0;
     }
@@ -129,7 +130,7 @@ fn built(kernel: Kernel, places: &[f64]) -> Exponentials {
 ///
 /// ∫|κ − κ̃| is the variation of ∫κ − ∫κ̃ between samples that are even in ln t. Before the first sample κ > Σ c_k ≥
 /// κ̃: the sign does not change, and the variation is exact.
-fn measured(kernel: Kernel, span: f64, sum: &Exponentials, samples: f64) -> f64 {
+fn measured(kernel: HistoryKernel, span: f64, sum: &Exponentials, samples: f64) -> f64 {
     let reference = span.min(1.0);
     let fastest = sum.rates.iter().fold(1.0 / span, |a, b| a.max(*b));
     let first = 1e-4 / fastest;
@@ -153,10 +154,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const KERNELS: [Kernel; 2] = [Kernel::Translation, Kernel::Rotation];
+    const KERNELS: [HistoryKernel; 2] = [HistoryKernel::Translation, HistoryKernel::Rotation];
 
     /// ∫ w′(s) κ(t − s) ds and the same with κ̃, for steps of w′ of equal lengths that end at t; τ = 1.
-    fn loads(kernel: Kernel, sum: &Exponentials, accelerations: &[f64], time: f64) -> (f64, f64) {
+    fn loads(kernel: HistoryKernel, sum: &Exponentials, accelerations: &[f64], time: f64) -> (f64, f64) {
         let length = time / accelerations.len() as f64;
         let mut loads = (0.0, 0.0);
         for (index, acceleration) in accelerations.iter().enumerate() {
@@ -171,12 +172,12 @@ mod tests {
     #[test]
     fn stated_errors_are_reached_with_few_modes() {
         let expected = [
-            (Kernel::Translation, 1.0, [18, 33, 54]),
-            (Kernel::Translation, 100.0, [22, 40, 63]),
-            (Kernel::Translation, 1e4, [28, 49, 74]),
-            (Kernel::Rotation, 1.0, [20, 36, 58]),
-            (Kernel::Rotation, 100.0, [25, 44, 68]),
-            (Kernel::Rotation, 1e4, [31, 53, 80]),
+            (HistoryKernel::Translation, 1.0, [18, 33, 54]),
+            (HistoryKernel::Translation, 100.0, [22, 40, 63]),
+            (HistoryKernel::Translation, 1e4, [28, 49, 74]),
+            (HistoryKernel::Rotation, 1.0, [20, 36, 58]),
+            (HistoryKernel::Rotation, 100.0, [25, 44, 68]),
+            (HistoryKernel::Rotation, 1e4, [31, 53, 80]),
         ];
         for (kernel, span, most) in expected {
             for (error, most) in [1e-4, 1e-6, 1e-8].into_iter().zip(most) {
@@ -227,7 +228,7 @@ mod tests {
         let sum = Exponentials::of_translation(1.0, 1.0, 1e-6).unwrap();
         for (shortest, most) in [(1e-8, 1e-2), (1e-4, 5e-5), (1e-2, 1e-5)] {
             let lags = (0..2000).map(|index| f64::powf(shortest, f64::from(index) / 1999.0));
-            let errors = lags.map(|lag| (sum.value(lag) / Kernel::Translation.value(lag) - 1.0).abs());
+            let errors = lags.map(|lag| (sum.value(lag) / HistoryKernel::Translation.value(lag) - 1.0).abs());
             let worst = errors.fold(0.0, f64::max);
             println!("relative error of the kernel on [{shortest:e}, 1] of the span: {worst:.1e}");
             assert!(worst < most);

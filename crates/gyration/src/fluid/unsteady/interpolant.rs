@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 
 /// A sum of simple fractions, rest + Σ c_k/(p + s_k), which is near 1/√p.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Interpolant {
+pub(super) struct RationalInterpolant {
     /// s_k > 0, rising; unit of p.
     pub rates: Vec<f64>,
     /// c_k > 0; unit of √p.
@@ -27,7 +27,7 @@ pub(super) struct Interpolant {
     pub rest: f64,
 }
 
-impl Interpolant {
+impl RationalInterpolant {
     /// The interpolant of 1/√p at p = xⱼ², for an odd number of positive points in rising order.
     pub fn new(points: &[f64]) -> Self {
         debug_assert!(points.len() % 2 == 1 && points.is_sorted() && points[0] > 0.0);
@@ -74,7 +74,7 @@ fn zero(points: &[f64], phase: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn value(interpolant: &Interpolant, p: f64) -> f64 {
+    fn value(interpolant: &RationalInterpolant, p: f64) -> f64 {
         let fractions = interpolant.rates.iter().zip(&interpolant.weights).map(|(rate, weight)| weight / (p + rate));
         interpolant.rest + fractions.sum::<f64>()
     }
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn interpolant_takes_the_values_at_the_points() {
-        let interpolant = Interpolant::new(&points());
+        let interpolant = RationalInterpolant::new(&points());
         for x in points() {
             // A sum of positive terms: rounding only.
             assert!((value(&interpolant, x * x) * x - 1.0).abs() < 1e-14, "at {x}");
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn error_of_the_interpolant_is_the_product_of_blaschke() {
-        let interpolant = Interpolant::new(&points());
+        let interpolant = RationalInterpolant::new(&points());
         for x in [1e-3, 0.1, 0.7, 7.0, 300.0, 1e7] {
             let product: f64 = points().iter().map(|point| (point - x) / (point + x)).product();
             let error = value(&interpolant, x * x) * x - 1.0;
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn rates_and_weights_are_positive_and_rates_rise() {
-        let interpolant = Interpolant::new(&points());
+        let interpolant = RationalInterpolant::new(&points());
         assert_eq!(interpolant.rates.len(), 4);
         assert!(interpolant.rates[0] > 0.0 && interpolant.rates.is_sorted());
         assert!(interpolant.weights.iter().all(|weight| *weight > 0.0) && interpolant.rest > 0.0);

@@ -16,14 +16,14 @@ use std::f64::consts::PI;
 
 /// What the sphere does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kernel {
+pub enum HistoryKernel {
     /// It translates: Basset's history force.
     Translation,
     /// It turns.
     Rotation,
 }
 
-impl Kernel {
+impl HistoryKernel {
     /// κ(t), with t in units of τ, t > 0; dimensionless.
     pub fn value(self, time: f64) -> f64 {
         match self {
@@ -55,7 +55,7 @@ impl Kernel {
 mod tests {
     use super::*;
 
-    const KERNELS: [Kernel; 2] = [Kernel::Translation, Kernel::Rotation];
+    const KERNELS: [HistoryKernel; 2] = [HistoryKernel::Translation, HistoryKernel::Rotation];
 
     #[test]
     fn kernel_is_the_transform_of_its_density() {
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn rotation_forgets_by_the_three_halves_power_and_in_all_a_third() {
         let late = 1e8_f64;
-        assert!((Kernel::Rotation.value(late) * 6.0 * PI.sqrt() * late.powf(1.5) - 1.0).abs() < 1e-7);
-        assert!((Kernel::Rotation.integral(1e30) - 1.0 / 3.0).abs() < 1e-14);
+        assert!((HistoryKernel::Rotation.value(late) * 6.0 * PI.sqrt() * late.powf(1.5) - 1.0).abs() < 1e-7);
+        assert!((HistoryKernel::Rotation.integral(1e30) - 1.0 / 3.0).abs() < 1e-14);
     }
 }

@@ -26,4 +26,4 @@ mod talbot;
 pub mod vibration;
 
 pub use exponentials::Exponentials;
-pub use fit::Unresolved;
+pub use fit::UnresolvedHistory;

@@ -31,7 +31,7 @@ pub fn settling(inertia: f64, time: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::talbot::inverse;
-    use super::super::{Exponentials, kernel::Kernel};
+    use super::super::{Exponentials, kernel::HistoryKernel};
     use super::*;
     use nalgebra::Complex;
 
@@ -79,7 +79,7 @@ mod tests {
                 let worst = times
                     .map(|time| {
                         let exact = settling(inertia, time);
-                        let load = Kernel::Translation.integral(time.max(1.0)) / inertia;
+                        let load = HistoryKernel::Translation.integral(time.max(1.0)) / inertia;
                         ((inverse(&transform, time) - exact).abs(), load)
                     })
                     .fold((0.0_f64, 0.0_f64), |worst, (next, load)| (worst.0.max(next), worst.1.max(next / load)));

@@ -19,8 +19,8 @@
 //! e R³/r.
 //!
 //! As ω → ∞ the terms in ℓ² are the added masses of potential flow: ½ρV on U, (2/15)ρVR² on E, ρVR² on e I. What
-//! remains, ℓ²/(1 + ℓ), is one history for spin and strain: `Kernel::Rotation`, times 5/3 for the strain. Translation
-//! and rotation are in Landau and Lifshitz, *Fluid Mechanics*, §24. Amplitudes must be small against R.
+//! remains, ℓ²/(1 + ℓ), is one history for spin and strain: `HistoryKernel::Rotation`, times 5/3 for the strain.
+//! Translation and rotation are in Landau and Lifshitz, *Fluid Mechanics*, §24. Amplitudes must be small against R.
 
 use nalgebra::Complex;
 use std::f64::consts::PI;
@@ -73,7 +73,7 @@ mod fields;
 
 #[cfg(test)]
 mod tests {
-    use super::super::kernel::Kernel;
+    use super::super::kernel::HistoryKernel;
     use super::*;
 
     fn close(measured: Complex<f64>, expected: Complex<f64>, tolerance: f64) -> bool {
@@ -124,14 +124,14 @@ mod tests {
         // iω ∫ κ(t) e^(−iωt) dt with κ = ∫ density(s) e^(−st) ds is ∫ density iω/(s + iω) ds; trapezoid in ln s.
         for omega in [0.01, 1.0, 50.0] {
             let frequency = Complex::new(0.0, omega);
-            let transform = |kernel: Kernel| {
+            let transform = |kernel: HistoryKernel| {
                 let rates = (-1600..1600).map(|index| (f64::from(index) * 0.05).exp());
                 rates
                     .map(|rate| frequency / (frequency + rate) * (kernel.density(rate) * rate * 0.05))
                     .sum::<Complex<f64>>()
             };
             let at = vibration(1.0, 1.0, 1.0, omega);
-            let (translation, rotation) = (transform(Kernel::Translation), transform(Kernel::Rotation));
+            let (translation, rotation) = (transform(HistoryKernel::Translation), transform(HistoryKernel::Rotation));
             assert!(close(at.translation / (6.0 * PI), translation + frequency / 9.0 + 1.0, 1e-12));
             assert!(close(at.rotation / (8.0 * PI), rotation + 1.0, 1e-12));
             assert!(close(at.strain / (4.0 * PI), rotation * (5.0 / 3.0) + frequency * (2.0 / 45.0) + 1.0, 1e-12));

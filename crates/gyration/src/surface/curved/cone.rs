@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, TiltedGap};
+use super::half_plane::{AffineMap, TiltedGap};
 use super::rules::integrand::Integrand;
 use super::rules::ring::{Demand, Rings};
 use super::rules::rulings::{OtherEnd, RulingSums, Rulings};
@@ -37,7 +37,7 @@ impl ConeWall {
     }
 
     /// Sums the moments about the apex in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
         let reach = self.radius * gap.across;
@@ -52,7 +52,7 @@ impl ConeWall {
         for (request, moments) in requests.iter().zip(out) {
             self.collect(&rulings.sums(request), moments);
         }
-        Chart { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
+        AffineMap { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
     }
 
     /// Sets the moments odd in y, from sums weighted with sin φ; one more t stands with every y.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::half_plane::{Chart, TiltedGap};
+use super::half_plane::{AffineMap, TiltedGap};
 use super::rules::integrand::Integrand;
 use super::rules::ring::{Demand, Rings};
 use super::rules::rulings::{OtherEnd, RulingSums, Rulings};
@@ -34,7 +34,7 @@ impl CylinderWall {
     }
 
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
         // The end nearer to the plane, and the way to the other.
@@ -49,7 +49,7 @@ impl CylinderWall {
         for (request, moments) in requests.iter().zip(out) {
             self.collect(&rulings.sums(request), near_z, moments);
         }
-        Chart::frame(gap.frame)
+        AffineMap::frame(gap.frame)
     }
 
     /// Sets the moments odd in y, from sums weighted with sin φ.

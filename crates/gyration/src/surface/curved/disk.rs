@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use pulp::{Simd, WithSimd};
 
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, TiltedGap};
+use super::half_plane::{AffineMap, TiltedGap};
 use super::rules::integrand::{GROUP, Integrand, LANES, Lane};
 use super::rules::ring::{Demand, RingChunk, Rings};
 use super::rules::weight::{Deformed, Weighted};
@@ -38,7 +38,7 @@ impl Disk {
     }
 
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
         let reach = self.radius * gap.across;
@@ -49,7 +49,7 @@ impl Disk {
         for ((sums, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
             self.collect(&sums.map(|lanes| lanes.iter().sum()), request.order, moments);
         }
-        Chart::frame(gap.frame)
+        AffineMap::frame(gap.frame)
     }
 
     /// The same for a deformed disk, whose weight is the same everywhere.
@@ -58,15 +58,15 @@ impl Disk {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         let mut sums = [Moments::default(); GROUP];
-        let chart = self.moments(&deformed.field, requests, &mut sums);
+        let map = self.moments(&deformed.field, requests, &mut sums);
         let weights = deformed.weights.of(&deformed.cofactor.column(2).into());
         for (out, weight) in out.iter_mut().zip(weights) {
             *out = sums;
             out.iter_mut().for_each(|moments| moments.scale(weight));
         }
-        chart
+        map
     }
 
     /// The moments from the sums of 1, x, x², y², x³, xy² in units of R.

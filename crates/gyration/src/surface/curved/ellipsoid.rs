@@ -8,10 +8,10 @@
 //! does not depend on φ: κ is evaluated once for a parallel, and the rest, ∮ |B s| s⊗… dφ, is geometry, the same for
 //! the parallel at π − θ but for signs. `features` chooses the parallels, `parallels` sums around them.
 
-use super::half_plane::Chart;
+use super::half_plane::AffineMap;
 use super::rules::features::Features;
 use super::rules::integrand::Integrand;
-use super::rules::parallels::{AreaElement, Sums, Sweep};
+use super::rules::parallels::{AreaElement, ParallelSums, ParallelSweep};
 use super::sphere::frame_along;
 use crate::simd::dispatch;
 use crate::surface::{GapField, MomentRequest, Moments};
@@ -42,7 +42,7 @@ impl Ellipsoid {
     }
 
     /// Sums the moments of s in the frame (e₁, e₂, f); every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let image = self.semi_axes.component_mul(&field.direction);
         let frame = frame_along(&-image);
         let reach = image.norm();
@@ -52,12 +52,12 @@ impl Ellipsoid {
         let element = AreaElement::new(&cofactor, &frame);
         let integrand = Integrand::new(requests);
         let features = Features::new(near, reach, &cofactor, &frame.column(2).into(), &integrand);
-        let mut sums = Sums::ZERO;
+        let mut sums = ParallelSums::ZERO;
         let (gap, element, integrand) = ((near, reach), &element, &integrand);
-        dispatch(Sweep { nodes: features.nodes(), element, gap, integrand, factors: &[], sums: &mut sums });
+        dispatch(ParallelSweep { nodes: features.nodes(), element, gap, integrand, factors: &[], sums: &mut sums });
         for (place, (request, moments)) in requests.iter().zip(out).enumerate() {
             sums.collect(place, request.order, moments);
         }
-        Chart::frame(Mat3::from_diagonal(a) * frame)
+        AffineMap::frame(Mat3::from_diagonal(a) * frame)
     }
 }

@@ -13,13 +13,13 @@ use crate::tensor::{Mat3, Vec3};
 
 /// Where moments that a primitive has summed belong: Y = offset + linear · Z, Z the variable they were summed in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Chart {
+pub(crate) struct AffineMap {
     pub(crate) linear: Mat3,
     pub(crate) offset: Vec3,
 }
 
-impl Chart {
-    /// The chart of a frame about the primitive's origin.
+impl AffineMap {
+    /// The map of a frame about the primitive's origin.
     pub(crate) fn frame(linear: Mat3) -> Self {
         Self { linear, offset: Vec3::zeros() }
     }

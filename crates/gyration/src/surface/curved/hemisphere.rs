@@ -13,8 +13,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, TiltedGap};
-use super::rules::graded::{GradedInterval, Node, Singularity};
+use super::half_plane::{AffineMap, TiltedGap};
+use super::rules::graded::{GradedInterval, QuadratureNode, Singularity};
 use super::rules::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
 use super::sphere::{add_zone, height_moments};
 use crate::simd::dispatch;
@@ -30,7 +30,7 @@ pub struct Hemisphere {
 }
 
 /// How the parallels lie to the hemisphere.
-struct Parallels {
+struct TiltedParallels {
     /// g₀ and R|m| [m].
     height: f64,
     reach: f64,
@@ -55,18 +55,18 @@ impl Hemisphere {
     }
 
     /// Sums the moments in the frame (e₁, e₂, c); every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
         let slope = gap.along.hypot(gap.across);
         let (cosine, sine) = if slope > 0.0 { (gap.along / slope, gap.across / slope) } else { (1.0, 0.0) };
-        let parallels = Parallels { height: gap.height, reach: self.radius * slope, cosine, sine };
+        let parallels = TiltedParallels { height: gap.height, reach: self.radius * slope, cosine, sine };
         self.whole_parallels(&parallels, requests, out);
         self.arcs(&parallels, requests, out);
-        Chart::frame(gap.frame * Mat3::new(cosine, 0.0, -sine, 0.0, 1.0, 0.0, sine, 0.0, cosine))
+        AffineMap::frame(gap.frame * Mat3::new(cosine, 0.0, -sine, 0.0, 1.0, 0.0, sine, 0.0, cosine))
     }
 
     /// The zone around the pole, between u = ±σ and ±1.
-    fn whole_parallels(&self, p: &Parallels, requests: &[MomentRequest], out: &mut [Moments]) {
+    fn whole_parallels(&self, p: &TiltedParallels, requests: &[MomentRequest], out: &mut [Moments]) {
         let (from, to) = if p.cosine > 0.0 { (p.sine, 1.0) } else { (-1.0, -p.sine) };
         if from < to {
             for (request, moments) in requests.iter().zip(out) {
@@ -78,7 +78,7 @@ impl Hemisphere {
     }
 
     /// The part where parallels cross the equator, −σ < u < σ.
-    fn arcs(&self, p: &Parallels, requests: &[MomentRequest], out: &mut [Moments]) {
+    fn arcs(&self, p: &TiltedParallels, requests: &[MomentRequest], out: &mut [Moments]) {
         /// Arcs that grow over less than this angle ψ change no moment by more than its square.
         const FINEST: f64 = 1e-6;
         if p.sine <= 0.0 {
@@ -101,7 +101,7 @@ impl Hemisphere {
         let upper = GradedInterval { from: PI, to: FRAC_PI_2, width: opening };
         let upper = (last > FRAC_PI_2).then(|| upper.nodes(upper.points(&below)));
         let nodes = lower.nodes(lower.points(&below)).chain(upper.into_iter().flatten());
-        let sums = dispatch(Sweep { parallels: p, nodes, gap: (near, reach), integrand: &integrand });
+        let sums = dispatch(ArcSweep { parallels: p, nodes, gap: (near, reach), integrand: &integrand });
         for ((sums, request), moments) in sums.iter().zip(requests).zip(out) {
             self.collect(&sums.map(|lanes| lanes.iter().sum()), request.order, moments);
         }
@@ -130,14 +130,14 @@ impl Hemisphere {
 }
 
 /// The pass over the arcs, the gap being gap.0 + gap.1 (1 − cos ψ): compiled for each instruction set.
-struct Sweep<'a, Nodes> {
-    parallels: &'a Parallels,
+struct ArcSweep<'a, Nodes> {
+    parallels: &'a TiltedParallels,
     nodes: Nodes,
     gap: (f64, f64),
     integrand: &'a Integrand,
 }
 
-impl<Nodes: Iterator<Item = Node>> WithSimd for Sweep<'_, Nodes> {
+impl<Nodes: Iterator<Item = QuadratureNode>> WithSimd for ArcSweep<'_, Nodes> {
     type Output = [[Lane; 13]; GROUP];
 
     #[inline(always)]
@@ -169,7 +169,7 @@ impl<Nodes: Iterator<Item = Node>> WithSimd for Sweep<'_, Nodes> {
 /// Moments of the arc at ψ of the unit sphere, weight included, of Z = u c + √(1−u²)(cos φ e₁ + sin φ e₂): 1; x, z; xx,
 /// yy, xz, zz; xxx, xyy, xxz, yyz, xzz, zzz.
 #[inline(always)]
-fn arc(p: &Parallels, sin: f64, cos: f64, weight: f64) -> [f64; 13] {
+fn arc(p: &TiltedParallels, sin: f64, cos: f64, weight: f64) -> [f64; 13] {
     let u = -p.sine * cos;
     // √(1−u²) times the cosine and the sine of α.
     let (x, y) = (p.cosine * cos, sin);

@@ -4,7 +4,7 @@
 //! **support point** in a direction a, arg max a·Y, from which the smallest gap and the fastest point follow; its
 //! **area**. Frames: origin at the centre of symmetry, axis along z. This module knows no body and no law.
 //!
-//! Moments are summed in whatever frame makes them sparse; the `Chart` that a primitive returns leads back.
+//! Moments are summed in whatever frame makes them sparse; the `AffineMap` that a primitive returns leads back.
 
 mod cone;
 mod cylinder;

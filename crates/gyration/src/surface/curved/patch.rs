@@ -5,7 +5,7 @@
 //! gap, and the fastest point by an ascent: the speed |v + A X| is convex in X, so that replacing X by the support
 //! point along its gradient Aᵀ(v + A X) never lowers it.
 
-use super::half_plane::Chart;
+use super::half_plane::AffineMap;
 use super::rules::integrand::GROUP;
 use super::rules::weight::{AREA, Deformed, Weighted, Weights};
 use super::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Sphere, Torus};
@@ -93,7 +93,7 @@ impl Patch {
         for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
             let mut sums = [Moments::default(); GROUP];
             let sums = &mut sums[..requests.len()];
-            let chart = match &self.primitive {
+            let map = match &self.primitive {
                 Primitive::Sphere(p) => {
                     // A sphere has no attitude, and is so cheap that a change of frame would double its cost.
                     p.add_moments(&self.offset, field, requests, out);
@@ -106,7 +106,7 @@ impl Patch {
                 Primitive::ConeWall(p) => p.moments(&own, requests, sums),
                 Primitive::Torus(p) => p.moments(&own, requests, sums),
             };
-            let (linear, offset) = self.chart_in_body(&chart);
+            let (linear, offset) = self.map_to_body(&map);
             for ((sum, request), moments) in sums.iter().zip(requests).zip(out) {
                 moments.add(&sum.transformed(&linear, &offset, request.order), request.order);
             }
@@ -182,7 +182,7 @@ impl Patch {
         // Takes the reference normal in the own frame to the current area vector.
         let deformed = Deformed { field: own, cofactor: cofactor * self.rotation, weights };
         let mut sums = [[Moments::default(); GROUP]; W];
-        let chart = match &self.primitive {
+        let map = match &self.primitive {
             Primitive::Sphere(p) => p.deformed_moments(&deformed, requests, &mut sums),
             Primitive::Hemisphere(p) => p.deformed_moments(&deformed, requests, &mut sums),
             Primitive::Ellipsoid(p) => p.deformed_moments(&deformed, requests, &mut sums),
@@ -191,16 +191,16 @@ impl Patch {
             Primitive::ConeWall(p) => p.deformed_moments(&deformed, requests, &mut sums),
             Primitive::Torus(p) => p.deformed_moments(&deformed, requests, &mut sums),
         };
-        let (linear, offset) = self.chart_in_body(&chart);
+        let (linear, offset) = self.map_to_body(&map);
         for (sum, request) in sums.iter_mut().flat_map(|sums| sums.iter_mut().zip(requests)) {
             *sum = sum.transformed(&linear, &offset, request.order);
         }
         sums
     }
 
-    /// The linear map and the offset that lead from a chart to the body's frame.
-    fn chart_in_body(&self, chart: &Chart) -> (Mat3, Vec3) {
-        (self.rotation * chart.linear, self.offset + self.rotation * chart.offset)
+    /// The linear part and the offset of a primitive's map, on to the body's frame.
+    fn map_to_body(&self, map: &AffineMap) -> (Mat3, Vec3) {
+        (self.rotation * map.linear, self.offset + self.rotation * map.offset)
     }
 
     /// Refuses a field whose smallest gap on the patch is not a positive finite number beyond rounding.

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use pulp::{Simd, WithSimd};
 
 use super::cylinder::circle_support;
-use super::half_plane::{Chart, HalfPlane, TiltedGap, mirror};
+use super::half_plane::{AffineMap, HalfPlane, TiltedGap, mirror};
 use super::rules::integrand::{GROUP, Integrand, LANES};
 use super::rules::ring::{Demand, RingNode, Rings};
 use super::sphere::unit_or_z;
@@ -42,7 +42,7 @@ impl Torus {
     }
 
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Chart {
+    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
         let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
@@ -53,7 +53,7 @@ impl Torus {
         let smallest = gap.height - self.major_radius * gap.across - self.minor_radius * gap.along.hypot(gap.across);
         let cut = integrand.cut(smallest, 1.0);
         let nodes = outer.nodes(near, far);
-        dispatch(Sweep {
+        dispatch(TubeSweep {
             torus: self,
             gap: &gap,
             nodes,
@@ -64,7 +64,7 @@ impl Torus {
             out: &mut *out,
         });
         out.iter_mut().for_each(mirror);
-        Chart::frame(gap.frame)
+        AffineMap::frame(gap.frame)
     }
 
     /// Gaps in the ratio (c − 1)/(c + 1), c the smaller root cos φ of a² = b².
@@ -142,7 +142,7 @@ impl Torus {
 }
 
 /// The circles around the tube in all half-planes: compiled for each instruction set.
-struct Sweep<'a, Nodes> {
+struct TubeSweep<'a, Nodes> {
     torus: &'a Torus,
     gap: &'a TiltedGap,
     nodes: Nodes,
@@ -154,7 +154,7 @@ struct Sweep<'a, Nodes> {
     out: &'a mut [Moments],
 }
 
-impl<Nodes: Iterator<Item = RingNode>> WithSimd for Sweep<'_, Nodes> {
+impl<Nodes: Iterator<Item = RingNode>> WithSimd for TubeSweep<'_, Nodes> {
     type Output = ();
 
     #[inline(always)]

@@ -20,7 +20,7 @@ use crate::simd::WIDTH;
 use crate::surface::{GapClosed, GapField, MomentRequest, Moments, OrientedMoments};
 use crate::tensor::{Mat3, Vec3};
 use oriented::add_oriented;
-use pack::{Pack, Points};
+use pack::{PointPack, TrianglePack};
 use sums::{add_deformed, add_moments, smallest_gap};
 
 /// Triangles with their areas, ready for contact integrals.
@@ -30,8 +30,8 @@ pub struct Facets {
     vertices: Vec<Vec3>,
     /// Triangles as places of vertices.
     triangles: Vec<[usize; 3]>,
-    points: Vec<Points>,
-    packs: Vec<Pack>,
+    points: Vec<PointPack>,
+    packs: Vec<TrianglePack>,
     area: f64,
 }
 
@@ -114,8 +114,8 @@ impl Facets {
             areas.push(([a, b, c], area_vector));
             facets.area += 0.5 * area_vector.norm();
         }
-        facets.points = facets.vertices.chunks(WIDTH).map(Points::new).collect();
-        facets.packs = areas.chunks(WIDTH).map(Pack::new).collect();
+        facets.points = facets.vertices.chunks(WIDTH).map(PointPack::new).collect();
+        facets.packs = areas.chunks(WIDTH).map(TrianglePack::new).collect();
         facets
     }
 
@@ -162,6 +162,7 @@ impl Facets {
     }
 
     /// Whether the gaps of all vertices are finite and above a floor [m].
+    #[inline]
     pub(super) fn are_above(&self, field: &GapField, floor: f64) -> bool {
         /// Vertices from which on registers pay.
         const MANY: usize = 32;

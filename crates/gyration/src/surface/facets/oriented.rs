@@ -7,9 +7,9 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::pack::{Pack, SplatField, Vector};
+use super::pack::{SplatField, TrianglePack, Vector};
 use super::plan::{BATCH, FacetPlan, MOST_ROWS};
-use super::sums::{Gaps, Request, SplatMatrix, add_folded, length};
+use super::sums::{FacetRequest, GapsSeen, SplatMatrix, add_folded, length};
 use super::triangle::Triangle;
 use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
 use crate::surface::oriented::{FOURTH, PAIRS};
@@ -18,13 +18,13 @@ use crate::tensor::Mat3;
 
 /// Adds the oriented moments of a plan to `out`; leaves it alone and returns false if a gap is not positive and finite.
 pub(super) fn add_oriented(
-    packs: &[Pack],
+    packs: &[TrianglePack],
     field: &GapField,
     cofactor: &Mat3,
     plan: &FacetPlan,
     out: &mut [OrientedMoments],
 ) -> bool {
-    let request = Request { packs, field, plan, cofactor };
+    let request = FacetRequest { packs, field, plan, cofactor };
     match plan.row_count() {
         0..=16 => in_rows::<16>(&request, out),
         17..=48 => in_rows::<48>(&request, out),
@@ -32,13 +32,13 @@ pub(super) fn add_oriented(
     }
 }
 
-fn in_rows<const ROWS: usize>(request: &Request, out: &mut [OrientedMoments]) -> bool {
+fn in_rows<const ROWS: usize>(request: &FacetRequest, out: &mut [OrientedMoments]) -> bool {
     let mut own = [[0.0; WIDTH]; ROWS];
     let mut pairs = [[[0.0; WIDTH]; ROWS]; PAIRS.len()];
     let mut fourth = [[[0.0; WIDTH]; FOURTH.len()]; BATCH];
     let [a, b, c, d, e, f] = &mut pairs;
     let views: [&mut [Row]; PAIRS.len()] = [a, b, c, d, e, f];
-    if !dispatch(Integrate { request, own: &mut own, pairs: views, fourth: &mut fourth }) {
+    if !dispatch(OrientedPass { request, own: &mut own, pairs: views, fourth: &mut fourth }) {
         return false;
     }
     for (place, (moments, fourth)) in out.iter_mut().zip(&fourth).enumerate() {
@@ -54,8 +54,8 @@ fn in_rows<const ROWS: usize>(request: &Request, out: &mut [OrientedMoments]) ->
 }
 
 /// The pass over packs; whether every gap is positive and finite.
-struct Integrate<'a> {
-    request: &'a Request<'a>,
+struct OrientedPass<'a> {
+    request: &'a FacetRequest<'a>,
     /// Rows of one register of triangles.
     own: &'a mut [Row],
     /// The same weighted with the pairs, summed over all triangles.
@@ -63,15 +63,15 @@ struct Integrate<'a> {
     fourth: &'a mut [[Row; FOURTH.len()]; BATCH],
 }
 
-impl WithSimd for Integrate<'_> {
+impl WithSimd for OrientedPass<'_> {
     type Output = bool;
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> bool {
-        let Request { packs, field, plan, cofactor } = *self.request;
+        let FacetRequest { packs, field, plan, cofactor } = *self.request;
         let field = SplatField::new(simd, field);
         let cofactor = SplatMatrix::new(simd, cofactor);
-        let mut seen = Gaps::new(simd);
+        let mut seen = GapsSeen::new(simd);
         for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
                 let vector = cofactor.image(&pack.area_vectors(simd, register));
@@ -88,7 +88,7 @@ impl WithSimd for Integrate<'_> {
     }
 }
 
-impl Integrate<'_> {
+impl OrientedPass<'_> {
     /// Adds the rows of one register of triangles, weighted with the products m_a m_b and their squares.
     #[inline(always)]
     fn add<S: Simd>(&mut self, products: &[F64s<S>; PAIRS.len()], used: usize, register: usize) {

@@ -16,19 +16,19 @@ pub(super) type Vector<S> = [F64s<S>; 3];
 
 /// Eight points.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Points(pub [Row; 3]);
+pub(super) struct PointPack(pub [Row; 3]);
 
 /// Eight triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(super) struct Pack {
-    corners: [Points; 3],
+pub(super) struct TrianglePack {
+    corners: [PointPack; 3],
     twice_area: Row,
-    area_vectors: Points,
+    area_vectors: PointPack,
     used: usize,
 }
 
-impl Points {
+impl PointPack {
     /// The points given, at most eight, the last one repeated.
     pub fn new(points: &[Vec3]) -> Self {
         let mut rows = [[0.0; WIDTH]; 3];
@@ -50,12 +50,12 @@ impl Points {
     }
 }
 
-impl Pack {
+impl TrianglePack {
     /// The triangles given by corners and twice the area vector [m²]; at most eight.
     pub fn new(triangles: &[([Vec3; 3], Vec3)]) -> Self {
         let corner = |k: usize| {
             let points: Vec<Vec3> = triangles.iter().map(|(corners, _)| corners[k]).collect();
-            Points::new(&points)
+            PointPack::new(&points)
         };
         let (mut twice_area, mut area_vectors) = ([0.0; WIDTH], [Vec3::zeros(); WIDTH]);
         for (place, (_, vector)) in triangles.iter().enumerate().take(WIDTH) {
@@ -64,7 +64,7 @@ impl Pack {
         Self {
             corners: [corner(0), corner(1), corner(2)],
             twice_area,
-            area_vectors: Points::new(&area_vectors),
+            area_vectors: PointPack::new(&area_vectors),
             used: triangles.len(),
         }
     }

@@ -12,7 +12,7 @@ use pulp::Simd;
 
 use super::integer::IntegerExponent;
 use super::split::SplitKernel;
-use super::triangle::{COMPONENTS, Levels, Triangle, Weights, add_tensors};
+use super::triangle::{COMPONENTS, LevelSplit, Triangle, Weights, add_tensors};
 use crate::simd::{F64s, Row};
 use crate::surface::{Kernel, MomentRequest};
 
@@ -28,7 +28,7 @@ const SAME_EXPONENT: f64 = 1e-14;
 /// The way to the weights of one request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a plan may live on the stack: a call must not allocate")]
-enum Method {
+enum WeightMethod {
     /// From the weights of the step before.
     Lowered,
     Integer(IntegerExponent),
@@ -37,8 +37,8 @@ enum Method {
 
 /// One request: how its weights are found, and where its moments go.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Step {
-    method: Method,
+struct PlannedRequest {
+    method: WeightMethod,
     order: usize,
     /// The first of its rows of sums.
     row: usize,
@@ -47,7 +47,7 @@ struct Step {
 /// At most `BATCH` requests in the order in which they are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FacetPlan {
-    steps: [Step; BATCH],
+    steps: [PlannedRequest; BATCH],
     count: usize,
     /// For each request its order and the first of its rows.
     places: [(usize, usize); BATCH],
@@ -60,7 +60,7 @@ impl FacetPlan {
     /// Plans at most `BATCH` requests.
     pub fn new(requests: &[MomentRequest]) -> Self {
         let requests = &requests[..requests.len().min(BATCH)];
-        let unused = Step { method: Method::Lowered, order: 0, row: 0 };
+        let unused = PlannedRequest { method: WeightMethod::Lowered, order: 0, row: 0 };
         let mut plan = Self {
             steps: [unused; BATCH],
             count: 0,
@@ -79,20 +79,20 @@ impl FacetPlan {
                 planned[place] = true;
                 plan.push(place, method, requests[place].order.min(3));
                 next = (0..requests.len()).find(|&to| !planned[to] && lowers(&requests[place], &requests[to]));
-                method = Method::Lowered;
+                method = WeightMethod::Lowered;
             }
         }
         plan
     }
 
     /// Appends the step of a request.
-    fn push(&mut self, request: usize, method: Method, order: usize) {
-        if let Method::Split(split) = &method {
+    fn push(&mut self, request: usize, method: WeightMethod, order: usize) {
+        if let WeightMethod::Split(split) = &method {
             self.splits = true;
             self.needs_logs |= split.needs_logs();
         }
         self.places[request] = (order, self.row_count);
-        self.steps[self.count] = Step { method, order, row: self.row_count };
+        self.steps[self.count] = PlannedRequest { method, order, row: self.row_count };
         self.row_count += COMPONENTS[order];
         self.count += 1;
     }
@@ -119,7 +119,7 @@ impl FacetPlan {
         let levels = if self.splits { Some(triangle.levels(self.needs_logs)) } else { None };
         for step in &self.steps[..self.count] {
             let Some(sums) = sums.get_mut(step.row..) else { return };
-            let at = Place { triangle, levels: levels.as_ref(), register };
+            let at = RegisterOfTriangles { triangle, levels: levels.as_ref(), register };
             match step.order {
                 0 => step.add::<S, 0>(&at, &mut weights, sums),
                 1 => step.add::<S, 1>(&at, &mut weights, sums),
@@ -131,12 +131,12 @@ impl FacetPlan {
 }
 
 /// The method of a request by itself.
-fn own_method(request: &MomentRequest) -> Method {
+fn own_method(request: &MomentRequest) -> WeightMethod {
     let integer = match request.kernel {
         Kernel::Power(exponent) => IntegerExponent::new(exponent, request.order.min(3)),
         Kernel::Log => None,
     };
-    integer.map_or_else(|| Method::Split(SplitKernel::new(request)), Method::Integer)
+    integer.map_or_else(|| WeightMethod::Split(SplitKernel::new(request)), WeightMethod::Integer)
 }
 
 /// Whether a request has the exponent of another plus one, and a higher order.
@@ -150,19 +150,24 @@ fn lowers(from: &MomentRequest, to: &MomentRequest) -> bool {
 }
 
 /// The triangles of a register, which of the registers of a row it is, and what a split needs.
-struct Place<'a, S: Simd> {
+struct RegisterOfTriangles<'a, S: Simd> {
     triangle: &'a Triangle<S>,
-    levels: Option<&'a Levels<S>>,
+    levels: Option<&'a LevelSplit<S>>,
     register: usize,
 }
 
-impl Step {
+impl PlannedRequest {
     /// Finds the weights of its request, up to ORDER, and adds the moments to rows of sums.
     #[inline(always)]
-    fn add<S: Simd, const ORDER: usize>(&self, at: &Place<S>, weights: &mut Weights<S>, sums: &mut [Row]) {
+    fn add<S: Simd, const ORDER: usize>(
+        &self,
+        at: &RegisterOfTriangles<S>,
+        weights: &mut Weights<S>,
+        sums: &mut [Row],
+    ) {
         match (&self.method, at.levels) {
-            (Method::Integer(integer), _) => integer.weights::<S, ORDER>(at.triangle, weights),
-            (Method::Split(split), Some(levels)) => split.weights::<S, ORDER>(at.triangle, levels, weights),
+            (WeightMethod::Integer(integer), _) => integer.weights::<S, ORDER>(at.triangle, weights),
+            (WeightMethod::Split(split), Some(levels)) => split.weights::<S, ORDER>(at.triangle, levels, weights),
             _ => lower::<S, ORDER>(weights, at.triangle),
         }
         add_tensors::<S, ORDER>(sums, weights, at.triangle, at.register);

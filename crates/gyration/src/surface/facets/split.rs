@@ -12,7 +12,7 @@
 
 use pulp::Simd;
 
-use super::triangle::{Levels, Triangle, Weights};
+use super::triangle::{LevelSplit, Triangle, Weights};
 use crate::simd::{F64s, SplitExponent, integer_power};
 use crate::surface::line::{End, HIGHEST_DEGREE, LineKernel, LineMoments, line_moments};
 use crate::surface::{Kernel, MomentRequest};
@@ -45,7 +45,7 @@ impl SplitKernel {
     pub fn weights<S: Simd, const ORDER: usize>(
         &self,
         triangle: &Triangle<S>,
-        levels: &Levels<S>,
+        levels: &LevelSplit<S>,
         weights: &mut Weights<S>,
     ) {
         let ends = [self.end(triangle, levels, 0), self.end(triangle, levels, 1), self.end(triangle, levels, 2)];
@@ -61,7 +61,7 @@ impl SplitKernel {
     }
 
     #[inline(always)]
-    fn end<S: Simd>(&self, triangle: &Triangle<S>, levels: &Levels<S>, corner: usize) -> End<S> {
+    fn end<S: Simd>(&self, triangle: &Triangle<S>, levels: &LevelSplit<S>, corner: usize) -> End<S> {
         let (gap, inverse, log) = (triangle.gaps[corner], triangle.inverses[corner], levels.logs[corner]);
         let power = match self.line.integer {
             Some(exponent) => integer_power(gap, inverse, exponent),

@@ -4,7 +4,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::pack::{Pack, Points, SplatField, Vector};
+use super::pack::{PointPack, SplatField, TrianglePack, Vector};
 use super::plan::{FacetPlan, MOST_ROWS};
 use super::triangle::Triangle;
 use crate::simd::{F64s, Row, WIDTH, dispatch, fold, registers_mut};
@@ -13,22 +13,22 @@ use crate::tensor::{Mat3, Vec3};
 
 /// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and
 /// finite.
-pub(super) fn add_moments(packs: &[Pack], field: &GapField, plan: &FacetPlan, out: &mut [Moments]) -> bool {
-    add::<false>(&Request { packs, field, plan, cofactor: &Mat3::identity() }, out)
+pub(super) fn add_moments(packs: &[TrianglePack], field: &GapField, plan: &FacetPlan, out: &mut [Moments]) -> bool {
+    add::<false>(&FacetRequest { packs, field, plan, cofactor: &Mat3::identity() }, out)
 }
 
 /// The same per deformed area, given the cofactor of P.
 pub(super) fn add_deformed(
-    packs: &[Pack],
+    packs: &[TrianglePack],
     field: &GapField,
     cofactor: &Mat3,
     plan: &FacetPlan,
     out: &mut [Moments],
 ) -> bool {
-    add::<true>(&Request { packs, field, plan, cofactor }, out)
+    add::<true>(&FacetRequest { packs, field, plan, cofactor }, out)
 }
 
-fn add<const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
+fn add<const DEFORMED: bool>(request: &FacetRequest, out: &mut [Moments]) -> bool {
     // Few rows need not be cleared where few are used.
     match request.plan.row_count() {
         0..=16 => in_rows::<16, DEFORMED>(request, out),
@@ -37,9 +37,9 @@ fn add<const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
     }
 }
 
-fn in_rows<const ROWS: usize, const DEFORMED: bool>(request: &Request, out: &mut [Moments]) -> bool {
+fn in_rows<const ROWS: usize, const DEFORMED: bool>(request: &FacetRequest, out: &mut [Moments]) -> bool {
     let mut rows = [[0.0; WIDTH]; ROWS];
-    let admissible = dispatch(Integrate::<DEFORMED> { request, rows: &mut rows });
+    let admissible = dispatch(MomentPass::<DEFORMED> { request, rows: &mut rows });
     if admissible {
         for (place, moments) in out.iter_mut().enumerate() {
             let (order, row) = request.plan.place(place);
@@ -69,8 +69,8 @@ pub(super) fn add_folded(moments: &mut Moments, rows: &[Row], order: usize) {
 
 /// What is integrated over which packs.
 #[derive(Clone, Copy)]
-pub(super) struct Request<'a> {
-    pub packs: &'a [Pack],
+pub(super) struct FacetRequest<'a> {
+    pub packs: &'a [TrianglePack],
     pub field: &'a GapField,
     pub plan: &'a FacetPlan,
     /// det P P⁻ᵀ, for deformed areas.
@@ -78,20 +78,20 @@ pub(super) struct Request<'a> {
 }
 
 /// The moments of a plan over packs; whether every gap is positive and finite.
-struct Integrate<'a, const DEFORMED: bool> {
-    request: &'a Request<'a>,
+struct MomentPass<'a, const DEFORMED: bool> {
+    request: &'a FacetRequest<'a>,
     rows: &'a mut [Row],
 }
 
-impl<const DEFORMED: bool> WithSimd for Integrate<'_, DEFORMED> {
+impl<const DEFORMED: bool> WithSimd for MomentPass<'_, DEFORMED> {
     type Output = bool;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Request { packs, field, plan, cofactor } = *self.request;
+        let FacetRequest { packs, field, plan, cofactor } = *self.request;
         let field = SplatField::new(simd, field);
         let cofactor = SplatMatrix::new(simd, cofactor);
-        let mut seen = Gaps::new(simd);
+        let mut seen = GapsSeen::new(simd);
         for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
                 let twice_area = if DEFORMED {
@@ -110,12 +110,12 @@ impl<const DEFORMED: bool> WithSimd for Integrate<'_, DEFORMED> {
 
 /// The gaps that a pass has met.
 #[derive(Clone, Copy)]
-pub(super) struct Gaps<S: Simd> {
+pub(super) struct GapsSeen<S: Simd> {
     lowest: F64s<S>,
     total: F64s<S>,
 }
 
-impl<S: Simd> Gaps<S> {
+impl<S: Simd> GapsSeen<S> {
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         Self { lowest: F64s::splat(simd, f64::INFINITY), total: F64s::splat(simd, 0.0) }
@@ -174,12 +174,12 @@ pub(super) fn length<S: Simd>(v: &Vector<S>) -> F64s<S> {
 }
 
 /// The smallest gap and the place of the vertex where it is, the first of several; none if one is not finite.
-pub(super) fn smallest_gap(points: &[Points], field: &GapField) -> Option<(f64, usize)> {
+pub(super) fn smallest_gap(points: &[PointPack], field: &GapField) -> Option<(f64, usize)> {
     dispatch(Smallest { points, field })
 }
 
 struct Smallest<'a> {
-    points: &'a [Points],
+    points: &'a [PointPack],
     field: &'a GapField,
 }
 
@@ -232,9 +232,9 @@ mod tests {
     fn evaluate(arch: Arch, facets: &Facets, field: &GapField, plan: &FacetPlan) -> (Vec<f64>, Option<(f64, usize)>) {
         let mut rows = [[0.0; WIDTH]; MOST_ROWS];
         let cofactor = Mat3::new(1.2, 0.1, -0.2, 0.0, 0.9, 0.15, 0.1, -0.1, 0.8);
-        let request = Request { packs: &facets.packs, field, plan, cofactor: &cofactor };
-        assert!(arch.dispatch(Integrate::<false> { request: &request, rows: &mut rows }));
-        assert!(arch.dispatch(Integrate::<true> { request: &request, rows: &mut rows }));
+        let request = FacetRequest { packs: &facets.packs, field, plan, cofactor: &cofactor };
+        assert!(arch.dispatch(MomentPass::<false> { request: &request, rows: &mut rows }));
+        assert!(arch.dispatch(MomentPass::<true> { request: &request, rows: &mut rows }));
         (rows.iter().map(fold).collect(), arch.dispatch(Smallest { points: &facets.points, field }))
     }
 

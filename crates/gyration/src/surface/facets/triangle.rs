@@ -9,7 +9,7 @@
 
 use pulp::Simd;
 
-use super::pack::{Pack, SplatField, Vector};
+use super::pack::{SplatField, TrianglePack, Vector};
 use crate::simd::{F64s, Log2, Row};
 
 /// J_ab for (a, b) = 00, 10, 01, 20, 11, 02, 30, 21, 12, 03; those above the wanted order have no meaning.
@@ -35,7 +35,7 @@ pub(super) struct Triangle<S: Simd> {
 
 /// What the split of a triangle at its middle level needs besides.
 #[derive(Clone, Copy)]
-pub(super) struct Levels<S: Simd> {
+pub(super) struct LevelSplit<S: Simd> {
     /// τ = (d₁ − d₀)/(d₂ − d₀) and 1 − τ.
     pub shares: [F64s<S>; 2],
     /// Logarithms of the gaps.
@@ -45,7 +45,7 @@ pub(super) struct Levels<S: Simd> {
 impl<S: Simd> Triangle<S> {
     /// Sorts the corners of the triangles in one register of a pack; their integrals count with this area.
     #[inline(always)]
-    pub fn new(pack: &Pack, register: usize, field: &SplatField<S>, twice_area: F64s<S>) -> Self {
+    pub fn new(pack: &TrianglePack, register: usize, field: &SplatField<S>, twice_area: F64s<S>) -> Self {
         let simd = twice_area.simd;
         let [mut a, mut b, mut c] = pack.corners(simd, register);
         let (mut low, mut middle, mut high) = (field.gap(&a), field.gap(&b), field.gap(&c));
@@ -63,13 +63,13 @@ impl<S: Simd> Triangle<S> {
 
     /// Shares and, if they are read, logarithms of the gaps.
     #[inline(always)]
-    pub fn levels(&self, needs_logs: bool) -> Levels<S> {
+    pub fn levels(&self, needs_logs: bool) -> LevelSplit<S> {
         let [low, middle, high] = self.gaps;
         let simd = low.simd;
         let range = high - low;
         let (flat, half) = (F64s::splat(simd, 0.0), F64s::splat(simd, 0.5));
         let proper = flat.less_than(range);
-        Levels {
+        LevelSplit {
             shares: [proper.select((middle - low) / range, half), proper.select((high - middle) / range, half)],
             logs: if needs_logs {
                 [Log2::new(low), Log2::new(middle), Log2::new(high)]

@@ -6,10 +6,10 @@
 //! `features` is asked with the singular values of B and the lowest direction f = −Am/|Am| in the axes of BᵀB, and
 //! `parallels` sums as ever.
 
-use super::super::half_plane::Chart;
+use super::super::half_plane::AffineMap;
 use super::super::rules::features::Features;
 use super::super::rules::integrand::Integrand;
-use super::super::rules::parallels::{AreaElement, Sums, Sweep};
+use super::super::rules::parallels::{AreaElement, ParallelSums, ParallelSweep};
 use super::super::rules::weight::{Deformed, Weighted, extra_digits};
 use super::super::sphere::frame_along;
 use super::super::{Ellipsoid, Sphere};
@@ -24,7 +24,7 @@ impl Ellipsoid {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         let a = &self.semi_axes;
         let image = a.component_mul(&deformed.field.direction);
         let frame = frame_along(&-image);
@@ -41,11 +41,11 @@ impl Ellipsoid {
         let (gap, element, integrand) = ((near, reach), &element, &integrand);
         for (out, factors) in out.iter_mut().zip(deformed.weights.factors) {
             let factors = &factors.map(|row| vectors.row(row).transpose());
-            let mut sums = Sums::ZERO;
-            dispatch(Sweep { nodes: features.nodes(), element, gap, integrand, factors, sums: &mut sums });
+            let mut sums = ParallelSums::ZERO;
+            dispatch(ParallelSweep { nodes: features.nodes(), element, gap, integrand, factors, sums: &mut sums });
             sums.collect_all(requests, out);
         }
-        Chart::frame(Mat3::from_diagonal(a) * frame)
+        AffineMap::frame(Mat3::from_diagonal(a) * frame)
     }
 }
 
@@ -56,7 +56,7 @@ impl Sphere {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         Ellipsoid { semi_axes: Vec3::repeat(self.radius) }.deformed_moments(deformed, requests, out)
     }
 }

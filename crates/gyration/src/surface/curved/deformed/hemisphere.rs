@@ -10,11 +10,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::super::Hemisphere;
-use super::super::half_plane::{Chart, TiltedGap};
+use super::super::half_plane::{AffineMap, TiltedGap};
 use super::super::rules::features::{Dip, dips};
 use super::super::rules::graded::{GradedInterval, Singularity, gauss_legendre};
 use super::super::rules::integrand::Integrand;
-use super::super::rules::parallels::{AreaElement, Sums};
+use super::super::rules::parallels::{AreaElement, ParallelSums};
 use super::super::rules::points::PointSums;
 use super::super::rules::weight::{Deformed, Weighted, Weights, extra_digits};
 use super::ellipsoid::principal_axes;
@@ -32,7 +32,7 @@ impl Hemisphere {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         let gap = TiltedGap::new(&deformed.field);
         let slope = gap.along.hypot(gap.across);
         let (cosine, sine) = if slope > 0.0 { (gap.along / slope, gap.across / slope) } else { (1.0, 0.0) };
@@ -40,7 +40,7 @@ impl Hemisphere {
         let vectors = deformed.cofactor * frame;
         let (squares, axes) = principal_axes(&vectors.tr_mul(&vectors));
         let integrand = Integrand::new(requests);
-        let sweep = Sweep {
+        let sweep = HemisphereSweep {
             radius: self.radius,
             height: gap.height,
             reach: self.radius * slope,
@@ -57,12 +57,12 @@ impl Hemisphere {
         for (sums, out) in dispatch(sweep).iter().zip(out) {
             sums.collect_all(requests, out);
         }
-        Chart::frame(frame)
+        AffineMap::frame(frame)
     }
 }
 
 /// The pass over whole parallels and arcs.
-struct Sweep<'a, const N: usize, const W: usize> {
+struct HemisphereSweep<'a, const N: usize, const W: usize> {
     radius: f64,
     /// g₀ and R|m| [m].
     height: f64,
@@ -81,11 +81,11 @@ struct Sweep<'a, const N: usize, const W: usize> {
     integrand: &'a Integrand,
 }
 
-impl<const N: usize, const W: usize> WithSimd for Sweep<'_, N, W> {
-    type Output = [Sums; W];
+impl<const N: usize, const W: usize> WithSimd for HemisphereSweep<'_, N, W> {
+    type Output = [ParallelSums; W];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [Sums; W] {
+    fn with_simd<S: Simd>(self, _: S) -> [ParallelSums; W] {
         let mut sums = PointSums::new(self.integrand);
         self.whole_parallels(&mut sums);
         self.arcs(&mut sums);
@@ -93,7 +93,7 @@ impl<const N: usize, const W: usize> WithSimd for Sweep<'_, N, W> {
     }
 }
 
-impl<const N: usize, const W: usize> Sweep<'_, N, W> {
+impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
     const DIGITS: f64 = DIGITS + extra_digits::<N>();
 
     /// Adds the point of the unit sphere at the height u along c and the azimuth φ.

@@ -9,10 +9,10 @@
 use pulp::{Simd, WithSimd};
 
 use super::super::Torus;
-use super::super::half_plane::{Chart, TiltedGap};
+use super::super::half_plane::{AffineMap, TiltedGap};
 use super::super::rules::integrand::Integrand;
 use super::super::rules::own_ring::{Dips, OwnRing, WEIGHT_DIGITS};
-use super::super::rules::parallels::Sums;
+use super::super::rules::parallels::ParallelSums;
 use super::super::rules::points::PointSums;
 use super::super::rules::ring::Demand;
 use super::super::rules::weight::{Deformed, Weighted, Weights, extra_digits};
@@ -28,16 +28,17 @@ impl Torus {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         let gap = TiltedGap::new(&deformed.field);
         let integrand = Integrand::new(requests);
         let vectors = deformed.cofactor * gap.frame;
         let dips = dips(&vectors, &integrand, extra_digits::<N>());
-        let sweep = Sweep { torus: self, gap: &gap, vectors, weights: &deformed.weights, integrand: &integrand, dips };
+        let sweep =
+            TorusSweep { torus: self, gap: &gap, vectors, weights: &deformed.weights, integrand: &integrand, dips };
         for (sums, out) in dispatch(sweep).iter().zip(out) {
             sums.collect_all(requests, out);
         }
-        Chart::frame(gap.frame)
+        AffineMap::frame(gap.frame)
     }
 }
 
@@ -50,7 +51,7 @@ pub(super) fn dips(vectors: &Mat3, integrand: &Integrand, extra: f64) -> Dips {
 }
 
 /// The pass over half-planes and around the tube in each.
-struct Sweep<'a, const N: usize, const W: usize> {
+struct TorusSweep<'a, const N: usize, const W: usize> {
     torus: &'a Torus,
     gap: &'a TiltedGap,
     vectors: Mat3,
@@ -59,11 +60,11 @@ struct Sweep<'a, const N: usize, const W: usize> {
     dips: Dips,
 }
 
-impl<const N: usize, const W: usize> WithSimd for Sweep<'_, N, W> {
-    type Output = [Sums; W];
+impl<const N: usize, const W: usize> WithSimd for TorusSweep<'_, N, W> {
+    type Output = [ParallelSums; W];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [Sums; W] {
+    fn with_simd<S: Simd>(self, _: S) -> [ParallelSums; W] {
         let (torus, gap, integrand) = (self.torus, self.gap, self.integrand);
         let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
         let smallest = gap.height - torus.major_radius * gap.across - torus.minor_radius * gap.along.hypot(gap.across);
@@ -87,7 +88,7 @@ impl<const N: usize, const W: usize> WithSimd for Sweep<'_, N, W> {
     }
 }
 
-impl<const N: usize, const W: usize> Sweep<'_, N, W> {
+impl<const N: usize, const W: usize> TorusSweep<'_, N, W> {
     /// Adds the circles of the tube in the half-planes at ±φ, given (cos φ, sin φ).
     #[inline(always)]
     fn around_tube(&self, (near, reach): (f64, f64), (cos, sin): (f64, f64), weight: f64, sums: &mut PointSums<W>) {

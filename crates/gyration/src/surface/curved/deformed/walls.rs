@@ -7,7 +7,7 @@
 //!
 //!   ∫ κ w y x^i z^j … ← Σ w₋ sin φ · T L_j,   T = 1, cos φ, cos²φ, sin²φ.
 
-use super::super::half_plane::{Chart, TiltedGap};
+use super::super::half_plane::{AffineMap, TiltedGap};
 use super::super::rules::integrand::Integrand;
 use super::super::rules::own_ring::{Dips, OwnRing, WEIGHT_DIGITS};
 use super::super::rules::parallels::AreaElement;
@@ -21,7 +21,7 @@ use crate::surface::MomentRequest;
 use crate::tensor::{Mat3, Vec3};
 
 /// A wall about e_z above a plane.
-struct Wall {
+struct DeformedWall {
     /// C in the frame of [`TiltedGap`].
     vectors: Mat3,
     /// n_r and n_z.
@@ -32,7 +32,7 @@ struct Wall {
     cut: f64,
 }
 
-impl Wall {
+impl DeformedWall {
     /// The rule around the axis for weights with N factors.
     fn ring<const N: usize>(&self, integrand: &Integrand) -> OwnRing {
         let (radial, axial) = self.normal;
@@ -67,14 +67,14 @@ impl CylinderWall {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         let gap = TiltedGap::new(&deformed.field);
         let integrand = Integrand::new(requests);
         let near_z = -0.5f64.copysign(gap.along) * self.height;
         let reach = self.radius * gap.across;
         let near = gap.height + gap.along * near_z - reach;
         let cut = integrand.cut(near, 1.5);
-        let wall = Wall { vectors: deformed.cofactor * gap.frame, normal: (1.0, 0.0), near, reach, cut };
+        let wall = DeformedWall { vectors: deformed.cofactor * gap.frame, normal: (1.0, 0.0), near, reach, cut };
         let ring = wall.ring::<N>(&integrand);
         let rulings = wall.rulings(&ring, OtherEnd::Above(gap.along.abs() * self.height));
         let weights = WallWeights { vectors: wall.area_vectors(), weights: &deformed.weights };
@@ -84,7 +84,7 @@ impl CylinderWall {
                 self.collect_odd(odd, near_z, &mut out[place]);
             }
         }
-        Chart::frame(gap.frame)
+        AffineMap::frame(gap.frame)
     }
 }
 
@@ -95,7 +95,7 @@ impl ConeWall {
         deformed: &Deformed<N, W>,
         requests: &[MomentRequest],
         out: &mut Weighted<W>,
-    ) -> Chart {
+    ) -> AffineMap {
         let gap = TiltedGap::new(&deformed.field);
         let integrand = Integrand::new(requests);
         let reach = self.radius * gap.across;
@@ -105,7 +105,7 @@ impl ConeWall {
         let cut = if cut < apex { cut } else { f64::INFINITY };
         let slant = self.radius.hypot(self.height);
         let normal = (self.height / slant, self.radius / slant);
-        let wall = Wall { vectors: deformed.cofactor * gap.frame, normal, near, reach, cut };
+        let wall = DeformedWall { vectors: deformed.cofactor * gap.frame, normal, near, reach, cut };
         let ring = wall.ring::<N>(&integrand);
         let rulings = wall.rulings(&ring, OtherEnd::Common(apex));
         let weights = WallWeights { vectors: wall.area_vectors(), weights: &deformed.weights };
@@ -115,6 +115,6 @@ impl ConeWall {
                 self.collect_odd(odd, &mut out[place]);
             }
         }
-        Chart { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
+        AffineMap { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
     }
 }

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 /// A node on [−1, 1] and its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Node {
+pub(crate) struct QuadratureNode {
     pub(crate) at: f64,
     pub(crate) weight: f64,
 }
@@ -18,15 +18,15 @@ pub(crate) struct Node {
 pub(crate) const MAX_GAUSS: usize = 128;
 
 /// The Gauss–Legendre rule of `points` nodes, clamped to 1 ..= [`MAX_GAUSS`], in increasing order.
-pub(crate) fn gauss_legendre(points: usize) -> &'static [Node] {
-    static RULES: [OnceLock<[Node; MAX_GAUSS]>; MAX_GAUSS] = [const { OnceLock::new() }; MAX_GAUSS];
+pub(crate) fn gauss_legendre(points: usize) -> &'static [QuadratureNode] {
+    static RULES: [OnceLock<[QuadratureNode; MAX_GAUSS]>; MAX_GAUSS] = [const { OnceLock::new() }; MAX_GAUSS];
     let n = points.clamp(1, MAX_GAUSS);
-    let unused = Node { at: 0.0, weight: 0.0 };
+    let unused = QuadratureNode { at: 0.0, weight: 0.0 };
     &RULES[n - 1].get_or_init(|| std::array::from_fn(|i| if i < n { legendre_node(n, i) } else { unused }))[..n]
 }
 
 /// The i-th zero of P_n and its weight 2/((1 − x²) P_n'(x)²), by Newton from Tricomi's estimate.
-fn legendre_node(n: usize, i: usize) -> Node {
+fn legendre_node(n: usize, i: usize) -> QuadratureNode {
     let count = n as f64;
     let mut x = -((i as f64 + 0.75) / (count + 0.5) * std::f64::consts::PI).cos();
     let mut slope = 0.0;
@@ -40,7 +40,7 @@ fn legendre_node(n: usize, i: usize) -> Node {
             break;
         }
     }
-    Node { at: x, weight: 2.0 / ((1.0 - x * x) * slope * slope) }
+    QuadratureNode { at: x, weight: 2.0 / ((1.0 - x * x) * slope * slope) }
 }
 
 /// P_n(x) and P_n'(x) by the recurrence k P_k = (2k − 1) x P_(k−1) − (k − 1) P_(k−2).
@@ -80,13 +80,13 @@ impl GradedInterval {
     }
 
     /// The nodes of the rule with `points` points.
-    pub(crate) fn nodes(self, points: usize) -> impl Iterator<Item = Node> {
+    pub(crate) fn nodes(self, points: usize) -> impl Iterator<Item = QuadratureNode> {
         let half = 0.5 * self.span();
         let sign = self.width.copysign(self.to - self.from);
         gauss_legendre(points).iter().map(move |node| {
             let growth = (half * (1.0 + node.at)).exp();
             let (sinh, cosh) = (0.5 * (growth - 1.0 / growth), 0.5 * (growth + 1.0 / growth));
-            Node { at: self.from + sign * sinh, weight: self.width * cosh * half * node.weight }
+            QuadratureNode { at: self.from + sign * sinh, weight: self.width * cosh * half * node.weight }
         })
     }
 

@@ -26,7 +26,7 @@ const MOST_WHOLE: u32 = 16;
 /// The kernels of at most [`GROUP`] requests.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Integrand {
-    terms: [Term; GROUP],
+    terms: [KernelTerm; GROUP],
     count: usize,
     needs_log: bool,
     /// The largest exponent; that of ln d counts as 0.
@@ -38,7 +38,7 @@ pub(crate) struct Integrand {
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Term {
+enum KernelTerm {
     /// d^−n, times d^−½ if `half`.
     Inverse {
         whole: u32,
@@ -53,7 +53,7 @@ impl Integrand {
     /// The kernels of `requests`, [`GROUP`] at most.
     pub(crate) fn new(requests: &[MomentRequest]) -> Self {
         let mut integrand = Self {
-            terms: [Term::Log; GROUP],
+            terms: [KernelTerm::Log; GROUP],
             count: requests.len().min(GROUP),
             needs_log: false,
             sharpest: f64::NEG_INFINITY,
@@ -62,11 +62,11 @@ impl Integrand {
         };
         for (term, request) in integrand.terms.iter_mut().zip(requests) {
             let (kind, exponent) = match request.kernel {
-                Kernel::Power(nu) => (Term::power(nu), nu),
-                Kernel::Log => (Term::Log, 0.0),
+                Kernel::Power(nu) => (KernelTerm::power(nu), nu),
+                Kernel::Log => (KernelTerm::Log, 0.0),
             };
             *term = kind;
-            integrand.needs_log |= !matches!(kind, Term::Inverse { .. });
+            integrand.needs_log |= !matches!(kind, KernelTerm::Inverse { .. });
             integrand.sharpest = integrand.sharpest.max(exponent);
             integrand.mildest = integrand.mildest.min(exponent);
             integrand.order = integrand.order.max(request.order);
@@ -90,12 +90,12 @@ impl Integrand {
         let mut values = [[0.0; N]; GROUP];
         for (value, term) in values[..self.count].iter_mut().zip(&self.terms) {
             *value = match *term {
-                Term::Inverse { whole, half } => {
+                KernelTerm::Inverse { whole, half } => {
                     let start = if half { inverse.map(f64::sqrt) } else { [1.0; N] };
                     product(&squarings, whole, start)
                 }
-                Term::Real(power) => logs.map(|log| (power * log).exp()),
-                Term::Log => logs,
+                KernelTerm::Real(power) => logs.map(|log| (power * log).exp()),
+                KernelTerm::Log => logs,
             };
         }
         values
@@ -113,7 +113,7 @@ impl Integrand {
     }
 }
 
-impl Term {
+impl KernelTerm {
     /// The cheapest way to d^−ν.
     fn power(nu: f64) -> Self {
         let floor = nu.floor();

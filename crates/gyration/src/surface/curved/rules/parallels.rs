@@ -85,7 +85,7 @@ struct Weighted<'a, const N: usize> {
 
 /// A group of neighbouring parallels; those that fill the last group have no weight.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Parallels {
+pub(crate) struct ParallelGroup {
     versine: Lane,
     cos: Lane,
     sin: Lane,
@@ -94,7 +94,7 @@ pub(crate) struct Parallels {
     spared: f64,
 }
 
-impl Parallels {
+impl ParallelGroup {
     /// Gathers at most [`LANES`] parallels; none if there are none.
     pub(crate) fn gather(nodes: &mut impl Iterator<Item = PolarNode>) -> Option<Self> {
         let first = nodes.next()?;
@@ -134,7 +134,13 @@ impl Parallels {
     ///
     /// The gap is near + reach · versine.
     #[inline(always)]
-    fn add<const N: usize>(&self, of: &Weighted<N>, (near, reach): (f64, f64), integrand: &Integrand, sums: &mut Sums) {
+    fn add<const N: usize>(
+        &self,
+        of: &Weighted<N>,
+        (near, reach): (f64, f64),
+        integrand: &Integrand,
+        sums: &mut ParallelSums,
+    ) {
         let pairs = self.pairs::<N>(of.element, integrand.order);
         let third = integrand.order == 3;
         let circle = if third { self.around::<true, N>(of, pairs) } else { self.around::<false, N>(of, pairs) };
@@ -229,23 +235,23 @@ impl Parallels {
 }
 
 /// All parallels that `nodes` tells of, the gap being gap.0 + gap.1 · versine: compiled for each instruction set.
-pub(crate) struct Sweep<'a, Nodes, const N: usize> {
+pub(crate) struct ParallelSweep<'a, Nodes, const N: usize> {
     pub(crate) nodes: Nodes,
     pub(crate) element: &'a AreaElement,
     pub(crate) gap: (f64, f64),
     pub(crate) integrand: &'a Integrand,
     /// The linear forms in (e₁, e₂, f) with which the element is multiplied and, as often, divided by its length.
     pub(crate) factors: &'a [Vec3; N],
-    pub(crate) sums: &'a mut Sums,
+    pub(crate) sums: &'a mut ParallelSums,
 }
 
-impl<Nodes: Iterator<Item = PolarNode>, const N: usize> WithSimd for Sweep<'_, Nodes, N> {
+impl<Nodes: Iterator<Item = PolarNode>, const N: usize> WithSimd for ParallelSweep<'_, Nodes, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) {
         let of = Weighted { element: self.element, factors: self.factors };
-        while let Some(parallels) = Parallels::gather(&mut self.nodes) {
+        while let Some(parallels) = ParallelGroup::gather(&mut self.nodes) {
             parallels.add(&of, self.gap, self.integrand, self.sums);
         }
     }
@@ -253,11 +259,11 @@ impl<Nodes: Iterator<Item = PolarNode>, const N: usize> WithSimd for Sweep<'_, N
 
 /// The moments of each kernel, lane by lane.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sums {
+pub(crate) struct ParallelSums {
     pub(crate) lanes: [[Lane; 20]; GROUP],
 }
 
-impl Sums {
+impl ParallelSums {
     pub(crate) const ZERO: Self = Self { lanes: [[[0.0; LANES]; 20]; GROUP] };
 
     /// The moments of the `place`-th kernel up to `order`.

@@ -4,14 +4,14 @@
 //! run lane by lane in a fixed order.
 
 use super::integrand::{Integrand, LANES, Lane, accumulate};
-use super::parallels::Sums;
+use super::parallels::ParallelSums;
 use crate::surface::Moments;
 use crate::tensor::Vec3;
 
 /// Moments of all kernels over points that are added one by one, each with several weights.
 pub(crate) struct PointSums<'a, const W: usize> {
     integrand: &'a Integrand,
-    sums: [Sums; W],
+    sums: [ParallelSums; W],
     gaps: Lane,
     weights: [Lane; W],
     at: [Lane; 3],
@@ -22,7 +22,7 @@ impl<'a, const W: usize> PointSums<'a, W> {
     pub(crate) fn new(integrand: &'a Integrand) -> Self {
         let unused = [0.0; LANES];
         let (gaps, weights, at) = ([1.0; LANES], [unused; W], [unused; 3]);
-        Self { integrand, sums: [Sums::ZERO; W], gaps, weights, at, count: 0 }
+        Self { integrand, sums: [ParallelSums::ZERO; W], gaps, weights, at, count: 0 }
     }
 
     /// Adds a point with its gap, its area and its weights per area.
@@ -60,7 +60,7 @@ impl<'a, const W: usize> PointSums<'a, W> {
 
     /// The sums, once all points have been added.
     #[inline(always)]
-    pub(crate) fn finish(mut self) -> [Sums; W] {
+    pub(crate) fn finish(mut self) -> [ParallelSums; W] {
         if self.count > 0 {
             self.flush();
         }
@@ -87,7 +87,7 @@ fn powers([x, y, z]: &[Lane; 3]) -> [Lane; 20] {
     [[1.0; LANES], *x, *y, *z, xx, xy, xz, yy, yz, zz, xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz]
 }
 
-impl Sums {
+impl ParallelSums {
     /// Sets the moments of all kernels up to the orders asked for.
     pub(crate) fn collect_all(&self, requests: &[crate::surface::MomentRequest], out: &mut [Moments]) {
         for (place, (request, moments)) in requests.iter().zip(out).enumerate() {

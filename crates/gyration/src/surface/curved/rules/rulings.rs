@@ -54,7 +54,7 @@ impl Rulings<'_> {
     /// The sums for one kernel.
     pub(crate) fn sums(&self, request: &MomentRequest) -> RulingSums {
         let line = self.line(request);
-        dispatch(Sweep::new(self, &line, request))
+        dispatch(RulingSweep::new(self, &line, request))
     }
 
     /// The kernel along a ruling.
@@ -65,7 +65,7 @@ impl Rulings<'_> {
 }
 
 /// The pass over the rulings for one kernel: compiled for each instruction set.
-pub(crate) struct Sweep<'a> {
+pub(crate) struct RulingSweep<'a> {
     pub(crate) rulings: &'a Rulings<'a>,
     line: &'a LineKernel,
     exponent: SplitExponent,
@@ -73,7 +73,7 @@ pub(crate) struct Sweep<'a> {
     pub(crate) order: usize,
 }
 
-impl<'a> Sweep<'a> {
+impl<'a> RulingSweep<'a> {
     pub(crate) fn new(rulings: &'a Rulings<'a>, line: &'a LineKernel, request: &MomentRequest) -> Self {
         let exponent = match request.kernel {
             Kernel::Power(exponent) => exponent,
@@ -85,7 +85,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
-impl WithSimd for Sweep<'_> {
+impl WithSimd for RulingSweep<'_> {
     type Output = RulingSums;
 
     #[inline(always)]
@@ -128,7 +128,7 @@ pub(crate) fn rows_of(pair: &[RingChunk]) -> [Row; 4] {
     rows
 }
 
-impl Sweep<'_> {
+impl RulingSweep<'_> {
     #[inline(always)]
     fn rows<S: Simd, const ORDER: usize>(&self, simd: S) -> [Row; 13] {
         let mut sums = [[0.0; WIDTH]; 13];

@@ -7,7 +7,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::integrand::LANES;
-use super::rulings::{RulingSums, Rulings, Sweep, rows_of};
+use super::rulings::{RulingSums, RulingSweep, Rulings, rows_of};
 use super::weight::Weights;
 use crate::simd::{F64s, Row, WIDTH, dispatch};
 use crate::surface::MomentRequest;
@@ -28,13 +28,13 @@ impl Rulings<'_> {
         weights: &WallWeights<N, W>,
     ) -> [[RulingSums; 2]; W] {
         let line = self.line(request);
-        dispatch(WeightedSweep { sweep: Sweep::new(self, &line, request), weights })
+        dispatch(WeightedSweep { sweep: RulingSweep::new(self, &line, request), weights })
     }
 }
 
 /// The pass with several weights.
 struct WeightedSweep<'a, const N: usize, const W: usize> {
-    sweep: Sweep<'a>,
+    sweep: RulingSweep<'a>,
     weights: &'a WallWeights<'a, N, W>,
 }
 
