@@ -13,7 +13,7 @@
 use crate::context::{Context, Point};
 use crate::explicit::Trial;
 use crate::layout::SystemLayout;
-use crate::newton::{NewtonPlan, StageEquations, multiply, set_triple, triple};
+use crate::newton::{NewtonPlan, NewtonStages, multiply, set_triple, triple};
 use crate::norm::norm;
 use crate::radau::{ERROR, MATRIX, REAL};
 use crate::report::Cause;
@@ -22,7 +22,7 @@ use crate::system::System;
 /// Scratch of the implicit stepper and the polynomial of its last step.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Implicit {
-    pub stages: StageEquations,
+    pub stages: NewtonStages,
     error: Vec<f64>,
     /// A state beside the start of the step, and its rate.
     beside: Vec<f64>,
@@ -32,7 +32,7 @@ pub(crate) struct Implicit {
 impl Implicit {
     /// Holds the polynomial of a step before, and no scratch yet.
     pub fn holding(collocation: Vec<f64>) -> Self {
-        Self { stages: StageEquations::holding(collocation), ..Self::default() }
+        Self { stages: NewtonStages::holding(collocation), ..Self::default() }
     }
 
     /// Sizes the scratch for a layout; the polynomial stays.
@@ -135,7 +135,7 @@ impl Implicit {
 }
 
 /// e = (γ/h I − J)⁻¹ (f + Σ e_i z_i/h) of y.
-fn state_error(layout: &SystemLayout, stages: &mut StageEquations, rate: &[f64], h: f64, error: &mut [f64]) {
+fn state_error(layout: &SystemLayout, stages: &mut NewtonStages, rate: &[f64], h: f64, error: &mut [f64]) {
     for (j, (value, f)) in error.iter_mut().zip(rate).enumerate().take(layout.dimension) {
         *value = f + defect(stages, layout.width, j) / h;
     }
@@ -143,14 +143,14 @@ fn state_error(layout: &SystemLayout, stages: &mut StageEquations, rate: &[f64],
 }
 
 /// e = (h/γ) (g + Σ e_i z_i/h) of w.
-fn quadrature_error(layout: &SystemLayout, stages: &StageEquations, rate: &[f64], h: f64, error: &mut [f64]) {
+fn quadrature_error(layout: &SystemLayout, stages: &NewtonStages, rate: &[f64], h: f64, error: &mut [f64]) {
     for (j, (value, g)) in error.iter_mut().zip(rate).enumerate().skip(layout.dimension) {
         *value = (h * g + defect(stages, layout.width, j)) / REAL;
     }
 }
 
 /// Σ e_i z_i of a component.
-fn defect(stages: &StageEquations, width: usize, j: usize) -> f64 {
+fn defect(stages: &NewtonStages, width: usize, j: usize) -> f64 {
     let z = triple(&stages.increments, width, j);
     ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2]
 }

@@ -60,7 +60,7 @@ pub(crate) struct Convergence {
 
 /// The unknowns of the three stages and the factors of their equations.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct StageEquations {
+pub(crate) struct NewtonStages {
     /// z₁, z₂, z₃ of u = (y, w); Newton's method is for y, the rest is filled in by the quadratures.
     pub increments: Vec<f64>,
     /// The rates at the three stages.
@@ -75,7 +75,7 @@ pub(crate) struct StageEquations {
     pub linear: LinearSystem,
 }
 
-impl StageEquations {
+impl NewtonStages {
     /// Holds the polynomial of a step before, and no scratch yet.
     pub fn holding(collocation: Vec<f64>) -> Self {
         Self { collocation, ..Self::default() }

@@ -9,7 +9,7 @@
 
 use crate::dense::Symmetric;
 use crate::pair::{Block, block};
-use crate::panel::Panel;
+use crate::panel::FlatPanel;
 use crate::vector::Vec3;
 use crate::wall::{Image, WallImages};
 use rayon::prelude::*;
@@ -40,7 +40,7 @@ struct RowStrip {
 
 impl SingleLayer {
     /// Of all pairs of these triangles, `nodes` nodes in all.
-    pub fn new(panels: &[Panel], nodes: usize, wall: Option<&WallImages>) -> Self {
+    pub fn new(panels: &[FlatPanel], nodes: usize, wall: Option<&WallImages>) -> Self {
         let order = 3 * nodes;
         let mut half = Symmetric::new(order);
         let (mut expansion, mut pressure) = (vec![0.0; order], 0.0);
@@ -70,7 +70,7 @@ impl SingleLayer {
 }
 
 /// The corners (triangle, corner) of a batch at each node.
-fn corners_by_node(panels: &[Panel], nodes: usize) -> Vec<Vec<(usize, usize)>> {
+fn corners_by_node(panels: &[FlatPanel], nodes: usize) -> Vec<Vec<(usize, usize)>> {
     let mut corners = vec![Vec::new(); nodes];
     for (triangle, panel) in panels.iter().enumerate() {
         panel.nodes.iter().enumerate().for_each(|(corner, &node)| corners[node].push((triangle, corner)));
@@ -79,7 +79,7 @@ fn corners_by_node(panels: &[Panel], nodes: usize) -> Vec<Vec<(usize, usize)>> {
 }
 
 impl RowStrip {
-    fn new(panels: &[Panel], triangle: usize, order: usize, wall: Option<&WallImages>) -> Self {
+    fn new(panels: &[FlatPanel], triangle: usize, order: usize, wall: Option<&WallImages>) -> Self {
         let mut strip = Self { rows: vec![0.0; 9 * order], expansion: vec![0.0; order], pressure: 0.0 };
         let panel = &panels[triangle];
         for (k, other) in panels[triangle..].iter().enumerate() {
@@ -99,7 +99,7 @@ impl RowStrip {
         strip
     }
 
-    fn add(&mut self, other: &Panel, block: &Block, order: usize, factor: f64) {
+    fn add(&mut self, other: &FlatPanel, block: &Block, order: usize, factor: f64) {
         for (row, values) in self.rows.chunks_mut(order).zip(block) {
             for (node, values) in other.nodes.iter().zip(values.chunks(3)) {
                 let at = &mut row[3 * node..3 * node + 3];
@@ -109,7 +109,7 @@ impl RowStrip {
     }
 
     /// (1/4π) n′ ∫∫ φ_i/r to the nodes of each of the two triangles.
-    fn expand(&mut self, (one, other): (&Panel, &Panel), block: &Block, same: bool) {
+    fn expand(&mut self, (one, other): (&FlatPanel, &FlatPanel), block: &Block, same: bool) {
         let trace = |i: usize, j: usize| (0..3).map(|a| block[3 * i + a][3 * j + a]).sum::<f64>() / (16.0 * PI);
         for k in 0..3 {
             let here: f64 = (0..3).map(|j| trace(k, j)).sum();
@@ -122,7 +122,7 @@ impl RowStrip {
     }
 
     /// What the images add to e and Π.
-    fn reflect(&mut self, (one, other): (&Panel, &Panel), image: &Image, same: bool) {
+    fn reflect(&mut self, (one, other): (&FlatPanel, &FlatPanel), image: &Image, same: bool) {
         self.pressure += if same { image.pressure } else { 2.0 * image.pressure };
         for k in 0..3 {
             self.push(one.nodes[k], image.here[k]);

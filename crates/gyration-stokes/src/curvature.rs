@@ -10,7 +10,7 @@
 
 use crate::dense::{Columns, SIDES};
 use crate::motion::{Mat12, UnitMotion, inner_work};
-use crate::panel::Panel;
+use crate::panel::FlatPanel;
 use crate::vector::Vec3;
 
 /// Cosine between the normal of a node and that of a triangle below which the node is taken for a tip, as of a cone:
@@ -29,7 +29,7 @@ pub(crate) enum Weight {
 }
 
 /// Normals at the nodes, as means of those of their triangles.
-pub(crate) fn node_normals(panels: &[Panel], nodes: usize, weight: Weight) -> Vec<Vec3> {
+pub(crate) fn node_normals(panels: &[FlatPanel], nodes: usize, weight: Weight) -> Vec<Vec3> {
     let mut normals = vec![Vec3::zeros(); nodes];
     for panel in panels {
         for k in 0..3 {
@@ -47,8 +47,8 @@ pub(crate) fn node_normals(panels: &[Panel], nodes: usize, weight: Weight) -> Ve
 }
 
 /// The mean rise δ of the smooth surface above each triangle [length]; nothing beyond edges and at tips.
-fn rises(panels: &[Panel], normals: &[Vec3]) -> Vec<f64> {
-    let rise = |panel: &Panel| {
+fn rises(panels: &[FlatPanel], normals: &[Vec3]) -> Vec<f64> {
+    let rise = |panel: &FlatPanel| {
         let flat = panel.normal();
         let [a, b, c] = panel.nodes.map(|node| match normals[node].dot(&flat) < TIP_COSINE {
             true => flat,
@@ -61,14 +61,14 @@ fn rises(panels: &[Panel], normals: &[Vec3]) -> Vec<f64> {
 }
 
 /// What the rise adds to the matrix, to first order: to the energy and, by the volume, to the inner work.
-pub(crate) fn risen(panels: &[Panel], normals: &[Vec3], densities: &Columns) -> Mat12 {
+pub(crate) fn risen(panels: &[FlatPanel], normals: &[Vec3], densities: &Columns) -> Mat12 {
     let rises = rises(panels, normals);
     let volume: f64 = panels.iter().zip(&rises).map(|(panel, rise)| panel.area * rise).sum();
     rise_energy(panels, &rises, densities) - UnitMotion::matrix(|one, other| volume * inner_work(one, other))
 }
 
 /// ∫ δ [φ_t·φ′_t + q φ′_n + q′ φ_n] dA for all motions, φ = −ψ by unknown.
-fn rise_energy(panels: &[Panel], rises: &[f64], densities: &Columns) -> Mat12 {
+fn rise_energy(panels: &[FlatPanel], rises: &[f64], densities: &Columns) -> Mat12 {
     let expansion = UnitMotion::all().map(|motion| motion.expansion());
     let mut sum = Mat12::zeros();
     for (panel, rise) in panels.iter().zip(rises) {

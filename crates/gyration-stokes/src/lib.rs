@@ -6,9 +6,9 @@
 //! method stands in `resistance.rs`.
 //!
 //! ```
-//! use gyration_stokes::{Options, Surface};
-//! let sphere = Surface::icosphere(2)?;
-//! let drag = sphere.resistance(&Options::default())?;
+//! use gyration_stokes::{ClosedSurface, StokesOptions};
+//! let sphere = ClosedSurface::icosphere(2)?;
+//! let drag = sphere.resistance(&StokesOptions::default())?;
 //! assert!((drag.matrix[0][0] / (6.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
 //! # Ok::<(), gyration_stokes::StokesError>(())
 //! ```

@@ -4,7 +4,7 @@
 //! a uniform source in the body ([`crate::assembly`]).
 
 use crate::dense::{Columns, SIDES};
-use crate::panel::Panel;
+use crate::panel::FlatPanel;
 use crate::vector::{Mat3, Vec3};
 use nalgebra::SMatrix;
 
@@ -52,7 +52,7 @@ pub(crate) fn inner_work(one: &UnitMotion, other: &UnitMotion) -> f64 {
 }
 
 /// ∫ φ_i (u − q v) dA for the twelve motions about a centre; `expansion` is ∫ φ_i v dA.
-pub(crate) fn right_sides(panels: &[Panel], centre: &Vec3, expansion: &[f64]) -> Columns {
+pub(crate) fn right_sides(panels: &[FlatPanel], centre: &Vec3, expansion: &[f64]) -> Columns {
     let mut sides = vec![[0.0; SIDES]; expansion.len()];
     for panel in panels {
         for (corner, node) in panel.corners.iter().zip(panel.nodes) {

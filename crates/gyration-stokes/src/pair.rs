@@ -5,7 +5,7 @@
 //! integrated is then continuous, however thin or unequal the triangles are.
 
 use crate::inner::{StokesletMoments, Symmetric};
-use crate::panel::Panel;
+use crate::panel::FlatPanel;
 use crate::rule::{DEGREE_5, DEGREE_6, RulePoint};
 use crate::vector::{Mat3, Vec3};
 
@@ -23,7 +23,7 @@ const ALIKE: f64 = 1e-6;
 
 /// The block of a pair of triangles, or of a triangle with itself.
 #[inline]
-pub(crate) fn block(one: &Panel, other: &Panel) -> Block {
+pub(crate) fn block(one: &FlatPanel, other: &FlatPanel) -> Block {
     let reach = one.radius + other.radius;
     let squared = (one.centroid - other.centroid).norm_squared();
     if squared > (FAR * reach).powi(2) {
@@ -64,7 +64,7 @@ fn write(block: &mut Block, i: usize, j: usize, g: &Symmetric, factor: f64) {
 
 /// Both integrals by the rule of degree 2, at whose points φ_i = 1/6 + δ_iq/2.
 #[inline]
-fn far(one: &Panel, other: &Panel) -> Block {
+fn far(one: &FlatPanel, other: &FlatPanel) -> Block {
     let mut by_corner = [[[0.0; 6]; 3]; 3];
     for (x, row) in one.points.iter().zip(&mut by_corner) {
         let mut sum = [0.0; 6];
@@ -89,7 +89,7 @@ fn far(one: &Panel, other: &Panel) -> Block {
 }
 
 /// The integral over `inner` closed, that over `outer` by a rule.
-fn near(outer: &Panel, inner: &Panel, rule: &[RulePoint]) -> Block {
+fn near(outer: &FlatPanel, inner: &FlatPanel, rule: &[RulePoint]) -> Block {
     let mut sums = [[[0.0; 6]; 3]; 3];
     for RulePoint { barycentric, weight } in rule {
         let moments = shape_moments(inner, &outer.at(barycentric));
@@ -109,7 +109,7 @@ fn near(outer: &Panel, inner: &Panel, rule: &[RulePoint]) -> Block {
 }
 
 /// ∫ G(x − y) φ_j(y) dA in the axes of the triangle.
-pub(crate) fn shape_moments(panel: &Panel, x: &Vec3) -> [Symmetric; 3] {
+pub(crate) fn shape_moments(panel: &FlatPanel, x: &Vec3) -> [Symmetric; 3] {
     let local = panel.axes.tr_mul(&(x - panel.corners[0]));
     let moments = StokesletMoments::new(&panel.outline, [local.x, local.y], local.z);
     std::array::from_fn(|j| {

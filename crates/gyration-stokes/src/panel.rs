@@ -6,7 +6,7 @@ use crate::vector::{Mat3, Vec3};
 
 /// A flat triangle.
 #[derive(Debug, Clone)]
-pub(crate) struct Panel {
+pub(crate) struct FlatPanel {
     pub corners: [Vec3; 3],
     /// The unknowns at the corners, by node.
     pub nodes: [usize; 3],
@@ -24,7 +24,7 @@ pub(crate) struct Panel {
     pub points: [Vec3; 3],
 }
 
-impl Panel {
+impl FlatPanel {
     pub fn new(corners: [Vec3; 3], nodes: [usize; 3]) -> Self {
         let [a, b, c] = corners;
         let first = (b - a).normalize();

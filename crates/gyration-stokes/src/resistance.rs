@@ -24,7 +24,7 @@ use crate::dense::{self, Columns, SIDES};
 use crate::error::StokesError;
 use crate::estimate::largest_share;
 use crate::motion::{Mat12, UnitMotion, inner_work, right_sides};
-use crate::panel::Panel;
+use crate::panel::FlatPanel;
 use crate::surface::ClosedSurface;
 use crate::vector::Vec3;
 use crate::wall::{WallImages, WallPlane};
@@ -98,7 +98,7 @@ impl ClosedSurface {
     }
 
     fn resistance_here(&self, options: &StokesOptions) -> Result<StokesResistance, StokesError> {
-        let panels = Panel::all(self);
+        let panels = FlatPanel::all(self);
         let normals = node_normals(&panels, self.node_count, Weight::Angle);
         let wall = options.wall.as_ref().map(|plane| WallImages::new(plane, &panels)).transpose()?;
         let layer = SingleLayer::new(&panels, self.node_count, wall.as_ref());
@@ -139,7 +139,7 @@ impl ClosedSurface {
     fn solve(
         &self,
         layer: SingleLayer,
-        panels: &[Panel],
+        panels: &[FlatPanel],
         options: &StokesOptions,
     ) -> Result<LayerSolution, StokesError> {
         let SingleLayer { half: mut matrix, expansion, pressure } = layer;
@@ -188,7 +188,7 @@ fn products(densities: &Columns, sides: &Columns) -> Mat12 {
 }
 
 /// S = half + halfᵀ + s ⟨n,·⟩², s such that n, otherwise of eigenvalue 0, gets one like the others.
-fn regularize(half: &mut dense::Symmetric, panels: &[Panel]) {
+fn regularize(half: &mut dense::Symmetric, panels: &[FlatPanel]) {
     let mut normal = vec![0.0; half.order];
     let mut area = 0.0;
     for panel in panels {
@@ -203,7 +203,7 @@ fn regularize(half: &mut dense::Symmetric, panels: &[Panel]) {
 }
 
 /// Adds the multiple of n to each density with which ∫ φ·v dA = q Π: no pressure in the body but that of the wall.
-fn set_pressure(densities: &mut Columns, panels: &[Panel], expansion: &[f64], (wall, volume): (f64, f64)) {
+fn set_pressure(densities: &mut Columns, panels: &[FlatPanel], expansion: &[f64], (wall, volume): (f64, f64)) {
     let mut pressure = UnitMotion::all().map(|motion| -motion.expansion() * wall / volume);
     for (density, v) in densities.iter().zip(expansion) {
         (0..SIDES).for_each(|k| pressure[k] += density[k] * v / volume);

@@ -14,7 +14,7 @@
 
 use crate::error::StokesError;
 use crate::pair::Block;
-use crate::panel::Panel;
+use crate::panel::FlatPanel;
 use crate::vector::{Mat3, Vec3};
 use std::f64::consts::PI;
 
@@ -68,7 +68,7 @@ impl WallImages {
     ///
     /// # Errors
     /// A normal without direction; a triangle that touches the wall, crosses it or is too large for its gap.
-    pub fn new(plane: &WallPlane, panels: &[Panel]) -> Result<Self, StokesError> {
+    pub fn new(plane: &WallPlane, panels: &[FlatPanel]) -> Result<Self, StokesError> {
         let (point, normal) = (Vec3::from(plane.point), Vec3::from(plane.normal));
         let length = normal.norm();
         let value = length + point.sum();
@@ -114,7 +114,7 @@ impl WallImages {
     }
 
     /// What the images add for two triangles, or for a triangle and itself.
-    pub fn between(&self, one: &Panel, other: &Panel) -> Image {
+    pub fn between(&self, one: &FlatPanel, other: &FlatPanel) -> Image {
         let mut image =
             Image { block: [[0.0; 9]; 9], here: [Vec3::zeros(); 3], there: [Vec3::zeros(); 3], pressure: 0.0 };
         let normals = (one.normal(), other.normal());
@@ -171,7 +171,7 @@ impl WallImages {
 }
 
 impl SubTriangle {
-    fn of(panel: &Panel) -> Self {
+    fn of(panel: &FlatPanel) -> Self {
         Self { corners: panel.corners, weights: [Vec3::x(), Vec3::y(), Vec3::z()] }
     }
 
