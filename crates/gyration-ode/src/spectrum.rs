@@ -44,17 +44,18 @@ struct CoupledBlocks<'a> {
 }
 
 impl CoupledBlocks<'_> {
-    fn indices(&self) -> impl Iterator<Item = usize> {
-        self.blocks.iter().flat_map(|block| self.ranges[*block].clone())
+    /// Where its numbers stand, block by block.
+    fn places(&self) -> impl Iterator<Item = Range<usize>> {
+        self.blocks.iter().map(|block| self.ranges[*block].clone())
     }
 
     fn size(&self, vector: &[f64]) -> f64 {
-        self.indices().map(|i| vector[i] * vector[i]).sum::<f64>().sqrt()
+        self.places().fold(0.0_f64, |sum, place| vector[place].iter().fold(sum, |sum, part| sum + part * part)).sqrt()
     }
 
     fn power_growth(&self, vector: &mut [f64], image: &mut [f64]) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        for (k, i) in self.indices().enumerate() {
+        for (k, i) in self.places().flatten().enumerate() {
             vector[i] = 0.5 + (GOLDEN * (k + 1) as f64).fract();
         }
         let (settle, measure) = POWER_ITERATIONS;
@@ -69,8 +70,10 @@ impl CoupledBlocks<'_> {
             if iteration >= settle {
                 logarithm += growth.ln();
             }
-            for i in self.indices() {
-                vector[i] = image[i] / norm;
+            for place in self.places() {
+                for (component, image) in vector[place.clone()].iter_mut().zip(&image[place]) {
+                    *component = image / norm;
+                }
             }
         }
         (logarithm / measure as f64).exp()
@@ -82,11 +85,11 @@ impl CoupledBlocks<'_> {
             let image = &mut image[self.ranges[*row].clone()];
             image.fill(0.0);
             for (column, block) in self.jacobian.row(*row) {
-                for (j, at) in self.ranges[column].clone().enumerate() {
+                for (at, entries) in self.ranges[column].clone().zip(block.column_iter()) {
                     // A freed component has scale +∞: it does not take part.
                     let weight = if self.scale[at].is_finite() { vector[at] * self.scale[at] } else { 0.0 };
-                    for (i, sum) in image.iter_mut().enumerate() {
-                        *sum += block[(i, j)] * weight;
+                    for (sum, entry) in image.iter_mut().zip(entries.as_slice()) {
+                        *sum += entry * weight;
                     }
                 }
             }

@@ -155,6 +155,7 @@ impl Instant {
     /// A body of the model from whose state this was read.
     ///
     /// Its loads and balance panic if the model is another one, whose body of this index is of another kind.
+    #[inline]
     pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> BodyAt<'a> {
         let BodyInstant { motion, attitude } = &self.bodies[index];
         let extra = &self.state[model.slots(index).extra()];

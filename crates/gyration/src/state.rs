@@ -1,6 +1,6 @@
 //! The state: time, the numbers of every body, and the works done so far. Minimal: the rest follows from the model.
 
-use crate::body::{Body, BodyKind, Pin, Slots, matrix, vector};
+use crate::body::{Body, BodyKind, Slots, matrix, vector};
 use crate::contractile::{Contraction, ContractionSource};
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
@@ -127,20 +127,20 @@ pub fn contraction_at(contraction: &Contraction, time: f64, extra: &[f64]) -> Ma
 }
 
 /// What stands in a slot; zero where the body does not have it.
-#[inline]
+#[inline(always)]
 fn read<T>(state: &[f64], slot: Range<usize>, from: impl Fn(&[f64]) -> T, zero: T) -> T {
     if slot.is_empty() { zero } else { from(&state[slot]) }
 }
 
 /// p₀ and ṗ₀ of a body that is not pinned.
-#[inline]
+#[inline(always)]
 fn center(slots: &Slots, state: &[f64]) -> (Vec3, Vec3) {
     (vector(&state[slots.position()]), read(state, slots.velocity(), vector, Vec3::zeros()))
 }
 
 impl Turn {
     /// Reads the slots of a rigid body; one without inertia is taken to be still.
-    #[inline]
+    #[inline(always)]
     pub fn read(slots: &Slots, state: &[f64]) -> Self {
         let quaternion = Quaternion::read(&state[slots.attitude()]);
         Self { quaternion, spin: read(state, slots.rate(), vector, Vec3::zeros()) }
@@ -161,21 +161,20 @@ impl BodyMotion {
             return Self::of_turn(body, slots, state, &Turn::read(slots, state));
         }
         let rate = read(state, slots.rate(), matrix, Mat3::zeros());
-        Self::of(body.pin.as_ref(), matrix(&state[slots.attitude()]), rate, || center(slots, state))
+        Self::of(body, slots, state, (matrix(&state[slots.attitude()]), rate))
     }
 
     /// The motion of a rigid body whose turn has been read.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of_turn(body: &Body, slots: &Slots, state: &[f64], turn: &Turn) -> Self {
         let rotation = turn.quaternion.rotation();
         let rate = rigid_gradient_rate(&rotation, &turn.spin);
-        Self::of(body.pin.as_ref(), rotation, rate, || center(slots, state))
+        Self::of(body, slots, state, (rotation, rate))
     }
 
     /// The motion of a body without inertia, given the rates of its places.
     pub fn of_rates(body: &Body, slots: &Slots, state: &[f64], rates: &[f64]) -> Self {
-        let center = || (vector(&state[slots.position()]), vector(&rates[slots.position()]));
-        let (gradient, rate) = match body.kind {
+        let gradients = match body.kind {
             BodyKind::Rigid(_) => {
                 let turn = Turn::of_rates(slots, state, rates);
                 let rotation = turn.quaternion.rotation();
@@ -185,14 +184,18 @@ impl BodyMotion {
                 (matrix(&state[slots.attitude()]), matrix(&rates[slots.attitude()]))
             }
         };
-        Self::of(body.pin.as_ref(), gradient, rate, center)
+        let mut motion = Self::of(body, slots, state, gradients);
+        if body.pin.is_none() {
+            motion.velocity.velocity = vector(&rates[slots.position()]);
+        }
+        motion
     }
 
     /// The motion of P and Ṗ. A pinned body's centre follows the pin: p₀ = a − P r, ṗ₀ = −Ṗ r.
-    #[inline]
-    fn of(pin: Option<&Pin>, gradient: Mat3, gradient_rate: Mat3, center: impl FnOnce() -> (Vec3, Vec3)) -> Self {
-        let (position, velocity) = match pin {
-            None => center(),
+    #[inline(always)]
+    fn of(body: &Body, slots: &Slots, state: &[f64], (gradient, gradient_rate): (Mat3, Mat3)) -> Self {
+        let (position, velocity) = match &body.pin {
+            None => center(slots, state),
             Some(pin) => (pin.anchor - gradient * pin.point, -(gradient_rate * pin.point)),
         };
         Self { placement: Placement { position, gradient }, velocity: Velocity { velocity, gradient_rate } }

@@ -91,8 +91,9 @@ impl Slots {
 }
 
 /// The vector of three numbers.
+#[inline]
 pub fn vector(numbers: &[f64]) -> Vec3 {
-    Vec3::from_column_slice(numbers)
+    Vec3::new(numbers[0], numbers[1], numbers[2])
 }
 
 /// The matrix of nine numbers, column by column.

@@ -48,6 +48,7 @@ impl Sums {
     }
 
     /// The sums of each [`Action`] over the terms of a contact, from the moments that it planned for loads.
+    #[inline(always)]
     pub fn by_action(laws: &LawSet, moments: &[Moments]) -> [Self; Action::COUNT] {
         let mut sums = [Self::default(); Action::COUNT];
         for planned in laws.terms() {
