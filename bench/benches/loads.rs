@@ -41,7 +41,7 @@ fn bench_contact<T>(
     let (model, state) = set_up(name, exponents);
     let (field, motion) = meeting(&model, &state);
     let body = &model.bodies[0];
-    let surface = body.surface.as_ref().expect("every shape here has a surface");
+    let surface = body.solid.surface.as_ref().expect("every shape here has a surface");
     let mut scratch = ContactScratch::default();
     bencher
         .bench_local(|| integrate(&body.contacts[0].law_set, surface, divan::black_box(&field), &motion, &mut scratch));
@@ -78,7 +78,7 @@ fn stretched() -> (Mat3, Mat3) {
 fn stretched_meeting(name: &str) -> (Surface, GapField, Mat3) {
     let (model, state) = set_up(name, (6.0, 3.0));
     let (field, _) = meeting(&model, &state);
-    let surface = model.bodies[0].surface.clone().expect("every shape here has a surface");
+    let surface = model.bodies[0].solid.surface.clone().expect("every shape here has a surface");
     let (gradient, cofactor) = stretched();
     let direction = gradient.tr_mul(&field.direction);
     let (gap, _) = surface.smallest_gap(&field);

@@ -1,7 +1,7 @@
 //! Bodies that deform, free and near a table.
 
 use gyration::affine::{AffineBody, Viscosity};
-use gyration::body::{Affine, Body, BodyKind, Contractile};
+use gyration::body::{Affine, Body, BodyKind, Contractile, Solid};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::contractile::{Contraction, ContractionSource, Spin};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
@@ -102,9 +102,7 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
         name: "cube".into(),
         kind: BodyKind::Affine(Box::new(Affine::from(interior))),
         size: shape.size(),
-        mass,
-        surface: shape.surface(),
-        shape,
+        solid: Solid::new(shape, mass).into(),
         contacts,
         springs: Vec::new(),
         inclusion: None,

@@ -5,7 +5,7 @@
 
 use crate::Experiment;
 use gyration::affine::{AffineBody, Viscosity};
-use gyration::body::{Affine, Body, BodyKind, RigidInertia};
+use gyration::body::{Affine, Body, BodyKind, RigidInertia, Solid};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, LawSet};
 use gyration::kinematics::Quaternion;
 use gyration::mass::MassProperties;
@@ -17,6 +17,7 @@ use gyration::support::{Support, SupportMotion};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::Tolerance;
+use std::sync::Arc;
 
 /// One square facet above the plane z = 0.
 #[derive(Debug, Clone)]
@@ -54,9 +55,11 @@ impl FacetBody {
         let body = Body {
             name: "facet".into(),
             kind: BodyKind::Rigid(inertia),
-            mass,
-            shape: Shape::Box(Cuboid { size: Vec3::repeat(side) }),
-            surface: Some(surface.unwrap_or_else(|error| panic!("{error}"))),
+            solid: Arc::new(Solid {
+                mass,
+                shape: Shape::Box(Cuboid { size: Vec3::repeat(side) }),
+                surface: Some(surface.unwrap_or_else(|error| panic!("{error}"))),
+            }),
             contacts: vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), self.laws.clone()))],
             springs: Vec::new(),
             inclusion: None,
@@ -84,7 +87,7 @@ impl FacetBody {
         let Experiment { model, start, .. } = self.experiment(tolerance);
         let motion = start.motion(&model, 0);
         let bodies = model.bodies.into_iter().map(|body| {
-            let interior = AffineBody::new(&body.mass, None, Some(material.clone()), Viscosity::default());
+            let interior = AffineBody::new(&body.solid.mass, None, Some(material.clone()), Viscosity::default());
             let affine = Affine::from(interior.unwrap_or_else(|error| panic!("{error}")));
             let contacts = vec![Contact::with_support(0, LawSet::new(measure, self.laws.clone()))];
             Body { kind: BodyKind::Affine(Box::new(affine)), contacts, ..body }

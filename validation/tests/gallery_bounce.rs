@@ -104,7 +104,7 @@ fn spin_of_the_corner(alpha: f64) -> (Vec3, Vec3) {
     let BodyKind::Rigid(inertia) = &body.kind else { panic!("the body is rigid") };
     let inverse = motion.placement.gradient * inertia.inverse * motion.placement.gradient.transpose();
     let arm = corner.cross(&Vec3::z());
-    let impulse = 2.0 * (2.0 * GRAVITY * fall).sqrt() / (1.0 / body.mass.mass + arm.dot(&(inverse * arm)));
+    let impulse = 2.0 * (2.0 * GRAVITY * fall).sqrt() / (1.0 / body.solid.mass.mass + arm.dot(&(inverse * arm)));
     // Just after the corner has left: before another one comes down.
     let left = experiment.run().times_of("lift_off")[0];
     (inverse * arm * impulse, experiment.motion_at(left).angular_velocity())

@@ -14,6 +14,7 @@ use gyration_sim::Tolerance;
 use gyration_validation::{Case as Known, Experiment, FacetBody};
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 const BASE: f64 = 0.1;
 const MASS: f64 = 2.0;
@@ -66,10 +67,12 @@ impl Case {
         let mut experiment = body.experiment(Tolerance { rtol: 1e-12, atol: 1e-14 });
         let body = &mut experiment.model.bodies[0];
         let down = Vec3::new(0.0, 0.0, -0.5 * self.height);
-        body.surface = body.surface.as_ref().map(|facet| facet.translated(&down));
         let squares = Vec3::new(BASE * BASE, BASE * BASE, self.height * self.height);
-        body.mass.euler_tensor = Mat3::from_diagonal(&(squares * (MASS / 12.0)));
-        body.kind = BodyKind::Rigid(RigidInertia::new(&body.mass, None).unwrap_or_else(|error| panic!("{error}")));
+        let solid = Arc::make_mut(&mut body.solid);
+        solid.surface = solid.surface.as_ref().map(|facet| facet.translated(&down));
+        solid.mass.euler_tensor = Mat3::from_diagonal(&(squares * (MASS / 12.0)));
+        body.kind =
+            BodyKind::Rigid(RigidInertia::new(&body.solid.mass, None).unwrap_or_else(|error| panic!("{error}")));
         experiment
     }
 }

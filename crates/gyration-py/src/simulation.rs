@@ -183,7 +183,7 @@ impl Simulation {
         let index = self.index(body)?;
         let given = |name, object: Option<&_>| object.map(|object| vector(name, object)).transpose();
         let force = given("force", force)?.unwrap_or_default();
-        let center = self.stepper.model().bodies[index].mass.center;
+        let center = self.stepper.model().bodies[index].solid.mass.center;
         let mut load = match given("at", at)? {
             None => Applied { force, ..Applied::default() },
             Some(at) => Applied::at_point(force, &(at - center)),

@@ -6,6 +6,7 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::{LoadError, Method, ReadError, Scene, SceneErrors, StopAtRest, gallery, schema};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The rigid parts of the contract's example.
 const EXAMPLE: &str = r#"
@@ -77,7 +78,7 @@ fn the_example_of_the_contract_builds_as_it_says() {
     assert_eq!((direction, amplitude, frequency), (Vec3::z(), 1e-3, 5.0));
     assert!(close(phase, std::f64::consts::FRAC_PI_2));
     let die = &built.model.bodies[0];
-    assert!(close(die.mass.mass, 1200.0 * 8e-6) && close(die.size, 0.02), "{die:?}");
+    assert!(close(die.solid.mass.mass, 1200.0 * 8e-6) && close(die.size, 0.02), "{die:?}");
     assert_eq!((die.contacts.len(), die.contacts[0].law_set.laws().len(), die.springs.len()), (1, 4, 1));
     let motion = built.state.motion(&built.model, 0);
     assert_eq!(motion.placement.position, Vec3::new(0.0, 0.0, 0.2));
@@ -208,8 +209,26 @@ fn errors_of_overrides_point_into_their_text() {
 }
 
 #[test]
+fn equal_bodies_share_a_solid() {
+    let ball = |(name, line): (&str, &str)| {
+        format!("[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 1 }} }}\ndensity = 3\n{line}\n")
+    };
+    let balls = [("a", ""), ("b", "velocity = [1, 0, 0]"), ("c", "pin = [0, 0, 1]"), ("d", "affine = {}")].map(ball);
+    let text = format!("[time]\nend = 1\nsample = 0.1\n{}", balls.concat());
+    let solids = |overrides: &[String]| {
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), overrides).unwrap();
+        scene.built().model.bodies.iter().map(|body| Arc::clone(&body.solid)).collect::<Vec<_>>()
+    };
+    assert!(solids(&[]).windows(2).all(|pair| Arc::ptr_eq(&pair[0], &pair[1])));
+    for unlike in ["body.b.density=4", "body.b.shape.sphere.radius=2"] {
+        let solids = solids(&[unlike.to_owned()]);
+        assert!(!Arc::ptr_eq(&solids[0], &solids[1]) && Arc::ptr_eq(&solids[0], &solids[2]), "{unlike}");
+    }
+}
+
+#[test]
 fn bodies_get_their_mass_as_they_say() {
-    let mass = |lines: &str| body(lines).built().model.bodies[0].mass;
+    let mass = |lines: &str| body(lines).built().model.bodies[0].solid.mass;
     let sphere = "shape = { sphere = { radius = 1 } }";
     assert!(close(mass(&format!("{sphere}\ndensity = 3")).mass, 4.0 * std::f64::consts::PI));
     let given = mass(&format!("{sphere}\nmass = \"5 kg\""));
@@ -235,7 +254,7 @@ fn parts_of_a_union_get_their_density_from_themselves_or_from_the_body() {
         };
         let parts = format!("{}, {}", part(-1.0, first), part(1.0, second));
         let mass =
-            body(&format!("shape = {{ union = {{ parts = [{parts}] }} }}\n{lines}")).built().model.bodies[0].mass;
+            body(&format!("shape = {{ union = {{ parts = [{parts}] }} }}\n{lines}")).built().model.bodies[0].solid.mass;
         (mass.mass, mass.center.x)
     };
     let near = |(mass, x): (f64, f64), expected: (f64, f64)| close(mass, expected.0) && (x - expected.1).abs() < 1e-14;
@@ -311,7 +330,7 @@ fn meshes_are_read_relative_to_the_scene() {
                 shape = { mesh = { file = \"meshes/tetrahedron.obj\", scale = 0.1 } }\n";
     fs::write(&path, text).unwrap();
     let scene = Scene::load(&path, &[]).unwrap();
-    assert!(close(scene.built().model.bodies[0].mass.mass, 27.0));
+    assert!(close(scene.built().model.bodies[0].solid.mass.mass, 27.0));
     assert_eq!(scene.name(), "scene");
 }
 

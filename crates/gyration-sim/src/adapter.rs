@@ -76,7 +76,7 @@ impl<'a> ModelSystem<'a> {
         let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(model, body, *speed)).sum();
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
-        let radii = model.bodies.iter().map(|body| body.surface.as_ref().map_or(0.0, radius)).collect();
+        let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
         Ok(Prepared { workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes }.on(model))
@@ -123,7 +123,7 @@ impl<'a> ModelSystem<'a> {
 fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
     match &model.fluid {
         Some(fluid) if !body.has_inertia() => fluid.viscosity * speed * body.size * body.size,
-        _ => 0.5 * body.mass.mass * speed * speed,
+        _ => 0.5 * body.solid.mass.mass * speed * speed,
     }
 }
 
@@ -180,7 +180,7 @@ impl System for ModelSystem<'_> {
             let motion = BodyMotion::read(body, slots, y);
             let gap = smallest_gap(self.model, t, index, &motion).max(0.0);
             let speed = fastest_speed(body, &motion);
-            energy += 0.5 * body.mass.mass * speed * speed;
+            energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);
             // The rounding of the places from which the gap is computed is all that can be had.
             let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);

@@ -83,7 +83,7 @@ pub fn lift_off(model: &Model, body: usize, force: f64, speed: f64) -> f64 {
         return f64::NAN;
     }
     let gravity = model.gravity.norm();
-    let weight = this.mass.mass * if gravity > 0.0 { gravity } else { speed * speed / this.size };
+    let weight = this.solid.mass.mass * if gravity > 0.0 { gravity } else { speed * speed / this.size };
     // Any crossing counts: the force has no rest level to be filtered against.
     (force / (LEFT * weight) - 1.0) / f64::EPSILON
 }

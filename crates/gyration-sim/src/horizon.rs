@@ -55,7 +55,7 @@ pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64],
         step = step.min(DRIVE_PART / frequency);
     }
     for ((body, end), radius) in model.bodies.iter().zip(ends).zip(radii) {
-        let Some(surface) = &body.surface else { continue };
+        let Some(surface) = &body.solid.surface else { continue };
         for contact in &body.contacts {
             let support = &model.supports[contact.support()];
             let approach = PlaneApproach::of(model, contact.support(), time, end, surface, *radius);

@@ -180,13 +180,13 @@ fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
 
 /// Wireframe and silhouette of a body, relative to the centre of mass.
 fn describe_outline(body: &gyration::body::Body) -> Value {
-    let outline = body.shape.outline();
+    let outline = body.solid.shape.outline();
     let relative = |points: &[gyration::tensor::Vec3]| {
-        points.iter().map(|point| json!((point - body.mass.center).as_slice())).collect::<Value>()
+        points.iter().map(|point| json!((point - body.solid.mass.center).as_slice())).collect::<Value>()
     };
     json!({
         "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
-        "silhouette": relative(&body.shape.silhouette_points()),
+        "silhouette": relative(&body.solid.shape.silhouette_points()),
     })
 }
 
@@ -200,9 +200,9 @@ fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
             BodyKind::Affine(_) => "affine",
             BodyKind::Contractile(_) => "contractile",
         },
-        "mass": body.mass.mass,
-        "center": body.mass.center.as_slice(),
-        "euler_tensor": body.mass.euler_tensor.as_slice(),
+        "mass": body.solid.mass.mass,
+        "center": body.solid.mass.center.as_slice(),
+        "euler_tensor": body.solid.mass.euler_tensor.as_slice(),
         "size": body.size,
         "surface": surface,
     });

@@ -54,7 +54,7 @@ impl StepEnd {
         let alone = |load: Load| if load.pulls() { Err(()) } else { Ok(()) };
         let alone =
             Load::try_each(body, model.fluid.as_ref(), model.applied(index), alone).is_ok() && body.pin.is_none();
-        alone.then(|| body.mass.mass * (self.acceleration - model.gravity).norm())
+        alone.then(|| body.solid.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }
 
@@ -89,7 +89,7 @@ mod tests {
         let found = ends(&scene, state)[0].contact_force(model, 0).unwrap();
         let integrated = observe(model, &mut Workspace::default(), state, 0).unwrap().contact_force.norm();
         // Differences of accelerations of the size of g: a few roundings of the weight.
-        let weight = model.bodies[0].mass.mass * 9.81;
+        let weight = model.bodies[0].solid.mass.mass * 9.81;
         assert!((found - integrated).abs() < 1e-14 * (weight + integrated), "{found} {integrated}");
     }
 

@@ -1,7 +1,7 @@
 //! Rest states and small motions about them, against closed forms.
 
 use gyration::affine::{AffineBody, Viscosity};
-use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia};
+use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia, Solid};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::load::Spring;
@@ -13,6 +13,7 @@ use gyration::support::{Support, SupportMotion};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::modes::{Mode, ModeBehaviour, NoRest, Rest, modes, rest};
+use std::sync::Arc;
 
 const GRAVITY: f64 = 9.81;
 
@@ -29,9 +30,7 @@ fn bare(shape: Shape, density: f64) -> Body {
         name: "body".into(),
         kind: BodyKind::Rigid(RigidInertia::new(&mass, None).unwrap()),
         size: shape.size(),
-        surface: shape.surface().map(|surface| surface.translated(&-mass.center)),
-        mass,
-        shape,
+        solid: Solid::new(shape, mass).into(),
         contacts: Vec::new(),
         springs: Vec::new(),
         inclusion: None,
@@ -42,7 +41,7 @@ fn bare(shape: Shape, density: f64) -> Body {
 fn soft(shape: Shape, density: f64, material: Option<Material>, viscosity: f64) -> Body {
     let body = bare(shape, density);
     let viscosity = Viscosity { kirchhoff: viscosity, ..Viscosity::default() };
-    let interior = AffineBody::new(&body.mass, None, material, viscosity).unwrap();
+    let interior = AffineBody::new(&body.solid.mass, None, material, viscosity).unwrap();
     Body { kind: BodyKind::Affine(Box::new(Affine::from(interior))), ..body }
 }
 
@@ -147,8 +146,8 @@ fn compressible_sphere_breathes_at_the_bulk_modulus() {
     let (mu, lambda) = (8000.0, 50000.0);
     let material = Some(Material::NeoHookeanLog(NeoHookeanLog { mu, lambda }));
     let body = soft(ball(), 1000.0, material, 0.0);
-    let euler = body.mass.euler_tensor.m11;
-    let volume = body.mass.volume;
+    let euler = body.solid.mass.euler_tensor.m11;
+    let volume = body.solid.mass.volume;
     let (_, found) = survey(&model(0.0, vec![], body, Vec3::zeros()));
     assert_eq!(found.len(), 12);
     let breath = (3.0 * (lambda + 2.0 * mu / 3.0) * volume / euler).sqrt();
@@ -225,7 +224,8 @@ fn flat_box_on_the_field_of_its_bottom_rocks_as_in_the_closed_form() {
     let half = 0.5 * side;
     let corners = [(-half, -half), (-half, half), (half, half), (half, -half)];
     let corners = corners.map(|(x, y)| Vec3::new(x, y, -0.5 * height));
-    body.surface = Some(Surface::from_triangles(&corners, &[[0, 1, 2], [0, 2, 3]]).unwrap());
+    let facet = Surface::from_triangles(&corners, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+    Arc::make_mut(&mut body.solid).surface = Some(facet);
     let single = (Model::new(model.gravity, model.supports, vec![body]), state);
     let (rest, found) = survey(&single);
     let gap = (1e-6 * side * side / (mass * GRAVITY)).powf(1.0 / 6.0);
@@ -323,7 +323,7 @@ fn pendulum_has_its_frequency_hanging_and_its_growth_upside_down() {
     for (sign, motion) in [(1.0, ModeBehaviour::Oscillates), (-1.0, ModeBehaviour::Grows)] {
         let mut body = bare(Shape::Box(Cuboid { size: Vec3::repeat(side) }), 1000.0);
         let pin = Pin { point: Vec3::new(0.0, 0.0, sign * length), anchor: Vec3::zeros() };
-        body.kind = BodyKind::Rigid(RigidInertia::new(&body.mass, Some(&pin)).unwrap());
+        body.kind = BodyKind::Rigid(RigidInertia::new(&body.solid.mass, Some(&pin)).unwrap());
         body.pin = Some(pin);
         let (_, found) = survey(&model(GRAVITY, vec![], body, -pin.point));
         assert_eq!(found.len(), 3);
@@ -340,7 +340,7 @@ fn pendulum_has_its_frequency_hanging_and_its_growth_upside_down() {
 fn pinned_incompressible_body_has_eight_modes() {
     let mut body = soft(ball(), 1000.0, rubber(), 0.0);
     let pin = Pin { point: Vec3::new(0.0, 0.0, 0.1), anchor: Vec3::zeros() };
-    let interior = AffineBody::new(&body.mass, Some(&pin.point), rubber(), Viscosity::default()).unwrap();
+    let interior = AffineBody::new(&body.solid.mass, Some(&pin.point), rubber(), Viscosity::default()).unwrap();
     body.kind = BodyKind::Affine(Box::new(Affine::from(interior)));
     body.pin = Some(pin);
     let (rest, found) = survey(&model(GRAVITY, vec![], body, Vec3::new(0.0, 0.0, -0.1)));
@@ -353,7 +353,7 @@ fn pinned_incompressible_body_has_eight_modes() {
 #[test]
 fn spring_pendulum_bounces_and_swings() {
     let mut body = bare(ball(), 1000.0);
-    let (stiffness, mass) = (400.0, body.mass.mass);
+    let (stiffness, mass) = (400.0, body.solid.mass.mass);
     let spring = Spring { point: Vec3::zeros(), anchor: Vec3::z(), stiffness, rest_length: 0.5, damping: 2.0 };
     body.springs = vec![spring];
     let (rest, found) = survey(&model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8)));

@@ -57,7 +57,7 @@ fn a_replayed_state_is_the_one_recorded() {
                     "{name}"
                 );
                 let force = vector(&recording, "contact_force", row, body);
-                let scale = force.norm().max(of.mass.mass * model.gravity.norm());
+                let scale = force.norm().max(of.solid.mass.mass * model.gravity.norm());
                 worst = worst.max((seen.contact_force - force).norm() / scale);
             }
         }
@@ -181,7 +181,7 @@ fn tractions_of_a_curved_body_integrate_to_the_contact_force_as_its_triangles_gr
         record(&hovering("ellipsoid = { semi_axes = [0.06, 0.05, 0.04] }", AFFINE, "reference_area"), folder.path());
     let mut replay = Replay::open(&recording).unwrap();
     let force = vector(&recording, "contact_force", 1, 0);
-    let shape = replay.model().bodies[0].shape.clone();
+    let shape = replay.model().bodies[0].solid.shape.clone();
     let mut error = |count: usize| {
         let difference = integrated(&mut replay, 1, &shape.triangulation(count)) - force;
         difference.norm() / force.norm()
@@ -231,7 +231,7 @@ fn mean_tractions_of_curved_bodies_add_up_to_the_contact_force_however_near_they
         let recording = gallery(name, &[&format!("time.end={end}")], folder.path());
         let mut replay = Replay::open(&recording).unwrap();
         let cells = SurfaceCells::of(&replay.model().bodies[0], 1600);
-        let weight = replay.model().bodies[0].mass.mass * replay.model().gravity.norm();
+        let weight = replay.model().bodies[0].solid.mass.mass * replay.model().gravity.norm();
         let mut worst = 0.0_f64;
         for row in (0..recording.rows()).step_by(5) {
             let (force, recorded) = (summed(&mut replay, row, &cells), vector(&recording, "contact_force", row, 0));

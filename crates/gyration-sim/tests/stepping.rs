@@ -93,7 +93,7 @@ fn the_ledger_closes_under_a_force_that_switches() {
     for scene in ["bounce", "elastic-bounce", "hop"] {
         let scene = Scene::open(scene, &["solver.rtol=1e-7".into()]).unwrap();
         let mut run = SteppedRun::new(scene.built()).unwrap();
-        let weight = run.model().bodies[0].mass.mass * 9.81;
+        let weight = run.model().bodies[0].solid.mass.mass * 9.81;
         let size = run.model().bodies[0].size;
         let mut exchanged = 0.0_f64;
         for k in 0..20 {

@@ -83,8 +83,8 @@ pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
     };
     let BodyAt { model, time, index, body, motion, .. } = *at;
     let BodyMotion { placement, velocity } = motion;
-    let affine_momentum = placement.gradient * body.mass.euler_tensor * velocity.gradient_rate.transpose();
-    let linear_momentum = body.mass.mass * velocity.velocity;
+    let affine_momentum = placement.gradient * body.solid.mass.euler_tensor * velocity.gradient_rate.transpose();
+    let linear_momentum = body.solid.mass.mass * velocity.velocity;
     BodyObservation {
         motion: *motion,
         gap: smallest_gap(model, time, index, motion),
@@ -109,16 +109,16 @@ pub fn smallest_gap(model: &Model, time: f64, index: usize, motion: &BodyMotion)
 /// |ṗ₀| + |Ṗ| r with the radius of gyration r = √(tr J/m).
 pub fn fastest_speed(body: &Body, motion: &BodyMotion) -> f64 {
     let velocity = &motion.velocity;
-    if let Some(surface) = &body.surface {
+    if let Some(surface) = &body.solid.surface {
         return surface.fastest_point(&velocity.velocity, &velocity.gradient_rate);
     }
-    match &body.shape {
+    match &body.solid.shape {
         Shape::Points(Points { points }) if points.len() > 1 => {
-            let speed = |point: &MassPoint| velocity.at(&(point.at - body.mass.center)).norm();
+            let speed = |point: &MassPoint| velocity.at(&(point.at - body.solid.mass.center)).norm();
             points.iter().map(speed).fold(0.0, f64::max)
         }
         _ => {
-            let radius = (body.mass.euler_tensor.trace() / body.mass.mass).sqrt();
+            let radius = (body.solid.mass.euler_tensor.trace() / body.solid.mass.mass).sqrt();
             velocity.velocity.norm() + velocity.gradient_rate.norm() * radius
         }
     }
@@ -154,7 +154,7 @@ pub fn energies_at(
             let at = instant.at(model, index);
             *value += match energy {
                 Energy::Kinetic => kinetic_energy(at.body, at.motion),
-                Energy::Gravity => -at.body.mass.mass * model.gravity.dot(&at.motion.placement.position),
+                Energy::Gravity => -at.body.solid.mass.mass * model.gravity.dot(&at.motion.placement.position),
                 Energy::Elastic => elastic_energy(&at),
                 Energy::Contact | Energy::Load => stored_energy(&at, scratch, *energy)?,
             };
@@ -180,6 +180,6 @@ pub fn kinetic_energy(body: &Body, motion: &BodyMotion) -> f64 {
         return 0.0;
     }
     let Velocity { velocity, gradient_rate } = &motion.velocity;
-    let spread = (gradient_rate * body.mass.euler_tensor).dot(gradient_rate);
-    0.5 * (body.mass.mass * velocity.norm_squared() + spread)
+    let spread = (gradient_rate * body.solid.mass.euler_tensor).dot(gradient_rate);
+    0.5 * (body.solid.mass.mass * velocity.norm_squared() + spread)
 }

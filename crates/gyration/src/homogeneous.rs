@@ -55,16 +55,16 @@ pub fn observe_homogeneous(
     let inverse = p.try_inverse().unwrap_or(Mat3::from_element(f64::NAN));
     let velocity_gradient = rate * inverse;
     let affine_moment = p * moment.transpose();
-    let momentum = p * body.mass.euler_tensor * rate.transpose();
+    let momentum = p * body.solid.mass.euler_tensor * rate.transpose();
     let arm = motion.placement.position - origin;
     let stretches = polar.stretch.symmetric_eigenvalues();
     let mut stretches: [f64; 3] = stretches.into();
     stretches.sort_by(|a, b| b.total_cmp(a));
-    let tension = body.mass.volume * (stress * p.transpose()).transpose();
+    let tension = body.solid.mass.volume * (stress * p.transpose()).transpose();
     Ok(HomogeneousObservation {
         velocity_gradient,
-        total_affine_momentum: momentum + body.mass.mass * arm * motion.velocity.velocity.transpose(),
-        comoving_affine_momentum: body.mass.euler_tensor * (inverse * rate).transpose(),
+        total_affine_momentum: momentum + body.solid.mass.mass * arm * motion.velocity.velocity.transpose(),
+        comoving_affine_momentum: body.solid.mass.euler_tensor * (inverse * rate).transpose(),
         affine_moment,
         moment_power: affine_moment.dot(&velocity_gradient.transpose()),
         momentum_residual: residual(body, &(p * euler_tensor * acceleration.transpose() - affine_moment), &tension),
@@ -77,7 +77,7 @@ pub fn observe_homogeneous(
 
 /// Without a volume there is no stress to balance anything.
 fn residual(body: &Body, unbalanced: &Mat3, tension: &Mat3) -> Mat3 {
-    if body.mass.volume > 0.0 { unbalanced + tension } else { *unbalanced }
+    if body.solid.mass.volume > 0.0 { unbalanced + tension } else { *unbalanced }
 }
 
 /// What the balance of P is made of, about the centre of mass or the pin.
@@ -106,7 +106,7 @@ impl Interior {
             KindAt::Rigid(_, turn) => {
                 let acceleration = inertial(rigid_acceleration(at, &turn.spin, scratch)?);
                 let euler_tensor = euler_tensor(at.body);
-                (euler_tensor, acceleration, (moment - acceleration * euler_tensor) / at.body.mass.volume)
+                (euler_tensor, acceleration, (moment - acceleration * euler_tensor) / at.body.solid.mass.volume)
             }
         };
         Ok(Self { euler_tensor, moment, acceleration, stress })
@@ -115,8 +115,8 @@ impl Interior {
 
 /// J about the pin, if there is one.
 fn euler_tensor(body: &Body) -> Mat3 {
-    let own = body.mass.euler_tensor;
-    body.pin.as_ref().map_or(own, |pin| own + body.mass.mass * pin.point * pin.point.transpose())
+    let own = body.solid.mass.euler_tensor;
+    body.pin.as_ref().map_or(own, |pin| own + body.solid.mass.mass * pin.point * pin.point.transpose())
 }
 
 /// P̈ = R ([Ω̇]× + [Ω]×²).

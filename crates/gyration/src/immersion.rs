@@ -79,7 +79,7 @@ fn rigid(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<Tract
         couple: immersed.drag.couple() + immersed.ambient - steady * arm.transpose() + 0.5 * cross_matrix(&torque),
         volume: inclusion.volume,
         dissipation: immersed.drag.dissipation(&turn.spin),
-        form: at.body.shape.semi_axes().map(|axes| (*rotation, axes.into())),
+        form: at.body.solid.shape.semi_axes().map(|axes| (*rotation, axes.into())),
         is_ellipsoid: true,
     }))
 }

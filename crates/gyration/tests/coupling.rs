@@ -40,7 +40,7 @@ fn bodies() -> Vec<Body> {
                 let contractile = Contractile::new(soft.affine().unwrap().clone(), contraction);
                 bodies.push(Body { kind: BodyKind::Contractile(Box::new(contractile)), ..soft.clone() });
             }
-            let inertia = RigidInertia::new(&soft.mass, soft.pin.as_ref()).unwrap();
+            let inertia = RigidInertia::new(&soft.solid.mass, soft.pin.as_ref()).unwrap();
             bodies.push(Body { kind: BodyKind::Rigid(inertia), ..soft.clone() });
             bodies.push(soft);
         }

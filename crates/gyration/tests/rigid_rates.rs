@@ -21,7 +21,7 @@ use proptest::prelude::*;
 fn body(shape: Shape, exponents: [f64; 4], pinned: bool) -> Body {
     let variant = Variant { measure: AreaMeasure::default(), incompressible: false, pinned, frame: Frame::Space };
     let soft = moving::body(shape, exponents, variant);
-    let inertia = RigidInertia::new(&soft.mass, soft.pin.as_ref()).unwrap();
+    let inertia = RigidInertia::new(&soft.solid.mass, soft.pin.as_ref()).unwrap();
     Body { kind: BodyKind::Rigid(inertia), ..soft }
 }
 
@@ -127,9 +127,10 @@ fn kinetic_energy_and_spin_agree_with_the_inertia_tensor() {
         let seen = observe(&model, &mut Workspace::default(), &state, index).unwrap();
         let motion = seen.motion;
         let turn = Turn::read(model.slots(index), &state.bodies);
-        let spin_momentum = motion.placement.gradient * body.mass.inertia() * turn.spin;
+        let spin_momentum = motion.placement.gradient * body.solid.mass.inertia() * turn.spin;
         let velocity = motion.velocity.velocity;
-        let expected = 0.5 * (body.mass.mass * velocity.norm_squared() + spin_momentum.dot(&motion.angular_velocity()));
+        let expected =
+            0.5 * (body.solid.mass.mass * velocity.norm_squared() + spin_momentum.dot(&motion.angular_velocity()));
         assert!((kinetic_energy(body, &motion) - expected).abs() < 1e-14 * expected);
         let orbital = motion.placement.position.cross(&seen.linear_momentum);
         assert!((seen.angular_momentum - orbital - spin_momentum).norm() < 1e-14 * seen.angular_momentum.norm());

@@ -5,6 +5,7 @@ use super::fluid::ImmersedBody;
 use super::kind::WrittenDeformation;
 use super::mass::{MassSource, lone_point, size};
 use super::shape::ShapeBuilder;
+use super::solids::Solids;
 use super::start::{WrittenPlacement, placement};
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
@@ -19,14 +20,19 @@ use gyration::tensor::Vec3;
 
 /// A body of the model and how it starts.
 #[derive(Debug, Clone)]
-pub(super) struct Solid {
+pub(super) struct AssembledBody {
     pub(super) body: Moving,
     pub(super) start: Start,
 }
 
-impl Solid {
+impl AssembledBody {
     /// Builds a body, without its contacts; notes what is wrong with it.
-    pub(super) fn new(placed: &Placed<Body>, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Self> {
+    pub(super) fn new(
+        placed: &Placed<Body>,
+        context: &SceneContext,
+        solids: &mut Solids,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<Self> {
         let Placed { key, value } = placed;
         let deforming = WrittenDeformation::of(placed, context, reporter);
         let attitude = WrittenPlacement::of(placed, deforming.start(), reporter);
@@ -52,10 +58,8 @@ impl Solid {
         let body = Moving {
             name: value.name.clone(),
             kind,
-            mass,
-            surface: shape.surface().map(|surface| surface.translated(&-mass.center)),
             size: size(&shape, &mass, &arm.unwrap_or_default()),
-            shape,
+            solid: solids.share(shape, mass),
             contacts: Vec::new(),
             springs: springs(placed, &place, reporter),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),

@@ -1,6 +1,6 @@
 //! Contacts: each `[[contact]]` goes to the body that it names, or to all bodies with a surface.
 
-use super::body::Solid;
+use super::body::AssembledBody;
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
@@ -12,17 +12,17 @@ use std::sync::Arc;
 const MOST_PAIRS: usize = 1_000_000;
 
 /// Gives the bodies their contacts; notes a contact that names a body without a surface, and a law out of range.
-pub(super) fn attach(partial: &PartialScene, solids: &mut [Option<Solid>], reporter: &mut Reporter<'_>) {
+pub(super) fn attach(partial: &PartialScene, assembled: &mut [Option<AssembledBody>], reporter: &mut Reporter<'_>) {
     let supports: HashMap<&str, usize> =
         partial.supports.iter().enumerate().map(|(index, support)| (support.value.name.as_str(), index)).collect();
-    let bodies = named(solids);
+    let bodies = named(assembled);
     let mut pairs = 0;
     for Placed { key, value } in &partial.contacts {
         let law_set = Arc::new(LawSet::new(measure(value.measure), laws(value)));
         law_set.laws().iter().for_each(|law| range(law, key, reporter));
         let met = match &value.body {
             Some(name) => bodies.get(name).map_or(0..0, |&index| index..index + 1),
-            None => 0..solids.len(),
+            None => 0..assembled.len(),
         };
         pairs += met.len();
         if pairs > MOST_PAIRS {
@@ -31,13 +31,13 @@ pub(super) fn attach(partial: &PartialScene, solids: &mut [Option<Solid>], repor
             return;
         }
         let support = supports.get(value.support.as_str()).copied();
-        for solid in solids[met].iter_mut().flatten() {
-            match (&solid.body.surface, support) {
+        for assembled_body in assembled[met].iter_mut().flatten() {
+            match (&assembled_body.body.solid.surface, support) {
                 (Some(_), Some(support)) => {
-                    solid.body.contacts.push(Acting::with_support(support, Arc::clone(&law_set)));
+                    assembled_body.body.contacts.push(Acting::with_support(support, Arc::clone(&law_set)));
                 }
                 (None, _) if value.body.is_some() => {
-                    let message = format!("\"{}\" has no surface", solid.body.name);
+                    let message = format!("\"{}\" has no surface", assembled_body.body.name);
                     reporter.note(&key.key("body"), message, "name a body whose shape has a surface");
                 }
                 _ => {}
@@ -47,9 +47,11 @@ pub(super) fn attach(partial: &PartialScene, solids: &mut [Option<Solid>], repor
 }
 
 /// Where the body of each name stands.
-fn named(solids: &[Option<Solid>]) -> HashMap<String, usize> {
-    let name = |(index, solid): (usize, &Option<Solid>)| Some((solid.as_ref()?.body.name.clone(), index));
-    solids.iter().enumerate().filter_map(name).collect()
+fn named(assembled: &[Option<AssembledBody>]) -> HashMap<String, usize> {
+    let name = |(index, assembled_body): (usize, &Option<AssembledBody>)| {
+        Some((assembled_body.as_ref()?.body.name.clone(), index))
+    };
+    assembled.iter().enumerate().filter_map(name).collect()
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

@@ -241,7 +241,7 @@ const TOLERANCE: f64 = 1e-2;
 
 /// The form of a body that only boundary elements tell.
 pub(super) fn unknown(written: &Body, body: &Moving, index: usize) -> Option<UnknownForm> {
-    let inclusion = written.inclusion.as_ref().filter(|_| body.shape.semi_axes().is_none())?;
+    let inclusion = written.inclusion.as_ref().filter(|_| body.solid.shape.semi_axes().is_none())?;
     Some(asked(inclusion, !matches!(body.kind, BodyKind::Rigid(_)), index))
 }
 

@@ -18,6 +18,7 @@ mod resolve;
 mod salvage;
 mod shape;
 mod signal;
+mod solids;
 mod start;
 mod support;
 
@@ -29,10 +30,11 @@ use crate::check::{PartialScene, Reporter};
 use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
-use body::Solid;
+use body::AssembledBody;
 use gyration::model::Model;
 use gyration::state::{Start, State};
 use gyration::tensor::Vec3;
+use solids::Solids;
 
 /// A scene ready to run.
 #[derive(Debug, Clone)]
@@ -117,22 +119,23 @@ pub(crate) fn assemble(
     context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<(Built, Vec<UnknownForm>)> {
-    let mut solids: Vec<Option<Solid>> =
-        partial.bodies.iter().map(|body| Solid::new(body, context, reporter)).collect();
+    let solids = &mut Solids::default();
+    let mut assembled: Vec<Option<AssembledBody>> =
+        partial.bodies.iter().map(|body| AssembledBody::new(body, context, solids, reporter)).collect();
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    contact::attach(partial, &mut solids, reporter);
-    for (body, solid) in partial.bodies.iter_mut().zip(&solids) {
-        if let Some(solid) = solid {
-            overlap::check(body, solid, &supports, reporter);
-            resolve::resolve(&mut body.value, &solid.start);
+    contact::attach(partial, &mut assembled, reporter);
+    for (body, assembled_body) in partial.bodies.iter_mut().zip(&assembled) {
+        if let Some(assembled_body) = assembled_body {
+            overlap::check(body, assembled_body, &supports, reporter);
+            resolve::resolve(&mut body.value, &assembled_body.start);
         }
     }
     if !reporter.diagnostics.is_empty() {
         return None;
     }
     let plan = Plan::new(partial.time.as_ref()?, &partial.solver);
-    let (bodies, starts): (Vec<_>, Vec<Start>) = solids.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
+    let (bodies, starts): (Vec<_>, Vec<Start>) = assembled.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
     let mut model = Model::new(si(&partial.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);

@@ -1,6 +1,6 @@
 //! The first gaps: a body must not touch a support that it is in contact with.
 
-use super::body::Solid;
+use super::body::AssembledBody;
 use super::start::placement;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
@@ -9,18 +9,23 @@ use gyration::surface::GapField;
 use std::collections::BTreeSet;
 
 /// Notes each support that a body reaches at t = 0, with the lift that it needs.
-pub(super) fn check(placed: &Placed<Body>, solid: &Solid, supports: &[Option<Support>], reporter: &mut Reporter<'_>) {
-    let Some(surface) = &solid.body.surface else { return };
-    let met: BTreeSet<usize> = solid.body.contacts.iter().map(|contact| contact.support()).collect();
-    let start = placement(&solid.start);
+pub(super) fn check(
+    placed: &Placed<Body>,
+    assembled: &AssembledBody,
+    supports: &[Option<Support>],
+    reporter: &mut Reporter<'_>,
+) {
+    let Some(surface) = &assembled.body.solid.surface else { return };
+    let met: BTreeSet<usize> = assembled.body.contacts.iter().map(|contact| contact.support()).collect();
+    let start = placement(&assembled.start);
     for support in met.into_iter().filter_map(|index| supports.get(index)?.as_ref()) {
         let field =
             GapField { height: support.gap(&start.position, 0.0), direction: start.gradient.tr_mul(&support.normal) };
         let (gap, _) = surface.smallest_gap(&field);
-        if solid.body.is_apart(gap, &field) {
+        if assembled.body.is_apart(gap, &field) {
             continue;
         }
-        let (body, name) = (&solid.body.name, &support.name);
+        let (body, name) = (&assembled.body.name, &support.name);
         let [x, y, z] = support.normal.into();
         let message =
             format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");

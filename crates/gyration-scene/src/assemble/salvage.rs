@@ -4,8 +4,9 @@
 //! The body is built without the keys that something was found against; of what that finds, only that counts which no
 //! missing key can have caused.
 
-use super::body::Solid;
+use super::body::AssembledBody;
 use super::context::SceneContext;
+use super::solids::Solids;
 use crate::check::{Placed, Reporter};
 use crate::document::{Diagnostics, Document};
 use crate::file::Body;
@@ -47,7 +48,8 @@ pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: 
         }
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Diagnostics::default();
-        Solid::new(&Placed { key: key.clone(), value }, context, &mut Reporter { document, diagnostics: &mut found });
+        let (placed, solids) = (Placed { key: key.clone(), value }, &mut Solids::default());
+        AssembledBody::new(&placed, context, solids, &mut Reporter { document, diagnostics: &mut found });
         let counts = |place: &Key| checked.iter().any(|name| key.key(name).holds(place));
         diagnostics.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
     }

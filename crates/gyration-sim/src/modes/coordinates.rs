@@ -151,7 +151,7 @@ fn mass(body: &Body) -> DMatrix<f64> {
     let own = DMatrix::from_column_slice(3, 3, own.as_slice()).kronecker(&DMatrix::identity(repeat, repeat));
     let center = Slots::of(body, 0).position().len();
     let size = center + own.nrows();
-    let mut mass = DMatrix::from_diagonal_element(size, size, body.mass.mass);
+    let mut mass = DMatrix::from_diagonal_element(size, size, body.solid.mass.mass);
     mass.view_mut((center, center), own.shape()).copy_from(&own);
     mass
 }

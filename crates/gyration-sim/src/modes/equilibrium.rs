@@ -168,7 +168,7 @@ impl Search {
         let scale = shapes.iter().zip(&values).map(|(shape, value)| {
             value.abs() / (shape.translation.norm() / length).max(strain(shape)).max(f64::MIN_POSITIVE)
         });
-        let scale = scale.fold(frozen.gravity().norm() * frozen.body().mass.mass.sqrt(), f64::max);
+        let scale = scale.fold(frozen.gravity().norm() * frozen.body().solid.mass.mass.sqrt(), f64::max);
         // Nor does rounding choose the side to which a body would fall.
         let free = |k: usize| values[k] <= zero && along[k].abs() <= NO_FORCE * scale;
         let per_step = |shape: &ModeShape| (shape.translation.norm() / self.reach).max(strain(shape) / LARGEST_STRAIN);

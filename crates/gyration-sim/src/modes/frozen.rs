@@ -110,7 +110,7 @@ impl FrozenBody {
     /// The smallest distances to the supports that push or pull [m].
     pub fn gaps(&self, block: &[f64]) -> Vec<f64> {
         let motion = self.motion(block);
-        let Some(surface) = &self.body().surface else { return Vec::new() };
+        let Some(surface) = &self.body().solid.surface else { return Vec::new() };
         let supports = &self.model.supports;
         let gap = |index: usize| surface.smallest_gap(&supports[index].gap_field(&motion.placement, self.time)).0;
         self.holding().map(gap).collect()

@@ -28,12 +28,14 @@ pub(super) fn of(shape: &ModeShape, body: &Body, placement: &Placement) -> Strin
     let euler = match &body.kind {
         BodyKind::Affine(affine) => affine.interior.euler_tensor,
         BodyKind::Contractile(contractile) => contractile.affine.interior.euler_tensor,
-        BodyKind::Rigid(_) => body.mass.about(&(body.mass.center + body.pin.map_or(Vec3::zeros(), |pin| pin.point))),
+        BodyKind::Rigid(_) => {
+            body.solid.mass.about(&(body.solid.mass.center + body.pin.map_or(Vec3::zeros(), |pin| pin.point)))
+        }
     };
     let current = placement.gradient * euler * placement.gradient.transpose();
     let energy = |part: &Mat3| (part * current).dot(part);
     // The centre of a pinned body goes where the pin lets it.
-    let translation = if body.pin.is_some() { 0.0 } else { body.mass.mass * shape.translation.norm_squared() };
+    let translation = if body.pin.is_some() { 0.0 } else { body.solid.mass.mass * shape.translation.norm_squared() };
     let axes = NamedAxes { own: Polar::of(&placement.gradient).rotation };
     let mut parts = [
         (translation, format!("translation along {}", axes.name(&shape.translation))),

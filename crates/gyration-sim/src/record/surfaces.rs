@@ -7,6 +7,7 @@
 use gyration::body::Body;
 use gyration::shape::Triangulation;
 use gyration_record::{ArraySpec, Dimension, FixedArray};
+use std::sync::Arc;
 
 /// Triangles of a surface, where a recording has few of them.
 const MOST_TRIANGLES: usize = 1600;
@@ -28,8 +29,12 @@ impl<'a> Surfaces<'a> {
     pub(crate) fn of(bodies: &'a [Body]) -> Self {
         let mut distinct: Vec<&Body> = Vec::new();
         let one = |body: &'a Body| {
-            body.shape.sharpest_feature()?;
-            let alike = |other: &&Body| other.shape == body.shape && other.mass.center == body.mass.center;
+            let solid = &body.solid;
+            solid.shape.sharpest_feature()?;
+            let alike = |other: &&Body| {
+                let other = &other.solid;
+                Arc::ptr_eq(other, solid) || other.shape == solid.shape && other.mass.center == solid.mass.center
+            };
             // From the end: equal bodies often stand together.
             let known = distinct.iter().rposition(alike);
             Some(known.unwrap_or_else(|| {
@@ -55,8 +60,8 @@ impl<'a> Surfaces<'a> {
     pub(super) fn arrays(&self) -> Vec<FixedArray> {
         let each = (ALL_TRIANGLES / self.distinct.len().max(1)).clamp(FEWEST_TRIANGLES, MOST_TRIANGLES);
         let surface = |(k, body): (usize, &&Body)| {
-            let center = body.mass.center;
-            arrays(k, &body.shape.triangulation(each).mapped(|point| point - center))
+            let center = body.solid.mass.center;
+            arrays(k, &body.solid.shape.triangulation(each).mapped(|point| point - center))
         };
         self.distinct.iter().enumerate().flat_map(surface).collect()
     }

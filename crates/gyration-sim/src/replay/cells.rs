@@ -59,7 +59,7 @@ impl SurfaceCells {
     /// The surface of a body in about `count` triangles; flat faces are divided until they are as many.
     pub fn of(body: &Body, count: usize) -> Self {
         let mut this = Self { surface: Triangulation::default(), cells: Vec::new(), leaves: Vec::new() };
-        this.add(&body.shape, Mat3::identity(), -body.mass.center, count);
+        this.add(&body.solid.shape, Mat3::identity(), -body.solid.mass.center, count);
         this
     }
 

@@ -80,7 +80,7 @@ fn difference(body: &Body, recorded: &Value) -> Option<&'static str> {
         let far = |(a, b): (&f64, &f64)| (a - b).abs() > ROUNDING * scale;
         !recorded.is_empty() && (recorded.len() != values.len() || recorded.iter().zip(values).any(far))
     };
-    let mass = &body.mass;
+    let mass = &body.solid.mass;
     if recorded.get("name").and_then(Value::as_str).is_some_and(|name| name != body.name) {
         Some("the name")
     } else if differ("mass", &[mass.mass], mass.mass) {

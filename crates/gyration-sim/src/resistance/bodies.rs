@@ -223,8 +223,8 @@ impl ResistanceRequest {
         let built = scene.built();
         let body = &built.model.bodies[index];
         let placement = built.state.motion(&built.model, index).placement;
-        let center = body.mass.center;
-        if let (Some(semi_axes), false) = (body.shape.semi_axes(), self.by_elements) {
+        let center = body.solid.mass.center;
+        if let (Some(semi_axes), false) = (body.solid.shape.semi_axes(), self.by_elements) {
             let matrix = FixedForm::of_image(&(placement.gradient * Mat3::from_diagonal(&semi_axes)));
             let matrix = FixedForm::shifted(&matrix, &-(placement.gradient * center)).matrix * self.viscosity;
             return Ok(ResistanceMatrix { matrix, elements: None });
@@ -236,7 +236,7 @@ impl ResistanceRequest {
             // In axes of space about the centre of mass.
             wall: self.wall.map(|wall| Wall { point: wall.point - placement.position, ..wall }),
         };
-        let found = boundary_resistance(&body.shape, &elements).map_err(|error| {
+        let found = boundary_resistance(&body.solid.shape, &elements).map_err(|error| {
             let fix = "take another shape, another number of triangles, or another place beside the wall";
             NoSuchResistance::new(format!("body {:?}: {error}", body.name), fix)
         })?;
@@ -245,7 +245,7 @@ impl ResistanceRequest {
     }
 
     fn vibration(&self, body: &Body, frequency: f64) -> Result<Vibration, NoSuchResistance> {
-        let Shape::Sphere(Sphere { radius }) = body.shape else {
+        let Shape::Sphere(Sphere { radius }) = body.solid.shape else {
             let problem = format!("body {:?} is no sphere: only a sphere vibrates in closed form", body.name);
             return Err(NoSuchResistance::new(problem, "name a sphere: SCENE:BODY, or leave out --frequency"));
         };

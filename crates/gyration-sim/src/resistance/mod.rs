@@ -54,11 +54,12 @@ pub fn completed(scene: &Scene) -> Result<Cow<'_, Scene>, SceneErrors> {
 fn form(body: &Body, asked: &UnknownForm) -> Result<Form, NoResistance> {
     let triangles = asked.triangles;
     let Some(resolution) = asked.resolution else {
-        let (center, gradient) = (body.mass.center, Mat3::identity());
-        let found = boundary_resistance(&body.shape, &BoundaryElements { triangles, center, gradient, wall: None })?;
+        let (center, gradient) = (body.solid.mass.center, Mat3::identity());
+        let found =
+            boundary_resistance(&body.solid.shape, &BoundaryElements { triangles, center, gradient, wall: None })?;
         return Ok(Form::Fixed(Box::new(FixedForm { matrix: found.matrix, error: found.error })));
     };
-    let surface = DeformingSurface::new(&body.shape, triangles);
+    let surface = DeformingSurface::new(&body.solid.shape, triangles);
     // The first of many, by which a surface that has none is found before the run.
     surface.resistance(&Mat3::identity())?;
     surface.table(resolution).map(|table| Form::Surface(SurfaceForm(Arc::new(table)))).ok_or(NoResistance::Flat)

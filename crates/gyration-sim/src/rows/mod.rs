@@ -164,7 +164,7 @@ fn body_array(model: &Model, field: &BodyField) -> ArraySpec {
 fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
     let body = &model.bodies[index];
     let applies = match field.name {
-        GAP => body.surface.is_some() && !model.supports.is_empty(),
+        GAP => body.solid.surface.is_some() && !model.supports.is_empty(),
         CONTACT_FORCE => !body.contacts.is_empty(),
         name => applies(name, body),
     };

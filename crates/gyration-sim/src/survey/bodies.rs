@@ -116,7 +116,7 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
         let approach = Approach::new(model, start, index, support)?;
         let contacts = body.contacts.iter().filter(|contact| contact.support() == support);
         let laws = contacts.flat_map(|contact| contact.law_set.laws());
-        let laws: Vec<LawSurvey> = laws.map(|law| LawSurvey::of(law, &body.shape)).collect();
+        let laws: Vec<LawSurvey> = laws.map(|law| LawSurvey::of(law, &body.solid.shape)).collect();
         Some(PairSurvey {
             support: model.supports[support].name.clone(),
             initial_gap: approach.initial_gap,
@@ -135,7 +135,7 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
         kind: KindSurvey::of(body),
         rest_state,
         no_rest_state_because,
-        mass: MassSurvey::of(&body.mass),
+        mass: MassSurvey::of(&body.solid.mass),
         supports: (0..model.supports.len()).filter_map(pair).collect(),
     }
 }

@@ -78,7 +78,7 @@ impl<'a> Approach<'a> {
     pub fn new(model: &'a Model, start: &State, body: usize, support: usize) -> Option<Self> {
         let motion = start.motion(model, body);
         let (body, plane) = (&model.bodies[body], &model.supports[support]);
-        let surface = body.surface.as_ref()?;
+        let surface = body.solid.surface.as_ref()?;
         let direction = motion.placement.gradient.tr_mul(&plane.normal);
         let height = plane.gap(&motion.placement.position, start.time);
         let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
@@ -89,9 +89,9 @@ impl<'a> Approach<'a> {
             direction,
             deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
             depth: height - initial_gap,
-            mass: body.mass.mass,
+            mass: body.solid.mass.mass,
             size: body.size,
-            weight: -body.mass.mass * model.gravity.dot(&plane.normal),
+            weight: -body.solid.mass.mass * model.gravity.dot(&plane.normal),
             initial_gap,
             no_rest_because: held_otherwise(body),
         })

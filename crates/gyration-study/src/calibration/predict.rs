@@ -110,7 +110,7 @@ fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, Str
     let pressing = model.gravity.norm();
     if resistance > 0.0 {
         // |g| was multiplied by cos θ.
-        Ok(model.bodies[index].mass.mass * pressing * slope.tan() / resistance)
+        Ok(model.bodies[index].solid.mass.mass * pressing * slope.tan() / resistance)
     } else {
         Err(format!("no friction acts on {:?}: on a slope it gets faster for ever", experiment.body))
     }

@@ -111,7 +111,7 @@ pub(super) struct Turns {
 impl Turns {
     pub fn new(model: &Model, layout: &ColumnPlaces, body: usize, axis: Vec3, of_form: bool) -> Self {
         let across = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
-        let form = of_form.then(|| (model.bodies[body].mass.euler_tensor, [across, axis.cross(&across)]));
+        let form = of_form.then(|| (model.bodies[body].solid.mass.euler_tensor, [across, axis.cross(&across)]));
         Self { motion: MotionPlaces::new(layout, body), axis, form, last: None, wound: 0.0 }
     }
 

@@ -1,12 +1,14 @@
-//! A body: its mass, its surface, the laws and springs that act on it, and its kind.
+//! A body: the solid that it is, the laws and springs that act on it, and its kind.
 //!
 //! Everything is relative to the centre of mass. A rigid body has the configuration (p₀, P = R) and the velocity (ṗ₀,
 //! Ω), an affine body (p₀, P) and (ṗ₀, Ṗ), a contractile one G besides; `layout` says where these stand in the state. A
 //! pinned body has no position of its own; a body in a fluid that has no inertia has no velocities in its state.
 
 mod layout;
+mod solid;
 
 pub use layout::{Slots, matrix, vector};
+pub use solid::Solid;
 
 use crate::affine::AffineBody;
 use crate::contact::Contact;
@@ -15,9 +17,9 @@ use crate::fluid::{History, Inclusion};
 use crate::ledger::{Energy, Work};
 use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
-use crate::shape::Shape;
-use crate::surface::{GapField, Surface};
+use crate::surface::GapField;
 use crate::tensor::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// A body of the model.
 #[derive(Debug, Clone)]
@@ -26,12 +28,8 @@ pub struct Body {
     pub name: String,
     /// How it may deform.
     pub kind: BodyKind,
-    /// Mass, centre and Euler tensor.
-    pub mass: MassProperties,
-    /// The shape in its own frame, for whoever draws it.
-    pub shape: Shape,
-    /// The surface relative to the centre of mass; none for mass points.
-    pub surface: Option<Surface>,
+    /// Its shape, mass and surface, which equal bodies share.
+    pub solid: Arc<Solid>,
     /// Laws with supports.
     pub contacts: Vec<Contact>,
     /// Springs to fixed anchors.

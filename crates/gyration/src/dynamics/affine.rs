@@ -15,7 +15,7 @@ use crate::tensor::Mat3;
 pub(crate) fn moment(at: &BodyAt, loads: &Loads) -> Mat3 {
     match &at.body.pin {
         None => loads.moment,
-        Some(pin) => loads.moment - (loads.force + at.body.mass.mass * at.model.gravity) * pin.point.transpose(),
+        Some(pin) => loads.moment - (loads.force + at.body.solid.mass.mass * at.model.gravity) * pin.point.transpose(),
     }
 }
 
@@ -66,7 +66,7 @@ pub(super) fn fill(
 pub(super) fn write(at: &BodyAt, acting: &Acting, acceleration: &Mat3, slots: &Slots, rates: &mut [f64]) {
     let velocity = &at.motion.velocity;
     if at.body.pin.is_none() {
-        let linear = at.model.gravity + acting.total.force / at.body.mass.mass;
+        let linear = at.model.gravity + acting.total.force / at.body.solid.mass.mass;
         rates[slots.position()].copy_from_slice(velocity.velocity.as_slice());
         rates[slots.velocity()].copy_from_slice(linear.as_slice());
     }

@@ -17,7 +17,7 @@ pub(super) fn meet<T>(
     integrate: impl FnOnce(&Meeting) -> Result<T, GapClosed>,
 ) -> Result<Option<T>, Inadmissible> {
     let BodyAt { model, body, motion, .. } = at;
-    let Some(surface) = &body.surface else { return Ok(None) };
+    let Some(surface) = &body.solid.surface else { return Ok(None) };
     let Partner::Support(index) = contact.partner;
     let support = &model.supports[index];
     let field = support.gap_field(&motion.placement, at.time);
@@ -45,7 +45,7 @@ fn deformation(at: &BodyAt) -> Option<Deformation> {
 
 /// The support next to a body's surface; none without supports or surface.
 pub fn nearest(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Option<Nearest> {
-    let surface = model.bodies[index].surface.as_ref()?;
+    let surface = model.bodies[index].solid.surface.as_ref()?;
     let near = model.supports.iter().map(|support| {
         let (gap, point) = surface.smallest_gap(&support.gap_field(&motion.placement, time));
         let speed = (motion.velocity.at(&point) - support.motion.velocity(time)).dot(&support.normal);

@@ -44,14 +44,14 @@ impl<'a> RigidHistory<'a> {
 
     /// m + m_a.
     pub fn mass(&self) -> f64 {
-        self.at.body.mass.mass + self.history.added_mass
+        self.at.body.solid.mass.mass + self.history.added_mass
     }
 
     /// Solves the balance for the rates; gives the power of the history's loads [W].
     pub fn fill(&self, inertia: &RigidInertia, wrench: &Wrench, slots: &Slots, rates: &mut [f64]) -> f64 {
         let (loads, turn, motion) = (&self.loads, self.turn, self.at.motion);
         let rotation = &motion.placement.gradient;
-        let weight = self.at.body.mass.mass * self.at.model.gravity;
+        let weight = self.at.body.solid.mass.mass * self.at.model.gravity;
         let linear: Vec3 = (weight + wrench.force + loads.force) / self.mass();
         let torque = wrench.torque + rotation.tr_mul(&loads.torque);
         let spin = &turn.spin;

@@ -82,13 +82,13 @@ pub(super) fn fill(
     let gyroscopic = if body.has_inertia() { spin.cross(&(inertia.tensor * spin)) } else { Vec3::zeros() };
     let torque = match &body.pin {
         None => {
-            let linear = model.gravity + wrench.force / body.mass.mass;
+            let linear = model.gravity + wrench.force / body.solid.mass.mass;
             rates[slots.position()].copy_from_slice(motion.velocity.velocity.as_slice());
             rates[slots.velocity()].copy_from_slice(linear.as_slice());
             wrench.torque
         }
         Some(pin) => {
-            let force = motion.placement.gradient.tr_mul(&(wrench.force + body.mass.mass * model.gravity));
+            let force = motion.placement.gradient.tr_mul(&(wrench.force + body.solid.mass.mass * model.gravity));
             wrench.torque - pin.point.cross(&force)
         }
     };

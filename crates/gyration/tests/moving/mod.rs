@@ -6,7 +6,7 @@ pub mod any_form;
 
 use gyration::affine::{AffineBody, Viscosity};
 use gyration::balance::energies;
-use gyration::body::{Affine, Body, BodyKind, Pin};
+use gyration::body::{Affine, Body, BodyKind, Pin, Solid};
 use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
@@ -71,7 +71,6 @@ pub struct Variant {
 
 pub fn body(shape: Shape, exponents: [f64; 4], variant: Variant) -> Body {
     let mass = shape.mass_properties(0.8);
-    let surface = shape.surface().map(|surface| surface.translated(&-mass.center));
     let pin = variant.pinned.then(|| Pin { point: Vec3::new(0.2, -0.1, 0.3), anchor: Vec3::new(0.3, 0.1, 1.4) });
     let spring = Spring {
         point: Vec3::new(0.1, 0.2, -0.3),
@@ -92,9 +91,7 @@ pub fn body(shape: Shape, exponents: [f64; 4], variant: Variant) -> Body {
         name: "body".into(),
         kind: BodyKind::Affine(Box::new(affine)),
         size: shape.size(),
-        mass,
-        shape,
-        surface,
+        solid: Solid::new(shape, mass).into(),
         contacts: (0..2)
             .map(|support| Contact::with_support(support, LawSet::new(variant.measure, laws(exponents))))
             .collect(),
@@ -136,9 +133,9 @@ pub fn immersed(model: Model, inertia: bool) -> Model {
 /// Rigid spheres whose motion a fluid remembers, roughly.
 pub fn with_history(model: Model) -> Model {
     let mut model = immersed(model, true);
-    model.bodies.retain(|body| body.pin.is_none() && matches!(body.shape, Shape::Sphere(_)));
+    model.bodies.retain(|body| body.pin.is_none() && matches!(body.solid.shape, Shape::Sphere(_)));
     for body in &mut model.bodies {
-        if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut body.inclusion, &body.shape) {
+        if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut body.inclusion, &body.solid.shape) {
             inclusion.history = Some(History::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
         }
     }

@@ -36,7 +36,9 @@ impl Figures {
         let skins: Vec<SurfaceCells> = surfaces.distinct().iter().map(|body| SurfaceCells::of(body, each)).collect();
         let figure = |(body, surface): (&Body, &Option<usize>)| match surface {
             Some(surface) => Representation::Skin(*surface),
-            None => Representation::Points(body.shape.outline().points.iter().map(|p| p - body.mass.center).collect()),
+            None => Representation::Points(
+                body.solid.shape.outline().points.iter().map(|p| p - body.solid.mass.center).collect(),
+            ),
         };
         let of_body: Vec<Representation> = bodies.iter().zip(surfaces.of_bodies()).map(figure).collect();
         let topology = topology(&skins, &of_body);

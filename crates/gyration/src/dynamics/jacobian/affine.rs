@@ -110,7 +110,7 @@ pub(super) struct Seen<'a> {
 impl<'a> Seen<'a> {
     /// By a body at an instant.
     pub fn of(at: &BodyAt, slopes: &'a LoadSlopes) -> Self {
-        Self { slopes, arm: at.body.pin.as_ref().map(|pin| pin.point), mass: at.body.mass.mass }
+        Self { slopes, arm: at.body.pin.as_ref().map(|pin| pin.point), mass: at.body.solid.mass.mass }
     }
 
     /// δf/m along one coordinate of a free body.

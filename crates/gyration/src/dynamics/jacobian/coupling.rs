@@ -144,7 +144,7 @@ fn about_pin(at: &BodyAt, loads: &Loads) -> Mat3 {
 fn turned(at: &BodyAt, inertia: &RigidInertia, turn: &Turn, change: &Loads) -> Vec12 {
     let (mass, inverse) = match RigidHistory::of(at, turn) {
         Some(sphere) => (sphere.mass(), sphere.inverse(inertia)),
-        None => (at.body.mass.mass, inertia.inverse),
+        None => (at.body.solid.mass.mass, inertia.inverse),
     };
     let about = Loads { force: change.force, moment: about_pin(at, change) };
     let angular = inverse * about.body_torque(&at.motion.placement.gradient);
@@ -173,7 +173,7 @@ fn deformed<F: F64x4>(at: &BodyAt, acceleration: impl Fn(&SimdMat3) -> SimdMat3<
         let change = loads(&Vec12::ith(k, 1.0));
         let mut own = [0.0; 9];
         acceleration(&SimdMat3::of(&about_pin(at, &change))).write(&mut own);
-        stacked(at, &(change.force / at.body.mass.mass), &own)
+        stacked(at, &(change.force / at.body.solid.mass.mass), &own)
     })
 }
 

@@ -42,7 +42,7 @@ pub(super) fn slopes(
     let mut slopes = RigidSlopes::default();
     let others = slopes.add_all(at, turn, scratch)?;
     if let Some(pin) = &at.body.pin {
-        let weight = at.body.mass.mass * at.model.gravity;
+        let weight = at.body.solid.mass.mass * at.model.gravity;
         slopes.tie_to_pin(&pin.point, &weight, &at.motion.placement.gradient, turn);
     }
     Ok((slopes, others))
@@ -116,7 +116,7 @@ impl RigidSlopes {
         if body.pin.is_some() {
             return;
         }
-        let mobility = 1.0 / body.mass.mass;
+        let mobility = 1.0 / body.solid.mass.mass;
         let (position, velocity) = (|| slots.position(), || slots.velocity());
         write(block, (position(), velocity()), &Mat3::identity());
         write(block, (velocity(), position()), &(self.by_place.force * mobility));
