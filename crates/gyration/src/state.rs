@@ -161,7 +161,7 @@ impl BodyMotion {
             return Self::of_turn(body, slots, state, &Turn::read(slots, state));
         }
         let rate = read(state, slots.rate(), matrix, Mat3::zeros());
-        Self::of(body, slots, state, (matrix(&state[slots.attitude()]), rate))
+        Self::of(body, slots, state, matrix(&state[slots.attitude()]), rate)
     }
 
     /// The motion of a rigid body whose turn has been read.
@@ -169,12 +169,12 @@ impl BodyMotion {
     pub(crate) fn of_turn(body: &Body, slots: &Slots, state: &[f64], turn: &Turn) -> Self {
         let rotation = turn.quaternion.rotation();
         let rate = rigid_gradient_rate(&rotation, &turn.spin);
-        Self::of(body, slots, state, (rotation, rate))
+        Self::of(body, slots, state, rotation, rate)
     }
 
     /// The motion of a body without inertia, given the rates of its places.
     pub fn of_rates(body: &Body, slots: &Slots, state: &[f64], rates: &[f64]) -> Self {
-        let gradients = match body.kind {
+        let (gradient, rate) = match body.kind {
             BodyKind::Rigid(_) => {
                 let turn = Turn::of_rates(slots, state, rates);
                 let rotation = turn.quaternion.rotation();
@@ -184,7 +184,7 @@ impl BodyMotion {
                 (matrix(&state[slots.attitude()]), matrix(&rates[slots.attitude()]))
             }
         };
-        let mut motion = Self::of(body, slots, state, gradients);
+        let mut motion = Self::of(body, slots, state, gradient, rate);
         if body.pin.is_none() {
             motion.velocity.velocity = vector(&rates[slots.position()]);
         }
@@ -193,7 +193,7 @@ impl BodyMotion {
 
     /// The motion of P and Ṗ. A pinned body's centre follows the pin: p₀ = a − P r, ṗ₀ = −Ṗ r.
     #[inline(always)]
-    fn of(body: &Body, slots: &Slots, state: &[f64], (gradient, gradient_rate): (Mat3, Mat3)) -> Self {
+    fn of(body: &Body, slots: &Slots, state: &[f64], gradient: Mat3, gradient_rate: Mat3) -> Self {
         let (position, velocity) = match &body.pin {
             None => center(slots, state),
             Some(pin) => (pin.anchor - gradient * pin.point, -(gradient_rate * pin.point)),
