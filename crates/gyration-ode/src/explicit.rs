@@ -123,7 +123,10 @@ impl Explicit {
     pub fn interpolate(&self, from: &Point, to: &Point, h: f64, theta: f64, mut put: impl FnMut(usize, f64)) {
         let weights = interpolation_weights(theta);
         for (i, (start, end)) in from.u.iter().zip(&to.u).enumerate() {
-            let sum: f64 = weights.iter().map(|(stage, weight)| weight * self.rates.row(*stage)[i]).sum();
+            let mut sum = -0.0;
+            for (stage, weight) in &weights {
+                sum += weight * self.rates.row(*stage)[i];
+            }
             put(i, start + theta * (end - start) + h * sum);
         }
     }
