@@ -93,6 +93,11 @@ impl<'a> Simulation<'a> {
         &self.run.state
     }
 
+    /// What the run was asked for.
+    pub fn plan(&self) -> &RunPlan {
+        &self.run.plan
+    }
+
     /// The counters so far.
     pub fn statistics(&self) -> &Statistics {
         self.run.integrator.statistics()

@@ -36,7 +36,7 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     match ended {
         Ended::Ran(summary) => {
             tell(arguments, &scene, &path, &summary)?;
-            Ok(exit_code(&summary.outcome))
+            Ok(exit_code(&summary))
         }
         Ended::AlreadyFinished(attributes) => {
             tell_finished(arguments, &path, &attributes)?;
@@ -45,8 +45,10 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     }
 }
 
-fn exit_code(outcome: &Outcome) -> u8 {
-    match outcome {
+/// A run whose ledger lost too much has not been done, whatever its end.
+fn exit_code(summary: &RunSummary) -> u8 {
+    match &summary.outcome {
+        Outcome::Completed | Outcome::AtRest { .. } if summary.ledger.balance().is_useless() => code::ENDED_EARLY,
         Outcome::Completed | Outcome::AtRest { .. } => code::DONE,
         Outcome::Stopped(stop) if stop.reason == Reason::Interrupted => code::INTERRUPTED,
         Outcome::Stopped(_) => code::ENDED_EARLY,
@@ -112,6 +114,9 @@ fn tell(arguments: &RunArguments, scene: &Scene, path: &Path, summary: &RunSumma
         output::say(&summary.text(scene, &start));
         output::say(&format!("recording  {}\npicture    {picture}", shown(path)));
     }
+    if let (Some(warning), true) = (summary.ledger.warning(), arguments.quiet || arguments.json) {
+        output::say(&format!("gyration: warning: {warning}"));
+    }
     let Outcome::Stopped(_) = &summary.outcome else { return Ok(()) };
     // An exit code alone does not tell what happened.
     if arguments.quiet || arguments.json {
@@ -126,7 +131,7 @@ fn tell(arguments: &RunArguments, scene: &Scene, path: &Path, summary: &RunSumma
 fn tell_finished(arguments: &RunArguments, path: &Path, attributes: &Attributes) -> Result<(), CliError> {
     let outcome = attributes.get("outcome_in_words").and_then(Value::as_str).unwrap_or("finished");
     if arguments.json {
-        let told = ["outcome", "statistics", "largest_residual", "energy_in_play", "events"];
+        let told = ["outcome", "statistics", "ledger", "largest_residual", "energy_in_play", "events"];
         let told = told.iter().filter_map(|name| Some(((*name).to_owned(), attributes.get(*name)?.clone())));
         let mut value: Attributes = told.collect();
         value.insert("recording".into(), json!(shown(path)));

@@ -102,7 +102,7 @@ impl Plan {
             sample: time.sample.value(),
             stop_at_rest: rest.map(|rest| StopAtRest { speed: rest.speed.value(), hold: rest.hold.value() }),
             rtol: solver.rtol,
-            atol: solver.atol.value(),
+            atol: solver.atol,
             method: solver.method,
             max_step: solver.max_step.map(|step| step.value()),
             max_wall_time: solver.max_wall_time.map(|time| time.value()),

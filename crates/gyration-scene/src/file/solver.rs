@@ -1,6 +1,6 @@
 //! `[solver]`: tolerances and method; all optional.
 
-use crate::quantity::{Duration, NonNegative, Positive};
+use crate::quantity::{Duration, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,9 @@ pub struct Solver {
     pub rtol: f64,
     /// Absolute tolerance of a step, as a fraction of scale: body size for lengths, one for P, own speed for
     /// velocities.
-    pub atol: NonNegative<f64>,
+    // Above, what it lets pass is no error any more.
+    #[schemars(range(min = 0, max = 1e-2))]
+    pub atol: f64,
     /// How the equations are integrated.
     pub method: Method,
     /// The longest step (s); none by default.
@@ -27,7 +29,7 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Self { rtol: 1e-8, atol: NonNegative(1e-10), method: Method::Auto, max_step: None, max_wall_time: None }
+        Self { rtol: 1e-8, atol: 1e-10, method: Method::Auto, max_step: None, max_wall_time: None }
     }
 }
 

@@ -1,6 +1,9 @@
 //! What a run leaves to say: outcome, work of the solver, ledger, momenta, events.
 
 mod text;
+mod verdict;
+
+pub use verdict::{Balance, Verdict};
 
 use crate::events::EVENT_KINDS;
 use crate::outcome::Outcome;
@@ -53,6 +56,10 @@ pub struct LedgerSummary {
     pub residual: f64,
     /// Largest |residual| over the samples [J].
     pub largest_residual: f64,
+    /// The largest |residual| [J] that the tolerances let pass.
+    pub allowed_residual: f64,
+    /// Whether the balance closes.
+    pub verdict: Verdict,
     /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
     pub energy_in_play: f64,
     /// What contraction and viscosity took in the step in which they took least [J], by name; a negative one is the
@@ -62,6 +69,27 @@ pub struct LedgerSummary {
 }
 
 impl LedgerSummary {
+    /// The residual of the run and what it is compared with.
+    pub fn balance(&self) -> Balance {
+        let end: f64 = self.energies.iter().map(|(_, value)| value.abs()).sum();
+        let total = self.initial_energy.abs().max(end);
+        Balance { residual: self.largest_residual, in_play: self.energy_in_play, total }
+    }
+
+    /// What a user must be told of a ledger that is open.
+    pub fn warning(&self) -> Option<String> {
+        (self.verdict == Verdict::Open).then(|| {
+            format!(
+                "the energy balance is open: it misses by {:.1e} J, {:.1e} of the energy in play, where the tolerances \
+                 let {:.1e} J pass. Do not trust the run: take a smaller solver.rtol, and look for gaps and coefficients \
+                 out of proportion with the bodies.",
+                self.largest_residual,
+                self.largest_residual / self.energy_in_play,
+                self.allowed_residual,
+            )
+        })
+    }
+
     /// A work [J] by its name, if the ledger has it.
     pub fn work(&self, name: &str) -> Option<f64> {
         self.works.iter().find(|(work, _)| *work == name).map(|(_, value)| *value)
@@ -118,21 +146,27 @@ impl RunSummary {
                 })
             })
             .collect();
+        let mut ledger = LedgerSummary {
+            initial_energy: run_state.initial_energy,
+            energies: model.energies().iter().map(|energy| energy.name()).zip(ledger.energies).collect(),
+            works: model.works().iter().map(|work| work.name()).zip(ledger.works).collect(),
+            residual: ledger.residual,
+            largest_residual: run_state.largest_residual,
+            allowed_residual: f64::NAN,
+            verdict: Verdict::Open,
+            energy_in_play: run_state.energy_in_play,
+            least_dissipation: least_dissipation(model, run_state),
+        };
+        let (balance, tolerance) = (ledger.balance(), simulation.plan().tolerance);
+        ledger.allowed_residual = balance.allowed(tolerance);
+        ledger.verdict = balance.verdict(tolerance);
         Self {
             in_words: outcome.in_words(),
             outcome,
             time: state.time,
             wall_time: wall.map(|wall| wall.as_secs_f64()),
             statistics: statistics(simulation),
-            ledger: LedgerSummary {
-                initial_energy: run_state.initial_energy,
-                energies: model.energies().iter().map(|energy| energy.name()).zip(ledger.energies).collect(),
-                works: model.works().iter().map(|work| work.name()).zip(ledger.works).collect(),
-                residual: ledger.residual,
-                largest_residual: run_state.largest_residual,
-                energy_in_play: run_state.energy_in_play,
-                least_dissipation: least_dissipation(model, run_state),
-            },
+            ledger,
             bodies,
             smallest_gap: Some(run_state.smallest_gap).filter(|gap| gap.is_finite()),
             events: Value::Object(events),
@@ -145,6 +179,7 @@ impl RunSummary {
         attributes.insert("outcome".into(), self.outcome.attribute());
         attributes.insert("outcome_in_words".into(), json!(self.in_words));
         attributes.insert("statistics".into(), self.statistics.clone());
+        attributes.insert("ledger".into(), json!(self.ledger.verdict));
         attributes.insert("largest_residual".into(), json!(self.ledger.largest_residual));
         attributes.insert("energy_in_play".into(), json!(self.ledger.energy_in_play));
         if !self.ledger.least_dissipation.is_empty() {

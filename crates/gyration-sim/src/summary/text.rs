@@ -1,5 +1,6 @@
 //! The summary of a run for people: outcome, steps, ledger, momenta, events.
 
+use super::verdict::ROUNDING;
 use super::{BodySummary, LedgerSummary, RunSummary};
 use crate::format::{duration, significant, vector};
 use gyration_record::{RecordError, Recording};
@@ -50,9 +51,6 @@ fn steps(summary: &RunSummary) -> String {
     )
 }
 
-/// A residual below this fraction of the energies is their own rounding.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// The ledger as a table, and how well it closes; `start` are the energies at t = 0, in the order of the ledger.
 fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
     let mut text = format!("energy [J]  {:>26} {:>16}\n", "at t = 0", "at the end");
@@ -67,15 +65,17 @@ fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
     }
     let _ = writeln!(text, "  {:<36} {:>16}", "residual", number(ledger.residual));
     let relative = ledger.largest_residual / ledger.energy_in_play;
-    let total: f64 = ledger.energies.iter().map(|(_, value)| value.abs()).sum();
-    let relative = if ledger.largest_residual <= ROUNDING * total {
+    let relative = if ledger.balance().is_rounding() {
         ", the rounding of the energies".to_owned()
     } else if relative.is_finite() {
         format!(", {relative:.1e} of the energy in play")
     } else {
         String::new()
     };
-    let _ = writeln!(text, "  the balance closes to {:.1e} J{relative}", ledger.largest_residual);
+    let _ = match ledger.warning() {
+        None => writeln!(text, "  the balance closes to {:.1e} J{relative}", ledger.largest_residual),
+        Some(warning) => writeln!(text, "  warning: {warning}"),
+    };
     text
 }
 

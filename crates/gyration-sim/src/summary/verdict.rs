@@ -1,0 +1,99 @@
+//! Whether the ledger of a run closes.
+//!
+//!   |Σ energies − Σ energies at 0 − Σ works| ≤ MARGIN (rtol + atol) E + ROUNDING Σ|energies|
+//!
+//! E is the energy in play. Over a run the residual stays below rtol·E where the steps are what they claim to be; one
+//! that is a hundred times the tolerances has lost or made energy that no law accounts for. However loose the tolerances
+//! are, more than 1 % of E is never taken for closed.
+
+use crate::adapter::Tolerance;
+use serde::Serialize;
+
+/// What the residual may be, in tolerances times the energy in play.
+const MARGIN: f64 = 100.0;
+/// Part of the energy in play from which on a residual makes the whole run useless.
+const MOST_LOST: f64 = 0.01;
+/// A residual below this fraction of the energies is their own rounding.
+pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Whether the energy balance of a run closes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// As well as the tolerances promise.
+    Closed,
+    /// It misses by much more than the tolerances.
+    Open,
+}
+
+/// The residual of a run and what it is compared with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// Largest |residual| over the samples [J].
+    pub residual: f64,
+    /// The energy in play [J].
+    pub in_play: f64,
+    /// Σ|energies| [J].
+    pub total: f64,
+}
+
+impl Balance {
+    /// Whether it closes within tolerances.
+    pub fn verdict(&self, tolerance: Tolerance) -> Verdict {
+        match self.residual <= self.allowed(tolerance) {
+            true => Verdict::Closed,
+            false => Verdict::Open,
+        }
+    }
+
+    /// The residual [J] that tolerances let pass.
+    pub fn allowed(&self, tolerance: Tolerance) -> f64 {
+        let part = MARGIN * (tolerance.rtol + tolerance.atol);
+        part.min(MOST_LOST) * self.in_play + self.rounding()
+    }
+
+    /// Whether the residual is no more than the rounding of the energies.
+    pub fn is_rounding(&self) -> bool {
+        self.residual <= self.rounding()
+    }
+
+    /// Whether so much is missing that the run is useless.
+    pub fn is_useless(&self) -> bool {
+        self.residual.is_nan() || self.residual > MOST_LOST * self.in_play + self.rounding()
+    }
+
+    fn rounding(&self) -> f64 {
+        ROUNDING * self.total
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(residual: f64, rtol: f64) -> (Verdict, bool) {
+        let balance = Balance { residual, in_play: 2.0, total: 1e3 };
+        (balance.verdict(Tolerance { rtol, atol: 0.01 * rtol }), balance.is_useless())
+    }
+
+    #[test]
+    fn a_residual_is_compared_with_the_tolerances() {
+        assert_eq!(verdict(1e-8, 1e-8), (Verdict::Closed, false));
+        assert_eq!(verdict(1e-5, 1e-8), (Verdict::Open, false));
+        assert_eq!(verdict(1e-5, 1e-4), (Verdict::Closed, false));
+    }
+
+    #[test]
+    fn a_hundredth_of_the_energy_in_play_is_too_much_at_any_tolerance() {
+        assert_eq!(verdict(0.019, 1e-2), (Verdict::Closed, false));
+        assert_eq!(verdict(0.021, 1e-2), (Verdict::Open, true));
+        assert_eq!(verdict(f64::NAN, 1e-2), (Verdict::Open, true));
+    }
+
+    #[test]
+    fn the_rounding_of_large_energies_is_no_residual() {
+        let still = Balance { residual: 1e-13, in_play: 0.0, total: 1e3 };
+        assert_eq!(still.verdict(Tolerance { rtol: 1e-14, atol: 0.0 }), Verdict::Closed);
+        assert!(still.is_rounding() && !still.is_useless());
+    }
+}
