@@ -6,6 +6,7 @@
 
 use crate::error::RecordError;
 use crate::metadata::Group;
+pub(crate) use crate::names::STATE;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -15,8 +16,6 @@ use std::thread::ScopedJoinHandle;
 
 /// The metadata of the group, and of each array.
 pub(crate) const METADATA: &str = "zarr.json";
-/// The directory of checkpoint and lock.
-pub(crate) const STATE: &str = "state";
 /// The file of the checkpoint.
 pub(crate) const CHECKPOINT: &str = "state/checkpoint";
 /// The file that the writing process locks.
@@ -200,7 +199,9 @@ pub(crate) fn read_group(path: &Path) -> Result<Group, RecordError> {
 /// # Errors
 /// `Locked` if another process holds it, with `path` as its name.
 pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
+    refuse_link(&work.join(STATE))?;
     let name = work.join(LOCK);
+    refuse_link(&name)?;
     // The lock must not touch what is in the file: it belongs to another process as long as that one holds it.
     let opened = OpenOptions::new().read(true).append(true).create(true).open(&name);
     let file = opened.map_err(RecordError::io("open", &name))?;
@@ -209,6 +210,29 @@ pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
         Err(TryLockError::WouldBlock) => Err(RecordError::Locked { path: path.to_path_buf() }),
         Err(TryLockError::Error(e)) => Err(RecordError::io("lock", &name)(e)),
     }
+}
+
+/// Refuses a recording with links in it: what is written into it, or removed from it, would be elsewhere.
+///
+/// # Errors
+/// `NotARecording` with the link, `Io`.
+pub(crate) fn refuse_links(path: &Path) -> Result<(), RecordError> {
+    for name in list(path)? {
+        let entry = path.join(name);
+        refuse_link(&entry)?;
+        if entry.is_dir() {
+            list(&entry)?.iter().try_for_each(|name| refuse_link(&entry.join(name)))?;
+        }
+    }
+    Ok(())
+}
+
+fn refuse_link(path: &Path) -> Result<(), RecordError> {
+    if !path.is_symlink() {
+        return Ok(());
+    }
+    let reason = "it is a link that may lead out of the recording: put in its place what it points to".into();
+    Err(RecordError::NotARecording { path: path.to_path_buf(), reason })
 }
 
 /// Removes a recording, whole; anything else stays and is an error.

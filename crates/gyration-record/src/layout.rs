@@ -4,6 +4,7 @@
 //! the order of the layout, each flattened with its last dimension fastest.
 
 use crate::error::RecordError;
+use crate::names::{is_column, is_name, is_word};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A dimension of an array beside time.
@@ -123,8 +124,8 @@ impl Layout {
                 return Err(RecordError::layout(format!("the array `{name}` takes {len} column names or none")));
             }
             for (index, column) in array.columns.iter().enumerate().filter(|(_, column)| !column.is_empty()) {
-                let plain = column.chars().all(|c| c.is_ascii_alphanumeric() || "_.-".contains(c));
-                if !plain || column == "t" || places.insert(column.as_str(), (&array.name, index)).is_some() {
+                if !is_column(column) || column == "t" || places.insert(column.as_str(), (&array.name, index)).is_some()
+                {
                     return Err(RecordError::layout(format!("the column `{column}` is taken twice or not a name")));
                 }
             }
@@ -177,7 +178,6 @@ impl Layout {
         if let Some((dim, _)) = self.labels.iter().find(|(dim, _)| !labelled.insert(dim)) {
             return Err(RecordError::layout(format!("the dimension `{dim}` is labelled twice")));
         }
-        let is_word = |kind: &String| !kind.is_empty() && kind.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         match self.event_kinds.iter().find(|kind| !is_word(kind)) {
             Some(kind) => Err(RecordError::layout(format!("the kind of event `{kind}` is not a word"))),
             None => Ok(()),
@@ -188,13 +188,6 @@ impl Layout {
     fn specs(&self) -> impl Iterator<Item = &ArraySpec> {
         self.arrays.iter().chain(self.fixed.iter().map(|fixed| &fixed.spec))
     }
-}
-
-/// Whether this may name an array or a dimension.
-fn is_name(name: &str) -> bool {
-    let first = name.chars().next();
-    first.is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
-        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
 #[cfg(test)]

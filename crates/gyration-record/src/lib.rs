@@ -24,6 +24,7 @@ pub mod export;
 mod file;
 mod layout;
 mod metadata;
+mod names;
 mod recording;
 mod stream;
 mod writer;

@@ -9,6 +9,7 @@ use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
 use crate::layout::Layout;
+use crate::names::{STATE, is_column, is_name, is_word};
 use crate::zarr::{Marker, ZarrGroup, group_json};
 use serde_json::Value;
 use std::path::Path;
@@ -88,7 +89,9 @@ impl Group {
         let names = ordered.collect::<Vec<_>>();
         let mut arrays = Vec::new();
         for name in names {
-            let array = found.remove(&name).ok_or_else(|| no(format!("zarr.json lacks the array `{name}`")))?;
+            let array = found
+                .remove(&name)
+                .ok_or_else(|| no(format!("zarr.json lacks the array `{}`", name.escape_debug())))?;
             arrays.push(array.info(name).map_err(no)?);
         }
         for (name, array) in found {
@@ -97,7 +100,9 @@ impl Group {
         if arrays.first().is_none_or(|array| !array.grows_with("time")) {
             return Err(no("zarr.json does not begin with the array `time`".into()));
         }
-        Ok(Self { attributes: marker.attributes, arrays })
+        let group = Self { attributes: marker.attributes, arrays };
+        check_names(&group).map_err(no)?;
+        Ok(group)
     }
 
     /// The CSV columns: name, array, place in a row.
@@ -128,6 +133,31 @@ impl Group {
 fn check_attributes(attributes: &Attributes) -> Result<(), RecordError> {
     match attributes.keys().find(|name| name.starts_with("record_")) {
         Some(name) => Err(RecordError::layout(format!("the attribute `{name}` has a reserved name"))),
+        None => Ok(()),
+    }
+}
+
+/// Checks all names of a recording that somebody else may have written.
+///
+/// # Errors
+/// In words: the first name that is none, and what is allowed.
+fn check_names(group: &Group) -> Result<(), String> {
+    let refuse = |what: &str, name: &str, allowed: &str| {
+        Err(format!("zarr.json names {what} `{}`; allowed are {allowed}", name.escape_debug()))
+    };
+    for array in &group.arrays {
+        if !is_name(&array.name) || array.name == STATE {
+            return refuse("the array", &array.name, "letters, digits and _, no digit first, and not `state`");
+        }
+        if let Some(dim) = array.dims.iter().find(|dim| !is_name(dim)) {
+            return refuse("the dimension", dim, "letters, digits and _, no digit first");
+        }
+        if let Some(kind) = array.meanings.iter().find(|kind| !is_word(kind)) {
+            return refuse("the kind of event", kind, "letters, digits and _");
+        }
+    }
+    match group.columns().find(|(name, _, _)| !is_column(name)) {
+        Some((name, _, _)) => refuse("the column", name, "letters, digits, _, - and points"),
         None => Ok(()),
     }
 }

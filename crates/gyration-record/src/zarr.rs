@@ -172,7 +172,10 @@ impl ZarrArray {
         let bytes = chunk.iter().try_fold(8_usize, |bytes, size| bytes.checked_mul(*size));
         let fits = bytes.is_some() && shape.len() == chunk.len() && shape.len() == self.dimension_names.len();
         if !fits || chunk.contains(&0) || chunk.get(1..) != shape.get(1..) {
-            return Err(format!("the shape {shape:?} and the chunks {chunk:?} of `{name}` do not fit"));
+            return Err(format!(
+                "the shape {shape:?} and the chunks {chunk:?} of `{}` do not fit",
+                name.escape_debug()
+            ));
         }
         Ok(ArrayInfo {
             name,

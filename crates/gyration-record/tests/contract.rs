@@ -168,6 +168,59 @@ fn damage_is_told_with_the_file() {
 }
 
 #[test]
+fn names_that_no_writer_gives_are_refused_by_whoever_opens_a_recording() {
+    let folder = tempdir().unwrap();
+    let (path, victim) = (folder.path().join("run.gyr"), folder.path().join("victim"));
+    finished(&path, 6, 4);
+    fs::create_dir(&victim).unwrap();
+    fs::write(victim.join("c.1.0.0"), [0; 192]).unwrap();
+    fs::write(victim.join("c.7.0.0"), "years of work").unwrap();
+    let (text, before) = (fs::read_to_string(path.join("zarr.json")).unwrap(), tree(&victim));
+    let refused = |from: &str, to: &str, named: &str| {
+        fs::write(path.join("zarr.json"), text.replace(from, to)).unwrap();
+        let told =
+            [Recording::open(&path).unwrap_err(), Writer::resume(&path).unwrap_err(), remove(&path).unwrap_err()];
+        for words in told.map(|error| error.to_string()) {
+            assert!(words.contains("run.gyr") && words.contains(named) && words.contains("allowed"), "{words}");
+            assert!(!words.contains('\u{1b}'), "{words}");
+        }
+    };
+    refused("\"position\"", "\"../victim\"", "the array `../victim`");
+    refused("\"mass\"", "\"../../etc\"", "the array `../../etc`");
+    refused("\"mass\"", "\"state\"", "the array `state`");
+    refused("\"mass\"", "\"\\\"><script>\"", "the array `\\\"><script>`");
+    refused("\"row\"", "\"/tmp\"", "the dimension `/tmp`");
+    refused("touch part rest", "touch <b> rest", "the kind of event `<b>`");
+    refused("die.x = ", "die\\u001b = ", "the column `die\\u{1b}`");
+    assert_eq!(tree(&victim), before);
+    fs::write(path.join("zarr.json"), text).unwrap();
+    Writer::resume(&path).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_or_removed_through_a_link_that_lies_in_a_recording() {
+    let folder = tempdir().unwrap();
+    let (path, aside) = (folder.path().join("run.gyr"), folder.path().join("aside"));
+    for name in ["position", "state", "position/c.1.0.0", "state/lock", "zarr.json.part"] {
+        finished(&path, 6, 4);
+        let (place, target) = (path.join(name), aside.join(name.replace('/', "-")));
+        fs::create_dir_all(&aside).unwrap();
+        if place.exists() {
+            fs::rename(&place, &target).unwrap();
+        } else {
+            fs::write(&target, "years of work").unwrap();
+        }
+        let before = tree(&aside);
+        std::os::unix::fs::symlink(&target, &place).unwrap();
+        let words = Writer::resume(&path).unwrap_err().to_string();
+        assert!(words.contains(name) && words.contains("is a link"), "{words}");
+        assert_eq!(tree(&aside), before, "{name}");
+        fs::remove_dir_all(&path).unwrap();
+    }
+}
+
+#[test]
 fn only_recordings_are_removed() {
     let folder = tempdir().unwrap();
     let (path, other) = (folder.path().join("run.gyr"), folder.path().join("other"));

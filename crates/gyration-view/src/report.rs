@@ -9,6 +9,7 @@ use crate::page;
 use crate::stored::{Stored, kept};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
 
 /// Characters that the data may take: with the page, which is below 1 MB, a report stays below 3 MB.
 const MOST_DATA: usize = 1_900_000;
@@ -84,8 +85,7 @@ fn leave_out_dispensable(header: &mut Header) {
 
 /// The elements of the page that hold header, events and surfaces.
 fn described(stored: &Stored, header: &Header) -> Result<String, ViewError> {
-    // JSON has `<` in texts only, where its escape says the same: no text of a scene can end the element.
-    let json = header.to_json().to_string().replace('<', "\\u003c");
+    let json = in_script(&header.to_json());
     let mut elements = format!("<script type=\"application/json\" id=\"gyration-header\">{json}</script>\n");
     let parts =
         (0..header.surfaces.len()).flat_map(|k| ["points", "triangles"].map(|part| format!("surface/{k}/{part}")));
@@ -93,6 +93,12 @@ fn described(stored: &Stored, header: &Header) -> Result<String, ViewError> {
         elements += &element(stored, &name, 1)?;
     }
     Ok(elements)
+}
+
+/// JSON as the text of a script element, which no text in it can end or hide: JSON has `<` in texts only, where its
+/// escape says the same.
+fn in_script(json: &Value) -> String {
+    json.to_string().replace('<', "\\u003c")
 }
 
 /// The elements that hold one sample in `every`.
@@ -104,4 +110,17 @@ fn sampled(stored: &Stored, header: &Header, every: usize) -> Result<String, Vie
 fn element(stored: &Stored, name: &str, every: usize) -> Result<String, ViewError> {
     let packed = miniz_oxide::deflate::compress_to_vec(&stored.blob(name, 0..stored.rows(), every)?, LEVEL);
     Ok(format!("<script type=\"text/plain\" data-blob=\"{name}\">{}</script>\n", STANDARD.encode(packed)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_of_a_recording_ends_the_element_that_holds_it() {
+        let header = serde_json::json!({ "title": "</script><!--<script>alert(1)", "arrays": ["\"><script>"] });
+        let held = in_script(&header);
+        assert!(!held.contains('<'), "{held}");
+        assert_eq!(serde_json::from_str::<Value>(&held).unwrap(), header);
+    }
 }

@@ -1,0 +1,22 @@
+//! Which names a recording may give to arrays, dimensions, kinds of events and columns: one rule to write and to read.
+//!
+//! Names become folders, and words of pages and tables. A recording may come from anybody: one that names an array
+//! `../victim` would let whoever resumes it write outside its folder.
+
+/// The directory of checkpoint and lock, which no array may be called.
+pub(crate) const STATE: &str = "state";
+
+/// Whether this may name an array or a dimension.
+pub(crate) fn is_name(name: &str) -> bool {
+    is_word(name) && !name.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// Whether this may name a kind of event.
+pub(crate) fn is_word(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// Whether this may name a column of a CSV.
+pub(crate) fn is_column(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "_.-".contains(c))
+}
