@@ -258,3 +258,63 @@ fn check_tells_the_rest_state_of_a_body_that_deforms() {
     let rigid: Value = serde_json::from_str(&sandbox.done(&["check", "dice", "--json"]).stdout).unwrap();
     assert!(rigid["bodies"][0]["rest_state"].is_null() && rigid["bodies"][0]["kind"]["kind"] == "rigid");
 }
+
+/// A pipe into which somebody writes as soon as somebody reads, so that a program which opens it does not wait for ever.
+#[cfg(unix)]
+fn pipe(path: &std::path::Path) {
+    assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+    let path = path.to_owned();
+    std::thread::spawn(move || std::fs::File::create(path));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_where_a_file_is_expected_is_refused_before_it_is_opened() {
+    let sandbox = Sandbox::with_ball();
+    sandbox.done(&["run", "ball.toml", "--quiet", "--set", "time.end=0.05"]);
+    for name in ["pipe.toml", "pipe.stl", "pipe.csv"] {
+        pipe(&sandbox.path(name));
+    }
+    let sphere = "sphere = { radius = \"5 cm\" }";
+    sandbox.write("mesh.toml", &BALL.replace(sphere, "mesh = { file = \"pipe.stl\" }"));
+    sandbox.write("study.toml", "scene = \"pipe.toml\"\n[parameter.x]\nkey = \"time.end\"\nvalues = [1]\n");
+    let fit = "scene = \"ball.toml\"\nfit.nu = { key = \"contact.0.repulsion.nu\", start = 5 }\n";
+    sandbox.write("fit.toml", &format!("{fit}[[gap]]\ntable = \"pipe.csv\"\nkey = \"body.ball.density\"\n"));
+    let refused = |arguments: &[&str], file: &str| {
+        let said = sandbox.run(arguments);
+        assert!([Some(2), Some(3)].contains(&said.code), "{arguments:?}: {}", said.stderr);
+        for words in [file, "it is a pipe, a device or a socket, not a file: save what it gives in a file"] {
+            assert!(said.stderr.contains(words), "{arguments:?} says not {words}: {}", said.stderr);
+        }
+    };
+    for command in ["check", "run", "modes"] {
+        refused(&[command, "pipe.toml"], "pipe.toml");
+    }
+    refused(&["check", "mesh.toml"], "pipe.stl");
+    if cfg!(feature = "study") {
+        refused(&["study", "pipe.toml"], "pipe.toml");
+        refused(&["study", "study.toml"], "pipe.toml");
+        refused(&["calibrate", "fit.toml"], "pipe.csv");
+    }
+    let chunk = "ball.gyr/position/c.0.0.0";
+    std::fs::remove_file(sandbox.path(chunk)).unwrap();
+    pipe(&sandbox.path(chunk));
+    refused(&["export", "ball.gyr", "--format", "csv", "-o", "-"], chunk);
+    std::fs::remove_file(sandbox.path("ball.gyr/zarr.json")).unwrap();
+    pipe(&sandbox.path("ball.gyr/zarr.json"));
+    refused(&["plot", "ball.gyr"], "ball.gyr/zarr.json");
+    let said = sandbox.run(&["check", "."]);
+    assert!(said.code == Some(3) && said.stderr.contains("a folder, not a file: name a file in it"), "{}", said.stderr);
+}
+
+#[test]
+fn a_recording_may_be_named_with_a_slash_at_its_end() {
+    let sandbox = Sandbox::with_ball();
+    let run = ["run", "ball.toml", "--quiet", "--set", "time.end=0.05", "-o", "out.gyr/"];
+    sandbox.done(&run);
+    assert_eq!(sandbox.names(), ["ball.toml", "out.gyr"]);
+    sandbox.refused(2, &run);
+    sandbox.done(&[&run[..], &["--resume"]].concat());
+    sandbox.done(&[&run[..], &["--force"]].concat());
+    assert_eq!(sandbox.names(), ["ball.toml", "out.gyr"]);
+}

@@ -5,7 +5,6 @@
 //! contact.
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -135,7 +134,7 @@ fn body(path: &Path, mesh: Polyhedron, scale: f64) -> Result<Polyhedron, MeshErr
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
     let read = || -> io::Result<(u64, Vec<u8>)> {
-        let file = File::open(path)?;
+        let file = gyration_files::open(path)?;
         let size = file.metadata()?.len();
         let mut bytes = Vec::new();
         if size <= MAX_MESH_BYTES {

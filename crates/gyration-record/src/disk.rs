@@ -152,7 +152,8 @@ impl Disk {
 
 /// The file or directory beside `path` that becomes it.
 pub(crate) fn part_of(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_os_string();
+    // Without a slash at the end of the name, after which the ending would stand in the folder.
+    let mut name = path.components().as_path().as_os_str().to_os_string();
     name.push(PART);
     PathBuf::from(name)
 }
@@ -172,7 +173,7 @@ pub(crate) fn list(path: &Path) -> Result<Vec<OsString>, RecordError> {
 
 /// Reads a whole file.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, RecordError> {
-    fs::read(path).map_err(RecordError::io("read", path))
+    gyration_files::read(path).map_err(RecordError::io("read", path))
 }
 
 /// The metadata of the recording at `path`.
@@ -186,7 +187,7 @@ pub(crate) fn read_group(path: &Path) -> Result<Group, RecordError> {
         _ => RecordError::io("read", path)(source),
     })?;
     let file = path.join(METADATA);
-    match fs::read(&file) {
+    match gyration_files::read(&file) {
         Ok(bytes) => Group::from_json(path, &bytes),
         Err(_) if !kind.is_dir() => Err(not("it is a file, not a directory")),
         Err(e) if e.kind() == io::ErrorKind::NotFound => Err(not("it holds no zarr.json")),
@@ -199,9 +200,9 @@ pub(crate) fn read_group(path: &Path) -> Result<Group, RecordError> {
 /// # Errors
 /// `Locked` if another process holds it, with `path` as its name.
 pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
-    refuse_link(&work.join(STATE))?;
+    refuse_foreign(&work.join(STATE))?;
     let name = work.join(LOCK);
-    refuse_link(&name)?;
+    refuse_foreign(&name)?;
     // The lock must not touch what is in the file: it belongs to another process as long as that one holds it.
     let opened = OpenOptions::new().read(true).append(true).create(true).open(&name);
     let file = opened.map_err(RecordError::io("open", &name))?;
@@ -212,27 +213,28 @@ pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
     }
 }
 
-/// Refuses a recording with links in it: what is written into it, or removed from it, would be elsewhere.
+/// Refuses a recording in which something else lies than files and folders: what is written to a link, or removed behind
+/// it, would be elsewhere, and a pipe waits for ever.
 ///
 /// # Errors
-/// `NotARecording` with the link, `Io`.
-pub(crate) fn refuse_links(path: &Path) -> Result<(), RecordError> {
+/// `NotARecording` with what lies there, `Io`.
+pub(crate) fn refuse_foreign_entries(path: &Path) -> Result<(), RecordError> {
     for name in list(path)? {
         let entry = path.join(name);
-        refuse_link(&entry)?;
+        refuse_foreign(&entry)?;
         if entry.is_dir() {
-            list(&entry)?.iter().try_for_each(|name| refuse_link(&entry.join(name)))?;
+            list(&entry)?.iter().try_for_each(|name| refuse_foreign(&entry.join(name)))?;
         }
     }
     Ok(())
 }
 
-fn refuse_link(path: &Path) -> Result<(), RecordError> {
-    if !path.is_symlink() {
-        return Ok(());
+fn refuse_foreign(path: &Path) -> Result<(), RecordError> {
+    let found = path.symlink_metadata().ok().map(|found| found.file_type()).filter(|found| !found.is_dir());
+    match found.and_then(gyration_files::not_a_file) {
+        Some(what) => Err(RecordError::NotARecording { path: path.to_path_buf(), reason: format!("it is {what}") }),
+        None => Ok(()),
     }
-    let reason = "it is a link that may lead out of the recording: put in its place what it points to".into();
-    Err(RecordError::NotARecording { path: path.to_path_buf(), reason })
 }
 
 /// Removes a recording, whole; anything else stays and is an error.

@@ -11,7 +11,6 @@ use crate::error::RecordError;
 use crate::metadata::Group;
 use crate::writer::Event;
 use crate::zarr;
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -221,7 +220,7 @@ impl Recording {
 
 /// Appends `length` bytes from `offset` on of a file that must be `size` long.
 fn read_part(path: &Path, size: usize, offset: usize, length: usize, into: &mut Vec<u8>) -> Result<(), RecordError> {
-    let mut file = File::open(path).map_err(RecordError::io("open", path))?;
+    let mut file = gyration_files::open(path).map_err(RecordError::io("open", path))?;
     let found = file.metadata().map_err(RecordError::io("read", path))?.len();
     if found != size as u64 {
         return Err(RecordError::Truncated { path: path.to_path_buf(), expected: size as u64, found });

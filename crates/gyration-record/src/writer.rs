@@ -109,7 +109,7 @@ impl Writer {
 
     pub(crate) fn resume_on(disk: Disk, path: &Path) -> Result<Resumed, RecordError> {
         disk::read_group(path)?;
-        disk::refuse_links(path)?;
+        disk::refuse_foreign_entries(path)?;
         let lock = disk::lock(path, path)?;
         // Again, now that nobody else writes.
         let group = disk::read_group(path)?;

@@ -220,6 +220,21 @@ fn nothing_is_written_or_removed_through_a_link_that_lies_in_a_recording() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_that_lies_in_a_recording_is_not_waited_for() {
+    let folder = tempdir().unwrap();
+    for name in ["position/c.1.0.0", "state/lock", "zarr.json.part"] {
+        let path = folder.path().join("run.gyr");
+        finished(&path, 6, 4);
+        let _ = fs::remove_file(path.join(name));
+        assert!(std::process::Command::new("mkfifo").arg(path.join(name)).status().unwrap().success());
+        let words = Writer::resume(&path).unwrap_err().to_string();
+        assert!(words.contains(name) && words.contains("it is a pipe"), "{words}");
+        fs::remove_dir_all(&path).unwrap();
+    }
+}
+
 #[test]
 fn only_recordings_are_removed() {
     let folder = tempdir().unwrap();

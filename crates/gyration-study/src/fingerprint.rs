@@ -44,7 +44,7 @@ fn collect_listed(parameter: &Parameter, base: &Path, files: &mut Vec<String>) {
     for text in listed.iter().flat_map(|(_, cells)| cells).filter_map(Value::text) {
         // A text stands alone, tables are written as TOML.
         for name in std::iter::once(text).chain(text.split('"').skip(1).step_by(2)) {
-            if let Ok(bytes) = std::fs::read(base.join(name)) {
+            if let Ok(bytes) = gyration_files::read(&base.join(name)) {
                 files.push(format!("{name} {:032x}", hash(&bytes)));
             }
         }
@@ -57,7 +57,7 @@ fn collect(value: &Json, base: &Path, files: &mut Vec<String>) {
         Json::Object(entries) => {
             for (key, value) in entries {
                 if let (true, Json::String(name)) = (FILE_KEYS.contains(&key.as_str()), value)
-                    && let Ok(bytes) = std::fs::read(base.join(name))
+                    && let Ok(bytes) = gyration_files::read(&base.join(name))
                 {
                     files.push(format!("{name} {:032x}", hash(&bytes)));
                 }

@@ -13,7 +13,6 @@ use crate::document::{Diagnostics, Document};
 use crate::error::{ErrorKind, LoadError, ReadError, SceneErrors};
 use crate::key::Key;
 use crate::tree::Span;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -26,7 +25,7 @@ pub(crate) const LARGEST_FILE: u64 = 16 << 20;
 /// `Io`, `TooLarge`.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let failed = |source| ReadError::Io { path: path.to_owned(), source };
-    let file = File::open(path).map_err(failed)?;
+    let file = gyration_files::open(path).map_err(failed)?;
     let mut content = Vec::new();
     file.take(LARGEST_FILE + 1).read_to_end(&mut content).map_err(failed)?;
     if content.len() as u64 > LARGEST_FILE {

@@ -17,7 +17,8 @@ impl Csv {
     /// # Errors
     /// In words: it cannot be read, or a row is longer or shorter than the line of names.
     pub fn read(folder: &Path, file: &str) -> Result<Self, String> {
-        let bytes = std::fs::read(folder.join(file)).map_err(|error| format!("{file} cannot be read: {error}"))?;
+        let bytes =
+            gyration_files::read(&folder.join(file)).map_err(|error| format!("{file} cannot be read: {error}"))?;
         let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text);
         let wrong = |error: csv::Error| format!("{file}: {error}");

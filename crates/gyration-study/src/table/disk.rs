@@ -92,8 +92,8 @@ pub(super) fn is_of(folder: &Path, study: &Study, shard: Shard) -> Result<(), St
 
 pub(super) fn read_manifest(folder: &Path) -> Result<Json, StudyError> {
     let path = folder.join(MANIFEST);
-    match fs::read_to_string(&path) {
-        Ok(text) => serde_json::from_str(&text).map_err(|error| StudyError::damaged(&path, error)),
+    match gyration_files::read(&path) {
+        Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| StudyError::damaged(&path, error)),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound && holds_shards(folder) => {
             Err(StudyError::shards_there(folder))
         }

@@ -34,7 +34,7 @@ impl Journal {
 /// # Errors
 /// A line before the last that is no row.
 pub(super) fn read(path: &Path, columns: &[Column]) -> Result<(Vec<Row>, u64), StudyError> {
-    let bytes = std::fs::read(path).map_err(StudyError::io("read", path))?;
+    let bytes = gyration_files::read(path).map_err(StudyError::io("read", path))?;
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     let text = String::from_utf8_lossy(&bytes[..whole]);
     let row = |(number, line): (usize, &str)| {

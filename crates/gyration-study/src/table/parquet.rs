@@ -181,7 +181,7 @@ pub(crate) struct Input {
 impl Input {
     /// Opens a file.
     pub fn open(path: &Path) -> std::result::Result<Self, StudyError> {
-        let file = File::open(path).map_err(StudyError::io("read", path))?;
+        let file = gyration_files::open(path).map_err(StudyError::io("read", path))?;
         let reader = SerializedFileReader::new(file).map_err(failed("read", path))?;
         let fields = reader.metadata().file_metadata().schema().get_fields().iter();
         let kinds = fields.map(kind).collect::<Option<_>>();
