@@ -1,6 +1,7 @@
-//! Data to stdout, messages to stderr.
+//! Data to stdout, messages to stderr; neither passes on a control character, which texts of others may hold.
 
 use crate::error::CliError;
+use gyration_files::printable;
 use std::io::{self, IsTerminal, Write};
 
 /// Writes text to stdout.
@@ -9,7 +10,7 @@ use std::io::{self, IsTerminal, Write};
 /// [`CliError::Stdout`]; a closed pipe is one of them.
 pub fn print(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
+    out.write_all(printable(text).as_bytes())?;
     Ok(out.flush()?)
 }
 
@@ -26,13 +27,13 @@ pub fn offer(text: &str) -> Result<(), CliError> {
 
 /// Writes a message to stderr; if that is closed, nobody wants it.
 pub fn say(message: &str) {
-    let _ = writeln!(io::stderr(), "{message}");
+    let _ = writeln!(io::stderr(), "{}", printable(message));
 }
 
 /// Reports a failure: program, message, fix.
 pub fn report(message: &str) {
     let (bold, plain) = if colored() { ("\x1b[1;31m", "\x1b[0m") } else { ("", "") };
-    say(&format!("gyration: {bold}error{plain}: {message}"));
+    let _ = writeln!(io::stderr(), "gyration: {bold}error{plain}: {}", printable(message));
 }
 
 /// Whether stderr is a terminal that is allowed colours.

@@ -318,3 +318,24 @@ fn a_recording_may_be_named_with_a_slash_at_its_end() {
     sandbox.done(&[&run[..], &["--force"]].concat());
     assert_eq!(sandbox.names(), ["ball.toml", "out.gyr"]);
 }
+
+#[test]
+fn a_title_tells_a_terminal_nothing_but_letters() {
+    let sandbox = Sandbox::with_ball();
+    let title = "\u{1b}]0;owned\u{7}\u{9b}2J käse";
+    sandbox.write("ball.toml", &soft_ball().replace("A ball on a table", r"\u001b]0;owned\u0007\u009b2J käse"));
+    let run = ["run", "ball.toml", "--set", "time.end=0.02", "-o", "ball.gyr"];
+    for arguments in [&["check", "ball.toml"][..], &["check", "ball.toml", "--json"], &["modes", "ball.toml"], &run] {
+        let said = sandbox.done(arguments);
+        let printed = format!("{}{}", said.stdout, said.stderr);
+        assert!(printed.contains(r"\u001b]0;owned\u0007\u009b2J käse"), "{arguments:?}: {printed:?}");
+        assert!(!printed.contains(|c: char| c.is_control() && c != '\n'), "{arguments:?}: {printed:?}");
+    }
+    let json: Value = serde_json::from_str(&sandbox.done(&["check", "ball.toml", "--json"]).stdout).unwrap();
+    assert_eq!(json["resolved"]["title"], title);
+    let svg = sandbox.done(&["plot", "ball.gyr", "gap", "-o", "-"]).stdout;
+    assert!(svg.starts_with("<svg") && !svg.contains('\u{1b}') && !svg.contains('\u{9b}'), "{svg}");
+    sandbox.write("named.toml", &BALL.replace("\"ball\"", r#""\u001b[2J""#));
+    let said = sandbox.refused(2, &["check", "named.toml"]);
+    assert!(said.stderr.contains("is not a name") && !said.stderr.contains('\u{1b}'), "{:?}", said.stderr);
+}
