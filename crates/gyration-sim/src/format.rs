@@ -1,9 +1,15 @@
 //! Numbers as texts show them: significant digits, vectors, durations.
 
-/// So many digits, without an exponent where that is short.
+/// So many digits, without an exponent where that is short; what has none, in words.
 pub fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 {
         return "0".to_owned();
+    }
+    if value.is_nan() {
+        return "no number".to_owned();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "infinite" } else { "minus infinite" }.to_owned();
     }
     let power = value.abs().log10().floor();
     if !(-4.0..6.0).contains(&power) {
@@ -17,8 +23,8 @@ pub fn significant(value: f64, digits: i32) -> String {
 
 /// Five digits of each component; what is rounding beside the largest reads as zero.
 pub fn vector(v: &[f64; 3]) -> String {
-    let largest = v.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
-    let [x, y, z] = v.map(|c| if c.abs() > 1e-14 * largest { significant(c, 5) } else { "0".to_owned() });
+    let largest = v.iter().filter(|c| c.is_finite()).fold(0.0, |largest: f64, c| largest.max(c.abs()));
+    let [x, y, z] = v.map(|c| if c.abs() <= 1e-14 * largest { "0".to_owned() } else { significant(c, 5) });
     format!("({x}, {y}, {z})")
 }
 
@@ -50,6 +56,12 @@ mod tests {
     fn rounding_beside_large_components_reads_as_zero() {
         assert_eq!(vector(&[0.5, -2.7e-18, 0.25]), "(0.5, 0, 0.25)");
         assert_eq!(vector(&[0.0, 1e-15, 0.0]), "(0, 1.0000e-15, 0)");
+    }
+
+    #[test]
+    fn what_is_no_number_is_told_and_does_not_read_as_zero() {
+        assert_eq!(vector(&[f64::NAN, 1.0, 1e-20]), "(no number, 1, 0)");
+        assert_eq!(vector(&[2.0, f64::INFINITY, f64::NEG_INFINITY]), "(2, infinite, minus infinite)");
     }
 
     #[test]

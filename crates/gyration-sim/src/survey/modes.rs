@@ -71,19 +71,22 @@ impl RestState {
             stretches: rest.stretches.into(),
             pressure: rest.pressure,
             gap: rest.gap.is_finite().then_some(rest.gap),
-            modes: found.iter().map(ModeSurvey::of).collect(),
+            modes: found.iter().map(|mode| ModeSurvey::of(mode, fastest(&found))).collect(),
         })
     }
 }
 
 impl ModeSurvey {
-    fn of(mode: &Mode) -> Self {
-        let largest = mode.eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max);
-        let clean = |rate: f64| if rate.abs() <= ROUNDING * largest { 0.0 } else { rate };
-        let decay_rates = match mode.motion {
-            ModeBehaviour::Oscillates => mode.decay_rates().map(clean),
-            _ => mode.decay_rates(),
+    /// `fastest` is the largest eigenvalue of the body, from whose matrix all of them are computed.
+    fn of(mode: &Mode, fastest: f64) -> Self {
+        let rounding = match mode.motion {
+            ModeBehaviour::Oscillates => {
+                ROUNDING * mode.eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max)
+            }
+            _ => f64::EPSILON * fastest,
         };
+        let clean = |rate: f64| if rate.abs() <= rounding { 0.0 } else { rate };
+        let decay_rates = mode.decay_rates().map(clean);
         Self {
             motion: match mode.motion {
                 ModeBehaviour::Oscillates => "oscillates",
@@ -108,6 +111,32 @@ impl ShapeSurvey {
     }
 }
 
+/// The largest eigenvalue of all motions.
+fn fastest(modes: &[Mode]) -> f64 {
+    modes.iter().flat_map(|mode| mode.eigenvalues).map(|value| value.norm()).fold(0.0, f64::max)
+}
+
 fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration::tensor::Vec3;
+    use nalgebra::Complex;
+
+    #[test]
+    fn a_rate_below_the_rounding_of_the_fastest_one_is_no_rate() {
+        let of = |motion, rates: [f64; 2]| Mode {
+            eigenvalues: rates.map(|rate| Complex::new(-rate, 0.0)),
+            motion,
+            shape: ModeShape { translation: Vec3::x(), gradient: Mat3::zeros() },
+            quadrature: None,
+            in_words: String::new(),
+        };
+        let modes = [of(ModeBehaviour::Free, [5.7e-31, 0.0]), of(ModeBehaviour::Creeps, [1e-9, 40.0])];
+        let told = modes.each_ref().map(|mode| ModeSurvey::of(mode, fastest(&modes)).decay_rates);
+        assert_eq!(told, [[0.0, 0.0], [1e-9, 40.0]]);
+    }
 }
