@@ -259,7 +259,8 @@ fn check_tells_the_rest_state_of_a_body_that_deforms() {
     assert!(rigid["bodies"][0]["rest_state"].is_null() && rigid["bodies"][0]["kind"]["kind"] == "rigid");
 }
 
-/// A pipe into which somebody writes as soon as somebody reads, so that a program which opens it does not wait for ever.
+/// A pipe into which somebody writes as soon as somebody reads, so that a program which opens it does not wait for
+/// ever.
 #[cfg(unix)]
 fn pipe(path: &std::path::Path) {
     assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());

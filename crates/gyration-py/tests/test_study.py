@@ -149,6 +149,28 @@ def test_a_cancelled_future_is_an_error_that_names_the_way_on(tmp_path, referenc
     assert table_bytes(folder) == reference
 
 
+class Losing(Forgetful):
+    """Loses what comes back of some batches, as Dask may when a worker dies just after it has sent it."""
+
+    def __init__(self, lost):
+        super().__init__(0)
+        self.lost = lost
+
+    def submit(self, function, /, *arguments, **keywords):
+        future = super().submit(function, *arguments, **keywords)
+        if self.count in self.lost:
+            future = Future()
+            future.set_exception(AttributeError("lost"))
+        return future
+
+
+def test_a_batch_that_the_executor_lost_is_given_to_it_once_more(tmp_path, reference):
+    gyration.study(STUDY, tmp_path / "lost.study", executor=Losing({3, 7}), batch=5)
+    assert table_bytes(tmp_path / "lost.study") == reference
+    with pytest.raises(gyration.StudyError, match="gave up after"):
+        gyration.study(STUDY, tmp_path / "given-up.study", executor=Losing(range(5, 100)), batch=5)
+
+
 def test_rows_that_nobody_asked_for_are_refused(tmp_path):
     class Lying(Forgetful):
         def submit(self, function, source, numbers, attempt):

@@ -213,8 +213,8 @@ pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
     }
 }
 
-/// Refuses a recording in which something else lies than files and folders: what is written to a link, or removed behind
-/// it, would be elsewhere, and a pipe waits for ever.
+/// Refuses a recording in which something else lies than files and folders: what is written to a link, or removed
+/// behind it, would be elsewhere, and a pipe waits for ever.
 ///
 /// # Errors
 /// `NotARecording` with what lies there, `Io`.

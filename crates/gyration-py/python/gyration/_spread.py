@@ -13,11 +13,11 @@ import sys
 import time
 import uuid
 from collections.abc import Callable
-from concurrent.futures import BrokenExecutor
+from concurrent.futures import BrokenExecutor, CancelledError
 from typing import Any
 
 from gyration import _gyration
-from gyration._errors import ArgumentError, StudyError
+from gyration._errors import ArgumentError, Error, StudyError
 
 AHEAD = 64
 """Batches that wait with the executor at any time, at least."""
@@ -87,11 +87,16 @@ class Room:
 def spread(
     work: Any, executor: Any, batch: int | None, progress: bool | Callable[[float, float], Any] | None
 ) -> None:
-    """Has the missing rows computed by an executor; rows are in the table, on disk, as soon as they are back."""
+    """Has the missing rows computed by an executor; rows are in the table, on disk, as soon as they are back.
+
+    A batch that fails is given to the executor once more.
+    """
     if batch is not None and batch < 1:
         raise ArgumentError(f"a batch of {batch} runs is none\n  fix: give `batch` from 1, or leave it out")
     back: queue.SimpleQueue[Any] = queue.SimpleQueue()
     waiting: dict[Any, list[int]] = {}
+    lost: list[list[int]] = []
+    again: set[int] = set()
     size, source, attempt, room = batch or 1, work.source, uuid.uuid4().hex, Room(executor)
     try:
         while True:
@@ -99,7 +104,7 @@ def spread(
                 ahead = room.now()
             except Exception as error:
                 raise given_up(work, error) from error
-            while len(waiting) < ahead and (numbers := work.take(size)):
+            while len(waiting) < ahead and (numbers := lost.pop() if lost else work.take(size)):
                 try:
                     future = executor.submit(rows, source, numbers, attempt)
                 except BrokenExecutor:
@@ -120,8 +125,15 @@ def spread(
                 lines, recordings, seconds = future.result()
             except BrokenExecutor:
                 raise
-            except Exception as error:
+            except (CancelledError, Error) as error:
                 raise given_up(work, error) from error
+            except Exception as error:
+                # Some executors lose what a worker had sent just before it died, and tell of it in errors of their own.
+                if not again.isdisjoint(numbers):
+                    raise given_up(work, error) from error
+                again.update(numbers)
+                lost.append(numbers)
+                continue
             work.append(numbers, lines, recordings)
             if not told(work, progress):
                 return

@@ -81,8 +81,8 @@ impl LedgerSummary {
         (self.verdict == Verdict::Open).then(|| {
             format!(
                 "the energy balance is open: it misses by {:.1e} J, {:.1e} of the energy in play, where the tolerances \
-                 let {:.1e} J pass. Do not trust the run: take a smaller solver.rtol, and look for gaps and coefficients \
-                 out of proportion with the bodies.",
+                 let {:.1e} J pass. Do not trust the run: take a smaller solver.rtol, and look for gaps and \
+                 coefficients out of proportion with the bodies.",
                 self.largest_residual,
                 self.largest_residual / self.energy_in_play,
                 self.allowed_residual,

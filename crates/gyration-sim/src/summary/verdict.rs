@@ -3,8 +3,8 @@
 //!   |Σ energies − Σ energies at 0 − Σ works| ≤ MARGIN (rtol + atol) E + ROUNDING Σ|energies|
 //!
 //! E is the energy in play. Over a run the residual stays below rtol·E where the steps are what they claim to be; one
-//! that is a hundred times the tolerances has lost or made energy that no law accounts for. However loose the tolerances
-//! are, more than 1 % of E is never taken for closed.
+//! that is a hundred times the tolerances has lost or made energy that no law accounts for. However loose the
+//! tolerances are, more than 1 % of E is never taken for closed.
 
 use crate::adapter::Tolerance;
 use serde::Serialize;
