@@ -115,7 +115,8 @@ export class Player {
   private tick(now: number): void {
     const { recording } = this;
     if (!this.playing || !recording) return;
-    const took = now - this.last;
+    // A frame is dated from its start, which may lie before a seek.
+    const took = Math.max(0, now - this.last);
     this.last = now;
     // A page that slept does not leap.
     this.wanted += (this.speed * Math.min(took, 250)) / 1000;

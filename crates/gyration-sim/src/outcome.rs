@@ -162,12 +162,13 @@ impl Stop {
                 format!("body {body:?} is flattened: det P has come down to {:e}", left.value),
                 match model.bodies[left.body].has_inertia() {
                     true => {
-                        "Only a material whose energy grows without bound under compression forbids that: one with a `bulk` or a \
-                         logarithm of the volume, or an incompressible one; or start it with a smaller `gradient_rate`."
+                        "Only a material whose energy grows without bound under compression forbids that: one with \
+                         a `bulk` or a logarithm of the volume, or an incompressible one; or start it with a smaller \
+                         `gradient_rate`."
                     }
                     false => {
-                        "The flow presses it flat: a body without elasticity closes like a void. Give it a material with a `bulk` or \
-                         a logarithm of the volume, or an incompressible one, or a weaker flow."
+                        "The flow presses it flat: a body without elasticity closes like a void. Give it a material \
+                         with a `bulk` or a logarithm of the volume, or an incompressible one, or a weaker flow."
                     }
                 }
                 .to_string(),
