@@ -150,6 +150,29 @@ fn attributes(json: &[u8]) -> Value {
     group
 }
 
+/// A kill came between the outcome and the checkpoint that belongs to it: the checkpoint of the recording is an earlier
+/// one, from which a report would take its ledger.
+#[test]
+fn outcome_that_is_ahead_of_its_checkpoint_is_reached_again() {
+    let sandbox = Sandbox::with_ball();
+    let limited = |limit: &'static str, output: &'static str, more: &[&'static str]| {
+        to("time.end=5", &[&["--quiet", "--set", limit, "-o", output], more].concat())
+    };
+    let (brief, ample) = ("solver.max_wall_time=0.001", "solver.max_wall_time=1000");
+    sandbox.run(&limited(brief, "part.gyr", &[]));
+    for whole in ["whole.gyr", "ahead.gyr"] {
+        sandbox.done(&limited(ample, whole, &[]));
+    }
+    let checkpoint = |name: &str| sandbox.path(name).join("state/checkpoint");
+    std::fs::copy(checkpoint("part.gyr"), checkpoint("ahead.gyr")).unwrap();
+    // On the way there it is not complete: it may be killed once more.
+    let said = sandbox.run(&limited(brief, "ahead.gyr", &["--resume"]));
+    assert_eq!(said.code, Some(1), "{}", said.stderr);
+    assert!(!is_finished(&sandbox.path("ahead.gyr")));
+    sandbox.done(&limited(ample, "ahead.gyr", &["--resume"]));
+    assert_same_bytes(&sandbox.path("whole.gyr"), &sandbox.path("ahead.gyr"));
+}
+
 #[test]
 fn finished_run_stays_as_it_is() {
     let sandbox = Sandbox::with_ball();

@@ -88,12 +88,17 @@ fn run(disk: Disk, path: &Path, flushed: &Cell<usize>) -> Result<(), RecordError
     go_on(writer, flushed)
 }
 
-/// Starts anew if there is nothing, else resumes.
+/// Starts anew if there is nothing, does nothing if all is done, else resumes.
 fn recover(disk: Disk, path: &Path) -> Result<(), RecordError> {
     if !path.exists() {
         return run(disk, path, &Cell::new(0));
     }
-    let resumed = Writer::resume_on(disk, path)?;
+    let recording = Recording::open(path)?;
+    let is_complete = recording.attributes().contains_key("outcome");
+    if is_complete && !recording.is_ahead_of_its_checkpoint()? {
+        return Ok(());
+    }
+    let resumed = Writer::resume_on(disk, path, &["outcome", "steps"])?;
     assert_eq!(resumed.checkpoint, checkpoint(resumed.writer.rows()));
     go_on(resumed.writer, &Cell::new(0))
 }

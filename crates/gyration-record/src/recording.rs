@@ -59,6 +59,16 @@ impl Recording {
         Ok(Checkpoint::decode(&disk::read(&file)?, &file)?.state)
     }
 
+    /// Whether a crash came between the last rows and the checkpoint that belongs to them: then the checkpoint is an
+    /// earlier one.
+    ///
+    /// # Errors
+    /// `Corrupt`, `Io`.
+    pub fn is_ahead_of_its_checkpoint(&self) -> Result<bool, RecordError> {
+        let file = self.path.join(disk::CHECKPOINT);
+        Ok(Checkpoint::decode(&disk::read(&file)?, &file)?.rows < self.rows())
+    }
+
     /// All arrays: the growing ones in the order of a row, `time` first, then events, fixed arrays and labels.
     pub fn arrays(&self) -> &[ArrayInfo] {
         &self.group.arrays

@@ -104,15 +104,26 @@ impl Writer {
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Locked`, `Corrupt`, `Truncated`, `Io`.
     pub fn resume(path: &Path) -> Result<Resumed, RecordError> {
-        Self::resume_on(Disk::default(), path)
+        Self::resume_on(Disk::default(), path, &[])
     }
 
-    pub(crate) fn resume_on(disk: Disk, path: &Path) -> Result<Resumed, RecordError> {
+    /// Goes on with a recording whose last attributes are on the disk while its checkpoint is an earlier one
+    /// ([`Recording::is_ahead_of_its_checkpoint`](crate::Recording::is_ahead_of_its_checkpoint)); they are taken back
+    /// with the rows, so that it does not look complete meanwhile.
+    ///
+    /// # Errors
+    /// As [`Writer::resume`].
+    pub fn resume_finished(path: &Path, last_attributes: &[&str]) -> Result<Resumed, RecordError> {
+        Self::resume_on(Disk::default(), path, last_attributes)
+    }
+
+    pub(crate) fn resume_on(disk: Disk, path: &Path, without: &[&str]) -> Result<Resumed, RecordError> {
         disk::read_group(path)?;
         disk::refuse_foreign_entries(path)?;
         let lock = disk::lock(path, path)?;
         // Again, now that nobody else writes.
-        let group = disk::read_group(path)?;
+        let mut group = disk::read_group(path)?;
+        group.attributes.retain(|name, _| !without.contains(&name.as_str()));
         let attributes = group.attributes.clone();
         let file = path.join(CHECKPOINT);
         let checkpoint = Checkpoint::decode(&disk::read(&file)?, &file)?;

@@ -107,14 +107,17 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`RunError`]; `OtherScene` if the recording is of another scene.
     pub fn resume(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
-        let recorded = Recording::open(path)?.attributes().clone();
+        let recording = Recording::open(path)?;
+        let recorded = recording.attributes().clone();
         if !self.is_recorded_in(&recorded) {
             return Err(RunError::OtherScene { path: path.to_path_buf() });
         }
-        if recorded.contains_key("outcome") {
+        let is_complete = recorded.contains_key("outcome");
+        // A checkpoint that is damaged is needed no more.
+        if is_complete && !recording.is_ahead_of_its_checkpoint().unwrap_or(false) {
             return Ok(RecordingEnd::AlreadyFinished(recorded));
         }
-        let resumed = Writer::resume(path)?;
+        let resumed = Writer::resume_finished(path, &RunSummary::ATTRIBUTES)?;
         let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
         let sink = RecordingSink { writer: resumed.writer, flushed: Instant::now() };
         self.finish(simulation, sink, watch)

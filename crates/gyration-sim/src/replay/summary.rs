@@ -29,6 +29,8 @@ impl RunSummary {
             reason: error.to_string(),
         })?;
         let attribute = recording.attributes().get("outcome");
+        // An outcome beyond the checkpoint has no summary yet.
+        let attribute = attribute.filter(|_| !recording.is_ahead_of_its_checkpoint().unwrap_or(false));
         let ended = attribute.and_then(|told| Outcome::deserialize(told).ok());
         let time = simulation.state().time;
         let outcome = ended.clone().unwrap_or_else(|| Outcome::Stopped(Stop::by_request(time, Reason::Interrupted)));

@@ -119,6 +119,18 @@ pub struct BodySummary {
 }
 
 impl RunSummary {
+    /// The names of [`RunSummary::attributes`].
+    pub const ATTRIBUTES: [&str; 8] = [
+        "outcome",
+        "outcome_in_words",
+        "statistics",
+        "ledger",
+        "largest_residual",
+        "energy_in_play",
+        "least_dissipation",
+        "events",
+    ];
+
     /// The summary of a run that has ended.
     pub fn of(model: &Model, simulation: &mut Simulation, outcome: Outcome, wall: Option<Duration>) -> Self {
         let state = simulation.state();
