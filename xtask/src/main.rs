@@ -4,11 +4,12 @@
 //! browser, the Python tests, the table of known answers and, where cargo-deny is installed, licences and advisories.
 //! `validate` runs the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery`
 //! runs the scenes, draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the
-//! same recordings, `fill` fills comments and pages.
+//! same recordings, `fill` fills comments and pages, `campaign` tries random scenes.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
 mod answers;
+mod campaign;
 mod cargo;
 mod child;
 mod compare;
@@ -39,6 +40,7 @@ usage: cargo xtask CHORE
   validate       run the problems with a known answer and rewrite docs/known-answers.md
   gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md
   fill [FILE…]   fill comments and pages to the width of a line
+  campaign [--scenes N] [--seed S] [--only K] [--program FILE] [--wall-time SECONDS]  random scenes, killed, resumed, audited
   compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
 fn main() -> ExitCode {
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
         ["validate"] => validate::run(),
         ["gallery", names @ ..] => gallery::run(names),
         ["fill", names @ ..] => fill::run(names),
+        ["campaign", words @ ..] => campaign::run(words),
         ["compare", old, new, scenes @ ..] => compare::run(old, new, scenes),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");

@@ -3,7 +3,7 @@
 use crate::cargo::cargo;
 use crate::programs::{self, TestPrograms};
 use crate::steps::{Steps, succeeds};
-use crate::{answers, fill, gallery, package, python, root, validate, viewer};
+use crate::{answers, campaign, fill, gallery, package, python, root, validate, viewer};
 use std::process::{Command, ExitCode};
 use std::sync::mpsc::{self, Receiver, Sender};
 
@@ -60,6 +60,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
         });
         check_known_answers(steps);
         gallery::check(steps, &found.gyration);
+        campaign::check(steps, &found.gyration);
     }
     steps.run_tests("examples in the documentation", cargo().args(["test", "--workspace", "--doc", "--no-fail-fast"]));
     if extent == Extent::Full {

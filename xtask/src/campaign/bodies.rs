@@ -1,0 +1,158 @@
+//! Random bodies: kind, shape, mass, start, springs, and how they are immersed.
+
+use super::draft::Draft;
+use super::materials::{affine, contractile};
+use super::shapes::{ShapeKind, any, closed, shape};
+use super::toml::{Matrix, UNIT, determinant, deviator, list, product, rotation, rows, scaled, scaled_rows};
+use std::fmt::Write as _;
+
+/// A body of a scene.
+#[derive(Debug)]
+pub struct RandomBody {
+    /// Its table.
+    pub text: String,
+    /// Whether it can touch anything.
+    pub has_surface: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Rigid,
+    Affine,
+    Contractile,
+}
+
+/// A body at this height [m]; in a fluid of this density [kg/m³], most are immersed.
+pub fn body(draft: &mut Draft, name: &str, height: f64, fluid: Option<f64>) -> RandomBody {
+    let kind = draft.stream.pick(&[Kind::Rigid, Kind::Rigid, Kind::Affine, Kind::Affine, Kind::Contractile]);
+    let fluid = fluid.filter(|_| draft.stream.chance(0.8));
+    let of = match (fluid, kind) {
+        (Some(_), _) if draft.stream.chance(if kind == Kind::Rigid { 0.7 } else { 0.9 }) => {
+            draft.stream.pick(&[ShapeKind::Sphere, ShapeKind::Ellipsoid])
+        }
+        (Some(_), _) | (None, Kind::Contractile) => closed(draft, kind != Kind::Rigid),
+        (None, _) => any(draft, kind != Kind::Rigid),
+    };
+    let size = draft.size;
+    let mut text = format!("[[body]]\nname = \"{name}\"\nshape = {}\n", shape(draft, of, size));
+    mass(draft, &mut text, of);
+    let _ = writeln!(text, "position = {}", list(&[0.0, 0.0, height]));
+    let immersion = fluid.map(|density| Immersion::of(draft, of, kind, density));
+    if let Some(immersion) = &immersion {
+        let _ = writeln!(text, "inclusion = {{ {} }}", immersion.text);
+    }
+    let (table, flesh) = match kind {
+        Kind::Rigid => ("rigid = {}", None),
+        Kind::Affine => ("[body.affine]", Some(affine(draft, of != ShapeKind::Points))),
+        Kind::Contractile => ("[body.contractile]", Some(contractile(draft))),
+    };
+    let may_have = Start {
+        deformed: kind == Kind::Affine,
+        is_incompressible: flesh.as_ref().is_some_and(|flesh| flesh.is_incompressible),
+        has_inertia: immersion.as_ref().is_none_or(|immersion| immersion.has_inertia),
+        is_pinned: immersion.is_none() && draft.stream.chance(0.1),
+    };
+    start(draft, &mut text, may_have);
+    if draft.stream.chance(0.15) {
+        spring(draft, &mut text, height);
+    }
+    let flesh = flesh.map_or(String::new(), |flesh| flesh.text);
+    RandomBody { text: format!("{text}{table}\n{flesh}\n"), has_surface: of != ShapeKind::Points }
+}
+
+/// Points have masses of their own, parts of a union weights.
+fn mass(draft: &mut Draft, text: &mut String, of: ShapeKind) {
+    let _ = match of {
+        ShapeKind::Points => Ok(()),
+        _ if of != ShapeKind::Union && draft.stream.chance(0.3) => writeln!(text, "density = {:?}", draft.density()),
+        _ => writeln!(text, "mass = {:?}", draft.mass),
+    };
+}
+
+/// How a body is in the fluid.
+struct Immersion {
+    text: String,
+    has_inertia: bool,
+}
+
+impl Immersion {
+    fn of(draft: &mut Draft, of: ShapeKind, kind: Kind, density: f64) -> Self {
+        let is_ellipsoid = matches!(of, ShapeKind::Sphere | ShapeKind::Ellipsoid);
+        let history = of == ShapeKind::Sphere && kind == Kind::Rigid && density > 0.0 && draft.stream.chance(0.5);
+        let has_inertia = history || draft.stream.chance(0.6);
+        let mut text = format!("inertia = {has_inertia}, history = {history}");
+        if !is_ellipsoid {
+            // Few and rough: what is tested is not the resistance.
+            let most = if kind == Kind::Rigid { 200 } else { 40 };
+            let _ = write!(text, ", triangles = {}", 80 + draft.stream.index(most));
+            if kind != Kind::Rigid {
+                text.push_str(", tolerance = 0.3");
+            }
+        }
+        Self { text, has_inertia }
+    }
+}
+
+/// How a body may start.
+#[derive(Debug, Clone, Copy)]
+struct Start {
+    /// Whether it may start deformed.
+    deformed: bool,
+    is_incompressible: bool,
+    has_inertia: bool,
+    is_pinned: bool,
+}
+
+fn start(draft: &mut Draft, text: &mut String, start: Start) {
+    let turn = draft.stream.turn();
+    let spin = draft.speed() / draft.size * draft.stream.decade(-2.0, 0.3);
+    let placement = start.deformed.then(|| stretched(draft, &rotation(turn), start.is_incompressible));
+    let _ = match &placement {
+        Some(placement) => writeln!(text, "gradient = {}", rows(placement)),
+        None => writeln!(text, "orientation = {{ quaternion = {} }}", list(&turn)),
+    };
+    if start.has_inertia {
+        let _ = match &placement {
+            Some(placement) => {
+                let rate = scaled_rows(&deviator(&draft.stream.matrix()), 0.3 * spin);
+                writeln!(text, "gradient_rate = {}", rows(&product(&rate, placement)))
+            }
+            None => writeln!(text, "angular_velocity = {}", list(&scaled(draft.stream.direction(), spin))),
+        };
+    }
+    if start.is_pinned {
+        let pin = scaled(draft.stream.direction(), draft.size * draft.stream.unit());
+        let _ = writeln!(text, "pin = {}", list(&pin));
+    } else if start.has_inertia {
+        let mut velocity = scaled(draft.stream.direction(), draft.speed() * draft.stream.decade(-1.0, 0.3));
+        // Towards the supports, or without gravity it may never come there.
+        velocity[2] = -velocity[2].abs();
+        let _ = writeln!(text, "velocity = {}", list(&velocity));
+    }
+}
+
+/// A placement R U with stretches of at most a fifth; det = 1 where the body keeps its volume.
+fn stretched(draft: &mut Draft, turn: &Matrix, is_incompressible: bool) -> Matrix {
+    let mut stretch = draft.stream.matrix();
+    for (i, row) in stretch.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = UNIT[i][j] + 0.1 * *entry;
+        }
+    }
+    let placement = product(turn, &stretch);
+    let size = if is_incompressible { determinant(&placement).cbrt() } else { 1.0 };
+    scaled_rows(&placement, 1.0 / size)
+}
+
+fn spring(draft: &mut Draft, text: &mut String, height: f64) {
+    let (size, mass) = (draft.size, draft.mass);
+    let stiffness = mass * draft.pull / size * draft.stream.decade(-1.0, 2.0);
+    let point = list(&scaled(draft.stream.direction(), 0.5 * size));
+    let anchor = list(&[0.0, 0.0, height + 3.0 * size]);
+    let mut keys = format!("point = {point}, anchor = {anchor}, stiffness = {stiffness:?}");
+    if draft.stream.chance(0.5) {
+        let damping = (stiffness * mass).sqrt() * draft.stream.decade(-2.0, 0.0);
+        let _ = write!(keys, ", rest_length = {:?}, damping = {damping:?}", 2.0 * size * draft.stream.unit());
+    }
+    let _ = writeln!(text, "spring = [{{ {keys} }}]");
+}
