@@ -1,7 +1,7 @@
 //! What a fluid and a body in it do to each other: forces, stresses, and what suspensions are described by.
 //!
-//!   N = ∫ t ⊗ (x − x_c) dA,   V_t = V det P,   Σ = N/V_t − 2η sym L           (particle stress, per volume of particle)
-//!   stresslet = V_t dev sym Σ,   rotlet_i = ε_ijk N_kj
+//!   N = ∫ (x − x_c) ⊗ t dA,   V_t = V det P,   Σ = Nᵀ/V_t − 2η sym L           (particle stress, per volume of particle)
+//!   stresslet = V_t dev sym Σ,   rotlet_i = ε_ijk N_jk
 //!   [η] = Σ·E∞/(2η E∞·E∞),   N₁ = Σ_ee − Σ_gg,   N₂ = Σ_gg − Σ_vv            (to be multiplied with the volume fraction)
 //!
 //! t is the whole traction of the fluid, with the stress of the undisturbed flow, E∞ = sym L∞. In a simple shear L∞ =
@@ -45,7 +45,7 @@ pub struct ImmersionObservation {
 /// The traction of the fluid on a body.
 struct Tractions {
     drag: Vec3,
-    /// N about the centre of the volume.
+    /// Nᵀ about the centre of the volume.
     couple: Mat3,
     volume: f64,
     dissipation: f64,

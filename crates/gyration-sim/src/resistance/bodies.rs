@@ -1,11 +1,12 @@
 //! The resistance of the bodies of a scene in a viscous fluid: the matrix from velocity and velocity gradient to force
 //! and affine moment.
 //!
-//!   (f; N row by row) = −H (v − u∞; L − L∞ row by row),   N = ∫ t ⊗ (x − p₀) dA
+//!   (f; Nᵀ row by row) = −H (v − u∞; L − L∞ row by row),   N = ∫ (x − p₀) ⊗ t dA
 //!
-//! of each body as it starts, in the axes of space, about its centre of mass. Ellipsoids have it in closed form, other
-//! shapes by boundary elements over the image of their surface. At a frequency, the complex resistances of spheres are
-//! given instead.
+//! The labels of the rows are older than the one convention for N: the row `N_xy` is ∫ t_x (y − p₀y) dA, the entry yx
+//! of N; files of users have them. The matrix is that of each body as it starts, in the axes of space, about its centre
+//! of mass. Ellipsoids have it in closed form, other shapes by boundary elements over the image of their surface. At a
+//! frequency, the complex resistances of spheres are given instead.
 
 use super::elements::{BoundaryElements, Wall, boundary_resistance};
 use gyration::body::Body;

@@ -1,9 +1,9 @@
 //! A form that does not change: its resistance is one matrix in the axes of the body.
 //!
-//!   (f; N row by row) = −η H (v − u∞; L − L∞ row by row),   N = ∫ t ⊗ (x − p₀) dA
+//!   (f; Nᵀ row by row) = −η H (v − u∞; L − L∞ row by row),   N = ∫ (x − p₀) ⊗ t dA
 //!
 //! H symmetric, positive definite, for viscosity 1, about the centre of mass. In its own axes v′ = Rᵀ(v − u∞), L′ =
-//! [Ω]× − RᵀL∞R, and the torque about the axes of the body is the axial part of N′. The stress of the undisturbed flow
+//! [Ω]× − RᵀL∞R, and the torque about the axes of the body is the axial part of N′ᵀ. The stress of the undisturbed flow
 //! is symmetric and the same everywhere: it turns and moves nothing. Source: `physics.md` §7.
 
 use super::ambient::{Flow, Fluid};
@@ -29,7 +29,7 @@ pub(super) fn packed(velocity: &Vec3, gradient: &Mat3) -> Vec12 {
     Vec12::from_iterator(velocity.iter().chain(gradient.transpose().iter()).copied())
 }
 
-/// The two parts of (f; N row by row).
+/// The two parts of (f; Nᵀ row by row).
 pub(super) fn parted(numbers: &Vec12) -> (Vec3, Mat3) {
     (numbers.fixed_rows::<3>(0).into(), Mat3::from_row_iterator(numbers.iter().skip(3).copied()))
 }
@@ -46,7 +46,7 @@ pub struct RigidDrag<'a> {
     flow: Mat3,
     /// L∞.
     gradient: Mat3,
-    /// f and N in the axes of the body.
+    /// f and Nᵀ in the axes of the body.
     load: (Vec3, Mat3),
 }
 
@@ -66,7 +66,7 @@ pub struct DragSlopes {
 impl FixedForm {
     /// A form of resistance H about its own centre, which lies at `center` \[m\] from the centre of mass.
     pub fn shifted(matrix: &Mat12, center: &Vec3) -> Self {
-        // v_c = v + L c, and the load about the centre of mass is N + f ⊗ c: H = Tᵀ H_c T.
+        // v_c = v + L c, and the load about the centre of mass is Nᵀ + f ⊗ c: H = Tᵀ H_c T.
         let mut shift = Mat12::identity();
         for i in 0..3 {
             for j in 0..3 {
@@ -131,7 +131,7 @@ impl RigidDrag<'_> {
         self.rotation * self.load.0
     }
 
-    /// N about the centre of mass, without the stress of the undisturbed flow \[N m\].
+    /// Nᵀ about the centre of mass, without the stress of the undisturbed flow \[N m\].
     pub fn couple(&self) -> Mat3 {
         self.rotation * self.load.1 * self.rotation.transpose()
     }

@@ -67,7 +67,7 @@ impl<'a> Immersed<'a> {
         }
     }
 
-    /// N about the centre of the volume \[N m\].
+    /// Nᵀ about the centre of the volume \[N m\].
     pub fn couple(&self) -> Mat3 {
         match self {
             Self::Ellipsoid(ellipsoid) => ellipsoid.couple(),

@@ -1,6 +1,6 @@
 //! A body in the fluid: what it has to know of itself, and the loads of the fluid on it.
 //!
-//!   f = f_d − ρ_f V det P g,   M = N P⁻ᵀ + f ⊗ X_c,   N = V det P σ      (σ, f_d: `ellipsoid`)
+//!   f = f_d − ρ_f V det P g,   M = Nᵀ P⁻ᵀ + f ⊗ X_c,   Nᵀ = V det P σ      (σ, f_d: `ellipsoid`)
 //!
 //! X_c is the centre of the volume from the centre of mass; velocities are taken, and the weight of the displaced fluid
 //! acts, there. Hydrostatic pressure does not press on the body: it counts as a force. Source: `physics.md` §7.
@@ -104,7 +104,7 @@ impl<'a> ImmersedEllipsoid<'a> {
         self.ellipsoid.axes * self.ellipsoid.force(&self.slip)
     }
 
-    /// N about the centre of the volume \[N m\].
+    /// Nᵀ about the centre of the volume \[N m\].
     pub fn couple(&self) -> Mat3 {
         self.volume * self.stress()
     }

@@ -1,10 +1,10 @@
 //! The loads of a fluid on a body of any form that deforms.
 //!
-//!   (f; N row by row) = −η D H(E) D (v; L − L∞ row by row) in the axes R,   P = R U,  U = j^⅓ E,  D = diag(j^⅙, j^½)
+//!   (f; Nᵀ row by row) = −η D H(E) D (v; L − L∞ row by row) in the axes R,   P = R U,  U = j^⅓ E,  D = diag(j^⅙, j^½)
 //!
-//! v is the velocity of the centre of volume against the fluid, and N about it: the resistance to a velocity grows like
-//! a length, that to a gradient like a volume. The stress of the undisturbed flow, 2η j V sym L∞, adds to N; M = N
-//! P⁻ᵀ + f ⊗ X_c (`inclusion`).
+//! v is the velocity of the centre of volume against the fluid, and Nᵀ about it: the resistance to a velocity grows
+//! like a length, that to a gradient like a volume. The stress of the undisturbed flow, 2η j V sym L∞, adds to Nᵀ; M =
+//! Nᵀ P⁻ᵀ + f ⊗ X_c (`inclusion`).
 //!
 //! Derivatives: δR = R [w]× from `Polar::turn`, δs from δU = Rᵀ δP − [w]× U, and D grows by tr(P⁻¹δP). Source:
 //! `physics.md` §7.
@@ -44,7 +44,7 @@ pub struct ImmersedSurface<'a> {
     polar: Polar,
     /// Velocity of the centre and L, both against the flow, in the axes R.
     motion: Vec12,
-    /// f and N of the disturbance, in the axes R.
+    /// f and Nᵀ of the disturbance, in the axes R.
     load: Vec12,
     /// L∞ \[1/s\], and 2ηV det P sym L∞ \[N m\], in the axes of space.
     flow: Mat3,
