@@ -1,10 +1,10 @@
 //! Chores of the repository, run as `cargo xtask CHORE`.
 //!
 //! `test` is the one test command: format, lints, documentation, every test of the workspace, those of the viewer in a
-//! browser, the Python tests, the table of known answers and, where cargo-deny is installed, licences and advisories.
-//! `validate` runs the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery`
-//! runs the scenes, draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the
-//! same recordings, `fill` fills comments and pages, `campaign` tries random scenes.
+//! browser, the Python tests, the table of known answers, and licences and advisories of dependencies. `validate` runs
+//! the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes,
+//! draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the same recordings,
+//! `fill` fills comments and pages, `campaign` tries random scenes, `supply` lists the dependencies.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -24,6 +24,7 @@ mod programs;
 mod python;
 mod report;
 mod steps;
+mod supply;
 mod tally;
 mod test;
 mod validate;
@@ -36,11 +37,12 @@ const USAGE: &str = "\
 usage: cargo xtask CHORE
 
   test           run every check; the last line is `N passed, N failed`
-  test --fast    the same without documentation, viewer, Python and cargo-deny
+  test --fast    the same without documentation, viewer, Python and dependencies
   validate       run the problems with a known answer and rewrite docs/known-answers.md
   gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md
   fill [FILE…]   fill comments and pages to the width of a line
   campaign [--scenes N] [--seed S] [--only K] [--program FILE] [--wall-time SECONDS]  random scenes, killed, resumed, audited
+  supply         list the packages that are locked, once what is new has been looked up
   compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
 fn main() -> ExitCode {
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         ["validate"] => validate::run(),
         ["gallery", names @ ..] => gallery::run(names),
         ["fill", names @ ..] => fill::run(names),
+        ["supply"] => supply::run(),
         ["campaign", words @ ..] => campaign::run(words),
         ["compare", old, new, scenes @ ..] => compare::run(old, new, scenes),
         ["help" | "--help" | "-h"] => {

@@ -3,7 +3,7 @@
 use crate::cargo::cargo;
 use crate::programs::{self, TestPrograms};
 use crate::steps::{Steps, succeeds};
-use crate::{answers, campaign, fill, gallery, package, python, root, validate, viewer};
+use crate::{answers, campaign, fill, gallery, package, python, root, supply, validate, viewer};
 use std::process::{Command, ExitCode};
 use std::sync::mpsc::{self, Receiver, Sender};
 
@@ -12,7 +12,7 @@ use std::sync::mpsc::{self, Receiver, Sender};
 pub enum Extent {
     /// Everything.
     Full,
-    /// Without documentation, viewer, Python and cargo-deny.
+    /// Without documentation, viewer, Python, and advisories and licences of dependencies.
     Fast,
 }
 
@@ -42,7 +42,8 @@ pub fn run(extent: Extent) -> ExitCode {
         });
     } else {
         rust(&mut steps, extent, &mpsc::channel().0);
-        steps.skip("documentation, tests of the viewer and in Python, and cargo-deny (--fast)");
+        steps
+            .skip("documentation, tests of the viewer and in Python, advisories and licences of dependencies (--fast)");
     }
     if steps.conclude() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
@@ -68,7 +69,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
         // The program has the name of the library, and so would its pages.
         doc.args(["doc", "--workspace", "--exclude", "gyration-cli", "--no-deps", "--document-private-items"]);
         steps.run("documentation", doc.env("RUSTDOCFLAGS", "-D warnings"));
-        dependencies(steps);
+        supply::check(steps);
     }
 }
 
@@ -110,14 +111,5 @@ fn check_known_answers(steps: &mut Steps) {
             "docs/known-answers.md is out of step (run `cargo xtask validate`): {}",
             differences.join("; ")
         ));
-    }
-}
-
-/// Licences, advisories and sources of dependencies.
-fn dependencies(steps: &mut Steps) {
-    if succeeds(cargo().args(["deny", "--version"])) {
-        steps.run("dependencies", cargo().args(["deny", "check"]));
-    } else {
-        steps.skip("licences and advisories of dependencies: cargo-deny is not installed");
     }
 }
