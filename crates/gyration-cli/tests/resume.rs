@@ -134,7 +134,7 @@ fn run_ended_by_its_wall_time_goes_on_to_the_same_bytes() {
     assert!(different.is_empty(), "{different:?}");
 }
 
-/// The metadata of a recording without the limit of wall time.
+/// The metadata of a recording without the limit of wall time, and without the checksum in which it enters.
 fn attributes(json: &[u8]) -> Value {
     let mut group: Value = serde_json::from_slice(json).unwrap();
     let attributes = &mut group["attributes"];
@@ -144,6 +144,7 @@ fn attributes(json: &[u8]) -> Value {
         panic!("neither solver nor overrides: {attributes}")
     };
     assert!(solver.remove("max_wall_time").is_some());
+    assert!(attributes["record_checksum"].take().is_string());
     attributes["resolved"]["solver"] = Value::Object(solver);
     attributes["overrides"] =
         overrides.into_iter().filter(|setting| !setting.as_str().unwrap().contains("max_wall_time")).collect();

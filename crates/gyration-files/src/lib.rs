@@ -1,9 +1,12 @@
 //! Files that others made, and texts that stand in them.
 //!
 //! [`open`] opens a regular file and nothing else: to open a pipe waits for whoever writes into it, for ever if nobody
-//! does. [`printable`] takes from a text what a terminal would obey.
+//! does. [`printable`] takes from a text what a terminal would obey. [`check`] has the checksums by which damage is
+//! told.
 
 #![forbid(unsafe_code)]
+
+pub mod check;
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -32,6 +35,18 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(file.metadata().map_or(0, |found| usize::try_from(found.len()).unwrap_or(0)));
     file.read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// Opens a file of ours to write at its end, or makes it. A link is refused too: who laid it could have us write
+/// anywhere.
+///
+/// # Errors
+/// As of [`open`].
+pub fn open_to_append(path: &Path) -> io::Result<File> {
+    match path.symlink_metadata().ok().and_then(|found| not_a_file(found.file_type())) {
+        Some(what) => Err(io::Error::new(ErrorKind::InvalidInput, format!("it is {what}"))),
+        None => File::options().append(true).create(true).open(path),
+    }
 }
 
 /// What is there instead of a file, and what to do about it; none of a file.
@@ -100,6 +115,9 @@ mod tests {
         // A link to a file is as good as the file; a link to a pipe is not.
         let link = folder.path().join("link");
         std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        for path in [&pipe, &link] {
+            assert!(open_to_append(path).unwrap_err().to_string().starts_with("it is a "));
+        }
         for path in [&pipe, &link, Path::new("/dev/zero")] {
             let refused = read(path).unwrap_err().to_string();
             assert!(refused.contains("a pipe, a device or a socket") && refused.contains("save what"), "{refused}");

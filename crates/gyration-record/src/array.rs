@@ -1,8 +1,11 @@
 //! An array of a recording as it stands: its name, its dimensions, what its numbers are and how they are stored.
 
+use crate::error::RecordError;
 use crate::layout::ArraySpec;
+use gyration_files::check;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::path::Path;
 
 /// How the numbers of an array are stored, by Zarr's names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,6 +62,8 @@ pub struct ArrayInfo {
     pub meanings: Vec<String>,
     pub(crate) chunk: Vec<usize>,
     pub(crate) data_type: DataType,
+    /// Whether a checksum stands behind each chunk; recordings of earlier versions have none.
+    pub(crate) is_checked: bool,
 }
 
 impl ArrayInfo {
@@ -79,6 +84,28 @@ impl ArrayInfo {
         self.dims.first().is_some_and(|first| first == dim)
     }
 
+    /// The bytes of a chunk as they go to the disk: its elements and, behind them, their checksum.
+    pub(crate) fn encode(&self, elements: &[u8]) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(elements.len() + check::SUM);
+        bytes.extend(elements);
+        if self.is_checked {
+            check::append_sum(&mut bytes);
+        }
+        bytes
+    }
+
+    /// The elements of a chunk that was read from `path`.
+    ///
+    /// # Errors
+    /// `Corrupt` if they are not those that were written.
+    pub(crate) fn decode(&self, mut bytes: Vec<u8>, path: &Path) -> Result<Vec<u8>, RecordError> {
+        if self.is_checked {
+            let content = check::content(&bytes).map(<[u8]>::len);
+            bytes.truncate(content.ok_or_else(|| RecordError::mismatch(path))?);
+        }
+        Ok(bytes)
+    }
+
     pub(crate) fn of(spec: &ArraySpec, grows: Option<(&str, usize)>) -> Self {
         let sizes = || spec.dims.iter().map(|dim| dim.size);
         Self {
@@ -94,6 +121,7 @@ impl ArrayInfo {
             description: spec.description.clone(),
             meanings: Vec::new(),
             data_type: DataType::Float64,
+            is_checked: true,
         }
     }
 

@@ -209,7 +209,7 @@ fn a_failing_disk_is_named_and_stops_the_writer() {
     left.set(0);
     writer.append(0.1, &row(1)).unwrap();
     let error = writer.flush(b"1").unwrap_err();
-    assert!(matches!(&error, RecordError::Io { path, .. } if path.ends_with("time/c.0")), "{error}");
+    assert!(matches!(&error, RecordError::Io { path, .. } if path.ends_with("time/c.0.part")), "{error}");
     left.set(usize::MAX);
     assert!(matches!(writer.flush(b"1"), Err(RecordError::Stopped { .. })));
     assert!(matches!(writer.append(0.1, &row(1)), Err(RecordError::Stopped { .. })));

@@ -1,21 +1,18 @@
 //! The few file operations that writing a recording takes, each with the path in its error.
 //!
 //! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old
-//! or the new one at any moment. Only rows that no metadata count yet are written in place. Tests cut the power before
-//! any of these operations.
+//! or the new one at any moment. Tests cut the power before any of these operations.
 
 use crate::error::RecordError;
 use crate::metadata::Group;
-pub(crate) use crate::names::STATE;
+pub(crate) use crate::names::{METADATA, STATE};
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Write};
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::thread::ScopedJoinHandle;
 
-/// The metadata of the group, and of each array.
-pub(crate) const METADATA: &str = "zarr.json";
 /// The file of the checkpoint.
 pub(crate) const CHECKPOINT: &str = "state/checkpoint";
 /// The file that the writing process locks.
@@ -73,22 +70,6 @@ impl Disk {
     /// Replaces files without waiting for the disk: safe when the process dies, not when the power fails.
     pub(crate) fn replace_lazily(&self, files: &[(PathBuf, &[u8])]) -> Result<(), RecordError> {
         self.put_in_place(files, false)
-    }
-
-    /// Overwrites a part of each file, from an offset on, and brings it to the disk.
-    ///
-    /// A crash may leave any part of it done: nobody may count on these bytes yet. Sizes and names do not change, which
-    /// spares the disk most of the work of a replacement.
-    pub(crate) fn overwrite(&self, files: &[(PathBuf, usize, &[u8])]) -> Result<(), RecordError> {
-        let mut open = Vec::with_capacity(files.len());
-        for (path, offset, bytes) in files {
-            self.step(path)?;
-            let mut file = OpenOptions::new().write(true).open(path).map_err(RecordError::io("open", path))?;
-            file.seek(SeekFrom::Start(*offset as u64)).map_err(RecordError::io("write", path))?;
-            self.put(&mut file, path, bytes)?;
-            open.push((file, path.as_path()));
-        }
-        self.sync_files(&open)
     }
 
     fn put_in_place(&self, files: &[(PathBuf, &[u8])], sync: bool) -> Result<(), RecordError> {

@@ -136,6 +136,11 @@ impl RecordError {
         RecordError::Layout { reason: reason.into() }
     }
 
+    /// A file whose checksum is that of another content.
+    pub(crate) fn mismatch(path: &Path) -> RecordError {
+        RecordError::corrupt(path, "it does not match its checksum; run the scene again, or take the file from a copy")
+    }
+
     /// A damaged file.
     pub(crate) fn corrupt(path: &Path, reason: impl Into<String>) -> RecordError {
         RecordError::Corrupt { path: path.to_path_buf(), reason: reason.into() }

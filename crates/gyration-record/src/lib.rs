@@ -6,7 +6,7 @@
 //! ```text
 //! NAME.gyr/zarr.json             attributes and the metadata of every array: the commit point of the data
 //!          ARRAY/zarr.json       the same metadata again, for readers that do not consolidate
-//!          ARRAY/c.K.0…          rows K·C to (K+1)·C − 1, little-endian f64, padded with NaN; C = chunk_rows
+//!          ARRAY/c.K.0…          rows K·C to (K+1)·C − 1, little-endian f64, padded with NaN; C = chunk_rows; CRC-32C
 //!          state/checkpoint      what a resumed run starts from, with the number of rows it belongs to; written last
 //!          state/lock            held by the one process that writes
 //! ```
@@ -18,6 +18,7 @@
 
 mod array;
 mod checkpoint;
+mod chunks;
 mod disk;
 mod error;
 pub mod export;

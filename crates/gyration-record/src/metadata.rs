@@ -2,15 +2,17 @@
 //!
 //! The group's `zarr.json` holds the attributes and, as consolidated metadata, those of every array; it is replaced as
 //! one file, so that a reader sees all arrays at one length. What this crate needs beside Zarr stands in the group's
-//! attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row) and `record_columns` (`NAME
-//! = ARRAY[INDEX]`, in the order of the CSV). Keys are written in a fixed order.
+//! attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row), `record_columns` (`NAME =
+//! ARRAY[INDEX]`, in the order of the CSV) and `record_checksum` (CRC-32C of this file with zeros in its place). Keys
+//! are written in a fixed order. Recordings of earlier versions have no checksum.
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
 use crate::layout::Layout;
-use crate::names::{STATE, is_column, is_name, is_word};
+use crate::names::{METADATA, STATE, is_column, is_name, is_word};
 use crate::zarr::{Marker, ZarrGroup, group_json};
+use gyration_files::check;
 use serde_json::Value;
 use std::path::Path;
 
@@ -18,6 +20,11 @@ use std::path::Path;
 pub(crate) const FORMAT: u64 = 1;
 /// Rows in a chunk of the events.
 const EVENT_CHUNK_ROWS: usize = 256;
+/// The attribute with the checksum of the metadata.
+const CHECKSUM: &str = "record_checksum";
+/// What stands before that checksum in the file, among the attributes and nowhere else: quotes within a text are
+/// escaped.
+const CHECKSUM_PLACE: &str = "\n    \"record_checksum\": \"";
 
 /// The whole metadata of a recording.
 #[derive(Debug, Clone)]
@@ -69,14 +76,18 @@ impl Group {
 
     /// The group's `zarr.json`.
     pub(crate) fn to_json(&self) -> Vec<u8> {
-        group_json(&self.attributes, &self.arrays)
+        let mut attributes = self.attributes.clone();
+        attributes.insert(CHECKSUM.into(), check::UNKNOWN.into());
+        let mut text = group_json(&attributes, &self.arrays);
+        check::seal(&mut text, CHECKSUM_PLACE);
+        text
     }
 
     /// Reads the group's `zarr.json`.
     pub(crate) fn from_json(path: &Path, bytes: &[u8]) -> Result<Self, RecordError> {
         let no = |reason: String| RecordError::NotARecording { path: path.to_path_buf(), reason };
         // Attributes first: another format may differ in all the rest.
-        let marker: Marker = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
+        let mut marker: Marker = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
         match marker.attributes.get("record_format").and_then(Value::as_u64) {
             None => return Err(no("zarr.json has no attribute `record_format`".into())),
             Some(FORMAT) => {}
@@ -100,8 +111,16 @@ impl Group {
         if arrays.first().is_none_or(|array| !array.grows_with("time")) {
             return Err(no("zarr.json does not begin with the array `time`".into()));
         }
+        let checksum = marker.attributes.remove(CHECKSUM);
         let group = Self { attributes: marker.attributes, arrays };
         check_names(&group).map_err(no)?;
+        if checksum.is_some() && check::is_sealed(bytes, CHECKSUM_PLACE) != Some(true) {
+            let file = path.join(METADATA);
+            let reason = format!(
+                "it does not match its checksum; take it from a copy or, if you changed it yourself, remove its attribute {CHECKSUM}"
+            );
+            return Err(RecordError::corrupt(&file, reason));
+        }
         Ok(group)
     }
 

@@ -3,6 +3,8 @@
 //! Names become folders, and words of pages and tables. A recording may come from anybody: one that names an array
 //! `../victim` would let whoever resumes it write outside its folder.
 
+/// The metadata of the group, and of each array.
+pub(crate) const METADATA: &str = "zarr.json";
 /// The directory of checkpoint and lock, which no array may be called.
 pub(crate) const STATE: &str = "state";
 

@@ -1,17 +1,17 @@
 //! Reading a recording, finished or not: its attributes, its arrays whole or by rows, its columns and events.
 //!
 //! What is read is what stood there when it was opened: rows that a writer adds later are not seen. A range of rows is
-//! read without the rest, so that long runs pass through bounded memory.
+//! read chunk by chunk, so that long runs pass through bounded memory; every chunk is held against its checksum.
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
 use crate::checkpoint::Checkpoint;
+use crate::chunks::LastChunks;
 use crate::disk;
 use crate::error::RecordError;
 use crate::metadata::Group;
 use crate::writer::Event;
 use crate::zarr;
-use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 pub struct Recording {
     path: PathBuf,
     group: Group,
+    chunks: LastChunks,
 }
 
 /// Numbers with their shape, last dimension fastest.
@@ -37,7 +38,7 @@ impl Recording {
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Io`.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
-        Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)? })
+        Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)?, chunks: LastChunks::default() })
     }
 
     /// The recording's path.
@@ -110,7 +111,7 @@ impl Recording {
     /// Reads a whole array.
     ///
     /// # Errors
-    /// `NoSuchArray` (labels are read by [`labels`](Recording::labels)); `Truncated`, `Io`.
+    /// `NoSuchArray` (labels are read by [`labels`](Recording::labels)); `Truncated`, `Corrupt`, `Io`.
     pub fn read(&self, name: &str) -> Result<Array, RecordError> {
         let rows = self.array(name)?.shape.first().map_or(1, |rows| *rows);
         self.read_rows(name, 0..rows)
@@ -119,7 +120,7 @@ impl Recording {
     /// Reads rows of an array: places along its first dimension.
     ///
     /// # Errors
-    /// `NoSuchArray`, `NoSuchRows`, `Truncated`, `Io`.
+    /// `NoSuchArray`, `NoSuchRows`, `Truncated`, `Corrupt`, `Io`.
     pub fn read_rows(&self, name: &str, rows: Range<usize>) -> Result<Array, RecordError> {
         let array = self.array(name)?;
         if array.data_type == DataType::String {
@@ -171,7 +172,8 @@ impl Recording {
             return Ok(None);
         };
         let file = self.path.join(dim).join(array.chunk_key(0));
-        let labels = zarr::decode_labels(&disk::read(&file)?).filter(|labels| labels.len() == array.shape[0]);
+        let bytes = array.decode(disk::read(&file)?, &file)?;
+        let labels = zarr::decode_labels(&bytes).filter(|labels| labels.len() == array.shape[0]);
         labels.map(Some).ok_or_else(|| RecordError::corrupt(&file, "the labels cannot be read"))
     }
 
@@ -183,7 +185,7 @@ impl Recording {
     /// All events.
     ///
     /// # Errors
-    /// `Truncated`, `Io`.
+    /// `Truncated`, `Corrupt`, `Io`.
     pub fn events(&self) -> Result<Vec<Event>, RecordError> {
         if self.group.rows("event").is_none() {
             return Ok(Vec::new());
@@ -219,24 +221,11 @@ impl Recording {
         while from < rows.end {
             let index = from / chunk_rows;
             let to = rows.end.min((index + 1) * chunk_rows);
-            let file = self.path.join(&array.name).join(array.chunk_key(index));
+            let chunk = self.chunks.read(&self.path, array, index)?;
             let first = from - index * chunk_rows;
-            read_part(&file, chunk_rows * row_bytes, first * row_bytes, (to - from) * row_bytes, &mut bytes)?;
+            bytes.extend(&chunk[first * row_bytes..][..(to - from) * row_bytes]);
             from = to;
         }
         Ok(bytes)
     }
-}
-
-/// Appends `length` bytes from `offset` on of a file that must be `size` long.
-fn read_part(path: &Path, size: usize, offset: usize, length: usize, into: &mut Vec<u8>) -> Result<(), RecordError> {
-    let mut file = gyration_files::open(path).map_err(RecordError::io("open", path))?;
-    let found = file.metadata().map_err(RecordError::io("read", path))?.len();
-    if found != size as u64 {
-        return Err(RecordError::Truncated { path: path.to_path_buf(), expected: size as u64, found });
-    }
-    let start = into.len();
-    into.resize(start + length, 0);
-    file.seek(SeekFrom::Start(offset as u64)).map_err(RecordError::io("read", path))?;
-    file.read_exact(&mut into[start..]).map_err(RecordError::io("read", path))
 }

@@ -4,6 +4,7 @@
 //! filled. So the files depend on the rows alone. Only the chunk under way is in memory.
 
 use crate::array::ArrayInfo;
+use crate::chunks::read_chunk;
 use crate::disk::{self, Disk};
 use crate::error::RecordError;
 use std::path::{Path, PathBuf};
@@ -81,22 +82,16 @@ impl Stream {
         }
     }
 
-    /// The first time the whole file, then only the rows that are new: no metadata count them yet, so that a crash in
-    /// between is not seen.
+    /// Whole files take the place of those that are there: a checksum holds for all of a chunk, so that none may be
+    /// written to in place.
     fn store_chunk(&mut self, index: usize, rows: usize, disk: &Disk, directory: &Path) -> Result<(), RecordError> {
-        let parts = self.parts.iter().map(|part| (part, part.path(directory, index)));
-        match self.stored {
-            Some(stored) if stored == rows => {}
-            Some(stored) => {
-                let new = |part: &GrowingArray| stored * part.row_bytes..rows * part.row_bytes;
-                let files = parts.map(|(part, path)| (path, new(part).start, &part.chunk[new(part)]));
-                disk.overwrite(&files.collect::<Vec<_>>())?;
-            }
-            None => {
-                let files = parts.map(|(part, path)| (path, part.chunk.as_slice()));
-                disk.replace(&files.collect::<Vec<_>>())?;
-            }
+        if self.stored == Some(rows) {
+            return Ok(());
         }
+        let chunks = self.parts.iter().map(|part| (part.path(directory, index), part.info.encode(&part.chunk)));
+        let chunks = chunks.collect::<Vec<_>>();
+        let files = chunks.iter().map(|(path, bytes)| (path.clone(), bytes.as_slice()));
+        disk.replace(&files.collect::<Vec<_>>())?;
         self.stored = Some(rows);
         Ok(())
     }
@@ -110,12 +105,7 @@ impl Stream {
         for part in &mut self.parts {
             if kept > 0 {
                 let path = part.path(directory, index);
-                let bytes = disk::read(&path)?;
-                if bytes.len() != part.chunk.len() {
-                    let (expected, found) = (part.chunk.len() as u64, bytes.len() as u64);
-                    return Err(RecordError::Truncated { path, expected, found });
-                }
-                part.chunk = bytes;
+                part.chunk = read_chunk(&part.info, &path)?;
                 part.clear_from(kept);
             }
             let stored = index + usize::from(kept > 0);

@@ -312,13 +312,12 @@ impl Writer {
 
 /// The files that never change: fixed arrays, labels, the metadata of the state.
 fn fixed_chunks(layout: &Layout, group: &Group) -> Vec<(PathBuf, Vec<u8>)> {
-    let key = |name: &str| {
-        let array = group.arrays.iter().find(|array| array.name == name);
-        Path::new(name).join(array.map(|array| array.chunk_key(0)).unwrap_or_default())
-    };
-    let bytes = |values: &[f64]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    let numbers = layout.fixed.iter().map(|fixed| (key(&fixed.spec.name), bytes(&fixed.values)));
-    let labels = layout.labels.iter().map(|(dim, labels)| (key(dim), zarr::encode_labels(labels)));
+    let numbers = layout.fixed.iter().map(|fixed| (&fixed.spec.name, zarr::encode_numbers(&fixed.values)));
+    let labels = layout.labels.iter().map(|(dim, labels)| (dim, zarr::encode_labels(labels)));
+    let chunks = numbers.chain(labels).filter_map(|(name, elements)| {
+        let array = group.arrays.iter().find(|array| array.name == *name)?;
+        Some((Path::new(name).join(array.chunk_key(0)), array.encode(&elements)))
+    });
     let state = [(Path::new(STATE).join(METADATA), zarr::state_json())];
-    numbers.chain(labels).chain(state).collect()
+    chunks.chain(state).collect()
 }

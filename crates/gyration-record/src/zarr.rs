@@ -1,7 +1,8 @@
 //! The `zarr.json` files of Zarr v3 as types of their own, and the one codec that needs code.
 //!
-//! Only what recordings use is here: regular chunks, little-endian numbers, texts in `vlen-utf8`, inline consolidated
-//! metadata. Source: Zarr core specification version 3.0; `consolidated_metadata` as zarr-python 3 writes it.
+//! Only what recordings use is here: regular chunks, little-endian numbers, texts in `vlen-utf8`, the checksum `crc32c`
+//! behind a chunk, inline consolidated metadata. Source: Zarr core specification version 3.0; `consolidated_metadata`
+//! as zarr-python 3 writes it.
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
@@ -27,6 +28,11 @@ pub(crate) fn group_json(attributes: &Attributes, arrays: &[ArrayInfo]) -> Vec<u
 /// The `zarr.json` of the group that holds the state: it keeps readers from wondering about its files.
 pub(crate) fn state_json() -> Vec<u8> {
     json(&ZarrGroup::empty())
+}
+
+/// Numbers in Zarr's `bytes`, little-endian.
+pub(crate) fn encode_numbers(values: &[f64]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
 /// Labels in Zarr's `vlen-utf8`: count, then length and bytes of each, lengths in little-endian u32.
@@ -91,7 +97,7 @@ pub(crate) struct ZarrArray {
     chunk_grid: Named<ChunkGrid>,
     chunk_key_encoding: Named<KeyEncoding>,
     fill_value: Value,
-    codecs: Vec<Named<Codec>>,
+    codecs: Vec<Codec>,
     #[serde(default)]
     attributes: ArrayAttributes,
     dimension_names: Vec<String>,
@@ -113,10 +119,22 @@ struct KeyEncoding {
     separator: String,
 }
 
-#[derive(Serialize, Deserialize)]
-struct Codec {
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    endian: Option<String>,
+/// What is done to the elements of a chunk, one after the other.
+#[derive(PartialEq, Serialize, Deserialize)]
+#[serde(tag = "name", content = "configuration")]
+enum Codec {
+    #[serde(rename = "bytes")]
+    Bytes { endian: Endian },
+    #[serde(rename = "vlen-utf8")]
+    Texts {},
+    #[serde(rename = "crc32c")]
+    Checksum,
+}
+
+#[derive(PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Endian {
+    Little,
 }
 
 /// By the CF conventions, which xarray's users know.
@@ -133,6 +151,12 @@ struct ArrayAttributes {
     flag_meanings: String,
 }
 
+/// How recordings store elements of a type.
+fn codecs(data_type: DataType, is_checked: bool) -> Vec<Codec> {
+    let plain = if data_type == DataType::String { Codec::Texts {} } else { Codec::Bytes { endian: Endian::Little } };
+    std::iter::once(plain).chain(is_checked.then_some(Codec::Checksum)).collect()
+}
+
 impl ZarrGroup {
     fn empty() -> Self {
         let attributes = BTreeMap::new();
@@ -142,10 +166,6 @@ impl ZarrGroup {
 
 impl ZarrArray {
     pub(crate) fn of(array: &ArrayInfo) -> Self {
-        let codec = match array.data_type {
-            DataType::String => Named { name: "vlen-utf8".into(), configuration: Codec { endian: None } },
-            _ => Named { name: "bytes".into(), configuration: Codec { endian: Some("little".into()) } },
-        };
         Self {
             zarr_format: 3,
             node_type: "array".into(),
@@ -155,7 +175,7 @@ impl ZarrArray {
             // A point as separator: a chunk is a file, not a path of directories.
             chunk_key_encoding: Named { name: "default".into(), configuration: KeyEncoding { separator: ".".into() } },
             fill_value: array.data_type.fill(),
-            codecs: vec![codec],
+            codecs: codecs(array.data_type, array.is_checked),
             attributes: ArrayAttributes {
                 units: array.units.clone(),
                 long_name: array.description.clone(),
@@ -168,6 +188,10 @@ impl ZarrArray {
 
     /// The array described; an error says what is strange.
     pub(crate) fn info(self, name: String) -> Result<ArrayInfo, String> {
+        let is_checked = self.codecs.contains(&Codec::Checksum);
+        if self.codecs != codecs(self.data_type, is_checked) {
+            return Err(format!("the array `{}` is stored in another way than recordings are", name.escape_debug()));
+        }
         let (shape, chunk) = (self.shape, self.chunk_grid.configuration.chunk_shape);
         let bytes = chunk.iter().try_fold(8_usize, |bytes, size| bytes.checked_mul(*size));
         let fits = bytes.is_some() && shape.len() == chunk.len() && shape.len() == self.dimension_names.len();
@@ -186,6 +210,7 @@ impl ZarrArray {
             description: self.attributes.long_name,
             meanings: self.attributes.flag_meanings.split_whitespace().map(String::from).collect(),
             data_type: self.data_type,
+            is_checked,
         })
     }
 }

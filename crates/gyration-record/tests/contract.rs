@@ -155,7 +155,7 @@ fn damage_is_told_with_the_file() {
     finished(&path, 6, 4);
     let chunk = path.join("position/c.1.0.0");
     fs::write(&chunk, [0; 7]).unwrap();
-    let told = |error: &RecordError| matches!(error, RecordError::Truncated { path, expected: 192, found: 7 } if *path == chunk);
+    let told = |error: &RecordError| matches!(error, RecordError::Truncated { path, expected: 196, found: 7 } if *path == chunk);
     assert!(told(&Recording::open(&path).unwrap().read("position").unwrap_err()));
     assert!(told(&Writer::resume(&path).unwrap_err()));
     fs::write(path.join("state/checkpoint"), b"GYRCKPT1").unwrap();

@@ -4,5 +4,6 @@
 
 mod common;
 mod contract;
+mod flips;
 mod kill;
 mod python;

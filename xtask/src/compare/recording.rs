@@ -1,8 +1,9 @@
 //! Comparing two recordings of one scene: every array byte by byte, and the attributes.
 //!
 //! Arrays and their sizes stand in the group's `zarr.json`; chunks are plain little-endian numbers, cut along the first
-//! dimension only, so that the files of an array, one behind the other, are the array. Left out are the checkpoint,
-//! which belongs to one version of the program, and the attributes that tell where the numbers come from.
+//! dimension only, so that the files of an array, one behind the other and without their checksums, are the array. Left
+//! out are the checkpoint, which belongs to one version of the program, the codecs, and the attributes that tell where
+//! the numbers come from.
 
 use crate::json::Json;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,7 +11,9 @@ use std::fmt;
 use std::path::Path;
 
 /// Attributes that two versions may have otherwise: what the text of a scene means stands in `resolved`.
-const PROVENANCE: [&str; 3] = ["version", "commit", "scene"];
+const PROVENANCE: [&str; 4] = ["version", "commit", "scene", "record_checksum"];
+/// Bytes of the checksum behind a chunk.
+const CHECKSUM: usize = 4;
 
 /// What is not the same in two recordings: one line each.
 pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
@@ -34,9 +37,9 @@ pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
             [Some(_), None] => Some(format!("{name}: only in the old one")),
             [None, Some(_)] => Some(format!("{name}: only in the new one")),
             [Some(before), Some(after)] => {
-                let contents = [old, new].map(|folder| contents(&folder.join(name)));
-                let [old, new] = contents;
-                array_difference([before, after], &old?, &new?).map(|told| format!("{name}: {told}"))
+                let old = contents(&old.join(name), is_checked(before))?;
+                let new = contents(&new.join(name), is_checked(after))?;
+                array_difference([before, after], &old, &new).map(|told| format!("{name}: {told}"))
             }
             [None, None] => None,
         });
@@ -54,8 +57,14 @@ fn union([old, new]: [&BTreeMap<String, Json>; 2]) -> BTreeSet<&str> {
     old.keys().chain(new.keys()).map(String::as_str).collect()
 }
 
+/// Whether checksums stand behind the chunks of an array.
+fn is_checked(metadata: &Json) -> bool {
+    let Some(Json::List(codecs)) = metadata.get("codecs") else { return false };
+    codecs.iter().any(|codec| codec.get("name").and_then(Json::text) == Some("crc32c"))
+}
+
 /// The chunks of an array, one behind the other.
-fn contents(folder: &Path) -> Result<Vec<u8>, String> {
+fn contents(folder: &Path, is_checked: bool) -> Result<Vec<u8>, String> {
     let told = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut chunks = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(told)? {
@@ -70,6 +79,7 @@ fn contents(folder: &Path) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     for (_, path) in chunks {
         bytes.extend(std::fs::read(path).map_err(told)?);
+        bytes.truncate(bytes.len().saturating_sub(if is_checked { CHECKSUM } else { 0 }));
     }
     Ok(bytes)
 }
@@ -78,7 +88,11 @@ fn contents(folder: &Path) -> Result<Vec<u8>, String> {
 fn array_difference(metadata: [&Json; 2], old: &[u8], new: &[u8]) -> Option<String> {
     let [before, after] = metadata.map(|metadata| metadata.get("data_type").and_then(Json::text));
     let mut told = Vec::new();
-    if metadata[0] != metadata[1] {
+    let described = |metadata: &Json| {
+        let entries = metadata.entries().into_iter().flatten();
+        entries.filter(|(key, _)| *key != "codecs").map(|(key, value)| (key.clone(), value.clone())).collect::<Vec<_>>()
+    };
+    if described(metadata[0]) != described(metadata[1]) {
         told.push("the metadata differ".to_owned());
     }
     if old != new {
@@ -175,9 +189,25 @@ mod tests {
     }
 
     #[test]
+    fn a_checksum_behind_a_chunk_is_no_difference() {
+        let old = recording("unchecked", [&[1.0, 2.0], &[3.0]], "{}");
+        let new = recording("checked", [&[1.0, 2.0], &[3.0]], r#"{"record_checksum": "0123abcd"}"#);
+        let group = fs::read_to_string(new.join("zarr.json")).unwrap();
+        let codecs = r#""codecs": [{"name": "crc32c"}], "shape""#;
+        fs::write(new.join("zarr.json"), group.replace("\"shape\"", codecs)).unwrap();
+        for (chunk, numbers) in [("gap/c.9", &[1.0, 2.0][..]), ("gap/c.10", &[3.0])] {
+            fs::write(new.join(chunk), [bytes(numbers), vec![7; 4]].concat()).unwrap();
+        }
+        let found = differences(&old, &new);
+        fs::remove_dir_all(old).unwrap();
+        fs::remove_dir_all(new).unwrap();
+        assert_eq!(found, Ok(Vec::new()));
+    }
+
+    #[test]
     fn chunks_follow_one_another_by_number_not_by_name() {
         let folder = recording("order", [&[1.0], &[2.0]], "{}");
-        let found = contents(&folder.join("gap"));
+        let found = contents(&folder.join("gap"), false);
         fs::remove_dir_all(folder).unwrap();
         assert_eq!(found, Ok(bytes(&[1.0, 2.0])));
     }

@@ -1,0 +1,57 @@
+//! The chunks of a recording as they are read: whole, held against their checksums, the last one of each array kept.
+//!
+//! Whoever goes through a recording row by row would otherwise read each chunk as often as it has rows.
+
+use crate::array::ArrayInfo;
+use crate::disk;
+use crate::error::RecordError;
+use gyration_files::check;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The chunk of each array that was read last, by its number. Rows that a recording counts do not change in it.
+#[derive(Clone, Default)]
+pub(crate) struct LastChunks(Arc<Mutex<BTreeMap<String, (usize, Elements)>>>);
+
+/// The elements of a chunk, with room for all its rows.
+type Elements = Arc<Vec<u8>>;
+
+/// The elements of a chunk of numbers that stands at `path`, which has room for all its rows.
+///
+/// # Errors
+/// `Truncated`, `Corrupt`, `Io`.
+pub(crate) fn read_chunk(array: &ArrayInfo, path: &Path) -> Result<Vec<u8>, RecordError> {
+    let bytes = disk::read(path)?;
+    let expected = array.chunk.iter().product::<usize>() * array.data_type.size();
+    let expected = expected + if array.is_checked { check::SUM } else { 0 };
+    if bytes.len() != expected {
+        let (expected, found) = (expected as u64, bytes.len() as u64);
+        return Err(RecordError::Truncated { path: path.to_path_buf(), expected, found });
+    }
+    array.decode(bytes, path)
+}
+
+impl fmt::Debug for LastChunks {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("LastChunks")
+    }
+}
+
+impl LastChunks {
+    /// The elements of a chunk of numbers of the recording in `folder`.
+    ///
+    /// # Errors
+    /// `Truncated`, `Corrupt`, `Io`.
+    pub(crate) fn read(&self, folder: &Path, array: &ArrayInfo, index: usize) -> Result<Elements, RecordError> {
+        let last = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, elements)) = last().get(&array.name).filter(|(held, _)| *held == index) {
+            return Ok(Arc::clone(elements));
+        }
+        let path = folder.join(&array.name).join(array.chunk_key(index));
+        let elements = Arc::new(read_chunk(array, &path)?);
+        last().insert(array.name.clone(), (index, Arc::clone(&elements)));
+        Ok(elements)
+    }
+}
