@@ -9,6 +9,7 @@ mod commands;
 mod common;
 mod drive_plots;
 mod export;
+mod full_disk;
 mod python;
 mod resistance;
 mod resume;

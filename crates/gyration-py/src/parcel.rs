@@ -1,12 +1,12 @@
 //! The recording of a run as bytes, for a process that has no disk in common with the one that made it.
 //!
 //! A recording is a folder of small files; a parcel holds all of them by their paths within it. It is unpacked beside
-//! its place and then moved there: whatever stands at the place of a recording is whole.
+//! its place, brought to the disk and then moved there: whatever stands at the place of a recording is whole.
 
 use gyration_record::{RecordError, remove};
 use gyration_study::StudyError;
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 
 /// The number of a run and the files of its recording: paths with `/` between their parts, and bytes.
@@ -35,7 +35,9 @@ pub fn unpack<Bytes: AsRef<[u8]>>(folder: &Path, (run, files): &Parcel<Bytes>) -
         for (path, content) in files {
             let path = arriving.join(within(path)?);
             path.parent().map_or(Ok(()), fs::create_dir_all)?;
-            fs::write(&path, content.as_ref())?;
+            let mut file = File::create(&path)?;
+            file.write_all(content.as_ref())?;
+            file.sync_data()?;
         }
         Ok(())
     };
@@ -60,7 +62,7 @@ fn gather(folder: &Path, prefix: &str, into: &mut Vec<(String, Vec<u8>)>) -> io:
         if entry.file_type()?.is_dir() {
             gather(&entry.path(), &format!("{name}/"), into)?;
         } else {
-            into.push((name, fs::read(entry.path())?));
+            into.push((name, gyration_files::read(&entry.path())?));
         }
     }
     Ok(())

@@ -62,7 +62,8 @@ pub fn execute(
             stop.store(true, Ordering::Relaxed);
         }
     });
-    written?;
+    // Also where a row could not be made: those before it are kept.
+    written.and(table.sync())?;
     table.finish()
 }
 

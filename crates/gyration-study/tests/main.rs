@@ -5,6 +5,7 @@
 mod calibration;
 mod common;
 mod errors;
+mod flips;
 mod keeps;
 mod python;
 mod random;

@@ -4,9 +4,15 @@ use super::shard::Shard;
 use super::{LOCK, MANIFEST, RECORDINGS, ROWS, TABLE};
 use crate::error::StudyError;
 use crate::study::Study;
+use gyration_files::check;
 use serde_json::Value as Json;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
+
+/// The key of the manifest's checksum: CRC-32C of the file with zeros in its place.
+const CHECKSUM: &str = "checksum";
+/// What stands before that checksum in the file, and nowhere else: keys further in stand further to the right.
+const CHECKSUM_PLACE: &str = "\n  \"checksum\": \"";
 
 /// The folder of a shard of the table at a path.
 pub(super) fn folder(path: &Path, shard: Shard) -> PathBuf {
@@ -53,20 +59,42 @@ pub(super) fn chunk_of(runs: u64) -> u64 {
     (runs / 32).clamp(FEWEST, MOST).next_power_of_two()
 }
 
-/// Writes a file beside its place and then puts it there.
+/// Writes a file beside its place, waits until the disk has it, and then puts it there.
 pub(super) fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), StudyError>) -> Result<(), StudyError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     // Readers of folders of Parquet files pass over names that begin with an underscore.
     let aside = path.with_file_name(format!("_{name}.tmp"));
     write(&aside)?;
-    fs::rename(&aside, path).map_err(StudyError::io("write", path))
+    File::options()
+        .write(true)
+        .open(&aside)
+        .and_then(|file| file.sync_all())
+        .map_err(StudyError::io("bring to the disk", path))?;
+    fs::rename(&aside, path).map_err(StudyError::io("write", path))?;
+    sync_names(path.parent().unwrap_or(Path::new("")))
+}
+
+/// Brings the names in a folder to the disk (where the system can: not on Windows).
+pub(super) fn sync_names(folder: &Path) -> Result<(), StudyError> {
+    if !cfg!(unix) {
+        return Ok(());
+    }
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    File::open(folder).and_then(|file| file.sync_all()).map_err(StudyError::io("bring to the disk", folder))
+}
+
+/// Writes the manifest of a table, with its checksum.
+pub(super) fn write_manifest(folder: &Path, mut manifest: Json) -> Result<(), StudyError> {
+    manifest[CHECKSUM] = check::UNKNOWN.into();
+    let mut text = format!("{manifest:#}\n").into_bytes();
+    check::seal(&mut text, CHECKSUM_PLACE);
+    replace_file(&folder.join(MANIFEST), |path| fs::write(path, &text).map_err(StudyError::io("write", path)))
 }
 
 /// Keeps other processes from writing the same table.
 pub(super) fn lock(folder: &Path) -> Result<File, StudyError> {
     let path = folder.join(LOCK);
-    let file = File::options().write(true).create(true).truncate(false).open(&path);
-    let file = file.map_err(StudyError::io("write", &path))?;
+    let file = gyration_files::open_to_append(&path).map_err(StudyError::io("write", &path))?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(StudyError::Locked { path: folder.to_owned() }),
@@ -93,7 +121,15 @@ pub(super) fn is_of(folder: &Path, study: &Study, shard: Shard) -> Result<(), St
 pub(super) fn read_manifest(folder: &Path) -> Result<Json, StudyError> {
     let path = folder.join(MANIFEST);
     match gyration_files::read(&path) {
-        Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| StudyError::damaged(&path, error)),
+        Ok(bytes) => {
+            let manifest: Json = serde_json::from_slice(&bytes)
+                .map_err(|error| StudyError::damaged(&path, format!("it is not JSON ({error})")))?;
+            // Manifests of earlier versions have no checksum.
+            if manifest.get(CHECKSUM).is_some() && check::is_sealed(&bytes, CHECKSUM_PLACE) != Some(true) {
+                return Err(StudyError::damaged(&path, "it does not match its checksum"));
+            }
+            Ok(manifest)
+        }
         Err(error) if error.kind() == std::io::ErrorKind::NotFound && holds_shards(folder) => {
             Err(StudyError::shards_there(folder))
         }

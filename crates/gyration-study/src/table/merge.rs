@@ -1,7 +1,7 @@
 //! Joins the shards of a study into one table, by streaming.
 
 use super::describe::{describe, manifest};
-use super::disk::{is_of, lock, replace_file};
+use super::disk::{is_of, lock, replace_file, write_manifest};
 use super::parquet::{Input, Output};
 use super::shard::Shard;
 use super::{MANIFEST, TABLE};
@@ -45,8 +45,7 @@ pub fn merge(path: &Path, study: &Study, replace: bool) -> Result<PathBuf, Study
         }
         output.close()
     })?;
-    let manifest = format!("{:#}\n", manifest(study, Shard::WHOLE));
-    replace_file(&path.join(MANIFEST), |path| fs::write(path, &manifest).map_err(StudyError::io("write", path)))?;
+    write_manifest(path, manifest(study, Shard::WHOLE))?;
     Ok(target)
 }
 

@@ -10,8 +10,9 @@
 //!     shard-3-of-8/             a shard: the same layout inside
 //! ```
 //!
-//! Whatever interrupts the writing, each run is there once or not at all. The bytes of `table.parquet` depend on the
-//! rows alone: not on the order in which they came, nor on chunks, threads or shards.
+//! Every file carries a checksum. What is told of runs that are done is told when the disk has their rows. Whatever
+//! interrupts the writing, each run is there once or not at all. The bytes of `table.parquet` depend on the rows alone:
+//! not on the order in which they came, nor on chunks, threads or shards.
 
 mod describe;
 mod digest;
@@ -21,6 +22,7 @@ mod journal;
 mod lock;
 mod merge;
 mod parquet;
+mod seal;
 mod shard;
 mod writer;
 

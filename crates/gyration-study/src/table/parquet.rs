@@ -2,8 +2,11 @@
 //! file.
 //!
 //! The three numbers of the run are required, all other cells optional; a list is the three-level LIST of the format.
-//! What is written depends on the rows alone.
+//! What is written depends on the rows alone. The metadata hold a checksum of the whole file, which is read once more
+//! when it is opened: the library does not write the checksums of pages that the format has, and those leave out the
+//! metadata.
 
+use super::seal;
 use crate::column::{Column, ColumnKind};
 use crate::error::StudyError;
 use crate::value::{Row, Value};
@@ -18,6 +21,7 @@ use ::parquet::file::reader::FileReader;
 use ::parquet::file::serialized_reader::SerializedFileReader;
 use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use ::parquet::schema::types::{Type, TypePtr};
+use gyration_files::check;
 use serde_json::Value as Json;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -42,13 +46,14 @@ impl Output {
     /// A new file with these columns, and a description in its metadata.
     pub fn create(path: &Path, columns: &[Column], description: &Json) -> std::result::Result<Self, StudyError> {
         let file = File::create(path).map_err(StudyError::io("write", path))?;
-        let metadata = KeyValue::new(KEY.to_owned(), description.to_string());
+        let metadata = [(KEY, description.to_string()), (seal::KEY, check::UNKNOWN.to_owned())];
+        let metadata = metadata.map(|(key, text)| KeyValue::new(key.to_owned(), text)).to_vec();
         let properties = WriterProperties::builder()
             .set_created_by(format!("gyration {}", env!("CARGO_PKG_VERSION")))
             .set_compression(Compression::SNAPPY)
             .set_data_page_row_count_limit(PAGE)
             .set_write_batch_size(PAGE)
-            .set_key_value_metadata(Some(vec![metadata]))
+            .set_key_value_metadata(Some(metadata))
             .build();
         let writer = schema(columns).and_then(|schema| SerializedFileWriter::new(file, schema, Arc::new(properties)));
         let kinds = columns.iter().map(|column| column.kind).collect();
@@ -61,13 +66,13 @@ impl Output {
         if self.waiting.len() < GROUP { Ok(()) } else { self.write_group() }
     }
 
-    /// Ends the file, which is on disk then.
+    /// Ends the file and puts its checksum in.
     pub fn close(mut self) -> std::result::Result<(), StudyError> {
         if !self.waiting.is_empty() {
             self.write_group()?;
         }
-        let file = self.writer.into_inner().map_err(failed("write", &self.path))?;
-        file.sync_all().map_err(StudyError::io("write", &self.path))
+        drop(self.writer.into_inner().map_err(failed("write", &self.path))?);
+        seal::close(&self.path).map_err(StudyError::io("write", &self.path))
     }
 
     fn write_group(&mut self) -> std::result::Result<(), StudyError> {
@@ -181,7 +186,10 @@ pub(crate) struct Input {
 impl Input {
     /// Opens a file.
     pub fn open(path: &Path) -> std::result::Result<Self, StudyError> {
-        let file = gyration_files::open(path).map_err(StudyError::io("read", path))?;
+        let mut file = gyration_files::open(path).map_err(StudyError::io("read", path))?;
+        if !seal::is_whole(&mut file).map_err(StudyError::io("read", path))? {
+            return Err(StudyError::damaged(path, "it does not match its checksum"));
+        }
         let reader = SerializedFileReader::new(file).map_err(failed("read", path))?;
         let fields = reader.metadata().file_metadata().schema().get_fields().iter();
         let kinds = fields.map(kind).collect::<Option<_>>();

@@ -1,7 +1,11 @@
 //! The table of a study while it grows: which runs are there, journals, chunks, and their joining at the end.
 
+mod find;
+
 use super::describe::{describe, manifest};
-use super::disk::{chunk_of, folder, holds_shards, is_begun_only, is_of, lock, remove_table, replace_file};
+use super::disk::{
+    chunk_of, folder, holds_shards, is_begun_only, is_of, lock, remove_table, replace_file, sync_names, write_manifest,
+};
 use super::journal::{self, Journal};
 use super::lock::TableLock;
 use super::parquet::{Input, Output};
@@ -15,6 +19,10 @@ use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Wall time between waits for the disk: a wait costs as much as some short runs.
+const SYNC_EVERY: Duration = Duration::from_millis(500);
 
 /// The table of a study, or of a shard of it, that is being written.
 #[derive(Debug)]
@@ -34,12 +42,18 @@ pub struct Table {
     /// Rows that it has.
     rows: u64,
     is_complete: bool,
+    /// When the disk had all rows.
+    synced: Instant,
+    /// How often a journal was waited for.
+    syncs: u64,
     /// Held as long as this process writes.
     lock: TableLock,
 }
 
 impl Drop for Table {
     fn drop(&mut self) {
+        // Whoever wants to know whether it went well asks before.
+        let _ = self.sync();
         self.lock.release();
     }
 }
@@ -77,10 +91,7 @@ impl Table {
         fs::create_dir_all(&folder).map_err(StudyError::io("make", &folder))?;
         let locked = locked.map_or_else(|| lock(&folder), Ok)?;
         let table = Self::new(locked, folder, study, shard);
-        let manifest = format!("{:#}\n", manifest(study, shard));
-        replace_file(&table.folder.join(MANIFEST), |path| {
-            fs::write(path, &manifest).map_err(StudyError::io("write", path))
-        })?;
+        write_manifest(&table.folder, manifest(study, shard))?;
         let rows = table.folder.join(ROWS);
         fs::create_dir_all(&rows).map_err(StudyError::io("make", &rows))?;
         Ok(table)
@@ -125,6 +136,8 @@ impl Table {
             open: BTreeMap::new(),
             rows: 0,
             is_complete: false,
+            synced: Instant::now(),
+            syncs: 0,
             lock: TableLock::new(lock),
             folder,
         }
@@ -207,15 +220,35 @@ impl Table {
                 open.count += 1;
                 self.rows += 1;
                 let lines = lines.entry(number).or_default();
-                lines.push_str(&row.to_line());
-                lines.push('\n');
+                lines.push_str(&journal::line(row));
             }
         }
         for (number, lines) in lines {
             self.open(number)?.journal.write(&lines)?;
             self.seal_if_full(number)?;
         }
+        if self.synced.elapsed() >= SYNC_EVERY { self.sync() } else { Ok(()) }
+    }
+
+    /// Waits until the disk has all rows; `append` does so now and then.
+    ///
+    /// # Errors
+    /// As the system says: the disk is full or gone.
+    pub fn sync(&mut self) -> Result<(), StudyError> {
+        let before = self.syncs;
+        for open in self.open.values_mut() {
+            self.syncs += u64::from(open.journal.sync()?);
+        }
+        if self.syncs > before {
+            sync_names(&self.folder.join(ROWS))?;
+        }
+        self.synced = Instant::now();
         Ok(())
+    }
+
+    /// How often a journal was waited for.
+    pub fn syncs(&self) -> u64 {
+        self.syncs
     }
 
     /// Joins all chunks into one file, in order; false if runs are missing.
@@ -300,52 +333,6 @@ impl Table {
         self.open.remove(&number);
         fs::remove_file(&journal).map_err(StudyError::io("remove", &journal))?;
         self.finished.insert(number);
-        Ok(())
-    }
-
-    /// Finds the rows that an interrupted writer has left.
-    fn find_rows(&mut self) -> Result<(), StudyError> {
-        let folder = self.folder.join(ROWS);
-        fs::create_dir_all(&folder).map_err(StudyError::io("make", &folder))?;
-        let mut journals = Vec::new();
-        for entry in fs::read_dir(&folder).map_err(StudyError::io("read", &folder))? {
-            let path = entry.map_err(StudyError::io("read", &folder))?.path();
-            let number = path.file_stem().and_then(|stem| stem.to_str()?.trim_start_matches('_').parse::<u64>().ok());
-            match (path.extension().and_then(|ending| ending.to_str()), number) {
-                (Some("tmp"), _) => fs::remove_file(&path).map_err(StudyError::io("remove", &path))?,
-                (Some("parquet"), Some(number)) => {
-                    let rows = Input::open(&path)?.rows();
-                    if rows != self.chunk.min(self.runs.saturating_sub(number * self.chunk)) {
-                        return Err(StudyError::damaged(&path, "it has not the rows of its chunk"));
-                    }
-                    self.finished.insert(number);
-                    self.rows += rows;
-                }
-                (Some("jsonl"), Some(number)) => journals.push((number, path)),
-                _ => {}
-            }
-        }
-        for (number, path) in journals {
-            if self.finished.contains(&number) {
-                // Its chunk was sealed just before the writer stopped.
-                fs::remove_file(&path).map_err(StudyError::io("remove", &path))?;
-                continue;
-            }
-            let rows = journal::mend(&path, &self.columns)?;
-            for row in rows {
-                let place = row.run().and_then(|run| self.shard.place(run));
-                let Some(place) = place.filter(|place| *place < self.runs && place / self.chunk == number) else {
-                    return Err(StudyError::damaged(&path, "it holds a row of another chunk"));
-                };
-                let within = (place % self.chunk) as usize;
-                let open = self.open(number)?;
-                if !std::mem::replace(&mut open.there[within], true) {
-                    open.count += 1;
-                    self.rows += 1;
-                }
-            }
-            self.seal_if_full(number)?;
-        }
         Ok(())
     }
 }
