@@ -1,11 +1,14 @@
 // The build: one HTML file with script and style inlined, so that it works from a disk and can be mailed.
 // The tests: `unit` runs in Node, `browser` drives Chromium over the built page.
 
+import { createHash } from "node:crypto";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
 
 /** Where the program puts the data of a report; it must stand once in the page, before the script. */
 const PLACEHOLDER = "<!--gyration-data-->";
+/** Stands in the policy of the page for the hash of its script: no other script runs, whatever is in the data. */
+const SCRIPT_HASH = "sha256-of-the-script";
 
 /** Moves the bundled script and style into the page and drops their files. */
 function inlined(): Plugin {
@@ -30,7 +33,11 @@ function inlined(): Plugin {
         .toString()
         .replace(/\s*<script[^>]*src=[^>]*><\/script>/g, "")
         .replace(/\s*<link[^>]*rel="(stylesheet|modulepreload)"[^>]*>/g, "");
+      const hash = createHash("sha256").update(script).digest("base64");
+      if (bare.split(SCRIPT_HASH).length !== 2)
+        throw new Error("the hash of the script must stand once in the policy of the page");
       const html = bare
+        .replace(SCRIPT_HASH, `sha256-${hash}`)
         .replace("</head>", () => `<style>${styles}</style></head>`)
         .replace("</body>", () => `<script type="module">${script}</script></body>`);
       if (html.split(PLACEHOLDER).length !== 2)

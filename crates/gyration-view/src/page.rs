@@ -8,10 +8,37 @@ pub const PLACEHOLDER: &str = "<!--gyration-data-->";
 /// The page, or why there is none; `build.rs` writes it.
 const PAGE: Result<&str, &str> = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
+/// What stands before the sources of scripts in the policy of the page: the hash of its own script.
+const SCRIPTS: &str = "script-src ";
+
+/// The scripts that a policy allows, as the page states it; none if there is no page.
+pub fn scripts() -> &'static str {
+    PAGE.ok().and_then(allowed).unwrap_or("'none'")
+}
+
+fn allowed(html: &str) -> Option<&str> {
+    let (_, rest) = html.split_once(SCRIPTS)?;
+    rest.split_once(';').map(|(scripts, _)| scripts)
+}
+
 /// The page's HTML.
 ///
 /// # Errors
 /// `NoPage` if the program was built without.
 pub fn html() -> Result<&'static str, ViewError> {
     PAGE.map_err(|reason| ViewError::NoPage { reason })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_script_runs_but_that_of_the_page() {
+        let head = "content=\"default-src 'none'; script-src 'sha256-abc='; style-src 'unsafe-inline'\"";
+        assert_eq!(allowed(head), Some("'sha256-abc='"));
+        assert_eq!(allowed("no policy"), None);
+        assert!(!scripts().contains("unsafe-inline"));
+        assert_eq!(PAGE.is_ok(), scripts().starts_with("'sha256-"), "{}", scripts());
+    }
 }

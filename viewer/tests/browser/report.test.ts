@@ -21,6 +21,20 @@ const CURSOR = () => {
 };
 
 describe("a report", () => {
+  it("runs_no_script_but_its_own", async () => {
+    const path = join(folder, "foreign.html");
+    const foreign = "<script>document.title = 'foreign'</script>";
+    writeFileSync(
+      path,
+      readFileSync(dice, "utf8").replace("</head>", () => `${foreign}</head>`),
+    );
+    const { page, problems, close } = await opened(path);
+    expect(await page.title()).not.toBe("foreign");
+    expect(problems).toHaveLength(1);
+    expect(problems[0]).toContain("Content Security Policy");
+    await close();
+  });
+
   it("moves_the_cursor_of_the_plots_with_the_scrubber", async () => {
     const { page, problems, close } = await opened(dice);
     await page.waitForSelector(".time-cursor");

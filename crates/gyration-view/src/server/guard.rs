@@ -3,6 +3,7 @@
 //! `Host` must be ours, against names elsewhere that are made to lead here; `Origin`, where a browser sends one, must
 //! be our page. Answers forbid the page to load or call anything but this server.
 
+use crate::page;
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
@@ -15,10 +16,10 @@ pub(super) async fn guard(State(port): State<u16>, request: Request, next: Next)
         return (StatusCode::FORBIDDEN, words).into_response();
     }
     let mut response = next.run(request).await;
-    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
-                  connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    if let Ok(policy) = HeaderValue::from_str(&policy()) {
+        response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, policy);
+    }
     for (name, value) in [
-        (header::CONTENT_SECURITY_POLICY, policy),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
         (header::CACHE_CONTROL, "no-store"),
@@ -26,6 +27,15 @@ pub(super) async fn guard(State(port): State<u16>, request: Request, next: Next)
         set(response.headers_mut(), name, value);
     }
     response
+}
+
+/// What a page from here may do: run its own script, by its hash, and ask this server.
+fn policy() -> String {
+    format!(
+        "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
+         base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        page::scripts()
+    )
 }
 
 fn set(headers: &mut HeaderMap, name: HeaderName, value: &'static str) {
@@ -51,6 +61,13 @@ mod tests {
             set(&mut headers, name.clone(), value);
         }
         is_ours(&headers, 8000)
+    }
+
+    #[test]
+    fn the_policy_is_a_header_and_allows_no_script_but_that_of_the_page() {
+        assert!(HeaderValue::from_str(&policy()).is_ok());
+        let scripts = policy().split("script-src ").nth(1).and_then(|rest| Some(rest.split_once(';')?.0.to_owned()));
+        assert_eq!(scripts.as_deref(), Some(page::scripts()));
     }
 
     #[test]
