@@ -167,6 +167,8 @@ fn everything_comes_at_once_and_scenes_speak_for_themselves() {
     let keys: Vec<String> = errors(text).into_iter().map(|error| error.key).collect();
     assert_eq!(keys, ["repetitions", "parameter.a", "keep.k.lst"]);
     refused("scene = \"bal.toml\"\n", 1, "scene", ["bal.toml: no such file", "path"]);
+    // Found by fuzzing: it was refused without a word.
+    refused("scene = \"\"\n", 1, "scene", ["no name", "path"]);
     let sandbox = sandbox();
     std::fs::write(sandbox.path().join("bad.toml"), common::BALL.replace("density", "densty")).unwrap();
     let text = "scene = \"bad.toml\"\n";

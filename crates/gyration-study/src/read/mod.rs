@@ -75,6 +75,9 @@ pub(crate) fn read(input: &mut InputFile) -> Read {
     read
 }
 
+/// What to write for `scene`.
+const HOW_TO_NAME: &str = "write a path relative to the study's file, or a name of the gallery";
+
 /// The scene that a study names: a path relative to the study's file, or a name of the gallery; none if there is none.
 pub(crate) fn scene(
     input: &mut InputFile,
@@ -82,18 +85,17 @@ pub(crate) fn scene(
     base: &Path,
 ) -> Option<Result<Template, gyration_scene::LoadError>> {
     if name.is_empty() {
-        // That it is missing has been said.
+        // That it is missing, or no text, has been said.
+        if input.value(&["scene"]).is_some_and(|scene| scene.as_str() == Some("")) {
+            input.note(&["scene"], "the scene has no name", HOW_TO_NAME);
+        }
         return None;
     }
     let beside = base.join(name);
     let opened = if beside.is_file() { Template::load(&beside) } else { Template::open(name) };
     match opened {
         Err(gyration_scene::LoadError::Read(error)) => {
-            input.note(
-                &["scene"],
-                error.to_string(),
-                "write a path relative to the study's file, or a name of the gallery",
-            );
+            input.note(&["scene"], error.to_string(), HOW_TO_NAME);
             None
         }
         other => Some(other),
