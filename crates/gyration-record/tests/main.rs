@@ -4,6 +4,7 @@
 
 mod common;
 mod contract;
+mod corpus;
 mod flips;
 mod kill;
 mod python;

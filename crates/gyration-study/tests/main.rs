@@ -4,6 +4,7 @@
 
 mod calibration;
 mod common;
+mod corpus;
 mod errors;
 mod flips;
 mod keeps;

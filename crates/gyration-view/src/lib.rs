@@ -23,7 +23,7 @@ mod server;
 mod stored;
 
 pub use error::ViewError;
-pub use live::Live;
+pub use live::{Live, Wish};
 pub use report::{Report, report};
 pub use server::{PageSource, Server};
 pub use stored::Stored;

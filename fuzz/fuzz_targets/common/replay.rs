@@ -26,3 +26,13 @@ pub fn replay(target: &str, check: impl Fn(&[u8])) {
         check(&bytes);
     }
 }
+
+/// Reads every input of a target that takes texts; the fuzzer's own rule: what is no text is no input.
+#[allow(dead_code, reason = "some crates have targets of bytes only")]
+pub fn replay_texts(target: &str, check: impl Fn(&str)) {
+    replay(target, |bytes| {
+        if let Ok(text) = std::str::from_utf8(bytes) {
+            check(text);
+        }
+    });
+}

@@ -1,12 +1,11 @@
 //! The websocket of a live run: what is new goes out, what the watcher wants comes in.
 
 use super::shown::{BadRequest, Shown};
-use crate::live::{Cursor, Live, LiveState, Message};
+use crate::live::{Cursor, Live, LiveState, Message, Wish};
 use axum::extract::State;
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
 use axum::http::StatusCode;
 use axum::response::Response;
-use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -14,15 +13,6 @@ use std::time::Duration;
 const PACE: Duration = Duration::from_millis(33);
 /// A watcher's wish is short; a mistaken client must not fill the memory.
 const MOST_BYTES: usize = 1 << 20;
-
-/// What a watcher may want.
-#[derive(Debug, Deserialize)]
-#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
-enum Wish {
-    Pause,
-    Resume,
-    Restart { set: Vec<String> },
-}
 
 /// Opens the websocket.
 pub(super) async fn live(State(shown): State<Arc<Shown>>, upgrade: WebSocketUpgrade) -> Result<Response, BadRequest> {
@@ -66,12 +56,12 @@ async fn converse(mut socket: WebSocket, shared: &Arc<LiveState>) -> Result<(), 
 }
 
 async fn grant(shared: &LiveState, text: &str, socket: &mut WebSocket) -> Result<(), axum::Error> {
-    match serde_json::from_str(text) {
+    match Wish::parse(text) {
         Ok(Wish::Pause) => shared.pause(true),
         Ok(Wish::Resume) => shared.pause(false),
         Ok(Wish::Restart { set }) => shared.restart(set),
-        Err(error) => {
-            let words = serde_json::json!({ "type": "error", "message": format!("not understood: {error}") });
+        Err(reason) => {
+            let words = serde_json::json!({ "type": "error", "message": reason });
             socket.send(ws::Message::Text(words.to_string().into())).await?;
         }
     }
