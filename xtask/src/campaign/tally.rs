@@ -4,10 +4,13 @@ use super::trial::{Killed, Verdict};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+/// The most scenes of an outcome whose numbers are told: they are the rare ones, worth a look.
+const FEW: usize = 12;
+
 /// What the scenes came to.
 #[derive(Debug, Default)]
 pub struct CampaignTally {
-    outcomes: BTreeMap<String, usize>,
+    outcomes: BTreeMap<String, Vec<u64>>,
     kills: BTreeMap<Killed, usize>,
     /// Runs that ended well with an open ledger, and said so: their numbers.
     open: Vec<u64>,
@@ -30,7 +33,7 @@ impl CampaignTally {
                 if let Some(killed) = verdict.killed {
                     *self.kills.entry(killed).or_default() += 1;
                 }
-                *self.outcomes.entry(verdict.outcome).or_default() += 1;
+                self.outcomes.entry(verdict.outcome).or_default().push(case);
             }
             Err(cause) => drop(self.failures.insert(case, cause)),
         }
@@ -38,14 +41,17 @@ impl CampaignTally {
 
     /// Scenes that passed.
     pub fn passed(&self) -> usize {
-        self.outcomes.values().sum()
+        self.outcomes.values().map(Vec::len).sum()
     }
 
     /// The counts in words.
     pub fn text(&self) -> String {
         let mut text = format!("{} scenes passed, {} failed", self.passed(), self.failures.len());
-        for (outcome, count) in &self.outcomes {
-            let _ = write!(text, "\n  {outcome:<18} {count:>6}");
+        for (outcome, cases) in &self.outcomes {
+            let _ = write!(text, "\n  {outcome:<18} {:>6}", cases.len());
+            if cases.len() <= FEW {
+                let _ = write!(text, "  {:?}", in_order(cases));
+            }
         }
         let kills = |killed| self.kills.get(&killed).copied().unwrap_or(0);
         let _ = write!(
@@ -58,12 +64,16 @@ impl CampaignTally {
         let (worst, case) = self.worst;
         let _ = write!(text, "\nworst residual of a closed ledger: {worst:.2e} of what is allowed (scene {case})");
         if !self.open.is_empty() {
-            let mut open = self.open.clone();
-            open.sort_unstable();
-            let _ = write!(text, "\nopen ledgers, told by warning and exit code: {open:?}");
+            let _ = write!(text, "\nopen ledgers, told by warning and exit code: {:?}", in_order(&self.open));
         }
         text
     }
+}
+
+fn in_order(cases: &[u64]) -> Vec<u64> {
+    let mut cases = cases.to_vec();
+    cases.sort_unstable();
+    cases
 }
 
 #[cfg(test)]
@@ -83,7 +93,9 @@ mod tests {
         tally.take(2, Ok(verdict(7.0, true)));
         tally.take(3, Err("panicked".into()));
         let text = tally.text();
-        for told in ["2 scenes passed, 1 failed", "completed               2", "2 on their way", "2.50e-1", "[2]"] {
+        for told in
+            ["2 scenes passed, 1 failed", "completed               2  [1, 2]", "2 on their way", "2.50e-1", "[2]"]
+        {
             assert!(text.contains(told), "{told}: {text}");
         }
     }
