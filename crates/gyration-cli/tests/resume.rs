@@ -134,6 +134,22 @@ fn run_ended_by_its_wall_time_goes_on_to_the_same_bytes() {
     assert!(different.is_empty(), "{different:?}");
 }
 
+#[test]
+fn a_resumption_without_the_original_overrides_names_them() {
+    let sandbox = Sandbox::with_ball();
+    let made = ["run", "ball.toml", "--quiet", "--set", "time.end=0.2", "--set", "body.ball.density=900"];
+    sandbox.done(&made);
+    let said = sandbox.refused(2, &["run", "ball.toml", "--resume"]);
+    for words in [
+        "time.end: 0.2 there, 0.6 here",
+        "body.ball.density: 900.0 there, 1000.0 here",
+        "repeat --set 'time.end=0.2' --set 'body.ball.density=900'",
+    ] {
+        assert!(said.stderr.contains(words), "{}", said.stderr);
+    }
+    sandbox.done(&[&made[..], &["--resume"]].concat());
+}
+
 /// The metadata of a recording without the limit of wall time, and without the checksum in which it enters.
 fn attributes(json: &[u8]) -> Value {
     let mut group: Value = serde_json::from_slice(json).unwrap();
@@ -193,6 +209,8 @@ fn another_scene_is_not_resumed() {
     let before = tree(&sandbox.path("ball.gyr"));
     let said = sandbox.refused(2, &["run", "ball.toml", "--resume", "--set", "body.ball.density=2000"]);
     assert!(said.stderr.contains("another scene"), "{}", said.stderr);
+    assert!(said.stderr.contains("body.ball.density: 1000.0 there, 2000.0 here"), "{}", said.stderr);
+    assert!(said.stderr.contains("it was made without --set"), "{}", said.stderr);
     sandbox.write("other.toml", &BALL.replace("5 cm", "4 cm"));
     sandbox.refused(2, &["run", "other.toml", "-o", "ball.gyr", "--resume"]);
     assert!(before == tree(&sandbox.path("ball.gyr")));

@@ -82,10 +82,14 @@ pub enum RunError {
     #[error(transparent)]
     Record(#[from] RecordError),
     /// The recording to be resumed is of another scene.
-    #[error("{} is a recording of another scene: give another -o, or --force to overwrite it", path.display())]
+    #[error("{} is a recording of another scene:\n  {what}\n  fix: {fix}; else give another -o, or --force to overwrite it", path.display())]
     OtherScene {
         /// The recording.
         path: PathBuf,
+        /// A line for each key that differs.
+        what: String,
+        /// With which overrides it goes on.
+        fix: String,
     },
     /// The checkpoint is not one of this program.
     #[error("the checkpoint cannot be used: {0}; run the scene anew with --force")]

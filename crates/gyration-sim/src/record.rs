@@ -5,8 +5,10 @@
 //! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an uninterrupted
 //! one.
 
+mod differences;
 pub(crate) mod surfaces;
 
+use self::differences::differences;
 use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
@@ -89,6 +91,20 @@ impl<'a> Job<'a> {
         comparable(&self.all_attributes()) == comparable(recording)
     }
 
+    /// The refusal to go on with the recording of another scene: in what it is another one.
+    fn other_scene(&self, path: &Path, recorded: &Attributes) -> RunError {
+        let [there, here] = [recorded, &self.all_attributes()].map(comparable);
+        let resolved = |scene: Option<(Value, Value)>| scene.map_or(Value::Null, |(resolved, _)| resolved);
+        let mut what = differences(&resolved(there), &resolved(here));
+        if what.is_empty() {
+            what.push("the bodies themselves: a file that they are made of has changed, or the program".to_owned());
+        }
+        let overrides = recorded.get("overrides").and_then(Value::as_array).into_iter().flatten();
+        let set = overrides.filter_map(Value::as_str).map(|text| format!(" --set '{text}'")).collect::<String>();
+        let made = if set.is_empty() { "it was made without --set".to_owned() } else { format!("repeat{set}") };
+        RunError::OtherScene { path: path.to_path_buf(), what: what.join("\n  "), fix: made }
+    }
+
     /// Runs the scene into a new recording.
     ///
     /// # Errors
@@ -110,7 +126,7 @@ impl<'a> Job<'a> {
         let recording = Recording::open(path)?;
         let recorded = recording.attributes().clone();
         if !self.is_recorded_in(&recorded) {
-            return Err(RunError::OtherScene { path: path.to_path_buf() });
+            return Err(self.other_scene(path, &recorded));
         }
         let is_complete = recorded.contains_key("outcome");
         // A checkpoint that is damaged is needed no more.

@@ -7,9 +7,9 @@ use crate::output;
 use crate::progress::RunProgress;
 use crate::provenance::provenance;
 use gyration_plot::{OVERVIEW, leave_overview};
-use gyration_record::{Attributes, Recording, remove};
+use gyration_record::{Attributes, RecordError, Recording, remove};
 use gyration_scene::Scene;
-use gyration_sim::{Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunSummary, Simulation};
+use gyration_sim::{Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunError, RunSummary, Simulation};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,12 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     let mut watch = RunProgress::new(!arguments.quiet)?;
     let ended = if arguments.resume { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
     watch.finish();
-    let ended = ended?;
+    let ended = ended.inspect_err(|error| {
+        // Disk full, device gone: what was flushed is there.
+        if matches!(error, RunError::Record(RecordError::Io { .. })) && Recording::open(&path).is_ok() {
+            output::say(&format!("gyration: once that is mended, go on with `{}`", resume_command(arguments, &path)));
+        }
+    })?;
     if !(matches!(ended, Ended::AlreadyFinished(_)) && path.join(OVERVIEW).exists())
         && let Some(warning) = leave_overview(&path)
     {
