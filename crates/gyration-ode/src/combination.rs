@@ -1,10 +1,12 @@
-//! Linear combinations of stage rates, u = u₀ + h Σ a_j k_j, on as many components at once as a register holds.
+//! Linear combinations of stage rates, h Σ a_j k_j alone or added to a state, on as many components at once as a
+//! register holds.
 //!
 //! The instruction set is found at run time. A component's sum runs over the stages in the order of the row, products
 //! and sums rounded one by one: every width of registers gives the same bytes.
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::extended::{Extended, ExtendedMut};
 use crate::prince::Row;
 
 /// Rows of rates are padded with zeros to whole groups of as many components as the widest registers hold.
@@ -36,18 +38,30 @@ impl Rates {
         &mut self.groups[stage * self.per_row..].as_flattened_mut()[..self.width]
     }
 
-    /// out = base + h Σ a_j k_j.
-    pub fn combine(&self, out: &mut [f64], base: &[f64], h: f64, row: Row) {
-        Arch::new().dispatch(Combine { rates: self, out, base, h, row });
+    /// out = h Σ a_j k_j.
+    pub fn combine(&self, out: &mut [f64], h: f64, row: Row) {
+        Arch::new().dispatch(Combine { rates: self, h, row, into: Target::Change(out) });
     }
+
+    /// out = base + h Σ a_j k_j, and what that lacks beside it.
+    pub fn add_combined(&self, out: ExtendedMut, base: Extended, h: f64, row: Row) {
+        Arch::new().dispatch(Combine { rates: self, h, row, into: Target::Sum(out, base) });
+    }
+}
+
+/// Where a combination goes.
+enum Target<'a> {
+    /// It is wanted itself.
+    Change(&'a mut [f64]),
+    /// It is added to a base.
+    Sum(ExtendedMut<'a>, Extended<'a>),
 }
 
 struct Combine<'a> {
     rates: &'a Rates,
-    out: &'a mut [f64],
-    base: &'a [f64],
     h: f64,
     row: Row,
+    into: Target<'a>,
 }
 
 impl WithSimd for Combine<'_> {
@@ -55,65 +69,150 @@ impl WithSimd for Combine<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { rates, out, base, h, row } = self;
-        let sums = StageSums::<S> { rates: S::as_simd_f64s(rates.groups.as_flattened()).0, row, h: simd.splat_f64s(h) };
+        let Self { rates, h, row, into } = self;
         let per_row = rates.per_row * WIDEST / S::F64_LANES;
-        let (base, base_rest) = S::as_simd_f64s(base);
-        let (out, out_rest) = S::as_mut_simd_f64s(out);
-        let (mut done, whole) = (0, out.len());
-        while done < whole {
-            let (out, base) = (&mut out[done..], &base[done..]);
-            // As many as are left, with what a row is padded with if that makes them one tile.
-            done += match (whole - done).next_power_of_two().min(per_row - done) {
-                1 => sums.add::<1>(simd, (per_row, done), out, base),
-                2 | 3 => sums.add::<2>(simd, (per_row, done), out, base),
-                4..8 => sums.add::<4>(simd, (per_row, done), out, base),
-                _ => sums.add::<8>(simd, (per_row, done), out, base),
-            };
+        let rates = S::as_simd_f64s(rates.groups.as_flattened()).0;
+        let sums = StageSums::<S> { simd, rates, per_row, row, h: simd.splat_f64s(h) };
+        match into {
+            Target::Change(out) => {
+                let (out, rest) = S::as_mut_simd_f64s(out);
+                sums.fill(&mut Change { out });
+                if !rest.is_empty() {
+                    simd.partial_store_f64s(rest, sums.changes::<1>(out.len())[0]);
+                }
+            }
+            Target::Sum(out, base) => {
+                let ((high, high_rest), (low, low_rest)) =
+                    (S::as_mut_simd_f64s(out.high), S::as_mut_simd_f64s(out.low));
+                let ((base, base_rest), (lack, lack_rest)) = (S::as_simd_f64s(base.high), S::as_simd_f64s(base.low));
+                let whole = high.len();
+                sums.fill(&mut Sum { simd, high, low, base, lack });
+                if !high_rest.is_empty() {
+                    let (base, lack) = (simd.partial_load_f64s(base_rest), simd.partial_load_f64s(lack_rest));
+                    let (sum, lacking) = two_sum(simd, base, lack, sums.changes::<1>(whole)[0]);
+                    simd.partial_store_f64s(high_rest, sum);
+                    simd.partial_store_f64s(low_rest, lacking);
+                }
+            }
         }
-        if !out_rest.is_empty() {
-            let mut last = [simd.splat_f64s(0.0)];
-            sums.add::<1>(simd, (per_row, whole), &mut last, &[simd.partial_load_f64s(base_rest)]);
-            simd.partial_store_f64s(out_rest, last[0]);
+    }
+}
+
+/// base + change and, with what the base lacks, what the sum lacks.
+#[inline(always)]
+fn two_sum<S: Simd>(simd: S, base: S::f64s, lack: S::f64s, change: S::f64s) -> (S::f64s, S::f64s) {
+    let sum = simd.add_f64s(base, change);
+    let of_change = simd.sub_f64s(sum, base);
+    let of_base = simd.sub_f64s(sum, of_change);
+    let error = simd.add_f64s(simd.sub_f64s(base, of_base), simd.sub_f64s(change, of_change));
+    (sum, simd.add_f64s(lack, error))
+}
+
+/// What is done with the changes of registers side by side.
+trait Writer<S: Simd> {
+    /// How many whole registers there are.
+    fn count(&self) -> usize;
+
+    /// Takes the changes from this register on; those past the end are padding.
+    fn put(&mut self, first: usize, changes: &[S::f64s]);
+}
+
+struct Change<'a, S: Simd> {
+    out: &'a mut [S::f64s],
+}
+
+impl<S: Simd> Writer<S> for Change<'_, S> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.out.len()
+    }
+
+    #[inline(always)]
+    fn put(&mut self, first: usize, changes: &[S::f64s]) {
+        for (out, change) in self.out[first..].iter_mut().zip(changes) {
+            *out = *change;
+        }
+    }
+}
+
+struct Sum<'a, S: Simd> {
+    simd: S,
+    high: &'a mut [S::f64s],
+    low: &'a mut [S::f64s],
+    base: &'a [S::f64s],
+    lack: &'a [S::f64s],
+}
+
+impl<S: Simd> Writer<S> for Sum<'_, S> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.high.len()
+    }
+
+    #[inline(always)]
+    fn put(&mut self, first: usize, changes: &[S::f64s]) {
+        let out = self.high[first..].iter_mut().zip(&mut self.low[first..]);
+        let bases = self.base[first..].iter().zip(&self.lack[first..]);
+        for (((high, low), (base, lack)), change) in out.zip(bases).zip(changes) {
+            (*high, *low) = two_sum(self.simd, *base, *lack, *change);
         }
     }
 }
 
 /// What is summed, in registers.
 struct StageSums<'a, S: Simd> {
+    simd: S,
     rates: &'a [S::f64s],
+    /// The registers of one row.
+    per_row: usize,
     row: Row,
     h: S::f64s,
 }
 
 impl<S: Simd> StageSums<'_, S> {
-    /// out = base + h Σ a_j k_j of at most N registers side by side, the place of the first in a row being given;
-    /// returns N.
+    /// Hands all whole registers to a writer.
     #[inline(always)]
-    fn add<const N: usize>(
-        &self,
-        simd: S,
-        (per_row, first): (usize, usize),
-        out: &mut [S::f64s],
-        base: &[S::f64s],
-    ) -> usize {
+    fn fill(&self, writer: &mut impl Writer<S>) {
+        let (mut done, whole) = (0, writer.count());
+        while done < whole {
+            // As many as are left, with what a row is padded with if that makes them one tile.
+            done += match (whole - done).next_power_of_two().min(self.per_row - done) {
+                1 => self.tile::<1>(done, writer),
+                2 | 3 => self.tile::<2>(done, writer),
+                4..8 => self.tile::<4>(done, writer),
+                _ => self.tile::<8>(done, writer),
+            };
+        }
+    }
+
+    #[inline(always)]
+    fn tile<const N: usize>(&self, first: usize, writer: &mut impl Writer<S>) -> usize {
+        writer.put(first, &self.changes::<N>(first));
+        N
+    }
+
+    /// h Σ a_j k_j of N registers side by side, the place of the first in a row being given.
+    #[inline(always)]
+    fn changes<const N: usize>(&self, first: usize) -> [S::f64s; N] {
+        let simd = self.simd;
         let mut sums = [simd.splat_f64s(0.0); N];
         for &(stage, coefficient) in self.row {
             let coefficient = simd.splat_f64s(coefficient);
-            for (sum, rate) in sums.iter_mut().zip(&self.rates[stage * per_row + first..][..N]) {
+            for (sum, rate) in sums.iter_mut().zip(&self.rates[stage * self.per_row + first..][..N]) {
                 *sum = simd.add_f64s(*sum, simd.mul_f64s(coefficient, *rate));
             }
         }
-        for ((out, base), sum) in out.iter_mut().zip(base).zip(sums) {
-            *out = simd.add_f64s(*base, simd.mul_f64s(self.h, sum));
+        for sum in &mut sums {
+            *sum = simd.mul_f64s(self.h, *sum);
         }
-        N
+        sums
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::extended;
     use crate::prince::WEIGHTS;
 
     #[test]
@@ -126,16 +225,21 @@ mod tests {
                     *rate = ((stage * 31 + i) as f64).sin();
                 }
             }
-            let base: Vec<f64> = (0..width).map(|i| (i as f64).cos()).collect();
-            let (mut widest, mut single) = (vec![0.0; width], vec![0.0; width]);
-            rates.combine(&mut widest, &base, 0.37, WEIGHTS);
-            Arch::Scalar.dispatch(Combine { rates: &rates, out: &mut single, base: &base, h: 0.37, row: WEIGHTS });
-            let direct = |i: usize| {
-                let sum = WEIGHTS.iter().fold(0.0, |sum, (stage, a)| sum + a * rates.row(*stage)[i]);
-                base[i] + 0.37 * sum
-            };
-            assert_eq!(widest, single);
-            assert_eq!(widest, (0..width).map(direct).collect::<Vec<_>>());
+            let high: Vec<f64> = (0..width).map(|i| (i as f64).cos()).collect();
+            let low: Vec<f64> = high.iter().map(|x| 1e-17 * x).collect();
+            let base = Extended { high: &high, low: &low };
+            let direct = |i: usize| 0.37 * WEIGHTS.iter().fold(0.0, |sum, (stage, a)| sum + a * rates.row(*stage)[i]);
+            let changes: Vec<f64> = (0..width).map(direct).collect();
+            let sums: Vec<_> = (0..width).map(|i| extended::two_sum(high[i], changes[i])).collect();
+            for arch in [Arch::new(), Arch::Scalar] {
+                let combined = |into| arch.dispatch(Combine { rates: &rates, h: 0.37, row: WEIGHTS, into });
+                let [mut change, mut sum, mut lack] = std::array::from_fn(|_| vec![0.0; width]);
+                combined(Target::Change(&mut change));
+                combined(Target::Sum(ExtendedMut { high: &mut sum, low: &mut lack }, base));
+                assert_eq!(change, changes);
+                assert_eq!(sum, sums.iter().map(|(sum, _)| *sum).collect::<Vec<_>>());
+                assert_eq!(lack, sums.iter().zip(&low).map(|((_, error), low)| low + error).collect::<Vec<_>>());
+            }
         }
     }
 }

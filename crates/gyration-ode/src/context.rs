@@ -1,22 +1,37 @@
 //! What a stepper works on: the system with its layout and counters, and instants of the solution.
 
+use crate::extended::{Extended, ExtendedMut, two_sum};
 use crate::layout::SystemLayout;
 use crate::report::{Cause, Statistics};
 use crate::system::System;
 
-/// An instant of the solution: u = (y, w), its rate and the error allowed there.
+/// An instant of the solution: u = (y, w) and what its numbers lack, its rate and the error allowed there.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Point {
     pub t: f64,
     pub u: Vec<f64>,
+    /// What u lacks of the solution's twice as many digits (`extended`).
+    pub low: Vec<f64>,
     pub rate: Vec<f64>,
     pub scale: Vec<f64>,
 }
 
 impl Point {
     pub fn new(t: f64, u: Vec<f64>) -> Self {
-        let (rate, scale) = (vec![0.0; u.len()], vec![0.0; u.len()]);
-        Self { t, u, rate, scale }
+        let [low, rate, scale] = std::array::from_fn(|_| vec![0.0; u.len()]);
+        Self { t, u, low, rate, scale }
+    }
+
+    /// Moves as much of what u lacks into it as it can hold.
+    pub fn round(&mut self) {
+        for (high, low) in self.u.iter_mut().zip(&mut self.low) {
+            (*high, *low) = two_sum(*high, *low);
+        }
+    }
+
+    /// u to all its digits.
+    pub fn extended(&self) -> Extended<'_> {
+        Extended { high: &self.u, low: &self.low }
     }
 }
 
@@ -32,12 +47,13 @@ impl<S: System> Context<'_, S> {
     ///
     /// # Errors
     /// `Cause::Inadmissible` from the system, `Cause::NotFinite` with the index of the component in u.
-    pub fn evaluate(&mut self, t: f64, u: &[f64], rate: &mut [f64]) -> Result<(), Cause<S::Inadmissible>> {
-        let y = &u[..self.layout.dimension];
-        all_finite(y)?;
-        let (dy, dw) = rate.split_at_mut(self.layout.dimension);
+    pub fn evaluate(&mut self, t: f64, u: Extended, rate: &mut [f64]) -> Result<(), Cause<S::Inadmissible>> {
+        let n = self.layout.dimension;
+        let y = Extended { high: &u.high[..n], low: &u.low[..n] };
+        all_finite(y.high)?;
+        let (dy, dw) = rate.split_at_mut(n);
         self.statistics.rate_evaluations += 1;
-        self.system.rates(t, y, dy, dw).map_err(Cause::Inadmissible)?;
+        self.system.extended_rates(t, y, dy, dw).map_err(Cause::Inadmissible)?;
         all_finite(rate)
     }
 
@@ -46,9 +62,11 @@ impl<S: System> Context<'_, S> {
     /// # Errors
     /// As `evaluate`.
     pub fn land(&mut self, point: &mut Point) -> Result<f64, Cause<S::Inadmissible>> {
-        let (y, w) = point.u.split_at_mut(self.layout.dimension);
-        let correction = self.system.project(point.t, y, w);
-        self.evaluate(point.t, &point.u, &mut point.rate)?;
+        let Point { t, u, low, rate, .. } = point;
+        let n = self.layout.dimension;
+        let (high, w) = u.split_at_mut(n);
+        let correction = self.system.extended_project(*t, ExtendedMut { high, low: &mut low[..n] }, w);
+        self.evaluate(*t, Extended { high: u, low }, rate)?;
         Ok(correction)
     }
 

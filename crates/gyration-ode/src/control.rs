@@ -11,6 +11,7 @@
 //! §IV.2, IV.8; code radau5.f.
 
 use crate::context::{Context, Point};
+use crate::extended::Extended;
 use crate::newton::MAX_ITERATIONS;
 use crate::norm::norm;
 use crate::report::{Cause, Stepper};
@@ -124,8 +125,7 @@ fn at_least(value: f64, bound: f64) -> f64 {
 pub(crate) fn initial_step<S: System>(
     context: &mut Context<'_, S>,
     from: &Point,
-    stage: &mut [f64],
-    rate: &mut [f64],
+    beside: &mut Point,
     max_step: f64,
 ) -> f64 {
     let layout = context.layout;
@@ -135,14 +135,15 @@ pub(crate) fn initial_step<S: System>(
     h = h.min(max_step);
     // 1e-6 ⋅ 8^−20 is below the resolution of any time worth the name.
     for _ in 0..20 {
-        for ((value, start), slope) in stage.iter_mut().zip(&from.u).zip(&from.rate) {
+        for ((value, start), slope) in beside.u.iter_mut().zip(&from.u).zip(&from.rate) {
             *value = start + h * slope;
         }
-        if context.evaluate(from.t + h, stage, rate).is_ok() {
-            for (value, slope) in rate.iter_mut().zip(&from.rate) {
+        let state = Extended { high: &beside.u, low: &from.low };
+        if context.evaluate(from.t + h, state, &mut beside.rate).is_ok() {
+            for (value, slope) in beside.rate.iter_mut().zip(&from.rate) {
                 *value -= slope;
             }
-            let curvature = size(rate) / h;
+            let curvature = size(&beside.rate) / h;
             let largest = speed.max(curvature);
             let wanted = if largest <= 1e-15 { (h * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / 8.0) };
             let chosen = wanted.min(100.0 * h).min(max_step);

@@ -6,6 +6,8 @@
 //! Neither needs an evaluation. Both take the exact values at the ends, the projected state at θ = 1. In between they
 //! do not lie on the manifold; project if it matters. Source: as of `prince`; Hairer, Wanner II, §IV.8.
 
+use crate::context::Point;
+use crate::extended::add;
 use crate::integrator::{Integrator, LastStep};
 use crate::radau::basis;
 
@@ -15,33 +17,52 @@ impl Integrator {
     /// # Panics
     /// If `y` or `w` has not the size of the state.
     pub fn interpolate(&self, t: f64, y: &mut [f64], w: &mut [f64]) {
+        self.interpolate_extended(t, y, w, None);
+    }
+
+    /// The same, with what y lacks of twice its digits, if that is wanted.
+    ///
+    /// # Panics
+    /// As [`Integrator::interpolate`].
+    pub fn interpolate_extended(&self, t: f64, y: &mut [f64], w: &mut [f64], mut lack: Option<&mut [f64]>) {
         let (start, end) = (&self.other, &self.current);
         let n = self.layout.dimension;
         assert!(y.len() == n && w.len() == end.u.len() - n, "interpolate needs room for y and for w");
         // At the ends the values are copied, not computed: they are exact.
         let exact = if self.last == LastStep::None || t >= end.t {
-            Some(&end.u)
+            Some(end)
         } else if t <= start.t {
-            Some(&start.u)
+            Some(start)
         } else {
             None
         };
-        if let Some(u) = exact {
+        if let Some(Point { u, low, .. }) = exact {
             y.copy_from_slice(&u[..n]);
             w.copy_from_slice(&u[n..]);
+            if let Some(lack) = lack {
+                lack.copy_from_slice(&low[..n]);
+            }
             return;
         }
         let theta = (t - start.t) / self.last_size;
+        let mut put = |i: usize, change: f64| {
+            let (high, low) = add(start.u[i], start.low[i], change);
+            match y.get_mut(i) {
+                Some(value) => *value = high,
+                None => w[i - n] = high,
+            }
+            if let Some(place) = lack.as_mut().and_then(|lack| lack.get_mut(i)) {
+                *place = low;
+            }
+        };
         if self.last == LastStep::Collocation {
             let width = start.u.len();
             let (weights, z) = (basis(theta), &self.implicit.stages.collocation);
-            for (i, value) in y.iter_mut().chain(w.iter_mut()).enumerate() {
-                *value = start.u[i] + weights[0] * z[i] + weights[1] * z[width + i] + weights[2] * z[2 * width + i];
+            for i in 0..width {
+                put(i, weights[0] * z[i] + weights[1] * z[width + i] + weights[2] * z[2 * width + i]);
             }
         } else {
-            self.explicit.interpolate(start, end, self.last_size, theta, |i, value| {
-                if i < n { y[i] = value } else { w[i - n] = value }
-            });
+            self.explicit.interpolate(start, end, self.last_size, theta, put);
         }
     }
 }

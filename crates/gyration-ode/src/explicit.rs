@@ -9,6 +9,7 @@
 
 use crate::combination::Rates;
 use crate::context::{Context, Point};
+use crate::extended::{Extended, ExtendedMut};
 use crate::interpolant::interpolation_weights;
 use crate::layout::SystemLayout;
 use crate::newton::Convergence;
@@ -42,16 +43,16 @@ pub(crate) struct Explicit {
     /// Rates of the stages and at the new state, one after the other.
     rates: Rates,
     stage: Vec<f64>,
+    /// What the stage lacks.
+    low: Vec<f64>,
     error: Vec<f64>,
-    /// The origin, from which the error is measured.
-    zeros: Vec<f64>,
 }
 
 impl Explicit {
     /// Scratch for vectors of the given width.
     pub fn new(width: usize) -> Self {
-        let vector = vec![0.0; width];
-        Self { rates: Rates::new(STAGES + 1, width), stage: vector.clone(), error: vector.clone(), zeros: vector }
+        let [stage, low, error] = std::array::from_fn(|_| vec![0.0; width]);
+        Self { rates: Rates::new(STAGES + 1, width), stage, low, error }
     }
 
     /// Attempts a step from one point to `to`, whose time is set; `to` receives state, rate and scales.
@@ -68,12 +69,14 @@ impl Explicit {
         self.rates.row_mut(0).copy_from_slice(&from.rate);
         for (index, row) in ROWS.iter().enumerate() {
             let s = index + 1;
-            self.rates.combine(&mut self.stage, &from.u, h, row);
+            let Self { rates, stage, low, .. } = self;
+            rates.add_combined(ExtendedMut { high: stage, low }, from.extended(), h, row);
             let time = if s + 1 == STAGES { to.t } else { from.t + NODES[s] * h };
-            context.evaluate(time, &self.stage, self.rates.row_mut(s))?;
+            context.evaluate(time, Extended { high: stage, low }, rates.row_mut(s))?;
         }
-        self.rates.combine(&mut to.u, &from.u, h, WEIGHTS);
-        self.rates.combine(&mut self.error, &self.zeros, h, ERROR);
+        self.rates.add_combined(ExtendedMut { high: &mut to.u, low: &mut to.low }, from.extended(), h, WEIGHTS);
+        self.rates.combine(&mut self.error, h, ERROR);
+        to.round();
 
         // Judged first by the scales of the start: a step far too long need not even be evaluated at its end.
         let layout = context.layout;
@@ -93,13 +96,14 @@ impl Explicit {
     /// Differences at the level of rounding say nothing and give 0.
     fn stability_used(&self, layout: &SystemLayout, from: &Point, to: &Point, h: f64) -> f64 {
         let last = self.rates.row(STAGES - 1);
+        let apart = |i: usize| (to.u[i] - self.stage[i]) + (to.low[i] - self.low[i]);
         let mut largest: f64 = 0.0;
         for component in layout.components.iter() {
             let (mut rates, mut products, mut states, mut size) = (0.0, 0.0, 0.0, 0.0);
             for block in component {
                 for i in layout.groups[*block].clone() {
                     let scale = from.scale[i];
-                    let (rate, state) = ((to.rate[i] - last[i]) / scale, (to.u[i] - self.stage[i]) / scale);
+                    let (rate, state) = ((to.rate[i] - last[i]) / scale, apart(i) / scale);
                     rates += rate * rate;
                     products += rate * state;
                     states += state * state;
@@ -119,15 +123,16 @@ impl Explicit {
         self.rates.row_mut(STAGES).copy_from_slice(&to.rate);
     }
 
-    /// Hands u(θ) of the last step to `put`, component by component.
+    /// Hands u(θ) − u₀ of the last step to `put`, component by component.
     pub fn interpolate(&self, from: &Point, to: &Point, h: f64, theta: f64, mut put: impl FnMut(usize, f64)) {
         let weights = interpolation_weights(theta);
         for (i, (start, end)) in from.u.iter().zip(&to.u).enumerate() {
+            let change = (end - start) + (to.low[i] - from.low[i]);
             let mut sum = -0.0;
             for (stage, weight) in &weights {
                 sum += weight * self.rates.row(*stage)[i];
             }
-            put(i, start + theta * (end - start) + h * sum);
+            put(i, theta * change + h * sum);
         }
     }
 }

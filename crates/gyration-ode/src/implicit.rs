@@ -12,6 +12,7 @@
 
 use crate::context::{Context, Point};
 use crate::explicit::Trial;
+use crate::extended::{Extended, add};
 use crate::layout::SystemLayout;
 use crate::newton::{NewtonPlan, NewtonStages, multiply, set_triple, triple};
 use crate::norm::norm;
@@ -78,17 +79,19 @@ impl Implicit {
         let stages = &mut self.stages;
         std::mem::swap(&mut stages.increments, &mut stages.collocation);
         let last = &mut stages.collocation[2 * from.u.len()..];
-        for ((z, end), start) in last.iter_mut().zip(&to.u).zip(&from.u) {
-            *z = end - start;
+        let ends = to.u.iter().zip(&to.low).zip(from.u.iter().zip(&from.low));
+        for (z, (end, start)) in last.iter_mut().zip(ends) {
+            *z = (end.0 - start.0) + (end.1 - start.1);
         }
     }
 
     /// y₁ = y₀ + z₃; w is left for later.
     fn arrive(&self, layout: &SystemLayout, from: &Point, to: &mut Point) {
         to.u.copy_from_slice(&from.u);
+        to.low.copy_from_slice(&from.low);
         let last = &self.stages.increments[2 * layout.width..];
-        for (value, z) in to.u.iter_mut().zip(last).take(layout.dimension) {
-            *value += z;
+        for ((high, low), z) in to.u.iter_mut().zip(&mut to.low).zip(last).take(layout.dimension) {
+            (*high, *low) = add(*high, *low, *z);
         }
     }
 
@@ -111,7 +114,7 @@ impl Implicit {
             let [g1, g2, _] = triple(&self.stages.rates, width, j);
             let z = multiply(&MATRIX, [g1, g2, to.rate[j]]).map(|sum| h * sum);
             set_triple(&mut self.stages.increments, width, j, z);
-            to.u[j] = from.u[j] + z[2];
+            (to.u[j], to.low[j]) = add(from.u[j], from.low[j], z[2]);
         }
     }
 
@@ -130,7 +133,8 @@ impl Implicit {
         for ((value, start), error) in self.beside.iter_mut().zip(&from.u).zip(&self.error) {
             *value = start + error;
         }
-        context.evaluate(from.t, &self.beside, &mut self.beside_rate).is_ok()
+        let state = Extended { high: &self.beside, low: &from.low };
+        context.evaluate(from.t, state, &mut self.beside_rate).is_ok()
     }
 }
 

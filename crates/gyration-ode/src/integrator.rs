@@ -52,6 +52,7 @@ impl Integrator {
         let vectors = CheckpointVectors {
             t,
             u: [y, w].concat(),
+            low: vec![0.0; y.len() + w.len()],
             rate: vec![0.0; y.len() + w.len()],
             collocation: vec![0.0; 3 * (y.len() + w.len())],
         };
@@ -87,7 +88,7 @@ impl Integrator {
         };
         let width = vectors.u.len();
         let mut current = Point::new(vectors.t, vectors.u);
-        current.rate = vectors.rate;
+        (current.low, current.rate) = (vectors.low, vectors.rate);
         Self {
             options,
             layout: SystemLayout { dimension: progress.dimension, width, ..SystemLayout::default() },
@@ -105,7 +106,7 @@ impl Integrator {
 
     /// The checkpoint of the accepted state; the interpolant of the last step is not in it.
     pub fn memory(&self) -> Memory {
-        encode(&self.progress, self.current.t, &self.current.u, &self.current.rate, &self.implicit.stages.collocation)
+        encode(&self.progress, &self.current, &self.implicit.stages.collocation)
     }
 
     /// The time reached.
@@ -116,6 +117,11 @@ impl Integrator {
     /// The state y reached.
     pub fn state(&self) -> &[f64] {
         &self.current.u[..self.progress.dimension]
+    }
+
+    /// What the numbers of the state reached lack of twice their digits.
+    pub fn state_low(&self) -> &[f64] {
+        &self.current.low[..self.progress.dimension]
     }
 
     /// The quadratures w reached.

@@ -30,6 +30,7 @@ mod dense;
 mod elimination;
 mod events;
 mod explicit;
+mod extended;
 mod factor;
 mod implicit;
 mod integrator;
@@ -55,6 +56,7 @@ mod trees;
 
 pub use block_matrix::BlockMatrix;
 pub use events::{CrossingDirection, find_crossing};
+pub use extended::{Extended, ExtendedMut};
 pub use integrator::Integrator;
 pub use memory::{Memory, MemoryError};
 pub use pattern::Pattern;

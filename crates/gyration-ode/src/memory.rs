@@ -6,11 +6,12 @@
 //! interpolant of the last step is not part of it: sample before you stop.
 
 use crate::auto::Switch;
+use crate::context::Point;
 use crate::control::StepControl;
 use crate::report::{Statistics, Stepper};
 
 /// The version of the layout of the numbers.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 /// The integers before and besides the vectors.
 const INTEGERS: usize = 18;
 /// The reals besides the vectors.
@@ -19,7 +20,7 @@ const REALS: usize = 12;
 /// A checkpoint as two vectors of plain numbers, to be stored without loss.
 ///
 /// `integers` begins with the version, the number of components of y and that of w; `reals` begins with the time, then
-/// y, then w.
+/// y, then w, then what they lack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Memory {
     /// Times, states, steps, errors.
@@ -77,16 +78,19 @@ pub(crate) struct StepperState {
     pub statistics: Statistics,
 }
 
-/// The vectors of a checkpoint: u = (y, w), its rate, and the collocation polynomial (three times as long).
+/// The vectors of a checkpoint: u = (y, w), what it lacks, its rate, and the collocation polynomial (three times as
+/// long).
 pub(crate) struct CheckpointVectors {
     pub t: f64,
     pub u: Vec<f64>,
+    pub low: Vec<f64>,
     pub rate: Vec<f64>,
     pub collocation: Vec<f64>,
 }
 
 /// Writes a checkpoint.
-pub(crate) fn encode(progress: &StepperState, t: f64, u: &[f64], rate: &[f64], collocation: &[f64]) -> Memory {
+pub(crate) fn encode(progress: &StepperState, point: &Point, collocation: &[f64]) -> Memory {
+    let Point { t, u, low, rate, .. } = point;
     let StepperState { control, switch, statistics: s, .. } = progress;
     let integers = vec![
         VERSION,
@@ -108,9 +112,10 @@ pub(crate) fn encode(progress: &StepperState, t: f64, u: &[f64], rate: &[f64], c
         s.factorizations,
         s.switches,
     ];
-    let mut reals = Vec::with_capacity(REALS + 5 * u.len());
-    reals.push(t);
+    let mut reals = Vec::with_capacity(REALS + 6 * u.len());
+    reals.push(*t);
     reals.extend_from_slice(u);
+    reals.extend_from_slice(low);
     reals.extend_from_slice(rate);
     reals.extend_from_slice(collocation);
     reals.extend_from_slice(&[
@@ -143,17 +148,18 @@ pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors
     if ints.len() != INTEGERS || reals.len() < REALS {
         return Err(wrong);
     }
-    let width = (reals.len() - REALS) / 5;
+    let width = (reals.len() - REALS) / 6;
     let (dimension, quadratures) = (ints[1], ints[2]);
-    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + 5 * width {
+    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + 6 * width {
         return Err(wrong);
     }
-    let (vectors, rest) = reals[1..].split_at(5 * width);
+    let (vectors, rest) = reals[1..].split_at(6 * width);
     let vectors = CheckpointVectors {
         t: reals[0],
         u: vectors[..width].to_vec(),
-        rate: vectors[width..2 * width].to_vec(),
-        collocation: vectors[2 * width..].to_vec(),
+        low: vectors[width..2 * width].to_vec(),
+        rate: vectors[2 * width..3 * width].to_vec(),
+        collocation: vectors[3 * width..].to_vec(),
     };
     let progress = StepperState {
         dimension: dimension as usize,

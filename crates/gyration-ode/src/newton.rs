@@ -11,6 +11,7 @@
 //! stages lie one stage after the other. Source: Hairer, Wanner II, §IV.8.
 
 use crate::context::{Context, Point};
+use crate::extended::{Extended, add};
 use crate::layout::SystemLayout;
 use crate::linear_system::LinearSystem;
 use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
@@ -72,6 +73,8 @@ pub(crate) struct NewtonStages {
     /// ΔW, then Δz.
     correction: Vec<f64>,
     stage: Vec<f64>,
+    /// What the stage lacks.
+    low: Vec<f64>,
     pub linear: LinearSystem,
 }
 
@@ -91,6 +94,7 @@ impl NewtonStages {
             triple.resize(3 * n, 0.0);
         }
         self.stage.resize(width, 0.0);
+        self.low.resize(width, 0.0);
     }
 
     /// Evaluates the Jacobian for a step from this point: at its middle stage, where the polynomial of the step before
@@ -116,6 +120,7 @@ impl NewtonStages {
             }
         }
         self.stage.copy_from_slice(&from.u);
+        self.low.copy_from_slice(&from.low);
         self.evaluate_jacobian(context, from.t).map_err(Cause::Inadmissible)
     }
 
@@ -123,15 +128,17 @@ impl NewtonStages {
     fn evaluate_jacobian<S: System>(&mut self, context: &mut Context<'_, S>, time: f64) -> Result<(), S::Inadmissible> {
         context.statistics.jacobians += 1;
         let jacobian = self.linear.cleared(context.layout);
-        context.system.jacobian(time, &self.stage[..context.layout.dimension], jacobian)
+        let n = context.layout.dimension;
+        context.system.extended_jacobian(time, Extended { high: &self.stage[..n], low: &self.low[..n] }, jacobian)
     }
 
     /// Sets `stage` to the state of stage i.
     fn set_stage(&mut self, from: &Point, i: usize) {
         let width = self.stage.len();
         let increments = &self.increments[i * width..(i + 1) * width];
-        for ((stage, start), z) in self.stage.iter_mut().zip(&from.u).zip(increments) {
-            *stage = start + z;
+        let stage = self.stage.iter_mut().zip(&mut self.low);
+        for ((stage, start), z) in stage.zip(from.u.iter().zip(&from.low)).zip(increments) {
+            (*stage.0, *stage.1) = add(*start.0, *start.1, *z);
         }
     }
 
@@ -248,7 +255,8 @@ impl NewtonStages {
         let width = self.stage.len();
         let time = if i == 2 { plan.end } else { from.t + NODES[i] * plan.h };
         self.set_stage(from, i);
-        context.evaluate(time, &self.stage, &mut self.rates[i * width..(i + 1) * width])
+        let stage = Extended { high: &self.stage, low: &self.low };
+        context.evaluate(time, stage, &mut self.rates[i * width..(i + 1) * width])
     }
 
     /// One correction of z and W; returns the size of Δz relative to the scales.
@@ -283,11 +291,12 @@ impl NewtonStages {
 /// κ = 10 ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that
 /// its solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
 /// Ten: the scales s are relative to gaps, which are a hundredth of what y measures. Never below ten roundings of the
-/// state. Source: radau5.f, which knows the relative tolerance itself.
+/// state, which rates may see, and never above a tenth of what is allowed, however small that is beside the state.
+/// Source: radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &SystemLayout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
     let wanted = (10.0 * size.max(1.0).powf(-0.5)).clamp(1e-4, 1e-2);
-    (wanted.max(10.0 * f64::EPSILON * size), NOISE * size)
+    (wanted.max(10.0 * f64::EPSILON * size).min(0.1), (NOISE * size).min(1.0))
 }
 
 /// The largest root mean square over the blocks of y, of three vectors together; a NaN is the largest of all.

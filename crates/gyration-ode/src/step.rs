@@ -8,6 +8,7 @@ use crate::auto::{EXPLICIT_REACH, ImplicitEffort};
 use crate::context::Context;
 use crate::control::{StepControl, initial_step};
 use crate::explicit::{Explicit, Trial};
+use crate::extended::Extended;
 use crate::integrator::{Integrator, LastStep};
 use crate::layout::SystemLayout;
 use crate::newton::{Ahead, Convergence, NewtonPlan};
@@ -91,7 +92,7 @@ impl Integrator {
         let Self { layout, progress, current, .. } = self;
         let mut context = Context { system, layout, statistics: &mut progress.statistics };
         let time = current.t;
-        let rates = context.evaluate(time, &current.u, &mut current.rate);
+        let rates = context.evaluate(time, Extended { high: &current.u, low: &current.low }, &mut current.rate);
         rates.map_err(|cause| Failure::NoRates { time, cause })?;
         progress.control = StepControl::default();
         progress.contraction = 1.0;
@@ -128,7 +129,8 @@ impl Integrator {
         let Self { layout, progress, current, other, .. } = self;
         let mut context = Context { system, layout, statistics: &mut progress.statistics };
         if !progress.started {
-            let rates = context.evaluate(current.t, &current.u, &mut current.rate);
+            let rates =
+                context.evaluate(current.t, Extended { high: &current.u, low: &current.low }, &mut current.rate);
             rates.map_err(|cause| Failure::NoRates { time: current.t, cause })?;
         }
         context.scales(current);
@@ -136,7 +138,7 @@ impl Integrator {
             let max_step = self.options.max_step;
             progress.step = match self.options.initial_step {
                 Some(step) => step.min(max_step),
-                None => initial_step(&mut context, current, &mut other.u, &mut other.rate, max_step),
+                None => initial_step(&mut context, current, other, max_step),
             };
             progress.started = true;
         }

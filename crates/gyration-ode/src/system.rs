@@ -10,6 +10,7 @@
 use std::ops::Range;
 
 use crate::block_matrix::BlockMatrix;
+use crate::extended::{Extended, ExtendedMut};
 use crate::pattern::Pattern;
 
 /// A system dy/dt = f(t, y), dw/dt = g(t, y) on a domain that may have a boundary.
@@ -43,11 +44,36 @@ pub trait System {
     /// `Inadmissible` if the state lies outside the domain. The step is then retried with a smaller size.
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Self::Inadmissible>;
 
+    /// The rates at a state of twice the digits; by default those of its rounded numbers.
+    ///
+    /// For systems in which small differences of large numbers matter. The steppers ask by the methods for such states
+    /// alone.
+    ///
+    /// # Errors
+    /// As of [`System::rates`].
+    fn extended_rates(
+        &mut self,
+        t: f64,
+        y: Extended,
+        dy: &mut [f64],
+        dw: &mut [f64],
+    ) -> Result<(), Self::Inadmissible> {
+        self.rates(t, y.high, dy, dw)
+    }
+
     /// The exact Jacobian ∂f/∂y, block (i, j) = ∂f_i/∂y_j where the pattern has it; it arrives filled with zeros.
     ///
     /// # Errors
     /// `Inadmissible` if the state lies outside the domain.
     fn jacobian(&mut self, t: f64, y: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Self::Inadmissible>;
+
+    /// The Jacobian at a state of twice the digits; by default that of its rounded numbers.
+    ///
+    /// # Errors
+    /// As of [`System::jacobian`].
+    fn extended_jacobian(&mut self, t: f64, y: Extended, jacobian: &mut BlockMatrix) -> Result<(), Self::Inadmissible> {
+        self.jacobian(t, y.high, jacobian)
+    }
 
     /// The absolute error allowed in a step, per component, at this state (relative and absolute tolerance together).
     ///
@@ -59,4 +85,9 @@ pub trait System {
     ///
     /// What the correction changes of a balance that quadratures keep may be added to them.
     fn project(&mut self, t: f64, y: &mut [f64], w: &mut [f64]) -> f64;
+
+    /// The same for a state of twice the digits; by default the rounded numbers are projected and the rest stays.
+    fn extended_project(&mut self, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
+        self.project(t, y.high, w)
+    }
 }

@@ -8,6 +8,7 @@ mod blocks;
 mod common;
 mod coupling;
 mod events;
+mod extended;
 mod order;
 mod resumption;
 mod stiff;
