@@ -52,6 +52,7 @@ impl Immersed {
         let at = Gyration::of(&self.placement.gradient, &self.velocity.gradient_rate).expect("det P > 0");
         let around = (&self.fluid, &self.fluid.flow(0.0), &Vec3::zeros());
         let body = ImmersedEllipsoid::of(&self.inclusion, around, (&self.placement, &self.velocity), &at)
+            .expect("it is not too slender")
             .expect("it is an ellipsoid");
         match slopes {
             None => body.loads(&at).force.x,
@@ -85,7 +86,7 @@ fn rates_with_inertia(bencher: Bencher, inertia: bool) {
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        rates(&model, &mut workspace, 0.0, bodies, &mut slopes, &mut powers)
+        rates(&model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers)
     });
 }
 
@@ -96,7 +97,7 @@ fn jacobian_with_inertia(bencher: Bencher, inertia: bool) {
     let mut blocks = vec![DMatrix::zeros(model.dimension(), model.dimension())];
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies, &mut blocks)
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks)
     });
 }
 

@@ -45,6 +45,8 @@ pub enum Reason {
     Inverted,
     /// Nothing resists the motion of a body without inertia.
     Unresisted,
+    /// A body that deforms in a fluid was drawn out to a thread or flattened to a film.
+    TooSlender,
     /// The resistance of a body that deforms in a fluid is not known as well as was asked for.
     Unresolved,
     /// A contractile body contracted to nothing: det G vanished.
@@ -129,14 +131,18 @@ impl Stop {
                     "no step meets the tolerance (the last tried was {step:e} s, limited by the {})",
                     limit_in_words(model, &Limit::Error { component: *component })
                 ),
-                advice: "Loosen solver.rtol or solver.atol, or soften the contact law.".into(),
+                advice: "Loosen solver.rtol or solver.atol, or raise a coefficient or d0 of a contact, which makes \
+                         impacts longer: what happens within the last digit of the time cannot be followed."
+                    .into(),
             },
             Cause::Newton => Self {
                 time: *time,
                 reason: Reason::StepTooSmall,
                 body: None,
                 what: format!("the implicit equations cannot be solved with a step of {step:e} s"),
-                advice: "Loosen solver.rtol, or use solver.method = \"auto\".".into(),
+                advice: "Loosen solver.rtol, use solver.method = \"auto\", or raise a coefficient or d0 of a contact: \
+                         what happens within the last digit of the time cannot be followed."
+                    .into(),
             },
         }
     }
@@ -177,6 +183,12 @@ impl Stop {
                 Reason::Unresisted,
                 format!("nothing resists the motion of body {body:?}, which has no inertia"),
                 "Give it `inclusion = { inertia = true }`, or look for sizes and viscosities out of all proportion.".to_string(),
+            ),
+            Quantity::Slenderness => (
+                Reason::TooSlender,
+                format!("body {body:?} is {:.1e} times as long as it is thick, beyond which its rates are not known", left.value),
+                "The flow draws it out without end: end the run before, weaken the flow, or give it a stiffer material."
+                    .to_string(),
             ),
             Quantity::Elements => (
                 Reason::Unresolved,

@@ -19,6 +19,10 @@ pub enum Quantity {
     Contraction,
     /// The resistance to the motion of a body without inertia, which must be > 0.
     Resistance,
+    /// The ratio of the longest to the shortest semi-axis of an inclusion, which must be below [`MOST_SLENDER`].
+    ///
+    /// [`MOST_SLENDER`]: crate::fluid::MOST_SLENDER
+    Slenderness,
     /// The estimated relative error of the boundary elements around a body that deforms, which must be small; NaN where
     /// none can be had.
     Elements,

@@ -36,7 +36,7 @@ pub struct FluidEllipsoid {
 struct Inverse {
     /// (T_ij, T_ji) from (D_ij, D_ji): for each pair the entries on the diagonal and the one beside.
     pairs: [[f64; 3]; 3],
-    /// (T₁ − T₀, T₂ − T₀) from (D₁, D₂), symmetric.
+    /// (m₁₂, m₂₀, m₀₁)/d, d = m₀₁ m₀₂ + m₀₁ m₁₂ + m₀₂ m₁₂: what the differences of the T_i are made of.
     differences: [f64; 3],
 }
 
@@ -53,10 +53,10 @@ impl Inverse {
             let inverse = 1.0 / (own * other - m * m);
             [other * inverse, own * inverse, m * inverse]
         });
-        // Σ_k m_ik (T_i − T_k) = D_i: rows 1 and 2 are (p + r) u − r v = D₁ and −r u + (q + r) v = D₂.
+        // Σ_k m_ik (T_i − T_k) = D_i with Σ D_i = 0: (T_j − T_i) d = m_ik D_j − m_jk D_i.
         let [p, q, r] = [fourth[0][1], fourth[0][2], fourth[1][2]];
         let inverse = 1.0 / (p * q + p * r + q * r);
-        Self { pairs, differences: [(q + r) * inverse, (p + r) * inverse, r * inverse] }
+        Self { pairs, differences: [r * inverse, q * inverse, p * inverse] }
     }
 }
 
@@ -89,6 +89,12 @@ impl FluidEllipsoid {
     fn along(axes: Mat3, squares: [f64; 3], viscosity: f64) -> Self {
         let moments = EllipsoidMoments::of(squares);
         Self { axes, squares, viscosity, moments, inverse: Inverse::of(&moments.fourth) }
+    }
+
+    /// The ratio of the longest to the shortest semi-axis.
+    pub fn slenderness(&self) -> f64 {
+        let [a, b, c] = self.squares;
+        (a.max(b).max(c) / a.min(b).min(c)).sqrt()
     }
 
     /// A tensor in the principal axes.
@@ -215,7 +221,7 @@ impl FluidEllipsoid {
 
     /// The T of T N − 𝓜:T = D, N:T = c, for a D of trace zero.
     fn solve(&self, driving: &Mat3, contracted: f64) -> Mat3 {
-        let Inverse { pairs, differences: [p, q, r] } = &self.inverse;
+        let Inverse { pairs, differences: [a, b, c] } = &self.inverse;
         let second = &self.moments.second;
         let mut t = Mat3::zeros();
         for ((i, j), [one, other, beside]) in PAIRS.into_iter().zip(pairs) {
@@ -223,12 +229,15 @@ impl FluidEllipsoid {
             t[(i, j)] = one * ij + beside * ji;
             t[(j, i)] = other * ji + beside * ij;
         }
-        let u = p * driving[(1, 1)] + r * driving[(2, 2)];
-        let v = r * driving[(1, 1)] + q * driving[(2, 2)];
-        let first = contracted - (second[1] * u + second[2] * v);
-        t[(0, 0)] = first;
-        t[(1, 1)] = first + u;
-        t[(2, 2)] = first + v;
+        // Each difference for itself: on a needle, whose two short axes are nearly equal, T₂ − T₁ is 10⁻⁸ of the others
+        // and their difference would be noise. So is each T_i but for the weights L_i.
+        let d = [driving[(0, 0)], driving[(1, 1)], driving[(2, 2)]];
+        let differences = [c * d[2] - b * d[1], a * d[0] - c * d[2], b * d[1] - a * d[0]];
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            // T_i = c + L_j (T_i − T_j) + L_k (T_i − T_k).
+            t[(i, i)] = contracted + (second[k] * differences[j] - second[j] * differences[k]);
+        }
         t
     }
 }

@@ -35,7 +35,7 @@ impl<'a> Immersed<'a> {
     ) -> Result<Option<Self>, UnresolvedForm> {
         Ok(match inclusion.form {
             Form::Fixed(_) => None,
-            Form::Ellipsoid(_) => ImmersedEllipsoid::of(inclusion, around, moving, at).map(Self::Ellipsoid),
+            Form::Ellipsoid(_) => ImmersedEllipsoid::of(inclusion, around, moving, at)?.map(Self::Ellipsoid),
             Form::Surface(_) => {
                 ImmersedSurface::of(inclusion, around, moving, at)?.map(|surface| Self::Surface(Box::new(surface)))
             }

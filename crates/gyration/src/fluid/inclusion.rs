@@ -9,12 +9,17 @@ use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{FluidEllipsoid, Stress};
 use super::fixed::FixedForm;
 use super::history::History;
-use super::table::ResistanceTable;
+use super::table::{ResistanceTable, UnresolvedForm};
 use crate::affine::Gyration;
+use crate::inadmissible::Quantity;
 use crate::kinematics::{Placement, Velocity};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
 use crate::tensor::{Mat3, Vec3};
 use std::sync::Arc;
+
+/// The ratio of the longest to the shortest semi-axis above which the rates of an inclusion are not known: its
+/// resistances along and across differ by the square, which is most of the digits of a number.
+pub const MOST_SLENDER: f64 = 1e6;
 
 /// What makes a body an inclusion.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,21 +80,28 @@ pub struct ImmersedEllipsoid<'a> {
 
 impl<'a> ImmersedEllipsoid<'a> {
     /// Of a body in motion; none if its form is fixed.
+    ///
+    /// # Errors
+    /// [`UnresolvedForm`] for a needle or disc beyond [`MOST_SLENDER`].
     pub fn of(
         inclusion: &'a Inclusion,
         (fluid, flow, gravity): (&Fluid, &Flow, &Vec3),
         (placement, velocity): (&Placement, &Velocity),
         at: &Gyration,
-    ) -> Option<Self> {
-        let Form::Ellipsoid(semi_axes) = &inclusion.form else { return None };
+    ) -> Result<Option<Self>, UnresolvedForm> {
+        let Form::Ellipsoid(semi_axes) = &inclusion.form else { return Ok(None) };
         let ellipsoid = FluidEllipsoid::of(&(at.gradient * Mat3::from_diagonal(semi_axes)), fluid.viscosity);
+        let slenderness = ellipsoid.slenderness();
+        if slenderness.is_nan() || slenderness > MOST_SLENDER {
+            return Err(UnresolvedForm { quantity: Quantity::Slenderness, value: slenderness });
+        }
         let place = placement.place(&inclusion.center);
         let slip = ellipsoid.axes.tr_mul(&(velocity.at(&inclusion.center) - flow.at(&place)));
         let gradient = ellipsoid.seen(&at.velocity_gradient);
         let ambient = ellipsoid.seen(&flow.gradient);
         let stress = ellipsoid.stress(&gradient, &ambient);
         let (volume, weight) = (inclusion.volume * at.volume_ratio, fluid.density * gravity);
-        Some(Self { inclusion, semi_axes, ellipsoid, slip, gradient, flow: ambient, stress, volume, weight })
+        Ok(Some(Self { inclusion, semi_axes, ellipsoid, slip, gradient, flow: ambient, stress, volume, weight }))
     }
 
     /// f and M of the fluid.

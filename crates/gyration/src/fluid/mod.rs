@@ -39,7 +39,7 @@ pub use ellipsoid::{FluidEllipsoid, FormSlope, Stress};
 pub use fixed::{DragSlopes, FixedForm, RigidDrag};
 pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
-pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, SurfaceForm};
+pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceForm};
 pub use moments::EllipsoidMoments;
 pub use surface::ImmersedSurface;
 pub use table::{ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};
