@@ -19,7 +19,7 @@ fn bench_rates(bencher: Bencher, (model, state): (Model, State)) {
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        rates(&model, &mut workspace, 0.0, bodies, &mut slopes, &mut powers)
+        rates(&model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers)
     });
 }
 
@@ -28,7 +28,7 @@ fn bench_jacobian(bencher: Bencher, (model, state): (Model, State)) {
     let mut blocks = vec![DMatrix::zeros(model.dimension(), model.dimension())];
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies, &mut blocks)
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks)
     });
 }
 

@@ -82,8 +82,8 @@ fn stretched_meeting(name: &str) -> (Surface, GapField, Mat3) {
     let (gradient, cofactor) = stretched();
     let direction = gradient.tr_mul(&field.direction);
     let (gap, _) = surface.smallest_gap(&field);
-    let (lowest, _) = surface.smallest_gap(&GapField { height: 0.0, direction });
-    (surface, GapField { height: gap - lowest, direction }, cofactor)
+    let (lowest, _) = surface.smallest_gap(&GapField::new(0.0, direction));
+    (surface, GapField::new(gap - lowest, direction), cofactor)
 }
 
 fn plan(requests: &[(f64, usize)]) -> MomentPlan {
@@ -129,7 +129,7 @@ fn bench_rates(bencher: Bencher, name: &str, exponents: (f64, f64)) {
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        rates(&model, &mut workspace, 0.0, bodies, &mut slopes, &mut powers)
+        rates(&model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers)
     });
 }
 
@@ -139,7 +139,7 @@ fn bench_jacobian(bencher: Bencher, name: &str, exponents: (f64, f64)) {
     let mut blocks = vec![DMatrix::zeros(13, 13)];
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies, &mut blocks)
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks)
     });
 }
 

@@ -147,11 +147,11 @@ fn costs_of_mechanics(shape: &str, height: f64) -> (f64, f64) {
     let mut blocks = vec![DMatrix::zeros(SIZE, SIZE)];
     let call = seconds_each(|| {
         let bodies = std::hint::black_box(&state.bodies);
-        rates(&model, &mut workspace, 0.0, bodies, &mut slopes, &mut powers).expect("it is apart");
+        rates(&model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers).expect("it is apart");
     });
     let derivatives = seconds_each(|| {
         let bodies = std::hint::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies, &mut blocks).expect("it is apart");
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks).expect("it is apart");
     });
     (call, derivatives)
 }

@@ -185,7 +185,7 @@ impl Experiment {
         let mut slopes = vec![0.0; self.model.dimension()];
         let mut powers = vec![0.0; self.model.works().len()];
         let bodies = &self.start.bodies;
-        rates(&self.model, &mut Workspace::default(), 0.0, bodies, &mut slopes, &mut powers)
+        rates(&self.model, &mut Workspace::default(), 0.0, bodies.into(), &mut slopes, &mut powers)
             .unwrap_or_else(|error| panic!("{error:?}"));
         let body = &self.model.bodies[0];
         let BodyKind::Rigid(inertia) = &body.kind else { panic!("{} is not rigid", body.name) };

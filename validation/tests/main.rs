@@ -7,6 +7,7 @@ mod case_deforming_inclusion;
 mod case_gallery_dissipates;
 mod case_pinned_audit;
 mod case_slender_inclusion;
+mod case_small_gaps;
 mod case_soft_audits;
 mod case_soft_tumbling_box;
 mod case_tumbling_box;

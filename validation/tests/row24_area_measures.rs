@@ -56,7 +56,7 @@ impl Pushed {
     /// f·ṗ₀ + M·Ṗ.
     fn power(&self, at: &Passing) -> f64 {
         let normal = Vec3::z();
-        let field = GapField { height: at.place.z, direction: at.gradient.tr_mul(&normal) };
+        let field = GapField::new(at.place.z, at.gradient.tr_mul(&normal));
         let motion = RelativeMotion { normal, velocity: at.velocity, gradient_rate: at.rate };
         let deformation = Deformation::of(&at.gradient);
         let meeting = Meeting { surface: &self.surface, field, motion, deformation };

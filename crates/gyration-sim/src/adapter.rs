@@ -9,14 +9,15 @@ use crate::resistance::check_resistances;
 use gyration::Inadmissible;
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
-use gyration::body::{Body, BodyKind, Contractile, Slots, matrix};
+use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
 use gyration::dynamics::{Workspace, jacobian, rates};
+use gyration::extended::{self, Numbers};
 use gyration::ledger::Work;
 use gyration::model::Model;
 use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_ode::{BlockMatrix, System};
+use gyration_ode::{BlockMatrix, Extended, ExtendedMut, System};
 use std::ops::Range;
 
 /// rtol and atol of a scene.
@@ -71,7 +72,7 @@ impl<'a> ModelSystem<'a> {
         let mut workspace = Workspace::default();
         let mut slopes = vec![0.0; model.dimension()];
         let mut powers = vec![0.0; model.works().len()];
-        rates(model, &mut workspace, start.time, &start.bodies, &mut slopes, &mut powers)?;
+        rates(model, &mut workspace, start.time, start.numbers(), &mut slopes, &mut powers)?;
         let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(model, start, &slopes, body)).collect();
         let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(model, body, *speed)).sum();
         // |X| is the speed of X under the unit gradient rate.
@@ -165,11 +166,21 @@ impl System for ModelSystem<'_> {
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
-        rates(self.model, &mut self.prepared.workspace, t, y, dy, dw)
+        rates(self.model, &mut self.prepared.workspace, t, y.into(), dy, dw)
+    }
+
+    fn extended_rates(&mut self, t: f64, y: Extended, dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
+        let numbers = Numbers { high: y.high, low: y.low };
+        rates(self.model, &mut self.prepared.workspace, t, numbers, dy, dw)
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
-        jacobian(self.model, &mut self.prepared.workspace, t, y, slopes.diagonal_mut())
+        jacobian(self.model, &mut self.prepared.workspace, t, y.into(), slopes.diagonal_mut())
+    }
+
+    fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
+        let numbers = Numbers { high: y.high, low: y.low };
+        jacobian(self.model, &mut self.prepared.workspace, t, numbers, slopes.diagonal_mut())
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
@@ -182,8 +193,11 @@ impl System for ModelSystem<'_> {
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);
-            // The rounding of the places from which the gap is computed is all that can be had.
-            let rounding = 4.0 * f64::EPSILON * (motion.placement.position.norm() + body.size);
+            // The rounding of the places from which the gap is computed is all that can be had, unless their numbers
+            // have twice the digits.
+            let lengths = motion.placement.position.norm() + body.size;
+            let extended = gap < NEAR * lengths && body.solid.surface.as_ref().is_some_and(|it| body.keeps_digits(it));
+            let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
             let velocity = atol * self.prepared.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
             y_scale[slots.position()].fill(length + rounding);
             y_scale[slots.attitude()].fill((length + rounding) / body.size);
@@ -203,12 +217,21 @@ impl System for ModelSystem<'_> {
     }
 
     fn project(&mut self, t: f64, y: &mut [f64], w: &mut [f64]) -> f64 {
+        self.extended_project(t, ExtendedMut { high: y, low: &mut [] }, w)
+    }
+
+    fn extended_project(&mut self, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
+        let ExtendedMut { high: y, low } = y;
         let work = self.model.works().iter().position(|work| *work == Work::Constraint);
         let mut correction: f64 = 0.0;
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let (size, energy) = match &body.kind {
-                BodyKind::Rigid(_) => (normalize(&mut y[slots.attitude()]), 0.0),
+                BodyKind::Rigid(_) => {
+                    let quaternion = slots.attitude();
+                    let lacking = low.get_mut(quaternion.clone()).unwrap_or_default();
+                    (normalize(&mut y[quaternion], lacking), 0.0)
+                }
                 BodyKind::Affine(affine) => restore_volume(&affine.interior, slots, y),
                 BodyKind::Contractile(contractile) => restore_contraction(contractile, slots, t, y),
             };
@@ -221,10 +244,19 @@ impl System for ModelSystem<'_> {
     }
 }
 
-/// Puts a quaternion back to length one; returns by how much it was off.
-pub(crate) fn normalize(quaternion: &mut [f64]) -> f64 {
+/// Puts a quaternion back to length one, by a factor: its direction keeps all its digits, those in `low` too, if there
+/// are any. Returns by how much it was off.
+pub(crate) fn normalize(quaternion: &mut [f64], low: &mut [f64]) -> f64 {
     let norm = quaternion.iter().map(|c| c * c).sum::<f64>().sqrt();
-    quaternion.iter_mut().for_each(|c| *c /= norm);
+    if low.is_empty() {
+        quaternion.iter_mut().for_each(|c| *c /= norm);
+        return (norm - 1.0).abs();
+    }
+    let factor = extended::Extended::from(1.0 / norm);
+    for (high, low) in quaternion.iter_mut().zip(low) {
+        let scaled = extended::Extended { high: *high, low: *low } * factor;
+        (*high, *low) = (scaled.high, scaled.low);
+    }
     (norm - 1.0).abs()
 }
 

@@ -10,7 +10,7 @@ use crate::run::Simulation;
 use crate::step_end::StepEnd;
 use gyration::balance::observe;
 use gyration::dynamics::acting;
-use gyration::state::BodyMotion;
+use gyration::state::{BodyMotion, State};
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
 /// On how many parts of a step an event is looked for.
@@ -52,7 +52,8 @@ impl Simulation<'_> {
         for part in 1..=PARTS {
             let time = part_of(report, part);
             if part < PARTS {
-                self.run.integrator.interpolate(time, &mut self.run.sampled.bodies, &mut self.run.sampled.works);
+                let State { bodies, low, works, .. } = &mut self.run.sampled;
+                self.run.integrator.interpolate_extended(time, bodies, works, Some(low));
             } else {
                 self.find_forces();
             }
@@ -112,6 +113,7 @@ impl Simulation<'_> {
                     // Looked for at the end of a step only, when nothing else needs the sample.
                     state.time = time;
                     state.bodies.copy_from_slice(bodies);
+                    state.low.fill(0.0);
                     let seen = observe(model, workspace, state, body);
                     events::lift_off(model, body, seen.map_or(f64::NAN, |seen| seen.contact_force.norm()), speed)
                 }

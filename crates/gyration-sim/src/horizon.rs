@@ -102,7 +102,7 @@ impl<'a> PlaneApproach<'a> {
             velocity = motion.velocity.velocity;
         }
         let normal: &Vec3 = &support.normal;
-        let rate = GapField { height: normal.dot(&velocity), direction: motion.velocity.gradient_rate.tr_mul(normal) };
+        let rate = GapField::new(normal.dot(&velocity), motion.velocity.gradient_rate.tr_mul(normal));
         let stretching = end.stretching.map_or(0.0, |stretching| stretching.tr_mul(normal).norm() * radius);
         let acceleration = (-end.acceleration.dot(normal)).max(0.0) + stretching;
         let gradient = &motion.placement.gradient;
@@ -136,7 +136,7 @@ impl<'a> PlaneApproach<'a> {
     fn smallest_gap(&self, t: f64) -> f64 {
         let height = self.field.height + t * self.rate.height;
         let direction = self.field.direction + t * self.rate.direction;
-        self.surface.smallest_gap(&GapField { height, direction }).0 - 0.5 * self.acceleration * t * t
+        self.surface.smallest_gap(&GapField::new(height, direction)).0 - 0.5 * self.acceleration * t * t
     }
 }
 

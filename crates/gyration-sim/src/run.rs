@@ -16,7 +16,7 @@ use crate::step_end::{self, StepEnd};
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Integrator, Statistics, StepReport, System as _};
+use gyration_ode::{ExtendedMut, Integrator, Statistics, StepReport, System as _};
 
 /// A run under way: a model as its stepper sees it, and the run.
 pub struct Simulation<'a> {
@@ -59,7 +59,7 @@ impl<'a> Simulation<'a> {
             plan,
             state: RunState::new(model.bodies.len()),
             step_ends: Vec::new(),
-            sampled: start.clone(),
+            sampled: State { low: vec![0.0; start.bodies.len()], ..start.clone() },
             forces: Vec::new(),
             found: Vec::new(),
             since: Vec::new(),
@@ -108,6 +108,7 @@ impl<'a> Simulation<'a> {
         State {
             time: self.run.integrator.time(),
             bodies: self.run.integrator.state().to_vec(),
+            low: self.run.integrator.state_low().to_vec(),
             works: self.run.integrator.quadratures().to_vec(),
         }
     }
@@ -277,6 +278,7 @@ impl<'a> Simulation<'a> {
     pub(crate) fn sample_end(&mut self) {
         self.run.sampled.time = self.run.integrator.time();
         self.run.sampled.bodies.copy_from_slice(self.run.integrator.state());
+        self.run.sampled.low.copy_from_slice(self.run.integrator.state_low());
         self.run.sampled.works.copy_from_slice(self.run.integrator.quadratures());
     }
 
@@ -286,10 +288,10 @@ impl<'a> Simulation<'a> {
             return self.sample_end();
         }
         self.run.sampled.time = time;
-        let State { bodies, works, .. } = &mut self.run.sampled;
-        self.run.integrator.interpolate(time, bodies, works);
+        let State { bodies, low, works, .. } = &mut self.run.sampled;
+        self.run.integrator.interpolate_extended(time, bodies, works, Some(low));
         // Between the ends of a step the interpolant is off its manifold by its error.
-        self.system.project(time, bodies, works);
+        self.system.extended_project(time, ExtendedMut { high: bodies, low }, works);
     }
 
     /// Records `sampled` and audits it, unless it is outside the model.
@@ -313,7 +315,7 @@ impl<'a> Simulation<'a> {
             state.initial_energy = audit.energy;
         }
         state.energy_in_play = state.energy_in_play.max(audit.kinetic).max(audit.exchanged).max(viscous);
-        state.largest_residual = state.largest_residual.max(audit.residual.abs());
+        state.note_residual(audit.residual);
         state.smallest_gap = state.smallest_gap.min(audit.smallest_gap);
         Ok(Ok(()))
     }

@@ -50,6 +50,14 @@ impl RunState {
         }
     }
 
+    /// Notes a residual of the ledger [J]; one that is not a number stays.
+    pub(crate) fn note_residual(&mut self, residual: f64) {
+        let size = residual.abs();
+        if size > self.largest_residual || size.is_nan() {
+            self.largest_residual = size;
+        }
+    }
+
     /// Run state and memory as bytes.
     pub fn checkpoint(&self, memory: &Memory) -> Vec<u8> {
         let integers = [self.next_sample, self.events[0], self.events[1], self.events[2]];
@@ -148,6 +156,17 @@ mod tests {
         let works = [[0.0, 0.0], [-1.0, -3.0], [-1.5, -3.0], [-4.0, -2.0]];
         works.windows(2).for_each(|pair| state.note_dissipation(pair[0], pair[1]));
         assert_eq!(state.largest_gains, [-0.5, 1.0]);
+    }
+
+    #[test]
+    fn a_residual_that_is_no_number_is_kept() {
+        let mut state = RunState::new(1);
+        let mut noted = |residual| {
+            state.note_residual(residual);
+            state.largest_residual
+        };
+        assert_eq!([noted(1.0), noted(-3.0), noted(2.0)], [1.0, 3.0, 3.0]);
+        assert!(noted(f64::NAN).is_nan() && noted(5.0).is_nan());
     }
 
     #[test]

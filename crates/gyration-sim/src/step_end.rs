@@ -76,7 +76,7 @@ mod tests {
         let model = &scene.built().model;
         let mut slopes = vec![0.0; model.dimension()];
         let mut powers = vec![0.0; model.works().len()];
-        rates(model, &mut Workspace::default(), state.time, &state.bodies, &mut slopes, &mut powers).unwrap();
+        rates(model, &mut Workspace::default(), state.time, state.numbers(), &mut slopes, &mut powers).unwrap();
         let mut ends = Vec::new();
         read(&mut ends, model, &state.bodies, &slopes);
         ends

@@ -101,7 +101,12 @@ impl SteppedRun {
     /// The state reached.
     pub fn state(&self) -> State {
         let integrator = &self.run().integrator;
-        State { time: integrator.time(), bodies: integrator.state().to_vec(), works: integrator.quadratures().to_vec() }
+        State {
+            time: integrator.time(),
+            bodies: integrator.state().to_vec(),
+            low: integrator.state_low().to_vec(),
+            works: integrator.quadratures().to_vec(),
+        }
     }
 
     /// The events of all steps so far.

@@ -8,7 +8,9 @@
 
 use crate::body::Body;
 use crate::contractile;
-use crate::dynamics::{Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, nearest, stored_energy};
+use crate::dynamics::{
+    Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, nearest, stored_energy,
+};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, Instant, KindAt};
 use crate::kinematics::Velocity;
@@ -81,13 +83,13 @@ pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
             (balance.pressure, Some(effort))
         }
     };
-    let BodyAt { model, time, index, body, motion, .. } = *at;
+    let BodyAt { body, motion, .. } = *at;
     let BodyMotion { placement, velocity } = motion;
     let affine_momentum = placement.gradient * body.solid.mass.euler_tensor * velocity.gradient_rate.transpose();
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
     BodyObservation {
         motion: *motion,
-        gap: smallest_gap(model, time, index, motion),
+        gap: gap_at(at),
         contact_force: acting.contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.

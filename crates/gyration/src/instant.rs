@@ -9,6 +9,7 @@ use crate::acting::Load;
 use crate::affine::Gyration;
 use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
 use crate::contractile::Decomposition;
+use crate::extended::Numbers;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::model::Model;
@@ -20,6 +21,8 @@ use crate::tensor::{Mat3, Vec3};
 pub struct Instant {
     time: f64,
     state: Vec<f64>,
+    /// What the state lacks of twice its digits; empty where that is not known.
+    low: Vec<f64>,
     bodies: Vec<BodyInstant>,
 }
 
@@ -54,6 +57,8 @@ pub struct BodyAt<'a> {
     pub motion: &'a BodyMotion,
     /// What stands in its slot `extra`.
     pub(crate) extra: &'a [f64],
+    /// The state of all bodies.
+    pub(crate) numbers: Numbers<'a>,
     attitude: &'a Attitude,
 }
 
@@ -117,10 +122,13 @@ impl Instant {
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
-    pub(crate) fn read(&mut self, model: &Model, time: f64, state: &[f64]) -> Result<(), Inadmissible> {
+    pub(crate) fn read(&mut self, model: &Model, time: f64, numbers: Numbers) -> Result<(), Inadmissible> {
+        let state = numbers.high;
         self.time = time;
-        self.state.clear();
-        self.state.extend_from_slice(state);
+        for (kept, given) in [(&mut self.state, state), (&mut self.low, numbers.low)] {
+            kept.clear();
+            kept.extend_from_slice(given);
+        }
         self.bodies.resize(model.bodies.len(), BodyInstant::EMPTY);
         for (index, (body, instant)) in model.bodies.iter().zip(&mut self.bodies).enumerate() {
             instant.read(body, index, model.slots(index), (time, state))?;
@@ -159,7 +167,8 @@ impl Instant {
     pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> BodyAt<'a> {
         let BodyInstant { motion, attitude } = &self.bodies[index];
         let extra = &self.state[model.slots(index).extra()];
-        BodyAt { model, time: self.time, index, body: &model.bodies[index], motion, extra, attitude }
+        let numbers = Numbers { high: &self.state, low: &self.low };
+        BodyAt { model, time: self.time, index, body: &model.bodies[index], motion, extra, numbers, attitude }
     }
 }
 

@@ -12,6 +12,7 @@ pub mod body;
 pub mod contact;
 pub mod contractile;
 pub mod dynamics;
+pub mod extended;
 pub mod fluid;
 pub mod homogeneous;
 pub mod immersion;

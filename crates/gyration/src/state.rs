@@ -2,6 +2,7 @@
 
 use crate::body::{Body, BodyKind, Slots, matrix, vector};
 use crate::contractile::{Contraction, ContractionSource};
+use crate::extended::Numbers;
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
@@ -14,6 +15,8 @@ pub struct State {
     pub time: f64,
     /// The numbers of the bodies, block by block (`Model::blocks`).
     pub bodies: Vec<f64>,
+    /// What these numbers lack of twice their digits; empty where that is not known.
+    pub low: Vec<f64>,
     /// The works since t = 0 [J], in the order of `Model::works`.
     pub works: Vec<f64>,
 }
@@ -103,7 +106,12 @@ impl State {
         for (index, start) in starts.iter().enumerate() {
             start.write(&model.bodies[index], model.slots(index), &mut bodies);
         }
-        Self { time: 0.0, bodies, works: vec![0.0; model.works().len()] }
+        Self { time: 0.0, bodies, low: Vec::new(), works: vec![0.0; model.works().len()] }
+    }
+
+    /// The numbers of the bodies to all their digits.
+    pub fn numbers(&self) -> Numbers<'_> {
+        Numbers { high: &self.bodies, low: &self.low }
     }
 
     /// G of a body that contracts.

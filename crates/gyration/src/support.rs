@@ -69,7 +69,7 @@ impl Support {
     /// The gap of a body as a function of the material point, d(X) = (p₀ − o(t))·n + (Pᵀn)·X.
     #[inline]
     pub fn gap_field(&self, placement: &Placement, time: f64) -> GapField {
-        GapField { height: self.gap(&placement.position, time), direction: placement.gradient.tr_mul(&self.normal) }
+        GapField::new(self.gap(&placement.position, time), placement.gradient.tr_mul(&self.normal))
     }
 
     /// The gap (p − o(t))·n [m] of a point.

@@ -24,7 +24,7 @@ struct Scene {
 
 impl Scene {
     fn field(&self) -> GapField {
-        GapField { height: self.height, direction: self.rotation.tr_mul(&self.normal) }
+        GapField::new(self.height, self.rotation.tr_mul(&self.normal))
     }
 
     fn relative(&self) -> RelativeMotion {

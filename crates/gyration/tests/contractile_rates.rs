@@ -144,7 +144,7 @@ proptest! {
         let model = Model::new(gravity, supports, bodies.into_iter().map(alone).collect());
         let blocks = || -> Vec<_> { model.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect() };
         let fill = |state: &State, blocks: &mut [DMatrix<f64>]| {
-            jacobian(&model, &mut Workspace::default(), state.time, &state.bodies, blocks).unwrap();
+            jacobian(&model, &mut Workspace::default(), state.time, state.numbers(), blocks).unwrap();
         };
         let (mut fresh, mut used) = (blocks(), blocks());
         let other: Vec<f64> = numbers.iter().map(|number| 0.5 * number).collect();

@@ -73,7 +73,7 @@ fn rates_under_spring(model: &mut Model, state: &State, (i, j): (usize, usize)) 
     let speed = one.velocity.at(&POINT) - other.velocity.at(&POINT);
     assert!(model.apply(i, Applied::at_point(-STIFFNESS * stretch - DAMPING * speed, &POINT)));
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
-    rates(model, &mut Workspace::default(), state.time, &state.bodies, &mut slopes, &mut powers).unwrap();
+    rates(model, &mut Workspace::default(), state.time, state.numbers(), &mut slopes, &mut powers).unwrap();
     slopes[model.slots(i).block()].to_vec()
 }
 

@@ -86,7 +86,7 @@ fn moments_agree_with_high_precision_values() {
         let cells: Vec<&str> = line.split(',').collect();
         let p: Vec<f64> = cells[1..4].iter().map(|cell| cell.parse().unwrap()).collect();
         let values: Vec<f64> = cells[5..].iter().map(|cell| cell.parse().unwrap()).collect();
-        let field = GapField { height: values[0], direction: Vec3::new(values[1], values[2], values[3]) };
+        let field = GapField::new(values[0], Vec3::new(values[1], values[2], values[3]));
         let surface = surface(cells[0], &p);
         let found = moments(&surface, &field, kernel(cells[4]));
         let expected = expected(&values[4..]);
@@ -131,8 +131,8 @@ fn rotation(axis: &Vec3, angle: f64) -> Mat3 {
 
 /// The field with the given direction and smallest gap.
 fn field_above(surface: &Surface, direction: Vec3, gap: f64) -> GapField {
-    let (lowest, _) = surface.smallest_gap(&GapField { height: 0.0, direction });
-    GapField { height: gap - lowest, direction }
+    let (lowest, _) = surface.smallest_gap(&GapField::new(0.0, direction));
+    GapField::new(gap - lowest, direction)
 }
 
 fn assert_same(found: &Moments, expected: &Moments, scales: &[f64; 4], tolerance: f64, what: &str) {
@@ -223,7 +223,7 @@ proptest! {
         for surface in samples() {
             let field = field_above(&surface, direction.normalize(), gap);
             let turned = turn * field.direction;
-            let moved_field = GapField { height: field.height - turned.dot(&offset), direction: turned };
+            let moved_field = GapField::new(field.height - turned.dot(&offset), turned);
             let found = moments(&surface.transformed(&turn, &offset), &moved_field, Kernel::Power(nu));
             let back = moments(&surface, &field, Kernel::Power(nu));
             let reach = surface.fastest_point(&Vec3::zeros(), &Mat3::identity()) + offset.norm();

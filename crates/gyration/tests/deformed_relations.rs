@@ -207,7 +207,7 @@ fn stretched_sphere_is_the_ellipsoid() {
         let (sphere, ellipsoid) = (Surface::sphere(0.5), Surface::ellipsoid(&(0.5 * stretches)));
         let field = field_above(&ellipsoid, normal, gap);
         let expected = reference(&ellipsoid, &field, Kernel::Power(nu));
-        let own = GapField { height: field.height, direction: gradient.tr_mul(&normal) };
+        let own = GapField::new(field.height, gradient.tr_mul(&normal));
         let found = deformed(&sphere, &own, &cofactor(&gradient), Kernel::Power(nu), 2);
         let carried = Moments {
             zeroth: found.zeroth,
@@ -225,7 +225,7 @@ fn stretched_sphere_is_the_ellipsoid() {
 
 #[test]
 fn areas_of_deformed_bodies_are_the_closed_forms() {
-    let flat = GapField { height: 1.0, direction: Vec3::zeros() };
+    let flat = GapField::new(1.0, Vec3::zeros());
     let area = |surface: &Surface, p: &Mat3| deformed(surface, &flat, &cofactor(p), Kernel::Power(0.0), 0).zeroth;
     let shear = Mat3::new(1.0, 2.0, 0.5, 0.0, 1.0, -1.5, 0.0, 0.0, 1.0);
     let (x, y, z): (Vec3, Vec3, Vec3) = (shear.column(0).into(), shear.column(1).into(), shear.column(2).into());
@@ -252,7 +252,7 @@ fn extreme_points_of_sheared_bodies_are_found() {
         for shear in [0.0, 3.0, 30.0] {
             let gradient = numbers.gradient() + shear * numbers.vector() * numbers.vector().transpose();
             let direction = gradient.tr_mul(&numbers.vector().normalize());
-            let field = GapField { height: 0.3, direction };
+            let field = GapField::new(0.3, direction);
             let (rate, velocity) = (Mat3::from_fn(|_, _| numbers.draw() - 0.5) * gradient, numbers.vector());
             let (mut lowest, mut fastest) = (f64::INFINITY, 0.0_f64);
             for (chart, [a, b, c, d]) in charts(shape) {

@@ -87,7 +87,7 @@ fn moments_along_a_segment_agree_with_long_arithmetic() {
 /// The facets and the field of a row of the table.
 fn scene(row: &[&str]) -> (Facets, GapField) {
     let direction = Vec3::from_column_slice(&numbers(row[3]));
-    let field = GapField { height: row[2].parse().unwrap(), direction };
+    let field = GapField::new(row[2].parse().unwrap(), direction);
     let facets = match numbers(row[1]).as_slice() {
         [a, b, c] => Facets::cuboid(&Vec3::new(*a, *b, *c)),
         nine => triangle(std::array::from_fn(|i| Vec3::from_column_slice(&nine[3 * i..3 * i + 3]))),
@@ -137,7 +137,7 @@ fn tilted_flat_face_has_the_force_and_moment_of_its_closed_form() {
     let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| Vec3::new(x, y, 0.0));
     let face = Facets::new(&corners, &[[0, 2, 1], [0, 3, 2]]).unwrap();
     let direction = Vec3::new(angle.sin(), 0.0, angle.cos());
-    let field = GapField { height: nearest + half * angle.sin(), direction };
+    let field = GapField::new(nearest + half * angle.sin(), direction);
     let found = moments(&face, &field, Kernel::Power(6.0), 1);
     let force = strength * found.zeroth;
     let moment = strength * found.first.x;
@@ -153,7 +153,7 @@ fn closed_gap_is_refused_and_leaves_the_sums_alone() {
     let requests = [MomentRequest { kernel: Kernel::Power(6.0), order: 1 }];
     for height in [0.1, 0.05, -1.0, f64::NAN, f64::INFINITY] {
         let mut out = [Moments::default()];
-        let field = GapField { height, direction: Vec3::z() };
+        let field = GapField::new(height, Vec3::z());
         assert!(facets.moments(&field, &requests, &mut out).is_err(), "height {height}");
         assert_eq!(out, [Moments::default()]);
     }
@@ -171,7 +171,7 @@ fn faulty_meshes_are_refused() {
 fn box_knows_its_area_lowest_vertex_and_fastest_point() {
     let facets = Facets::cuboid(&Vec3::new(0.1, 0.2, 0.4));
     assert!((facets.area() - 0.28).abs() < 1e-15, "sum of twelve rounded areas");
-    let field = GapField { height: 1.0, direction: Vec3::new(0.48, 0.6, 0.64) };
+    let field = GapField::new(1.0, Vec3::new(0.48, 0.6, 0.64));
     let (gap, point) = facets.smallest_gap(&field);
     assert_eq!(point, Vec3::new(-0.05, -0.1, -0.2));
     assert_eq!(gap, field.gap(&point));
@@ -194,7 +194,7 @@ fn mesh_of_many_clusters_has_the_moments_of_its_triangles() {
     let mesh = Facets::new(&points, &triangles).unwrap();
     let square =
         Facets::new(&[at(0, 0), at(cells, 0), at(cells, cells), at(0, cells)], &[[0, 1, 2], [0, 2, 3]]).unwrap();
-    let field = GapField { height: 0.01, direction: Vec3::new(0.3, 0.1, 0.9) };
+    let field = GapField::new(0.01, Vec3::new(0.3, 0.1, 0.9));
     for exponent in [1.0, 3.0, 6.5] {
         let [fine, coarse] =
             [&mesh, &square].map(|facets| components(&moments(facets, &field, Kernel::Power(exponent), 3)));
@@ -219,7 +219,7 @@ fn contact() -> impl Strategy<Value = ([Vec3; 3], f64, GapField)> {
         .prop_map(|(points, exponent, m, gap): (_, f64, Vec3, f64)| {
             let direction = m.normalize();
             let lowest = points.iter().map(|x| direction.dot(x)).fold(f64::INFINITY, f64::min);
-            (points, exponent, GapField { height: 10.0_f64.powf(gap) - lowest, direction })
+            (points, exponent, GapField::new(10.0_f64.powf(gap) - lowest, direction))
         })
 }
 

@@ -124,7 +124,7 @@ fn extent_is_the_lowest_point_of_the_surface() {
     for shape in solids(1.0) {
         let surface = shape.surface().unwrap();
         for direction in directions() {
-            let (gap, _) = surface.smallest_gap(&GapField { height: 5.0, direction });
+            let (gap, _) = surface.smallest_gap(&GapField::new(5.0, direction));
             let expected = 5.0 - shape.extent(&-direction);
             // A gap of 5 m rounds to 1e-15 m, twice.
             assert!((gap - expected).abs() < 4e-15, "{shape:?} {direction}: {gap} {expected}");

@@ -19,8 +19,7 @@ pub(super) fn check(
     let met: BTreeSet<usize> = assembled.body.contacts.iter().map(|contact| contact.support()).collect();
     let start = placement(&assembled.start);
     for support in met.into_iter().filter_map(|index| supports.get(index)?.as_ref()) {
-        let field =
-            GapField { height: support.gap(&start.position, 0.0), direction: start.gradient.tr_mul(&support.normal) };
+        let field = GapField::new(support.gap(&start.position, 0.0), start.gradient.tr_mul(&support.normal));
         let (gap, _) = surface.smallest_gap(&field);
         if assembled.body.is_apart(gap, &field) {
             continue;

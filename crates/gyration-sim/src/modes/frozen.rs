@@ -67,7 +67,7 @@ impl FrozenBody {
     pub fn accelerations(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
         let mut slopes = vec![0.0; block.len()];
         let mut powers = vec![0.0; self.model.works().len()];
-        let done = rates(&self.model, &mut self.workspace, self.time, block, &mut slopes, &mut powers);
+        let done = rates(&self.model, &mut self.workspace, self.time, block.into(), &mut slopes, &mut powers);
         done.map_err(|left| Inadmissible { body: self.index, ..left })?;
         Ok(slopes[self.slots().velocities().start..].to_vec())
     }
@@ -75,7 +75,7 @@ impl FrozenBody {
     /// The exact Jacobian.
     pub fn slopes(&mut self, block: &[f64]) -> Result<DMatrix<f64>, Inadmissible> {
         let mut blocks = [DMatrix::zeros(block.len(), block.len())];
-        let done = jacobian(&self.model, &mut self.workspace, self.time, block, &mut blocks);
+        let done = jacobian(&self.model, &mut self.workspace, self.time, block.into(), &mut blocks);
         done.map_err(|left| Inadmissible { body: self.index, ..left })?;
         let [slopes] = blocks;
         Ok(slopes)
@@ -87,7 +87,12 @@ impl FrozenBody {
 
     /// π of an incompressible body.
     pub fn pressure(&mut self, block: &[f64]) -> Option<f64> {
-        let state = State { time: self.time, bodies: block.to_vec(), works: vec![0.0; self.model.works().len()] };
+        let state = State {
+            time: self.time,
+            bodies: block.to_vec(),
+            low: Vec::new(),
+            works: vec![0.0; self.model.works().len()],
+        };
         observe(&self.model, &mut self.workspace, &state, 0).ok()?.pressure
     }
 
@@ -122,7 +127,7 @@ impl FrozenBody {
         let still = Mat3::zeros();
         match &self.body().kind {
             BodyKind::Rigid(_) => {
-                normalize(attitude);
+                normalize(attitude, &mut []);
             }
             BodyKind::Affine(affine) => {
                 let corrected = affine.interior.project(&matrix(attitude), &still);

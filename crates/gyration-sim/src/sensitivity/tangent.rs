@@ -145,7 +145,7 @@ impl<'a> Tangent<'a> {
 
     /// Looks at the state that has been come to, in the last step of the run.
     pub fn look(&mut self, run: &Integrator) {
-        let State { time, bodies, works } = &mut self.at;
+        let State { time, bodies, works, .. } = &mut self.at;
         *time = self.time;
         run.interpolate(*time, bodies, works);
         self.project();
@@ -259,7 +259,7 @@ impl<'a> Tangent<'a> {
 
     /// Puts the state at hand on its manifold, and finds its scales.
     fn project(&mut self) {
-        let State { time, bodies, works } = &mut self.at;
+        let State { time, bodies, works, .. } = &mut self.at;
         self.system.project(*time, bodies, works);
         fill_scales(&mut self.system, &self.at, &mut self.scales);
     }

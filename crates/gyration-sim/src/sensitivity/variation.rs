@@ -107,7 +107,7 @@ impl SceneVariation {
         self.differentiate(scales, |scene, workspace, out| {
             out.resize(bodies.len() + works, 0.0);
             let (slopes, powers) = out.split_at_mut(bodies.len());
-            rates(&scene.built().model, workspace, time, bodies, slopes, powers)
+            rates(&scene.built().model, workspace, time, bodies.into(), slopes, powers)
         })
     }
 

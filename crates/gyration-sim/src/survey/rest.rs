@@ -81,7 +81,7 @@ impl<'a> Approach<'a> {
         let surface = body.solid.surface.as_ref()?;
         let direction = motion.placement.gradient.tr_mul(&plane.normal);
         let height = plane.gap(&motion.placement.position, start.time);
-        let (initial_gap, _) = surface.smallest_gap(&GapField { height, direction });
+        let (initial_gap, _) = surface.smallest_gap(&GapField::new(height, direction));
         Some(Self {
             surface,
             contacts: body.contacts.iter().filter(|contact| contact.support() == support).collect(),
@@ -121,7 +121,7 @@ impl<'a> Approach<'a> {
     fn contact_state(&self, gap: f64) -> Meeting<'a> {
         Meeting {
             surface: self.surface,
-            field: GapField { height: self.depth + gap, direction: self.direction },
+            field: GapField::new(self.depth + gap, self.direction),
             motion: RelativeMotion { normal: self.normal, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() },
             deformation: self.deformation,
         }

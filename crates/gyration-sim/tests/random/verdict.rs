@@ -123,7 +123,7 @@ fn state_of(model: &Model, checkpoint: &[u8]) -> State {
     let mut reals = words.map(f64::from_bits);
     let time = reals.next().unwrap();
     let bodies = reals.by_ref().take(model.dimension()).collect();
-    State { time, bodies, works: reals.take(model.works().len()).collect() }
+    State { time, bodies, low: Vec::new(), works: reals.take(model.works().len()).collect() }
 }
 
 /// The contact energy [J] that it takes to bring the nearest body to a gap of 1e-9 of its size, turned as it is.
@@ -145,7 +145,8 @@ fn barrier(model: &Model, state: &State) -> f64 {
                 }],
             );
             let block = model.blocks()[index].clone();
-            let mut moved = State { time: state.time, bodies: state.bodies[block].to_vec(), works: Vec::new() };
+            let mut moved =
+                State { time: state.time, bodies: state.bodies[block].to_vec(), low: Vec::new(), works: Vec::new() };
             let gap = smallest_gap(&only, state.time, 0, &moved.motion(&only, 0));
             let normal = only.supports[0].normal;
             for axis in 0..3 {

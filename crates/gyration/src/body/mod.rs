@@ -17,7 +17,7 @@ use crate::fluid::{History, Inclusion};
 use crate::ledger::{Energy, Work};
 use crate::load::{Couple, LinearResistance, Spring};
 use crate::mass::MassProperties;
-use crate::surface::GapField;
+use crate::surface::{GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
@@ -186,15 +186,38 @@ impl RigidInertia {
 /// change the forces by more than any tolerance.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
+/// The same of a gap that is computed to twice the digits.
+const EXTENDED_RESOLUTION: f64 = RESOLUTION * RESOLUTION;
+
+/// The gap, relative to size and height, below which it is computed to twice the digits: eleven of sixteen are left.
+pub const NEAR: f64 = 1e-5;
+
 impl Body {
     /// Whether a smallest gap [m] to a support is above zero by more than its own rounding.
     pub fn is_apart(&self, gap: f64, field: &GapField) -> bool {
         gap.is_finite() && gap > self.least_gap(field)
     }
 
+    /// The gap [m] below which its difference of two lengths leaves too few digits.
+    pub(crate) fn near_gap(&self, field: &GapField) -> f64 {
+        NEAR * (self.size + field.height.abs())
+    }
+
+    /// Whether small gaps of its surface are known to twice the digits.
+    pub fn keeps_digits(&self, surface: &Surface) -> bool {
+        // A volume is put back to what it has to be with the digits of one number.
+        let kept = match &self.kind {
+            BodyKind::Rigid(_) => surface.keeps_digits(),
+            BodyKind::Affine(affine) => surface.patches.is_empty() && !affine.interior.is_incompressible(),
+            BodyKind::Contractile(_) => false,
+        };
+        kept && self.has_inertia()
+    }
+
     /// The gap [m] that cannot be told from zero.
     pub(crate) fn least_gap(&self, field: &GapField) -> f64 {
-        RESOLUTION * (self.size + field.height.abs())
+        let resolution = if field.lack.is_some() { EXTENDED_RESOLUTION } else { RESOLUTION };
+        resolution * (self.size + field.height.abs())
     }
 
     /// What a body that deforms has beside a rigid one.

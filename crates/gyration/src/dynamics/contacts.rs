@@ -2,11 +2,13 @@
 
 use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
+use crate::extended::{Extended, rotated_back};
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::BodyAt;
+use crate::instant::{BodyAt, KindAt};
 use crate::model::Model;
 use crate::state::BodyMotion;
-use crate::surface::GapClosed;
+use crate::support::Support;
+use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::Vec3;
 
 /// Hands a contact of a body to `integrate`, unless a gap is closed; none without a surface.
@@ -20,7 +22,7 @@ pub(super) fn meet<T>(
     let Some(surface) = &body.solid.surface else { return Ok(None) };
     let Partner::Support(index) = contact.partner;
     let support = &model.supports[index];
-    let field = support.gap_field(&motion.placement, at.time);
+    let field = gap_field(at, surface, support);
     let result = if surface.is_above(&field, body.least_gap(&field)) {
         let motion = RelativeMotion::to(support, &motion.velocity, at.time);
         integrate(&Meeting { surface, field, motion, deformation: deformation(at) }).map(Some)
@@ -28,6 +30,45 @@ pub(super) fn meet<T>(
         Err(GapClosed { gap: surface.smallest_gap(&field).0 })
     };
     result.map_err(|closed| at.outside(Quantity::Gap { support: index }, closed.gap))
+}
+
+/// The gap to a support: to twice the digits where it is small and the surface can use them.
+#[inline]
+fn gap_field(at: &BodyAt, surface: &Surface, support: &Support) -> GapField {
+    let field = support.gap_field(&at.motion.placement, at.time);
+    if at.numbers.low.is_empty() || surface.is_above(&field, at.body.near_gap(&field)) {
+        return field;
+    };
+    extended_gap_field(at, surface, support).unwrap_or(field)
+}
+
+/// g₀ = (p₀ − o(t))·n and m = Pᵀn to twice the digits, of a body that keeps them; a pinned one has p₀ = a − P r.
+#[cold]
+fn extended_gap_field(at: &BodyAt, surface: &Surface, support: &Support) -> Option<GapField> {
+    let BodyAt { model, body, index, time, numbers, .. } = *at;
+    if !body.keeps_digits(surface) {
+        return None;
+    }
+    let slots = model.slots(index);
+    let (normal, place) = (&support.normal, slots.attitude().start);
+    let direction = match at.kind() {
+        KindAt::Rigid(..) => rotated_back([0, 1, 2, 3].map(|i| numbers.at(place + i)), normal),
+        // P stands column by column.
+        _ => [0, 3, 6].map(|column| Extended::dot(&[0, 1, 2].map(|row| numbers.at(place + column + row)), normal)),
+    };
+    let shift = support.motion.displacement(time);
+    let above = |i: usize, place: Extended| place - support.origin[i].into() - shift[i].into();
+    let height = match &body.pin {
+        None => {
+            let position = slots.position().start;
+            Extended::dot(&[0, 1, 2].map(|i| above(i, numbers.at(position + i))), normal)
+        }
+        Some(pin) => {
+            let anchor = Extended::dot(&[0, 1, 2].map(|i| above(i, pin.anchor[i].into())), normal);
+            anchor - Extended::dot(&direction, &pin.point)
+        }
+    };
+    Some(GapField::extended(height, &direction))
 }
 
 /// The velocity with which the partner of a contact is moved [m/s].
@@ -41,6 +82,13 @@ pub(super) fn carrying(at: &BodyAt, contact: &Contact) -> Vec3 {
 fn deformation(at: &BodyAt) -> Option<Deformation> {
     let gyration = at.gyration()?;
     Some(Deformation { inverse: gyration.inverse, cofactor: gyration.volume_ratio * gyration.inverse.transpose() })
+}
+
+/// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
+pub fn gap_at(at: &BodyAt) -> f64 {
+    let Some(surface) = &at.body.solid.surface else { return f64::INFINITY };
+    let gaps = at.model.supports.iter().map(|support| surface.smallest_gap(&gap_field(at, surface, support)).0);
+    gaps.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
 }
 
 /// The support next to a body's surface; none without supports or surface.

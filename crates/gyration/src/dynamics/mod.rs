@@ -17,7 +17,7 @@ mod powers;
 mod rates;
 mod rigid;
 
-pub use contacts::nearest;
+pub use contacts::{gap_at, nearest};
 pub use jacobian::{Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
 pub use rates::{jacobian, rates};
@@ -73,7 +73,7 @@ impl Workspace {
     /// [`Inadmissible`] where the state is outside the model.
     pub fn read(&mut self, model: &Model, state: &State) -> Result<(&Instant, &mut Scratch), Inadmissible> {
         let Self { instant, scratch } = self;
-        instant.read(model, state.time, &state.bodies)?;
+        instant.read(model, state.time, state.numbers())?;
         for index in 0..model.bodies.len() {
             if !model.bodies[index].has_inertia() {
                 inertialess::settle(model, instant, scratch, index)?;

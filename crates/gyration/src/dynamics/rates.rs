@@ -13,6 +13,7 @@
 use super::body_rates::body_rates;
 use super::jacobian::body_jacobian;
 use super::{Workspace, inertialess};
+use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
 use nalgebra::DMatrix;
@@ -27,7 +28,7 @@ pub fn rates(
     model: &Model,
     workspace: &mut Workspace,
     time: f64,
-    state: &[f64],
+    state: Numbers,
     rates: &mut [f64],
     powers: &mut [f64],
 ) -> Result<(), Inadmissible> {
@@ -56,7 +57,7 @@ pub fn jacobian(
     model: &Model,
     workspace: &mut Workspace,
     time: f64,
-    state: &[f64],
+    state: Numbers,
     blocks: &mut [DMatrix<f64>],
 ) -> Result<(), Inadmissible> {
     let Workspace { instant, scratch } = workspace;

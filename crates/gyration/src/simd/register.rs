@@ -79,6 +79,22 @@ impl<S: Simd> F64s<S> {
         Mask { simd: self.simd, values: self.simd.less_than_f64s(self.values, other.values) }
     }
 
+    /// a + b and what its rounding leaves out.
+    #[inline(always)]
+    pub fn exact_sum(self, other: Self) -> (Self, Self) {
+        let sum = self + other;
+        let of_other = sum - self;
+        (sum, (self - (sum - of_other)) + (other - of_other))
+    }
+
+    /// a b and what its rounding leaves out.
+    #[inline(always)]
+    pub fn exact_product(self, other: Self) -> (Self, Self) {
+        let product = self * other;
+        let negative = (-product).values;
+        (product, Self { simd: self.simd, values: self.simd.mul_add_f64s(self.values, other.values, negative) })
+    }
+
     /// The square roots.
     #[inline(always)]
     pub fn sqrt(self) -> Self {

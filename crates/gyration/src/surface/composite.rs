@@ -201,7 +201,7 @@ impl Surface {
         let mut smallest = self.facets.smallest_gap(field);
         for patch in &self.patches {
             let point = patch.support(&-field.direction);
-            let gap = field.gap(&point);
+            let gap = patch.smallest_gap(field);
             if !gap.is_finite() {
                 return (gap, point);
             }
@@ -212,11 +212,16 @@ impl Surface {
         smallest
     }
 
+    /// Whether the moments of a body that moves rigidly keep the digits of a gap far below its size.
+    pub fn keeps_digits(&self) -> bool {
+        self.patches.iter().all(Patch::keeps_digits)
+    }
+
     /// Whether all gaps are finite and above a floor [m].
     #[inline]
     pub(crate) fn is_above(&self, field: &GapField, floor: f64) -> bool {
         let fits = |gap: f64| gap > floor && gap < f64::INFINITY;
-        let patches = || self.patches.iter().all(|patch| fits(field.gap(&patch.support(&-field.direction))));
+        let patches = || self.patches.iter().all(|patch| fits(patch.smallest_gap(field)));
         self.facets.are_above(field, floor) && patches()
     }
 

@@ -52,7 +52,7 @@ mod plan;
 
 pub use composite::Surface;
 pub use facets::{Facets, FacetsError};
-pub use gap::{GapClosed, GapField};
+pub use gap::{GapClosed, GapField, GapLack};
 pub use line::LineKernel;
 pub use moments::{Kernel, MomentRequest, Moments};
 pub use oriented::OrientedMoments;

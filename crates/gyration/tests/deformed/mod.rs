@@ -75,8 +75,8 @@ impl Numbers {
 
 /// The field with this direction and smallest gap.
 pub fn field_above(surface: &Surface, direction: Vec3, gap: f64) -> GapField {
-    let (lowest, _) = surface.smallest_gap(&GapField { height: 0.0, direction });
-    GapField { height: gap - lowest, direction }
+    let (lowest, _) = surface.smallest_gap(&GapField::new(0.0, direction));
+    GapField::new(gap - lowest, direction)
 }
 
 /// Gaps from a thousandth of the size on, mild and sharp kernels, the axis of symmetry upright and any attitude.

@@ -170,7 +170,7 @@ pub fn shapes() -> [Shape; 4] {
 /// Rates and powers.
 pub fn evaluate(model: &Model, time: f64, bodies: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let (mut slopes, mut powers) = (vec![0.0; bodies.len()], vec![0.0; model.works().len()]);
-    rates(model, &mut Workspace::default(), time, bodies, &mut slopes, &mut powers).unwrap();
+    rates(model, &mut Workspace::default(), time, bodies.into(), &mut slopes, &mut powers).unwrap();
     (slopes, powers)
 }
 
@@ -188,7 +188,7 @@ pub fn exponents() -> impl Strategy<Value = [f64; 4]> {
 pub fn assert_jacobian_is_the_derivative(model: &Model, state: &State) {
     let dimensions = model.bodies.iter().map(Body::dimension);
     let mut blocks: Vec<_> = dimensions.map(|dimension| DMatrix::zeros(dimension, dimension)).collect();
-    jacobian(model, &mut Workspace::default(), state.time, &state.bodies, &mut blocks).unwrap();
+    jacobian(model, &mut Workspace::default(), state.time, state.numbers(), &mut blocks).unwrap();
     for (body, (block, range)) in blocks.iter().zip(model.blocks()).enumerate() {
         for column in range.clone() {
             let step = 1e-5;
@@ -220,7 +220,7 @@ pub fn assert_power_is_the_rate_of_energy(model: &Model, state: &State) {
         let ahead = |(y, dy): (&f64, &f64)| y + sign * step * dy;
         let bodies = state.bodies.iter().zip(&slopes).map(ahead).collect();
         let mut values = vec![0.0; model.energies().len()];
-        let ahead = State { time: state.time + sign * step, bodies, works: state.works.clone() };
+        let ahead = State { time: state.time + sign * step, bodies, ..state.clone() };
         energies(model, &mut Workspace::default(), &ahead, &mut values).unwrap();
         values
     };

@@ -27,7 +27,7 @@ pub struct Ellipsoid {
 impl Ellipsoid {
     /// The area ∫ |B s| dΩ [m²].
     pub fn area(&self) -> f64 {
-        let field = GapField { height: 1.0, direction: Vec3::zeros() };
+        let field = GapField::new(1.0, Vec3::zeros());
         let request = MomentRequest { kernel: crate::surface::Kernel::Power(0.0), order: 0 };
         let mut out = [Moments::default()];
         self.moments(&field, &[request], &mut out);

@@ -89,7 +89,7 @@ impl Patch {
 
     /// Adds the moments about the origin of X; every gap on the patch must be positive.
     pub(crate) fn add_moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
-        let own = GapField { height: field.gap(&self.offset), direction: self.rotation.tr_mul(&field.direction) };
+        let own = GapField::new(field.gap(&self.offset), self.rotation.tr_mul(&field.direction));
         for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
             let mut sums = [Moments::default(); GROUP];
             let sums = &mut sums[..requests.len()];
@@ -178,7 +178,7 @@ impl Patch {
         requests: &[MomentRequest],
     ) -> Weighted<W> {
         let height = field.gap(&self.offset);
-        let own = GapField { height, direction: self.rotation.tr_mul(&field.direction) };
+        let own = GapField::new(height, self.rotation.tr_mul(&field.direction));
         // Takes the reference normal in the own frame to the current area vector.
         let deformed = Deformed { field: own, cofactor: cofactor * self.rotation, weights };
         let mut sums = [[Moments::default(); GROUP]; W];
@@ -203,12 +203,26 @@ impl Patch {
         (self.rotation * map.linear, self.offset + self.rotation * map.offset)
     }
 
+    /// Whether its moments keep the digits of a gap far below its size.
+    pub(crate) fn keeps_digits(&self) -> bool {
+        matches!(self.primitive, Primitive::Sphere(_))
+    }
+
+    /// The smallest gap [m] on the patch.
+    pub(crate) fn smallest_gap(&self, field: &GapField) -> f64 {
+        match &self.primitive {
+            Primitive::Sphere(sphere) if field.lack.is_some() => sphere.gaps(&self.offset, field).0,
+            _ => field.gap(&self.support(&-field.direction)),
+        }
+    }
+
     /// Refuses a field whose smallest gap on the patch is not a positive finite number beyond rounding.
     pub(crate) fn check_gap(&self, field: &GapField) -> Result<(), GapClosed> {
         let point = self.support(&-field.direction);
-        let (gap, fall) = (field.gap(&point), field.direction.dot(&point));
+        let (gap, fall) = (self.smallest_gap(field), field.direction.dot(&point));
         // A gap within the rounding of its two terms has no known sign.
-        let rounding = 16.0 * f64::EPSILON * (field.height.abs() + fall.abs());
+        let digits = if self.keeps_digits() && field.lack.is_some() { f64::EPSILON } else { 1.0 };
+        let rounding = 16.0 * f64::EPSILON * digits * (field.height.abs() + fall.abs());
         if gap.is_finite() && gap > rounding { Ok(()) } else { Err(GapClosed { gap }) }
     }
 

@@ -32,13 +32,27 @@ impl Sphere {
         self.radius * unit_or_z(direction)
     }
 
+    /// The smallest and the largest gap g₀ ± R|m| [m] of a sphere about `center`.
+    pub(crate) fn gaps(&self, center: &Vec3, field: &GapField) -> (f64, f64) {
+        let reach = self.radius * field.direction.norm();
+        let height = field.gap(center);
+        if field.lack.is_none() {
+            return (height - reach, height + reach);
+        }
+        let (_, [x, y, z]) = field.parts();
+        let slope = (x * x + y * y + z * z).sqrt();
+        let near = field.extended_gap(center) - slope * self.radius.into();
+        (near.value(), height + reach)
+    }
+
     /// Adds the moments of a sphere about `center` to those about the origin; every gap must be positive.
     pub(crate) fn add_moments(&self, center: &Vec3, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
-        let slope = field.direction.norm();
         let axis = unit_or_z(&field.direction);
+        let (near, far) = self.gaps(center, field);
         for (request, moments) in requests.iter().zip(out) {
             let kernel = LineKernel::up_to(request.kernel, request.order);
-            let u = height_moments(&kernel, field.gap(center), self.radius * slope, -1.0, 1.0, request.order);
+            let line = kernel.moments(&kernel.sample(near), &kernel.sample(far), request.order);
+            let u = shifted(&line, -1.0, 2.0);
             let mut sum = axial(self.radius, &axis, request.order, &u);
             sum.shift(center, request.order);
             moments.add(&sum, request.order);

@@ -9,6 +9,7 @@ use pulp::Simd;
 
 use crate::simd::{F64s, Row, WIDTH};
 use crate::surface::GapField;
+use crate::surface::gap::GapLack;
 use crate::tensor::Vec3;
 
 /// Three components in lanes.
@@ -100,6 +101,7 @@ impl TrianglePack {
 pub(super) struct SplatField<S: Simd> {
     height: F64s<S>,
     direction: Vector<S>,
+    lack: Option<(F64s<S>, Vector<S>)>,
 }
 
 impl<S: Simd> SplatField<S> {
@@ -107,12 +109,54 @@ impl<S: Simd> SplatField<S> {
     pub fn new(simd: S, field: &GapField) -> Self {
         let m = &field.direction;
         let splat = |x| F64s::splat(simd, x);
-        Self { height: splat(field.height), direction: [splat(m.x), splat(m.y), splat(m.z)] }
+        let mut lack = None;
+        if let Some(GapLack { height, direction: m }) = &field.lack {
+            lack = Some((splat(*height), [splat(m.x), splat(m.y), splat(m.z)]));
+        }
+        Self { height: splat(field.height), direction: [splat(m.x), splat(m.y), splat(m.z)], lack }
+    }
+
+    /// The gaps of three points.
+    #[inline(always)]
+    pub fn gaps(&self, points: &[Vector<S>; 3]) -> [F64s<S>; 3] {
+        let [a, b, c] = points;
+        match &self.lack {
+            None => [self.rounded_gap(a), self.rounded_gap(b), self.rounded_gap(c)],
+            Some(lack) => {
+                let mut gaps = [self.height; 3];
+                for (gap, point) in gaps.iter_mut().zip(points) {
+                    *gap = self.extended_gap(point, lack);
+                }
+                gaps
+            }
+        }
+    }
+
+    /// The gaps to twice the digits, rounded at the end.
+    #[inline(always)]
+    fn extended_gap(&self, [x, y, z]: &Vector<S>, (height, [lx, ly, lz]): &(F64s<S>, Vector<S>)) -> F64s<S> {
+        let [mx, my, mz] = self.direction;
+        let (first, second, third) = (mx.exact_product(*x), my.exact_product(*y), mz.exact_product(*z));
+        let (sum, lost_first) = first.0.exact_sum(second.0);
+        let (sum, lost_second) = sum.exact_sum(third.0);
+        let (sum, lost_third) = self.height.exact_sum(sum);
+        let products = (first.1 + second.1) + third.1;
+        let lacks = *height + ((*lx * *x + *ly * *y) + *lz * *z);
+        sum + (((lost_first + lost_second) + lost_third) + (products + lacks))
+    }
+
+    /// The gaps g₀ + m·X [m] of one point in each lane.
+    #[inline(always)]
+    pub fn gap(&self, point: &Vector<S>) -> F64s<S> {
+        match &self.lack {
+            None => self.rounded_gap(point),
+            Some(lack) => self.extended_gap(point, lack),
+        }
     }
 
     /// The gaps g₀ + m·X [m], rounded as [`GapField::gap`] does.
     #[inline(always)]
-    pub fn gap(&self, [x, y, z]: &Vector<S>) -> F64s<S> {
+    fn rounded_gap(&self, [x, y, z]: &Vector<S>) -> F64s<S> {
         let [mx, my, mz] = self.direction;
         self.height + ((mx * *x + my * *y) + mz * *z)
     }

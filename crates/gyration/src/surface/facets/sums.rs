@@ -245,7 +245,7 @@ mod tests {
         let turn = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.3)).matrix();
         let facets = Facets::cuboid(&Vec3::new(0.1, 0.14, 0.2)).transformed(&turn, &Vec3::zeros());
         for (height, direction) in [(0.15, Vec3::z()), (0.2, Vec3::new(0.6, 0.0, 0.8)), (3.0, turn * Vec3::x())] {
-            let field = GapField { height, direction };
+            let field = GapField::new(height, direction);
             for kernel in kernels.into_iter().chain([Kernel::Log]) {
                 for order in 0..4 {
                     let plan = FacetPlan::new(&[MomentRequest { kernel, order }]);

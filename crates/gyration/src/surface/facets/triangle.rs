@@ -48,7 +48,7 @@ impl<S: Simd> Triangle<S> {
     pub fn new(pack: &TrianglePack, register: usize, field: &SplatField<S>, twice_area: F64s<S>) -> Self {
         let simd = twice_area.simd;
         let [mut a, mut b, mut c] = pack.corners(simd, register);
-        let (mut low, mut middle, mut high) = (field.gap(&a), field.gap(&b), field.gap(&c));
+        let [mut low, mut middle, mut high] = field.gaps(&[a, b, c]);
         sort(&mut low, &mut a, &mut middle, &mut b);
         sort(&mut middle, &mut b, &mut high, &mut c);
         sort(&mut low, &mut a, &mut middle, &mut b);
