@@ -19,6 +19,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Steps at most. A fall over a thousand sizes takes some forty, a box on its corner that finds a face a hundred.
 const MOST: usize = 1000;
+/// Evaluations of the forces and their derivatives at most: those of a body that deforms take up to 10 ms.
+const MOST_EVALUATIONS: usize = 2000;
 /// Halvings of a step at most.
 const HALVINGS: usize = 60;
 /// The most that a step may strain or turn the body.
@@ -40,16 +42,24 @@ pub(super) fn find(frozen: &mut FrozenBody) -> Result<Rest, NoRest> {
     frozen.accelerations(&frozen.start.clone())?;
     is_supported(frozen)?;
     let mut search = Search { block: frozen.start.clone(), reach: 0.5 * frozen.body().size, last: f64::INFINITY };
-    for _ in 0..MOST {
+    for steps in 0..MOST {
+        if frozen.evaluations() > MOST_EVALUATIONS {
+            return Err(not_found(frozen, &search.block, steps)?);
+        }
         let ended = search.step(frozen)?;
         gone(frozen, &search.block)?;
         if ended {
             return Ok(rest_at(frozen, search.block));
         }
     }
-    let left = frozen.accelerations(&search.block)?;
+    Err(not_found(frozen, &search.block, MOST)?)
+}
+
+/// A search that has not ended, and the acceleration where it stands.
+fn not_found(frozen: &mut FrozenBody, block: &[f64], steps: usize) -> Result<NoRest, NoRest> {
+    let left = frozen.accelerations(block)?;
     let acceleration = left.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    Err(NoRest::NotFound { steps: MOST, acceleration })
+    Ok(NoRest::NotFound { steps, acceleration })
 }
 
 /// Refuses what gravity moves on for ever: the laws push along the normals of supports alone.

@@ -25,6 +25,7 @@ pub(super) struct FrozenBody {
     index: usize,
     /// Its block of the state at the start, without velocities.
     pub start: Vec<f64>,
+    evaluations: usize,
 }
 
 impl FrozenBody {
@@ -52,7 +53,12 @@ impl FrozenBody {
             frozen = frozen.in_fluid(Fluid { velocity, gradient, ..*fluid });
         }
         let model = frozen;
-        Self { model, workspace: Workspace::default(), time: start.time, index, start: block }
+        Self { model, workspace: Workspace::default(), time: start.time, index, start: block, evaluations: 0 }
+    }
+
+    /// How often forces or their derivatives have been computed.
+    pub fn evaluations(&self) -> usize {
+        self.evaluations
     }
 
     pub fn body(&self) -> &Body {
@@ -65,6 +71,7 @@ impl FrozenBody {
 
     /// The velocities' rates.
     pub fn accelerations(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
+        self.evaluations += 1;
         let mut slopes = vec![0.0; block.len()];
         let mut powers = vec![0.0; self.model.works().len()];
         let done = rates(&self.model, &mut self.workspace, self.time, block.into(), &mut slopes, &mut powers);
@@ -74,6 +81,7 @@ impl FrozenBody {
 
     /// The exact Jacobian.
     pub fn slopes(&mut self, block: &[f64]) -> Result<DMatrix<f64>, Inadmissible> {
+        self.evaluations += 1;
         let mut blocks = [DMatrix::zeros(block.len(), block.len())];
         let done = jacobian(&self.model, &mut self.workspace, self.time, block.into(), &mut blocks);
         done.map_err(|left| Inadmissible { body: self.index, ..left })?;

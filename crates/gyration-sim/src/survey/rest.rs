@@ -24,8 +24,10 @@ use gyration::tensor::{Mat3, Vec3};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Gaps between these fractions of the size are searched for a balance.
-const SEARCHED: (f64, f64) = (1e-9, 1e3);
+/// Gaps between these fractions of the size are searched for a balance, where surfaces keep the digits of small ones.
+const SEARCHED: (f64, f64) = (1e-15, 1e3);
+/// The least such fraction elsewhere.
+const LEAST_ELSEWHERE: f64 = 1e-9;
 /// Trial gaps in a decade; two balances nearer than that would be missed.
 const TRIALS_PER_DECADE: f64 = 25.0;
 /// Halvings of a bracket: a step of the search is halved to below rounding.
@@ -61,10 +63,10 @@ pub struct Approach<'a> {
     direction: Vec3,
     /// How the surface is deformed, if the body may be.
     deformation: Option<Deformation>,
-    /// Height of the centre of mass less the gap [m].
-    depth: f64,
     mass: f64,
     size: f64,
+    /// Whether gaps far below the size are known.
+    keeps_digits: bool,
     /// W = −m g·n [N].
     pub weight: f64,
     /// Smallest distance at the start [m].
@@ -88,9 +90,9 @@ impl<'a> Approach<'a> {
             normal: plane.normal,
             direction,
             deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
-            depth: height - initial_gap,
             mass: body.solid.mass.mass,
             size: body.size,
+            keeps_digits: body.keeps_digits(surface),
             weight: -body.solid.mass.mass * model.gravity.dot(&plane.normal),
             initial_gap,
             no_rest_because: held_otherwise(body),
@@ -121,7 +123,7 @@ impl<'a> Approach<'a> {
     fn contact_state(&self, gap: f64) -> Meeting<'a> {
         Meeting {
             surface: self.surface,
-            field: GapField::new(self.depth + gap, self.direction),
+            field: self.surface.field_at(gap, self.direction),
             motion: RelativeMotion { normal: self.normal, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() },
             deformation: self.deformation,
         }
@@ -144,7 +146,8 @@ impl<'a> Approach<'a> {
         if !self.acts() || self.no_rest_because.is_some() {
             return Vec::new();
         }
-        let (low, high) = (SEARCHED.0 * self.size, SEARCHED.1 * self.size);
+        let least = if self.keeps_digits { SEARCHED.0 } else { LEAST_ELSEWHERE };
+        let (low, high) = (least * self.size, SEARCHED.1 * self.size);
         let count = (TRIALS_PER_DECADE * (high / low).log10()).ceil() as usize;
         let gap = |k: usize| low * (high / low).powf(k as f64 / count as f64);
         let balance = |gap: f64| Some(self.force(gap)? - self.weight);
@@ -235,6 +238,35 @@ fn decay_time(frequency: f64, ratio: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// αA (d/d₀)^−ν = W of the bottom face of a cube, which alone is near: at d₀ = 1e-13 m the sides and the top add
+    /// nothing that a number would hold.
+    #[test]
+    fn rest_gaps_far_below_the_size_are_found() {
+        for (edge, reference_gap) in [(1.0, 1e-13), (1e-3, 1e-17), (100.0, 1e-9)] {
+            let weight = 500.0 * 9.81 * edge * edge * edge;
+            let alpha = 3.0 * weight / (edge * edge);
+            let text = format!(
+                r#"
+                time = {{ end = 1, sample = 1 }}
+                support = [{{ name = "table", plane = {{ origin = [0, 0, 0], normal = [0, 0, 1] }} }}]
+                contact = [{{ support = "table", repulsion = {{ alpha = {alpha:e}, nu = 4, d0 = {reference_gap:e} }} }}]
+                [[body]]
+                name = "cube"
+                shape = {{ box = {{ size = [{edge:e}, {edge:e}, {edge:e}] }} }}
+                density = 500
+                position = [0, 0, {:e}]
+                "#,
+                2.0 * edge
+            );
+            let scene = gyration_scene::Scene::parse("cube.toml", &text, std::path::Path::new(""), &[]).unwrap();
+            let built = scene.built();
+            let rests = Approach::new(&built.model, &built.state, 0, 0).unwrap().rests();
+            let known = reference_gap * 3.0_f64.powf(0.25);
+            assert_eq!(rests.len(), 1, "{edge}: {rests:?}");
+            assert!((rests[0].gap / known - 1.0).abs() < 1e-8, "{edge}: {:e} for {known:e}", rests[0].gap);
+        }
+    }
 
     #[test]
     fn decay_is_that_of_the_slowest_part() {

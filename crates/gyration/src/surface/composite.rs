@@ -6,6 +6,7 @@ use super::gap::{GapClosed, GapField};
 use super::moments::{MomentRequest, Moments};
 use super::oriented::OrientedMoments;
 use super::plan::MomentPlan;
+use crate::extended::Extended;
 use crate::tensor::{Mat3, Vec3};
 
 /// The surface of a body: flat facets and smooth patches, with X relative to any origin.
@@ -210,6 +211,22 @@ impl Surface {
             }
         }
         smallest
+    }
+
+    /// The gap field of a direction m in which the smallest gap is the one given [m], to twice the digits where the
+    /// surface keeps them.
+    pub fn field_at(&self, gap: f64, direction: Vec3) -> GapField {
+        let flat = GapField::extended(0.0.into(), &direction.map(Extended::from).into());
+        let (lowest, point) = self.smallest_gap(&flat);
+        let fall = if self.keeps_digits() { flat.extended_gap(&point) } else { lowest.into() };
+        let field = GapField::extended(Extended::from(gap) - fall, &flat.parts().1);
+        // What the place of the point on a curved surface is rounded to.
+        let left = Extended::from(gap) - self.smallest_gap(&field).0.into();
+        if left.value().abs() < 0.5 * gap {
+            GapField::extended(field.parts().0 + left, &field.parts().1)
+        } else {
+            field
+        }
     }
 
     /// Whether the moments of a body that moves rigidly keep the digits of a gap far below its size.
