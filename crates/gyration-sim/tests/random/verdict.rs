@@ -111,7 +111,7 @@ impl Sink for Auditor<'_> {
     }
 }
 
-/// The state in a checkpoint: the last of its five lists of numbers is time, bodies, works and more.
+/// The state in a checkpoint: the last of its five lists of numbers is time, bodies, works, what they lack, and more.
 fn state_of(model: &Model, checkpoint: &[u8]) -> State {
     let (words, _) = checkpoint.as_chunks::<8>();
     let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
@@ -122,8 +122,9 @@ fn state_of(model: &Model, checkpoint: &[u8]) -> State {
     let _count = words.next();
     let mut reals = words.map(f64::from_bits);
     let time = reals.next().unwrap();
-    let bodies = reals.by_ref().take(model.dimension()).collect();
-    State { time, bodies, low: Vec::new(), works: reals.take(model.works().len()).collect() }
+    let [bodies, works, low] =
+        [model.dimension(), model.works().len(), model.dimension()].map(|count| reals.by_ref().take(count).collect());
+    State { time, bodies, low, works }
 }
 
 /// The contact energy [J] that it takes to bring the nearest body to a gap of 1e-9 of its size, turned as it is.

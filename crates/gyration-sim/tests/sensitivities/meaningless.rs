@@ -138,7 +138,7 @@ fn crashing() -> String {
 #[test]
 fn a_run_that_stops_has_no_end_to_differentiate_at() {
     let lost = lost(&crashing(), &[], "body.ball.position.2");
-    assert!(lost.reason.starts_with("the run ends there, before its time: "), "{}", lost.reason);
+    assert!(lost.reason.contains("body \"ball\" reaches support \"table\""), "{}", lost.reason);
     // It falls by 0.9 m.
     assert!((lost.from - (1.8f64 / 9.81).sqrt()).abs() < 1e-2, "{}", lost.from);
 }
@@ -148,8 +148,9 @@ fn a_neighbour_below_its_support_takes_the_derivative_with_it() {
     let found = samples(&crashing(), &[], &["body.ball.position.2"], &["ball.z"]);
     let (rows, lost) = (&found.derivatives[0].rows, found.derivatives[0].lost.as_ref().unwrap());
     println!("{} of {} samples, {lost}", rows.len(), found.times.len());
-    assert!(lost.reason.starts_with("with a little more or less of it, body \"ball\" reaches support \"table\""));
-    assert_eq!((lost.from, rows.len()), (found.times[5], 5));
+    assert!(lost.reason.contains("body \"ball\" reaches support \"table\""), "{}", lost.reason);
+    assert_eq!(rows.len(), 5);
+    assert!(found.times[4] < lost.from && lost.from <= found.times[5], "{}", lost.from);
     // Falling freely until then.
     assert!(rows.iter().all(|row| (row[0] - 1.0).abs() < 1e-6), "{rows:?}");
 }
