@@ -57,7 +57,8 @@ fn a_study_that_fills_the_disk_says_so_and_ends_with_the_same_table() {
     sandbox.done(&["study", "low.toml", "-o", "whole.study", "--quiet"]);
     let run = "$gyration study low.toml -o small/low.study --quiet";
     let script = format!(
-        "{run}; echo code $?; grow; {run} --resume || {run}; echo code $?; cmp whole.study/table.parquet small/low.study/table.parquet && echo same"
+        "{run}; echo code $?; grow; {run} --resume || {run}; echo code $?; \
+         cmp whole.study/table.parquet small/low.study/table.parquet && echo same"
     );
     let mut full = 0;
     // Whatever file it is that finds no room: manifest, journal, chunk or table.

@@ -117,7 +117,8 @@ impl Group {
         if checksum.is_some() && check::is_sealed(bytes, CHECKSUM_PLACE) != Some(true) {
             let file = path.join(METADATA);
             let reason = format!(
-                "it does not match its checksum; take it from a copy or, if you changed it yourself, remove its attribute {CHECKSUM}"
+                "it does not match its checksum; take it from a copy or, if you changed it yourself, remove its \
+                 attribute {CHECKSUM}"
             );
             return Err(RecordError::corrupt(&file, reason));
         }

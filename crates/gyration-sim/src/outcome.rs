@@ -186,7 +186,10 @@ impl Stop {
             ),
             Quantity::Slenderness => (
                 Reason::TooSlender,
-                format!("body {body:?} is {:.1e} times as long as it is thick, beyond which its rates are not known", left.value),
+                format!(
+                    "body {body:?} is {:.1e} times as long as it is thick, beyond which its rates are not known",
+                    left.value
+                ),
                 "The flow draws it out without end: end the run before, weaken the flow, or give it a stiffer material."
                     .to_string(),
             ),

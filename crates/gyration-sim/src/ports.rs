@@ -82,7 +82,10 @@ pub enum RunError {
     #[error(transparent)]
     Record(#[from] RecordError),
     /// The recording to be resumed is of another scene.
-    #[error("{} is a recording of another scene:\n  {what}\n  fix: {fix}; else give another -o, or --force to overwrite it", path.display())]
+    #[error(
+        "{} is a recording of another scene:\n  {what}\n  fix: {fix}; else give another -o, or --force to overwrite it",
+        path.display()
+    )]
     OtherScene {
         /// The recording.
         path: PathBuf,

@@ -88,7 +88,8 @@ pub fn contact(draft: &mut Draft, support: usize, body: &str, rest_gap: f64) -> 
         let (beta, d0) = (pressure * draft.stream.decade(-2.0, 1.0), rest_gap * draft.stream.decade(-0.5, 0.5));
         let _ = writeln!(
             text,
-            "adhesion = {{ beta = {beta:?}, nu_attractive = {attractive:?}, nu_repulsive = {repulsive:?}, d0 = {d0:?} }}"
+            "adhesion = {{ beta = {beta:?}, nu_attractive = {attractive:?}, nu_repulsive = {repulsive:?}, \
+             d0 = {d0:?} }}"
         );
     }
     text + "\n"

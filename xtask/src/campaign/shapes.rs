@@ -104,7 +104,8 @@ fn union(draft: &mut Draft, radius: f64) -> String {
             let (turn, density) = (list(&draft.stream.turn()), draft.stream.decade(-0.5, 0.5));
             let shape = shape(draft, kind, 0.5 * radius);
             format!(
-                "{{ shape = {shape}, offset = {offset}, orientation = {{ quaternion = {turn} }}, density = {density:?} }}"
+                "{{ shape = {shape}, offset = {offset}, orientation = {{ quaternion = {turn} }}, \
+                 density = {density:?} }}"
             )
         })
         .collect();
