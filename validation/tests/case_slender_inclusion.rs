@@ -2,7 +2,7 @@
 //!
 //!   P = diag(λ, λ^−½ (1 + δ), λ^−½/(1 + δ)),   ln(P_yy/P_zz)˙ = c(λ) δ   for δ → 0
 //!
-//! The rates are known to 1e-17 λ² of that of the flow: c falls as 1/λ, so that at λ = 10³ a δ of 10⁻⁷ is lost.
+//! The stress along the thread is up to 10⁸ of that across, and must not be mixed with it.
 
 use gyration_sim::{Outcome, Reason};
 use gyration_validation::{Case, Experiment};
@@ -36,19 +36,19 @@ fn parting(stretch: f64, delta: f64) -> f64 {
 
 #[test]
 fn nearly_equal_short_axes_part_at_a_rate_linear_in_their_difference() {
-    const ALL: &[f64] = &[1e-5, 1e-6, 1e-8, 1e-10];
     let cases = [
-        ("ellipsoid drawn out tenfold", 10.0, ALL),
-        ("needle, λ = 1e2", 1e2, ALL),
-        ("thread, λ = 1e3", 1e3, &[1e-5, 1e-6]),
+        ("ellipsoid drawn out tenfold", 10.0),
+        ("needle, λ = 1e2", 1e2),
+        ("thread, λ = 1e3", 1e3),
+        ("thread, λ = 9e3, as slender as is allowed", 9e3),
     ];
-    for (name, stretch, deltas) in cases {
+    for (name, stretch) in cases {
         // δ² is 1e-6 of it.
         let reference = parting(stretch, 1e-3) / 1e-3;
         let case = Case { row: None, name, source: "linear in δ" };
-        for &delta in deltas {
-            // The stress along the thread, μλ², is rounded, and the rates across with it.
-            let tolerance = 3e-3 + 1e-17 * stretch * stretch / (reference * delta).abs();
+        for delta in [1e-5, 1e-6, 1e-8, 1e-10] {
+            // The rates of the axes, of which it is the difference, are 0.5 1/s and rounded each for itself.
+            let tolerance = 1e-3 + 1e-15 / (reference * delta).abs();
             case.check("ln(P_yy/P_zz)˙ [1/s]", reference * delta, parting(stretch, delta), tolerance);
         }
     }

@@ -3,8 +3,9 @@
 //!   B = M − V(S_e + τ P⁻ᵀ),   P̈ = B J⁻¹ + π V Y
 //!
 //! Y and π V of an incompressible body as in `constraint`. S_e Pᵀ is symmetric, and made so to the last bit, and an
-//! incompressible body's is taken without its mean, which the pressure takes over: rounding of a large stress must not
-//! turn or swell a stiff body, since nothing would bring it back, and the steps would have to follow that noise.
+//! incompressible body's is taken without its middle entry of the diagonal, which the pressure takes over: rounding of
+//! a large stress must not turn or swell a stiff body, since nothing would bring it back, and the steps would have to
+//! follow that noise. The middle one and not their mean: across a thread, the mean would be that of the pull along it.
 
 use super::constraint::Constraint;
 use super::mobility::Mobility;
@@ -43,13 +44,14 @@ impl<F: F64x4> Solution<F> {
         let mobility = Mobility::of(&body.inverse);
         let constraint = body.is_incompressible().then(|| Constraint::new(body, &across));
         let mut straight = kirchhoff;
-        let mut mean = 0.0;
+        let mut taken = 0.0;
         if let Some(elastic) = elastic {
             straight += elastic;
         }
         if constraint.is_some() {
-            mean = straight.trace() / 3.0;
-            straight = straight.plus_unit(-mean);
+            let [x, y, z] = [straight.at(0, 0), straight.at(1, 1), straight.at(2, 2)];
+            taken = x.min(y).max(x.max(y).min(z));
+            straight = straight.plus_unit(-taken);
         }
         let mut stress = straight.times(&across);
         let free = *moment - stress * body.volume;
@@ -59,7 +61,7 @@ impl<F: F64x4> Solution<F> {
             let rest = constraint.push(&free, l.dot(&l.transpose()));
             acceleration += constraint.way * rest;
             stress += across * (-rest / body.volume);
-            push = rest + mean * body.volume;
+            push = rest + taken * body.volume;
         }
         Self { mobility, across, l, kirchhoff, stress, acceleration, constraint, push }
     }
