@@ -46,10 +46,16 @@ fn nearly_equal_short_axes_part_at_a_rate_linear_in_their_difference() {
         // δ² is 1e-6 of it.
         let reference = parting(stretch, 1e-3) / 1e-3;
         let case = Case { row: None, name, source: "linear in δ" };
-        for delta in [1e-5, 1e-6, 1e-8, 1e-10] {
+        let deltas = [
+            (1e-5, "ln(P_yy/P_zz)˙ at δ = 1e-5 [1/s]"),
+            (1e-6, "ln(P_yy/P_zz)˙ at δ = 1e-6 [1/s]"),
+            (1e-8, "ln(P_yy/P_zz)˙ at δ = 1e-8 [1/s]"),
+            (1e-10, "ln(P_yy/P_zz)˙ at δ = 1e-10 [1/s]"),
+        ];
+        for (delta, quantity) in deltas {
             // The rates of the axes, of which it is the difference, are 0.5 1/s and rounded each for itself.
             let tolerance = 1e-3 + 1e-15 / (reference * delta).abs();
-            case.check("ln(P_yy/P_zz)˙ [1/s]", reference * delta, parting(stretch, delta), tolerance);
+            case.check(quantity, reference * delta, parting(stretch, delta), tolerance);
         }
     }
 }
