@@ -196,7 +196,8 @@ impl System for ModelSystem<'_> {
             // The rounding of the places from which the gap is computed is all that can be had, unless their numbers
             // have twice the digits.
             let lengths = motion.placement.position.norm() + body.size;
-            let extended = gap < NEAR * lengths && body.solid.surface.as_ref().is_some_and(|it| body.keeps_digits(it));
+            let extended =
+                gap < NEAR * body.size && body.solid.surface.as_ref().is_some_and(|it| body.keeps_digits(it));
             let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
             let velocity = atol * self.prepared.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
             y_scale[slots.position()].fill(length + rounding);
