@@ -5,8 +5,8 @@
 use gyration_plot::PlotError;
 use gyration_record::RecordError;
 use gyration_scene::{LoadError, NotInGallery, NotToml};
-use gyration_sim::RunError;
 use gyration_sim::resistance::NoSuchResistance;
+use gyration_sim::{Reason, RunError};
 #[cfg(feature = "study")]
 use gyration_study::calibration::CalibrationError;
 #[cfg(feature = "view")]
@@ -88,6 +88,11 @@ impl CliError {
     /// The exit code that tells it to scripts.
     pub fn code(&self) -> u8 {
         match self {
+            Self::Scene(LoadError::Content(errors)) if errors.is_interrupted() => code::ENDED_EARLY,
+            Self::Run(RunError::Interrupted(stop)) => match stop.reason {
+                Reason::Interrupted => code::INTERRUPTED,
+                _ => code::ENDED_EARLY,
+            },
             Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } => code::BAD_INPUT,
             Self::Gallery(_) | Self::Resistance(_) | Self::Resolved(_) => code::BAD_INPUT,
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
@@ -102,7 +107,7 @@ impl CliError {
             #[cfg(feature = "study")]
             Self::Calibration(CalibrationError::Load(LoadError::Read(_))) => code::BAD_FILE,
             #[cfg(feature = "study")]
-            Self::Calibration(CalibrationError::Search(_)) => code::ENDED_EARLY,
+            Self::Calibration(CalibrationError::Search(_) | CalibrationError::Interrupted { .. }) => code::ENDED_EARLY,
             #[cfg(feature = "study")]
             Self::Calibration(_) => code::BAD_INPUT,
             #[cfg(feature = "view")]

@@ -7,6 +7,7 @@ use crate::error::{CliError, code};
 use crate::output;
 use gyration_sim::format::{duration, significant};
 use gyration_sim::{Monitor, Progress, Reason, limit_in_words};
+use gyration_threads::Interruption;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::sync::Arc;
@@ -45,6 +46,11 @@ impl Terminal {
             self.drawn = now;
             draw(bar, now);
         }
+    }
+
+    /// The interruption by Ctrl-C.
+    pub fn interruption(&self) -> Interruption {
+        Interruption::in_force().raised_by(self.interrupted.clone())
     }
 
     /// Whether Ctrl-C has come.
@@ -96,6 +102,11 @@ impl RunProgress {
         Ok(Self { terminal: Terminal::new(with_bar)?, since: (Instant::now(), f64::NAN) })
     }
 
+    /// The interruption by Ctrl-C.
+    pub fn interruption(&self) -> Interruption {
+        self.terminal.interruption()
+    }
+
     /// Removes the bar.
     pub fn finish(&self) {
         self.terminal.finish();
@@ -125,6 +136,7 @@ impl Monitor for RunProgress {
             ));
             bar.set_position((TICKS as f64 * time / end) as u64);
         });
-        terminal.is_interrupted().then_some(Reason::Interrupted)
+        // Ctrl-C is an interruption in force.
+        None
     }
 }

@@ -86,6 +86,27 @@ fn exit_code_does_not_hang_on_a_reader_of_stdout() {
 }
 
 #[test]
+fn boundary_elements_take_no_longer_than_a_run_may() {
+    let sandbox = Sandbox::new();
+    sandbox.write(
+        "box.toml",
+        r#"
+        time = { end = 1, sample = 0.5 }
+        solver.max_wall_time = "50 ms"
+        fluid = { viscosity = 1 }
+        [[body]]
+        name = "box"
+        shape = { box = { size = [1, 2, 3] } }
+        density = 1
+        inclusion = { triangles = 5000 }
+        "#,
+    );
+    let said = sandbox.refused(1, &["run", "box.toml"]);
+    assert!(said.stderr.contains("box.toml:7") && said.stderr.contains("solver.max_wall_time"), "{}", said.stderr);
+    assert_eq!(sandbox.names(), ["box.toml"]);
+}
+
+#[test]
 fn summary_in_json_is_all_there_is_on_stdout() {
     let sandbox = Sandbox::with_ball();
     let said = sandbox.done(&["run", "ball.toml", "--json", "-o", "a.gyr"]);

@@ -3,6 +3,7 @@
 
 use crate::convert::{array, object, to_python};
 use crate::errors;
+use crate::monitor::interruptibly;
 use crate::scene::Scene;
 use gyration_sim::resistance::{ResistanceOptions, Resistances};
 use gyration_sim::survey::modes_in_json;
@@ -15,7 +16,7 @@ use serde_json::{Map, Value};
 #[pyfunction]
 pub fn modes<'py>(py: Python<'py>, scene: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::ready(scene)?;
-    let all = py.detach(|| modes_in_json(&scene));
+    let all = interruptibly(py, || modes_in_json(&scene))?;
     let found = PyDict::new(py);
     for body in list(&all, "bodies") {
         let described = PyDict::new(py);
@@ -80,7 +81,7 @@ pub fn resistance<'py>(
     };
     let triangles = triangles.map(counted).transpose()?;
     let options = ResistanceOptions { wall, triangles, elements, frequency };
-    let found = py.detach(|| Resistances::of(&scene, body.as_deref(), &options));
+    let found = interruptibly(py, || Resistances::of(&scene, body.as_deref(), &options))?;
     let all = found.map_err(|error| errors::arguments(error.to_string()))?.to_json(scene.name());
     let found = PyDict::new(py);
     for described in list(&all, "bodies") {

@@ -2,6 +2,7 @@
 
 use crate::convert::{array, json, object};
 use crate::errors;
+use crate::monitor::interruptibly;
 use crate::picture::{Picture, PictureSource};
 use gyration_study::calibration::{Calibration, CalibrationError, Fitted};
 use pyo3::prelude::*;
@@ -29,14 +30,14 @@ pub fn calibrate(source: &Bound<'_, PyAny>) -> PyResult<Fit> {
     };
     let found = if let Ok(data) = source.cast::<PyDict>() {
         let text = json(data)?;
-        py.detach(|| fit(Calibration::parse("measurements.json", &text, Path::new(""))))
+        interruptibly(py, || fit(Calibration::parse("measurements.json", &text, Path::new(""))))?
     } else {
         let path: PathBuf = source.extract().map_err(|_| {
             errors::arguments(format!(
                 "{source} is no calibration\n  fix: give a path, or a dictionary of measurements"
             ))
         })?;
-        py.detach(|| fit(Calibration::load(&path)))
+        interruptibly(py, || fit(Calibration::load(&path)))?
     };
     found.map_err(|error| match error {
         CalibrationError::Load(error) => errors::study_file(error),

@@ -7,12 +7,19 @@
 use crate::convert::{says_stop, shown};
 use gyration_sim::{Monitor, Progress, Reason};
 use gyration_study::{StudyMonitor, StudyProgress};
+use gyration_threads::Interruption;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// How often Python is asked.
 const EVERY: Duration = Duration::from_millis(100);
+/// How often signals are looked at while another thread works.
+const GLANCE: Duration = Duration::from_millis(50);
 
 /// The monitor of a run, or of many.
 pub struct PythonMonitor {
@@ -26,6 +33,36 @@ pub struct PythonMonitor {
     is_over: bool,
     /// What Python raised.
     raised: Option<PyErr>,
+}
+
+/// Does work that knows nothing of Python, without the lock and on a thread of its own, while this one looks at
+/// signals. An interruption gives the work up, and what Python raised is raised when it has ended.
+pub fn interruptibly<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let interruption = Interruption::in_force().raised_by(flag.clone());
+    let mut raised = None;
+    let done = py.detach(|| {
+        thread::scope(|scope| {
+            // Nothing is sent: the end of the work ends the channel.
+            let (working, over) = channel::<()>();
+            let worker = scope.spawn(move || {
+                let _working = working;
+                interruption.within(work)
+            });
+            while over.recv_timeout(GLANCE) == Err(RecvTimeoutError::Timeout) {
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    flag.store(true, Ordering::Relaxed);
+                    raised.get_or_insert(error);
+                }
+            }
+            worker.join()
+        })
+    });
+    match (raised, done) {
+        (Some(error), _) => Err(error),
+        (None, Ok(done)) => Ok(done),
+        (None, Err(panic)) => std::panic::resume_unwind(panic),
+    }
 }
 
 /// Who wants to know how far a run is.

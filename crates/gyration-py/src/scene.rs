@@ -2,6 +2,7 @@
 
 use crate::convert::{self, json, object, overrides, shown, to_python};
 use crate::errors;
+use crate::monitor::interruptibly;
 use crate::picture::Picture;
 use crate::recording::Recording;
 use crate::run::{RecordOptions, run};
@@ -189,7 +190,7 @@ impl Scene {
     /// What can be said of the scene before it runs, as ``gyration check`` prints it: mass, rest gaps, time scales,
     /// whether laws forbid touching, resolved form.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
-        let survey = py.detach(|| Survey::of(&self.inner)).map_err(|error| errors::content(&error))?;
+        let survey = interruptibly(py, || Survey::of(&self.inner))?.map_err(|error| errors::content(&error))?;
         survey.text(&self.inner).map_err(|error| errors::arguments(error.to_string()))
     }
 
@@ -249,7 +250,7 @@ fn completed(py: Python<'_>, scene: Arc<Inner>) -> PyResult<Arc<Inner>> {
     if scene.unknown_forms().is_empty() {
         return Ok(scene);
     }
-    let found = py.detach(|| gyration_sim::complete((*scene).clone()));
+    let found = interruptibly(py, || gyration_sim::complete((*scene).clone()))?;
     Ok(Arc::new(found.map_err(|error| errors::content(&error))?))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::convert::array;
 use crate::errors;
+use crate::monitor::interruptibly;
 use crate::scene::Scene;
 use gyration_sim::sensitivity::{At, Derivatives, Sensitivities, SensitivityError};
 use pyo3::prelude::*;
@@ -28,7 +29,7 @@ pub fn sensitivities<'py>(
         "samples" => At::Samples,
         other => return Err(errors::arguments(format!("`at` is {other:?}\n  fix: give \"end\" or \"samples\""))),
     };
-    let found = py.detach(|| Sensitivities::along(&scene, &keys, &quantities, when)).map_err(refused)?;
+    let found = interruptibly(py, || Sensitivities::along(&scene, &keys, &quantities, when))?.map_err(refused)?;
     let (columns, reasons) = (quantities.len(), PyDict::new(py));
     for (key, derivatives) in keys.iter().zip(&found.derivatives) {
         reasons.set_item(key, derivatives.lost.as_ref().map(ToString::to_string))?;

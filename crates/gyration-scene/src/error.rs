@@ -40,6 +40,8 @@ pub enum ErrorKind {
     /// A value: out of its limits, or at odds with others. Another number may do.
     #[default]
     Value,
+    /// Nothing that is known to be wrong: to find out took too long.
+    Interrupted,
 }
 
 /// The text around an error and which part of it is marked.
@@ -89,6 +91,11 @@ impl SceneErrors {
     /// The errors, in the order of the file, those of overrides last; of very many, the first ones.
     pub fn as_slice(&self) -> &[SceneError] {
         &self.errors
+    }
+
+    /// Whether nothing is known to be wrong, but something was given up before it was known.
+    pub fn is_interrupted(&self) -> bool {
+        self.errors.iter().any(|error| error.fault == ErrorKind::Interrupted)
     }
 
     /// How many were found; after some thousands the search ends.

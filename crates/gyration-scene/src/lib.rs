@@ -39,4 +39,4 @@ pub use overriding::{Override, OverrideValue};
 pub use scene::Scene;
 pub use schema::{schema, schema_of};
 pub use template::{Template, unit_of};
-pub use unknown::UnknownForm;
+pub use unknown::{NoForm, UnknownForm};

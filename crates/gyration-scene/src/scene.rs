@@ -6,11 +6,10 @@ use crate::error::{ErrorKind, NotToml, SceneErrors};
 use crate::file::SceneFile;
 use crate::key::Key;
 use crate::overriding::Override;
-use crate::unknown::{FIX, Unknown, UnknownForm};
+use crate::unknown::{FIX, GIVEN_UP, NoForm, PATIENCE, Unknown, UnknownForm};
 use gyration::body::Body;
 use gyration::fluid::Form;
 use serde_json::Value;
-use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// A scene without errors, with its text, its resolved form and its model.
@@ -85,9 +84,9 @@ impl Scene {
     ///
     /// # Errors
     /// Why a surface has no resistance, at the key of its shape.
-    pub fn complete<E: Display>(
+    pub fn complete(
         mut self,
-        mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, E>,
+        mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, NoForm>,
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
@@ -99,7 +98,13 @@ impl Scene {
                 (Ok(_), None) => {}
                 (Err(error), _) => {
                     let key = Key::root().key("body").index(asked.body).key("shape");
-                    diagnostics.at(key.span(&document.root), &key, error.to_string(), FIX);
+                    match error {
+                        NoForm::Surface(problem) => diagnostics.at(key.span(&document.root), &key, problem, FIX),
+                        NoForm::Interrupted => {
+                            diagnostics.look_at(ErrorKind::Interrupted);
+                            diagnostics.at(key.span(&document.root), &key, GIVEN_UP, PATIENCE);
+                        }
+                    }
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! `Scene::complete` is given the form. What is wrong with a surface is then noted at its key, as any other error.
 
 use crate::document::Document;
-use gyration::fluid::{FixedForm, Form, ResistanceSource, ResistanceTable, Resolution, SurfaceForm};
+use gyration::fluid::{FixedForm, Form, NoMatrix, ResistanceSource, ResistanceTable, Resolution, SurfaceForm};
 use gyration::load::Mat12;
 use gyration::shape::Shape;
 use gyration::tensor::Mat3;
@@ -34,13 +34,22 @@ impl UnknownForm {
     }
 }
 
+/// Why a form stays unknown.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoForm {
+    /// There is none, for this reason.
+    Surface(String),
+    /// It was given up before it was known.
+    Interrupted,
+}
+
 /// The resistance of a form that is not known.
 #[derive(Debug)]
 struct NotYet;
 
 impl ResistanceSource for NotYet {
-    fn matrix(&self, _: &Mat3) -> Result<Mat12, f64> {
-        Err(f64::NAN)
+    fn matrix(&self, _: &Mat3) -> Result<Mat12, NoMatrix> {
+        Err(NoMatrix::Inexact(f64::NAN))
     }
 }
 
@@ -57,6 +66,10 @@ pub(crate) fn no_surface(shape: &Shape) -> Option<&'static str> {
 
 /// What to do about a surface without a resistance.
 pub(crate) const FIX: &str = "write another shape, a mesh that is closed and even, or leave `inclusion` out";
+
+/// A resistance that was given up, and what to do.
+pub(crate) const GIVEN_UP: &str = "its resistance takes longer than it may";
+pub(crate) const PATIENCE: &str = "raise solver.max_wall_time, or give its `inclusion` fewer `triangles`";
 
 /// All of them, and the texts to blame.
 #[derive(Debug, Clone)]

@@ -6,7 +6,6 @@
 //! step may spend a tenth of either.
 
 use crate::resistance::check_resistances;
-use gyration::Inadmissible;
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
@@ -17,6 +16,7 @@ use gyration::model::Model;
 use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
+use gyration::{Inadmissible, Quantity};
 use gyration_ode::{BlockMatrix, Extended, ExtendedMut, System};
 use std::ops::Range;
 
@@ -53,6 +53,8 @@ pub(crate) struct Prepared {
     viscous: f64,
     /// The rates of the bodies at the start.
     first_rates: Vec<f64>,
+    /// Whether something was asked for that was given up.
+    interrupted: bool,
 }
 
 impl Prepared {
@@ -80,7 +82,9 @@ impl<'a> ModelSystem<'a> {
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
-        Ok(Prepared { workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes }.on(model))
+        let prepared =
+            Prepared { workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes, interrupted: false };
+        Ok(prepared.on(model))
     }
 
     /// Lets go of the model.
@@ -111,6 +115,16 @@ impl<'a> ModelSystem<'a> {
     /// The energy in play of bodies without inertia, which have no kinetic energy [J].
     pub fn viscous_energy(&self) -> f64 {
         self.prepared.viscous
+    }
+
+    /// Whether something was asked for that was given up, so that what has come of the last step is none of the run.
+    pub(crate) fn was_interrupted(&self) -> bool {
+        self.prepared.interrupted
+    }
+
+    /// What was asked for; notes whether it was given up.
+    pub(crate) fn noted<T>(&mut self, found: Result<T, Inadmissible>) -> Result<T, Inadmissible> {
+        found.inspect_err(|left| self.prepared.interrupted |= left.quantity == Quantity::Interruption)
     }
 
     /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.
@@ -166,21 +180,25 @@ impl System for ModelSystem<'_> {
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
-        rates(self.model, &mut self.prepared.workspace, t, y.into(), dy, dw)
+        let found = rates(self.model, &mut self.prepared.workspace, t, y.into(), dy, dw);
+        self.noted(found)
     }
 
     fn extended_rates(&mut self, t: f64, y: Extended, dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        rates(self.model, &mut self.prepared.workspace, t, numbers, dy, dw)
+        let found = rates(self.model, &mut self.prepared.workspace, t, numbers, dy, dw);
+        self.noted(found)
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
-        jacobian(self.model, &mut self.prepared.workspace, t, y.into(), slopes.diagonal_mut())
+        let found = jacobian(self.model, &mut self.prepared.workspace, t, y.into(), slopes.diagonal_mut());
+        self.noted(found)
     }
 
     fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        jacobian(self.model, &mut self.prepared.workspace, t, numbers, slopes.diagonal_mut())
+        let found = jacobian(self.model, &mut self.prepared.workspace, t, numbers, slopes.diagonal_mut());
+        self.noted(found)
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {

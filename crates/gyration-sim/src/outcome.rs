@@ -3,6 +3,7 @@
 use gyration::model::Model;
 use gyration::{Inadmissible, Quantity};
 use gyration_ode::{Cause, Failure, Limit};
+use gyration_threads::{Interrupted, Interruption};
 use serde::{Deserialize, Serialize};
 
 /// How a run ended.
@@ -85,6 +86,17 @@ impl Outcome {
 }
 
 impl Stop {
+    /// A stop because of an interruption.
+    pub fn by_interruption(time: f64, cause: Interrupted) -> Self {
+        Self::by_request(
+            time,
+            match cause {
+                Interrupted::Raised => Reason::Interrupted,
+                Interrupted::Overdue => Reason::WallTime,
+            },
+        )
+    }
+
     /// A stop for reasons outside the physics.
     pub fn by_request(time: f64, reason: Reason) -> Self {
         let (what, advice) = match reason {
@@ -208,6 +220,9 @@ impl Stop {
                 "Give it a smaller `inclusion.spacing` (the error falls with its square), or a larger `inclusion.tolerance`."
                     .to_string(),
             ),
+            Quantity::Interruption => {
+                return Self::by_interruption(time, Interruption::due().unwrap_or(Interrupted::Raised));
+            }
             Quantity::Contraction => (
                 Reason::Collapsed,
                 format!("body {body:?} has contracted to nothing: det G has come down to {:e}", left.value),

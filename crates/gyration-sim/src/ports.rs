@@ -78,6 +78,9 @@ pub enum RunError {
     /// The start is outside the model.
     #[error("the start is outside the model: {}. {}", .0.what, .0.advice)]
     Start(Stop),
+    /// It was given up before its first step.
+    #[error("{}, before its first step{}", .0.what, fix_of(.0))]
+    Interrupted(Stop),
     /// The recording failed.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -97,6 +100,24 @@ pub enum RunError {
     /// The checkpoint is not one of this program.
     #[error("the checkpoint cannot be used: {0}; run the scene anew with --force")]
     Checkpoint(String),
+}
+
+impl RunError {
+    /// Why a run cannot start.
+    pub(crate) fn at_start(stop: Stop) -> Self {
+        match stop.reason {
+            Reason::Interrupted | Reason::WallTime => Self::Interrupted(stop),
+            _ => Self::Start(stop),
+        }
+    }
+}
+
+/// What to do about a run that was given up before it had anything to resume.
+fn fix_of(stop: &Stop) -> &'static str {
+    match stop.reason {
+        Reason::WallTime => "\n  fix: raise solver.max_wall_time, or give inclusion.triangles a smaller number",
+        _ => "",
+    }
 }
 
 impl From<MemoryError> for RunError {

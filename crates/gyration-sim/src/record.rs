@@ -23,6 +23,7 @@ use gyration::model::Model;
 use gyration::state::State;
 use gyration_record::{Attributes, Layout, RecordError, Recording, Writer, chunk_rows_for};
 use gyration_scene::{Built, Scene};
+use gyration_threads::Interruption;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -110,12 +111,19 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`RunError`].
     pub fn record(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
-        let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
-        let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
-        let mut sink = RecordingSink { writer, flushed: Instant::now() };
-        simulation.begin(&mut sink)?;
-        sink.writer.flush(&simulation.checkpoint())?;
-        self.finish(simulation, sink, watch)
+        self.interruption().within(|| {
+            let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
+            let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
+            let mut sink = RecordingSink { writer, flushed: Instant::now() };
+            simulation.begin(&mut sink)?;
+            sink.writer.flush(&simulation.checkpoint())?;
+            self.finish(simulation, sink, watch)
+        })
+    }
+
+    /// The interruption in force, and from now on for as long as the run may take.
+    pub fn interruption(&self) -> Interruption {
+        Interruption::in_force().after(self.max_wall_time)
     }
 
     /// Goes on with a recording of the same scene.
@@ -134,9 +142,11 @@ impl<'a> Job<'a> {
             return Ok(RecordingEnd::AlreadyFinished(recorded));
         }
         let resumed = Writer::resume_finished(path, &RunSummary::ATTRIBUTES)?;
-        let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
-        let sink = RecordingSink { writer: resumed.writer, flushed: Instant::now() };
-        self.finish(simulation, sink, watch)
+        self.interruption().within(|| {
+            let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
+            let sink = RecordingSink { writer: resumed.writer, flushed: Instant::now() };
+            self.finish(simulation, sink, watch)
+        })
     }
 
     fn finish(
@@ -146,15 +156,15 @@ impl<'a> Job<'a> {
         watch: &mut dyn Monitor,
     ) -> Result<RecordingEnd, RunError> {
         let began = Instant::now();
-        let mut limited = WallTime { inner: watch, began, most: self.max_wall_time };
-        let outcome = simulation.run(&mut sink, &mut limited)?;
+        let outcome = simulation.run(&mut sink, watch)?;
         let summary = RunSummary::of(self.model, &mut simulation, outcome, Some(began.elapsed()));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
             sink.writer.finish(summary.attributes(), &checkpoint)?;
-        } else {
+        } else if simulation.is_whole() {
             sink.writer.flush(&checkpoint)?;
         }
+        // Within a step there is nothing to add to what the last flush has left.
         Ok(RecordingEnd::Ran(Box::new(summary)))
     }
 
@@ -276,20 +286,6 @@ impl Sink for RecordingSink {
             self.flushed = Instant::now();
         }
         Ok(())
-    }
-}
-
-/// Stops a run that takes too long.
-struct WallTime<'a> {
-    inner: &'a mut dyn Monitor,
-    began: Instant,
-    most: Option<Duration>,
-}
-
-impl Monitor for WallTime<'_> {
-    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
-        let over = self.most.is_some_and(|most| self.began.elapsed() > most);
-        self.inner.after_step(progress).or(over.then_some(Reason::WallTime))
     }
 }
 

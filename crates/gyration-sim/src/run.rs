@@ -2,7 +2,10 @@
 //!
 //! Sampling never changes the steps: rows come from the dense output. Samples are at t = k·sample (multiplied, not
 //! accumulated); one within 1e-9·sample of `end` is `end`; the last row is the end or the stop. The mechanics reads no
-//! clock; the loop asks its [`Monitor`] whether to go on.
+//! clock; the loop asks its [`Monitor`] whether to go on, and the [`Interruption`] in force.
+//!
+//! An interruption may come within a step, where a resistance takes long. What has come of that step is then none of
+//! the run ([`Simulation::is_whole`]).
 
 use crate::adapter::ModelSystem;
 use crate::events::Event;
@@ -16,7 +19,12 @@ use crate::step_end::{self, StepEnd};
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
+use gyration::{Inadmissible, Quantity};
 use gyration_ode::{ExtendedMut, Integrator, Statistics, StepReport, System as _};
+use gyration_threads::Interruption;
+
+/// A step that was interrupted, whatever it then failed at.
+const GIVEN_UP: Inadmissible = Inadmissible { body: 0, quantity: Quantity::Interruption, value: f64::NAN };
 
 /// A run under way: a model as its stepper sees it, and the run.
 pub struct Simulation<'a> {
@@ -53,7 +61,7 @@ impl<'a> Simulation<'a> {
     /// [`RunError::Start`] if the start is outside the model.
     pub fn new(model: &'a Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
         let system = ModelSystem::new(model, start, plan.tolerance)
-            .map_err(|left| RunError::Start(Stop::by_inadmissible(model, start.time, &left)))?;
+            .map_err(|left| RunError::at_start(Stop::by_inadmissible(model, start.time, &left)))?;
         let run = Run {
             integrator: Integrator::new(start.time, &start.bodies, &start.works, plan.options),
             plan,
@@ -98,6 +106,11 @@ impl<'a> Simulation<'a> {
         &self.run.plan
     }
 
+    /// Whether state, rows and events are those at the end of a step: false if an interruption came within one.
+    pub fn is_whole(&self) -> bool {
+        !self.system.was_interrupted()
+    }
+
     /// The counters so far.
     pub fn statistics(&self) -> &Statistics {
         self.run.integrator.statistics()
@@ -125,7 +138,7 @@ impl<'a> Simulation<'a> {
     pub fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
         self.sample_end();
         if let Err(stop) = self.record(sink)? {
-            return Err(RunError::Start(stop));
+            return Err(RunError::at_start(stop));
         }
         self.run.state.next_sample = 1;
         self.find_forces();
@@ -178,14 +191,20 @@ impl<'a> Simulation<'a> {
         sink.step_end(&|| state.checkpoint(&integrator.memory()))?;
         let (time, end) = (report.end, self.run.plan.end);
         let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
-        let asked = monitor.after_step(&progress).filter(|_| time < end);
-        Ok(asked.map(|reason| Outcome::Stopped(Stop::by_request(time, reason))))
+        let asked = monitor.after_step(&progress).map(|reason| Stop::by_request(time, reason));
+        let asked = asked.or_else(|| Interruption::due().map(|cause| Stop::by_interruption(time, cause)));
+        Ok(asked.filter(|_| time < end).map(Outcome::Stopped))
     }
 
     /// Makes one step and finds its events.
     pub(crate) fn step(&mut self, sink: &mut dyn Sink) -> Result<Result<StepReport, Stop>, RunError> {
-        let (target, before) = (self.target(), self.dissipation());
-        let report = match self.run.integrator.step(&mut self.system, target) {
+        let (target, before, time) = (self.target(), self.dissipation(), self.run.integrator.time());
+        let made = self.run.integrator.step(&mut self.system, target);
+        if !self.is_whole() {
+            // A shorter step that has gone well is another one than the run would have made.
+            return Ok(Err(Stop::by_inadmissible(self.system.model(), time, &GIVEN_UP)));
+        }
+        let report = match made {
             Ok(report) => report,
             Err(failure) => return Ok(Err(Stop::by_failure(self.system.model(), &failure))),
         };
@@ -225,9 +244,11 @@ impl<'a> Simulation<'a> {
         if target > time { target.min(end) } else { end }
     }
 
-    /// Ends with the last row.
+    /// Ends with the last row, if there is one.
     fn stop(&mut self, stop: Stop, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
-        self.record_last(sink)?.ok();
+        if self.is_whole() {
+            self.record_last(sink)?.ok();
+        }
         Ok(Outcome::Stopped(stop))
     }
 
@@ -301,7 +322,8 @@ impl<'a> Simulation<'a> {
         let initial = (!first).then_some(self.run.state.initial_energy);
         let viscous = self.system.viscous_energy();
         let workspace = self.system.workspace();
-        let audit = match self.run.fields.fill(model, workspace, &self.run.sampled, initial, &mut self.run.rows) {
+        let filled = self.run.fields.fill(model, workspace, &self.run.sampled, initial, &mut self.run.rows);
+        let audit = match self.system.noted(filled) {
             Ok(audit) => audit,
             Err(left) => return Ok(Err(Stop::by_inadmissible(model, time, &left))),
         };

@@ -3,10 +3,15 @@
 use gyration::fluid::{Resolution, largest_error};
 use gyration::shape::{Cuboid, Shape};
 use gyration::tensor::{Mat3, Vec3};
+use gyration_record::Recording;
 use gyration_scene::Scene;
 use gyration_sim::resistance::DeformingSurface;
-use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Unwatched, complete};
+use gyration_sim::{
+    Job, MemorySink, Outcome, Provenance, Reason, RecordingEnd, RunError, RunPlan, Simulation, Unwatched, complete,
+};
+use gyration_threads::Interruption;
 use std::path::Path;
+use std::time::Duration;
 
 const TOLERANCE: f64 = 2e-2;
 
@@ -90,4 +95,76 @@ fn surface_without_a_resistance_is_told_at_its_key() {
     let [error] = errors.as_slice() else { panic!("{errors}") };
     assert_eq!((error.file.as_str(), error.line, error.key.as_str()), ("two.toml", 6, "body.box.shape"));
     assert!(error.message.starts_with("boundary elements: "), "{errors}");
+}
+
+/// A box that is drawn out, so that it enters one form after the other; its own surface for each caller.
+fn drawn_out(length: f64) -> Scene {
+    let text = format!(
+        r#"
+        time = {{ end = 0.6, sample = 0.05 }}
+        solver.rtol = 1e-4
+        fluid = {{ viscosity = 1, velocity_gradient = [[1, 0, 0], [0, -0.5, 0], [0, 0, -0.5]] }}
+        [[body]]
+        name = "box"
+        shape = {{ box = {{ size = [{length}, 1, 1] }} }}
+        density = 1
+        affine = {{ material = {{ neo_hookean = {{ shear = 1 }} }}, }}
+        inclusion = {{ inertia = false, triangles = 80, spacing = 0.25, tolerance = 0.3 }}
+        "#
+    );
+    complete(Scene::parse("drawn.toml", &text, Path::new(""), &[]).unwrap()).unwrap()
+}
+
+#[test]
+fn run_that_is_given_up_within_a_matrix_goes_on_to_the_same_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let provenance = Provenance { version: "1".into(), commit: None };
+    let (patient, impatient) = (folder.path().join("patient.gyr"), folder.path().join("impatient.gyr"));
+    let scene = drawn_out(1.3);
+    let RecordingEnd::Ran(whole) = Job::of(&scene, &provenance).record(&patient, &mut Unwatched).unwrap() else {
+        panic!("it had ended before it began")
+    };
+    assert_eq!(whole.outcome, Outcome::Completed);
+
+    // The matrices are known by now; those of another box are not, and take the same time.
+    let (scene, mut given_up) = (drawn_out(1.3 * (1.0 + 1e-9)), 0);
+    let mut job = Job::of(&scene, &provenance);
+    let mut begun = false;
+    for attempt in 1.. {
+        job.max_wall_time = Some(Duration::from_millis(attempt));
+        let ended = if begun { job.resume(&impatient, &mut Unwatched) } else { job.record(&impatient, &mut Unwatched) };
+        begun = impatient.exists();
+        match ended {
+            Err(RunError::Interrupted(stop)) => assert_eq!(stop.reason, Reason::WallTime),
+            Ok(RecordingEnd::Ran(summary)) if summary.outcome == Outcome::Completed => break,
+            Ok(RecordingEnd::Ran(summary)) => assert!(!summary.outcome.is_final(), "{}", summary.in_words),
+            other => panic!("{other:?}"),
+        }
+        given_up += 1;
+    }
+    println!("{given_up} times given up");
+    assert!(given_up > 3, "only {given_up} times given up");
+
+    let straight = folder.path().join("straight.gyr");
+    Job::of(&scene, &provenance).record(&straight, &mut Unwatched).unwrap();
+    let [impatient, straight] = [impatient, straight].map(|path| Recording::open(&path).unwrap());
+    for array in straight.arrays() {
+        let [one, other] = [&impatient, &straight].map(|recording| recording.read(&array.name).ok());
+        // What is not known is no number, which equals nothing.
+        assert!(format!("{one:?}") == format!("{other:?}"), "{}", array.name);
+    }
+    assert_eq!(impatient.attributes(), straight.attributes());
+}
+
+#[test]
+fn matrices_and_runs_that_nobody_waits_for_are_not_begun() {
+    let scene = drawn_out(1.7);
+    let built = scene.built();
+    let at_once = Interruption::default().after(Some(Duration::ZERO));
+    let begun = at_once.within(|| Simulation::new(&built.model, &built.state, RunPlan::from(built)).err());
+    assert!(matches!(begun, Some(RunError::Interrupted(stop)) if stop.reason == Reason::WallTime));
+    let text = sinking("").replace("\"4 mm\"]", "\"4.1 mm\"]");
+    let scene = Scene::parse("sinking.toml", &text, Path::new(""), &[]).unwrap();
+    let errors = at_once.within(|| complete(scene)).unwrap_err();
+    assert!(errors.is_interrupted() && errors.to_string().contains("max_wall_time"), "{errors}");
 }

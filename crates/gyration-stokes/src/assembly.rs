@@ -8,10 +8,12 @@
 //! No sum depends on the number of threads.
 
 use crate::dense::Symmetric;
+use crate::error::StokesError;
 use crate::pair::{Block, block};
 use crate::panel::FlatPanel;
 use crate::vector::Vec3;
 use crate::wall::{Image, WallImages};
+use gyration_threads::Interruption;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -40,7 +42,11 @@ struct RowStrip {
 
 impl SingleLayer {
     /// Of all pairs of these triangles, `nodes` nodes in all.
-    pub fn new(panels: &[FlatPanel], nodes: usize, wall: Option<&WallImages>) -> Self {
+    ///
+    /// # Errors
+    /// [`StokesError::Interrupted`].
+    pub fn new(panels: &[FlatPanel], nodes: usize, wall: Option<&WallImages>) -> Result<Self, StokesError> {
+        let interruption = Interruption::in_force();
         let order = 3 * nodes;
         let mut half = Symmetric::new(order);
         let (mut expansion, mut pressure) = (vec![0.0; order], 0.0);
@@ -48,8 +54,11 @@ impl SingleLayer {
         let batch = (BATCH_BYTES / (80 * order)).clamp(16, 256);
         for (round, these) in panels.chunks(batch).enumerate() {
             let first = round * batch;
-            let make = |k: usize| RowStrip::new(panels, first + k, order, wall);
-            let strips: Vec<RowStrip> = (0..these.len()).into_par_iter().map(make).collect();
+            let make = |k: usize| match interruption.is_due() {
+                Some(_) => Err(StokesError::Interrupted),
+                None => Ok(RowStrip::new(panels, first + k, order, wall)),
+            };
+            let strips = (0..these.len()).into_par_iter().map(make).collect::<Result<Vec<RowStrip>, _>>()?;
             let corners = corners_by_node(these, nodes);
             let rows = half.values.par_chunks_mut(3 * stride).zip(&corners).filter(|(_, corners)| !corners.is_empty());
             rows.for_each(|(rows, corners)| {
@@ -65,7 +74,7 @@ impl SingleLayer {
                 expansion.iter_mut().zip(&strip.expansion).for_each(|(sum, value)| *sum += value);
             }
         }
-        Self { half, expansion, pressure }
+        Ok(Self { half, expansion, pressure })
     }
 }
 

@@ -6,6 +6,7 @@
 //! of the columns, products and sums rounded one by one: neither the number of threads nor the width of registers
 //! changes a byte.
 
+use gyration_threads::Interruption;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -28,6 +29,25 @@ pub(crate) struct Symmetric {
     pub order: usize,
     pub stride: usize,
     pub values: Vec<f64>,
+}
+
+/// Why there is no factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoFactor {
+    /// The pivot of this row is not positive: the first of them.
+    NotDefinite(usize),
+    /// It was given up.
+    Interrupted,
+}
+
+impl NoFactor {
+    /// The same with another row to name.
+    pub fn in_row(self, row: usize) -> Self {
+        match self {
+            Self::NotDefinite(_) => Self::NotDefinite(row),
+            Self::Interrupted => self,
+        }
+    }
 }
 
 /// L of A = L Lᵀ.
@@ -68,11 +88,14 @@ impl Symmetric {
     /// The factor, in the place of the matrix.
     ///
     /// # Errors
-    /// The row of the first pivot that is not positive.
-    pub fn factor(mut self) -> Result<Factor, usize> {
+    /// [`NoFactor`].
+    pub fn factor(mut self) -> Result<Factor, NoFactor> {
         let stride = self.stride;
         let mut tiles = Vec::new();
         for start in (0..stride).step_by(BLOCK) {
+            if Interruption::due().is_some() {
+                return Err(NoFactor::Interrupted);
+            }
             let end = start + BLOCK;
             let (above, below) = self.values.split_at_mut(end * stride);
             let diagonal = factor_diagonal(&mut above[start * stride..], stride, start)?;
@@ -87,7 +110,7 @@ impl Symmetric {
 }
 
 /// Factors the diagonal block and returns it.
-fn factor_diagonal(rows: &mut [f64], stride: usize, start: usize) -> Result<Vec<[f64; BLOCK]>, usize> {
+fn factor_diagonal(rows: &mut [f64], stride: usize, start: usize) -> Result<Vec<[f64; BLOCK]>, NoFactor> {
     let mut block = vec![[0.0; BLOCK]; BLOCK];
     for i in 0..BLOCK {
         let (done, this) = block.split_at_mut(i);
@@ -99,7 +122,7 @@ fn factor_diagonal(rows: &mut [f64], stride: usize, start: usize) -> Result<Vec<
         }
         let pivot = row[..i].iter().fold(row[i], |sum, a| sum - a * a);
         if pivot.is_nan() || pivot <= 0.0 {
-            return Err(start + i);
+            return Err(NoFactor::NotDefinite(start + i));
         }
         row[i] = pivot.sqrt();
         rows[i * stride + start..][..=i].copy_from_slice(&row[..=i]);
@@ -279,6 +302,6 @@ mod tests {
         let mut matrix = example(120);
         let at = 100 * (matrix.stride + 1);
         matrix.values[at] = -1.0;
-        assert_eq!(matrix.factor().unwrap_err(), 100);
+        assert_eq!(matrix.factor().unwrap_err(), NoFactor::NotDefinite(100));
     }
 }

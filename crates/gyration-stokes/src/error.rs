@@ -128,6 +128,9 @@ pub enum StokesError {
         /// A triangle at whose corner it stands.
         triangle: usize,
     },
+    /// Whoever wants the matrix waits for it no longer (`gyration_threads::Interruption`).
+    #[error("it was given up before it was known")]
+    Interrupted,
     /// The resistance matrix has a motion that is not resisted.
     #[error("the mesh is too coarse: motion {motion} of the resistance matrix is not resisted; refine the surface")]
     TooCoarse {

@@ -20,7 +20,7 @@
 use crate::assembly::SingleLayer;
 use crate::coarse::CoarseSpace;
 use crate::curvature::{Weight, node_normals, risen};
-use crate::dense::{self, Columns, SIDES};
+use crate::dense::{self, Columns, NoFactor, SIDES};
 use crate::error::StokesError;
 use crate::estimate::largest_share;
 use crate::motion::{Mat12, UnitMotion, inner_work, right_sides};
@@ -28,7 +28,7 @@ use crate::panel::FlatPanel;
 use crate::surface::ClosedSurface;
 use crate::vector::Vec3;
 use crate::wall::{WallImages, WallPlane};
-use gyration_threads::on_own_threads;
+use gyration_threads::{Interruption, on_own_threads};
 
 /// Bytes of matrices that are taken unless said otherwise: 16,000 unknowns, some 10,000 triangles of a smooth surface.
 pub const DEFAULT_MAX_BYTES: u64 = 5 << 29;
@@ -91,17 +91,18 @@ impl ClosedSurface {
     /// # Errors
     /// Matrices larger than allowed; a centre that is not finite; a wall that is touched, crossed or too near for the
     /// triangles that face it; a surface that crosses itself, if that makes the single layer indefinite; a mesh so
-    /// coarse that a motion is not resisted.
+    /// coarse that a motion is not resisted; an interruption in force on this thread.
     pub fn resistance(&self, options: &StokesOptions) -> Result<StokesResistance, StokesError> {
         self.check(options)?;
-        on_own_threads(|| self.resistance_here(options))
+        let interruption = Interruption::in_force();
+        on_own_threads(|| interruption.within(|| self.resistance_here(options)))
     }
 
     fn resistance_here(&self, options: &StokesOptions) -> Result<StokesResistance, StokesError> {
         let panels = FlatPanel::all(self);
         let normals = node_normals(&panels, self.node_count, Weight::Angle);
         let wall = options.wall.as_ref().map(|plane| WallImages::new(plane, &panels)).transpose()?;
-        let layer = SingleLayer::new(&panels, self.node_count, wall.as_ref());
+        let layer = SingleLayer::new(&panels, self.node_count, wall.as_ref())?;
         let pressure = layer.pressure;
         let LayerSolution { densities, energy, lost } = self.solve(layer, &panels, options)?;
         let volume = self.volume();
@@ -149,17 +150,18 @@ impl ClosedSurface {
         let coarse_sides = coarse.sides(&sides);
         let coarse_matrix = coarse.matrix(&matrix);
         let mut densities = sides.clone();
-        matrix.factor().map_err(|unknown| self.indefinite(unknown))?.solve(&mut densities);
+        matrix.factor().map_err(|none| self.indefinite(none))?.solve(&mut densities);
         let mut coarse_densities = coarse_sides.clone();
         // A subspace of a definite space is definite, but for rounding.
-        coarse_matrix.factor().map_err(|_| self.indefinite(0))?.solve(&mut coarse_densities);
+        coarse_matrix.factor().map_err(|none| self.indefinite(none.in_row(0)))?.solve(&mut coarse_densities);
         let energy = products(&densities, &sides);
         let lost = (energy - products(&coarse_densities, &coarse_sides)) * coarse.factor();
         set_pressure(&mut densities, panels, &expansion, (pressure, self.volume()));
         Ok(LayerSolution { densities, energy, lost })
     }
 
-    fn indefinite(&self, unknown: usize) -> StokesError {
+    fn indefinite(&self, none: NoFactor) -> StokesError {
+        let NoFactor::NotDefinite(unknown) = none else { return StokesError::Interrupted };
         let node = unknown / 3;
         let triangle = self.nodes.iter().position(|nodes| nodes.contains(&node)).unwrap_or(0);
         StokesError::NotDefinite { unknown, triangle }

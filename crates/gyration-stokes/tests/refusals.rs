@@ -1,6 +1,10 @@
 //! What is no surface, or asks too much, is refused with the triangle and the fix.
 
 use gyration_stokes::{ClosedSurface, StokesError, StokesOptions};
+use gyration_threads::Interruption;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 const POINTS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const TRIANGLES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
@@ -101,4 +105,33 @@ fn ellipsoid_without_thickness_is_refused() {
 #[test]
 fn refinement_without_end_is_refused() {
     assert!(matches!(ClosedSurface::icosphere(9), Err(StokesError::BadOption { .. })));
+}
+
+#[test]
+fn matrix_that_nobody_waits_for_is_given_up_wherever_it_is() {
+    let surface = ClosedSurface::icosphere(3).unwrap();
+    let whole = surface.resistance(&StokesOptions::default()).unwrap();
+    let mut given_up = 0;
+    for wait in 0.. {
+        let flag = Arc::new(AtomicBool::new(false));
+        let raise = {
+            let flag = flag.clone();
+            move || {
+                std::thread::sleep(Duration::from_millis(5 * wait));
+                flag.store(true, Ordering::Relaxed);
+            }
+        };
+        let waiting = std::thread::spawn(raise);
+        let found = Interruption::default().raised_by(flag).within(|| surface.resistance(&StokesOptions::default()));
+        waiting.join().unwrap();
+        match found {
+            Err(error) => assert_eq!(error, StokesError::Interrupted),
+            Ok(found) => {
+                assert!(found == whole);
+                break;
+            }
+        }
+        given_up += 1;
+    }
+    assert!(given_up > 1, "{given_up}");
 }

@@ -11,9 +11,10 @@ use gyration_sim::events::Event;
 use gyration_sim::{
     Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, RunSummary, Simulation, Sink,
 };
+use gyration_threads::Interruption;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// The outcome of a run that could not begin.
 pub const FAILED: &str = "failed";
@@ -46,6 +47,11 @@ impl Worker {
         self.stop = stop;
         self
     }
+
+    /// What gives up its runs.
+    fn interruption(&self) -> Interruption {
+        Interruption::in_force().raised_by(self.stop.clone())
+    }
 }
 
 /// What a run leaves for its row.
@@ -72,10 +78,11 @@ impl Study {
     pub fn attempt(&self, run: u64, worker: &Worker) -> Result<Option<Row>, StudyError> {
         let place = self.place(run);
         let values = self.values(place);
-        let ended = match self.scene_with(&values) {
-            Ok(scene) => self.ended(run, &scene, worker)?,
-            Err(errors) => Some(self.failed(first_of(&errors))),
-        };
+        let ended = worker.interruption().within(|| match self.scene_with(&values) {
+            Ok(scene) => self.ended(run, &scene, worker),
+            Err(errors) if errors.is_interrupted() => Ok(None),
+            Err(errors) => Ok(Some(self.failed(first_of(&errors)))),
+        })?;
         let Some(ended) = ended else { return Ok(None) };
         let numbers = [place.run, place.point, place.repetition].map(|number| Value::Integer(number as i64));
         let cells = values.into_iter().flat_map(|(_, cells)| cells);
@@ -87,17 +94,17 @@ impl Study {
     fn ended(&self, run: u64, scene: &Scene, worker: &Worker) -> Result<Option<Ended>, StudyError> {
         let recording = worker.recordings.as_ref().map(|folder| folder.join(format!("run-{run:06}.gyr")));
         let at_once = recording.as_deref().filter(|_| self.recordings() == Recordings::All);
-        let ended = self.simulate(scene, at_once, worker)?;
+        let ended = self.simulate(scene, at_once)?;
         if let (Some(Ended { is_early: true, .. }), Recordings::Failures, Some(path)) =
             (&ended, self.recordings(), &recording)
-            && self.simulate(scene, Some(path), worker)?.is_none()
+            && self.simulate(scene, Some(path))?.is_none()
         {
             return Ok(None);
         }
         Ok(ended)
     }
 
-    fn simulate(&self, scene: &Scene, recording: Option<&Path>, worker: &Worker) -> Result<Option<Ended>, StudyError> {
+    fn simulate(&self, scene: &Scene, recording: Option<&Path>) -> Result<Option<Ended>, StudyError> {
         let Built { model, state, .. } = scene.built();
         let mut plan: RunPlan = scene.built().into();
         if recording.is_none() && !self.needs_samples() {
@@ -116,7 +123,7 @@ impl Study {
         if let Err(error) = simulation.begin(&mut sink) {
             return self.not_begun(error);
         }
-        let mut limits = RunLimits { stop: &worker.stop, most_steps: self.read.max_steps, is_over: false };
+        let mut limits = RunLimits { most_steps: self.read.max_steps, is_over: false };
         let outcome = simulation.run(&mut sink, &mut limits).map_err(recorded)?;
         if is_interrupted(&outcome) && !limits.is_over {
             return Ok(None);
@@ -140,6 +147,7 @@ impl Study {
     fn not_begun(&self, error: RunError) -> Result<Option<Ended>, StudyError> {
         match error {
             RunError::Start(_) => Ok(Some(self.failed(error.to_string()))),
+            RunError::Interrupted(_) => Ok(None),
             other => Err(recorded(other)),
         }
     }
@@ -216,18 +224,17 @@ fn first_of(errors: &SceneErrors) -> String {
     format!("{}: {}{more}", error.key, error.message)
 }
 
-/// Stops a run when the study is to stop, and after too many steps.
-struct RunLimits<'a> {
-    stop: &'a AtomicBool,
+/// Stops a run after too many steps.
+struct RunLimits {
     most_steps: Option<u64>,
     /// Whether it took too many steps.
     is_over: bool,
 }
 
-impl Monitor for RunLimits<'_> {
+impl Monitor for RunLimits {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
         self.is_over = self.most_steps.is_some_and(|most| progress.statistics.accepted() >= most);
-        (self.is_over || self.stop.load(Ordering::Relaxed)).then_some(Reason::Interrupted)
+        self.is_over.then_some(Reason::Interrupted)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Numbers of contact laws from measurements: known ones come back, what cannot be known is named, bad files are
 //! refused.
 
-use gyration_study::calibration::{Calibration, Fitted};
+use gyration_study::calibration::{Calibration, CalibrationError, Fitted};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -378,4 +378,52 @@ fn bad_files_are_refused_with_place_and_fix() {
         assert!(message.contains("data.toml:") && message.contains("fix:"), "{message}");
     }
     assert!(Calibration::load(Path::new("/nowhere/data.toml")).is_err());
+}
+
+#[test]
+fn measurement_in_another_unit_is_named() {
+    let alpha = "scene = \"ball.toml\"\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\nstart = 30e3\n";
+    let friction = "[fit.friction]\nkey = \"contact.0.friction.beta\"\nstart = 3e4\n";
+    let cases = [
+        (friction, 1..2, 1e3, ("gap.0", Some(1))),
+        (friction, 2..3, 1e-3, ("gap.0", Some(2))),
+        (friction, 4..5, 100.0, ("slope.0", Some(0))),
+        // The friction would explain all of the slopes.
+        ("", 4..7, 0.1, ("slope.0", None)),
+        (friction, 7..8, 1e3, ("pull_off.0", Some(0))),
+    ];
+    for (more, wrong, factor, (table, row)) in cases {
+        let data = measurements(|row| if wrong.contains(&row) { factor } else { 1.0 });
+        let fitted = fit(&format!("{alpha}{more}{data}"));
+        let suspect =
+            fitted.suspect.unwrap_or_else(|| panic!("{table}: nobody is suspected, χ² {}", fitted.chi_squared));
+        println!("χ² {:.4e}; {}", fitted.chi_squared, suspect.in_words());
+        assert_eq!((suspect.table.as_str(), suspect.row), (table, row));
+        assert!((suspect.measured / suspect.expected / factor - 1.0).abs() < 1e-6, "{}", suspect.in_words());
+    }
+}
+
+/// The measurements of the book with one of them in metres instead of millimetres.
+fn misread(more: &str) -> CalibrationError {
+    let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/examples/calibrate");
+    let text = std::fs::read_to_string(book.join("measurements.toml")).unwrap();
+    let changed = text.replacen("\"0.3312 mm\"", "\"0.3312 m\"", 1);
+    assert!(changed != text);
+    let changed = changed.replacen("[fit.repulsion]", &format!("{more}\n[fit.repulsion]"), 1);
+    Calibration::parse("data.toml", &changed, &book).unwrap().fit().unwrap_err()
+}
+
+/// One so far off leads the search where nothing can be computed.
+#[test]
+fn measurement_that_leads_the_search_astray_is_named() {
+    let lost = misread("").to_string();
+    println!("{lost}");
+    assert!(lost.contains("row 2 of gap.0 is at odds") && lost.contains("unit"), "{lost}");
+}
+
+#[test]
+fn search_ends_with_the_wall_time_of_its_scene_and_says_where_it_was() {
+    let early = misread("[set]\n\"solver.max_wall_time\" = \"1 s\"");
+    let CalibrationError::Interrupted { worst, .. } = &early else { panic!("{early:?}") };
+    assert!(worst.contains("row 2 of gap.0"), "{worst}");
 }

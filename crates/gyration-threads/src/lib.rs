@@ -3,12 +3,14 @@
 //! [`share`] hands out jobs one by one and their results to the thread that asked, which looks around in between: at
 //! signals, at a disk that is full. [`in_order`] is the same for results that are wanted all together.
 //! [`on_own_threads`] is for rayon in a process that may have been forked. Which thread does what leaves no trace in
-//! any result.
+//! any result. An [`Interruption`] says when to give up what takes long.
 
 mod count;
+mod interruption;
 mod own;
 mod share;
 
 pub use count::Threads;
+pub use interruption::{Interrupted, Interruption};
 pub use own::on_own_threads;
 pub use share::{in_order, share};

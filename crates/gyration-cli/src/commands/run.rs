@@ -21,15 +21,18 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     let scene = ready(&arguments.scene)?;
     let path = directory(arguments, &scene)?;
     let job = Job::of(&scene, &provenance());
-    if !arguments.resume {
-        make_room(arguments, &job, &path)?;
-    }
     let mut watch = RunProgress::new(!arguments.quiet)?;
-    let ended = if arguments.resume { job.resume(&path, &mut watch) } else { job.record(&path, &mut watch) };
+    let ended = watch.interruption().within(|| {
+        if arguments.resume {
+            return job.resume(&path, &mut watch).map_err(CliError::from);
+        }
+        job.interruption().within(|| make_room(arguments, &job, &path))?;
+        Ok(job.record(&path, &mut watch)?)
+    });
     watch.finish();
     let ended = ended.inspect_err(|error| {
         // Disk full, device gone: what was flushed is there.
-        if matches!(error, RunError::Record(RecordError::Io { .. })) && Recording::open(&path).is_ok() {
+        if matches!(error, CliError::Run(RunError::Record(RecordError::Io { .. }))) && Recording::open(&path).is_ok() {
             output::say(&format!("gyration: once that is mended, go on with `{}`", resume_command(arguments, &path)));
         }
     })?;

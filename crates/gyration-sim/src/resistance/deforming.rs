@@ -5,10 +5,12 @@
 //! the same small error.
 
 use super::elements::{BoundaryElements, BoundaryResistance, NoResistance, boundary_resistance};
-use gyration::fluid::{ResistanceSource, ResistanceTable, Resolution};
+use gyration::fluid::{NoMatrix, ResistanceSource, ResistanceTable, Resolution};
 use gyration::load::Mat12;
 use gyration::shape::Shape;
 use gyration::tensor::{Mat3, Vec3};
+use gyration_stokes::StokesError;
+use gyration_threads::Interruption;
 
 /// The largest error that the elements may tell of themselves. Beyond it, the terms that their correction for curvature
 /// leaves out are no longer small against it, and the estimate means little.
@@ -50,8 +52,15 @@ impl DeformingSurface {
 }
 
 impl ResistanceSource for DeformingSurface {
-    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64> {
-        let found = self.resistance(stretch).map_err(|_| f64::NAN)?;
-        if found.error <= MOST_OF_ELEMENTS { Ok(found.matrix) } else { Err(found.error) }
+    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, NoMatrix> {
+        // Many steps may be tried until one is given up.
+        if Interruption::due().is_some() {
+            return Err(NoMatrix::Interrupted);
+        }
+        let found = self.resistance(stretch).map_err(|none| match none {
+            NoResistance::Surface(StokesError::Interrupted) => NoMatrix::Interrupted,
+            _ => NoMatrix::Inexact(f64::NAN),
+        })?;
+        if found.error <= MOST_OF_ELEMENTS { Ok(found.matrix) } else { Err(NoMatrix::Inexact(found.error)) }
     }
 }

@@ -19,16 +19,22 @@ use gyration::fluid::{FixedForm, Form, SurfaceForm};
 use gyration::model::Model;
 use gyration::tensor::Mat3;
 use gyration::{Inadmissible, Quantity};
-use gyration_scene::{LoadError, Scene, SceneErrors, UnknownForm};
+use gyration_scene::{LoadError, NoForm, Scene, SceneErrors, UnknownForm};
+use gyration_stokes::StokesError;
+use gyration_threads::Interruption;
 use std::borrow::Cow;
 use std::sync::Arc;
+use std::time::Duration;
 
-/// Opens a scene by its path or its name in the gallery, ready to run: [`Scene::open`] and [`complete`].
+/// Opens a scene by its path or its name in the gallery, ready to run: [`Scene::open`] and [`complete`], for which its
+/// `solver.max_wall_time` counts.
 ///
 /// # Errors
 /// As of both.
 pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Scene, LoadError> {
-    Ok(complete(Scene::open(path_or_name, overrides)?)?)
+    let scene = Scene::open(path_or_name, overrides)?;
+    let most = scene.built().plan.max_wall_time.and_then(|most| Duration::try_from_secs_f64(most).ok());
+    Ok(Interruption::in_force().after(most).within(|| complete(scene))?)
 }
 
 /// The scene with the resistances that boundary elements tell: ready to run.
@@ -36,7 +42,7 @@ pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Scene, LoadError
 /// # Errors
 /// Why a surface has no resistance, at the key of its shape.
 pub fn complete(scene: Scene) -> Result<Scene, SceneErrors> {
-    scene.complete(form)
+    scene.complete(|body, asked| form(body, asked).map_err(NoForm::from))
 }
 
 /// The same of a scene that is somebody else's.
@@ -48,6 +54,15 @@ pub fn completed(scene: &Scene) -> Result<Cow<'_, Scene>, SceneErrors> {
         return Ok(Cow::Borrowed(scene));
     }
     complete(scene.clone()).map(Cow::Owned)
+}
+
+impl From<NoResistance> for NoForm {
+    fn from(none: NoResistance) -> Self {
+        match none {
+            NoResistance::Surface(StokesError::Interrupted) => Self::Interrupted,
+            none => Self::Surface(none.to_string()),
+        }
+    }
 }
 
 /// What the fluid meets of a body that is no ellipsoid.

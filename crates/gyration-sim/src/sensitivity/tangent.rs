@@ -89,7 +89,7 @@ impl<'a> Tangent<'a> {
         plan: &RunPlan,
         variations: Vec<Result<SceneVariation, Meaningless>>,
     ) -> Result<Self, RunError> {
-        let outside = |left| RunError::Start(Stop::by_inadmissible(model, start.time, &left));
+        let outside = |left| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
         let mut system = ModelSystem::new(model, start, SCALES).map_err(outside)?;
         let (n, columns) = (model.dimension(), variations.len() + 1);
         let mut scales = vec![0.0; n + model.works().len()];

@@ -5,6 +5,7 @@
 
 use super::least_squares::{Minimum, Problem, SearchEnd, minimize};
 use super::{Calibration, CalibrationError, Experiment};
+use gyration_threads::{Interrupted, Interruption};
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -48,35 +49,86 @@ impl Calibration {
             let found = self.value(table, table.conditions[row], &start);
             found.map_err(|reason| CalibrationError::Start { place: place(), reason })
         };
-        self.rows().map(predict).collect()
+        self.each_row(predict).into_iter().collect()
     }
 
-    /// Every row, with its table; in parallel, in this order.
-    pub(super) fn rows(&self) -> impl ParallelIterator<Item = (&Experiment, usize)> {
+    /// Something of every row with its table, in this order; in parallel, under the interruption in force.
+    pub(super) fn each_row<'a, T: Send>(&'a self, work: impl Fn((&'a Experiment, usize)) -> T + Sync) -> Vec<T> {
         let rows = self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)));
-        rows.collect::<Vec<_>>().into_par_iter()
+        let interruption = Interruption::in_force();
+        rows.collect::<Vec<_>>().into_par_iter().map(|row| interruption.within(|| work(row))).collect()
     }
 
-    /// Searches.
+    /// Searches, with so many evaluations at most if that is given.
     ///
     /// # Errors
     /// [`CalibrationError`].
-    pub(super) fn search(&self) -> Result<Found, CalibrationError> {
-        self.predictions()?;
+    pub(super) fn search(&self, patience: Option<usize>) -> Result<Found, CalibrationError> {
+        let predicted = self.predictions();
+        if let Some(cause) = Interruption::due() {
+            return Err(self.interrupted(cause, None));
+        }
+        predicted?;
         let u = self.numbers.iter().map(|number| number.scale.inward(number.start));
         let start = DVector::from_iterator(self.numbers.len(), u);
         let problem = Residuals { calibration: self, start: start.clone() };
-        let Minimum { u, ending, evaluations } = minimize(&problem, start, TOLERANCE);
+        let Minimum { u, residuals, ending, evaluations } = minimize(&problem, start, TOLERANCE, patience);
+        if let Some(cause) = Interruption::due() {
+            return Err(self.interrupted(cause, Some(&residuals)));
+        }
         let ending = match ending {
             SearchEnd::Converged => "converged",
             SearchEnd::Rounding => "as near as rounding lets one come",
-            SearchEnd::Patience => return Err(CalibrationError::Search("it did not come to an end".into())),
+            SearchEnd::Patience | SearchEnd::Interrupted => {
+                return Err(self.lost("it did not come to an end", &residuals, patience));
+            }
             SearchEnd::Stranded => {
-                let reason = "where it arrived derivatives cannot be computed";
-                return Err(CalibrationError::Search(reason.into()));
+                return Err(self.lost("where it arrived derivatives cannot be computed", &residuals, patience));
             }
         };
         Ok(Found { values: self.values_at(u.as_slice()), ending: ending.to_owned(), evaluations })
+    }
+}
+
+impl Calibration {
+    /// The end of a search that led nowhere; of one with all the patience there is, with the measurement that led it
+    /// there if one alone did.
+    fn lost(&self, reason: &str, residuals: &DVector<f64>, patience: Option<usize>) -> CalibrationError {
+        let rows = self.experiments.iter().map(|table| table.measured.len()).sum();
+        let gains: Vec<f64> = residuals.iter().take(rows).map(|residual| residual * residual).collect();
+        let suspect = match patience {
+            None => self.suspect_by(&gains, rows.saturating_sub(self.numbers.len())),
+            Some(_) => None,
+        };
+        let named = suspect.map_or_else(String::new, |suspect| format!("; {}", suspect.in_words()));
+        CalibrationError::Search(format!("{reason}{named}"))
+    }
+
+    /// The end of a search that was given up, with the residuals at the best point so far.
+    fn interrupted(&self, cause: Interrupted, residuals: Option<&DVector<f64>>) -> CalibrationError {
+        let of_rows = self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)));
+        let known = residuals.map_or(&[][..], |residuals| residuals.as_slice());
+        let farthest = of_rows.zip(known).max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        let worst = match farthest {
+            Some(((table, row), &residual)) if residual < BAD => {
+                format!(
+                    "row {} of {} farthest off, by {:.3e} of its deviations",
+                    row + 1,
+                    table.place(),
+                    residual.abs()
+                )
+            }
+            _ => "no measurement computed".to_owned(),
+        };
+        let (why, fix) = match cause {
+            Interrupted::Raised => ("by request", "let it run longer"),
+            Interrupted::Overdue => (
+                "after solver.max_wall_time",
+                "look at that measurement and its unit, raise solver.max_wall_time, or start the search nearer",
+            ),
+        };
+        let chi_squared = known.iter().map(|residual| residual * residual).sum();
+        CalibrationError::Interrupted { why, chi_squared, worst, fix }
     }
 }
 
@@ -87,7 +139,7 @@ impl Problem for Residuals<'_> {
             let found = self.calibration.value(table, table.conditions[row], &values);
             found.map_or(BAD, |found| (found - table.measured[row]) / table.deviations[row])
         };
-        let mut all: Vec<f64> = self.calibration.rows().map(residual).collect();
+        let mut all: Vec<f64> = self.calibration.each_row(residual);
         all.extend((u - &self.start).iter().map(|way| way / START));
         all.into()
     }
@@ -109,7 +161,7 @@ impl Calibration {
             let predicted = self.predicted(table, table.conditions[row], values)?;
             Ok(self.inward(&predicted.slopes, values, table.deviations[row]))
         };
-        self.rows().map(row).collect()
+        self.each_row(row).into_iter().collect()
     }
 
     /// Derivatives by the numbers as derivatives by u, over a deviation.

@@ -6,6 +6,7 @@
 //! brings to what the linear model promised. Source: Moré, *The Levenberg–Marquardt algorithm: implementation and
 //! theory* (1978), and `lmder`, `lmpar` of MINPACK. J must have full rank: the start counts as a measurement (`fit`).
 
+use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
 
 /// The first Δ, in lengths of D u.
@@ -16,7 +17,7 @@ const MISS: f64 = 0.1;
 const MOST_TRIALS: usize = 10;
 /// A step that brings less than this part of what was promised is not made.
 const LEAST_RATIO: f64 = 1e-4;
-/// Evaluations of r at most, for each unknown and one more.
+/// Evaluations of r at most unless it is said otherwise, for each unknown and one more.
 const PATIENCE: usize = 100;
 
 /// Residuals and their derivatives.
@@ -36,6 +37,8 @@ pub(super) enum SearchEnd {
     Rounding,
     /// It took too many evaluations.
     Patience,
+    /// An interruption came.
+    Interrupted,
     /// Where it arrived there are no derivatives, or numbers beyond all bounds.
     Stranded,
 }
@@ -44,25 +47,34 @@ pub(super) enum SearchEnd {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Minimum {
     pub u: DVector<f64>,
+    /// r there.
+    pub residuals: DVector<f64>,
     pub ending: SearchEnd,
     /// How often r was computed.
     pub evaluations: usize,
 }
 
-/// Searches from u for the least squares, to a relative tolerance of their sum, of u, and of the angle between r and J.
-pub(super) fn minimize(problem: &impl Problem, mut u: DVector<f64>, tolerance: f64) -> Minimum {
+/// Searches from u for the least squares, to a relative tolerance of their sum, of u, and of the angle between r and J;
+/// with so many evaluations at most.
+pub(super) fn minimize(
+    problem: &impl Problem,
+    mut u: DVector<f64>,
+    tolerance: f64,
+    patience: Option<usize>,
+) -> Minimum {
+    let patience = patience.unwrap_or(PATIENCE * (u.len() + 1));
     let mut residuals = problem.residuals(&u);
     let mut norm = residuals.norm();
     let mut evaluations = 1;
     let mut region: Option<Region> = None;
     loop {
-        let end = |u: &DVector<f64>, ending| Minimum { u: u.clone(), ending, evaluations };
+        let end = |ending| Minimum { u: u.clone(), residuals: residuals.clone(), ending, evaluations };
         let Some(jacobian) = problem.jacobian(&u).filter(|_| norm.is_finite()) else {
-            return end(&u, SearchEnd::Stranded);
+            return end(SearchEnd::Stranded);
         };
         let angle = largest_cosine(&jacobian, &residuals);
         if norm == 0.0 || angle <= tolerance {
-            return end(&u, SearchEnd::Converged);
+            return end(SearchEnd::Converged);
         }
         let region = region.get_or_insert_with(|| Region::new(&jacobian, &u));
         region.widen_scale(&jacobian);
@@ -80,17 +92,19 @@ pub(super) fn minimize(problem: &impl Problem, mut u: DVector<f64>, tolerance: f
             }
             let length = region.scale.component_mul(&u).norm();
             let is_within = |tolerance: f64| gain.is_within(tolerance) || region.radius <= tolerance * length;
-            let ending = if is_within(tolerance) {
+            let ending = if Interruption::due().is_some() {
+                Some(SearchEnd::Interrupted)
+            } else if is_within(tolerance) {
                 Some(SearchEnd::Converged)
             } else if is_within(f64::EPSILON) || angle <= f64::EPSILON {
                 Some(SearchEnd::Rounding)
-            } else if evaluations >= PATIENCE * (u.len() + 1) {
+            } else if evaluations >= patience {
                 Some(SearchEnd::Patience)
             } else {
                 None
             };
             if let Some(ending) = ending {
-                return Minimum { u, ending, evaluations };
+                return Minimum { u, residuals, ending, evaluations };
             }
             if is_made {
                 break;
@@ -281,7 +295,7 @@ mod tests {
     #[test]
     fn a_curved_valley_is_followed_to_its_end() {
         for start in [[-1.2, 1.0], [-12.0, 10.0], [-120.0, 100.0]] {
-            let found = minimize(&rosenbrock(), DVector::from_row_slice(&start), 1e-12);
+            let found = minimize(&rosenbrock(), DVector::from_row_slice(&start), 1e-12, None);
             assert_eq!(found.ending, SearchEnd::Converged);
             assert!((found.u - DVector::repeat(2, 1.0)).norm() < 1e-10);
             // MINPACK takes 16 from the first of these starts (Moré, Garbow, Hillstrom 1981).
@@ -303,7 +317,7 @@ mod tests {
                     Some(scaled.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>()).collect())
                 },
             );
-            let found = minimize(&problem, DVector::from_row_slice(&units).map(f64::recip), 1e-12);
+            let found = minimize(&problem, DVector::from_row_slice(&units).map(f64::recip), 1e-12, None);
             assert_eq!(found.ending, SearchEnd::Converged);
             let back = found.u.component_mul(&DVector::from_row_slice(&units));
             // The condition of the matrix is below ten.
@@ -318,10 +332,10 @@ mod tests {
             |u: &DVector<f64>| vec![if u[0] > 0.0 { u[0].ln() - 1.0 } else { 1e100 }],
             |u: &DVector<f64>| (u[0] > 0.0).then(|| vec![1.0 / u[0]]),
         );
-        let found = minimize(&problem, DVector::from_element(1, 30.0), 1e-12);
+        let found = minimize(&problem, DVector::from_element(1, 30.0), 1e-12, None);
         assert_eq!(found.ending, SearchEnd::Converged);
         assert!((found.u[0] - std::f64::consts::E).abs() < 1e-10, "{}", found.u[0]);
-        let stranded = minimize(&problem, DVector::from_element(1, -1.0), 1e-12);
+        let stranded = minimize(&problem, DVector::from_element(1, -1.0), 1e-12, None);
         assert_eq!((stranded.ending, stranded.evaluations), (SearchEnd::Stranded, 1));
     }
 }

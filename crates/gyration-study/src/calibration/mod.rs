@@ -18,10 +18,12 @@ mod read;
 mod rebound;
 mod scale;
 mod scene;
+mod suspect;
 mod text;
 mod uncertainty;
 
 pub use curve::{Curve, CurvePoint};
+pub use suspect::Suspect;
 pub use uncertainty::{Fitted, FittedNumber, Residual, Undetermined};
 
 use gyration_scene::{LoadError, Override, Template};
@@ -95,6 +97,18 @@ pub enum CalibrationError {
         place: String,
         /// Why.
         reason: String,
+    },
+    /// The search was given up.
+    #[error("the search was given up {why}; it had come to χ² = {chi_squared:.4e}, with {worst}\n  fix: {fix}")]
+    Interrupted {
+        /// After how long, or by whom.
+        why: &'static str,
+        /// The least that it had found.
+        chi_squared: f64,
+        /// The measurement farthest off, and by how much.
+        worst: String,
+        /// What to do.
+        fix: &'static str,
     },
     /// The search came to no end.
     #[error(

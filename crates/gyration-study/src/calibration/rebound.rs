@@ -18,6 +18,8 @@ const LEVEL: f64 = 1e-14;
 /// A rebound is looked for over so many times the time of the fall, and this long [s].
 const FALLS: f64 = 4.0;
 const LONGER: f64 = 1.0;
+/// Steps to the apex at most; a drop takes some hundreds. A search may come to numbers with which it takes millions.
+const MOST_STEPS: u64 = 20_000;
 
 /// A body about to be dropped.
 pub(super) struct Drop {
@@ -62,12 +64,21 @@ impl Drop {
         let built = self.scene.built();
         let plan = RunPlan::from(built);
         let place = ColumnPlaces::new(&built.model, &plan).position + 3 * self.index;
-        let finder = ApexFinder { body: self.index, place, touched: Cell::new(false), apex: Cell::new(None) };
+        let finder = ApexFinder {
+            body: self.index,
+            place,
+            touched: Cell::default(),
+            apex: Cell::default(),
+            is_slow: Cell::default(),
+        };
         let mut run = Simulation::new(&built.model, &built.state, plan).map_err(|e| e.to_string())?;
         let (mut sink, mut monitor) = (&finder, &finder);
         run.begin(&mut sink).map_err(|e| e.to_string())?;
         let outcome = run.run(&mut sink, &mut monitor).map_err(|e| e.to_string())?;
-        let none = || format!("it does not rebound: {}", outcome.in_words());
+        let none = || match finder.is_slow.get() {
+            true => format!("its run takes more than {MOST_STEPS} steps"),
+            false => format!("it does not rebound: {}", outcome.in_words()),
+        };
         finder.apex.get().ok_or_else(none)
     }
 
@@ -131,6 +142,8 @@ struct ApexFinder {
     place: usize,
     touched: Cell<bool>,
     apex: Cell<Option<(f64, Vec3)>>,
+    /// Whether it took too many steps.
+    is_slow: Cell<bool>,
 }
 
 impl Sink for &ApexFinder {
@@ -156,7 +169,8 @@ impl Sink for &ApexFinder {
 }
 
 impl Monitor for &ApexFinder {
-    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
-        self.apex.get().map(|_| Reason::Interrupted)
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        self.is_slow.set(progress.statistics.accepted() >= MOST_STEPS);
+        (self.apex.get().is_some() || self.is_slow.get()).then_some(Reason::Interrupted)
     }
 }

@@ -5,6 +5,7 @@ use gyration::model::Model;
 use gyration::tensor::Vec3;
 use gyration_scene::{Override, Scene};
 use gyration_sim::complete;
+use std::time::Duration;
 
 impl Calibration {
     /// The scene of a measurement.
@@ -21,6 +22,12 @@ impl Calibration {
         overrides.extend(more.iter().cloned());
         let found = self.template.scene(&overrides).and_then(complete);
         found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
+    }
+
+    /// How long the search may take: what the scene says of a run.
+    pub(super) fn max_wall_time(&self) -> Option<Duration> {
+        let scene = self.template.scene(&self.settings).ok()?;
+        Duration::try_from_secs_f64(scene.built().plan.max_wall_time?).ok()
     }
 
     /// The scene on a slope, with the part of gravity that presses.

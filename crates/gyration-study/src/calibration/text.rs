@@ -1,11 +1,9 @@
 //! A fit as text, as `gyration calibrate` prints it.
 
-use super::{Calibration, Fitted, FittedNumber};
+use super::suspect::is_far;
+use super::{Calibration, Fitted, FittedNumber, Suspect};
 use gyration_scene::unit_of;
 use std::fmt::Write as _;
-
-/// χ² is far above the degrees of freedom beyond so many of its standard deviations, √(2·degrees).
-const FAR: f64 = 5.0;
 
 impl Fitted {
     /// The overrides that put the numbers into a scene.
@@ -34,13 +32,15 @@ impl Fitted {
             let _ = writeln!(text, "\n  {}", undetermined.in_words);
         }
         let _ = writeln!(text, "\nχ² {:.4} with {} degrees of freedom", self.chi_squared, self.degrees_of_freedom);
-        let freedom = self.degrees_of_freedom as f64;
-        if freedom > 0.0 && self.chi_squared > freedom + FAR * (2.0 * freedom).sqrt() {
+        if is_far(self.chi_squared, self.degrees_of_freedom) {
             let _ = writeln!(
                 text,
                 "  far above them: the deviations are too small, a measurement is wrong, or the law does not explain them; the errors \
                  above are too small as well"
             );
+        }
+        if let Some(suspect) = &self.suspect {
+            let _ = writeln!(text, "  {}", suspect.in_words());
         }
         if self.numbers.len() > 1 {
             let _ = writeln!(text, "\ncorrelations");
@@ -54,6 +54,22 @@ impl Fitted {
         let options: Vec<String> = self.overrides().iter().map(|setting| format!("--set {setting}")).collect();
         let _ = writeln!(text, "\n{}", options.join(" "));
         text
+    }
+}
+
+impl Suspect {
+    /// Which measurement is wrong, in a sentence.
+    pub fn in_words(&self) -> String {
+        let Self { table, chi_squared, degrees_of_freedom, measured, expected, .. } = self;
+        let (named, there) = match self.row {
+            Some(row) => (format!("row {} of {table}", row + 1), "there"),
+            None => (table.clone(), "in its first row"),
+        };
+        format!(
+            "{named} is at odds with all others: without it χ² is {chi_squared:.4} with {degrees_of_freedom}, and they tell \
+             {expected:.5e} {there} where {measured:.5e} was measured, {:.4e} times as much: look at its unit",
+            measured / expected
+        )
     }
 }
 

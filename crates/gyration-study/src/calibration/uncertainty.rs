@@ -8,10 +8,10 @@
 //! more, or where a direction that is not fitted, followed so far, moves it by more than its error.
 
 use super::fit::START;
+use super::suspect::{Leverage, Suspect};
 use super::{Calibration, CalibrationError};
-use gyration_threads::on_own_threads;
+use gyration_threads::{Interruption, on_own_threads};
 use nalgebra::DMatrix;
-use rayon::iter::ParallelIterator;
 use serde::Serialize;
 
 /// A number is told if its standard error is below this (factor e³), on the scale on which it is varied.
@@ -32,6 +32,8 @@ pub struct Fitted {
     pub chi_squared: f64,
     /// Measurements less directions in which numbers were fitted.
     pub degrees_of_freedom: usize,
+    /// The measurement without which the others agree, if χ² is far above the degrees of freedom and there is one.
+    pub suspect: Option<Suspect>,
     /// What is left of each measurement.
     pub residuals: Vec<Residual>,
     /// What cannot be told apart.
@@ -94,17 +96,26 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError`] if the search cannot begin or does not end.
     pub fn fit(&self) -> Result<Fitted, CalibrationError> {
-        on_own_threads(|| self.fit_here())
+        let interruption = Interruption::in_force().after(self.max_wall_time());
+        on_own_threads(|| interruption.within(|| self.fit_here()))
     }
 
     fn fit_here(&self) -> Result<Fitted, CalibrationError> {
-        let found = self.search()?;
+        let found = self.search(None)?;
         let values = found.values;
         let slopes = self.weighted_slopes(&values).map_err(CalibrationError::Search)?;
         let residuals = self.residuals(&values)?;
         let (rows, count) = (slopes.len(), values.len());
         let jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
         let Eigendirections { covariance, all } = Eigendirections::of(&jacobian);
+        let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
+        let degrees_of_freedom = rows.saturating_sub(fitted_directions);
+        let suspect = self.suspect(&Leverage {
+            residuals: &residuals,
+            jacobian: &jacobian,
+            covariance: &covariance,
+            degrees_of_freedom,
+        });
         let scales: Vec<f64> =
             self.numbers.iter().zip(&values).map(|(number, value)| number.scale.slope(*value)).collect();
         let error = |index: usize| covariance[(index, index)].sqrt();
@@ -133,7 +144,6 @@ impl Calibration {
                 undetermined.push(self.undetermined(&along, &alone, &values));
             }
         }
-        let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
         let number = |(index, number): (usize, &super::FreeNumber)| {
             let (_, slope) = number.scale.outward(number.scale.inward(values[index]));
             FittedNumber {
@@ -152,7 +162,8 @@ impl Calibration {
             numbers: self.numbers.iter().enumerate().map(number).collect(),
             correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
             chi_squared: residuals.iter().map(|residual| residual.weighted * residual.weighted).sum(),
-            degrees_of_freedom: rows.saturating_sub(fitted_directions),
+            degrees_of_freedom,
+            suspect,
             residuals,
             undetermined,
             ending: found.ending,
@@ -161,14 +172,14 @@ impl Calibration {
         })
     }
 
-    fn residuals(&self, values: &[f64]) -> Result<Vec<Residual>, CalibrationError> {
+    pub(super) fn residuals(&self, values: &[f64]) -> Result<Vec<Residual>, CalibrationError> {
         let residual = |(table, row): (&super::Experiment, usize)| {
             let (condition, measured, deviation) = (table.conditions[row], table.measured[row], table.deviations[row]);
             let fitted = self.value(table, condition, values).map_err(CalibrationError::Search)?;
             let weighted = (fitted - measured) / deviation;
             Ok(Residual { table: table.place(), row, condition, measured, deviation, fitted, weighted })
         };
-        self.rows().map(residual).collect()
+        self.each_row(residual).into_iter().collect()
     }
 
     /// What a direction leaves open: the numbers that take part, and the one that moves most.

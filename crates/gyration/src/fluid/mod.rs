@@ -42,4 +42,4 @@ pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceForm};
 pub use moments::EllipsoidMoments;
 pub use surface::ImmersedSurface;
-pub use table::{ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};
+pub use table::{NoMatrix, ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};

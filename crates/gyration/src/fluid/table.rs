@@ -29,8 +29,17 @@ pub trait ResistanceSource: Debug + Send + Sync {
     /// determinant 1, about the centre of its volume.
     ///
     /// # Errors
-    /// The estimated relative error of the matrix where that is too large, NaN where there is none.
-    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64>;
+    /// [`NoMatrix`].
+    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, NoMatrix>;
+}
+
+/// Why there is no matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoMatrix {
+    /// Its estimated relative error is too large; NaN where there is none.
+    Inexact(f64),
+    /// Whoever wants it waits no longer. It may be asked for again.
+    Interrupted,
 }
 
 /// How a table is made.
@@ -45,7 +54,7 @@ pub struct Resolution {
 /// What stands in the way of a resistance, and by how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnresolvedForm {
-    /// `Elements` or `Interpolation`.
+    /// `Elements`, `Interpolation` or `Interruption`.
     pub quantity: Quantity,
     /// The relative error.
     pub value: f64,
@@ -128,7 +137,10 @@ impl ResistanceTable {
             Some(found) => found.clone()?,
             None => {
                 let found = self.resolved(&place.simplex, spacing, &mut known.nodes);
-                known.simplices.insert(place.simplex, found.clone());
+                // What was given up is no answer.
+                if !matches!(found, Err(UnresolvedForm { quantity: Quantity::Interruption, .. })) {
+                    known.simplices.insert(place.simplex, found.clone());
+                }
                 found?
             }
         };
@@ -198,7 +210,10 @@ impl ResistanceTable {
         let fault = |value| UnresolvedForm { quantity: Quantity::Elements, value };
         let stretch = PrincipalStretch::at(strain);
         let reference = self.reference(&stretch)?;
-        let matrix = self.source.matrix(&stretch.matrix()).map_err(fault)?;
+        let matrix = self.source.matrix(&stretch.matrix()).map_err(|none| match none {
+            NoMatrix::Inexact(error) => fault(error),
+            NoMatrix::Interrupted => UnresolvedForm { quantity: Quantity::Interruption, value: f64::NAN },
+        })?;
         reference.ratio(&matrix).ok_or_else(|| fault(f64::NAN))
     }
 

@@ -4,7 +4,9 @@
 //! The ratio C to the ellipsoid of the same second moments is linear in the coordinates of the form, so that what is
 //! interpolated is exact: differences may cross from one simplex into the next.
 
-use gyration::fluid::{FixedForm, Form, Inclusion, ResistanceSource, ResistanceTable, Resolution, SurfaceForm};
+use gyration::fluid::{
+    FixedForm, Form, Inclusion, NoMatrix, ResistanceSource, ResistanceTable, Resolution, SurfaceForm,
+};
 use gyration::load::Mat12;
 use gyration::model::Model;
 use gyration::tensor::{Mat3, Vec3};
@@ -17,7 +19,7 @@ const SEMI_AXES: Vec3 = Vec3::new(0.5, 0.3, 0.4);
 struct Linear;
 
 impl ResistanceSource for Linear {
-    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64> {
+    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, NoMatrix> {
         let eigen = stretch.symmetric_eigen();
         let logarithm =
             eigen.eigenvectors * Mat3::from_diagonal(&eigen.eigenvalues.map(f64::ln)) * eigen.eigenvectors.transpose();
@@ -27,7 +29,7 @@ impl ResistanceSource for Linear {
             ratio += (root + root.transpose()) * *part;
         }
         let carried = stretch * Mat3::from_diagonal(&SEMI_AXES);
-        let lower = FixedForm::of_image(&carried).cholesky().ok_or(f64::NAN)?.l();
+        let lower = FixedForm::of_image(&carried).cholesky().ok_or(NoMatrix::Inexact(f64::NAN))?.l();
         Ok(lower * ratio * lower.transpose())
     }
 }

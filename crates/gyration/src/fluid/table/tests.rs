@@ -3,6 +3,8 @@
 use super::*;
 use crate::fluid::FixedForm;
 use crate::tensor::Vec3;
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// An ellipsoid that is measured by a sphere, so that C is far from constant.
 #[derive(Debug)]
@@ -10,19 +12,30 @@ struct Skew {
     carried: Mat3,
     /// Forms with |dev ln E| beyond it have no resistance.
     reach: f64,
+    /// How many matrices are still waited for.
+    patience: AtomicUsize,
 }
 
 impl ResistanceSource for Skew {
-    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, f64> {
+    fn matrix(&self, stretch: &Mat3) -> Result<Mat12, NoMatrix> {
+        if self.patience.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).is_err() {
+            self.patience.store(usize::MAX, Relaxed);
+            return Err(NoMatrix::Interrupted);
+        }
         if PrincipalStretch::of(stretch).strain().norm() > self.reach {
-            return Err(0.3);
+            return Err(NoMatrix::Inexact(0.3));
         }
         Ok(FixedForm::of_image(&(stretch * self.carried)))
     }
 }
 
 fn table(tolerance: f64, spacing: Option<f64>, reach: f64) -> ResistanceTable {
-    let source = Skew { carried: Mat3::from_diagonal(&Vec3::new(1.0, 0.6, 0.5)), reach };
+    impatient(tolerance, spacing, (reach, usize::MAX))
+}
+
+/// One that is given up once after so many matrices.
+fn impatient(tolerance: f64, spacing: Option<f64>, (reach, patience): (f64, usize)) -> ResistanceTable {
+    let source = Skew { carried: Mat3::from_diagonal(&Vec3::new(1.0, 0.6, 0.5)), reach, patience: patience.into() };
     let table =
         ResistanceTable::new(Box::new(source), &Mat3::from_diagonal_element(0.1), Resolution { tolerance, spacing });
     table.unwrap_or_else(|| panic!("a sphere has a volume"))
@@ -96,4 +109,24 @@ fn numbers_do_not_depend_on_the_order_of_the_questions() {
     let mut back: Vec<_> = forms().rev().map(|form| bits(&other, &form)).collect();
     back.reverse();
     assert_eq!(forth, back);
+}
+
+/// Whoever comes back gets what he would have got at once: nothing that was given up is kept as an answer.
+#[test]
+fn what_was_given_up_is_known_when_it_is_asked_for_again() {
+    let patient = table(1e-2, None, 10.0);
+    for patience in [0, 3, 6, 8, 20] {
+        let impatient = impatient(1e-2, None, (10.0, patience));
+        let mut given_up = 0;
+        for form in forms() {
+            let stretch = form.matrix();
+            let found = impatient.matrix(&stretch).or_else(|UnresolvedForm { quantity, .. }| {
+                assert_eq!(quantity, Quantity::Interruption);
+                given_up += 1;
+                impatient.matrix(&stretch)
+            });
+            assert_eq!(found, patient.matrix(&stretch));
+        }
+        assert_eq!((given_up, impatient.size()), (1, patient.size()));
+    }
 }
