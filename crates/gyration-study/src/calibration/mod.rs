@@ -99,7 +99,7 @@ pub enum CalibrationError {
         reason: String,
     },
     /// The search was given up.
-    #[error("the search was given up {why}; it had come to χ² = {chi_squared:.4e}, with {worst}\n  fix: {fix}")]
+    #[error("the search was given up {why}, at χ² = {chi_squared:.4e}, with {worst}\n  fix: {fix}")]
     Interrupted {
         /// After how long, or by whom.
         why: &'static str,

@@ -66,8 +66,8 @@ impl Suspect {
             None => (table.clone(), "in its first row"),
         };
         format!(
-            "{named} is at odds with all others: without it χ² is {chi_squared:.4} with {degrees_of_freedom}, and they tell \
-             {expected:.5e} {there} where {measured:.5e} was measured, {:.4e} times as much: look at its unit",
+            "{named} is at odds with all others: without it χ² is {chi_squared:.4} with {degrees_of_freedom}, and they \
+             tell {expected:.5e} {there} where {measured:.5e} was measured, {:.4e} times as much: look at its unit",
             measured / expected
         )
     }
