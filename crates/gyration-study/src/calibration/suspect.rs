@@ -7,7 +7,6 @@
 //! table by table, and the numbers are searched anew from their start. The first without which the others agree is it.
 
 use super::fit::Found;
-use super::uncertainty::Residual;
 use super::{Calibration, Experiment};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -44,7 +43,8 @@ pub(super) fn is_far(chi_squared: f64, degrees_of_freedom: usize) -> bool {
 
 /// What a fit knows of its measurements.
 pub(super) struct Leverage<'a> {
-    pub residuals: &'a [Residual],
+    /// r.
+    pub residuals: &'a [f64],
     /// J, a row a measurement.
     pub jacobian: &'a DMatrix<f64>,
     /// C.
@@ -62,7 +62,7 @@ struct Left {
 impl Calibration {
     /// The measurement that is wrong, if one alone is.
     pub(super) fn suspect(&self, known: &Leverage) -> Option<Suspect> {
-        let chi_squared: f64 = known.residuals.iter().map(|residual| residual.weighted * residual.weighted).sum();
+        let chi_squared: f64 = known.residuals.iter().map(|residual| residual * residual).sum();
         if !is_far(chi_squared, known.degrees_of_freedom) {
             return None;
         }
@@ -125,7 +125,7 @@ impl Leverage<'_> {
         let slopes = DVector::from_iterator(self.jacobian.ncols(), self.jacobian.row(row).iter().copied());
         let leverage = slopes.dot(&(self.covariance * &slopes));
         // A row that alone tells a number has a residual of zero, whatever was measured.
-        self.residuals[row].weighted.powi(2) / (1.0 - leverage).max(f64::EPSILON)
+        self.residuals[row].powi(2) / (1.0 - leverage).max(f64::EPSILON)
     }
 }
 

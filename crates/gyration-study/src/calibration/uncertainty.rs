@@ -110,8 +110,9 @@ impl Calibration {
         let Eigendirections { covariance, all } = Eigendirections::of(&jacobian);
         let fitted_directions = all.iter().filter(|direction| direction.spread.is_some()).count();
         let degrees_of_freedom = rows.saturating_sub(fitted_directions);
+        let weighted: Vec<f64> = residuals.iter().map(|residual| residual.weighted).collect();
         let suspect = self.suspect(&Leverage {
-            residuals: &residuals,
+            residuals: &weighted,
             jacobian: &jacobian,
             covariance: &covariance,
             degrees_of_freedom,
