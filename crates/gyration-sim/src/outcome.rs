@@ -86,15 +86,13 @@ impl Outcome {
 }
 
 impl Stop {
-    /// A stop because of an interruption.
-    pub fn by_interruption(time: f64, cause: Interrupted) -> Self {
-        Self::by_request(
-            time,
-            match cause {
-                Interrupted::Raised => Reason::Interrupted,
-                Interrupted::Overdue => Reason::WallTime,
-            },
-        )
+    /// A stop because of the interruption in force.
+    pub fn by_interruption(time: f64) -> Self {
+        let reason = match Interruption::due() {
+            Some(Interrupted::Overdue) => Reason::WallTime,
+            _ => Reason::Interrupted,
+        };
+        Self::by_request(time, reason)
     }
 
     /// A stop for reasons outside the physics.
@@ -220,9 +218,7 @@ impl Stop {
                 "Give it a smaller `inclusion.spacing` (the error falls with its square), or a larger `inclusion.tolerance`."
                     .to_string(),
             ),
-            Quantity::Interruption => {
-                return Self::by_interruption(time, Interruption::due().unwrap_or(Interrupted::Raised));
-            }
+            Quantity::Interruption => return Self::by_interruption(time),
             Quantity::Contraction => (
                 Reason::Collapsed,
                 format!("body {body:?} has contracted to nothing: det G has come down to {:e}", left.value),

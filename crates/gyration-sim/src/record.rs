@@ -82,7 +82,7 @@ impl<'a> Job<'a> {
             model,
             start: state,
             plan: scene.built().into(),
-            max_wall_time: plan.max_wall_time.and_then(|limit| Duration::try_from_secs_f64(limit).ok()),
+            max_wall_time: plan.wall_time(),
             attributes: attributes.as_object().cloned().unwrap_or_default(),
         }
     }

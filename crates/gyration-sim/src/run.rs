@@ -19,12 +19,8 @@ use crate::step_end::{self, StepEnd};
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::{Inadmissible, Quantity};
 use gyration_ode::{ExtendedMut, Integrator, Statistics, StepReport, System as _};
 use gyration_threads::Interruption;
-
-/// A step that was interrupted, whatever it then failed at.
-const GIVEN_UP: Inadmissible = Inadmissible { body: 0, quantity: Quantity::Interruption, value: f64::NAN };
 
 /// A run under way: a model as its stepper sees it, and the run.
 pub struct Simulation<'a> {
@@ -192,7 +188,7 @@ impl<'a> Simulation<'a> {
         let (time, end) = (report.end, self.run.plan.end);
         let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
         let asked = monitor.after_step(&progress).map(|reason| Stop::by_request(time, reason));
-        let asked = asked.or_else(|| Interruption::due().map(|cause| Stop::by_interruption(time, cause)));
+        let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
         Ok(asked.filter(|_| time < end).map(Outcome::Stopped))
     }
 
@@ -202,7 +198,7 @@ impl<'a> Simulation<'a> {
         let made = self.run.integrator.step(&mut self.system, target);
         if !self.is_whole() {
             // A shorter step that has gone well is another one than the run would have made.
-            return Ok(Err(Stop::by_inadmissible(self.system.model(), time, &GIVEN_UP)));
+            return Ok(Err(Stop::by_interruption(time)));
         }
         let report = match made {
             Ok(report) => report,

@@ -66,8 +66,8 @@ struct Ended {
 impl Study {
     /// The row of a run; `run` < [`Study::runs`]. It depends on nothing else; failures are rows.
     pub fn row(&self, run: u64) -> Row {
-        // A worker that nobody stops and that records nothing comes to an end.
-        let row = self.attempt(run, &Worker::new());
+        // A worker that nobody stops and that records nothing comes to an end, whatever is in force here.
+        let row = Interruption::default().within(|| self.attempt(run, &Worker::new()));
         row.ok().flatten().unwrap_or_default()
     }
 

@@ -2,8 +2,10 @@
 //! refused.
 
 use gyration_study::calibration::{Calibration, CalibrationError, Fitted};
+use gyration_threads::Interruption;
 use std::fmt::Write as _;
 use std::path::Path;
+use std::time::Duration;
 
 /// A ball above a table, in a file of its own.
 const BALL: &str = r#"
@@ -426,4 +428,29 @@ fn search_ends_with_the_wall_time_of_its_scene_and_says_where_it_was() {
     let early = misread("[set]\n\"solver.max_wall_time\" = \"1 s\"");
     let CalibrationError::Interrupted { worst, .. } = &early else { panic!("{early:?}") };
     assert!(worst.contains("row 2 of gap.0"), "{worst}");
+}
+
+/// Wherever a search is given up, it says so: no fit comes of runs that did not end.
+#[test]
+fn search_that_is_given_up_anywhere_is_no_fit() {
+    let number = "[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = 3e4\n";
+    let drops = |rebound: &[f64]| format!("[[drop]]\nheight = [0.05, 0.1]\nrebound = {rebound:?}\ndeviation = 1e-3\n");
+    let rebound = exact(&drops(&[1e-3, 1e-3]));
+    let text = format!("scene = \"ball.toml\"\n{number}{}", drops(&rebound));
+    let whole = fit(&text);
+    let (folder, mut given_up) = (folder(), 0);
+    let calibration = Calibration::parse("data.toml", &text, folder.path()).unwrap();
+    for attempt in 0.. {
+        let most = Duration::from_secs_f64(1e-3 * 1.2f64.powi(attempt));
+        match Interruption::default().after(Some(most)).within(|| calibration.fit()) {
+            Err(error) => assert!(matches!(error, CalibrationError::Interrupted { .. }), "{error}"),
+            Ok(fitted) => {
+                assert!(fitted == whole);
+                break;
+            }
+        }
+        given_up += 1;
+    }
+    println!("{given_up} times given up");
+    assert!(given_up > 3, "{given_up}");
 }

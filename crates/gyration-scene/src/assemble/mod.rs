@@ -35,6 +35,7 @@ use gyration::model::Model;
 use gyration::state::{Start, State};
 use gyration::tensor::Vec3;
 use solids::Solids;
+use std::time::Duration;
 
 /// A scene ready to run.
 #[derive(Debug, Clone)]
@@ -83,6 +84,13 @@ pub struct Plan {
     pub max_step: Option<f64>,
     /// The longest computing time \[s\].
     pub max_wall_time: Option<f64>,
+}
+
+impl Plan {
+    /// The longest computing time; none where no clock can tell it.
+    pub fn wall_time(&self) -> Option<Duration> {
+        Duration::try_from_secs_f64(self.max_wall_time?).ok()
+    }
 }
 
 /// When the bodies count as resting.

@@ -24,7 +24,6 @@ use gyration_stokes::StokesError;
 use gyration_threads::Interruption;
 use std::borrow::Cow;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Opens a scene by its path or its name in the gallery, ready to run: [`Scene::open`] and [`complete`], for which its
 /// `solver.max_wall_time` counts.
@@ -33,8 +32,7 @@ use std::time::Duration;
 /// As of both.
 pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Scene, LoadError> {
     let scene = Scene::open(path_or_name, overrides)?;
-    let most = scene.built().plan.max_wall_time.and_then(|most| Duration::try_from_secs_f64(most).ok());
-    Ok(Interruption::in_force().after(most).within(|| complete(scene))?)
+    Ok(Interruption::in_force().after(scene.built().plan.wall_time()).within(|| complete(scene))?)
 }
 
 /// The scene with the resistances that boundary elements tell: ready to run.

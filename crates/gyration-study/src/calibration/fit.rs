@@ -20,6 +20,8 @@ const TOLERANCE: f64 = 1e-10;
 /// The least squares.
 pub(super) struct Found {
     pub values: Vec<f64>,
+    /// r there.
+    pub residuals: Vec<f64>,
     /// How the search ended, in words.
     pub ending: String,
     /// How often all measurements were computed.
@@ -66,7 +68,7 @@ impl Calibration {
     pub(super) fn search(&self, patience: Option<usize>) -> Result<Found, CalibrationError> {
         let predicted = self.predictions();
         if let Some(cause) = Interruption::due() {
-            return Err(self.interrupted(cause, None));
+            return Err(self.interrupted(cause, &[]));
         }
         predicted?;
         let u = self.numbers.iter().map(|number| number.scale.inward(number.start));
@@ -74,7 +76,7 @@ impl Calibration {
         let problem = Residuals { calibration: self, start: start.clone() };
         let Minimum { u, residuals, ending, evaluations } = minimize(&problem, start, TOLERANCE, patience);
         if let Some(cause) = Interruption::due() {
-            return Err(self.interrupted(cause, Some(&residuals)));
+            return Err(self.interrupted(cause, residuals.as_slice()));
         }
         let ending = match ending {
             SearchEnd::Converged => "converged",
@@ -86,7 +88,8 @@ impl Calibration {
                 return Err(self.lost("where it arrived derivatives cannot be computed", &residuals, patience));
             }
         };
-        Ok(Found { values: self.values_at(u.as_slice()), ending: ending.to_owned(), evaluations })
+        let (values, residuals) = (self.values_at(u.as_slice()), residuals.as_slice().to_vec());
+        Ok(Found { values, residuals, ending: ending.to_owned(), evaluations })
     }
 }
 
@@ -105,9 +108,8 @@ impl Calibration {
     }
 
     /// The end of a search that was given up, with the residuals at the best point so far.
-    fn interrupted(&self, cause: Interrupted, residuals: Option<&DVector<f64>>) -> CalibrationError {
+    pub(super) fn interrupted(&self, cause: Interrupted, known: &[f64]) -> CalibrationError {
         let of_rows = self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)));
-        let known = residuals.map_or(&[][..], |residuals| residuals.as_slice());
         let farthest = of_rows.zip(known).max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
         let worst = match farthest {
             Some(((table, row), &residual)) if residual < BAD => {

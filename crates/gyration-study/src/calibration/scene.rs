@@ -26,8 +26,7 @@ impl Calibration {
 
     /// How long the search may take: what the scene says of a run.
     pub(super) fn max_wall_time(&self) -> Option<Duration> {
-        let scene = self.template.scene(&self.settings).ok()?;
-        Duration::try_from_secs_f64(scene.built().plan.max_wall_time?).ok()
+        self.template.scene(&self.settings).ok()?.built().plan.wall_time()
     }
 
     /// The scene on a slope, with the part of gravity that presses.

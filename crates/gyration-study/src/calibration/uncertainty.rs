@@ -103,8 +103,12 @@ impl Calibration {
     fn fit_here(&self) -> Result<Fitted, CalibrationError> {
         let found = self.search(None)?;
         let values = found.values;
-        let slopes = self.weighted_slopes(&values).map_err(CalibrationError::Search)?;
-        let residuals = self.residuals(&values)?;
+        let (slopes, residuals) = (self.weighted_slopes(&values), self.residuals(&values));
+        if let Some(cause) = Interruption::due() {
+            // A run that was given up has derivatives as well: those of an earlier time.
+            return Err(self.interrupted(cause, &found.residuals));
+        }
+        let (slopes, residuals) = (slopes.map_err(CalibrationError::Search)?, residuals?);
         let (rows, count) = (slopes.len(), values.len());
         let jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
         let Eigendirections { covariance, all } = Eigendirections::of(&jacobian);
