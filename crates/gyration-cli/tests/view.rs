@@ -70,16 +70,17 @@ fn the_page_is_served_until_it_is_interrupted() {
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut url = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut url).unwrap();
-        let host = url.trim().strip_prefix("http://").unwrap().trim_end_matches('/');
+        let (host, token) = url.trim().strip_prefix("http://").unwrap().split_once('/').unwrap();
         let get = |path: &str| {
             let mut stream = TcpStream::connect(host).unwrap();
-            write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").unwrap();
+            write!(stream, "GET /{path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").unwrap();
             let mut answer = String::new();
             stream.read_to_string(&mut answer).unwrap();
             answer
         };
-        assert!(get("/").contains("<!--gyration-data-->"), "the page, without data of its own");
-        assert!(get("/api/header").contains(&format!("\"mode\":{mode}")), "{what}");
+        assert!(get(token).contains("<!--gyration-data-->"), "the page, without data of its own");
+        assert!(get(&format!("{token}api/header")).contains(&format!("\"mode\":{mode}")), "{what}");
+        assert!(get("api/header").starts_with("HTTP/1.1 403 "), "{what}: without the token");
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
         assert_eq!(child.wait().unwrap().code(), Some(0), "{what}");
     }

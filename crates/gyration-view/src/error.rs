@@ -31,6 +31,9 @@ pub enum ViewError {
         /// The system's reason.
         source: io::Error,
     },
+    /// There is no token to be had for the address.
+    #[error("the operating system gives no random numbers, which the address of the page needs")]
+    NoRandomNumbers(#[source] getrandom::Error),
     /// The server broke down.
     #[error("the local server failed: {0}")]
     Server(io::Error),

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: [`header`] says what one is
-//! given, [`blob`] how the numbers are laid out. The server listens on 127.0.0.1 and answers to that name only. No
-//! mechanics here.
+//! given, [`blob`] how the numbers are laid out. The server listens on 127.0.0.1 and answers who has its address, with
+//! the token in it, and nobody else. No mechanics here.
 
 #![forbid(unsafe_code)]
 
@@ -25,5 +25,5 @@ mod stored;
 pub use error::ViewError;
 pub use live::{Live, Wish};
 pub use report::{Report, report};
-pub use server::{PageSource, Server};
+pub use server::{Limits, PageSource, Server};
 pub use stored::Stored;

@@ -9,15 +9,15 @@ use std::net::TcpStream;
 use std::path::Path;
 use tungstenite::{Message, WebSocket};
 
-struct Page {
+pub(crate) struct Page {
     socket: WebSocket<TcpStream>,
 }
 
 /// What a page knows of a run.
 #[derive(Debug, Default)]
-struct Watched {
+pub(crate) struct Watched {
     header: Value,
-    times: Vec<f64>,
+    pub(crate) times: Vec<f64>,
     /// Rows of the array `position`.
     positions: Vec<f32>,
     blobs: Vec<String>,
@@ -26,11 +26,11 @@ struct Watched {
 }
 
 impl Page {
-    fn open(served: &Served) -> Self {
+    pub(crate) fn open(served: &Served) -> Self {
         let port = served.port;
-        let request =
-            tungstenite::ClientRequestBuilder::new(format!("ws://127.0.0.1:{port}/api/live").parse().unwrap())
-                .with_header("Origin", format!("http://127.0.0.1:{port}"));
+        let address = format!("ws://127.0.0.1:{port}{}/api/live", served.root);
+        let request = tungstenite::ClientRequestBuilder::new(address.parse().unwrap())
+            .with_header("Origin", format!("http://127.0.0.1:{port}"));
         let stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
         Self { socket: tungstenite::client(request, stream).unwrap().0 }
     }
@@ -64,7 +64,7 @@ impl Page {
         None
     }
 
-    fn read_all(&mut self) -> Watched {
+    pub(crate) fn read_all(&mut self) -> Watched {
         let mut watched = Watched::default();
         assert_eq!(self.read(&mut watched, |watched| !watched.done.is_null()), None);
         watched
@@ -89,9 +89,14 @@ fn take(watched: &mut Watched, bytes: &[u8]) {
 }
 
 fn live(folder: &tempfile::TempDir, text: &str) -> Served {
+    Served::new(running(folder, text))
+}
+
+/// A text that runs once it is watched.
+pub(crate) fn running(folder: &tempfile::TempDir, text: &str) -> PageSource {
     let path = folder.path().join("fall.toml");
     std::fs::write(&path, text).unwrap();
-    Served::new(PageSource::Live(Live::start(path.to_str().unwrap(), &[], provenance()).unwrap()))
+    PageSource::Live(Live::start(path.to_str().unwrap(), &[], provenance()).unwrap())
 }
 
 #[test]
@@ -174,6 +179,7 @@ fn other_pages_cannot_open_the_websocket() {
     let folder = tempfile::tempdir().unwrap();
     let served = live(&folder, FALL);
     let upgrade = "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
-    let host = format!("Host: 127.0.0.1:{}\r\n", served.port);
-    assert_eq!(served.ask("/api/live", &format!("{host}Origin: http://elsewhere.example\r\n{upgrade}")).0, 403);
+    let other = format!("{}Origin: http://elsewhere.example\r\n{upgrade}", served.host());
+    assert_eq!(served.ask("/api/live", &other).0, 403);
+    assert_eq!(served.ask_anywhere("/api/live", &format!("{}{upgrade}", served.host())).0, 403, "no token");
 }

@@ -65,9 +65,8 @@ export class LiveRun implements Source {
     const old = this.socket;
     this.socket = null;
     old?.close();
-    const socket = new WebSocket(
-      `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/live`,
-    );
+    // Relative to the address of the page, which has the server's token; `ws` for `http`.
+    const socket = new WebSocket(new URL("api/live", location.href).href.replace(/^http/, "ws"));
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     // Only the socket at hand speaks.

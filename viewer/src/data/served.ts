@@ -108,13 +108,14 @@ class ServerError extends Error {}
 
 /** The header that the server gives. */
 export async function servedHeader(): Promise<Header> {
-  return checkedHeader(await (await answer("/api/header")).json());
+  return checkedHeader(await (await answer("api/header")).json());
 }
 
 async function bytes(path: string): Promise<ArrayBuffer> {
-  return (await answer(`/api/blob/${path}`)).arrayBuffer();
+  return (await answer(`api/blob/${path}`)).arrayBuffer();
 }
 
+/** What the server gives at a path relative to the address of the page, which has its token. */
 async function answer(path: string): Promise<Response> {
   const response = await fetch(path, { cache: "no-store" });
   if (!response.ok)

@@ -29,7 +29,7 @@ export class Banner {
   lose(reason: string, reconnect: () => void): void {
     this.found();
     const again = h("button", { type: "button", class: "strong", onclick: reconnect }, "Reconnect");
-    const words = `${reason} What has come so far can still be looked at. Is \`gyration view\` still running?`;
+    const words = `${reason} What has come so far can still be looked at. Is \`gyration view\` still running? If it was started again, open the address that it printed.`;
     this.lost = h("div", { class: "banner lost", role: "alert" }, h("p", {}, words), again);
     this.element.append(this.lost);
   }

@@ -39,6 +39,13 @@ export interface Opened {
   close(): Promise<void>;
 }
 
+export interface Opening {
+  ready?: boolean;
+  on?: Promise<Browser>;
+  /** Done to the page before it is led anywhere. */
+  before?: (page: Page) => Promise<void>;
+}
+
 export const DESK = { viewport: { width: 1280, height: 800 } };
 export const PHONE = { viewport: { width: 360, height: 740 }, hasTouch: true };
 
@@ -46,11 +53,12 @@ export const PHONE = { viewport: { width: 360, height: 740 }, hasTouch: true };
 export async function opened(
   where: string,
   options: BrowserContextOptions = DESK,
-  { ready = true, on = browser() }: { ready?: boolean; on?: Promise<Browser> } = {},
+  { ready = true, on = browser(), before }: Opening = {},
 ): Promise<Opened> {
   const url = where.startsWith("http") ? where : `file://${where}`;
   const context = await (await on).newContext(options);
   const page = await context.newPage();
+  await before?.(page);
   const problems: string[] = [];
   page.on("console", (message) => message.type() === "error" && problems.push(`console: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`script: ${error.message}`));

@@ -79,24 +79,49 @@ describe("a live view", () => {
     await server.stop();
   });
 
-  it("misses_a_server_that_is_gone_and_reconnects_to_one_that_is_back", async () => {
+  it("misses_a_server_that_is_gone_and_takes_no_other_in_its_place", async () => {
     const first = await served("dice", "--set", "time.end=0.2");
     const { page, problems, close } = await opened(first.url);
     await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
     await first.stop();
     const banner = page.locator(".banner.lost");
     await banner.waitFor();
-    expect(await banner.textContent()).toContain("server");
+    expect(await banner.textContent()).toContain("open the address that it printed");
     // What has come can still be looked at.
     await page.keyboard.press("End");
     expect(await page.evaluate(() => window.gyration.time)).toBeCloseTo(0.2, 9);
+    // On the same port, but with a token of its own.
     const second = await served("dice", "--set", "time.end=0.3", "--port", String(first.port));
+    const refused = page.waitForEvent("websocket").then((socket) => socket.waitForEvent("socketerror"));
     await page.getByRole("button", { name: "Reconnect" }).click();
-    await banner.waitFor({ state: "detached" });
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(61);
+    expect(await refused).toContain("403");
+    await banner.waitFor();
+    expect(await page.evaluate(() => window.gyration.rows)).toBe(41);
     expect(ofThePage(problems)).toEqual([]);
     await close();
     await second.stop();
+  });
+
+  it("reconnects_to_a_server_that_is_still_there", async () => {
+    const server = await served("dice", "--set", "time.end=0.2");
+    let cut = async () => {};
+    const { page, problems, close } = await opened(server.url, undefined, {
+      before: (page) =>
+        page.routeWebSocket(/api\/live$/, (socket) => {
+          socket.connectToServer();
+          cut = () => socket.close();
+        }),
+    });
+    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
+    await cut();
+    const banner = page.locator(".banner.lost");
+    await banner.waitFor();
+    await page.getByRole("button", { name: "Reconnect" }).click();
+    await banner.waitFor({ state: "detached" });
+    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
+    expect(ofThePage(problems)).toEqual([]);
+    await close();
+    await server.stop();
   });
 });
 

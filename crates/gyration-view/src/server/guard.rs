@@ -1,19 +1,24 @@
-//! Who may ask: the page that this server gave out, under the name that it gave out.
+//! Who may ask: the page that this server gave out, under the name that it gave out, with the token that it gave out.
 //!
 //! `Host` must be ours, against names elsewhere that are made to lead here; `Origin`, where a browser sends one, must
-//! be our page. Answers forbid the page to load or call anything but this server.
+//! be our page; the path must begin with the token. Answers forbid the page to load or call anything but this server.
 
+use super::address::Address;
 use crate::page;
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+/// What a request is told that comes from elsewhere, or without the token.
+const REFUSED: &str =
+    "open the address that `gyration view` printed, whole: it has a token that every request must have\n";
+
 /// Refuses requests from elsewhere, and tells browsers what the page may do.
-pub(super) async fn guard(State(port): State<u16>, request: Request, next: Next) -> Response {
-    if !is_ours(request.headers(), port) {
-        let words = "this server answers to its own page only, at the address that `gyration view` printed\n";
-        return (StatusCode::FORBIDDEN, words).into_response();
+pub(super) async fn guard(State(address): State<Address>, request: Request, next: Next) -> Response {
+    if !address.is_called(request.headers()) || !address.has(request.uri().path()) {
+        // Who may not ask does not keep a connection either.
+        return (StatusCode::FORBIDDEN, [(header::CONNECTION, "close")], REFUSED).into_response();
     }
     let mut response = next.run(request).await;
     if let Ok(policy) = HeaderValue::from_str(&policy()) {
@@ -42,44 +47,14 @@ fn set(headers: &mut HeaderMap, name: HeaderName, value: &'static str) {
     headers.insert(name, HeaderValue::from_static(value));
 }
 
-/// Whether a request calls this server by its own name, and comes from its own page if from any.
-fn is_ours(headers: &HeaderMap, port: u16) -> bool {
-    let names = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}"));
-    let text = |name: &HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or_default());
-    let host = text(&header::HOST).is_some_and(|host| names.iter().any(|name| name == host));
-    let origin = text(&header::ORIGIN).is_none_or(|origin| names.iter().any(|name| format!("http://{name}") == origin));
-    host && origin
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn asks(pairs: &[(HeaderName, &'static str)]) -> bool {
-        let mut headers = HeaderMap::new();
-        for (name, value) in pairs {
-            set(&mut headers, name.clone(), value);
-        }
-        is_ours(&headers, 8000)
-    }
 
     #[test]
     fn the_policy_is_a_header_and_allows_no_script_but_that_of_the_page() {
         assert!(HeaderValue::from_str(&policy()).is_ok());
         let scripts = policy().split("script-src ").nth(1).and_then(|rest| Some(rest.split_once(';')?.0.to_owned()));
         assert_eq!(scripts.as_deref(), Some(page::scripts()));
-    }
-
-    #[test]
-    fn only_the_own_page_under_the_own_name_may_ask() {
-        let (host, origin) = (header::HOST, header::ORIGIN);
-        assert!(asks(&[(host.clone(), "127.0.0.1:8000")]));
-        assert!(asks(&[(host.clone(), "localhost:8000"), (origin.clone(), "http://localhost:8000")]));
-        assert!(!asks(&[]));
-        assert!(!asks(&[(host.clone(), "127.0.0.1:8001")]));
-        assert!(!asks(&[(host.clone(), "rebound.example:8000")]));
-        assert!(!asks(&[(host.clone(), "127.0.0.1:8000"), (origin.clone(), "http://elsewhere.example")]));
-        assert!(!asks(&[(host.clone(), "127.0.0.1:8000"), (origin.clone(), "null")]));
-        assert!(!asks(&[(host, "127.0.0.1:8000"), (origin, "http://127.0.0.1:8000.elsewhere.example")]));
     }
 }

@@ -1,15 +1,18 @@
 //! The local server: the page, and what it asks for.
 //!
 //! ```text
-//! GET /                          the page
-//! GET /api/header                header of a recording; of a live run only that it is one
-//! GET /api/blob/NAME?from=&to=   numbers of a recording
-//! GET /api/live                  websocket of a live run
+//! GET /TOKEN/                          the page
+//! GET /TOKEN/api/header                header of a recording; of a live run only that it is one
+//! GET /TOKEN/api/blob/NAME?from=&to=   numbers of a recording
+//! GET /TOKEN/api/live                  websocket of a live run
 //! ```
 //!
-//! It listens on 127.0.0.1 and answers only requests that call it by that name and come from its own page: a page from
-//! elsewhere in the same browser can neither read nor steer it.
+//! It listens on 127.0.0.1 and answers only requests that call it by that name, have the token of its address and come
+//! from its own page: neither a page from elsewhere in the same browser nor another user of the machine can read or
+//! steer it. How many connections there are, and how long one is waited for, has [`Limits`].
 
+mod address;
+mod connections;
 mod guard;
 mod shown;
 mod socket;
@@ -18,11 +21,13 @@ use crate::error::ViewError;
 use crate::live::Live;
 use crate::page;
 use crate::stored::Stored;
+use address::Address;
 use axum::Router;
 use axum::extract::{Path, Query, State};
 use axum::http::{StatusCode, header};
-use axum::response::{Html, IntoResponse, Response};
+use axum::response::{Html, IntoResponse, Redirect, Response};
 use axum::routing::get;
+pub use connections::Limits;
 use serde::Deserialize;
 use serde_json::json;
 use shown::{BadRequest, Shown};
@@ -41,26 +46,33 @@ pub enum PageSource {
 /// A server that has its port, but does not answer yet.
 pub struct Server {
     listener: TcpListener,
-    port: u16,
+    address: Address,
+    limits: Limits,
 }
 
 impl Server {
-    /// Takes a port of 127.0.0.1, or a free one.
+    /// Takes a port of 127.0.0.1, or a free one, and a fresh token.
     ///
     /// # Errors
-    /// `Port` if the port is not to be had.
+    /// `Port` if the port is not to be had, `NoRandomNumbers` if the token is not.
     pub fn bind(port: Option<u16>) -> Result<Self, ViewError> {
         let asked = port.unwrap_or(0);
         let failed = |source| ViewError::Port { port: asked, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, asked)).map_err(failed)?;
         listener.set_nonblocking(true).map_err(failed)?;
         let port = listener.local_addr().map_err(failed)?.port();
-        Ok(Self { listener, port })
+        Ok(Self { listener, address: Address::fresh(port)?, limits: Limits::default() })
     }
 
-    /// The address of the page.
+    /// The same with other limits.
+    #[must_use]
+    pub fn with_limits(self, limits: Limits) -> Self {
+        Self { limits, ..self }
+    }
+
+    /// The address of the page, with its token: who has it may ask.
     pub fn url(&self) -> String {
-        format!("http://127.0.0.1:{}/", self.port)
+        self.address.url()
     }
 
     /// Answers until `end` is done.
@@ -73,13 +85,14 @@ impl Server {
             PageSource::Recording(stored) => Shown::Recording(RwLock::new(Arc::from(stored))),
             PageSource::Live(live) => Shown::Live(live),
         };
-        let router = router(Arc::new(shown), self.port);
+        let router = router(Arc::new(shown), self.address);
         let served = runtime.block_on(async move {
             let listener = tokio::net::TcpListener::from_std(self.listener)?;
             tokio::select! {
-                served = async { axum::serve(listener, router).await } => served,
-                () = end => Ok(()),
+                () = connections::serve(listener, router, self.limits) => {}
+                () = end => {}
             }
+            Ok(())
         });
         // Pages that are still connected are not waited for.
         runtime.shutdown_background();
@@ -87,15 +100,21 @@ impl Server {
     }
 }
 
-fn router(shown: Arc<Shown>, port: u16) -> Router {
-    Router::new()
+fn router(shown: Arc<Shown>, address: Address) -> Router {
+    let root = address.root();
+    let page = format!("{root}/");
+    let pages = Router::new()
         .route("/", get(index))
-        .route("/favicon.ico", get(|| async { StatusCode::NO_CONTENT }))
         .route("/api/header", get(header_of))
         .route("/api/blob/{*name}", get(blob_of))
         .route("/api/live", get(socket::live))
-        .with_state(shown)
-        .layer(axum::middleware::from_fn_with_state(port, guard::guard))
+        .with_state(shown);
+    // What the page asks for stands relative to its address, which must therefore end with a slash.
+    let moved = Redirect::temporary(&page);
+    Router::new()
+        .nest(&page, pages)
+        .route(&root, get(|| async { moved }))
+        .layer(axum::middleware::from_fn_with_state(address, guard::guard))
 }
 
 async fn index() -> Response {

@@ -4,7 +4,7 @@
 
 use gyration_scene::Scene;
 use gyration_sim::{Job, Provenance, Unwatched};
-use gyration_view::{PageSource, Server};
+use gyration_view::{Limits, PageSource, Server};
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
@@ -51,14 +51,22 @@ pub fn record(folder: &Path, name: &str, text: &str) -> PathBuf {
 /// A server in a thread, until it is dropped.
 pub struct Served {
     pub port: u16,
+    /// The path under which everything is: a slash and the token.
+    pub root: String,
     end: Option<oneshot::Sender<()>>,
     thread: Option<std::thread::JoinHandle<()>>,
 }
 
 impl Served {
     pub fn new(source: PageSource) -> Self {
-        let server = Server::bind(None).unwrap();
-        let port = server.url().trim_end_matches('/').rsplit(':').next().unwrap().parse().unwrap();
+        Self::with_limits(source, Limits::default())
+    }
+
+    pub fn with_limits(source: PageSource, limits: Limits) -> Self {
+        let server = Server::bind(None).unwrap().with_limits(limits);
+        let url = server.url();
+        let (port, token) = url.strip_prefix("http://127.0.0.1:").unwrap().split_once('/').unwrap();
+        let (port, root) = (port.parse().unwrap(), format!("/{}", token.strip_suffix('/').unwrap()));
         let (end, ended) = oneshot::channel();
         let serve = move || {
             server
@@ -67,23 +75,34 @@ impl Served {
                 })
                 .unwrap();
         };
-        Self { port, end: Some(end), thread: Some(std::thread::spawn(serve)) }
+        Self { port, root, end: Some(end), thread: Some(std::thread::spawn(serve)) }
     }
 
     /// A request as the page makes it: status and body.
     pub fn get(&self, path: &str) -> (u16, Vec<u8>) {
-        self.ask(path, &format!("Host: 127.0.0.1:{}\r\n", self.port))
+        self.ask(path, &self.host())
     }
 
-    /// A request with these headers.
+    /// A request with the token and these headers.
     pub fn ask(&self, path: &str, headers: &str) -> (u16, Vec<u8>) {
+        self.ask_anywhere(&format!("{}{path}", self.root), headers)
+    }
+
+    /// A request for a whole path, with these headers.
+    pub fn ask_anywhere(&self, path: &str, headers: &str) -> (u16, Vec<u8>) {
+        answer(self.send(&format!("GET {path} HTTP/1.1\r\n{headers}Connection: close\r\n\r\n")))
+    }
+
+    /// A connection over which these bytes were sent.
+    pub fn send(&self, bytes: &str) -> TcpStream {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        write!(stream, "GET {path} HTTP/1.1\r\n{headers}Connection: close\r\n\r\n").unwrap();
-        let mut answer = Vec::new();
-        stream.read_to_end(&mut answer).unwrap();
-        let split = answer.windows(4).position(|four| four == b"\r\n\r\n").unwrap();
-        let status = std::str::from_utf8(&answer[9..12]).unwrap().parse().unwrap();
-        (status, answer.split_off(split + 4))
+        stream.write_all(bytes.as_bytes()).unwrap();
+        stream
+    }
+
+    /// The header `Host` as a browser sends it.
+    pub fn host(&self) -> String {
+        format!("Host: 127.0.0.1:{}\r\n", self.port)
     }
 
     pub fn json(&self, path: &str) -> serde_json::Value {
@@ -98,6 +117,15 @@ impl Drop for Served {
         let _ = self.end.take().unwrap().send(());
         self.thread.take().unwrap().join().unwrap();
     }
+}
+
+/// All that is answered until the server closes the connection: status and body.
+pub fn answer(mut stream: TcpStream) -> (u16, Vec<u8>) {
+    let mut answer = Vec::new();
+    stream.read_to_end(&mut answer).unwrap();
+    let split = answer.windows(4).position(|four| four == b"\r\n\r\n").unwrap();
+    let status = std::str::from_utf8(&answer[9..12]).unwrap().parse().unwrap();
+    (status, answer.split_off(split + 4))
 }
 
 pub fn doubles(bytes: &[u8]) -> Vec<f64> {
