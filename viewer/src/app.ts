@@ -15,6 +15,7 @@ import { Player } from "./player";
 import { Banner } from "./ui/banner";
 import { h, iconButton } from "./ui/dom";
 import { helpDialog, listen } from "./ui/help";
+import { openLedgerInWords } from "./ui/ledger";
 import { Plots } from "./ui/plots";
 import { scenePanel } from "./ui/scenetext";
 import { outcomeInWords, summaryPanel } from "./ui/summary";
@@ -162,9 +163,11 @@ export class App implements Listener {
     if (!recording) return;
     const words = outcomeInWords(recording);
     const stopped = typeof recording.header.outcome === "object" && words.startsWith("Stopped");
-    this.chip.textContent = stopped ? "stopped early" : recording.header.complete ? "" : "running";
-    this.chip.className = `chip ${stopped ? "bad" : ""}`;
-    this.chip.title = words;
+    const open = openLedgerInWords(recording.header);
+    const bad = [stopped ? "stopped early" : "", open ? "energy ledger open" : ""].filter(Boolean);
+    this.chip.textContent = bad.join(", ") || (recording.header.complete ? "" : "running");
+    this.chip.className = `chip ${bad.length > 0 ? "bad" : ""}`;
+    this.chip.title = open ? `${words} ${open}` : words;
     this.chip.hidden = this.chip.textContent === "";
   }
 

@@ -1,6 +1,6 @@
 //! `gyration run`: names, exit codes, what is printed where, what is left on disk.
 
-use crate::common::{BALL, Said, Sandbox, assert_same_bytes, tree};
+use crate::common::{BALL, Said, Sandbox, TIP, assert_same_bytes, tree};
 use serde_json::Value;
 use std::fs;
 use std::process::Stdio;
@@ -120,25 +120,6 @@ fn summary_in_json_is_all_there_is_on_stdout() {
     assert!(number("largest_residual") <= number("allowed_residual"), "{ledger}");
     assert_eq!(ledger["verdict"], "closed");
 }
-
-/// An ellipsoid comes down on its tip, which the field stops some 1e-13 m above the table: fewer digits than a
-/// tolerance of 1e-10 needs, and a curved gap has no more. The run stops at that impact, its ledger open.
-const TIP: &str = r#"
-time = { end = 0.2, sample = 0.01 }
-solver = { rtol = 1e-10, atol = 1e-12 }
-[[support]]
-name = "table"
-plane = { origin = [0, 0, 0], normal = [0, 0, 1] }
-[[contact]]
-support = "table"
-repulsion = { alpha = 1e9, nu = 3, d0 = 1e-8 }
-[[body]]
-name = "egg"
-shape = { ellipsoid = { semi_axes = [0.05, 0.05, 0.2] } }
-density = 500
-position = [0, 0, 0.3]
-orientation = { axis_angle = { axis = [0, 1, 0], angle = "10 deg" } }
-"#;
 
 #[test]
 fn an_open_ledger_is_told_always() {

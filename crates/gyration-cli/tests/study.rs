@@ -1,6 +1,6 @@
 //! Studies: killed, interrupted and divided ones end with the same table as one that is not.
 
-use crate::common::{Said, Sandbox};
+use crate::common::{Said, Sandbox, TIP};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -185,4 +185,28 @@ fn summary_counts_outcomes_and_tells_what_is_kept() {
     assert!(said.stderr.contains("no run could be made"), "{}", said.stderr);
     let again = ["study", "low.toml", "--set", all[0], "--set", all[1], "-o", "all.study", "--quiet", "--resume"];
     assert!(sandbox.refused(1, &again).stderr.contains("no run could be made"));
+}
+
+#[test]
+fn an_open_ledger_of_a_run_is_told_always() {
+    let sandbox = Sandbox::with_ball();
+    sandbox.write("tip.toml", TIP);
+    // Only the second run gets as far as the impact.
+    let tips = "scene = \"tip.toml\"\n[parameter.end]\nkey = \"time.end\"\nvalues = [0.05, 0.2]\n\
+                [keep]\nheight = { last = \"egg.z\" }\n";
+    sandbox.write("tips.toml", tips);
+    let told = "gyration: warning: the energy balance of run 1 is open. Do not trust it: ";
+    let command = ["study", "tips.toml", "--quiet", "-o", "a.study"];
+    for more in [&[][..], &["--resume"], &["--force"]] {
+        let said = sandbox.done(&[&command[..], more].concat());
+        assert!(said.stderr.contains(told), "{more:?}: {}", said.stderr);
+    }
+    for shard in ["1/2", "2/2"] {
+        let said = sandbox.done(&["study", "tips.toml", "--quiet", "-o", "b.study", "--shard", shard]);
+        assert_eq!(said.stderr.contains(told), shard == "2/2", "{}", said.stderr);
+    }
+    assert!(sandbox.done(&["study", "tips.toml", "merge", "--quiet", "-o", "b.study"]).stderr.contains(told));
+    sandbox.write("low.toml", STUDY);
+    let said = sandbox.done(&["study", "low.toml"]);
+    assert!(!said.stderr.contains("warning"), "{}", said.stderr);
 }

@@ -130,6 +130,12 @@ pub fn study_said(message: &str) -> PyErr {
 }
 
 /// Says how to go on after Ctrl-C.
+/// Warns, if there is something to warn of; an error where warnings are made errors.
+pub fn warn(py: Python<'_>, warning: Option<String>) -> PyResult<()> {
+    let Some(warning) = warning else { return Ok(()) };
+    py.import("warnings")?.call_method1("warn", (warning,)).map(drop)
+}
+
 pub fn interrupted(py: Python<'_>, error: PyErr, message: &str) -> PyErr {
     if error.is_instance_of::<PyKeyboardInterrupt>(py) {
         PyKeyboardInterrupt::new_err(message.to_owned())

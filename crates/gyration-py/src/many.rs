@@ -10,7 +10,9 @@ use crate::scene::Scene;
 use gyration_record::RecordError;
 use gyration_scene::Scene as Built;
 use gyration_sim::rows::Fields;
-use gyration_sim::{Job, Monitor, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink};
+use gyration_sim::{
+    Job, Monitor, OpenLedgers, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink, Verdict,
+};
 use gyration_threads::{Threads, share};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
@@ -38,6 +40,8 @@ struct RunEnd {
     rejected: u64,
     evaluations: u64,
     residual: f64,
+    /// None if there is no ledger.
+    ledger: Option<Verdict>,
     /// The last row by column.
     last: Vec<(String, f64)>,
 }
@@ -60,6 +64,10 @@ pub fn run_many(
     let mut monitor = PythonMonitor::new(progress)?.of_runs();
     let endings = py.detach(|| all(&scenes, threads, keep.as_deref(), &mut monitor));
     monitor.finish(py)?;
+    let mut open = OpenLedgers::default();
+    let runs = (0..).zip(&endings).filter(|(_, ending)| ending.ledger == Some(Verdict::Open));
+    runs.for_each(|(run, _)| open.add(run));
+    errors::warn(py, open.warning())?;
     let mut columns = keep.unwrap_or_default();
     if columns.is_empty() {
         let mut known = HashSet::new();
@@ -156,6 +164,7 @@ impl RunEnd {
             rejected: 0,
             evaluations: 0,
             residual: f64::NAN,
+            ledger: None,
             last: Vec::new(),
         }
     }
@@ -183,6 +192,7 @@ fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<Ru
         rejected: statistics.rejected_error + statistics.rejected_domain + statistics.newton_failures,
         evaluations: statistics.rate_evaluations,
         residual: run_state.largest_residual / run_state.energy_in_play,
+        ledger: Some(Verdict::of(job.model, &simulation)),
         last: by_column(&job, &last.0, keep),
     })
 }
@@ -216,6 +226,12 @@ impl Runs {
     #[getter]
     fn reason(&self) -> Vec<Option<&str>> {
         self.endings.iter().map(|ending| ending.reason.as_deref()).collect()
+    }
+
+    /// Whether the energy balance of each run is ``closed`` or ``open``; None of one that could not begin.
+    #[getter]
+    fn ledger(&self) -> Vec<Option<&str>> {
+        self.endings.iter().map(|ending| ending.ledger.map(Verdict::name)).collect()
     }
 
     /// What there is of each run: end ``time`` [s], counters, ``residual`` of the ledger over the energy in play, and
@@ -255,6 +271,7 @@ impl Runs {
         let columns = PyDict::new(py);
         columns.set_item("outcome", self.outcome())?;
         columns.set_item("reason", self.reason())?;
+        columns.set_item("ledger", self.ledger())?;
         for name in self.columns() {
             columns.set_item(&name, self.__getitem__(py, &name)?)?;
         }

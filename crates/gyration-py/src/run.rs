@@ -1,6 +1,6 @@
 //! A scene into a recording, as `gyration run` does it.
 
-use crate::errors;
+use crate::errors::{self, warn};
 use crate::monitor::PythonMonitor;
 use crate::recording::Recording;
 use gyration_plot::leave_overview;
@@ -33,11 +33,10 @@ pub fn run(
     let mut monitor = PythonMonitor::new(progress)?;
     let done = py.detach(|| record(scene, &options, &path, &mut monitor));
     monitor.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&options, &path)))?;
-    let summary = done?;
-    if let Some(warning) = options.output.as_ref().and_then(|_| leave_overview(&path)) {
-        py.import("warnings")?.call_method1("warn", (warning,))?;
-    }
-    Recording::of_run(&path, kept, summary)
+    let told = done?;
+    warn(py, options.output.as_ref().and_then(|_| leave_overview(&path)))?;
+    warn(py, told.as_ref().and_then(|told| told.warning.clone()))?;
+    Recording::of_run(&path, kept, told.map(|told| told.summary))
 }
 
 /// The folder of the recording, and what removes it if nobody asked for it.
@@ -59,13 +58,15 @@ fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<T
     Ok((path.clone(), None))
 }
 
-/// The run itself, and what the program would say of it; nothing if it had ended before.
-fn record(
-    scene: &Scene,
-    options: &RecordOptions,
-    path: &Path,
-    monitor: &mut PythonMonitor,
-) -> PyResult<Option<String>> {
+/// What the program would say of a run.
+struct Told {
+    summary: String,
+    /// That its ledger is open.
+    warning: Option<String>,
+}
+
+/// The run itself, and what is told of it; nothing if it had ended before.
+fn record(scene: &Scene, options: &RecordOptions, path: &Path, monitor: &mut PythonMonitor) -> PyResult<Option<Told>> {
     let job = Job::of(scene, &gyration_cli::provenance());
     let recorded = if options.resume {
         job.resume(path, monitor)
@@ -84,9 +85,9 @@ fn record(
     }
 }
 
-fn told(scene: &Scene, path: &Path, summary: &RunSummary) -> PyResult<String> {
+fn told(scene: &Scene, path: &Path, summary: &RunSummary) -> PyResult<Told> {
     let start = Stored::open(path).and_then(|stored| summary.energies_at_start(&stored)).map_err(errors::record)?;
-    Ok(summary.text(scene, &start))
+    Ok(Told { summary: summary.text(scene, &start), warning: summary.ledger.warning() })
 }
 
 /// What to do after Ctrl-C.

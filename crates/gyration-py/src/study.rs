@@ -10,7 +10,7 @@ use crate::many::workers;
 use crate::monitor::PythonMonitor;
 use crate::parcel::{Parcel, unpack};
 use crate::worker::StudyParts;
-use gyration_study::{Row, Shard, Study, StudySource, Table, TableLock, execute};
+use gyration_study::{Digest, Row, Shard, Study, StudySource, Table, TableLock, execute};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyDict;
@@ -145,12 +145,13 @@ impl StudyWork {
         }
     }
 
-    /// Writes the table; StudyError if rows are missing.
+    /// Writes the table, and warns of open ledgers; StudyError if rows are missing.
     fn finish(&mut self, py: Python<'_>) -> PyResult<()> {
         let table = self.table.as_mut().ok_or_else(closed)?;
-        match py.detach(|| table.finish()).map_err(errors::study)? {
-            true => Ok(()),
-            false => Err(errors::study_said(&format!(
+        let finished = py.detach(|| table.finish()?.then(|| Digest::read(&table.file())).transpose());
+        match finished.map_err(errors::study)? {
+            Some(digest) => errors::warn(py, digest.open.warning()),
+            None => Err(errors::study_said(&format!(
                 "the study was stopped after {} of {} runs\n  fix: go on with gyration.study(..., output={:?}, resume=True)",
                 self.done(),
                 self.total(),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import gyration
+from conftest import TIP
 
 
 def throws(ball):
@@ -27,6 +28,16 @@ def test_failures_are_entries(ball):
     assert runs.outcome == ["completed", "gap_closed", "completed"]
     assert runs.reason[0] is None and "table" in runs.reason[1]
     assert np.isnan(runs["ball.z"][2]) and np.isfinite(runs["ball.z"][1]) and runs["time"][1] < 0.5
+
+
+def test_an_open_ledger_is_warned_of(ball, tmp_path):
+    tip = gyration.Scene.from_dict(TIP)
+    with pytest.warns(UserWarning, match=r"the energy balance of run 1 is open\. Do not trust it: "):
+        runs = gyration.run_many([ball, tip, ball.edit({"body.ball.velocity": [1e200, 0, 0]})])
+    assert runs.ledger == ["closed", "open", None]
+    assert list(runs.to_pandas()["ledger"][:2]) == ["closed", "open"]
+    with pytest.warns(UserWarning, match=r"the energy balance is open: it misses by "):
+        assert tip.run(tmp_path / "tip.gyr").attrs["ledger"] == "open"
 
 
 def test_a_run_that_cannot_begin_is_an_entry_that_failed(ball):

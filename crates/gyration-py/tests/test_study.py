@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gyration
-from conftest import BALL, STUDY, same_files, table_bytes
+from conftest import BALL, STUDY, TIP, same_files, table_bytes
 
 
 def test_a_study_is_a_table_with_a_row_a_run(tmp_path):
@@ -30,6 +30,19 @@ def test_failures_are_rows_with_a_reason(tmp_path):
     failed = [index for index, outcome in enumerate(table["outcome"]) if outcome == "failed"]
     assert failed and all(table["height"][index] < 0.05 for index in failed)
     assert all("table" in table["reason"][index] for index in failed)
+
+
+def test_an_open_ledger_is_warned_of_also_when_the_table_is_there(tmp_path):
+    (tmp_path / "tip.json").write_text(json.dumps(TIP))
+    study = {
+        "scene": str(tmp_path / "tip.json"),
+        "parameter": {"end": {"key": "time.end", "values": [0.05, 0.2]}},
+        "keep": {"height": {"last": "egg.z"}},
+    }
+    for resume in [False, True]:
+        with pytest.warns(UserWarning, match=r"the energy balance of run 1 is open"):
+            table = gyration.study(study, tmp_path / "tip.study", threads=1, resume=resume)
+        assert list(table["ledger"]) == ["closed", "open"]
 
 
 def test_processes_and_threads_leave_the_same_bytes(tmp_path, reference):

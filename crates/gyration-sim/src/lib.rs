@@ -38,4 +38,4 @@ pub use record::{Job, MemorySink, Provenance, RecordingEnd, Unwatched};
 pub use resistance::{complete, completed, open};
 pub use run::Simulation;
 pub use stepping::{Refusal, SteppedRun};
-pub use summary::{Balance, BodySummary, LedgerSummary, RunSummary, Verdict};
+pub use summary::{Balance, BodySummary, LedgerSummary, OpenLedgers, RunSummary, Verdict};

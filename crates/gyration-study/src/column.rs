@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The column of the verdicts on the ledgers.
+pub(crate) const LEDGER: &str = "ledger";
+
 /// A column.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Column {
@@ -40,7 +43,7 @@ pub(crate) fn leading() -> [Column; 3] {
 }
 
 /// The columns between the parameters and what is kept.
-pub(crate) fn ending() -> [Column; 7] {
+pub(crate) fn ending() -> [Column; 8] {
     [
         Column::new("outcome", None, ColumnKind::Text),
         Column::new("reason", None, ColumnKind::Text),
@@ -49,5 +52,6 @@ pub(crate) fn ending() -> [Column; 7] {
         Column::new("rejected", None, ColumnKind::Integer),
         Column::new("evaluations", None, ColumnKind::Integer),
         Column::new("residual", Some("1"), ColumnKind::Number),
+        Column::new(LEDGER, None, ColumnKind::Text),
     ]
 }

@@ -1,6 +1,7 @@
 //! A word that tells a study from every other one with other rows: title, drawing, comments and layout of the files do
 //! not count.
 
+use crate::column::Column;
 use crate::parameter::{AxisValues, Parameter, Variation};
 use crate::random::hash;
 use crate::read::Read;
@@ -12,9 +13,9 @@ use std::path::Path;
 /// Keys of a scene under which the name of a file stands.
 const FILE_KEYS: [&str; 2] = ["file", "table"];
 
-/// The fingerprint, 32 hexadecimal digits: the numbers of runs, all that is varied and kept, the scene and the files
-/// that it refers to, the version of the program.
-pub(crate) fn fingerprint(read: &Read, template: &Template, scene: &Scene) -> String {
+/// The fingerprint, 32 hexadecimal digits: the numbers of runs, all that is varied and kept, the columns, the scene and
+/// the files that it refers to, the version of the program.
+pub(crate) fn fingerprint(read: &Read, columns: &[Column], template: &Template, scene: &Scene) -> String {
     let Read { seed, repetitions, sampling, recordings, max_steps, settings, parameters, axes, keeps, .. } = read;
     let mut files = Vec::new();
     let written = template.written();
@@ -32,6 +33,7 @@ pub(crate) fn fingerprint(read: &Read, template: &Template, scene: &Scene) -> St
         "axes": axes,
         "parameters": format!("{parameters:?}"),
         "keeps": format!("{keeps:?}"),
+        "columns": columns,
         "scene": written,
         "files": files,
     });

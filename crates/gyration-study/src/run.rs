@@ -9,7 +9,7 @@ use gyration_record::{RecordError, Writer, remove};
 use gyration_scene::{Built, Scene, SceneErrors};
 use gyration_sim::events::Event;
 use gyration_sim::{
-    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, RunSummary, Simulation, Sink,
+    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, RunSummary, Simulation, Sink, Verdict,
 };
 use gyration_threads::Interruption;
 use std::path::{Path, PathBuf};
@@ -56,8 +56,8 @@ impl Worker {
 
 /// What a run leaves for its row.
 struct Ended {
-    /// Outcome, reason, time, steps, rejected, evaluations, residual.
-    ending: [Value; 7],
+    /// Outcome, reason, time, steps, rejected, evaluations, residual, verdict on the ledger.
+    ending: [Value; 8],
     kept: Vec<Value>,
     /// Whether it ended early.
     is_early: bool,
@@ -132,7 +132,8 @@ impl Study {
             // A run that is interrupted may go on, and has no last row; this one has ended.
             simulation.record_last(&mut sink.extractor).map_err(recorded)?.ok();
         }
-        let ending = ending(&simulation, &outcome, limits.is_over);
+        let verdict = Verdict::of(model, &simulation);
+        let ending = ending(&simulation, &outcome, limits.is_over, verdict);
         let is_early = matches!(outcome, Outcome::Stopped(_));
         let Tee { extractor, writer } = sink;
         if let Some(writer) = writer {
@@ -153,8 +154,8 @@ impl Study {
     }
 
     fn failed(&self, reason: String) -> Ended {
-        let [time, steps, rejected, evaluations, residual] = [const { Value::Null }; 5];
-        let ending = [Value::Text(FAILED.into()), Value::Text(reason), time, steps, rejected, evaluations, residual];
+        let mut ending = [const { Value::Null }; 8];
+        (ending[0], ending[1]) = (Value::Text(FAILED.into()), Value::Text(reason));
         Ended { ending, kept: vec![Value::Null; self.keeps().len()], is_early: true }
     }
 }
@@ -184,7 +185,7 @@ fn is_interrupted(outcome: &Outcome) -> bool {
     matches!(outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted)
 }
 
-fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool) -> [Value; 7] {
+fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool, verdict: Verdict) -> [Value; 8] {
     let (statistics, run_state) = (simulation.statistics(), simulation.run_state());
     let (name, reason) = match outcome {
         Outcome::Completed => ("completed".to_owned(), Value::Null),
@@ -203,6 +204,7 @@ fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool) -> [Value; 
         count(statistics.rejected_error + statistics.rejected_domain + statistics.newton_failures),
         count(statistics.rate_evaluations),
         Value::Number(residual),
+        Value::Text(verdict.name().to_owned()),
     ]
 }
 

@@ -121,7 +121,7 @@ impl Study {
         };
         let columns = columns(&read, &scene, &mut input);
         input.finish()?;
-        let fingerprint = fingerprint(&read, &template, &scene);
+        let fingerprint = fingerprint(&read, &columns, &template, &scene);
         Ok(Self { source, read, template, dice, columns, fingerprint })
     }
 

@@ -63,6 +63,8 @@ export interface Stop {
 export interface Summary {
   outcome_in_words?: string;
   statistics?: Record<string, number>;
+  /** Whether the energy balance closes. */
+  ledger?: "closed" | "open";
   largest_residual?: number;
   energy_in_play?: number;
   least_dissipation?: Record<string, number>;

@@ -1,5 +1,6 @@
 // The energy ledger of a recording: energies at start and end, works, and how well the books close.
 
+import type { Header } from "../data/header";
 import type { Recording } from "../data/recording";
 import { withUnit, words } from "../math/format";
 
@@ -64,6 +65,15 @@ export function residualInWords({ residual, largest, inPlay: play, energies }: B
         : "";
   const end = `At the end the ledger is off by ${joules(residual)}`;
   return `${end}; at no sample by more than ${joules(largest)}${relation}.`;
+}
+
+/** What must not be overlooked of a run whose energy balance is open; `null` if it closes. */
+export function openLedgerInWords({ summary }: Header): string | null {
+  if (summary?.ledger !== "open") return null;
+  const joules = (value?: number | null) =>
+    typeof value === "number" ? withUnit(value, "J", 2) : "not a number";
+  const { largest_residual: residual, energy_in_play: play } = summary;
+  return `Energy ledger open: residual ${joules(residual)}, energy in play ${joules(play)}. Do not trust the run.`;
 }
 
 function largestSize(values: Float32Array | undefined, rows: number): number {

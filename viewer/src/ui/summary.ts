@@ -4,7 +4,7 @@ import type { Body, Header } from "../data/header";
 import type { Recording } from "../data/recording";
 import { plain, withUnit, words } from "../math/format";
 import { h } from "./dom";
-import { type Books, books, residualInWords } from "./ledger";
+import { type Books, books, openLedgerInWords, residualInWords } from "./ledger";
 
 /** Bodies whose mass properties are listed. */
 const MOST_BODIES = 12;
@@ -15,7 +15,12 @@ export function summaryPanel(recording: Recording): HTMLElement {
     "div",
     { class: "words" },
     ...notes(header),
-    section("Outcome", h("p", { class: "outcome" }, outcomeInWords(recording)), events(header)),
+    section(
+      "Outcome",
+      h("p", { class: "outcome" }, outcomeInWords(recording)),
+      openLedger(header),
+      events(header),
+    ),
     ledgerSection(recording),
     bodiesSection(header),
     solverSection(header),
@@ -72,6 +77,11 @@ function notes({ notes, thinned }: Header): HTMLElement[] {
     all.push(`This report shows ${thinned.kept} of the recording's ${thinned.of} samples.`);
   }
   return all.map((note) => h("p", { class: "note", role: "note" }, note));
+}
+
+function openLedger(header: Header): HTMLElement | null {
+  const words = openLedgerInWords(header);
+  return words ? h("p", { class: "note bad", role: "note" }, words) : null;
 }
 
 function events(header: Header): HTMLElement | null {

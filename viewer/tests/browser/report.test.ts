@@ -35,6 +35,24 @@ describe("a report", () => {
     await close();
   });
 
+  it("tells_an_open_ledger_in_its_head_and_beside_the_outcome", async () => {
+    const path = join(folder, "open.html");
+    writeFileSync(path, readFileSync(dice, "utf8").replace('"ledger":"closed"', '"ledger":"open"'));
+    for (const [file, told] of [
+      [path, true],
+      [dice, false],
+    ] as const) {
+      const { page, problems, close } = await opened(file);
+      await page.getByRole("tab", { name: "Summary" }).click();
+      expect((await page.locator(".chip").textContent()) === "energy ledger open").toBe(told);
+      expect(
+        (await page.locator("#panel-summary").textContent())!.includes("Energy ledger open: residual "),
+      ).toBe(told);
+      expect(problems).toEqual([]);
+      await close();
+    }
+  });
+
   it("moves_the_cursor_of_the_plots_with_the_scrubber", async () => {
     const { page, problems, close } = await opened(dice);
     await page.waitForSelector(".time-cursor");

@@ -5,7 +5,7 @@ import { Frame } from "../../src/data/frame";
 import { rowsOf, unpacked } from "../../src/data/live";
 import { Recording } from "../../src/data/recording";
 import { lowerBound, thinned } from "../../src/math/thin";
-import { books, residualInWords } from "../../src/ui/ledger";
+import { books, openLedgerInWords, residualInWords } from "../../src/ui/ledger";
 import { headerOf, scalars } from "./made";
 
 describe("a recording", () => {
@@ -129,6 +129,15 @@ describe("the ledger", () => {
 
   it("tells_the_residual_beside_the_energy_in_play", () => {
     expect(residualInWords(books(recording)!)).toContain("1.0e−9 of the energy in play (1 J)");
+  });
+
+  it("is_told_if_it_is_open", () => {
+    const summary = { ledger: "open" as const, largest_residual: 0.5, energy_in_play: 2 };
+    expect(openLedgerInWords(headerOf({ summary }))).toBe(
+      "Energy ledger open: residual 500 mJ, energy in play 2 J. Do not trust the run.",
+    );
+    expect(openLedgerInWords(headerOf({ summary: { ...summary, ledger: "closed" } }))).toBeNull();
+    expect(openLedgerInWords(headerOf())).toBeNull();
   });
 
   it("calls_rounding_by_its_name", () => {

@@ -9,8 +9,19 @@ use crate::error::PlotError;
 use gyration_study::{Data, DataFrame, FrameColumn};
 
 /// The columns that every study has beside those of its parameters and of what it keeps.
-const ACCOUNT: [&str; 10] =
-    ["run", "point", "repetition", "outcome", "reason", "time", "steps", "rejected", "evaluations", "residual"];
+const ACCOUNT: [&str; 11] = [
+    "run",
+    "point",
+    "repetition",
+    "outcome",
+    "reason",
+    "time",
+    "steps",
+    "rejected",
+    "evaluations",
+    "residual",
+    "ledger",
+];
 
 impl RunTable {
     /// The table of a frame.

@@ -1,20 +1,20 @@
 //! What a run leaves to say: outcome, work of the solver, ledger, momenta, events.
 
+mod ledger;
 mod text;
 mod verdict;
 
-pub use verdict::{Balance, Verdict};
+pub use ledger::LedgerSummary;
+pub use verdict::{Balance, OpenLedgers, Verdict};
 
 use crate::events::EVENT_KINDS;
 use crate::outcome::Outcome;
-use crate::rows::Ledger;
 use crate::run::Simulation;
-use crate::run_state::{DISSIPATION, RunState};
 use gyration::balance::observe_at;
 use gyration::dynamics::{Workspace, acting};
 use gyration::model::Model;
 use gyration_record::Attributes;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Duration;
 
@@ -39,66 +39,6 @@ pub struct RunSummary {
     pub smallest_gap: Option<f64>,
     /// How many events of each kind.
     pub events: Value,
-}
-
-/// The ledger of a run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LedgerSummary {
-    /// Σ energies at t = 0 [J].
-    pub initial_energy: f64,
-    /// Energies at the end [J], by name.
-    #[serde(serialize_with = "as_map")]
-    pub energies: Vec<(&'static str, f64)>,
-    /// Works [J], by name.
-    #[serde(serialize_with = "as_map")]
-    pub works: Vec<(&'static str, f64)>,
-    /// Residual at the end [J].
-    pub residual: f64,
-    /// Largest |residual| over the samples [J].
-    pub largest_residual: f64,
-    /// The largest |residual| [J] that the tolerances let pass.
-    pub allowed_residual: f64,
-    /// Whether the balance closes.
-    pub verdict: Verdict,
-    /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
-    pub energy_in_play: f64,
-    /// What contraction and viscosity took in the step in which they took least [J], by name; a negative one is the
-    /// error of a step. Without those that the model does not have.
-    #[serde(serialize_with = "as_map")]
-    pub least_dissipation: Vec<(&'static str, f64)>,
-}
-
-impl LedgerSummary {
-    /// The residual of the run and what it is compared with.
-    pub fn balance(&self) -> Balance {
-        let end: f64 = self.energies.iter().map(|(_, value)| value.abs()).sum();
-        let total = self.initial_energy.abs().max(end);
-        Balance { residual: self.largest_residual, in_play: self.energy_in_play, total }
-    }
-
-    /// What a user must be told of a ledger that is open.
-    pub fn warning(&self) -> Option<String> {
-        (self.verdict == Verdict::Open).then(|| {
-            format!(
-                "the energy balance is open: it misses by {:.1e} J, {:.1e} of the energy in play, where the tolerances \
-                 let {:.1e} J pass. Do not trust the run: take a smaller solver.rtol, and look for gaps and \
-                 coefficients out of proportion with the bodies.",
-                self.largest_residual,
-                self.largest_residual / self.energy_in_play,
-                self.allowed_residual,
-            )
-        })
-    }
-
-    /// A work [J] by its name, if the ledger has it.
-    pub fn work(&self, name: &str) -> Option<f64> {
-        self.works.iter().find(|(work, _)| *work == name).map(|(_, value)| *value)
-    }
-}
-
-/// Pairs as an object, in their order.
-fn as_map<S: Serializer>(pairs: &[(&'static str, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(pairs.iter().copied())
 }
 
 /// One body at the end of a run.
@@ -135,10 +75,8 @@ impl RunSummary {
     pub fn of(model: &Model, simulation: &mut Simulation, outcome: Outcome, wall: Option<Duration>) -> Self {
         let state = simulation.state();
         let run_state = simulation.run_state();
-        let none = || Ledger { energies: Vec::new(), works: Vec::new(), residual: f64::NAN };
         let mut workspace = Workspace::default();
-        let ledger =
-            Ledger::of(model, &mut workspace, &state, Some(run_state.initial_energy)).unwrap_or_else(|_| none());
+        let ledger = LedgerSummary::of(model, &mut workspace, simulation);
         let events =
             EVENT_KINDS.iter().zip(run_state.events).map(|(kind, count)| ((*kind).to_string(), json!(count))).collect();
         let mut read = workspace.read(model, &state).ok();
@@ -158,20 +96,6 @@ impl RunSummary {
                 })
             })
             .collect();
-        let mut ledger = LedgerSummary {
-            initial_energy: run_state.initial_energy,
-            energies: model.energies().iter().map(|energy| energy.name()).zip(ledger.energies).collect(),
-            works: model.works().iter().map(|work| work.name()).zip(ledger.works).collect(),
-            residual: ledger.residual,
-            largest_residual: run_state.largest_residual,
-            allowed_residual: f64::NAN,
-            verdict: Verdict::Open,
-            energy_in_play: run_state.energy_in_play,
-            least_dissipation: least_dissipation(model, run_state),
-        };
-        let (balance, tolerance) = (ledger.balance(), simulation.plan().tolerance);
-        ledger.allowed_residual = balance.allowed(tolerance);
-        ledger.verdict = balance.verdict(tolerance);
         Self {
             in_words: outcome.in_words(),
             outcome,
@@ -201,14 +125,6 @@ impl RunSummary {
         attributes.insert("events".into(), self.events.clone());
         attributes
     }
-}
-
-/// Of the works that only take and that the model has, once there was a step.
-fn least_dissipation(model: &Model, run_state: &RunState) -> Vec<(&'static str, f64)> {
-    let entries = DISSIPATION.iter().zip(run_state.largest_gains);
-    let present = entries.filter(|(work, gain)| model.works().contains(work) && gain.is_finite());
-    // Adding zero turns −0 into 0.
-    present.map(|(work, gain)| (work.name(), -gain + 0.0)).collect()
 }
 
 fn statistics(simulation: &Simulation) -> Value {

@@ -16,6 +16,12 @@ const MOST_LOST: f64 = 0.01;
 /// A residual below this fraction of the energies is their own rounding.
 pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// What to do about an open ledger.
+pub(super) const ADVICE: &str =
+    "take a smaller solver.rtol, and look for gaps and coefficients out of proportion with the bodies";
+/// Runs that are named.
+const MOST_NAMED: usize = 5;
+
 /// Whether the energy balance of a run closes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -24,6 +30,49 @@ pub enum Verdict {
     Closed,
     /// It misses by much more than the tolerances.
     Open,
+}
+
+impl Verdict {
+    /// Its name in recordings and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Closed => "closed",
+            Self::Open => "open",
+        }
+    }
+}
+
+/// Those of many runs whose ledger is open.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct OpenLedgers {
+    /// How many there are.
+    pub count: u64,
+    /// The first few.
+    first: Vec<u64>,
+}
+
+impl OpenLedgers {
+    /// One more, by the number of its run.
+    pub fn add(&mut self, run: u64) {
+        self.count += 1;
+        if self.first.len() < MOST_NAMED {
+            self.first.push(run);
+        }
+    }
+
+    /// What a user must be told of them.
+    pub fn warning(&self) -> Option<String> {
+        let named = self.first.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
+        match self.count {
+            0 => None,
+            1 => Some(format!("the energy balance of run {named} is open. Do not trust it: {ADVICE}.")),
+            count => {
+                let more = count - self.first.len() as u64;
+                let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+                Some(format!("the energy balance of {count} runs is open: {named}{more}. Do not trust them: {ADVICE}."))
+            }
+        }
+    }
 }
 
 /// The residual of a run and what it is compared with.
@@ -88,6 +137,19 @@ mod tests {
         assert_eq!(verdict(0.019, 1e-2), (Verdict::Closed, false));
         assert_eq!(verdict(0.021, 1e-2), (Verdict::Open, true));
         assert_eq!(verdict(f64::NAN, 1e-2), (Verdict::Open, true));
+    }
+
+    #[test]
+    fn of_many_open_ledgers_the_first_are_named() {
+        let told = |runs: std::ops::Range<u64>| {
+            let mut open = OpenLedgers::default();
+            runs.for_each(|run| open.add(run));
+            open.warning().unwrap_or_default()
+        };
+        assert_eq!(told(0..0), "");
+        assert!(told(7..8).starts_with("the energy balance of run 7 is open. Do not trust it: take a smaller"));
+        assert!(told(7..9).starts_with("the energy balance of 2 runs is open: 7, 8. Do not trust them: "));
+        assert!(told(0..1000).starts_with("the energy balance of 1000 runs is open: 0, 1, 2, 3, 4 and 995 more. "));
     }
 
     #[test]

@@ -2,9 +2,10 @@
 
 use super::PORTION;
 use super::parquet::Input;
-use crate::column::Column;
+use crate::column::{Column, LEDGER};
 use crate::error::StudyError;
 use crate::value::Value;
+use gyration_sim::{OpenLedgers, Verdict};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -18,6 +19,8 @@ pub struct Digest {
     pub rows: u64,
     /// Its columns, in order.
     pub columns: Vec<(Column, Spread)>,
+    /// The runs whose ledger is open.
+    pub open: OpenLedgers,
 }
 
 /// How the cells of a column are spread; of lists, all their values together.
@@ -45,8 +48,9 @@ impl Digest {
     pub fn read(file: &Path) -> Result<Self, StudyError> {
         let mut input = Input::open(file)?;
         let empty = Spread { least: f64::NAN, greatest: f64::NAN, ..Spread::default() };
-        let columns = input.columns().into_iter().map(|column| (column, empty.clone())).collect();
-        let mut digest = Self { rows: 0, columns };
+        let columns: Vec<_> = input.columns().into_iter().map(|column| (column, empty.clone())).collect();
+        let ledger = columns.iter().position(|(column, _)| column.name == LEDGER);
+        let mut digest = Self { rows: 0, columns, open: OpenLedgers::default() };
         loop {
             let rows = input.next(PORTION)?;
             if rows.is_empty() {
@@ -54,6 +58,9 @@ impl Digest {
             }
             for row in rows {
                 digest.rows += 1;
+                if ledger.and_then(|place| row.values[place].text()) == Some(Verdict::Open.name()) {
+                    row.run().into_iter().for_each(|run| digest.open.add(run));
+                }
                 digest.columns.iter_mut().zip(row.values).for_each(|((_, spread), value)| spread.add(value));
             }
         }

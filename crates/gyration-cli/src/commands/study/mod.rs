@@ -57,7 +57,7 @@ fn run(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cli
         if !arguments.quiet {
             output::say(&format!("{} is complete. Nothing was done.", shown(table.folder())));
         }
-        return Ok(summary::exit_code(&Digest::read(&table.file())?));
+        return Ok(summary::verdict(&Digest::read(&table.file())?));
     }
     let mut watch = StudyBar::new(!arguments.quiet)?;
     let (began, before) = (Instant::now(), table.rows());
@@ -73,7 +73,7 @@ fn run(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cli
             output::say(&summary::in_words(study, &digest, &effort));
             output::say(&format!("table      {}", shown(&table.file())));
         }
-        return Ok(summary::exit_code(&digest));
+        return Ok(summary::verdict(&digest));
     }
     output::say(&format!("gyration: the study was interrupted after {} of {} runs", table.rows(), table.runs()));
     output::say(&format!("gyration: go on with `{}`", resume_command(arguments, path)));
@@ -101,7 +101,7 @@ fn join(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cl
         output::say(&summary::in_words(study, &digest, &effort));
         output::say(&format!("table      {}", shown(&file)));
     }
-    Ok(summary::exit_code(&digest))
+    Ok(summary::verdict(&digest))
 }
 
 /// The command by which an interrupted study goes on.

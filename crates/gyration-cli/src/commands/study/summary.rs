@@ -47,8 +47,12 @@ fn repetitions(count: u64) -> String {
     if count == 1 { "1 repetition".to_owned() } else { format!("{count} repetitions") }
 }
 
-/// The exit code of a finished table: a study none of whose runs could be made is no success.
-pub fn exit_code(digest: &Digest) -> u8 {
+/// Tells what must not go unseen of a finished table, also if all else is kept quiet, and gives its exit code: a study
+/// none of whose runs could be made is no success.
+pub fn verdict(digest: &Digest) -> u8 {
+    if let Some(warning) = digest.open.warning() {
+        output::say(&format!("gyration: warning: {warning} The column `ledger` tells which they are."));
+    }
     let failed = digest.column("outcome").and_then(|(_, spread)| spread.texts.get(FAILED)).copied().unwrap_or(0);
     if failed == 0 || failed < digest.rows {
         return code::DONE;
