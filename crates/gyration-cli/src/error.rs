@@ -2,6 +2,7 @@
 //!
 //! 1: the run ended early; 2: bad arguments or scene; 3: the scene file or the recording cannot be read or written.
 
+use gyration_files::in_words;
 use gyration_plot::PlotError;
 use gyration_record::RecordError;
 use gyration_scene::{LoadError, NotInGallery, NotToml};
@@ -58,7 +59,7 @@ pub enum CliError {
     #[error(transparent)]
     Resolved(#[from] NotToml),
     /// Stdout cannot be written; a closed pipe is no error.
-    #[error("cannot write to stdout: {0}")]
+    #[error("cannot write to stdout: {}", in_words(.0))]
     Stdout(#[from] io::Error),
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen for Ctrl-C: {0}")]

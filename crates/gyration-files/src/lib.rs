@@ -1,12 +1,15 @@
 //! Files that others made, and texts that stand in them.
 //!
 //! [`open`] opens a regular file and nothing else: to open a pipe waits for whoever writes into it, for ever if nobody
-//! does. [`printable`] takes from a text what a terminal would obey. [`check`] has the checksums by which damage is
-//! told.
+//! does. [`printable`] takes from a text what a terminal would obey. [`in_words`] says why the system refuses
+//! something. [`check`] has the checksums by which damage is told.
 
 #![forbid(unsafe_code)]
 
 pub mod check;
+mod words;
+
+pub use words::in_words;
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

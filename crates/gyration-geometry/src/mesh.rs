@@ -9,6 +9,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use gyration::shape::{Polyhedron, PolyhedronError};
+use gyration_files::in_words;
 
 use crate::fault::FileFault;
 use crate::{obj, ply, stl};
@@ -20,7 +21,7 @@ pub const MAX_MESH_BYTES: u64 = 512 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum MeshError {
     /// The file cannot be read.
-    #[error("cannot read the mesh {}: {source}", path.display())]
+    #[error("cannot read the mesh {}: {}", path.display(), in_words(source))]
     Unreadable {
         /// The file.
         path: PathBuf,

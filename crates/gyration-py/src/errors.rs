@@ -3,6 +3,7 @@
 //! The classes are Python's (`gyration/_errors.py`): an extension for all versions of Python cannot derive from
 //! built-in exceptions.
 
+use gyration_files::in_words;
 use gyration_plot::PlotError;
 use gyration_record::RecordError;
 use gyration_scene::{LoadError, SceneError, SceneErrors};
@@ -71,7 +72,7 @@ pub fn record(error: RecordError) -> PyErr {
 
 /// A file that cannot be written.
 pub fn write(path: &std::path::Path, error: &std::io::Error) -> PyErr {
-    raise("FileError", &format!("cannot write {}: {error}", path.display()), nothing)
+    raise("FileError", &format!("cannot write {}: {}", path.display(), in_words(error)), nothing)
 }
 
 /// A run that cannot begin or go on.
@@ -129,13 +130,13 @@ pub fn study_said(message: &str) -> PyErr {
     raise("StudyError", message, nothing)
 }
 
-/// Says how to go on after Ctrl-C.
 /// Warns, if there is something to warn of; an error where warnings are made errors.
 pub fn warn(py: Python<'_>, warning: Option<String>) -> PyResult<()> {
     let Some(warning) = warning else { return Ok(()) };
     py.import("warnings")?.call_method1("warn", (warning,)).map(drop)
 }
 
+/// Says how to go on after Ctrl-C.
 pub fn interrupted(py: Python<'_>, error: PyErr, message: &str) -> PyErr {
     if error.is_instance_of::<PyKeyboardInterrupt>(py) {
         PyKeyboardInterrupt::new_err(message.to_owned())

@@ -3,6 +3,7 @@
 //! Every variant names the path or the name it is about. Problems of a layout are the caller's and are told apart from
 //! those of the disk.
 
+use gyration_files::in_words;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum RecordError {
     /// The operating system refused: disk full, no permission, device gone.
-    #[error("cannot {action} {path}: {source}")]
+    #[error("cannot {action} {path}: {}", in_words(source))]
     Io {
         /// What was attempted, an infinitive.
         action: &'static str,

@@ -3,6 +3,7 @@
 //! [`ReadError`] is for a file that cannot be read at all (exit code 3 of the program), [`SceneErrors`] for its content
 //! and for whatever a scene refers to (exit code 2).
 
+use gyration_files::in_words;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -152,7 +153,7 @@ pub enum ReadError {
         help: String,
     },
     /// The system refused.
-    #[error("{path}: cannot be read: {source}", path = path.display())]
+    #[error("{path}: cannot be read: {}", in_words(source), path = path.display())]
     Io {
         /// The path.
         path: PathBuf,

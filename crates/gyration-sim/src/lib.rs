@@ -34,7 +34,7 @@ pub use adapter::Tolerance;
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
 pub use ports::{Monitor, Progress, RunError, Sink};
-pub use record::{Job, MemorySink, Provenance, RecordingEnd, Unwatched};
+pub use record::{Job, MemorySink, Provenance, RecordingEnd, Unwatched, differences};
 pub use resistance::{complete, completed, open};
 pub use run::Simulation;
 pub use stepping::{Refusal, SteppedRun};

@@ -8,7 +8,7 @@
 mod differences;
 pub(crate) mod surfaces;
 
-use self::differences::differences;
+pub use self::differences::differences;
 use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};

@@ -2,6 +2,8 @@
 //!
 //! What is wrong with the study itself is a `LoadError` of `gyration-scene`.
 
+use crate::table::MANIFEST;
+use gyration_files::in_words;
 use gyration_record::RecordError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum StudyError {
     /// The system refused: disk full, no permission, device gone.
-    #[error("cannot {action} {path}: {source}", path = path.display())]
+    #[error("cannot {action} {path}: {}", in_words(source), path = path.display())]
     Io {
         /// What was attempted, an infinitive.
         action: &'static str,
@@ -41,12 +43,14 @@ pub enum StudyError {
         help: &'static str,
     },
     /// The table is of another study, or of another shard.
-    #[error("{path} is a table of {what}\n  fix: repeat the --set with which it was made, give another folder by -o, or replace this one by --force", path = path.display())]
+    #[error("{path} is a table of {what}\n  fix: {fix}; else give another folder by -o, or replace this one by --force", path = path.display())]
     OtherStudy {
         /// The folder.
         path: PathBuf,
         /// Of what.
         what: String,
+        /// How to go on with it.
+        fix: String,
     },
     /// Another process is at it.
     #[error("{path} is being written by another process\n  fix: wait for it or stop it", path = path.display())]
@@ -55,7 +59,7 @@ pub enum StudyError {
         path: PathBuf,
     },
     /// A file is not what it should be.
-    #[error("{path} is damaged: {reason}\n  fix: move that file away, if it is of a study; --resume then makes its runs again", path = path.display())]
+    #[error("{path} is damaged: {reason}\n  fix: {}", mending(path), path = path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -80,6 +84,16 @@ pub enum StudyError {
         /// What to do.
         fix: String,
     },
+}
+
+/// What to do about a damaged file of a table.
+fn mending(path: &Path) -> &'static str {
+    match path.file_name().is_some_and(|name| name == MANIFEST) {
+        true => {
+            "make the study anew, in another folder by -o or in this one by --force: without that file it cannot go on"
+        }
+        false => "move that file away, if it is of a study; --resume then makes its runs again",
+    }
 }
 
 impl StudyError {

@@ -189,12 +189,32 @@ fn tables_of_other_studies_and_other_writers_are_refused() {
     assert!(matches!(Table::create(&path, &study, Shard::WHOLE, false), Err(StudyError::Exists { .. })));
     assert!(matches!(Table::create(&path, &study, Shard::WHOLE, true), Err(StudyError::Locked { .. })));
     drop(table);
-    for change in ["seed=8", "repetitions=11", "keep.end.last=\"ball.x\"", "parameter.height.uniform.to=0.3"] {
+    for (change, told) in [
+        ("seed=8", "\n  seed: 7.0 there, 8.0 here\n  fix: it was made without --set; "),
+        ("repetitions=11", "\n  repetitions: 10.0 there, 11.0 here\n  fix: "),
+        ("keep.end.last=\"ball.x\"", "\n  keep.end.last: \"ball.z\" there, \"ball.x\" here\n  fix: "),
+        ("parameter.height.uniform.to=0.3", "\n  parameter.height.uniform.to: 0.2 there, 0.3 here\n  fix: "),
+    ] {
         let other = gyration_study::Study::parse("where.toml", common::STUDY, folder, &[change.to_owned()]).unwrap();
         let error = Table::resume(&path, &other, Shard::WHOLE).unwrap_err();
         assert!(matches!(&error, StudyError::OtherStudy { .. }), "{change}: {error}");
-        assert!(error.to_string().contains("fix:"), "{error}");
+        assert!(error.to_string().contains(told), "{error}");
     }
+    // Its scene is another one: the table says how it was made.
+    let made = ["seed=8".to_owned()];
+    let seeded = gyration_study::Study::parse("where.toml", common::STUDY, folder, &made).unwrap();
+    drop(Table::create(&folder.join("y.study"), &seeded, Shard::WHOLE, false).unwrap());
+    fs::write(folder.join("ball.toml"), common::BALL.replace("density = 1000", "density = 900")).unwrap();
+    let error = Table::resume(&folder.join("y.study"), &common::study(folder), Shard::WHOLE).unwrap_err().to_string();
+    assert!(error.contains("\n  scene.body.ball.density: 1000.0 there, 900.0 here\n"), "{error}");
+    assert!(error.contains("\n  seed: 8.0 there, 7.0 here\n  fix: repeat --set 'seed=8'; else "), "{error}");
+    fs::write(folder.join("ball.toml"), common::BALL).unwrap();
+    // What says which study it is of cannot be made again.
+    let manifest = folder.join("y.study/study.json");
+    fs::write(&manifest, "{ torn").unwrap();
+    let error = Table::resume(&folder.join("y.study"), &seeded, Shard::WHOLE).unwrap_err().to_string();
+    assert!(error.contains("study.json is damaged: line 1 is not JSON") && error.contains("by --force"), "{error}");
+    drop(Table::create(&folder.join("y.study"), &seeded, Shard::WHOLE, true).unwrap());
     let same =
         gyration_study::Study::parse("a/b.toml", common::STUDY, folder, &["title=\"other\"".to_owned()]).unwrap();
     assert!(Table::resume(&path, &same, Shard::WHOLE).is_ok());

@@ -1,5 +1,6 @@
 //! What keeps a recording or a run from being shown.
 
+use gyration_files::in_words;
 use gyration_record::RecordError;
 use gyration_sim::replay::ReplayError;
 use std::io;
@@ -24,7 +25,10 @@ pub enum ViewError {
         reason: &'static str,
     },
     /// The port is not to be had.
-    #[error("cannot listen on port {port} of 127.0.0.1: {source}\n  fix: leave out --port, and a free one is taken")]
+    #[error(
+        "cannot listen on port {port} of 127.0.0.1: {}\n  fix: leave out --port, and a free one is taken",
+        in_words(source)
+    )]
     Port {
         /// The port asked for.
         port: u16,
@@ -35,6 +39,6 @@ pub enum ViewError {
     #[error("the operating system gives no random numbers, which the address of the page needs")]
     NoRandomNumbers(#[source] getrandom::Error),
     /// The server broke down.
-    #[error("the local server failed: {0}")]
+    #[error("the local server failed: {}", in_words(.0))]
     Server(io::Error),
 }

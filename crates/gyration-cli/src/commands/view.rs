@@ -4,6 +4,7 @@ use crate::arguments::ViewArguments;
 use crate::error::{CliError, code};
 use crate::output;
 use crate::provenance::provenance;
+use gyration_files::in_words;
 use gyration_scene::Scene;
 use gyration_view::{Live, PageSource, Server, Stored, page};
 use std::path::Path;
@@ -25,7 +26,7 @@ pub fn execute(arguments: &ViewArguments) -> Result<u8, CliError> {
     if !arguments.no_open
         && let Err(error) = open::that_detached(&url)
     {
-        output::say(&format!("gyration: no browser could be started ({error}): open the address in one"));
+        output::say(&format!("gyration: no browser could be started ({}): open the address in one", in_words(&error)));
     }
     server.serve(what, async {
         let _ = ended.await;

@@ -1,4 +1,4 @@
-//! In what a scene that is in a recording differs from the one that is to go on with it: keys, with both values.
+//! In what the text that something was made from differs from the one that is to go on with it: keys, with both values.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -9,7 +9,7 @@ const MOST_KEYS: usize = 12;
 const MOST_LETTERS: usize = 60;
 
 /// One line for each key whose values differ, `KEY: A there, B here`; none if all are the same.
-pub(super) fn differences(there: &Value, here: &Value) -> Vec<String> {
+pub fn differences(there: &Value, here: &Value) -> Vec<String> {
     let mut lines = Vec::new();
     compare("", Some(there), Some(here), &mut lines);
     let more = lines.len().saturating_sub(MOST_KEYS);

@@ -1,6 +1,7 @@
 //! A CSV file of measurements: a line of names, then rows of numbers in SI units; columns that nobody asks for may hold
 //! anything, and lines that begin with # are remarks.
 
+use gyration_files::in_words;
 use std::path::Path;
 
 /// The file, as it is written.
@@ -17,8 +18,8 @@ impl Csv {
     /// # Errors
     /// In words: it cannot be read, or a row is longer or shorter than the line of names.
     pub fn read(folder: &Path, file: &str) -> Result<Self, String> {
-        let bytes =
-            gyration_files::read(&folder.join(file)).map_err(|error| format!("{file} cannot be read: {error}"))?;
+        let bytes = gyration_files::read(&folder.join(file))
+            .map_err(|error| format!("{file} cannot be read: {}", in_words(&error)))?;
         let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text);
         let wrong = |error: csv::Error| format!("{file}: {error}");

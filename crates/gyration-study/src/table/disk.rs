@@ -1,5 +1,6 @@
 //! The folder of a table: its lock, its manifest, and files that are put into their place whole.
 
+use super::other::other_study;
 use super::shard::Shard;
 use super::{LOCK, MANIFEST, RECORDINGS, ROWS, TABLE};
 use crate::error::StudyError;
@@ -105,17 +106,23 @@ pub(super) fn lock(folder: &Path) -> Result<File, StudyError> {
 /// Refuses a folder that holds no table of this study and shard.
 pub(super) fn is_of(folder: &Path, study: &Study, shard: Shard) -> Result<(), StudyError> {
     let manifest = read_manifest(folder)?;
-    let other = |what: &str| Err(StudyError::OtherStudy { path: folder.to_owned(), what: what.to_owned() });
+    let other = |what: &str, fix: &str| {
+        Err(StudyError::OtherStudy { path: folder.to_owned(), what: what.to_owned(), fix: fix.to_owned() })
+    };
     if manifest.get("fingerprint").and_then(Json::as_str) != Some(study.fingerprint()) {
         return match manifest.get("version").and_then(Json::as_str) {
             Some(version) if version != env!("CARGO_PKG_VERSION") => {
-                other(&format!("version {version} of the program"))
+                other(&format!("version {version} of the program"), "go on with it by that version")
             }
-            _ => other("another study: what is varied or kept, the scene or the seed differs"),
+            _ => Err(other_study(folder, &manifest, study)),
         };
     }
     let found = ["number", "count"].map(|key| manifest.pointer(&format!("/shard/{key}")).and_then(Json::as_u64));
-    if found != [Some(shard.number()), Some(shard.count())] { other("another shard") } else { Ok(()) }
+    if found != [Some(shard.number()), Some(shard.count())] {
+        other("another shard", "name the shard by --shard k/n")
+    } else {
+        Ok(())
+    }
 }
 
 pub(super) fn read_manifest(folder: &Path) -> Result<Json, StudyError> {
@@ -123,7 +130,7 @@ pub(super) fn read_manifest(folder: &Path) -> Result<Json, StudyError> {
     match gyration_files::read(&path) {
         Ok(bytes) => {
             let manifest: Json = serde_json::from_slice(&bytes)
-                .map_err(|error| StudyError::damaged(&path, format!("it is not JSON ({error})")))?;
+                .map_err(|error| StudyError::damaged(&path, format!("line {} is not JSON", error.line())))?;
             // Manifests of earlier versions have no checksum.
             if manifest.get(CHECKSUM).is_some() && check::is_sealed(&bytes, CHECKSUM_PLACE) != Some(true) {
                 return Err(StudyError::damaged(&path, "it does not match its checksum"));

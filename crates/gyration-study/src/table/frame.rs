@@ -276,6 +276,7 @@ fn described_beside(journal: &Path) -> Result<(Vec<Column>, Json), StudyError> {
     let folder = journal.parent().and_then(Path::parent).unwrap_or(Path::new(""));
     let manifest = super::disk::read_manifest(folder)?;
     let columns = serde_json::from_value(manifest.get("columns").cloned().unwrap_or_default());
-    let columns = columns.map_err(|error| StudyError::damaged(&folder.join(MANIFEST), error))?;
+    let unknown = |_: serde_json::Error| StudyError::damaged(&folder.join(MANIFEST), "it does not tell its columns");
+    let columns = columns.map_err(unknown)?;
     Ok((columns, manifest))
 }

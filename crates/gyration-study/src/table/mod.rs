@@ -21,6 +21,7 @@ mod frame;
 mod journal;
 mod lock;
 mod merge;
+mod other;
 mod parquet;
 mod seal;
 mod shard;
@@ -33,7 +34,7 @@ pub use merge::merge;
 pub use shard::Shard;
 pub use writer::Table;
 
-const MANIFEST: &str = "study.json";
+pub(crate) const MANIFEST: &str = "study.json";
 const TABLE: &str = "table.parquet";
 const ROWS: &str = "rows";
 const LOCK: &str = "lock";

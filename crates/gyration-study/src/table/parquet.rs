@@ -71,7 +71,8 @@ impl Output {
         if !self.waiting.is_empty() {
             self.write_group()?;
         }
-        drop(self.writer.into_inner().map_err(failed("write", &self.path))?);
+        // To take the file back instead would lose what the system says: a full disk would be a damaged file.
+        self.writer.close().map_err(failed("write", &self.path))?;
         seal::close(&self.path).map_err(StudyError::io("write", &self.path))
     }
 
