@@ -2,11 +2,13 @@
 //!
 //! What is wrong with the study itself is a `LoadError` of `gyration-scene`.
 
-use crate::table::MANIFEST;
 use gyration_files::in_words;
 use gyration_record::RecordError;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// The file of a table that tells which study it is of: the one file that nothing else can give back.
+pub(crate) const MANIFEST: &str = "study.json";
 
 /// Failure to write, read or join the tables of a study.
 #[derive(Debug, thiserror::Error)]

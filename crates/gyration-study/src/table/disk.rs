@@ -2,8 +2,8 @@
 
 use super::other::other_study;
 use super::shard::Shard;
-use super::{LOCK, MANIFEST, RECORDINGS, ROWS, TABLE};
-use crate::error::StudyError;
+use super::{LOCK, RECORDINGS, ROWS, TABLE};
+use crate::error::{MANIFEST, StudyError};
 use crate::study::Study;
 use gyration_files::check;
 use serde_json::Value as Json;

@@ -2,9 +2,9 @@
 
 use super::parquet::Input;
 use super::shard::Shard;
-use super::{MANIFEST, PORTION, ROWS, TABLE, journal};
+use super::{PORTION, ROWS, TABLE, journal};
 use crate::column::{Column, ColumnKind};
-use crate::error::StudyError;
+use crate::error::{MANIFEST, StudyError};
 use crate::value::{Row, Value};
 use serde::Deserialize;
 use serde_json::Value as Json;

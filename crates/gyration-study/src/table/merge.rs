@@ -1,11 +1,11 @@
 //! Joins the shards of a study into one table, by streaming.
 
+use super::TABLE;
 use super::describe::{describe, manifest};
 use super::disk::{is_of, lock, replace_file, write_manifest};
 use super::parquet::{Input, Output};
 use super::shard::Shard;
-use super::{MANIFEST, TABLE};
-use crate::error::StudyError;
+use crate::error::{MANIFEST, StudyError};
 use crate::study::Study;
 use crate::value::Row;
 use std::collections::BTreeMap;

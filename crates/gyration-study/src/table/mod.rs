@@ -34,7 +34,6 @@ pub use merge::merge;
 pub use shard::Shard;
 pub use writer::Table;
 
-pub(crate) const MANIFEST: &str = "study.json";
 const TABLE: &str = "table.parquet";
 const ROWS: &str = "rows";
 const LOCK: &str = "lock";
