@@ -3,8 +3,9 @@
 //! `test` is the one test command: format, lints, documentation, every test of the workspace, those of the viewer in a
 //! browser, the Python tests, the table of known answers, and licences and advisories of dependencies. `validate` runs
 //! the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes,
-//! draws their pictures and writes `docs/gallery.md`. `compare` tells whether two commits give the same recordings,
-//! `fill` fills comments and pages, `campaign` tries random scenes, `supply` lists the dependencies.
+//! draws their pictures and writes `docs/gallery.md`. `golden` writes the sums of their recordings. `compare` tells
+//! whether two commits give the same recordings, `fill` fills comments and pages, `campaign` tries random scenes,
+//! `supply` lists the dependencies.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -14,14 +15,18 @@ mod cargo;
 mod child;
 mod compare;
 mod console;
+mod debian;
 mod fill;
 mod gallery;
+mod golden;
 mod json;
 #[cfg(test)]
 mod layout;
 mod package;
+mod parallel;
 mod programs;
 mod python;
+mod recording;
 mod report;
 mod steps;
 mod supply;
@@ -40,6 +45,7 @@ usage: cargo xtask CHORE
   test --fast    the same without documentation, viewer, Python and dependencies
   validate       run the problems with a known answer and rewrite docs/known-answers.md
   gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md
+  golden         run the gallery and write the sums of its recordings, validation/golden.txt
   fill [FILE…]   fill comments and pages to the width of a line
   campaign [--scenes N] [--seed S] [--only K] [--program FILE] [--wall-time SECONDS]  random scenes, killed, resumed, audited
   supply         list the packages that are locked, once what is new has been looked up
@@ -53,6 +59,7 @@ fn main() -> ExitCode {
         ["test", "--fast"] => test::run(test::Extent::Fast),
         ["validate"] => validate::run(),
         ["gallery", names @ ..] => gallery::run(names),
+        ["golden"] => golden::run(),
         ["fill", names @ ..] => fill::run(names),
         ["supply"] => supply::run(),
         ["campaign", words @ ..] => campaign::run(words),

@@ -3,6 +3,7 @@
 //! It is made once and again whenever the list of packages changes. Debian keeps `venv` in a package of its own, which
 //! is installed where that is possible without asking (as root), and named otherwise.
 
+use crate::debian::{can_install, install};
 use crate::steps::{Steps, succeeds};
 use crate::{root, target_directory};
 use std::fs;
@@ -54,17 +55,6 @@ fn has_venv() -> bool {
     succeeds(python().args(["-c", "import venv, ensurepip"]))
 }
 
-/// Whether packages can be installed without asking.
-pub fn is_root() -> bool {
-    let output = Command::new("id").arg("-u").output();
-    output.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
-}
-
-/// Renews Debian's lists of packages.
-pub fn refresh_package_lists(steps: &mut Steps) -> bool {
-    steps.run("refresh the package lists", Command::new("apt-get").args(["update", "-q"]))
-}
-
 /// Installs Debian's package for virtual environments where that can be done without asking.
 fn install_venv(steps: &mut Steps) -> bool {
     if !succeeds(python().arg("--version")) {
@@ -73,16 +63,12 @@ fn install_venv(steps: &mut Steps) -> bool {
         );
         return false;
     }
-    if !(is_root() && succeeds(Command::new("apt-get").arg("--version"))) {
+    if !can_install() {
         steps.complain(
             "Python: the module venv or ensurepip is missing; on Debian and Ubuntu: sudo apt-get install python3-venv"
                 .into(),
         );
         return false;
     }
-    refresh_package_lists(steps)
-        && steps.run(
-            "install python3-venv",
-            Command::new("apt-get").args(["install", "-y", "-q", "--no-install-recommends", "python3-venv"]),
-        )
+    install(steps, "python3-venv")
 }

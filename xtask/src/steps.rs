@@ -77,6 +77,21 @@ impl Steps {
         self.judge(title, tally, outcome)
     }
 
+    /// Makes checks that are no test program, as one stage; each passes or says what is wrong.
+    pub fn checks(&mut self, title: &str, checks: impl FnOnce() -> Vec<Result<(), String>>) {
+        self.begin(title, "");
+        let started = Instant::now();
+        let outcomes = checks();
+        let passed = outcomes.iter().filter(|outcome| outcome.is_ok()).count();
+        self.console.line(&format!("{passed} of {} passed", outcomes.len()));
+        self.finish(title, Cost { wall: started.elapsed().as_secs_f64(), cpu: 0.0 });
+        if outcomes.is_empty() {
+            self.complain(format!("{title}: nothing was checked"));
+        }
+        self.tally.passed += passed;
+        outcomes.into_iter().filter_map(Result::err).for_each(|reason| self.complain(format!("{title}: {reason}")));
+    }
+
     /// Takes in what a test command said, and how it ended.
     fn judge(&mut self, title: &str, tally: Tally, outcome: Result<(), String>) -> bool {
         let (ran, failed) = (tally.passed + tally.failed > 0, tally.failed);

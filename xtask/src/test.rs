@@ -3,7 +3,7 @@
 use crate::cargo::cargo;
 use crate::programs::{self, TestPrograms};
 use crate::steps::{Steps, succeeds};
-use crate::{answers, campaign, fill, gallery, package, python, root, supply, validate, viewer};
+use crate::{answers, campaign, fill, gallery, golden, package, python, root, supply, validate, viewer};
 use std::process::{Command, ExitCode};
 use std::sync::mpsc::{self, Receiver, Sender};
 
@@ -61,6 +61,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
         });
         check_known_answers(steps);
         gallery::check(steps, &found.gyration);
+        golden::check(steps, &found.gyration);
         campaign::check(steps, &found.gyration);
     }
     steps.run_tests("examples in the documentation", cargo().args(["test", "--workspace", "--doc", "--no-fail-fast"]));
@@ -78,6 +79,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
 fn beside_rust(steps: &mut Steps, built: &Receiver<TestPrograms>) {
     let browser = viewer::browser(steps);
     let interpreter = python::environment(steps);
+    let emulator = golden::emulator(steps);
     let Ok(built) = built.recv() else { return };
     if let Some(interpreter) = interpreter {
         // Tests in modules called `python` are ignored without an interpreter with the pinned packages.
@@ -88,6 +90,9 @@ fn beside_rust(steps: &mut Steps, built: &Receiver<TestPrograms>) {
     }
     if let Some(browser) = browser {
         viewer::tests(steps, &built.gyration, &browser);
+    }
+    if let Some(emulator) = emulator {
+        golden::check_emulated(steps, &built.gyration, &emulator);
     }
 }
 

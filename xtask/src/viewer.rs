@@ -3,7 +3,7 @@
 //! Node and npm must be there. A browser is Debian's Chromium, which is installed where that is possible without asking
 //! (as root), and named otherwise; `GYRATION_CHROMIUM` names another one.
 
-use crate::python::{is_root, refresh_package_lists};
+use crate::debian::{can_install, install, on_path};
 use crate::root;
 use crate::steps::{Steps, succeeds};
 use std::path::{Path, PathBuf};
@@ -52,19 +52,11 @@ pub fn browser(steps: &mut Steps) -> Option<PathBuf> {
     let named = std::env::var_os("GYRATION_CHROMIUM").map(PathBuf::from);
     let found = || named.clone().or_else(|| BROWSERS.iter().find_map(|name| on_path(name)));
     if found().is_none() {
-        if !(is_root() && succeeds(Command::new("apt-get").arg("--version"))) {
+        if !can_install() {
             steps.complain("viewer: no browser; on Debian and Ubuntu: sudo apt-get install chromium".into());
             return None;
         }
-        let mut install = Command::new("apt-get");
-        install.args(["install", "-y", "-q", "--no-install-recommends", "chromium"]);
-        let _ = refresh_package_lists(steps) && steps.run("install a browser", &mut install);
+        install(steps, "chromium");
     }
     found()
-}
-
-/// Where a program is found.
-fn on_path(name: &str) -> Option<PathBuf> {
-    let folders = std::env::var_os("PATH")?;
-    std::env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file())
 }

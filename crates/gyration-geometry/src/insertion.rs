@@ -45,7 +45,7 @@ impl Cloud {
     /// range.
     pub(crate) fn new(points: &[Vec3]) -> Self {
         let size = points.iter().map(|point| point.amax()).fold(0.0, f64::max);
-        let unit = size.log2().ceil().exp2();
+        let unit = libm::exp2(libm::log2(size).ceil());
         let scaled = |value: f64| if (value / unit).abs() < SMALLEST { 0.0 } else { value / unit };
         Self(points.iter().map(|p| Coord3D { x: scaled(p.x), y: scaled(p.y), z: scaled(p.z) }).collect())
     }

@@ -5,6 +5,8 @@
 //! knows a scene. The readers of STL, OBJ and PLY are our own: they keep f64, say at which line or byte a file is
 //! wrong, and allocate nothing on the word of a header.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod fault;
 mod hull;
 mod insertion;

@@ -59,19 +59,19 @@ impl StepControl {
             (Cause::Inadmissible(_) | Cause::NotFinite { .. }, _) => DOMAIN_FACTOR,
             (Cause::Newton, _) => NEWTON_FACTOR,
             (Cause::Error { norm, .. }, Stepper::Explicit) => {
-                at_least(SAFETY * norm.powf(-EXPLICIT_EXPONENT), EXPLICIT_FACTORS.0)
+                at_least(SAFETY * libm::pow(*norm, -EXPLICIT_EXPONENT), EXPLICIT_FACTORS.0)
             }
-            (Cause::Error { norm, .. }, Stepper::Implicit) => at_least(SAFETY * norm.powf(-0.25), 1.0 / 8.0),
+            (Cause::Error { norm, .. }, Stepper::Implicit) => at_least(SAFETY * libm::pow(*norm, -0.25), 1.0 / 8.0),
         }
     }
 
     /// The factor on the step after an accepted explicit one of size h.
     pub fn after_explicit(&mut self, error: f64, h: f64, rejected: bool) -> f64 {
         // The bound below keeps a step without any error from exploding the next one.
-        let mut factor = SAFETY * error.max(1e-10).powf(-EXPLICIT_EXPONENT);
+        let mut factor = SAFETY * libm::pow(error.max(1e-10), -EXPLICIT_EXPONENT);
         let error = error.max(EXPLICIT_LEAST);
         if self.explicit_error > 0.0 {
-            factor *= (self.explicit_error / error).powf(EXPLICIT_EXPONENT) * h / self.explicit_step;
+            factor *= libm::pow(self.explicit_error / error, EXPLICIT_EXPONENT) * h / self.explicit_step;
         }
         (self.explicit_error, self.explicit_step) = (error, h);
         let (least, most) = EXPLICIT_FACTORS;
@@ -101,9 +101,9 @@ impl StepControl {
         let most = f64::from(MAX_ITERATIONS);
         let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + f64::from(iterations));
         let error = error.max(1e-10);
-        let mut factor = (safety * error.powf(-0.25)).clamp(1.0 / 5.0, 8.0);
+        let mut factor = (safety * libm::pow(error, -0.25)).clamp(1.0 / 5.0, 8.0);
         if self.implicit_step > 0.0 {
-            let trend = (self.implicit_error / (error * error)).powf(0.25) * h / self.implicit_step;
+            let trend = libm::pow(self.implicit_error / (error * error), 0.25) * h / self.implicit_step;
             factor = factor.min((SAFETY * trend).clamp(1.0 / 5.0, 8.0));
         }
         (self.implicit_error, self.implicit_step) = (error.max(1e-2), h);
@@ -145,7 +145,7 @@ pub(crate) fn initial_step<S: System>(
             }
             let curvature = size(&beside.rate) / h;
             let largest = speed.max(curvature);
-            let wanted = if largest <= 1e-15 { (h * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / 8.0) };
+            let wanted = if largest <= 1e-15 { (h * 1e-3).max(1e-6) } else { libm::pow(0.01 / largest, 1.0 / 8.0) };
             let chosen = wanted.min(100.0 * h).min(max_step);
             return if chosen > 0.0 { chosen } else { h };
         }

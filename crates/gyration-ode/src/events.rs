@@ -73,7 +73,7 @@ fn close_in(mut left: (f64, f64), mut right: (f64, f64), value: &mut impl FnMut(
     let sign = if right.1 > left.1 { 1.0 } else { -1.0 };
     let length = right.0 - left.0;
     let epsilon = 2.0 * f64::EPSILON * left.0.abs().max(right.0.abs());
-    let mut reach = epsilon * (length / (2.0 * epsilon)).log2().ceil().max(0.0).exp2() * 2.0;
+    let mut reach = epsilon * libm::exp2(libm::log2(length / (2.0 * epsilon)).ceil().max(0.0)) * 2.0;
     while right.0 - left.0 > 2.0 * epsilon {
         let (a, b) = (left.0, right.0);
         let middle = 0.5 * (a + b);

@@ -19,6 +19,8 @@
 //!
 //! Nothing is allocated after the first step while blocks and pattern stay, nothing is random, and no clock is read.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod analysis;
 mod arrowhead;
 mod auto;

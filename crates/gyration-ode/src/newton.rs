@@ -169,7 +169,7 @@ impl NewtonStages {
         let layout = context.layout;
         let (tolerance, noise) = tolerance(layout, from);
         let mut contraction = plan.contraction;
-        let mut left = contraction.max(f64::EPSILON).powf(0.8).max(LEAST_CONTRACTION);
+        let mut left = libm::pow(contraction.max(f64::EPSILON), 0.8).max(LEAST_CONTRACTION);
         let mut previous = f64::INFINITY;
         self.predict_and_evaluate(context, from, plan)?;
         for iterations in 1..=MAX_ITERATIONS {
@@ -295,7 +295,7 @@ impl NewtonStages {
 /// Source: radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &SystemLayout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
-    let wanted = (10.0 * size.max(1.0).powf(-0.5)).clamp(1e-4, 1e-2);
+    let wanted = (10.0 * libm::pow(size.max(1.0), -0.5)).clamp(1e-4, 1e-2);
     (wanted.max(10.0 * f64::EPSILON * size).min(0.1), (NOISE * size).min(1.0))
 }
 

@@ -68,7 +68,7 @@ impl CoupledBlocks<'_> {
                 return growth.abs();
             }
             if iteration >= settle {
-                logarithm += growth.ln();
+                logarithm += libm::log(growth);
             }
             for place in self.places() {
                 for (component, image) in vector[place.clone()].iter_mut().zip(&image[place]) {
@@ -76,7 +76,7 @@ impl CoupledBlocks<'_> {
                 }
             }
         }
-        (logarithm / measure as f64).exp()
+        libm::exp(logarithm / measure as f64)
     }
 
     /// The image of a vector, both relative to the scales.

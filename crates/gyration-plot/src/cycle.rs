@@ -83,7 +83,7 @@ pub fn rounded(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { "undefined".to_owned() };
     }
-    let power = 2 - value.abs().log10().floor() as i32;
+    let power = 2 - libm::log10(value.abs()).floor() as i32;
     // Divided by a power of ten that is exact where the digits are decimals.
     let digits = if power >= 0 {
         (value * 10f64.powi(power)).round() / 10f64.powi(power)

@@ -9,6 +9,7 @@
 //! written but where [`leave_overview`] is asked to.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 #[cfg(feature = "study")]
 pub mod calibration;

@@ -15,6 +15,7 @@
 //! zarrs would do the Zarr part and more, but takes longer to compile (70 s) than all the rest of this crate.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod array;
 mod checkpoint;

@@ -10,6 +10,8 @@
 //! nowhere else. This crate integrates nothing, and computes no flow: resistances that only boundary elements tell are
 //! asked for when a scene is to be run ([`Scene::complete`]).
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod assemble;
 mod check;
 mod document;

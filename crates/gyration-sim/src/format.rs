@@ -11,7 +11,7 @@ pub fn significant(value: f64, digits: i32) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "infinite" } else { "minus infinite" }.to_owned();
     }
-    let power = value.abs().log10().floor();
+    let power = libm::log10(value.abs()).floor();
     if !(-4.0..6.0).contains(&power) {
         let digits = (digits - 1) as usize;
         return format!("{value:.digits$e}");

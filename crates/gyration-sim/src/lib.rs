@@ -7,6 +7,8 @@
 //!     audit, next sample, rest                   run_state.rs: with the stepper's memory, the checkpoint
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod adapter;
 mod detached;
 mod detection;

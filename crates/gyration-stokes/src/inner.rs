@@ -78,11 +78,11 @@ impl TriangleSide {
         let (r_start, r_end) = ((start * start + squared).sqrt(), (end * end + squared).sqrt());
         // r + s loses its digits where s < 0; (r + s)(r − s) = R².
         let f = if start >= 0.0 {
-            ((r_end + end) / (r_start + start)).ln()
+            libm::log((r_end + end) / (r_start + start))
         } else if end <= 0.0 {
-            ((r_start - start) / (r_end - end)).ln()
+            libm::log((r_start - start) / (r_end - end))
         } else {
-            ((r_end + end) * (r_start - start) / squared).ln()
+            libm::log((r_end + end) * (r_start - start) / squared)
         };
         let half = 0.5 * (end * r_end - start * r_start);
         Self { m, tau, t, rise: r_end - r_start, f, half, rest: 0.5 * squared * f }
@@ -93,7 +93,7 @@ impl TriangleSide {
 fn solid_angle([a, b, c]: &[[f64; 2]; 3], doubled: f64, w: f64) -> f64 {
     let dot = |u: &[f64; 2], v: &[f64; 2]| u[0] * v[0] + u[1] * v[1] + w * w;
     let [ra, rb, rc] = [a, b, c].map(|u| dot(u, u).sqrt());
-    2.0 * (w * doubled).atan2(ra * rb * rc + dot(a, b) * rc + dot(b, c) * ra + dot(c, a) * rb)
+    2.0 * libm::atan2(w * doubled, ra * rb * rc + dot(a, b) * rc + dot(b, c) * ra + dot(c, a) * rb)
 }
 
 impl StokesletMoments {

@@ -16,6 +16,7 @@
 //! The same bytes come out on any number of threads. Nothing here knows of bodies, scenes or time.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod assembly;
 mod coarse;

@@ -68,7 +68,7 @@ impl ClosedSurface {
         if !(volume.is_finite() && volume > 0.0) {
             return Err(StokesError::BadOption { what: "volume", must_be: "positive and finite", value: volume });
         }
-        let ratio = (volume / self.volume()).cbrt();
+        let ratio = libm::cbrt(volume / self.volume());
         self.moved(|p| std::array::from_fn(|k| about[k] + ratio * (p[k] - about[k])))
     }
 }

@@ -11,6 +11,8 @@
 //! [`calibration`] finds numbers of a scene from measurements. Nothing in a table depends on clocks, threads, shards or
 //! the order of the runs. No mechanics here: a run is one of `gyration-sim`.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod calibration;
 mod column;
 mod error;

@@ -196,10 +196,10 @@ impl Axes {
             return f64::NAN;
         }
         let [along, across] = [self.directions[0].dot(&shear.flow), self.directions[0].dot(&shear.gradient)];
-        if along.hypot(across) < EQUAL {
+        if libm::hypot(along, across) < EQUAL {
             return f64::NAN;
         }
-        let angle = across.atan2(along);
+        let angle = libm::atan2(across, along);
         let half = std::f64::consts::FRAC_PI_2;
         if angle > half {
             angle - 2.0 * half
@@ -217,7 +217,7 @@ impl Axes {
             _ => return f64::NAN,
         };
         let (p, ratio) = (&self.directions[axis], self.lengths[axis] / self.lengths[1]);
-        let plane = p.dot(&shear.gradient).hypot(p.dot(&shear.flow) / ratio);
+        let plane = libm::hypot(p.dot(&shear.gradient), p.dot(&shear.flow) / ratio);
         plane / (plane + p.dot(&shear.vorticity).abs())
     }
 }

@@ -57,7 +57,7 @@ impl Quaternion {
 
     /// The rotation by `angle` [rad] about `axis` (any length but zero).
     pub fn from_axis_angle(axis: &Vec3, angle: f64) -> Self {
-        let (sin, cos) = (0.5 * angle).sin_cos();
+        let (sin, cos) = libm::sincos(0.5 * angle);
         let v = axis * (sin / axis.norm());
         Self([cos, v.x, v.y, v.z])
     }

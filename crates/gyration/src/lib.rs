@@ -5,6 +5,8 @@
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no random
 //! numbers, no threads. `ARCHITECTURE.md` has the order of the modules. Read [`dynamics::rates`] first.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod acting;
 pub mod affine;
 pub mod balance;

@@ -47,7 +47,7 @@ impl SupportMotion {
             Self::Fixed => Vec3::zeros(),
             Self::Velocity(velocity) => velocity * time,
             Self::Oscillation { direction, amplitude, frequency, phase } => {
-                direction * (amplitude * (TAU * frequency * time + phase).sin())
+                direction * (amplitude * libm::sin(TAU * frequency * time + phase))
             }
         }
     }
@@ -59,7 +59,7 @@ impl SupportMotion {
             Self::Velocity(velocity) => *velocity,
             Self::Oscillation { direction, amplitude, frequency, phase } => {
                 let omega = TAU * frequency;
-                direction * (amplitude * omega * (omega * time + phase).cos())
+                direction * (amplitude * omega * libm::cos(omega * time + phase))
             }
         }
     }

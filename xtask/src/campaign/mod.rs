@@ -21,9 +21,9 @@ mod tally;
 mod toml;
 mod trial;
 
-use crate::PROGRAM;
 use crate::cargo::cargo;
 use crate::steps::Steps;
+use crate::{PROGRAM, parallel};
 use options::Options;
 use process::Place;
 use scene::RandomScene;
@@ -31,7 +31,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
-use std::thread::{available_parallelism, scope};
 use std::time::Duration;
 use stream::Stream;
 use tally::CampaignTally;
@@ -93,21 +92,13 @@ struct Campaign<'a> {
 impl Campaign<'_> {
     fn conduct(&self) -> CampaignTally {
         let tally = Mutex::new(CampaignTally::default());
-        let queue = Mutex::new(self.options.cases());
-        scope(|threads| {
-            for _ in 0..available_parallelism().map_or(1, usize::from) {
-                threads.spawn(|| {
-                    let next = || queue.lock().ok().and_then(|mut queue| queue.next());
-                    while let Some(case) = next() {
-                        let verdict = self.tried(case);
-                        if let Err(cause) = &verdict {
-                            println!("scene {case}: {cause}");
-                        }
-                        if let Ok(mut tally) = tally.lock() {
-                            tally.take(case, verdict);
-                        }
-                    }
-                });
+        parallel::each(self.options.cases(), |case| {
+            let verdict = self.tried(case);
+            if let Err(cause) = &verdict {
+                println!("scene {case}: {cause}");
+            }
+            if let Ok(mut tally) = tally.lock() {
+                tally.take(case, verdict);
             }
         });
         tally.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())

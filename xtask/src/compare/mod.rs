@@ -3,14 +3,12 @@
 //! A change that only moves code must leave every array of the gallery as it is; one that regroups sums must say by how
 //! much it moves them.
 
-mod recording;
 mod side;
 
+use crate::{parallel, recording};
 use side::Side;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::thread::{available_parallelism, scope};
 
 /// Compares the recordings of two sides, of the scenes named or of all that both have; fails if anything differs.
 pub fn run(old: &str, new: &str, scenes: &[&str]) -> ExitCode {
@@ -64,17 +62,6 @@ fn recorded(sides: &[Side; 2], scenes: &[String]) -> Vec<[Result<PathBuf, String
     let mut recordings: Vec<_> = scenes.iter().map(|_| [Err("not run".into()), Err("not run".into())]).collect();
     let places = recordings.iter_mut().flatten();
     let tasks = scenes.iter().flat_map(|scene| sides.iter().map(move |side| (side, scene))).zip(places);
-    let queue = Mutex::new(tasks);
-    scope(|threads| {
-        for _ in 0..available_parallelism().map_or(1, usize::from) {
-            threads.spawn(|| {
-                // The lock is held while a task is taken, not while it is run.
-                let next = || queue.lock().ok().and_then(|mut queue| queue.next());
-                while let Some(((side, scene), place)) = next() {
-                    *place = side.record(scene);
-                }
-            });
-        }
-    });
+    parallel::each(tasks, |((side, scene), place)| *place = side.record(scene));
     recordings
 }

@@ -83,7 +83,7 @@ impl Axis {
     pub fn logarithmic(name: &str, unit: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let positive = values.into_iter().filter(|value| *value > 0.0);
         let (low, high) = extremes(positive).unwrap_or((0.1, 10.0));
-        let margin = (high / low).powf(0.05).max(1.1);
+        let margin = libm::pow(high / low, 0.05).max(1.1);
         let (low, high) = (low / margin, high * margin);
         Self {
             name: name.to_owned(),
@@ -99,7 +99,7 @@ impl Axis {
     pub fn place(&self, value: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (value - self.low) / (self.high - self.low),
-            AxisScale::Logarithmic => (value / self.low).ln() / (self.high / self.low).ln(),
+            AxisScale::Logarithmic => libm::log(value / self.low) / libm::log(self.high / self.low),
         }
     }
 

@@ -185,5 +185,5 @@ fn draw_arrows(line: &[Point], stroke: Stroke, drawing: &mut Page, clip: Rect) {
 }
 
 fn distance(a: Point, b: Point) -> f64 {
-    (b[0] - a[0]).hypot(b[1] - a[1])
+    libm::hypot(b[0] - a[0], b[1] - a[1])
 }

@@ -87,7 +87,7 @@ fn area([a, b]: [Point; 2]) -> Vec<Point> {
 fn dot(center: Point, radius: f64) -> Vec<Point> {
     let corners = if radius < 1.0 { 6 } else { 14 };
     let corner = |k: usize| {
-        let (sine, cosine) = (TAU * k as f64 / corners as f64).sin_cos();
+        let (sine, cosine) = libm::sincos(TAU * k as f64 / corners as f64);
         [center[0] + radius * cosine, center[1] + radius * sine]
     };
     (0..corners).map(corner).collect()

@@ -15,7 +15,7 @@ pub struct Tick {
 /// The step of 1, 2 or 5 times a power of ten by which `span` is divided into at most `count` parts.
 pub fn round_step(span: f64, count: usize) -> f64 {
     let least = span / count.max(1) as f64;
-    let power = 10f64.powf(least.log10().floor());
+    let power = libm::pow(10f64, libm::log10(least).floor());
     // A step that is round but for rounding is taken.
     let fits = |factor: &f64| factor * power >= least * (1.0 - 1e-9);
     [1.0, 2.0, 5.0].into_iter().find(fits).unwrap_or(10.0) * power
@@ -41,13 +41,13 @@ pub fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
 
 /// Decimals that tell multiples of a step apart.
 pub fn decimals(step: f64) -> usize {
-    (-(step * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 12.0) as usize
+    (-libm::log10(step * (1.0 + 1e-9)).floor()).clamp(0.0, 12.0) as usize
 }
 
 /// Ticks of a logarithmic axis from `low` > 0 to `high`: at most about `count` with words, minor ones between.
 pub fn logarithmic(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let tolerance = 1e-9;
-    let (first, last) = ((low.log10() - tolerance).ceil(), (high.log10() + tolerance).floor());
+    let (first, last) = ((libm::log10(low) - tolerance).ceil(), (libm::log10(high) + tolerance).floor());
     let decades = (last - first).max(0.0) as usize + 1;
     if decades < 2 {
         return within_a_decade(low, high);
@@ -70,7 +70,7 @@ pub fn logarithmic(low: f64, high: f64, count: usize) -> Vec<Tick> {
 
 /// Words at 1, 2 and 5, for an axis on which at most one power of ten stands.
 fn within_a_decade(low: f64, high: f64) -> Vec<Tick> {
-    let power = low.log10().floor() as i32;
+    let power = libm::log10(low).floor() as i32;
     let mut ticks = Vec::new();
     for power in power..=power + 1 {
         for digit in 1..10 {
@@ -89,7 +89,7 @@ pub fn short(value: f64) -> String {
     if value == 0.0 || (1e-3..1e5).contains(&magnitude) {
         return trimmed(value, 6);
     }
-    let power = magnitude.log10().floor() as i32;
+    let power = libm::log10(magnitude).floor() as i32;
     let digits = trimmed(value / 10f64.powi(power), 4);
     match digits.as_str() {
         "1" => format!("10^{{{power}}}"),
@@ -114,7 +114,7 @@ pub fn length_in_words(length: f64) -> String {
         _ => (1e9, "nm"),
     };
     let value = factor * length;
-    let decimals = (2.0 - value.log10().floor()).clamp(0.0, 3.0) as i32;
+    let decimals = (2.0 - libm::log10(value).floor()).clamp(0.0, 3.0) as i32;
     let rounded = (value * 10f64.powi(decimals)).round() / 10f64.powi(decimals);
     format!("{} {unit}", short(rounded))
 }
@@ -127,7 +127,7 @@ pub fn prefix(largest: f64) -> (f64, &'static str) {
     if !(largest > 0.0 && largest.is_finite()) {
         return (1.0, "");
     }
-    let thousands = (largest.log10() / 3.0 + 1e-9).floor().clamp(-5.0, 5.0) as i32;
+    let thousands = (libm::log10(largest) / 3.0 + 1e-9).floor().clamp(-5.0, 5.0) as i32;
     (10f64.powi(-3 * thousands), PREFIXES[(thousands + 5) as usize])
 }
 

@@ -151,7 +151,7 @@ impl Page {
     pub fn dot(&mut self, center: Point, radius: f64, fill: Color, clip: Option<Rect>) {
         const CORNERS: usize = 16;
         let corner = |k: usize| {
-            let (sine, cosine) = (std::f64::consts::TAU * k as f64 / CORNERS as f64).sin_cos();
+            let (sine, cosine) = libm::sincos(std::f64::consts::TAU * k as f64 / CORNERS as f64);
             [center[0] + radius * cosine, center[1] + radius * sine]
         };
         self.area((0..CORNERS).map(corner).collect(), Some(fill), None, clip);

@@ -75,13 +75,13 @@ impl BodyPath {
         recorded.each_row(&["position"], |time, row| {
             for (k, it) in driven.iter().enumerate() {
                 let parts = level.parts(&(Vec3::from_column_slice(&row[0][3 * it.body..][..3]) - starts[k]));
-                farthest[k] = f64::max(farthest[k], parts[0].hypot(parts[1]));
+                farthest[k] = f64::max(farthest[k], libm::hypot(parts[0], parts[1]));
                 if let Some(mark) = &mut marks[k] {
                     mark.push(time, parts);
                 }
             }
         })?;
-        let gained = |mark: &Option<AtTime<2>>| mark.as_ref().and_then(AtTime::since).map(|[a, b]| a.hypot(b));
+        let gained = |mark: &Option<AtTime<2>>| mark.as_ref().and_then(AtTime::since).map(|[a, b]| libm::hypot(a, b));
         let ways = farthest.into_iter().zip(&marks);
         Ok(ways.map(|(farthest, mark)| Self { farthest, gained: gained(mark).unwrap_or(farthest) }).collect())
     }
@@ -119,7 +119,7 @@ impl Spent {
                 if let Some(mark) = &mut marks[k] {
                     mark.push(time, [parts[0], parts[1], works[k].positive]);
                 }
-                let distance = parts[0].hypot(parts[1]);
+                let distance = libm::hypot(parts[0], parts[1]);
                 let drawn = distance > SOME_WAY * farthest[k];
                 for (thinner, work) in thinners[2 * k..].iter_mut().zip([works[k].positive, works[k].net]) {
                     thinner.push(time, if drawn { work / (weights[k] * distance) } else { f64::NAN });
@@ -130,7 +130,7 @@ impl Spent {
         thinners.into_iter().map(Thinner::finish).enumerate().for_each(|(k, line)| lines[k % 2].push(line));
         let cost = |(mark, weight): (&Option<AtTime<3>>, &f64)| {
             let [a, b, work] = mark.as_ref()?.since()?;
-            Some(work / (weight * a.hypot(b)))
+            Some(work / (weight * libm::hypot(a, b)))
         };
         Ok(Self { lines, by_cycle: marks.iter().zip(&weights).map(cost).collect(), works })
     }

@@ -76,7 +76,7 @@ impl Travels {
                 let place = Vec3::from_column_slice(&row[0][3 * body..][..3]);
                 let (start, before, path) = tracks[k].unwrap_or((place, [0.0; 2], 0.0));
                 let parts = level.parts(&(place - start));
-                let path = path + (parts[0] - before[0]).hypot(parts[1] - before[1]);
+                let path = path + libm::hypot(parts[0] - before[0], parts[1] - before[1]);
                 tracks[k] = Some((start, parts, path));
                 if let Some(mark) = &mut marks[k] {
                     mark.push(time, parts);

@@ -79,7 +79,7 @@ struct GapRange {
 impl GapRange {
     fn sampled(&self) -> impl Iterator<Item = f64> + '_ {
         let Axis { low, high, .. } = self.axis;
-        (0..POINTS).map(move |k| low * (high / low).powf(k as f64 / (POINTS - 1) as f64))
+        (0..POINTS).map(move |k| low * libm::pow(high / low, k as f64 / (POINTS - 1) as f64))
     }
 }
 
@@ -221,10 +221,10 @@ fn chart([title, name, unit]: [&str; 3], gaps: &GapRange, series: Vec<Series>) -
 fn range(gaps: &GapRange, series: &[Series]) -> Option<(f64, f64)> {
     let points = || series.iter().flat_map(|series| &series.points).filter(|point| point[1] > 0.0);
     let (least, most) = extremes(points().map(|point| point[1]))?;
-    let near = |gap: f64| points().filter(move |point| (point[0] / gap).ln().abs() < 0.1).map(|point| point[1]);
+    let near = |gap: f64| points().filter(move |point| libm::log(point[0] / gap).abs() < 0.1).map(|point| point[1]);
     let typical = extremes(gaps.rests.iter().flat_map(|gap| near(*gap)));
     Some(match typical {
         Some((low, high)) => (least.max(AROUND_VALUES.0 * low), most.min(AROUND_VALUES.1 * high)),
-        None => (least.max(most * 10f64.powf(-MOST_DECADES)), most),
+        None => (least.max(most * libm::pow(10f64, -MOST_DECADES)), most),
     })
 }

@@ -53,7 +53,7 @@ impl Trace {
     }
 
     fn distance(&self, a: Point, b: Point) -> f64 {
-        ((b[0] - a[0]) / self.ranges[0]).hypot((b[1] - a[1]) / self.ranges[1])
+        libm::hypot((b[0] - a[0]) / self.ranges[0], (b[1] - a[1]) / self.ranges[1])
     }
 
     /// The area that the curve encloses with the chord from its last point to its first.

@@ -157,7 +157,7 @@ fn without_overlaps(frames: Vec<Outlines>) -> Vec<Outlines> {
     const ROOM: f64 = 0.55;
     let covers = |a: &Outlines, b: &Outlines| {
         a.bodies.iter().zip(&b.bodies).any(|(a, b)| {
-            let distance = (a.center[0] - b.center[0]).hypot(a.center[1] - b.center[1]);
+            let distance = libm::hypot(a.center[0] - b.center[0], a.center[1] - b.center[1]);
             distance < ROOM * a.size.max(b.size)
         })
     };

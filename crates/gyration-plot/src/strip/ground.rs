@@ -87,7 +87,7 @@ impl Cut {
     ///   (c + a u + b w − o)·n = 0,   c the mean place of the bodies
     fn of(support: &Support, time: f64, mean: &Vec3, view: &View) -> Option<Self> {
         let normal = view.project(&support.normal);
-        let in_plane = normal[0].hypot(normal[1]);
+        let in_plane = libm::hypot(normal[0], normal[1]);
         if in_plane < LEAST_IN_PLANE {
             return None;
         }

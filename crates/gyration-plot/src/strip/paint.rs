@@ -45,7 +45,7 @@ impl PageMap {
         let mut placed: Vec<Point> = Vec::with_capacity(line.len());
         for (index, point) in line.iter().enumerate() {
             let point = self.place(*point);
-            let near = |last: &Point| (point[0] - last[0]).hypot(point[1] - last[1]) < RESOLUTION;
+            let near = |last: &Point| libm::hypot(point[0] - last[0], point[1] - last[1]) < RESOLUTION;
             if index + 1 == line.len() || !placed.last().is_some_and(near) {
                 placed.push(point);
             }
@@ -83,7 +83,7 @@ impl Viewport {
         let reach = 1.5 * bounds.width().max(bounds.height());
         let center = [0, 1].map(|k| 0.5 * (bounds.low[k] + bounds.high[k]));
         for point in frames().flat_map(|frame| &frame.grounds).flat_map(|ground| ground.points(center)) {
-            if (point[0] - center[0]).hypot(point[1] - center[1]) < reach {
+            if libm::hypot(point[0] - center[0], point[1] - center[1]) < reach {
                 bounds.include(point);
             }
         }
@@ -274,7 +274,7 @@ fn draw_cut(ground: &Cut, map: &PageMap, drawing: &mut Page, frame: Rect) {
     let along = [-normal[1], normal[0]];
     let offset = (center[0] - origin[0]) * along[0] + (center[1] - origin[1]) * along[1];
     let middle = [0, 1].map(|k| origin[k] + offset * along[k]);
-    let reach = 0.5 * frame.width.hypot(frame.height);
+    let reach = 0.5 * libm::hypot(frame.width, frame.height);
     let at = |s: f64, depth: f64| [0, 1].map(|k| middle[k] + s * along[k] - depth * normal[k]);
     let strokes = (reach / HATCH).ceil() as i64;
     // Of the two ways to lean, the one that is nearer to the vertical.

@@ -131,7 +131,7 @@ pub fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
 /// The distance to the nearest side of a convex outline, negative outside.
 fn distance_inside(hull: &[Point], point: Point) -> f64 {
     let sides = hull.iter().zip(hull.iter().cycle().skip(1));
-    let distance = |(a, b): (&Point, &Point)| cross(*a, *b, point) / (b[0] - a[0]).hypot(b[1] - a[1]);
+    let distance = |(a, b): (&Point, &Point)| cross(*a, *b, point) / libm::hypot(b[0] - a[0], b[1] - a[1]);
     sides.map(distance).fold(f64::INFINITY, f64::min)
 }
 

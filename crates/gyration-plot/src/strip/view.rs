@@ -78,7 +78,7 @@ impl View {
 
     /// The same from above.
     fn raised(self) -> Self {
-        let (sine, cosine) = RAISED.sin_cos();
+        let (sine, cosine) = libm::sincos(RAISED);
         let Self { right, up, toward, .. } = self;
         Self { right, up: cosine * up - sine * toward, toward: cosine * toward + sine * up, raised: true }
     }

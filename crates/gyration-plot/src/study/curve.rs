@@ -205,7 +205,7 @@ fn draw(points: &[(f64, Estimate)], name: String, axis: &Axis, beside: f64, laye
     let colour = palette::category(layers.series.len());
     let at = |x: f64| match axis.scale {
         AxisScale::Linear => x + beside * (axis.high - axis.low),
-        AxisScale::Logarithmic => x * (axis.high / axis.low).powf(beside),
+        AxisScale::Logarithmic => x * libm::pow(axis.high / axis.low, beside),
     };
     let ends: Vec<_> = points.iter().map(|(x, e)| [[at(*x), e.low], [at(*x), e.high]]).collect();
     let has_intervals = ends.iter().any(|[low, high]| high[1] > low[1]);

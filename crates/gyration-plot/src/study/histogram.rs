@@ -135,7 +135,7 @@ impl Bins {
             return Self { first: low - 0.5, width: 1.0, count: (high - low) as usize + 1 };
         }
         let quartile = |part: f64| sorted[(part * (sorted.len() - 1) as f64).round() as usize];
-        let wanted = 2.0 * (quartile(0.75) - quartile(0.25)) * (sorted.len() as f64).powf(-1.0 / 3.0);
+        let wanted = 2.0 * (quartile(0.75) - quartile(0.25)) * libm::pow(sorted.len() as f64, -1.0 / 3.0);
         let span = if high > low { high - low } else { low.abs().max(1.0) };
         let parts = if wanted > 0.0 { (span / wanted).clamp(5.0, MOST_BINS) } else { 20.0 };
         let width = ticks::round_step(span, parts.round() as usize);
@@ -191,7 +191,7 @@ fn of_numbers(bins: &Bins, sample: &GroupValues, x: &Axis) -> Panel {
 fn in_words(estimate: &statistics::Estimate) -> String {
     let half = 0.5 * (estimate.high - estimate.low);
     if half > 0.0 {
-        let decimals = (1.0 - half.log10().floor()).clamp(0.0, 12.0) as usize;
+        let decimals = (1.0 - libm::log10(half).floor()).clamp(0.0, 12.0) as usize;
         return format!("{:.decimals$} ± {half:.decimals$}", estimate.value);
     }
     ticks::short(estimate.value)

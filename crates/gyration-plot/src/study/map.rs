@@ -79,8 +79,8 @@ impl<'a> CellEdges<'a> {
                 "a map needs two axes of the grid; for random numbers there is --kind scatter",
             ));
         }
-        let even = |value: f64| if column.scale() == AxisScale::Logarithmic { value.ln() } else { value };
-        let back = |value: f64| if column.scale() == AxisScale::Logarithmic { value.exp() } else { value };
+        let even = |value: f64| if column.scale() == AxisScale::Logarithmic { libm::log(value) } else { value };
+        let back = |value: f64| if column.scale() == AxisScale::Logarithmic { libm::exp(value) } else { value };
         let places: Vec<f64> = levels.iter().map(|level| even(*level)).collect();
         let last = places.len() - 1;
         let mut edges = vec![back(1.5 * places[0] - 0.5 * places[1])];

@@ -71,9 +71,9 @@ pub fn chi_square(counts: &[usize]) -> (f64, f64) {
 fn exceeds(x: f64, freedom: usize) -> f64 {
     let y = 0.5 * x;
     let odd = freedom % 2 == 1;
-    let (mut order, mut tail) = if odd { (0.5, erfc(y.sqrt())) } else { (1.0, (-y).exp()) };
+    let (mut order, mut tail) = if odd { (0.5, erfc(y.sqrt())) } else { (1.0, libm::exp(-y)) };
     // yᵃ e^−y/Γ(a + 1): for a = ½ it is 2 √(y/π) e^−y.
-    let mut term = (-y).exp() * if odd { 2.0 * (y / std::f64::consts::PI).sqrt() } else { y };
+    let mut term = libm::exp(-y) * if odd { 2.0 * (y / std::f64::consts::PI).sqrt() } else { y };
     while order < 0.5 * freedom as f64 {
         tail += term;
         order += 1.0;
@@ -86,7 +86,7 @@ fn exceeds(x: f64, freedom: usize) -> f64 {
 fn erfc(x: f64) -> f64 {
     let t = 1.0 / (1.0 + 0.327_591_1 * x);
     let factors = [1.061_405_429, -1.453_152_027, 1.421_413_741, -0.284_496_736, 0.254_829_592];
-    factors.iter().fold(0.0, |sum, factor| (sum + factor) * t) * (-x * x).exp()
+    factors.iter().fold(0.0, |sum, factor| (sum + factor) * t) * libm::exp(-x * x)
 }
 
 #[cfg(test)]

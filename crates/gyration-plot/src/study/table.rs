@@ -195,7 +195,7 @@ impl TableColumn {
             let steps: Vec<f64> = levels.windows(2).map(spread).collect();
             steps.iter().all(|step| (step - steps[0]).abs() < 1e-6 * steps[0].abs())
         };
-        let geometric = levels.len() > 2 && levels[0] > 0.0 && even(&|pair| (pair[1] / pair[0]).ln());
+        let geometric = levels.len() > 2 && levels[0] > 0.0 && even(&|pair| libm::log(pair[1] / pair[0]));
         if geometric && !even(&|pair| pair[1] - pair[0]) { AxisScale::Logarithmic } else { AxisScale::Linear }
     }
 

@@ -143,7 +143,7 @@ impl DrawnSupport {
             None => Vec3::zeros(),
             Some(DrawnMotion::Velocity(velocity)) => Vec3::from(velocity) * time,
             Some(DrawnMotion::Oscillate { direction, amplitude, frequency, phase }) => {
-                Vec3::from(direction) * (amplitude * (TAU * frequency * time + phase).sin())
+                Vec3::from(direction) * (amplitude * libm::sin(TAU * frequency * time + phase))
             }
         }
     }

@@ -51,15 +51,15 @@ impl VolumeConstraint {
 
     /// Ṗ with the tr L asked for, the way that a pressure would push.
     fn nearest_rate(&self, body: &AffineBody, gradient: &Mat3, rate: &Mat3) -> Mat3 {
-        let (size, (asked, _)) = (self.volume.cbrt(), self.growth.unwrap_or_default());
+        let (size, (asked, _)) = (libm::cbrt(self.volume), self.growth.unwrap_or_default());
         let swelling = gradient * (asked / 3.0);
         body.project(&(gradient / size), &((rate - swelling) / size)).rate * size + swelling
     }
 
     /// The nearest P of the volume asked for, the way that a pressure would push; else P with its volume scaled.
     fn nearest(&self, body: &AffineBody, gradient: &Mat3) -> Option<Mat3> {
-        let size = self.volume.cbrt();
-        let scaled = gradient / self.determinant(gradient).0.cbrt();
+        let size = libm::cbrt(self.volume);
+        let scaled = gradient / libm::cbrt(self.determinant(gradient).0);
         let pushed = body.project(&(gradient / size), &Mat3::zeros()).gradient * size;
         [pushed, scaled].into_iter().find(|near| (self.determinant(near).0 - 1.0).abs() <= ALLOWED)
     }

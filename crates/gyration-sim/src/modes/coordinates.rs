@@ -36,7 +36,7 @@ impl Coordinates {
         let mass = mass(body);
         let eigen = mass.symmetric_eigen();
         let power = |exponent: f64| {
-            let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| value.powf(exponent)));
+            let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| libm::pow(value, exponent)));
             &eigen.eigenvectors * values * eigen.eigenvectors.transpose()
         };
         let (mut rates, mut weights) = (power(-0.5), power(0.5));

@@ -28,7 +28,7 @@ use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
 
 /// Where a body rests.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,5 +201,5 @@ fn order(mode: &Mode) -> (u8, f64) {
         ModeBehaviour::Creeps => 2,
         ModeBehaviour::Oscillates => 3,
     };
-    (rank, mode.eigenvalues[0].norm().max(if rank == 1 { mode.eigenvalues[1].norm() } else { 0.0 }))
+    (rank, mode.eigenvalues[0].modulus().max(if rank == 1 { mode.eigenvalues[1].modulus() } else { 0.0 }))
 }

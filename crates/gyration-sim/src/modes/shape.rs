@@ -3,7 +3,7 @@
 
 use gyration::kinematics::Placement;
 use gyration::tensor::{Mat3, Vec3};
-use nalgebra::{Complex, DVector};
+use nalgebra::{Complex, ComplexField, DVector};
 
 /// How a body moves: δp = δp₀ + δP X.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,8 @@ impl ModeShape {
 /// ψ e^{iφ} = a + ib with a·b = 0, |a| ≥ |b|: 2φ = −arg(ψ·ψ).
 pub(super) fn in_step(shape: &DVector<Complex<f64>>) -> (DVector<f64>, DVector<f64>) {
     let square: Complex<f64> = shape.iter().map(|entry| entry * entry).sum();
-    let turned = shape * Complex::from_polar(1.0, -0.5 * square.arg());
+    let (sine, cosine) = libm::sincos(-0.5 * square.argument());
+    let turned = shape * Complex::new(cosine, sine);
     (turned.map(|entry| entry.re), turned.map(|entry| entry.im))
 }
 

@@ -10,7 +10,7 @@
 
 use super::canonical::Basis;
 use super::{ModeBehaviour, NoSpectrum};
-use nalgebra::{Complex, DMatrix, DVector, Schur};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
 type C64 = Complex<f64>;
 
@@ -144,7 +144,7 @@ impl Oscillator {
         let matrix = self.first_order(part, &bound);
         let schur = Schur::try_new(matrix.clone(), f64::EPSILON, SWEEPS).ok_or(NoSpectrum)?;
         let values: Vec<C64> = schur.complex_eigenvalues().iter().copied().collect();
-        let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+        let fastest = values.iter().map(|value| value.modulus()).fold(0.0, f64::max);
         let neutral = part.len() - bound.len();
         let snap = |value: f64| if value.abs() <= ROUNDING * fastest && neutral > 0 { 0.0 } else { value };
         let shape = |value: C64, vector: &DVector<C64>| {
@@ -194,7 +194,7 @@ impl Oscillator {
         reals.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
         while !reals.is_empty() {
             let (slow, shape) = reals.remove(0);
-            let likeness = |other: &DVector<C64>| shape.dotc(other).norm();
+            let likeness = |other: &DVector<C64>| shape.dotc(other).modulus();
             let best = (0..reals.len()).max_by(|a, b| likeness(&reals[*a].1).total_cmp(&likeness(&reals[*b].1)));
             let fast = best.map_or(slow, |best| reals.remove(best).0);
             pairs.push(pair(slow, fast, shape, false));
@@ -223,7 +223,7 @@ fn eigenvectors(matrix: &DMatrix<f64>, values: &[C64], same: f64) -> Vec<(C64, D
     let mut left: Vec<C64> = values.to_vec();
     let mut found = Vec::new();
     while let Some(first) = left.first().copied() {
-        let (group, others): (Vec<C64>, Vec<C64>) = left.iter().partition(|value| (*value - first).norm() <= same);
+        let (group, others): (Vec<C64>, Vec<C64>) = left.iter().partition(|value| (*value - first).modulus() <= same);
         left = others;
         // A shift beside the eigenvalue by more than its rounding keeps the matrix regular.
         let shift = first + C64::new(0.3, 0.4) * (1e-3 * same).max(f64::MIN_POSITIVE);
@@ -231,7 +231,7 @@ fn eigenvectors(matrix: &DMatrix<f64>, values: &[C64], same: f64) -> Vec<(C64, D
         let solver = shifted.lu();
         // Any start without zeros and without symmetry.
         let mut columns = DMatrix::from_fn(size, group.len(), |i, j| {
-            C64::new((1.0 + 1.7 * i as f64 + 2.3 * (j * i) as f64).sin(), 0.1)
+            C64::new(libm::sin(1.0 + 1.7 * i as f64 + 2.3 * (j * i) as f64), 0.1)
         });
         for _ in 0..3 {
             if let Some(next) = solver.solve(&columns) {

@@ -147,7 +147,7 @@ fn law_traction(contact: &Contact, gap: f64, relative: &RelativeMotion, point: &
     let w = relative.velocity + relative.gradient_rate * point;
     let along = n * n.dot(&w);
     let traction = |term: Term| {
-        let strength = term.coefficient * gap.powf(-term.exponent);
+        let strength = term.coefficient * libm::pow(gap, -term.exponent);
         match term.action {
             Action::Central => strength * n,
             Action::Normal => -strength * along,

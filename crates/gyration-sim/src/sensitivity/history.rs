@@ -43,7 +43,7 @@ impl StepHistory {
         (piece.from, piece.to) = (from, to);
         piece.values.resize(POINTS * n, 0.0);
         for (point, values) in piece.values.chunks_exact_mut(n.max(1)).enumerate() {
-            let part = 0.5 - 0.5 * angle(point).cos();
+            let part = 0.5 - 0.5 * libm::cos(angle(point));
             run.interpolate(from + part * (to - from), values, &mut works);
         }
         self.steps.push_back(piece);
@@ -94,13 +94,13 @@ impl StepHistory {
         let part = (time - piece.from) / (piece.to - piece.from);
         let (mut weights, mut sum) = ([0.0; POINTS], 0.0);
         for (point, weight) in weights.iter_mut().enumerate() {
-            let away = part - (0.5 - 0.5 * angle(point).cos());
+            let away = part - (0.5 - 0.5 * libm::cos(angle(point)));
             if away == 0.0 {
                 y.copy_from_slice(&piece.values[point * y.len()..(point + 1) * y.len()]);
                 return;
             }
             let sign = if point % 2 == 0 { 1.0 } else { -1.0 };
-            *weight = sign * angle(point).sin() / away;
+            *weight = sign * libm::sin(angle(point)) / away;
             sum += *weight;
         }
         let n = y.len();

@@ -224,7 +224,7 @@ impl<'a> Tangent<'a> {
         let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
         let error = self.error(&step, &powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
-            let factor = if error.is_finite() { 0.9 * error.powf(-0.1) } else { 0.0 };
+            let factor = if error.is_finite() { 0.9 * libm::pow(error, -0.1) } else { 0.0 };
             return Ok(size * factor.clamp(CHANGE.0, 0.9));
         }
         for (node, powers) in powers.iter().enumerate() {
@@ -233,7 +233,7 @@ impl<'a> Tangent<'a> {
         self.state = step.values.into_iter().next_back().unwrap_or_default();
         self.time = end;
         self.note_growth();
-        Ok(size * (0.9 * error.powf(-0.1)).clamp(CHANGE.0, CHANGE.1))
+        Ok(size * (0.9 * libm::pow(error, -0.1)).clamp(CHANGE.0, CHANGE.1))
     }
 
     /// The equations at the nodes of a step, and the states there.

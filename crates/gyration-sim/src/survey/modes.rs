@@ -4,6 +4,7 @@ use crate::modes::{Mode, ModeBehaviour, ModeShape, modes, rest};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Mat3;
+use nalgebra::ComplexField;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -81,7 +82,7 @@ impl ModeSurvey {
     fn of(mode: &Mode, fastest: f64) -> Self {
         let rounding = match mode.motion {
             ModeBehaviour::Oscillates => {
-                ROUNDING * mode.eigenvalues.iter().map(|value| value.norm()).fold(0.0, f64::max)
+                ROUNDING * mode.eigenvalues.iter().map(|value| value.modulus()).fold(0.0, f64::max)
             }
             _ => f64::EPSILON * fastest,
         };
@@ -113,7 +114,7 @@ impl ShapeSurvey {
 
 /// The largest eigenvalue of all motions.
 fn fastest(modes: &[Mode]) -> f64 {
-    modes.iter().flat_map(|mode| mode.eigenvalues).map(|value| value.norm()).fold(0.0, f64::max)
+    modes.iter().flat_map(|mode| mode.eigenvalues).map(|value| value.modulus()).fold(0.0, f64::max)
 }
 
 fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {

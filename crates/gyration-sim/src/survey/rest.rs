@@ -148,8 +148,8 @@ impl<'a> Approach<'a> {
         }
         let least = if self.keeps_digits { SEARCHED.0 } else { LEAST_ELSEWHERE };
         let (low, high) = (least * self.size, SEARCHED.1 * self.size);
-        let count = (TRIALS_PER_DECADE * (high / low).log10()).ceil() as usize;
-        let gap = |k: usize| low * (high / low).powf(k as f64 / count as f64);
+        let count = (TRIALS_PER_DECADE * libm::log10(high / low)).ceil() as usize;
+        let gap = |k: usize| low * libm::pow(high / low, k as f64 / count as f64);
         let balance = |gap: f64| Some(self.force(gap)? - self.weight);
         let mut rests = Vec::new();
         let mut previous = None;

@@ -110,7 +110,7 @@ fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, Str
     let pressing = model.gravity.norm();
     if resistance > 0.0 {
         // |g| was multiplied by cos θ.
-        Ok(model.bodies[index].solid.mass.mass * pressing * slope.tan() / resistance)
+        Ok(model.bodies[index].solid.mass.mass * pressing * libm::tan(slope) / resistance)
     } else {
         Err(format!("no friction acts on {:?}: on a slope it gets faster for ever", experiment.body))
     }
@@ -141,12 +141,12 @@ fn pull_off(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
     let gap = smallest_gap(model, 0.0, index, &state.motion(model, index));
     let center = Vec3::from_column_slice(&state.bodies[start..start + 3]);
     let mut pull = |logarithm: f64| -> Result<f64, String> {
-        let moved = center + normal * (logarithm.exp() - gap);
+        let moved = center + normal * (libm::exp(logarithm) - gap);
         state.bodies[start..start + 3].copy_from_slice(moved.as_slice());
         Ok(-force(model, &state, index)?.dot(&normal))
     };
     let size = model.bodies[index].size;
-    let (mut low, span) = ((NEAREST * size).ln(), (FARTHEST / NEAREST).ln());
+    let (mut low, span) = (libm::log(NEAREST * size), libm::log(FARTHEST / NEAREST));
     let step = span / (POINTS - 1) as f64;
     let mut found = None;
     for _ in 0..LOOKS {

@@ -23,7 +23,7 @@ impl Scale {
     pub fn inward(&self, number: f64) -> f64 {
         let value = self.value(number);
         match self.bounds() {
-            Some([low, high]) => ((value - low) / (high - value)).ln(),
+            Some([low, high]) => libm::log((value - low) / (high - value)),
             None => value,
         }
     }
@@ -32,14 +32,14 @@ impl Scale {
     pub fn outward(&self, u: f64) -> (f64, f64) {
         let (value, slope) = match self.bounds() {
             Some([low, high]) => {
-                let part = 1.0 / (1.0 + (-u).exp());
+                let part = 1.0 / (1.0 + libm::exp(-u));
                 (low + (high - low) * part, (high - low) * part * (1.0 - part))
             }
             None => (u, 1.0),
         };
         match self.kind {
             file::Scale::Linear => (value * self.size, slope * self.size),
-            file::Scale::Log => (value.exp(), value.exp() * slope),
+            file::Scale::Log => (libm::exp(value), libm::exp(value) * slope),
         }
     }
 
@@ -60,7 +60,7 @@ impl Scale {
     fn value(&self, number: f64) -> f64 {
         match self.kind {
             file::Scale::Linear => number / self.size,
-            file::Scale::Log => number.ln(),
+            file::Scale::Log => libm::log(number),
         }
     }
 

@@ -39,7 +39,7 @@ impl Calibration {
     ) -> Result<Scene, String> {
         let model = &scene.built().model;
         let normal = normal(model, body(model, experiment)?)?;
-        let pressing = -normal * (model.gravity.norm() * slope.cos());
+        let pressing = -normal * (model.gravity.norm() * libm::cos(slope));
         let gravity = Override::new("world.gravity", <[f64; 3]>::from(pressing));
         self.scene(experiment, slope, values, &[gravity])
     }

@@ -86,7 +86,7 @@ impl Tilt {
         let line = *self.line.get_or_insert_with(|| gradient.try_inverse().map_or(up, |inverse| inverse * up));
         let now = gradient * line;
         // Exact for small angles too, where the cosine says nothing.
-        self.largest = self.largest.max(f64::atan2(now.cross(&up).norm(), now.dot(&up)));
+        self.largest = self.largest.max(libm::atan2(now.cross(&up).norm(), now.dot(&up)));
     }
 
     pub fn value(&self) -> Value {
@@ -121,7 +121,7 @@ impl Turns {
             Some((euler_tensor, [one, two])) => {
                 let form = gradient * euler_tensor * gradient.transpose();
                 let entry = |a: &Vec3, b: &Vec3| a.dot(&(form * b));
-                (0.5 * f64::atan2(2.0 * entry(one, two), entry(one, one) - entry(two, two)), PI)
+                (0.5 * libm::atan2(2.0 * entry(one, two), entry(one, one) - entry(two, two)), PI)
             }
             None => (twist(&Polar::of(&gradient).rotation, &self.axis), TAU),
         };
@@ -140,7 +140,7 @@ impl Turns {
 /// The angle by which a rotation turns about an axis, the rest of it being a swing of that axis [rad].
 fn twist(rotation: &Mat3, axis: &Vec3) -> f64 {
     let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
-    2.0 * f64::atan2(quaternion.imag().dot(axis), quaternion.w)
+    2.0 * libm::atan2(quaternion.imag().dot(axis), quaternion.w)
 }
 
 /// The level distance of the centre of mass from its start [m].

@@ -59,7 +59,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Puts P and Ṗ back to det P = `volume` and tr L = `growth`, in which P differs from one on the constraint by a
 /// factor.
 pub(super) fn project_to(body: &AffineBody, (p, rate): (&Mat3, &Mat3), volume: f64, growth: f64) -> Correction {
-    let scale = volume.cbrt();
+    let scale = libm::cbrt(volume);
     let still = rate - p * (growth / 3.0);
     let correction = project(body, &(p / scale), &(still / scale));
     let gradient = correction.gradient * scale;

@@ -25,7 +25,7 @@ impl Adhesion {
         let term = |sign: f64, exponent: f64| Term {
             kind: LawKind::Adhesion,
             action: Action::Central,
-            coefficient: sign * self.beta * self.reference_gap.powf(exponent),
+            coefficient: sign * self.beta * libm::pow(self.reference_gap, exponent),
             exponent,
             reference_gap: self.reference_gap,
         };

@@ -23,7 +23,7 @@ impl Friction {
         Term {
             kind: LawKind::Friction,
             action: Action::Tangential,
-            coefficient: self.beta * self.reference_gap.powf(self.exponent),
+            coefficient: self.beta * libm::pow(self.reference_gap, self.exponent),
             exponent: self.exponent,
             reference_gap: self.reference_gap,
         }

@@ -152,6 +152,6 @@ impl ContactLaw {
     /// The factor of the law at a gap d > 0: its traction along n for a central law [Pa], the resistance per speed for
     /// a viscous one [Pa s/m].
     pub fn factor(&self, gap: f64) -> f64 {
-        self.terms().iter().flatten().map(|term| term.coefficient * gap.powf(-term.exponent)).sum()
+        self.terms().iter().flatten().map(|term| term.coefficient * libm::pow(gap, -term.exponent)).sum()
     }
 }

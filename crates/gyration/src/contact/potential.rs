@@ -16,7 +16,7 @@ pub(super) struct PotentialTerm {
 pub(super) fn potential(term: &Term) -> Vec<(Kernel, f64)> {
     match (term.action, term.exponent == 1.0) {
         (Action::Central, true) => {
-            let constant = term.coefficient * term.reference_gap.ln();
+            let constant = term.coefficient * libm::log(term.reference_gap);
             vec![(Kernel::Log, -term.coefficient), (Kernel::Power(0.0), constant)]
         }
         (Action::Central, false) => {

@@ -23,7 +23,7 @@ impl Repulsion {
         Term {
             kind: LawKind::Repulsion,
             action: Action::Central,
-            coefficient: self.alpha * self.reference_gap.powf(self.exponent),
+            coefficient: self.alpha * libm::pow(self.reference_gap, self.exponent),
             exponent: self.exponent,
             reference_gap: self.reference_gap,
         }

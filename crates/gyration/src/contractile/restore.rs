@@ -51,5 +51,5 @@ impl Contraction {
 
 /// A matrix with another determinant, of the same form.
 fn with_volume(matrix: &Mat3, volume: f64) -> Mat3 {
-    matrix * (volume / matrix.determinant()).cbrt()
+    matrix * libm::cbrt(volume / matrix.determinant())
 }

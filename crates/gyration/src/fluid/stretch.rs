@@ -52,7 +52,7 @@ impl PrincipalStretch {
     /// E of a symmetric U, det U > 0.
     pub fn of(stretch: &Mat3) -> Self {
         let spectrum = Spectrum::of(&SimdMat3::of(stretch));
-        Self::free_of_size(spectrum.axes.matrix(), spectrum.values.map(|square| 0.5 * square.ln()))
+        Self::free_of_size(spectrum.axes.matrix(), spectrum.values.map(|square| 0.5 * libm::log(square)))
     }
 
     /// E of its coordinates.
@@ -73,7 +73,7 @@ impl PrincipalStretch {
 
     /// E.
     pub fn matrix(&self) -> Mat3 {
-        let stretches = self.logarithms.map(f64::exp);
+        let stretches = self.logarithms.map(libm::exp);
         self.axes * Mat3::from_diagonal(&stretches.into()) * self.axes.transpose()
     }
 
@@ -81,8 +81,8 @@ impl PrincipalStretch {
     fn mean(&self, i: usize, j: usize) -> f64 {
         let (sum, half) = (self.logarithms[i] + self.logarithms[j], 0.5 * (self.logarithms[i] - self.logarithms[j]));
         // sinh(d)/d to rounding where the next term of its series, d⁴/120, is less than that.
-        let growth = if half.abs() < 1e-4 { 1.0 + half * half / 6.0 } else { half.sinh() / half };
-        (0.5 * sum).exp() * growth
+        let growth = if half.abs() < 1e-4 { 1.0 + half * half / 6.0 } else { libm::sinh(half) / half };
+        libm::exp(0.5 * sum) * growth
     }
 
     fn weighed(&self, tensor: &Mat3, weight: impl Fn(usize, usize) -> f64) -> Mat3 {

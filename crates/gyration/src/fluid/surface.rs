@@ -66,7 +66,7 @@ impl Resisting {
         let interpolant = table.around(&stretch)?;
         let reference = table.reference(&stretch)?;
         let matrix = reference.resistance(&interpolant.ratio());
-        let scale = scales(volume_ratio.powf(1.0 / 6.0), volume_ratio.sqrt());
+        let scale = scales(libm::pow(volume_ratio, 1.0 / 6.0), volume_ratio.sqrt());
         Ok(Self { interpolant, reference, stretch, matrix, scale, viscosity })
     }
 
@@ -190,7 +190,7 @@ impl<'a> ImmersedSurface<'a> {
         let (spread, turn) = (change * at.inverse, cross_matrix(&polar.turn(change)));
         let growth = spread.trace();
         let stretched = rotation.tr_mul(change) - turn * polar.stretch;
-        let strain: Strain = resisting.stretch.strain_along(&(stretched / at.volume_ratio.cbrt()));
+        let strain: Strain = resisting.stretch.strain_along(&(stretched / libm::cbrt(at.volume_ratio)));
         // The place and the axes in which the motion is seen, and what resists it.
         let (slip, gradient) = parted(&self.motion);
         let slip_change = -rotation.tr_mul(&(self.flow * (change * inclusion.center))) - turn * slip;

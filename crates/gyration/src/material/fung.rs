@@ -20,7 +20,7 @@ impl Fung {
     pub(super) fn derivatives(&self, invariants: &Invariants) -> Derivatives {
         let [x, _] = isochoric_excess(invariants, self.bulk);
         let (b, half) = (self.exponent, 0.5 * self.shear);
-        let grown = (b * x).exp_m1();
+        let grown = libm::expm1(b * x);
         let w = Distortion {
             energy: half / b * grown,
             first: [half * (1.0 + grown), 0.0],

@@ -17,7 +17,7 @@ pub struct Hencky {
 impl Hencky {
     pub(super) fn principal(&self, c: &[f64; 3]) -> Principal {
         let Self { shear, bulk } = *self;
-        let logarithms = c.map(f64::ln);
+        let logarithms = c.map(libm::log);
         let strain = logarithms.map(|log| 0.5 * log);
         let volume = strain.iter().sum::<f64>();
         let deviator = strain.map(|e| e - volume / 3.0);
@@ -46,7 +46,7 @@ impl Hencky {
     /// s_i alone.
     pub(super) fn slopes(&self, c: &[f64; 3]) -> [f64; 3] {
         let Self { shear, bulk } = *self;
-        let strain = c.map(|c| 0.5 * c.ln());
+        let strain = c.map(|c| 0.5 * libm::log(c));
         let volume = (strain[0] + strain[1]) + strain[2];
         let common = (bulk - 2.0 / 3.0 * shear) * volume;
         [0, 1, 2].map(|i| (2.0 * shear * strain[i] + common) / c[i])

@@ -17,7 +17,7 @@ impl NeoHookeanLog {
     #[inline(always)]
     pub(super) fn derivatives(&self, invariants: &Invariants) -> Derivatives {
         let (mu, lambda, j) = (self.mu, self.lambda, invariants.volume);
-        let log = j.ln();
+        let log = libm::log(j);
         let slope = lambda * log - mu;
         Derivatives {
             energy: 0.5 * mu * invariants.excess[0] - mu * log + 0.5 * lambda * log * log,

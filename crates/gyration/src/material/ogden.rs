@@ -27,7 +27,7 @@ pub struct OgdenTerm {
 impl Ogden {
     pub(super) fn principal(&self, c: &[f64; 3]) -> Principal {
         let mut sum = Principal::default();
-        let log_volume = 0.5 * c.iter().map(|c| c.ln()).sum::<f64>();
+        let log_volume = 0.5 * c.iter().map(|c| libm::log(*c)).sum::<f64>();
         for term in &self.terms {
             match self.bulk {
                 None => term.add_plain(c, &mut sum),
@@ -42,17 +42,17 @@ impl Ogden {
 
     /// s_i alone.
     pub(super) fn slopes(&self, c: &[f64; 3]) -> [f64; 3] {
-        let logarithms = c.map(f64::ln);
+        let logarithms = c.map(libm::log);
         // J^α/3 is taken out of every power; 0 leaves it in.
         let log_volume = 0.5 * ((logarithms[0] + logarithms[1]) + logarithms[2]);
         let isochoric = if self.bulk.is_some() { log_volume / 3.0 } else { 0.0 };
         let mut carried = [0.0; 3];
         for OgdenTerm { mu, alpha } in &self.terms {
-            let q = logarithms.map(|log| (alpha * (0.5 * log - isochoric)).exp());
+            let q = logarithms.map(|log| libm::exp(alpha * (0.5 * log - isochoric)));
             let third = if self.bulk.is_some() { (q[0] + q[1] + q[2]) / 3.0 } else { 0.0 };
             carried = [0, 1, 2].map(|i| carried[i] + mu * (q[i] - third));
         }
-        let grown = log_volume.exp_m1();
+        let grown = libm::expm1(log_volume);
         let pressure = self.bulk.map_or(0.0, |bulk| bulk * grown * (1.0 + grown));
         [0, 1, 2].map(|i| (carried[i] + pressure) / c[i])
     }
@@ -72,7 +72,7 @@ impl OgdenTerm {
         let n = 0.5 * alpha;
         let mut powers = [0.0; 3];
         for (i, c) in c.iter().enumerate() {
-            let grown = (n * c.ln()).exp_m1();
+            let grown = libm::expm1(n * libm::log(*c));
             // c^(n−1).
             powers[i] = (1.0 + grown) / c;
             sum.energy += mu / alpha * grown;
@@ -86,7 +86,7 @@ impl OgdenTerm {
 
     fn add_isochoric(&self, c: &[f64; 3], log_volume: f64, sum: &mut Principal) {
         let Self { mu, alpha } = *self;
-        let grown = c.map(|c| (alpha * (0.5 * c.ln() - log_volume / 3.0)).exp_m1());
+        let grown = c.map(|c| libm::expm1(alpha * (0.5 * libm::log(c) - log_volume / 3.0)));
         let q = grown.map(|g| 1.0 + g);
         let third = q.iter().sum::<f64>() / 3.0;
         sum.energy += mu / alpha * grown.iter().sum::<f64>();
@@ -109,7 +109,7 @@ impl OgdenTerm {
 
 /// Adds K/2 (J − 1)².
 fn add_volume(bulk: f64, c: &[f64; 3], log_volume: f64, sum: &mut Principal) {
-    let grown = log_volume.exp_m1();
+    let grown = libm::expm1(log_volume);
     let j = 1.0 + grown;
     let pressure = bulk * grown * j;
     sum.energy += 0.5 * bulk * grown * grown;

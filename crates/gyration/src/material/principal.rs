@@ -104,7 +104,7 @@ pub(super) fn power_quotient(n: f64, [a, b]: [f64; 2], [to_a, to_b]: [f64; 2]) -
     if r.abs() > FAR {
         return (to_a - to_b) / (a - b);
     }
-    let slope = if r == 0.0 { n } else { (n * r.ln_1p()).exp_m1() / r };
+    let slope = if r == 0.0 { n } else { libm::expm1(n * libm::log1p(r)) / r };
     to_b / b * slope
 }
 
@@ -115,5 +115,5 @@ pub(super) fn log_quotient([a, b]: [f64; 2], [ln_a, ln_b]: [f64; 2]) -> f64 {
     if r.abs() > FAR {
         return (ln_a - ln_b) / (a - b);
     }
-    if r == 0.0 { 1.0 / b } else { r.ln_1p() / (r * b) }
+    if r == 0.0 { 1.0 / b } else { libm::log1p(r) / (r * b) }
 }

@@ -9,8 +9,8 @@ pub(super) fn isochoric_excess(full: &Invariants, bulk: Option<f64>) -> [f64; 2]
         return full.excess;
     }
     // J^p − 1 without loss near J = 1.
-    let log = full.volume.ln();
-    let grown = [(-2.0 / 3.0 * log).exp_m1(), (-4.0 / 3.0 * log).exp_m1()];
+    let log = libm::log(full.volume);
+    let grown = [libm::expm1(-2.0 / 3.0 * log), libm::expm1(-4.0 / 3.0 * log)];
     [full.excess[0] + grown[0] * full.first, full.excess[1] + grown[1] * full.second]
 }
 
@@ -29,7 +29,7 @@ pub(super) fn with_volume(w: &Distortion, bulk: Option<f64>, full: &Invariants) 
         return Derivatives { energy, first: [w1, w2, 0.0], second: [w11, w12, 0.0, w22, 0.0, 0.0] };
     };
     let j = full.volume;
-    let a = j.powf(-2.0 / 3.0);
+    let a = libm::pow(j, -2.0 / 3.0);
     let b = a * a;
     // ι₁a′, ι₁a″, ι₂b′, ι₂b″ with a = J^−⅔, b = J^−4/3.
     let (u, du) = (-2.0 / 3.0 * full.first * a / j, 10.0 / 9.0 * full.first * a / (j * j));

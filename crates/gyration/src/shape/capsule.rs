@@ -75,7 +75,7 @@ impl Capsule {
         for side in [x, y] {
             let half = |end: Vec3, up: Vec3, across: Vec3| {
                 (0..=CIRCLE_POINTS / 2).map(move |k| {
-                    let (sine, cosine) = (TAU * k as f64 / CIRCLE_POINTS as f64).sin_cos();
+                    let (sine, cosine) = libm::sincos(TAU * k as f64 / CIRCLE_POINTS as f64);
                     end + across * cosine + up * sine
                 })
             };

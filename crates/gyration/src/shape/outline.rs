@@ -48,7 +48,7 @@ impl Outline {
 /// `count` points of the ellipse `center + cos φ u + sin φ v`, without repeating the first.
 pub(super) fn ellipse(count: usize, center: Vec3, u: Vec3, v: Vec3) -> impl Iterator<Item = Vec3> {
     (0..count).map(move |k| {
-        let (sine, cosine) = (TAU * k as f64 / count as f64).sin_cos();
+        let (sine, cosine) = libm::sincos(TAU * k as f64 / count as f64);
         center + u * cosine + v * sine
     })
 }
@@ -64,7 +64,7 @@ pub(super) fn directions(count: usize) -> impl Iterator<Item = Vec3> {
     let golden_angle = PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |k| {
         let z = 1.0 - (2 * k + 1) as f64 / count as f64;
-        let (sine, cosine) = (golden_angle * k as f64).sin_cos();
+        let (sine, cosine) = libm::sincos(golden_angle * k as f64);
         let radius = (1.0 - z * z).sqrt();
         Vec3::new(radius * cosine, radius * sine, z)
     })

@@ -92,7 +92,7 @@ impl Torus {
         const AROUND_TUBE: usize = 8;
         const AROUND_AXIS: usize = 44;
         let ring = |k: usize| {
-            let (sine, cosine) = (TAU * (k as f64 / AROUND_TUBE as f64 - 0.5) * 0.5).sin_cos();
+            let (sine, cosine) = libm::sincos(TAU * (k as f64 / AROUND_TUBE as f64 - 0.5) * 0.5);
             circle(AROUND_AXIS, self.major_radius + self.minor_radius * cosine, self.minor_radius * sine)
         };
         (0..=AROUND_TUBE).flat_map(ring).collect()

@@ -55,7 +55,7 @@ struct Ring {
 impl ProfileStretch {
     fn length(&self) -> f64 {
         match *self {
-            Self::Line { from, to } => (to[0] - from[0]).hypot(to[1] - from[1]),
+            Self::Line { from, to } => libm::hypot(to[0] - from[0], to[1] - from[1]),
             Self::Arc { radius, angles, .. } => radius * (angles[1] - angles[0]),
         }
     }
@@ -66,7 +66,7 @@ impl ProfileStretch {
             Self::Line { to, .. } if fraction == 1.0 => to,
             Self::Line { from, to } => [0, 1].map(|k| from[k] + (to[k] - from[k]) * fraction),
             Self::Arc { center, radius, angles } => {
-                let (sine, cosine) = (angles[0] + (angles[1] - angles[0]) * fraction).sin_cos();
+                let (sine, cosine) = libm::sincos(angles[0] + (angles[1] - angles[0]) * fraction);
                 // An arc that ends at a pole does so exactly.
                 let across = if cosine.abs() < 4.0 * f64::EPSILON { 0.0 } else { cosine };
                 [center[0] + radius * across, center[1] + radius * sine]

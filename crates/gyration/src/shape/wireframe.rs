@@ -23,7 +23,7 @@ pub(super) fn sharp_edges(vertices: &[Vec3], triangles: &[[usize; 3]]) -> Outlin
         .chunk_by(|a, b| a.ends == b.ends)
         .map(|meeting| {
             let (a, b) = (normals[meeting[0].triangle], normals[meeting[meeting.len() - 1].triangle]);
-            (a.cross(&b).norm().atan2(a.dot(&b)), meeting[0].ends)
+            (libm::atan2(a.cross(&b).norm(), a.dot(&b)), meeting[0].ends)
         })
         .filter(|(angle, _)| *angle > PLANE_ANGLE)
         .collect();

@@ -83,7 +83,7 @@ impl Wave {
 
     /// A sin(2πft + φ).
     fn sine(&self, time: f64) -> Jet {
-        let (rate, (sine, cosine)) = (TAU * self.frequency, (TAU * self.frequency * time + self.phase).sin_cos());
+        let (rate, (sine, cosine)) = (TAU * self.frequency, libm::sincos(TAU * self.frequency * time + self.phase));
         Jet {
             value: self.amplitude * sine,
             rate: self.amplitude * (rate * cosine),
@@ -121,7 +121,7 @@ impl Signal {
     pub fn at(&self, time: f64) -> Mat3 {
         match self {
             Self::Constant(value) => *value,
-            Self::Sine(wave) => wave.amplitude * (TAU * wave.frequency * time + wave.phase).sin(),
+            Self::Sine(wave) => wave.amplitude * libm::sin(TAU * wave.frequency * time + wave.phase),
             Self::Sum(parts) => parts.iter().map(|part| part.at(time)).sum(),
             _ => self.jet(time).value,
         }

@@ -97,8 +97,8 @@ fn turn(c: &mut Mat3, v: &mut Mat3, i: usize, j: usize) -> bool {
         return false;
     }
     let theta = (c[(j, j)] - c[(i, i)]) / (2.0 * beside);
-    let tangent = theta.signum() / (theta.abs() + theta.hypot(1.0));
-    let cosine = tangent.hypot(1.0).recip();
+    let tangent = theta.signum() / (theta.abs() + libm::hypot(theta, 1.0));
+    let cosine = libm::hypot(tangent, 1.0).recip();
     let sine = tangent * cosine;
     let mut jacobi = Mat3::identity();
     (jacobi[(i, i)], jacobi[(i, j)], jacobi[(j, i)], jacobi[(j, j)]) = (cosine, sine, -sine, cosine);

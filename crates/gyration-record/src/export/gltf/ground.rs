@@ -64,7 +64,7 @@ fn span(parts: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
 
 /// The nearest of 1, 2, 5 times a power of ten from below; of a length > 0.
 fn round_step(length: f64) -> f64 {
-    let power = 10_f64.powf(length.log10().floor());
+    let power = libm::pow(10_f64, libm::log10(length).floor());
     let fits = |factor: &f64| factor * power <= length * (1.0 + 1e-9);
     power * [5.0, 2.0].into_iter().find(fits).unwrap_or(1.0)
 }

@@ -37,5 +37,5 @@ fn material(name: &str, color: [u8; 3], roughness: f64) -> Value {
 
 fn linear(component: u8) -> f64 {
     let s = f64::from(component) / 255.0;
-    if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
+    if s <= 0.04045 { s / 12.92 } else { libm::pow((s + 0.055) / 1.055, 2.4) }
 }

@@ -54,7 +54,7 @@ fn area_vector(surface: &SurfaceMesh, triangle: &[usize; 3]) -> Vec3 {
 /// The normal of a triangle at a corner around which others stand.
 fn normal(areas: &[Vec3], around: &[usize], triangle: usize) -> Vec3 {
     let own = areas[triangle];
-    let smooth = |other: &&usize| areas[**other].dot(&own) >= CREASE.cos() * areas[**other].norm() * own.norm();
+    let smooth = |other: &&usize| areas[**other].dot(&own) >= libm::cos(CREASE) * areas[**other].norm() * own.norm();
     let sum: Vec3 = around.iter().filter(smooth).map(|other| areas[*other]).sum();
     // A triangle without area has no normal of its own; any will do, since it is not seen.
     sum.try_normalize(0.0).or(own.try_normalize(0.0)).unwrap_or_else(Vec3::z)

@@ -11,7 +11,7 @@ pub(super) fn integral(f: impl Fn(f64) -> f64) -> f64 {
     const HALVINGS: usize = 20;
     let mut step = REACH / 256.0;
     let term = |logarithm: f64| {
-        let q = logarithm.exp();
+        let q = libm::exp(logarithm);
         q * f(q)
     };
     let mut sum = step * (-256..=256).map(|index| term(f64::from(index) * step)).sum::<f64>();

@@ -17,7 +17,7 @@ const TERMS: usize = 13;
 pub(super) fn erfcx(x: f64) -> f64 {
     let terms = (0..TERMS).map(|index| {
         let t = (index as f64 + 0.5) * STEP;
-        (-t * t).exp() / (x * x + t * t)
+        libm::exp(-t * t) / (x * x + t * t)
     });
     2.0 * STEP * x / PI * terms.sum::<f64>() + residues(x)
 }
@@ -28,7 +28,7 @@ pub(super) fn erfcx(x: f64) -> f64 {
 pub(super) fn excess(x: f64) -> f64 {
     let terms = (0..TERMS).map(|index| {
         let t = (index as f64 + 0.5) * STEP;
-        t * t * (-t * t).exp() / (x * x + t * t)
+        t * t * libm::exp(-t * t) / (x * x + t * t)
     });
     let sum = 2.0 * STEP / (PI * x) * terms.sum::<f64>();
     sum - residues(x)
@@ -36,7 +36,7 @@ pub(super) fn excess(x: f64) -> f64 {
 
 /// What the poles ±ix add to the rule for erfcx.
 fn residues(x: f64) -> f64 {
-    if x < PI / STEP { 2.0 * (x * x).exp() / (1.0 + (2.0 * PI * x / STEP).exp()) } else { 0.0 }
+    if x < PI / STEP { 2.0 * libm::exp(x * x) / (1.0 + libm::exp(2.0 * PI * x / STEP)) } else { 0.0 }
 }
 
 /// 1 − erfcx(x) for x ≥ 0, to full relative accuracy.

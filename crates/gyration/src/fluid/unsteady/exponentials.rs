@@ -46,12 +46,12 @@ impl Exponentials {
 
     /// Σ c_k e^(−s_k t), for t > 0.
     pub fn value(&self, time: f64) -> f64 {
-        self.pairs().map(|(rate, weight)| weight * (-rate * time).exp()).sum()
+        self.pairs().map(|(rate, weight)| weight * libm::exp(-rate * time)).sum()
     }
 
     /// rest + Σ (c_k/s_k)(1 − e^(−s_k t)), for t > 0: ∫₀ᵗ κ̃ [s].
     pub fn integral(&self, time: f64) -> f64 {
-        self.rest - self.pairs().map(|(rate, weight)| weight / rate * (-rate * time).exp_m1()).sum::<f64>()
+        self.rest - self.pairs().map(|(rate, weight)| weight / rate * libm::expm1(-rate * time)).sum::<f64>()
     }
 
     /// Pairs (s_k, c_k).

@@ -77,7 +77,7 @@ const LOWEST: [f64; 5] = [1.65, 2.12, 2.72, 3.49, 4.48];
 /// The sum with the fewest modes that reaches the error over (0, span]; none if 200 do not.
 fn fewest(kernel: HistoryKernel, span: f64, error: f64) -> Option<Exponentials> {
     // ε is about 20 e^−Λ when span ≤ τ, and down to 10 e^−Λ when span > τ: the count begins below what is needed.
-    let least = (count((9.0 / error).ln(), span, span.min(1.0)) / 2.0) as usize;
+    let least = (count(libm::log(9.0 / error), span, span.min(1.0)) / 2.0) as usize;
     (least.max(1)..=MOST_MODES).find_map(|modes| {
         let mut sum = best(kernel, span, modes).filter(|sum| sum.error <= error)?;
         sum.error = (1.0 + MISSED) * measured(kernel, span, &sum, FINE);
@@ -134,13 +134,13 @@ fn measured(kernel: HistoryKernel, span: f64, sum: &Exponentials, samples: f64) 
     let reference = span.min(1.0);
     let fastest = sum.rates.iter().fold(1.0 / span, |a, b| a.max(*b));
     let first = 1e-4 / fastest;
-    let count = ((span / first).ln() * samples).ceil();
+    let count = (libm::log(span / first) * samples).ceil();
     let difference = |time: f64| kernel.integral(time) - sum.integral(time);
     let mut last = difference(first);
     let mut variation = sum.rest + (last + sum.rest).abs();
     let mut worst = variation / kernel.integral(reference);
     for index in 1..=count as usize {
-        let time = first * (span / first).powf(index as f64 / count);
+        let time = first * libm::pow(span / first, index as f64 / count);
         let next = difference(time);
         variation += (next - last).abs();
         last = next;

@@ -45,14 +45,14 @@ impl RationalInterpolant {
 /// With m points, at y = x₁/(e m) the sum is below 1/e and at y = e m x_m above mπ/2 − 1/e: π/2 … (m/2 − 1)π lies
 /// between.
 fn zero(points: &[f64], phase: f64) -> f64 {
-    let reach = 1.0 + (points.len() as f64).ln();
-    let mut low = points[0].ln() - reach;
-    let mut high = points[points.len() - 1].ln() + reach;
+    let reach = 1.0 + libm::log(points.len() as f64);
+    let mut low = libm::log(points[0]) - reach;
+    let mut high = libm::log(points[points.len() - 1]) + reach;
     let mut logarithm = 0.5 * (low + high);
     // Halving alone would take 60 steps to the last digit.
     for _ in 0..100 {
-        let y = logarithm.exp();
-        let excess = points.iter().map(|x| (y / x).atan()).sum::<f64>() - phase;
+        let y = libm::exp(logarithm);
+        let excess = points.iter().map(|x| libm::atan(y / x)).sum::<f64>() - phase;
         let slope: f64 = points.iter().map(|x| x * y / (x * x + y * y)).sum();
         if excess > 0.0 {
             high = logarithm;
@@ -67,7 +67,7 @@ fn zero(points: &[f64], phase: f64) -> f64 {
             break;
         }
     }
-    logarithm.exp()
+    libm::exp(logarithm)
 }
 
 #[cfg(test)]

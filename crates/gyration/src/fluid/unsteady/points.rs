@@ -20,12 +20,12 @@ const DENSITY: f64 = 1.15 * 4.0 / (PI * PI);
 
 /// How many points, m = D (Λl + Λ²/2), the need Λ = `need` asks for; `reference` is θ ≤ span.
 pub(super) fn count(need: f64, span: f64, reference: f64) -> f64 {
-    DENSITY * need * (0.5 * (span / reference).ln() + 0.5 * need)
+    DENSITY * need * (0.5 * libm::log(span / reference) + 0.5 * need)
 }
 
 /// Points xⱼ = (lowest/√span) cosh vⱼ, rising; `reference` is θ ≤ span.
 pub(super) fn points(count: usize, lowest: f64, span: f64, reference: f64) -> Vec<f64> {
-    let length = 0.5 * (span / reference).ln();
+    let length = 0.5 * libm::log(span / reference);
     let need = (length * length + 2.0 * count as f64 / DENSITY).sqrt() - length;
     let place = |index: usize| {
         // ∫ν/D up to the point, and how much of it lies beyond v = l.
@@ -33,7 +33,7 @@ pub(super) fn points(count: usize, lowest: f64, span: f64, reference: f64) -> Ve
         let beyond = share - need * length;
         if beyond < 0.0 { share / need } else { length + need - (need * need - 2.0 * beyond).sqrt() }
     };
-    (0..count).map(|index| lowest / span.sqrt() * place(index).cosh()).collect()
+    (0..count).map(|index| lowest / span.sqrt() * libm::cosh(place(index))).collect()
 }
 
 #[cfg(test)]

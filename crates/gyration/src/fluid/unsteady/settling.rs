@@ -23,7 +23,7 @@ use std::f64::consts::PI;
 pub fn settling(inertia: f64, time: f64) -> f64 {
     let density = |q: f64| {
         let square = q * q;
-        (-square * time).exp() / ((1.0 - inertia * square).powi(2) + square)
+        libm::exp(-square * time) / ((1.0 - inertia * square).powi(2) + square)
     };
     1.0 - 2.0 / PI * cut::integral(density)
 }

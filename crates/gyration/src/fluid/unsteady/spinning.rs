@@ -20,7 +20,7 @@ pub fn spinning(inertia: f64, time: f64) -> f64 {
         let square = q * q;
         let layer = square / (3.0 * (1.0 + square));
         let (real, imaginary) = (1.0 - inertia * square - layer, q * layer);
-        q * imaginary * (-square * time).exp() / (real * real + imaginary * imaginary)
+        q * imaginary * libm::exp(-square * time) / (real * real + imaginary * imaginary)
     };
     2.0 * inertia / PI * cut::integral(density)
 }

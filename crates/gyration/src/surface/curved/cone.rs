@@ -26,7 +26,7 @@ pub struct ConeWall {
 impl ConeWall {
     /// πR√(R² + h²) [m²].
     pub fn area(&self) -> f64 {
-        PI * self.radius * self.radius.hypot(self.height)
+        PI * self.radius * libm::hypot(self.radius, self.height)
     }
 
     /// The point farthest along `direction`.
@@ -57,7 +57,7 @@ impl ConeWall {
 
     /// Sets the moments odd in y, from sums weighted with sin φ; one more t stands with every y.
     pub(super) fn collect_odd(&self, sums: &RulingSums, out: &mut Moments) {
-        let area = self.radius * self.radius.hypot(self.height);
+        let area = self.radius * libm::hypot(self.radius, self.height);
         let (r, z) = (self.radius, -self.height);
         let (one, cos) = (sums.one.map(|sum| area * r * sum), sums.cos.map(|sum| area * r * r * sum));
         let cubic = area * r * r * r;
@@ -71,7 +71,7 @@ impl ConeWall {
 
     /// The moments from the sums over the rulings, (ρ, z) = t (R, −h).
     pub(super) fn collect(&self, sums: &RulingSums, out: &mut Moments) {
-        let area = self.radius * self.radius.hypot(self.height);
+        let area = self.radius * libm::hypot(self.radius, self.height);
         let (r, z) = (self.radius, -self.height);
         let (one, cos) = (sums.one.map(|sum| area * sum), sums.cos.map(|sum| area * r * sum));
         let across = area * r * r;

@@ -85,7 +85,7 @@ impl CylinderWall {
 
 /// The point of a horizontal circle at height z that is farthest along `direction`.
 pub(super) fn circle_support(radius: f64, z: f64, direction: &Vec3) -> Vec3 {
-    let across = direction.x.hypot(direction.y);
+    let across = libm::hypot(direction.x, direction.y);
     if across > 0.0 {
         Vec3::new(radius * direction.x / across, radius * direction.y / across, z)
     } else {

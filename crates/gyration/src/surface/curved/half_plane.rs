@@ -41,7 +41,7 @@ pub(crate) struct TiltedGap {
 impl TiltedGap {
     pub(crate) fn new(field: &GapField) -> Self {
         let m = &field.direction;
-        let across = m.x.hypot(m.y);
+        let across = libm::hypot(m.x, m.y);
         let (x, y) = if across > 0.0 { (-m.x / across, -m.y / across) } else { (1.0, 0.0) };
         let frame = Mat3::new(x, -y, 0.0, y, x, 0.0, 0.0, 0.0, 1.0);
         Self { height: field.height, along: m.z, across, frame }

@@ -57,7 +57,7 @@ impl Hemisphere {
     /// Sums the moments in the frame (e₁, e₂, c); every gap must be positive.
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
-        let slope = gap.along.hypot(gap.across);
+        let slope = libm::hypot(gap.along, gap.across);
         let (cosine, sine) = if slope > 0.0 { (gap.along / slope, gap.across / slope) } else { (1.0, 0.0) };
         let parallels = TiltedParallels { height: gap.height, reach: self.radius * slope, cosine, sine };
         self.whole_parallels(&parallels, requests, out);
@@ -88,11 +88,11 @@ impl Hemisphere {
         let reach = p.reach * p.sine;
         let (near, far) = (p.height - reach, p.height + reach);
         // ψ = iη where the gap vanishes, cosh η = g₀/(R|m|σ); the arcs are singular at tan ψ = ±i c_z.
-        let grazing = 2.0 * (near / far).sqrt().min(1.0 - 1e-9).atanh();
-        let opening = p.cosine.abs().min(1.0 - 1e-9).atanh().max(FINEST);
+        let grazing = 2.0 * libm::atanh((near / far).sqrt().min(1.0 - 1e-9));
+        let opening = libm::atanh(p.cosine.abs().min(1.0 - 1e-9)).max(FINEST);
         let lowest = if p.cosine > 0.0 { near } else { p.height - p.reach };
         let drop = 0.5 * (integrand.cut(lowest, 1.5) - near) / reach;
-        let last = if drop < 1.0 { 2.0 * drop.max(0.0).sqrt().asin() } else { PI };
+        let last = if drop < 1.0 { 2.0 * libm::asin(drop.max(0.0).sqrt()) } else { PI };
         let poles =
             |distance: f64, at: f64, sharpness: f64| Singularity { at, distance, digits: 24.0 + 1.2 * sharpness };
         let below =
@@ -147,7 +147,7 @@ impl<Nodes: Iterator<Item = QuadratureNode>> WithSimd for ArcSweep<'_, Nodes> {
             // Lanes without a node have no weight.
             let (mut gaps, mut arcs, mut count) = ([self.gap.0; LANES], [[0.0; LANES]; 13], 0);
             for (lane, node) in self.nodes.by_ref().take(LANES).enumerate() {
-                let (sin, cos) = (0.5 * node.at).sin_cos();
+                let (sin, cos) = libm::sincos(0.5 * node.at);
                 gaps[lane] = self.gap.0 + 2.0 * self.gap.1 * sin * sin;
                 let arc = arc(self.parallels, 2.0 * sin * cos, 1.0 - 2.0 * sin * sin, node.weight);
                 for (arcs, value) in arcs.iter_mut().zip(arc) {
@@ -175,7 +175,7 @@ fn arc(p: &TiltedParallels, sin: f64, cos: f64, weight: f64) -> [f64; 13] {
     let (x, y) = (p.cosine * cos, sin);
     let squared = x * x + y * y;
     let w = weight * p.sine * sin;
-    let angle = y.atan2(x);
+    let angle = libm::atan2(y, x);
     let (zeroth, first) = (2.0 * w * angle, 2.0 * w * y);
     let (xx, yy) = (w * (angle * squared + x * y), w * (angle * squared - x * y));
     let cubic = 2.0 / 3.0 * w * y * y * y;

@@ -50,7 +50,8 @@ impl Torus {
         let outer = Rings::new(&Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order });
         let rings = Rings::new(&Demand { sharpest, mildest, degree: integrand.order + 1 });
         let around = Around { rings, cut_ratio: integrand.cut_ratio(0.5) };
-        let smallest = gap.height - self.major_radius * gap.across - self.minor_radius * gap.along.hypot(gap.across);
+        let smallest =
+            gap.height - self.major_radius * gap.across - self.minor_radius * libm::hypot(gap.along, gap.across);
         let cut = integrand.cut(smallest, 1.0);
         let nodes = outer.nodes(near, far);
         dispatch(TubeSweep {
@@ -162,7 +163,7 @@ impl<Nodes: Iterator<Item = RingNode>> WithSimd for TubeSweep<'_, Nodes> {
         let Self { torus, gap, nodes, cut, around, integrand, requests, out } = self;
         for node in nodes {
             let lateral = gap.across * node.cos;
-            let steepness = gap.along.hypot(lateral);
+            let steepness = libm::hypot(gap.along, lateral);
             let middle = gap.height - torus.major_radius * lateral;
             let near = middle - torus.minor_radius * steepness;
             if near > cut {

@@ -150,7 +150,7 @@ impl LineKernel {
     /// The sample at the gap d > 0.
     #[inline]
     pub fn sample(&self, gap: f64) -> GapSample {
-        let log = if self.needs_log() { gap.ln() } else { 0.0 };
+        let log = if self.needs_log() { libm::log(gap) } else { 0.0 };
         GapSample { gap, power: self.power(gap), log }
     }
 
@@ -159,7 +159,7 @@ impl LineKernel {
     fn power(&self, gap: f64) -> f64 {
         match self.integer {
             Some(exponent) => integer_power(gap, exponent),
-            None => gap.powf(-self.exponent),
+            None => libm::pow(gap, -self.exponent),
         }
     }
 
@@ -260,7 +260,7 @@ impl LineKernel {
         }
         let span = far.log - near.log;
         let exponent = self.steps[degree].0 * span;
-        let growth = if exponent == 0.0 { 1.0 } else { exponent.exp_m1() / exponent };
+        let growth = if exponent == 0.0 { 1.0 } else { libm::expm1(exponent) / exponent };
         (near_power * span * growth + lower) * scale
     }
 }

@@ -75,8 +75,8 @@ pub(super) fn principal_axes(matrix: &Mat3) -> (Vec3, Mat3) {
                 continue;
             }
             let theta = 0.5 * (a[(q, q)] - a[(p, p)]) / a[(p, q)];
-            let t = 1f64.copysign(theta) / (theta.abs() + theta.hypot(1.0));
-            let c = 1.0 / t.hypot(1.0);
+            let t = 1f64.copysign(theta) / (theta.abs() + libm::hypot(theta, 1.0));
+            let c = 1.0 / libm::hypot(t, 1.0);
             let s = t * c;
             rotate(&mut a, p, q, (c, s));
             a.transpose_mut();

@@ -34,7 +34,7 @@ impl Hemisphere {
         out: &mut Weighted<W>,
     ) -> AffineMap {
         let gap = TiltedGap::new(&deformed.field);
-        let slope = gap.along.hypot(gap.across);
+        let slope = libm::hypot(gap.along, gap.across);
         let (cosine, sine) = if slope > 0.0 { (gap.along / slope, gap.across / slope) } else { (1.0, 0.0) };
         let frame = gap.frame * Mat3::new(cosine, 0.0, -sine, 0.0, 1.0, 0.0, sine, 0.0, cosine);
         let vectors = deformed.cofactor * frame;
@@ -107,7 +107,7 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
     /// The zone around the pole: θ from the lowest point, or from the highest one.
     #[inline(always)]
     fn whole_parallels(&self, sums: &mut PointSums<W>) {
-        let last = FRAC_PI_2.min(self.sine.min(1.0).acos());
+        let last = FRAC_PI_2.min(libm::acos(self.sine.min(1.0)));
         let low = self.cosine < 0.0;
         // From the pole at hand the gap is nearest + rise (1 − cos θ); it vanishes at i·distance, or at π + i·distance.
         let (pole, rise) =
@@ -121,14 +121,14 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
             return;
         }
         for node in interval.nodes(interval.points(&[gap, a[0], a[1], b[0], b[1]])) {
-            let (sin, cos) = node.at.sin_cos();
-            let half = (0.5 * node.at).sin();
+            let (sin, cos) = libm::sincos(node.at);
+            let half = libm::sin(0.5 * node.at);
             let (distance, u) = (pole + rise * 2.0 * half * half, if low { -cos } else { cos });
             let decay = self.element.decay(cos * cos, sin * sin).min(10.0);
             let points =
                 (self.digits(distance) / decay).ceil().clamp(1.0, 2048.0) + (self.integrand.order + N) as f64 + 1.0;
             let weight = node.weight * sin * TAU / points;
-            let (step_y, step_x) = (TAU / points).sin_cos();
+            let (step_y, step_x) = libm::sincos(TAU / points);
             let (mut x, mut y) = (sin, 0.0);
             for _ in 0..points as usize {
                 self.add(u, distance, (x, y), weight, sums);
@@ -148,16 +148,16 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
         let reach = self.reach * self.sine;
         let near = self.height - reach;
         let grazing = self.grazing(self.height / reach);
-        let opening = self.cosine.abs().min(1.0 - 1e-9).atanh().max(FINEST);
+        let opening = libm::atanh(self.cosine.abs().min(1.0 - 1e-9)).max(FINEST);
         let lowest = if self.cosine > 0.0 { near } else { self.height - self.reach };
         let drop = 0.5 * (self.integrand.cut(lowest, 1.5) - near) / reach;
-        let last = if drop < 1.0 { 2.0 * drop.max(0.0).sqrt().asin() } else { PI };
+        let last = if drop < 1.0 { 2.0 * libm::asin(drop.max(0.0).sqrt()) } else { PI };
         let singularities = self.arc_singularities(grazing, opening);
         let lower = GradedInterval { from: 0.0, to: last.min(FRAC_PI_2), width: grazing.min(opening) };
         let upper = GradedInterval { from: PI, to: FRAC_PI_2, width: opening };
         let upper = (last > FRAC_PI_2).then(|| upper.nodes(upper.points(&singularities)));
         for node in lower.nodes(lower.points(&singularities)).chain(upper.into_iter().flatten()) {
-            let (half, cos_half) = (0.5 * node.at).sin_cos();
+            let (half, cos_half) = libm::sincos(0.5 * node.at);
             let (sin, cos) = (2.0 * half * cos_half, 1.0 - 2.0 * half * half);
             self.arc((sin, cos), near + 2.0 * reach * half * half, node.weight, sums);
         }
@@ -168,15 +168,15 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
     fn arc(&self, (sin, cos): (f64, f64), gap: f64, weight: f64, sums: &mut PointSums<W>) {
         let u = -self.sine * cos;
         let (x, y) = (self.cosine * cos, sin);
-        let (radius, half) = (x.hypot(y), y.atan2(x));
+        let (radius, half) = (libm::hypot(x, y), libm::atan2(y, x));
         let decay = self.element.decay(u * u, radius * radius).min(10.0);
         let points =
-            0.5 * self.digits(gap) / (decay / half).asinh() + 4.0 + 1.5 * half * (self.integrand.order + N) as f64;
+            0.5 * self.digits(gap) / libm::asinh(decay / half) + 4.0 + 1.5 * half * (self.integrand.order + N) as f64;
         let nodes = gauss_legendre(points.ceil() as usize);
         let weight = weight * self.sine * sin * half;
         // The rule is symmetric: one sine serves φ and −φ.
         for node in &nodes[..nodes.len() / 2] {
-            let (y, x) = (half * node.at).sin_cos();
+            let (y, x) = libm::sincos(half * node.at);
             self.add(u, gap, (radius * x, radius * y), weight * node.weight, sums);
             self.add(u, gap, (radius * x, -radius * y), weight * node.weight, sums);
         }
@@ -193,9 +193,9 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
         // The equator is (−cosine cos ψ … ) in the plane of (e₁, c) and e₂.
         let (ahead, aside) = (self.vectors * Vec3::new(self.cosine, 0.0, -self.sine), self.vectors.column(1));
         let (p, q, mixed) = (ahead.norm_squared(), aside.norm_squared(), ahead.dot(&aside));
-        let (mean, swing) = (0.5 * (p + q), mixed.hypot(0.5 * (p - q)));
-        let distance = if swing > 0.0 { 0.5 * (mean / swing).max(1.0).acosh() } else { 10.0 };
-        let least = (0.5 * mixed.atan2(0.5 * (p - q)) + FRAC_PI_2).abs();
+        let (mean, swing) = (0.5 * (p + q), libm::hypot(mixed, 0.5 * (p - q)));
+        let distance = if swing > 0.0 { 0.5 * libm::acosh((mean / swing).max(1.0)) } else { 10.0 };
+        let least = (0.5 * libm::atan2(mixed, 0.5 * (p - q)) + FRAC_PI_2).abs();
         let least = if least > FRAC_PI_2 { PI - least } else { least };
         let ends = [least, PI - least].map(|at| poles(distance.max(1e-3), at, Self::DIGITS));
         let opens = [poles(opening, 0.0, DIGITS), poles(opening, PI, DIGITS)];
@@ -204,14 +204,14 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
 
     /// The imaginary angle at which height − reach cos vanishes, given their ratio.
     fn grazing(&self, ratio: f64) -> f64 {
-        let distance = ratio.max(1.0).acosh();
+        let distance = libm::acosh(ratio.max(1.0));
         if distance.is_finite() { distance.clamp(1e-7, 20.0) } else { 20.0 }
     }
 
     /// Digits that a parallel at this gap needs: those above the lowest one count less.
     #[inline(always)]
     fn digits(&self, gap: f64) -> f64 {
-        let spared = if self.mildness > 0.0 { self.mildness * (gap / self.nearest).max(1.0).ln() } else { 0.0 };
+        let spared = if self.mildness > 0.0 { self.mildness * libm::log((gap / self.nearest).max(1.0)) } else { 0.0 };
         (Self::DIGITS - spared).max(3.0)
     }
 
@@ -222,7 +222,7 @@ impl<const N: usize, const W: usize> HemisphereSweep<'_, N, W> {
 
 /// The place in ψ of a singularity in θ, cos θ = σ cos ψ.
 fn crossing(s: &Singularity, sine: f64) -> Singularity {
-    let (x, y) = (s.at.cos() * s.distance.cosh() / sine, s.at.sin() * s.distance.sinh() / sine);
-    let sum = 0.5 * ((x + 1.0).hypot(y) + (x - 1.0).hypot(y)).max(2.0);
-    Singularity { at: (x / sum).clamp(-1.0, 1.0).acos(), distance: sum.acosh().max(1e-6), digits: s.digits }
+    let (x, y) = (libm::cos(s.at) * libm::cosh(s.distance) / sine, libm::sin(s.at) * libm::sinh(s.distance) / sine);
+    let sum = 0.5 * (libm::hypot(x + 1.0, y) + libm::hypot(x - 1.0, y)).max(2.0);
+    Singularity { at: libm::acos((x / sum).clamp(-1.0, 1.0)), distance: libm::acosh(sum).max(1e-6), digits: s.digits }
 }

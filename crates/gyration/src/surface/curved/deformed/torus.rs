@@ -46,7 +46,7 @@ impl Torus {
 pub(super) fn dips(vectors: &Mat3, integrand: &Integrand, extra: f64) -> Dips {
     let (squares, _) = principal_axes(&vectors.tr_mul(vectors));
     let share = (squares.min().max(0.0) / squares.max()).sqrt();
-    let distance = share.min(1.0 - 1e-9).atanh();
+    let distance = libm::atanh(share.min(1.0 - 1e-9));
     Dips { distance, mildness: (integrand.mildest - 1.0).max(0.0), digits: WEIGHT_DIGITS + extra }
 }
 
@@ -67,7 +67,8 @@ impl<const N: usize, const W: usize> WithSimd for TorusSweep<'_, N, W> {
     fn with_simd<S: Simd>(self, _: S) -> [ParallelSums; W] {
         let (torus, gap, integrand) = (self.torus, self.gap, self.integrand);
         let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
-        let smallest = gap.height - torus.major_radius * gap.across - torus.minor_radius * gap.along.hypot(gap.across);
+        let smallest =
+            gap.height - torus.major_radius * gap.across - torus.minor_radius * libm::hypot(gap.along, gap.across);
         let cut = integrand.cut(smallest, 1.0);
         let outer = Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order + 1 };
         let dips = Dips { mildness: (mildest - 1.5).max(0.0), ..self.dips };
@@ -76,7 +77,7 @@ impl<const N: usize, const W: usize> WithSimd for TorusSweep<'_, N, W> {
         for node in outer.nodes() {
             let lateral = gap.across * node.cos;
             let (reach, middle) =
-                (torus.minor_radius * gap.along.hypot(lateral), gap.height - torus.major_radius * lateral);
+                (torus.minor_radius * libm::hypot(gap.along, lateral), gap.height - torus.major_radius * lateral);
             let near = middle - reach;
             if near > cut {
                 break;
@@ -96,7 +97,7 @@ impl<const N: usize, const W: usize> TorusSweep<'_, N, W> {
         let demand = Demand { sharpest: integrand.sharpest, mildest: integrand.mildest, degree: integrand.order + 2 };
         let ring = OwnRing::new((near, near + 2.0 * reach), &demand, &self.dips);
         let cut = near * integrand.cut_ratio(0.5);
-        let (lateral, steepness) = (gap.across * cos, gap.along.hypot(gap.across * cos));
+        let (lateral, steepness) = (gap.across * cos, libm::hypot(gap.along, gap.across * cos));
         let (a, b) = if steepness > 0.0 { (lateral / steepness, -gap.along / steepness) } else { (1.0, 0.0) };
         for node in ring.nodes() {
             let distance = near + reach * node.versine;

@@ -103,7 +103,7 @@ impl ConeWall {
         let near = gap.height - 0.5 * gap.along * self.height - reach;
         let cut = integrand.cut(near, 1.5);
         let cut = if cut < apex { cut } else { f64::INFINITY };
-        let slant = self.radius.hypot(self.height);
+        let slant = libm::hypot(self.radius, self.height);
         let normal = (self.height / slant, self.radius / slant);
         let wall = DeformedWall { vectors: deformed.cofactor * gap.frame, normal, near, reach, cut };
         let ring = wall.ring::<N>(&integrand);

@@ -91,8 +91,8 @@ pub(crate) fn dips(cofactor: &Vec3, lowest: &Vec3) -> [Dip; MOST_DIPS] {
 impl Dip {
     /// Its singularities at θ and, since −X lies as X, at π − θ.
     pub(crate) fn singularities(&self, digits: f64) -> [Singularity; 2] {
-        let distance = self.share.min(1.0 - 1e-9).atanh();
-        [self.cos, -self.cos].map(|cos| Singularity { at: self.sin.atan2(cos), distance, digits })
+        let distance = libm::atanh(self.share.min(1.0 - 1e-9));
+        [self.cos, -self.cos].map(|cos| Singularity { at: libm::atan2(self.sin, cos), distance, digits })
     }
 }
 
@@ -106,11 +106,11 @@ impl Features {
         Self {
             dips: dips(cofactor, lowest),
             depth,
-            span: (1.0 / depth).ln_1p(),
+            span: libm::log1p(1.0 / depth),
             sharpest: integrand.sharpest,
             mildest: integrand.mildest,
             mildness,
-            excess: (largest * mildness.max(1.0) / cofactor.component_mul(lowest).norm()).ln(),
+            excess: libm::log(largest * mildness.max(1.0) / cofactor.component_mul(lowest).norm()),
             extra: 0.0,
         }
     }
@@ -139,7 +139,7 @@ impl Features {
         let growth = (self.sharpest - 1.0).max(4.0 - self.mildest).max(3.0);
         let exponentials = 7.0 + 3.0 * (0.5 * growth * self.span).sqrt();
         // The far half sees the zero of the gap at x = 2 + δ, beyond the end.
-        let beyond = 2.0 * (1.0 + 2.0 * LN_2 / self.span).acosh();
+        let beyond = 2.0 * libm::acosh(1.0 + 2.0 * LN_2 / self.span);
         let far = (DIGITS + self.sharpest - self.mildness * self.span).max(3.0) / beyond + SPARE;
         let mut points = exponentials.max(far);
         for dip in self.dips.iter().filter(|dip| dip.share < 1.0 - 1e-9) {
@@ -147,10 +147,10 @@ impl Features {
             let imaginary = dip.sin * dip.share * hyperbolic / self.depth;
             for cos in [dip.cos, -dip.cos] {
                 let real = 1.0 + (1.0 - cos * hyperbolic) / self.depth;
-                let log = 0.5 * (real * real + imaginary * imaginary).ln();
-                let (t, height) = (2.0 * log / self.span - 1.0, 2.0 * imaginary.atan2(real) / self.span);
-                let s = 0.5 * ((t - 1.0).hypot(height) + (t + 1.0).hypot(height));
-                let rate = 2.0 * (s + (s * s - 1.0).max(0.0).sqrt()).ln();
+                let log = 0.5 * libm::log(real * real + imaginary * imaginary);
+                let (t, height) = (2.0 * log / self.span - 1.0, 2.0 * libm::atan2(imaginary, real) / self.span);
+                let s = 0.5 * (libm::hypot(t - 1.0, height) + libm::hypot(t + 1.0, height));
+                let rate = 2.0 * libm::log(s + (s * s - 1.0).max(0.0).sqrt());
                 let spared = (self.mildness * log - self.excess).max(0.0);
                 points = points.max((DIGITS + self.extra - spared).max(3.0) / rate + SPARE);
             }
@@ -163,7 +163,7 @@ impl Features {
         let half = 0.5 * self.span;
         gauss_legendre(points as usize).iter().map(move |node| {
             let y = half * (1.0 + node.at);
-            let growth = y.exp();
+            let growth = libm::exp(y);
             let spared = (self.mildness * y - self.excess).max(0.0);
             PolarNode { versine: self.depth * (growth - 1.0), weight: self.depth * growth * half * node.weight, spared }
         })
@@ -200,7 +200,7 @@ impl Features {
     fn singularities(&self) -> [Singularity; 1 + 2 * MOST_DIPS] {
         let gap = Singularity {
             at: 0.0,
-            distance: (1.0 + self.depth).acosh(),
+            distance: libm::acosh(1.0 + self.depth),
             digits: GAP_DIGITS + 1.6 * self.sharpest.max(0.0),
         };
         let [a, b] = self.dips.map(|dip| dip.singularities(GRADED_DIGITS + self.extra));
@@ -208,18 +208,18 @@ impl Features {
     }
 
     fn spared(&self, theta: f64) -> f64 {
-        let half = (0.5 * theta).sin();
-        (self.mildness * (2.0 * half * half / self.depth).ln_1p() - self.excess).max(0.0)
+        let half = libm::sin(0.5 * theta);
+        (self.mildness * libm::log1p(2.0 * half * half / self.depth) - self.excess).max(0.0)
     }
 
     fn polar(&self, theta: f64, weight: f64) -> PolarNode {
-        let (sin, cos) = (0.5 * theta).sin_cos();
+        let (sin, cos) = libm::sincos(0.5 * theta);
         PolarNode { versine: 2.0 * sin * sin, weight: weight * 2.0 * sin * cos, spared: self.spared(theta) }
     }
 }
 
 /// The distance of the nearest singularity from θ.
 fn clearance(singularities: &[Singularity], theta: f64) -> f64 {
-    let distance = |s: &Singularity| s.distance.hypot(theta - s.at).min(s.distance.hypot(theta + s.at));
+    let distance = |s: &Singularity| libm::hypot(s.distance, theta - s.at).min(libm::hypot(s.distance, theta + s.at));
     singularities.iter().map(distance).fold(2.0, f64::min)
 }

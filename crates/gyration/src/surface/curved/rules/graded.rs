@@ -28,7 +28,7 @@ pub(crate) fn gauss_legendre(points: usize) -> &'static [QuadratureNode] {
 /// The i-th zero of P_n and its weight 2/((1 − x²) P_n'(x)²), by Newton from Tricomi's estimate.
 fn legendre_node(n: usize, i: usize) -> QuadratureNode {
     let count = n as f64;
-    let mut x = -((i as f64 + 0.75) / (count + 0.5) * std::f64::consts::PI).cos();
+    let mut x = -libm::cos((i as f64 + 0.75) / (count + 0.5) * std::f64::consts::PI);
     let mut slope = 0.0;
     for _ in 0..8 {
         let (value, derivative) = legendre(n, x);
@@ -76,7 +76,7 @@ pub(crate) struct Singularity {
 impl GradedInterval {
     /// The length of the interval in y.
     fn span(&self) -> f64 {
-        ((self.to - self.from).abs() / self.width).asinh()
+        libm::asinh((self.to - self.from).abs() / self.width)
     }
 
     /// The nodes of the rule with `points` points.
@@ -84,7 +84,7 @@ impl GradedInterval {
         let half = 0.5 * self.span();
         let sign = self.width.copysign(self.to - self.from);
         gauss_legendre(points).iter().map(move |node| {
-            let growth = (half * (1.0 + node.at)).exp();
+            let growth = libm::exp(half * (1.0 + node.at));
             let (sinh, cosh) = (0.5 * (growth - 1.0 / growth), 0.5 * (growth + 1.0 / growth));
             QuadratureNode { at: self.from + sign * sinh, weight: self.width * cosh * half * node.weight }
         })
@@ -102,11 +102,11 @@ impl GradedInterval {
         let needed = singularities.iter().map(|singularity| {
             let x = sign * (singularity.at - self.from) / self.width;
             let y = singularity.distance / self.width;
-            let t = 0.5 * (x.hypot(y + 1.0) + x.hypot(y - 1.0));
-            let real = 2.0 * t.max(1.0).acosh().copysign(x) / span - 1.0;
-            let imaginary = 2.0 * (y / t).min(1.0).asin() / span;
-            let s = 0.5 * ((real - 1.0).hypot(imaginary) + (real + 1.0).hypot(imaginary));
-            singularity.digits / (2.0 * (s + (s * s - 1.0).max(0.0).sqrt()).ln())
+            let t = 0.5 * (libm::hypot(x, y + 1.0) + libm::hypot(x, y - 1.0));
+            let real = 2.0 * libm::acosh(t.max(1.0)).copysign(x) / span - 1.0;
+            let imaginary = 2.0 * libm::asin((y / t).min(1.0)) / span;
+            let s = 0.5 * (libm::hypot(real - 1.0, imaginary) + libm::hypot(real + 1.0, imaginary));
+            singularity.digits / (2.0 * libm::log(s + (s * s - 1.0).max(0.0).sqrt()))
         });
         (needed.fold(0.0, f64::max) + SPARE).min(MAX_GAUSS as f64).ceil() as usize
     }

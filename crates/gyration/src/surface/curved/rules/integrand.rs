@@ -86,7 +86,7 @@ impl Integrand {
         let second = inverse.map(|x| x * x);
         let fourth = second.map(|x| x * x);
         let squarings = [inverse, second, fourth, fourth.map(|x| x * x)];
-        let logs = if self.needs_log { gaps.map(f64::ln) } else { [0.0; N] };
+        let logs = if self.needs_log { gaps.map(libm::log) } else { [0.0; N] };
         let mut values = [[0.0; N]; GROUP];
         for (value, term) in values[..self.count].iter_mut().zip(&self.terms) {
             *value = match *term {
@@ -94,7 +94,7 @@ impl Integrand {
                     let start = if half { inverse.map(f64::sqrt) } else { [1.0; N] };
                     product(&squarings, whole, start)
                 }
-                KernelTerm::Real(power) => logs.map(|log| (power * log).exp()),
+                KernelTerm::Real(power) => logs.map(|log| libm::exp(power * log)),
                 KernelTerm::Log => logs,
             };
         }
@@ -109,7 +109,7 @@ impl Integrand {
     /// The same as a multiple of the smallest gap.
     pub(crate) fn cut_ratio(&self, less: f64) -> f64 {
         let exponent = self.mildest - less;
-        if exponent > 0.1 { NEGLIGIBLE.powf(-1.0 / exponent) } else { f64::INFINITY }
+        if exponent > 0.1 { libm::pow(NEGLIGIBLE, -1.0 / exponent) } else { f64::INFINITY }
     }
 }
 

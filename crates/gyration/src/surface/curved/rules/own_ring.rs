@@ -174,11 +174,11 @@ impl Dips {
         /// Places at which a zero is imagined, beside θ = 0.
         const PLACES: usize = 6;
         let distance = self.distance.min(FARTHEST);
-        let (sinh, cosh) = (distance.sinh(), distance.cosh());
+        let (sinh, cosh) = (libm::sinh(distance), libm::cosh(distance));
         (0..=PLACES).fold(0.0, |worst: f64, place| {
-            let (sin, cos) = (PI * place as f64 / PLACES as f64).sin_cos();
+            let (sin, cos) = libm::sincos(PI * place as f64 / PLACES as f64);
             let gap = 1.0 + 0.5 * (ratio - 1.0) * (1.0 - cos);
-            let digits = self.digits - if self.mildness > 0.0 { self.mildness * gap.ln() } else { 0.0 };
+            let digits = self.digits - if self.mildness > 0.0 { self.mildness * libm::log(gap) } else { 0.0 };
             if digits <= 0.0 { worst } else { worst.max(digits / height(p, (sin, cos), (sinh, cosh))) }
         })
     }
@@ -203,7 +203,7 @@ fn height(p: f64, (sin, cos): (f64, f64), (sinh, cosh): (f64, f64)) -> f64 {
 #[inline(always)]
 fn asinh_imaginary(x: f64, y: f64) -> f64 {
     let sum = 0.5 * ((x * x + (y + 1.0) * (y + 1.0)).sqrt() + (x * x + (y - 1.0) * (y - 1.0)).sqrt());
-    (y / sum).min(1.0).asin()
+    libm::asin((y / sum).min(1.0))
 }
 
 #[cfg(test)]

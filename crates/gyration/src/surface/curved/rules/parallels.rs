@@ -49,7 +49,7 @@ impl AreaElement {
             form,
             least: squares.min(),
             least_beyond: 1.0 / (f.x * f.x / squares.x + f.y * f.y / squares.y + f.z * f.z / squares.z),
-            most_across: sum + difference.hypot(form.m12),
+            most_across: sum + libm::hypot(difference, form.m12),
         }
     }
 
@@ -61,7 +61,7 @@ impl AreaElement {
         // 1/(f·(BᵀB)⁻¹ f); where rounding leaves nothing of the minor, least squares bound it.
         let least = squares.min().max(0.0);
         let beyond = if across > 0.0 { squares.product() / across } else { least };
-        Self { form, least, least_beyond: beyond.max(least), most_across: sum + difference.hypot(form.m12) }
+        Self { form, least, least_beyond: beyond.max(least), most_across: sum + libm::hypot(difference, form.m12) }
     }
 
     /// A lower bound of η, the imaginary part of the azimuth at which |B s|² vanishes, on parallels (cos θ, sin θ)².
@@ -73,7 +73,7 @@ impl AreaElement {
         let beyond = cos_squared * self.least_beyond / self.most_across;
         let excess = self.most_across - self.least;
         let least = if excess > 0.0 { self.least / excess } else { f64::INFINITY };
-        (beyond.max(least) / sin_squared).sqrt().asinh()
+        libm::asinh((beyond.max(least) / sin_squared).sqrt())
     }
 }
 
@@ -180,7 +180,7 @@ impl ParallelGroup {
             along_c[lane] = 2.0 * z * r * q.m13;
             along_s[lane] = 2.0 * z * r * q.m23;
         }
-        let (step_s, step_c) = (PI / pairs).sin_cos();
+        let (step_s, step_c) = libm::sincos(PI / pairs);
         let (mut c, mut s) = (1.0, 0.0);
         let mut sums = [[0.0; LANES]; 7];
         for _ in 0..pairs as usize {

@@ -70,7 +70,7 @@ impl Rings {
         static TABLES: [[OnceLock<Vec<Vec<RingChunk>>>; CLASSES]; MOST_DEGREES + 1] =
             [const { [const { OnceLock::new() }; CLASSES] }; MOST_DEGREES + 1];
         let degree = demand.degree.min(MOST_DEGREES);
-        let above = (frequency(demand) / LOWEST_FREQUENCY).ln() / CLASS_RATIO.ln();
+        let above = libm::log(frequency(demand) / LOWEST_FREQUENCY) / libm::log(CLASS_RATIO);
         let class = (above.ceil().max(0.0) as usize).min(CLASSES - 1);
         let rows = TABLES[degree][class].get_or_init(|| {
             let frequency = LOWEST_FREQUENCY * CLASS_RATIO.powi(class as i32);
@@ -83,7 +83,7 @@ impl Rings {
     /// The rule for gaps between `near` and `far` ≥ `near` > 0, from θ = 0, where the gap is smallest, to θ = π.
     #[inline]
     pub(crate) fn chunks(&self, near: f64, far: f64) -> &'static [RingChunk] {
-        let level = (FIRST * far / near).log2().ceil().max(0.0) as usize;
+        let level = libm::log2(FIRST * far / near).ceil().max(0.0) as usize;
         &self.rows[level.min(LEVELS - 1)]
     }
 

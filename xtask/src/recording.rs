@@ -1,4 +1,4 @@
-//! Comparing two recordings of one scene: every array byte by byte, and the attributes.
+//! Recordings, read without the library that writes them: in what two of one scene differ, and the sum of one.
 //!
 //! Arrays and their sizes stand in the group's `zarr.json`; chunks are plain little-endian numbers, cut along the first
 //! dimension only, so that the files of an array, one behind the other and without their checksums, are the array. Left
@@ -45,6 +45,22 @@ pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
         });
     }
     Ok(lines)
+}
+
+/// The sum of all arrays of a recording: FNV-1a of 64 bits, over names and numbers.
+pub fn sum(recording: &Path) -> Result<u64, String> {
+    const START: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x100_0000_01b3;
+    let group = group(recording)?;
+    let arrays = ["consolidated_metadata", "metadata"].iter().try_fold(&group, |value, key| value.get(key));
+    let arrays = arrays.and_then(Json::entries).ok_or_else(|| format!("{}: no arrays", recording.display()))?;
+    let mut sum = START;
+    for (name, metadata) in arrays {
+        let contents = contents(&recording.join(name), is_checked(metadata))?;
+        let add = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(PRIME);
+        sum = name.as_bytes().iter().chain(&contents).fold(sum, add);
+    }
+    Ok(sum)
 }
 
 fn group(folder: &Path) -> Result<Json, String> {
@@ -202,6 +218,22 @@ mod tests {
         fs::remove_dir_all(old).unwrap();
         fs::remove_dir_all(new).unwrap();
         assert_eq!(found, Ok(Vec::new()));
+    }
+
+    #[test]
+    fn the_sum_is_of_the_numbers_however_they_are_cut() {
+        let recordings = [
+            recording("sum", [&[1.0, 2.0], &[3.0]], r#"{"commit": "a"}"#),
+            recording("sum-cut", [&[1.0], &[2.0, 3.0]], r#"{"commit": "b"}"#),
+            recording("sum-other", [&[1.0, 2.0], &[3.0_f64.next_up()]], r#"{"commit": "a"}"#),
+        ];
+        let [whole, cut, other] = recordings.map(|folder| {
+            let found = sum(&folder);
+            fs::remove_dir_all(folder).unwrap();
+            found.unwrap()
+        });
+        assert_eq!(whole, cut);
+        assert_ne!(whole, other);
     }
 
     #[test]
