@@ -62,7 +62,7 @@ pub enum CliError {
     #[error("cannot write to stdout: {}", in_words(.0))]
     Stdout(#[from] io::Error),
     /// The handler of Ctrl-C cannot be set.
-    #[error("cannot listen for Ctrl-C: {0}")]
+    #[error("the system does not let the program listen for Ctrl-C")]
     Signal(#[from] ctrlc::Error),
 }
 

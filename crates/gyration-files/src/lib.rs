@@ -2,7 +2,7 @@
 //!
 //! [`open`] opens a regular file and nothing else: to open a pipe waits for whoever writes into it, for ever if nobody
 //! does. [`printable`] takes from a text what a terminal would obey. [`in_words`] says why the system refuses
-//! something. [`check`] has the checksums by which damage is told.
+//! something, [`line_of_row`] where a row of a table stands. [`check`] has the checksums by which damage is told.
 
 #![forbid(unsafe_code)]
 
@@ -65,6 +65,17 @@ pub fn not_a_file(found: FileType) -> Option<&'static str> {
     }
 }
 
+/// Begins a line of a table that is passed over.
+pub const REMARK: u8 = b'#';
+
+/// The line, from 1, of the first row of a table behind a byte: blank lines and remarks are passed over.
+pub fn line_of_row(content: &[u8], start: usize) -> u64 {
+    let (before, behind) = content.split_at(start.min(content.len()));
+    let skipped = |line: &&[u8]| line.trim_ascii().is_empty() || line.first() == Some(&REMARK);
+    let blank = behind.split(|byte| *byte == b'\n').take_while(skipped).count();
+    (1 + before.iter().filter(|byte| **byte == b'\n').count() + blank) as u64
+}
+
 /// A text as it may go to a terminal: control characters are written as their codes, `\u001b`, which say the same in a
 /// text of JSON or TOML. Ends of lines and tabs stay.
 pub fn printable(text: &str) -> Cow<'_, str> {
@@ -96,6 +107,12 @@ mod tests {
     fn a_terminal_is_told_nothing_but_letters() {
         assert_eq!(printable("käse\n\t½"), "käse\n\t½");
         assert_eq!(printable("a\u{1b}]0;b\u{7}\rc\u{9b}d"), r"a\u001b]0;b\u0007\u000dc\u009bd");
+    }
+
+    #[test]
+    fn a_row_stands_behind_remarks_and_blank_lines() {
+        let table = b"t,x\n# a\n\n0,1\n1,2";
+        assert_eq!([0, 4, 9, 13].map(|start| line_of_row(table, start)), [1, 4, 4, 5]);
     }
 
     #[test]

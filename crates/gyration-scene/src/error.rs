@@ -185,5 +185,5 @@ pub enum LoadError {
 
 /// The resolved scene has no form in TOML.
 #[derive(Debug, thiserror::Error)]
-#[error("the resolved scene cannot be written as TOML: {0}; take it from `gyration check SCENE --json`")]
+#[error("the resolved scene cannot be written as TOML\n  fix: take it from `gyration check SCENE --json`")]
 pub struct NotToml(#[from] toml::ser::Error);

@@ -4,6 +4,7 @@ use crate::error::ReadError;
 use crate::read;
 use gyration::signal::{Interpolation, TableError, TensorTable};
 use gyration::tensor::Mat3;
+use gyration_files::{REMARK, line_of_row};
 use std::path::{Path, PathBuf};
 
 /// A table that cannot be used.
@@ -50,8 +51,6 @@ impl TableFault {
     }
 }
 
-/// What begins a line that is a remark.
-const COMMENT: u8 = b'#';
 /// The entries of a tensor, row by row.
 const TENSOR: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
 /// The components of a vector.
@@ -84,7 +83,7 @@ fn read_table(
     let bytes = read::bytes(path)?;
     let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
     let rows = rows(content, entries.len()).map_err(|(start, reason)| {
-        let line = line(content, start);
+        let line = line_of_row(content, start);
         let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}_{entry}")).collect();
         TableFault::Malformed { columns: format!("t{}", names.concat()), path: path.to_owned(), line, reason }
     })?;
@@ -93,7 +92,7 @@ fn read_table(
             TableError::Empty => 1,
             TableError::NotFinite { row } | TableError::NotSorted { row, .. } => row,
         };
-        let line = rows.get(row - 1).map_or(1, |row| line(content, row.start));
+        let line = rows.get(row - 1).map_or(1, |row| line_of_row(content, row.start));
         TableFault::Rows { path: path.to_owned(), line, source }
     })
 }
@@ -113,7 +112,7 @@ fn rows(content: &[u8], entries: usize) -> Result<Vec<WrittenRow>, (usize, Strin
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
-        .comment(Some(COMMENT))
+        .comment(Some(REMARK))
         .trim(csv::Trim::All)
         .from_reader(content);
     let mut rows = Vec::new();
@@ -130,14 +129,6 @@ fn rows(content: &[u8], entries: usize) -> Result<Vec<WrittenRow>, (usize, Strin
         rows.push(WrittenRow { start, time, value });
     }
     Ok(rows)
-}
-
-/// The line, from 1, of the first row behind a byte: blank lines and comments are passed over.
-fn line(content: &[u8], start: usize) -> u64 {
-    let (before, behind) = content.split_at(start.min(content.len()));
-    let skipped = |line: &&[u8]| line.trim_ascii().is_empty() || line.first() == Some(&COMMENT);
-    let blank = behind.split(|byte| *byte == b'\n').take_while(skipped).count();
-    (1 + before.iter().filter(|byte| **byte == b'\n').count() + blank) as u64
 }
 
 /// A row, or what is wrong with it.

@@ -338,8 +338,10 @@ fn standard_errors_cover_the_truth_as_often_as_they_should() {
 #[test]
 fn bad_files_are_refused_with_place_and_fix() {
     let folder = folder();
-    std::fs::write(folder.path().join("gaps.csv"), "gap, deviation\n1e-3, 1e-5\n2e-3, x\n").unwrap();
+    std::fs::write(folder.path().join("gaps.csv"), "gap, deviation\n1e-3, 1e-5\n\n# a remark\n2e-3, x\n").unwrap();
     std::fs::write(folder.path().join("drops.csv"), "hight, rebound\n0.1, 0.05\n").unwrap();
+    std::fs::write(folder.path().join("short.csv"), "gap, deviation\n# a remark\n1e-3\n").unwrap();
+    std::fs::write(folder.path().join("bytes.csv"), b"gap, note\n1e-3, \xb5m\n").unwrap();
     let cases = [
         ("scene = \"ball.toml\"", "[[drop]]\nheight = 0.1\nrebound = 0.2\ndeviation = 1e-3", "row 1: 0.2 m cannot be"),
         ("scene = \"ball.toml\"", "[[slope]]\nangle = 0.1\nspeed = -0.2\ndeviation = 1e-3", "cannot be"),
@@ -364,9 +366,11 @@ fn bad_files_are_refused_with_place_and_fix() {
         ("scene = \"ball.toml\"", "[[gap]]\ngap = 1e-3\ndeviation = 0", "deviations"),
         ("scene = \"ball.toml\"", "[[gap]]\nbody = \"bal\"\ngap = 1e-3\ndeviation = 1e-5", "did you mean `ball`"),
         ("scene = \"ball.toml\"", "[[drop]]\nheight = [0.1, 0.2]\nrebound = 0.1\ndeviation = 1e-3", "same length"),
-        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"gaps.csv\"", "gaps.csv:3: deviation is \"x\""),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"gaps.csv\"", "gaps.csv:5: deviation is \"x\""),
         ("scene = \"ball.toml\"", "[[drop]]\ntable = \"drops.csv\"", "drops.csv has the columns hight, rebound"),
         ("scene = \"ball.toml\"", "[[gap]]\ntable = \"gabs.csv\"", "gabs.csv cannot be read"),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"short.csv\"", "short.csv:3: the row has 1 of 2 cells"),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"bytes.csv\"", "bytes.csv:2: the row is not UTF-8 text"),
         ("scene = \"ball.toml\"", "[[slope]]\nangle = \"95 deg\"\nspeed = 1\ndeviation = 1", "no angle that can"),
         ("scene = \"ball.toml\"", "[[pull_off]]\nforce = \"2 mm\"\ndeviation = 1", "force in N"),
         ("scene = \"ball.toml\"", "", "cannot tell"),

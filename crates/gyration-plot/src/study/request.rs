@@ -46,6 +46,9 @@ impl PlotKind {
     }
 }
 
+/// The keys of a [`PlotRequest`]; the last is another word for `colour`.
+const KEYS: [&str; 8] = ["kind", "x", "y", "colour", "logarithmic", "title", "reference", "color"];
+
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -86,11 +89,13 @@ impl PlotRequest {
     /// # Errors
     /// [`PlotError::Arguments`] where a key is unknown or a value of another kind.
     pub fn of_json(table: &serde_json::Value) -> Result<Self, PlotError> {
-        Self::deserialize(table).map_err(|error| {
-            PlotError::arguments(
-                format!("[plot] of the study cannot be used: {error}"),
-                "its keys are kind, x, y, colour, logarithmic, title, reference",
-            )
+        Self::deserialize(table).map_err(|_| {
+            let unknown = table.as_object().and_then(|table| table.keys().find(|key| !KEYS.contains(&key.as_str())));
+            let reason = match unknown {
+                Some(key) => format!("[plot] of the study has no key `{key}`"),
+                None => "a value of [plot] of the study is of another kind than its key takes".to_owned(),
+            };
+            PlotError::arguments(reason, format!("its keys are {}", KEYS[..KEYS.len() - 1].join(", ")))
         })
     }
 
@@ -183,6 +188,8 @@ mod tests {
     #[test]
     fn an_unknown_key_is_told() {
         let error = PlotRequest::of_json(&serde_json::json!({ "colors": "c" })).unwrap_err();
-        assert!(error.to_string().contains("colors"), "{error}");
+        assert!(error.to_string().contains("no key `colors`"), "{error}");
+        let error = PlotRequest::of_json(&serde_json::json!({ "x": 1 })).unwrap_err();
+        assert!(error.to_string().contains("of another kind"), "{error}");
     }
 }

@@ -77,9 +77,8 @@ impl Drawing {
         if bodies.is_some_and(|bodies| bodies.iter().any(|body| body.get("surface").is_none())) {
             return Err(RecordError::NoSurfaces { path: recording.path().to_path_buf() });
         }
-        let strange =
-            |error: serde_json::Error| RecordError::corrupt(recording.path(), format!("attribute `bodies`: {error}"));
-        let bodies: Vec<DrawnBody> = serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange)?;
+        let bodies: Vec<DrawnBody> =
+            serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange(recording, "bodies"))?;
         let count = bodies.iter().filter_map(|body| body.surface).max().map_or(0, |last| last + 1);
         let gravity = Vec3::from(attribute::<[f64; 3]>(recording, "gravity")?);
         Ok(Self {
@@ -108,9 +107,12 @@ pub fn bodies_with_outlines(attributes: &Attributes) -> Value {
 
 fn attribute<T: serde::de::DeserializeOwned>(recording: &Recording, name: &str) -> Result<T, RecordError> {
     let value = recording.attributes().get(name).cloned().unwrap_or_default();
-    let strange =
-        |error: serde_json::Error| RecordError::corrupt(recording.path(), format!("attribute `{name}`: {error}"));
-    serde_json::from_value(value).map_err(strange)
+    serde_json::from_value(value).map_err(strange(recording, name))
+}
+
+/// The refusal of an attribute that is not as recordings have it.
+fn strange(recording: &Recording, name: &str) -> impl FnOnce(serde_json::Error) -> RecordError {
+    move |_| RecordError::corrupt(recording.path(), format!("the attribute `{name}` lacks what is drawn of it"))
 }
 
 impl DrawnBody {

@@ -97,9 +97,10 @@ fn failed(action: &'static str, path: &Path) -> impl FnOnce(ParquetError) -> Stu
     move |error| match error {
         ParquetError::External(source) => match source.downcast::<std::io::Error>() {
             Ok(source) => StudyError::Io { action, path, source: *source },
-            Err(other) => StudyError::Damaged { path, reason: other.to_string() },
+            Err(_) => StudyError::damaged(&path, "it is no table of a study"),
         },
-        other => StudyError::Damaged { path, reason: other.to_string() },
+        ParquetError::EOF(_) => StudyError::damaged(&path, "it ends too early"),
+        _ => StudyError::damaged(&path, "it is no table of a study"),
     }
 }
 

@@ -23,6 +23,6 @@ impl Wish {
     /// # Errors
     /// In words: why it is none.
     pub fn parse(text: &str) -> Result<Self, String> {
-        serde_json::from_str(text).map_err(|error| format!("not understood: {error}"))
+        serde_json::from_str(text).map_err(|_| "not understood: this is no wish of the page".to_owned())
     }
 }
