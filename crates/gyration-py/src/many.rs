@@ -13,7 +13,7 @@ use gyration_sim::rows::Fields;
 use gyration_sim::{
     Job, Monitor, OpenLedgers, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink, Verdict,
 };
-use gyration_threads::{Threads, share};
+use gyration_threads::{Interruption, Threads, share};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -111,10 +111,11 @@ fn all(
     keep: Option<&[String]>,
     monitor: &mut PythonMonitor,
 ) -> Vec<RunEnd> {
-    let stop = AtomicBool::new(false);
+    let stop = Arc::new(AtomicBool::new(false));
+    let interruption = Interruption::in_force().raised_by(stop.clone());
     let mut endings: Vec<Option<RunEnd>> = scenes.iter().map(|_| None).collect();
     let mut done = 0;
-    let run = |(index, scene): (usize, &Arc<Built>)| Some((index, run_one(scene, keep, &stop)));
+    let run = |(index, scene): (usize, &Arc<Built>)| Some((index, interruption.within(|| run_one(scene, keep, &stop))));
     share(scenes.iter().enumerate(), threads, &stop, run, |ended| {
         for (index, ending) in ended {
             endings[index] = Some(ending);

@@ -1,8 +1,8 @@
 //! Monitors a run from Python: Ctrl-C, and whoever wants to know how far it is.
 //!
 //! The run computes without the interpreter's lock; ten times a second it is taken for a moment, to look at signals and
-//! to tell of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step and are
-//! raised when the recording has been closed.
+//! to tell of progress. An exception of the callback, and KeyboardInterrupt, stop the run at the end of a step, or
+//! within one that computes a matrix for long, and are raised when the recording has been closed.
 
 use crate::convert::{says_stop, shown};
 use gyration_sim::{Monitor, Progress, Reason};
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -65,6 +65,57 @@ pub fn interruptibly<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -
     }
 }
 
+/// Lets a run go on a thread of its own, while this one, without the lock, answers for it and looks at signals. An
+/// interruption gives up also what a step computes for long.
+pub fn watched<T: Send>(monitor: &mut PythonMonitor, run: impl FnOnce(&mut Asker) -> T + Send) -> T {
+    let flag = Arc::new(AtomicBool::new(false));
+    let interruption = Interruption::in_force().raised_by(flag.clone());
+    let ended = thread::scope(|scope| {
+        let (questions, asked) = channel();
+        let (answers, answered) = channel();
+        let runner = scope.spawn(move || {
+            let mut asker = Asker { questions, answered, asked: Instant::now() };
+            interruption.within(|| run(&mut asker))
+        });
+        loop {
+            let goes_on = match asked.recv_timeout(GLANCE) {
+                Ok((time, end)) => {
+                    let goes_on = monitor.answer(time, end);
+                    // Whoever asked waits for it.
+                    let _ = answers.send(goes_on);
+                    goes_on
+                }
+                Err(RecvTimeoutError::Timeout) => monitor.glance(),
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
+            if !goes_on {
+                flag.store(true, Ordering::Relaxed);
+            }
+        }
+        runner.join()
+    });
+    ended.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+/// Asks the thread that watches.
+pub struct Asker {
+    questions: Sender<(f64, f64)>,
+    answered: Receiver<bool>,
+    asked: Instant,
+}
+
+impl Monitor for Asker {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        if self.asked.elapsed() < EVERY {
+            return None;
+        }
+        let asked = self.questions.send((progress.time, progress.end));
+        let goes_on = asked.is_ok() && self.answered.recv() == Ok(true);
+        self.asked = Instant::now();
+        (!goes_on).then_some(Reason::Interrupted)
+    }
+}
+
 /// Who wants to know how far a run is.
 enum Listener {
     Nobody,
@@ -108,13 +159,28 @@ impl PythonMonitor {
         if self.is_over {
             return false;
         }
-        if self.asked.elapsed() < EVERY {
-            return true;
-        }
-        let answer = Python::attach(|py| {
+        self.asked.elapsed() < EVERY || self.answer(time, end)
+    }
+
+    /// The same at once.
+    fn answer(&mut self, time: f64, end: f64) -> bool {
+        self.over_unless(|py, monitor| {
             py.check_signals()?;
-            self.tell(py, time, end)
-        });
+            monitor.tell(py, time, end)
+        })
+    }
+
+    /// Looks at signals; whether to go on.
+    fn glance(&mut self) -> bool {
+        self.over_unless(|py, _| py.check_signals().map(|()| true))
+    }
+
+    /// Whether to go on: nobody has wanted no more, and Python, which is asked with the lock held, says so.
+    fn over_unless(&mut self, ask: impl FnOnce(Python<'_>, &Self) -> PyResult<bool>) -> bool {
+        if self.is_over {
+            return false;
+        }
+        let answer = Python::attach(|py| ask(py, self));
         self.asked = Instant::now();
         let goes_on = answer.unwrap_or_else(|error| {
             self.raised = Some(error);

@@ -1,7 +1,7 @@
 //! A scene into a recording, as `gyration run` does it.
 
 use crate::errors::{self, warn};
-use crate::monitor::PythonMonitor;
+use crate::monitor::{Asker, PythonMonitor, watched};
 use crate::recording::Recording;
 use gyration_plot::leave_overview;
 use gyration_record::{Recording as Stored, remove};
@@ -31,7 +31,7 @@ pub fn run(
 ) -> PyResult<Recording> {
     let (path, kept) = place(&options, scene.name())?;
     let mut monitor = PythonMonitor::new(progress)?;
-    let done = py.detach(|| record(scene, &options, &path, &mut monitor));
+    let done = py.detach(|| watched(&mut monitor, |asker| record(scene, &options, &path, asker)));
     monitor.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&options, &path)))?;
     let told = done?;
     warn(py, options.output.as_ref().and_then(|_| leave_overview(&path)))?;
@@ -66,7 +66,7 @@ struct Told {
 }
 
 /// The run itself, and what is told of it; nothing if it had ended before.
-fn record(scene: &Scene, options: &RecordOptions, path: &Path, monitor: &mut PythonMonitor) -> PyResult<Option<Told>> {
+fn record(scene: &Scene, options: &RecordOptions, path: &Path, monitor: &mut Asker) -> PyResult<Option<Told>> {
     let job = Job::of(scene, &gyration_cli::provenance());
     let recorded = if options.resume {
         job.resume(path, monitor)

@@ -174,6 +174,29 @@ fn a_page_that_reads_nothing_keeps_nobody_waiting() {
     assert_eq!(watched.times.len(), 30_001);
 }
 
+/// A box that sinks, and whose resistance takes seconds to compute.
+const SINKING: &str = r#"
+time = { end = 0.3, sample = 0.01 }
+fluid = { viscosity = 1 }
+[[body]]
+name = "box"
+shape = { box = { size = ["6 mm", "5 mm", "4 mm"] } }
+density = 2500
+inclusion = { triangles = 2000 }
+"#;
+
+#[test]
+fn a_run_that_is_superseded_is_given_up_while_it_computes_a_matrix() {
+    let folder = tempfile::tempdir().unwrap();
+    let served = live(&folder, SINKING);
+    let mut page = Page::open(&served);
+    page.wish(&json!({ "type": "restart", "set": ["body.box.inclusion.triangles=100"] }));
+    let mut watched = Watched::default();
+    assert_eq!(page.read(&mut watched, |watched| !watched.done.is_null()), None);
+    // The run before never began.
+    assert_eq!((&watched.header["run"], watched.times.len()), (&json!(1), 31));
+}
+
 #[test]
 fn other_pages_cannot_open_the_websocket() {
     let folder = tempfile::tempdir().unwrap();

@@ -31,7 +31,12 @@ pub(super) struct Subject {
 pub(super) fn run(shared: &LiveState, subject: &Subject) {
     loop {
         let overrides = shared.next();
-        if let Err(problem) = run_once(shared, subject, &overrides) {
+        let interruption = shared.interruption();
+        let ran = interruption.within(|| run_once(shared, subject, &overrides));
+        // What was given up for another run is nobody's problem.
+        if let Err(problem) = ran
+            && interruption.is_due().is_none()
+        {
             shared.store().problem(problem);
         }
         shared.announce();

@@ -1,7 +1,9 @@
 //! What the thread of a live run and its pages share: the store, and what the pages want of the thread.
 
 use super::store::Store;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use gyration_threads::Interruption;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// What thread and pages share.
 pub(crate) struct LiveState {
@@ -9,6 +11,8 @@ pub(crate) struct LiveState {
     control: Mutex<PageRequests>,
     /// Rung when `control` changes.
     told: Condvar,
+    /// Raised while another run is wanted than the one under way.
+    superseded: Arc<AtomicBool>,
     /// Changes whenever there is something new to take.
     pub(crate) news: tokio::sync::watch::Sender<u64>,
 }
@@ -30,6 +34,7 @@ impl LiveState {
             store: Mutex::new(Store::default()),
             control: Mutex::new(PageRequests { wanted: Some(overrides), ..PageRequests::default() }),
             told: Condvar::new(),
+            superseded: Arc::default(),
             news: tokio::sync::watch::Sender::new(0),
         }
     }
@@ -44,7 +49,13 @@ impl LiveState {
         self.tell(|control| {
             control.wanted = Some(overrides);
             control.paused = false;
+            self.superseded.store(true, Ordering::Relaxed);
         });
+    }
+
+    /// Gives up what a run computes for long, once another is wanted.
+    pub(super) fn interruption(&self) -> Interruption {
+        Interruption::in_force().raised_by(self.superseded.clone())
     }
 
     /// Halts the run, or lets it go on.
@@ -80,6 +91,7 @@ impl LiveState {
             if control.watched
                 && let Some(overrides) = control.wanted.take()
             {
+                self.superseded.store(false, Ordering::Relaxed);
                 return overrides;
             }
             control = self.told.wait(control).unwrap_or_else(PoisonError::into_inner);
