@@ -13,7 +13,9 @@ use gyration::support::{Support, SupportMotion};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::modes::{Mode, ModeBehaviour, NoRest, Rest, modes, rest};
+use gyration_threads::Interruption;
 use std::sync::Arc;
+use std::time::Duration;
 
 const GRAVITY: f64 = 9.81;
 
@@ -363,6 +365,17 @@ fn spring_pendulum_bounces_and_swings() {
     assert_close("bounce", bounce.eigenvalues[0].norm(), (stiffness / mass).sqrt(), 1e-12);
     assert_close("decay", bounce.decay_rates()[0], 2.0 / (2.0 * mass), 1e-11);
     assert_close("swing", named(&found, "translation along x").frequency(), (GRAVITY / length).sqrt(), 1e-12);
+}
+
+#[test]
+fn a_search_that_nobody_waits_for_is_given_up() {
+    let mut body = bare(ball(), 1000.0);
+    body.springs =
+        vec![Spring { point: Vec3::zeros(), anchor: Vec3::z(), stiffness: 400.0, rest_length: 0.5, damping: 2.0 }];
+    let (model, start) = model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8));
+    let at_once = Interruption::default().after(Some(Duration::ZERO));
+    assert_eq!(at_once.within(|| rest(&model, &start, 0)), Err(NoRest::Interrupted));
+    assert!(rest(&model, &start, 0).is_ok());
 }
 
 #[test]

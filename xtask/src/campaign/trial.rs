@@ -59,7 +59,7 @@ impl Trial<'_> {
     /// Puts a scene on trial; what is wrong otherwise.
     pub fn judge(&mut self, scene: &RandomScene) -> Result<Verdict, String> {
         self.write(scene).map_err(|error| format!("cannot write the scene: {error}"))?;
-        let checked = self.said(&["check", "scene.toml"], 1)?;
+        let checked = self.said(&["check", "scene.toml", "--set", &self.wall_time()], 1)?;
         if checked.stdout.contains("NaN") {
             return Err("check prints NaN".into());
         }

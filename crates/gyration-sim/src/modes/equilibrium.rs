@@ -15,6 +15,7 @@ use super::shape::ModeShape;
 use super::{NoRest, Rest};
 use gyration::body::BodyKind;
 use gyration::tensor::{Mat3, Vec3};
+use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps at most. A fall over a thousand sizes takes some forty, a box on its corner that finds a face a hundred.
@@ -43,7 +44,7 @@ pub(super) fn find(frozen: &mut FrozenBody) -> Result<Rest, NoRest> {
     is_supported(frozen)?;
     let mut search = Search { block: frozen.start.clone(), reach: 0.5 * frozen.body().size, last: f64::INFINITY };
     for steps in 0..MOST {
-        if frozen.evaluations() > MOST_EVALUATIONS {
+        if frozen.evaluations() > MOST_EVALUATIONS || Interruption::due().is_some() {
             return Err(not_found(frozen, &search.block, steps)?);
         }
         let ended = search.step(frozen)?;
@@ -205,7 +206,7 @@ impl Search {
         let Balance { coordinates, force, gaps, .. } = balance;
         let volume = frozen.motion(&self.block).placement.gradient.determinant();
         let mut part = 1.0;
-        for _ in 0..HALVINGS {
+        for _ in (0..HALVINGS).take_while(|_| Interruption::due().is_none()) {
             let mut block = self.block.clone();
             coordinates.advance(&mut block, &(part * way));
             frozen.project(&mut block);

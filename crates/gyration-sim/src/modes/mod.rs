@@ -28,6 +28,7 @@ use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
+use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField};
 
 /// Where a body rests.
@@ -95,6 +96,9 @@ pub enum NoRest {
         /// The largest acceleration left, in numbers of the state.
         acceleration: f64,
     },
+    /// The search was given up.
+    #[error("the search for it was given up: it takes longer than solver.max_wall_time")]
+    Interrupted,
     /// The start is outside the model.
     #[error("the start is outside the model: {0}")]
     Start(#[from] Inadmissible),
@@ -163,7 +167,10 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
         return Err(NoRest::WithoutInertia);
     }
     let mut frozen = FrozenBody::new(model, start, body);
-    equilibrium::find(&mut frozen)
+    match equilibrium::find(&mut frozen) {
+        Err(_) if Interruption::due().is_some() => Err(NoRest::Interrupted),
+        found => found,
+    }
 }
 
 /// The small motions about a rest state, by frequency: those that grow first, then free, creeping, oscillating ones.

@@ -10,6 +10,7 @@ use gyration::body::Body;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_scene::{Scene, SceneErrors};
+use gyration_threads::Interruption;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -98,11 +99,15 @@ fn rest_state(model: &Model, start: &State, index: usize) -> (Option<RestState>,
 
 impl Survey {
     /// The survey of a scene in its first state. Only the rest state of a body that deforms takes its resistance in the
-    /// fluid.
+    /// fluid. What takes longer than a run may is given up.
     ///
     /// # Errors
     /// Why a surface has no resistance.
     pub fn of(scene: &Scene) -> Result<Self, SceneErrors> {
+        Interruption::in_force().after(scene.built().plan.wall_time()).within(|| Self::whole(scene))
+    }
+
+    fn whole(scene: &Scene) -> Result<Self, SceneErrors> {
         let deforms = scene.unknown_forms().iter().any(|form| form.resolution.is_some());
         let scene = if deforms { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
