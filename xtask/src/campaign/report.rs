@@ -64,7 +64,9 @@ impl Report {
         let report = Json::parse(&said.stdout).ok_or("no JSON")?;
         let told = |key: &str| report.get("ledger").and_then(|ledger| ledger.get(key)).and_then(number);
         let largest = table.largest_residual();
-        if told("largest_residual").is_none_or(|told| told != largest) {
+        // A run that is given up within a step knows samples that have not come to the disk.
+        let agrees = |told: f64| told == largest || (told > largest && !self.is_final());
+        if !told("largest_residual").is_some_and(agrees) {
             return Err(format!("the rows have a residual of {largest:e} J, --json another"));
         }
         if told("energy_in_play").is_none_or(|told| told < table.in_play() * (1.0 - 1e-12)) {
