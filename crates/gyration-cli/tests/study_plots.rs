@@ -66,7 +66,7 @@ fn the_file_says_what_is_drawn_also_after_the_runs() {
     // A slip is found before anything runs, and before anything is drawn.
     for (plot, words) in [
         ("y = \"tip\"", "a column `tip`, which it will not have"),
-        ("kolor = 3", "unknown field"),
+        ("kolor = 3", "has no key `kolor`"),
         ("logarithmic = [\"z\"]", "a logarithmic axis `z`"),
     ] {
         sandbox.write("slip.toml", &STUDY.replace("y = \"top\"", plot));
