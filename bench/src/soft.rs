@@ -75,9 +75,9 @@ pub fn contracting_cube(material: Material) -> (Model, State) {
             Wave { amplitude: Mat3::new(3.0, 0.5, 0.0, 0.0, -1.0, 0.0, 0.3, 0.0, 2.0), frequency: 2.0, phase: 0.3 };
         let source = ContractionSource::Driven { drive: Signal::Sine(wave), feedback: Vec::new() };
         let contraction = Contraction { viscosity: 0.8, kept_volume: None, spin: Spin::Full, source };
-        Body { kind: BodyKind::Contractile(Box::new(Contractile::new(affine, contraction))), ..body }
+        Body { kind: BodyKind::Contractile(Box::new(Contractile::new(affine, contraction))), ..(*body).clone() }
     });
-    let model = Model::new(gravity, supports, bodies.collect());
+    let model = Model::new(gravity, supports, bodies);
     let contraction = Mat3::new(1.1, 0.05, 0.0, 0.0, 0.9, 0.1, -0.05, 0.0, 1.0);
     let contraction = contraction / contraction.determinant().cbrt();
     let mut state = State { works: vec![0.0; model.works().len()], ..state };

@@ -90,9 +90,9 @@ impl FacetBody {
             let interior = AffineBody::new(&body.solid.mass, None, Some(material.clone()), Viscosity::default());
             let affine = Affine::from(interior.unwrap_or_else(|error| panic!("{error}")));
             let contacts = vec![Contact::with_support(0, LawSet::new(measure, self.laws.clone()))];
-            Body { kind: BodyKind::Affine(Box::new(affine)), contacts, ..body }
+            Body { kind: BodyKind::Affine(Box::new(affine)), contacts, ..(*body).clone() }
         });
-        let model = Model::new(model.gravity, model.supports, bodies.collect());
+        let model = Model::new(model.gravity, model.supports, bodies);
         let start = State::start(&model, &[Start::Affine(motion.placement, motion.velocity)]);
         Experiment::of_model(model, start, tolerance)
     }

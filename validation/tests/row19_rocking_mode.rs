@@ -68,6 +68,7 @@ impl Case {
         let body = &mut experiment.model.bodies[0];
         let down = Vec3::new(0.0, 0.0, -0.5 * self.height);
         let squares = Vec3::new(BASE * BASE, BASE * BASE, self.height * self.height);
+        let body = Arc::make_mut(body);
         let solid = Arc::make_mut(&mut body.solid);
         solid.surface = solid.surface.as_ref().map(|facet| facet.translated(&down));
         solid.mass.euler_tensor = Mat3::from_diagonal(&(squares * (MASS / 12.0)));

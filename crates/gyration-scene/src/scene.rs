@@ -11,6 +11,7 @@ use gyration::body::Body;
 use gyration::fluid::Form;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A scene without errors, with its text, its resolved form and its model.
 #[derive(Debug, Clone)]
@@ -92,11 +93,13 @@ impl Scene {
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
         for asked in forms {
             let body = &mut self.built.model.bodies[asked.body];
-            let found = form(body, &asked);
-            match (found, &mut body.inclusion) {
-                (Ok(found), Some(inclusion)) => inclusion.form = found,
-                (Ok(_), None) => {}
-                (Err(error), _) => {
+            match form(body, &asked) {
+                Ok(found) => {
+                    if let Some(inclusion) = &mut Arc::make_mut(body).inclusion {
+                        inclusion.form = found;
+                    }
+                }
+                Err(error) => {
                     let key = Key::root().key("body").index(asked.body).key("shape");
                     match error {
                         NoForm::Surface(problem) => diagnostics.at(key.span(&document.root), &key, problem, FIX),

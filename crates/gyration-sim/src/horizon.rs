@@ -14,7 +14,6 @@
 
 use crate::step_end::StepEnd;
 use gyration::contact::RelativeMotion;
-use gyration::fluid::Fluid;
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::support::{Support, SupportMotion};
@@ -75,7 +74,7 @@ pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64],
 /// What drives bodies, and the flow around them.
 fn signals(model: &Model) -> impl Iterator<Item = &Signal> {
     let drives = model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
-    drives.chain(model.fluid.iter().flat_map(Fluid::signals))
+    drives.chain(model.fluid.iter().flat_map(|fluid| fluid.signals()))
 }
 
 /// The first time after this one at which a couple, a drive or the flow has a kink [s].

@@ -53,7 +53,7 @@ impl StepEnd {
         let body = &model.bodies[index];
         let alone = |load: Load| if load.pulls() { Err(()) } else { Ok(()) };
         let alone =
-            Load::try_each(body, model.fluid.as_ref(), model.applied(index), alone).is_ok() && body.pin.is_none();
+            Load::try_each(body, model.fluid.as_deref(), model.applied(index), alone).is_ok() && body.pin.is_none();
         alone.then(|| body.solid.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }

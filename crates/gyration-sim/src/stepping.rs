@@ -27,6 +27,7 @@ use gyration::tensor::Mat3;
 use gyration_ode::Statistics;
 use gyration_record::RecordError;
 use gyration_scene::Built;
+use std::sync::Arc;
 
 /// A run that its caller steps.
 pub struct SteppedRun {
@@ -199,7 +200,7 @@ impl SteppedRun {
         if !value.iter().all(|number| number.is_finite()) {
             return Err(Refusal::NotFinite { body: name });
         }
-        let BodyKind::Contractile(contractile) = &mut self.model.bodies[body].kind else {
+        let BodyKind::Contractile(contractile) = &mut Arc::make_mut(&mut self.model.bodies[body]).kind else {
             return Err(Refusal::NoDrive { body: name });
         };
         let ContractionSource::Driven { drive, .. } = &mut contractile.contraction.source else {

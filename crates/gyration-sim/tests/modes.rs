@@ -222,7 +222,7 @@ fn flat_box_on_the_field_of_its_bottom_rocks_as_in_the_closed_form() {
     // ω² = mg(νL²/(12d) − h/2)/I, bottom face only: row 19.
     let (side, height, mass) = (0.1, 0.2, 2.0);
     let (model, state) = standing(0.2, None);
-    let mut body = model.bodies[0].clone();
+    let mut body = (*model.bodies[0]).clone();
     let half = 0.5 * side;
     let corners = [(-half, -half), (-half, half), (half, half), (half, -half)];
     let corners = corners.map(|(x, y)| Vec3::new(x, y, -0.5 * height));
@@ -391,7 +391,7 @@ fn what_has_no_rest_state_is_said_in_words() {
     assert!((acceleration - 0.6 * GRAVITY).abs() < 1e-14 && (along - Vec3::new(0.8, 0.0, -0.6)).norm() < 1e-14);
     // Without a material its own weight flattens a body that a field carries.
     let (model, state) = resting_ball(Vec3::z(), 0.0, true);
-    let mut body = model.bodies[0].clone();
+    let mut body = (*model.bodies[0]).clone();
     if let BodyKind::Affine(affine) = &mut body.kind {
         affine.interior.material = None;
     }
@@ -406,7 +406,7 @@ fn supports_that_move_are_held_where_they_are_at_the_start() {
     let (model, state) = standing(0.2, None);
     let mut moving = model.clone();
     let (direction, frequency) = (Vec3::z(), 50.0);
-    moving.supports[0].motion =
+    Arc::make_mut(&mut moving.supports)[0].motion =
         SupportMotion::Oscillation { direction, amplitude: 0.01, frequency, phase: 0.5 * std::f64::consts::PI };
     let (still, raised) = (rest(&model, &state, 0).unwrap(), rest(&moving, &state, 0).unwrap());
     assert!((raised.placement.position.z - still.placement.position.z - 0.01).abs() < 1e-13);

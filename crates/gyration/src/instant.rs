@@ -204,7 +204,7 @@ impl<'a> BodyAt<'a> {
     /// Hands what acts on it to `each`.
     #[inline]
     pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
-        Load::try_each(self.body, self.model.fluid.as_ref(), self.model.applied(self.index), each)
+        Load::try_each(self.body, self.model.fluid.as_deref(), self.model.applied(self.index), each)
     }
 
     /// A state outside the model.

@@ -12,6 +12,7 @@ use crate::support::Support;
 use crate::tensor::Vec3;
 use std::convert::Infallible;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What moves, what it meets, and what pulls at it.
 #[derive(Debug, Clone)]
@@ -19,11 +20,11 @@ pub struct Model {
     /// g, the acceleration of gravity [m/s²].
     pub gravity: Vec3,
     /// The planes.
-    pub supports: Vec<Support>,
-    /// The bodies.
-    pub bodies: Vec<Body>,
+    pub supports: Arc<[Support]>,
+    /// The bodies, which the [parts](Self::part) of a model share with it.
+    pub bodies: Vec<Arc<Body>>,
     /// The fluid around them; those that are no inclusions do not feel it.
-    pub fluid: Option<Fluid>,
+    pub fluid: Option<Arc<Fluid>>,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -34,7 +35,13 @@ pub struct Model {
 
 impl Model {
     /// Freezes a model: lays out the state and decides which entries the ledger has.
-    pub fn new(gravity: Vec3, supports: Vec<Support>, bodies: Vec<Body>) -> Self {
+    pub fn new(
+        gravity: Vec3,
+        supports: impl Into<Arc<[Support]>>,
+        bodies: impl IntoIterator<Item: Into<Arc<Body>>>,
+    ) -> Self {
+        let supports = supports.into();
+        let bodies: Vec<Arc<Body>> = bodies.into_iter().map(Into::into).collect();
         let slots = layout(&bodies);
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
@@ -44,8 +51,8 @@ impl Model {
 
     /// The model in a fluid.
     #[must_use]
-    pub fn in_fluid(mut self, fluid: Fluid) -> Self {
-        self.fluid = Some(fluid);
+    pub fn in_fluid(mut self, fluid: impl Into<Arc<Fluid>>) -> Self {
+        self.fluid = Some(fluid.into());
         self.with_ledger()
     }
 
@@ -54,6 +61,27 @@ impl Model {
     pub fn under_control(mut self) -> Self {
         self.applied = vec![Applied::default(); self.bodies.len()];
         self.with_ledger()
+    }
+
+    /// The model of some of its bodies, in the order of `members`: as if there were no others, but with the ledger of
+    /// all, as far as it concerns them.
+    #[must_use]
+    pub fn part(&self, members: &[usize]) -> Self {
+        let bodies: Vec<Arc<Body>> = members.iter().map(|body| self.bodies[*body].clone()).collect();
+        let slots = layout(&bodies);
+        let mut part = Self {
+            gravity: self.gravity,
+            supports: self.supports.clone(),
+            blocks: slots.iter().map(Slots::block).collect(),
+            slots,
+            bodies,
+            fluid: self.fluid.clone(),
+            works: Vec::new(),
+            energies: Vec::new(),
+            applied: members.iter().filter_map(|body| self.applied.get(*body)).copied().collect(),
+        };
+        part.enter_ledger(has_potential(&self.bodies));
+        part
     }
 
     /// Whether loads may be applied to its bodies.
@@ -105,15 +133,20 @@ impl Model {
     /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as
     /// works.
     fn with_ledger(mut self) -> Self {
+        self.enter_ledger(has_potential(&self.bodies));
+        self
+    }
+
+    /// The same, given whether repulsion and adhesion are an energy.
+    fn enter_ledger(&mut self, potential: bool) {
         let mut loads: Vec<Load> = Vec::new();
         for (index, body) in self.bodies.iter().enumerate() {
-            let listed = Load::try_each(body, self.fluid.as_ref(), self.applied.get(index), |load| {
+            let listed = Load::try_each(body, self.fluid.as_deref(), self.applied.get(index), |load| {
                 loads.push(load);
                 Ok::<(), Infallible>(())
             });
             let Ok(()) = listed;
         }
-        let potential = has_potential(&self.bodies);
         let works = loads.iter().flat_map(|load| load.works(&self.supports));
         let works = works.filter(|work| !(potential && matches!(work, Work::Repulsion | Work::Adhesion)));
         let works: Vec<Work> = works.chain(self.bodies.iter().flat_map(|body| body.kind.works())).collect();
@@ -123,11 +156,10 @@ impl Model {
             [Energy::Kinetic, Energy::Gravity].into_iter().chain(energies).chain(elastic).collect();
         self.works = Work::ALL.into_iter().filter(|work| works.contains(work)).collect();
         self.energies = Energy::ALL.into_iter().filter(|energy| energies.contains(energy)).collect();
-        self
     }
 }
 
-fn layout(bodies: &[Body]) -> Vec<Slots> {
+fn layout(bodies: &[Arc<Body>]) -> Vec<Slots> {
     let mut start = 0;
     let slots = bodies.iter().map(|body| {
         let slots = Slots::of(body, start);
@@ -138,7 +170,7 @@ fn layout(bodies: &[Body]) -> Vec<Slots> {
 }
 
 /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
-fn has_potential(bodies: &[Body]) -> bool {
+fn has_potential(bodies: &[Arc<Body>]) -> bool {
     let deforming = bodies.iter().filter(|body| body.affine().is_some());
     let mut contacts = deforming.flat_map(|body| &body.contacts);
     contacts.all(|contact| {

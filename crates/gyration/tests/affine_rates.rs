@@ -14,6 +14,7 @@ use gyration::shape::{Cuboid, Shape};
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3};
 use proptest::prelude::*;
+use std::sync::Arc;
 
 const MEASURES: [AreaMeasure; 3] =
     [AreaMeasure::DeformedArea, AreaMeasure::ReferenceArea, AreaMeasure::DeformedAreaPotential];
@@ -30,7 +31,7 @@ fn model(exponents: [f64; 4], measure: AreaMeasure) -> Model {
     let [cuboid, round @ ..] = shapes();
     let boxes = boxes.map(|variant| body(cuboid.clone(), exponents, variant));
     let others = round.map(|shape| body(shape, exponents, Variant { incompressible: true, ..free }));
-    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), boxes.into_iter().chain(others).collect())
+    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), boxes.into_iter().chain(others))
 }
 
 /// A state above both supports for any 24 numbers in [−1, 1]; incompressible bodies on their constraint.
@@ -40,7 +41,7 @@ fn state(model: &Model, numbers: &[f64]) -> State {
     let rotation = *nalgebra::Rotation3::new(Vec3::new(numbers[3], numbers[7], numbers[11])).matrix();
     let (gradient, rate) = (rotation * (Mat3::identity() + 0.15 * strain), Mat3::from_column_slice(&numbers[15..24]));
     let velocity = Vec3::new(numbers[12], numbers[13], numbers[14]);
-    let start = |body: &Body| {
+    let start = |body: &Arc<Body>| {
         let corrected = body.affine().unwrap().interior.project(&gradient, &rate);
         Start::Affine(
             Placement { position, gradient: corrected.gradient },

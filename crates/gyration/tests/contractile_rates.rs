@@ -15,6 +15,7 @@ use gyration::state::{Start, State};
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 /// A tensor without any symmetry.
 fn tensor(seed: f64) -> Mat3 {
@@ -68,7 +69,7 @@ fn model(exponents: [f64; 4], incompressible: bool, viscous: bool) -> Model {
             Body { kind: contractile(affine, contraction), ..body }
         })
     });
-    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies.collect())
+    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies)
 }
 
 fn contractile(affine: Affine, contraction: Contraction) -> BodyKind {
@@ -83,7 +84,7 @@ fn state(model: &Model, numbers: &[f64]) -> State {
     let gradient = rotation * (Mat3::identity() + 0.15 * Mat3::from_column_slice(&numbers[3..12]));
     let gradient_rate = Mat3::from_column_slice(&numbers[15..24]);
     let contraction = Mat3::identity() + 0.15 * Mat3::from_column_slice(&numbers[24..33]);
-    let start = |body: &Body| {
+    let start = |body: &Arc<Body>| {
         let (affine, how) = (body.affine().unwrap(), body.contraction().unwrap());
         let restored = how.restore(&affine.interior, time, (&gradient, &gradient_rate, &contraction));
         Start::Contractile(
@@ -131,8 +132,8 @@ proptest! {
         // Without contacts, whose steep powers would hide errors of what is inside the body.
         for (incompressible, viscous) in [(false, false), (false, true), (true, false), (true, true)] {
             let Model { bodies, gravity, supports, .. } = model([3.0; 4], incompressible, viscous);
-            let alone = |body: Body| Body { contacts: Vec::new(), springs: Vec::new(), ..body };
-            let model = Model::new(gravity, supports, bodies.into_iter().map(alone).collect());
+            let alone = |body: Arc<Body>| Body { contacts: Vec::new(), springs: Vec::new(), ..(*body).clone() };
+            let model = Model::new(gravity, supports, bodies.into_iter().map(alone));
             assert_jacobian_is_the_derivative(&model, &state(&model, &numbers));
         }
     }
@@ -140,8 +141,8 @@ proptest! {
     #[test]
     fn jacobian_owes_nothing_to_what_the_block_held_before(numbers in numbers(33)) {
         let Model { bodies, gravity, supports, .. } = model([3.0; 4], true, true);
-        let alone = |body: Body| Body { contacts: Vec::new(), springs: Vec::new(), ..body };
-        let model = Model::new(gravity, supports, bodies.into_iter().map(alone).collect());
+        let alone = |body: Arc<Body>| Body { contacts: Vec::new(), springs: Vec::new(), ..(*body).clone() };
+        let model = Model::new(gravity, supports, bodies.into_iter().map(alone));
         let blocks = || -> Vec<_> { model.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect() };
         let fill = |state: &State, blocks: &mut [DMatrix<f64>]| {
             jacobian(&model, &mut Workspace::default(), state.time, state.numbers(), blocks).unwrap();

@@ -29,7 +29,7 @@ fn body(shape: Shape, exponents: [f64; 4], pinned: bool) -> Body {
 fn model(exponents: [f64; 4]) -> Model {
     let bodies =
         shapes().into_iter().flat_map(|shape| [false, true].map(|pinned| body(shape.clone(), exponents, pinned)));
-    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies.collect())
+    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies)
 }
 
 /// A state above both supports for any ten numbers in [−1, 1].

@@ -144,7 +144,7 @@ pub(crate) fn assemble(
     }
     let plan = Plan::new(partial.time.as_ref()?, &partial.solver);
     let (bodies, starts): (Vec<_>, Vec<Start>) = assembled.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
-    let mut model = Model::new(si(&partial.world.gravity), supports.into_iter().collect::<Option<_>>()?, bodies);
+    let mut model = Model::new(si(&partial.world.gravity), supports.into_iter().collect::<Option<Vec<_>>>()?, bodies);
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }

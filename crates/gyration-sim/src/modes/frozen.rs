@@ -30,12 +30,12 @@ pub(super) struct FrozenBody {
 
 impl FrozenBody {
     pub fn new(model: &Model, start: &State, index: usize) -> Self {
-        let mut supports = model.supports.clone();
+        let mut supports = model.supports.to_vec();
         for support in &mut supports {
             support.origin += support.motion.displacement(start.time);
             support.motion = SupportMotion::Fixed;
         }
-        let mut body = model.bodies[index].clone();
+        let mut body = (*model.bodies[index]).clone();
         let slots = model.slots(index);
         let mut still = start.bodies.clone();
         still[slots.velocities()].fill(0.0);
@@ -50,7 +50,7 @@ impl FrozenBody {
         let mut frozen = Model::new(model.gravity, supports, vec![body]);
         if let Some(fluid) = &model.fluid {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
-            frozen = frozen.in_fluid(Fluid { velocity, gradient, ..*fluid });
+            frozen = frozen.in_fluid(Fluid { velocity, gradient, ..(**fluid).clone() });
         }
         let model = frozen;
         Self { model, workspace: Workspace::default(), time: start.time, index, start: block, evaluations: 0 }

@@ -26,9 +26,9 @@ pub(crate) struct Surfaces<'a> {
 }
 
 impl<'a> Surfaces<'a> {
-    pub(crate) fn of(bodies: &'a [Body]) -> Self {
+    pub(crate) fn of(bodies: &'a [Arc<Body>]) -> Self {
         let mut distinct: Vec<&Body> = Vec::new();
-        let one = |body: &'a Body| {
+        let one = |body: &'a Arc<Body>| {
             let solid = &body.solid;
             solid.shape.sharpest_feature()?;
             let alike = |other: &&Body| {

@@ -25,6 +25,7 @@ use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_record::Recording;
 use nalgebra::{Rotation3, UnitQuaternion};
+use std::sync::Arc;
 use window::{Window, WindowRow};
 
 /// The model of a recording, and its states by their row.
@@ -83,7 +84,7 @@ impl Replay {
         let Self { model, workspace, .. } = self;
         let outside = |source| ReplayError::Inadmissible { row, source };
         let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
-        let mut stress = |(index, body): (usize, &Body)| {
+        let mut stress = |(index, body): (usize, &Arc<Body>)| {
             if body.affine().is_none() {
                 return Ok(None);
             }

@@ -19,6 +19,7 @@ use gyration_scene::{Scene, TRIANGLES};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 pub use gyration::fluid::unsteady::vibration::Vibration;
 
@@ -117,15 +118,15 @@ impl Resistances {
     pub fn of(scene: &Scene, only: Option<&str>, options: &ResistanceOptions) -> Result<Self, NoSuchResistance> {
         options.check()?;
         let model = &scene.built().model;
-        let named = |(_, body): &(usize, &Body)| only.is_none_or(|name| body.name == name);
-        let bodies: Vec<(usize, &Body)> = model.bodies.iter().enumerate().filter(named).collect();
+        let named = |(_, body): &(usize, &Arc<Body>)| only.is_none_or(|name| body.name == name);
+        let bodies: Vec<(usize, &Arc<Body>)> = model.bodies.iter().enumerate().filter(named).collect();
         if bodies.is_empty() {
             let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
             let fix = format!("write one of {}, or the scene alone", names.join(", "));
             return Err(NoSuchResistance::new(format!("the scene has no body {:?}", only.unwrap_or_default()), fix));
         }
         let request = ResistanceRequest::of(scene, options)?;
-        let of = |(index, body): (usize, &Body)| {
+        let of = |(index, body): (usize, &Arc<Body>)| {
             let response = match options.frequency {
                 Some(frequency) => FluidResponse::Vibrating(frequency, request.vibration(body, frequency)?),
                 None => FluidResponse::Steady(Box::new(request.matrix(scene, index)?)),
@@ -211,8 +212,8 @@ impl ResistanceRequest {
             wall.ok_or_else(|| NoSuchResistance::new(format!("the scene has no support {name:?} for a wall"), fix))
         });
         Ok(Self {
-            viscosity: model.fluid.as_ref().map_or(1.0, |fluid| fluid.viscosity),
-            density: model.fluid.as_ref().map_or(0.0, |fluid| fluid.density),
+            viscosity: model.fluid.as_deref().map_or(1.0, |fluid| fluid.viscosity),
+            density: model.fluid.as_deref().map_or(0.0, |fluid| fluid.density),
             triangles: options.triangles.map_or(TRIANGLES, |count| count as usize),
             by_elements: options.elements || options.triangles.is_some() || wall.is_some(),
             wall: wall.transpose()?,

@@ -83,7 +83,7 @@ fn form(body: &Body, asked: &UnknownForm) -> Result<Form, NoResistance> {
 /// # Errors
 /// The first body whose resistance is not known.
 pub(crate) fn check_resistances(model: &Model) -> Result<(), Inadmissible> {
-    let is_unknown = |body: &Body| match body.inclusion.as_ref().map(|inclusion| &inclusion.form) {
+    let is_unknown = |body: &Arc<Body>| match body.inclusion.as_ref().map(|inclusion| &inclusion.form) {
         Some(Form::Fixed(form)) => form.error.is_nan(),
         _ => false,
     };

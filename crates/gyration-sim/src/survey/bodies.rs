@@ -14,6 +14,7 @@ use gyration_threads::Interruption;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// What can be said of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -77,7 +78,7 @@ pub struct BodyModes {
 /// The modes of every body of a scene.
 pub fn modes(scene: &Scene) -> Vec<BodyModes> {
     let (model, start) = (&scene.built().model, &scene.built().state);
-    let of = |(index, body): (usize, &Body)| {
+    let of = |(index, body): (usize, &Arc<Body>)| {
         let (rest_state, no_rest_state_because) = rest_state(model, start, index);
         BodyModes { name: body.name.clone(), kind: KindSurvey::of(body), rest_state, no_rest_state_because }
     };

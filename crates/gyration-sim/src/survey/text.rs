@@ -34,7 +34,7 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let _ = writeln!(text, "           ends early if slower than {} m/s for {} s", rest.speed, rest.hold);
     }
     let _ = writeln!(text, "solver     rtol {:e}, atol {:e}", plan.rtol, plan.atol);
-    for support in &built.model.supports {
+    for support in built.model.supports.iter() {
         let (origin, normal) = (vector(&support.origin.into()), vector(&support.normal.into()));
         let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
     }

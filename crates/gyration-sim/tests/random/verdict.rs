@@ -139,7 +139,7 @@ fn barrier(model: &Model, state: &State) -> f64 {
                 model.gravity,
                 vec![model.supports[contact.support()].clone()],
                 vec![{
-                    let mut alone = body.clone();
+                    let mut alone = (**body).clone();
                     alone.contacts = vec![contact.clone()];
                     alone.contacts[0].partner = gyration::contact::Partner::Support(0);
                     alone

@@ -26,7 +26,7 @@ impl<'a> RigidHistory<'a> {
     /// None if the fluid forgets how the body moved.
     pub fn of(at: &'a BodyAt<'a>, turn: &'a Turn) -> Option<Self> {
         let BodyAt { model, time, body, motion, extra, .. } = *at;
-        let fluid = model.fluid.as_ref()?;
+        let fluid = model.fluid.as_deref()?;
         let history = body.history()?;
         let flow = fluid.flow(time);
         let spin = motion.placement.gradient * turn.spin;

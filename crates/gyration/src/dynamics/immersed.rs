@@ -14,7 +14,7 @@ use crate::tensor::{Mat3, Vec3, cross_matrix};
 pub(crate) fn immersion<'a>(at: &BodyAt<'a>) -> Result<Option<Immersed<'a>>, Inadmissible> {
     let (Some(fluid), Some(inclusion)) = (&at.model.fluid, &at.body.inclusion) else { return Ok(None) };
     let Some(gyration) = at.gyration() else { return Ok(None) };
-    let around = (fluid, &fluid.flow(at.time), &at.model.gravity);
+    let around = (&**fluid, &fluid.flow(at.time), &at.model.gravity);
     let unresolved = |UnresolvedForm { quantity, value }| at.outside(quantity, value);
     Immersed::of(inclusion, around, (&at.motion.placement, &at.motion.velocity), gyration).map_err(unresolved)
 }
@@ -36,7 +36,7 @@ impl<'a> RigidImmersion<'a> {
     /// None if the body is not immersed.
     pub fn of(at: &BodyAt<'a>) -> Option<Self> {
         let BodyAt { model, body, motion, .. } = at;
-        let (fluid, inclusion) = (model.fluid.as_ref()?, body.inclusion.as_ref()?);
+        let (fluid, inclusion) = (model.fluid.as_deref()?, body.inclusion.as_ref()?);
         let (Form::Fixed(form), KindAt::Rigid(_, turn)) = (&inclusion.form, at.kind()) else { return None };
         let flow = fluid.flow(at.time);
         let drag = form.drag((fluid, &flow), (&motion.placement, &motion.velocity), &turn.spin);

@@ -45,7 +45,7 @@ pub fn of_any_form(mut model: Model) -> Model {
     };
     for body in &mut model.bodies {
         let form = surface();
-        if let Some(Inclusion { form: before @ Form::Ellipsoid(_), .. }) = &mut body.inclusion {
+        if let Some(Inclusion { form: before @ Form::Ellipsoid(_), .. }) = &mut Arc::make_mut(body).inclusion {
             *before = form;
         }
     }

@@ -21,6 +21,7 @@ use gyration::support::{Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 pub fn laws(exponents: [f64; 4]) -> Vec<ContactLaw> {
     let [repulsion, damping, friction, adhesion] = exponents;
@@ -126,8 +127,8 @@ fn inclusion(body: &Body, inertia: bool) -> Inclusion {
 /// The same bodies immersed in a fluid, with inertia or without.
 pub fn immersed(model: Model, inertia: bool) -> Model {
     let Model { gravity, supports, bodies, .. } = model;
-    let immerse = |body: Body| Body { inclusion: Some(inclusion(&body, inertia)), ..body };
-    Model::new(gravity, supports, bodies.into_iter().map(immerse).collect()).in_fluid(fluid())
+    let immerse = |body: Arc<Body>| Body { inclusion: Some(inclusion(&body, inertia)), ..(*body).clone() };
+    Model::new(gravity, supports, bodies.into_iter().map(immerse)).in_fluid(fluid())
 }
 
 /// Rigid spheres whose motion a fluid remembers, roughly.
@@ -135,7 +136,8 @@ pub fn with_history(model: Model) -> Model {
     let mut model = immersed(model, true);
     model.bodies.retain(|body| body.pin.is_none() && matches!(body.solid.shape, Shape::Sphere(_)));
     for body in &mut model.bodies {
-        if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut body.inclusion, &body.solid.shape) {
+        let own = Arc::make_mut(body);
+        if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut own.inclusion, &own.solid.shape) {
             inclusion.history = Some(History::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
         }
     }
@@ -186,7 +188,7 @@ pub fn exponents() -> impl Strategy<Value = [f64; 4]> {
 
 /// Fails where the Jacobian is not the derivative of the rates.
 pub fn assert_jacobian_is_the_derivative(model: &Model, state: &State) {
-    let dimensions = model.bodies.iter().map(Body::dimension);
+    let dimensions = model.bodies.iter().map(|body| body.dimension());
     let mut blocks: Vec<_> = dimensions.map(|dimension| DMatrix::zeros(dimension, dimension)).collect();
     jacobian(model, &mut Workspace::default(), state.time, state.numbers(), &mut blocks).unwrap();
     for (body, (block, range)) in blocks.iter().zip(model.blocks()).enumerate() {

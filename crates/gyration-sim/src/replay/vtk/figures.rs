@@ -7,6 +7,7 @@ use crate::replay::SurfaceCells;
 use gyration::body::Body;
 use gyration::tensor::Vec3;
 use gyration_record::export::vtk::Topology;
+use std::sync::Arc;
 
 /// Triangles of a body where there are few bodies.
 const TRIANGLES: usize = 1600;
@@ -30,11 +31,11 @@ enum Representation {
 }
 
 impl Figures {
-    pub(super) fn of(bodies: &[Body]) -> Self {
+    pub(super) fn of(bodies: &[Arc<Body>]) -> Self {
         let surfaces = Surfaces::of(bodies);
         let each = (ALL_TRIANGLES / bodies.len().max(1)).clamp(1, TRIANGLES);
         let skins: Vec<SurfaceCells> = surfaces.distinct().iter().map(|body| SurfaceCells::of(body, each)).collect();
-        let figure = |(body, surface): (&Body, &Option<usize>)| match surface {
+        let figure = |(body, surface): (&Arc<Body>, &Option<usize>)| match surface {
             Some(surface) => Representation::Skin(*surface),
             None => Representation::Points(
                 body.solid.shape.outline().points.iter().map(|p| p - body.solid.mass.center).collect(),
