@@ -107,7 +107,7 @@ fn run_of_a_hundred_shears(bencher: Bencher, inertia: bool) {
     let (model, state) = particle_in_shear(inertia);
     let run = || {
         let tolerance = Tolerance { rtol: 1e-8, atol: 1e-10 };
-        let mut system = ModelSystem::new(&model, &state, tolerance).expect("the start is admissible");
+        let mut system = ModelSystem::new(model.clone(), &state, tolerance).expect("the start is admissible");
         let mut integrator = Integrator::new(0.0, &state.bodies, &state.works, Options::default());
         while integrator.time() < 100.0 {
             integrator.step(&mut system, 100.0).expect("nothing is touched");

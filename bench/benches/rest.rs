@@ -40,7 +40,7 @@ fn simulate(bencher: Bencher, text: &str, overrides: &[&str]) {
         let mut simulation = Simulation::new(job.model, job.start, job.plan).expect("the start is admissible");
         simulation.begin(&mut sink).expect("memory");
         assert_eq!(simulation.run(&mut sink, &mut Unwatched).expect("memory"), Outcome::Completed);
-        *simulation.statistics()
+        simulation.statistics()
     };
     println!("{:?}", run());
     bencher.bench_local(run);

@@ -61,11 +61,11 @@ struct Ending {
 
 fn end(die: &Die, start: &State) -> Ending {
     let (simulation, outcome) = run(die, start, &mut MemorySink::default());
-    let (statistics, events) = (*simulation.statistics(), simulation.run_state().events);
+    let (statistics, events) = (simulation.statistics(), simulation.run_state().events);
     Ending { outcome, state: simulation.state(), statistics, events }
 }
 
-fn run<'a>(die: &'a Die, start: &State, sink: &mut MemorySink) -> (Simulation<'a>, Outcome) {
+fn run(die: &Die, start: &State, sink: &mut MemorySink) -> (Simulation, Outcome) {
     let mut simulation = Simulation::new(&die.model, start, die.plan).expect("the start is admissible");
     simulation.begin(sink).expect("memory");
     let outcome = simulation.run(sink, &mut Unwatched).expect("memory");

@@ -33,7 +33,7 @@ fn tolerance(rtol: f64) -> Tolerance {
 
 /// By the steppers alone, works included.
 fn by_integrator(model: &Model, start: &State, method: Method, rtol: f64) -> Reached {
-    let mut system = ModelSystem::new(model, start, tolerance(rtol)).expect("the start is admissible");
+    let mut system = ModelSystem::new(model.clone(), start, tolerance(rtol)).expect("the start is admissible");
     let options = Options { method, ..Options::default() };
     let mut integrator = Integrator::new(0.0, &start.bodies, &start.works, options);
     while integrator.time() < END {
@@ -57,6 +57,7 @@ fn by_simulation(model: &Model, start: &State, method: Method, rtol: f64) -> Rea
         tolerance: tolerance(rtol),
         options,
         extras: Extras::default(),
+        threads: None,
     };
     let mut simulation = Simulation::new(model, start, plan).expect("the start is admissible");
     simulation.begin(&mut Nowhere).expect("nothing is stored");

@@ -95,6 +95,9 @@ pub struct RunArguments {
     /// Replace an existing recording (STEM.gyr without -o)
     #[arg(long)]
     pub force: bool,
+    /// Threads that share the bodies out [default: all processors if there are more than a few bodies]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
     /// Neither progress nor summary; errors are still reported
     #[arg(short, long)]
     pub quiet: bool,

@@ -106,7 +106,19 @@ impl Integrator {
 
     /// The checkpoint of the accepted state; the interpolant of the last step is not in it.
     pub fn memory(&self) -> Memory {
-        encode(&self.progress, &self.current, &self.implicit.stages.collocation)
+        let mut memory = Memory::default();
+        self.remember(&mut memory);
+        memory
+    }
+
+    /// [`Integrator::memory`] in the place of what stands in a memory, whose room is used again.
+    pub fn remember(&self, memory: &mut Memory) {
+        encode(memory, &self.progress, &self.current, &self.implicit.stages.collocation);
+    }
+
+    /// The size that the next step is tried with, before it is cut to the end asked for; 0 before the first.
+    pub fn next_size(&self) -> f64 {
+        self.progress.step
     }
 
     /// The time reached.

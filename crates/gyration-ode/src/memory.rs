@@ -21,7 +21,7 @@ const REALS: usize = 12;
 ///
 /// `integers` begins with the version, the number of components of y and that of w; `reals` begins with the time, then
 /// y, then w, then what they lack.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Memory {
     /// Times, states, steps, errors.
     pub reals: Vec<f64>,
@@ -88,11 +88,14 @@ pub(crate) struct CheckpointVectors {
     pub collocation: Vec<f64>,
 }
 
-/// Writes a checkpoint.
-pub(crate) fn encode(progress: &StepperState, point: &Point, collocation: &[f64]) -> Memory {
+/// Writes a checkpoint, in the place of what stands in the memory.
+pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point, collocation: &[f64]) {
     let Point { t, u, low, rate, .. } = point;
     let StepperState { control, switch, statistics: s, .. } = progress;
-    let integers = vec![
+    let Memory { reals, integers } = memory;
+    reals.clear();
+    integers.clear();
+    integers.extend_from_slice(&[
         VERSION,
         progress.dimension as u64,
         (u.len() - progress.dimension) as u64,
@@ -111,8 +114,8 @@ pub(crate) fn encode(progress: &StepperState, point: &Point, collocation: &[f64]
         s.jacobians,
         s.factorizations,
         s.switches,
-    ];
-    let mut reals = Vec::with_capacity(REALS + 6 * u.len());
+    ]);
+    reals.reserve(REALS + 6 * u.len());
     reals.push(*t);
     reals.extend_from_slice(u);
     reals.extend_from_slice(low);
@@ -131,7 +134,6 @@ pub(crate) fn encode(progress: &StepperState, point: &Point, collocation: &[f64]
         control.refused,
         control.heeded,
     ]);
-    Memory { reals, integers }
 }
 
 /// Reads a checkpoint.

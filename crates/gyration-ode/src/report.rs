@@ -109,6 +109,25 @@ impl Statistics {
     pub fn accepted(&self) -> u64 {
         self.explicit_steps + self.implicit_steps
     }
+
+    /// The counters of two integrations together: sums, and the smallest and the largest step of both.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        let smallest = [self.smallest_step, other.smallest_step].into_iter().filter(|step| *step > 0.0);
+        Self {
+            explicit_steps: self.explicit_steps + other.explicit_steps,
+            implicit_steps: self.implicit_steps + other.implicit_steps,
+            rejected_error: self.rejected_error + other.rejected_error,
+            rejected_domain: self.rejected_domain + other.rejected_domain,
+            newton_failures: self.newton_failures + other.newton_failures,
+            rate_evaluations: self.rate_evaluations + other.rate_evaluations,
+            jacobians: self.jacobians + other.jacobians,
+            factorizations: self.factorizations + other.factorizations,
+            switches: self.switches + other.switches,
+            smallest_step: smallest.min_by(f64::total_cmp).unwrap_or(0.0),
+            largest_step: self.largest_step.max(other.largest_step),
+        }
+    }
 }
 
 /// Why an attempt was rejected.

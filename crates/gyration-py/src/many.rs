@@ -174,12 +174,14 @@ impl RunEnd {
 fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<RunEnd, RunError> {
     let job = Job::of(scene, &gyration_cli::provenance());
     let mut last = Last::default();
-    let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
+    // The other threads have other runs.
+    let plan = RunPlan { threads: None, ..job.plan };
+    let mut simulation = Simulation::new(job.model, job.start, plan)?;
     simulation.begin(&mut last)?;
     let outcome = simulation.run(&mut last, &mut Together(stop))?;
     // What is stopped has no last row of its own.
     simulation.record_last(&mut last)?.ok();
-    let (statistics, run_state) = (*simulation.statistics(), simulation.run_state());
+    let (statistics, run_state) = (simulation.statistics(), simulation.run_state());
     let (kind, why) = match &outcome {
         Outcome::Completed => ("completed".to_owned(), None),
         Outcome::AtRest { .. } => ("at_rest".to_owned(), None),

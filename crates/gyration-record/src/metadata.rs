@@ -18,8 +18,10 @@ use std::path::Path;
 
 /// The version of the format that this crate writes and reads.
 pub(crate) const FORMAT: u64 = 1;
-/// Rows in a chunk of the events.
+/// Rows in a chunk of the events, for each of those whom they may befall.
 const EVENT_CHUNK_ROWS: usize = 256;
+/// Rows in a chunk of the events at most.
+const MOST_EVENT_CHUNK_ROWS: usize = 1 << 16;
 /// The attribute with the checksum of the metadata.
 const CHECKSUM: &str = "record_checksum";
 /// What stands before that checksum in the file, among the attributes and nowhere else: quotes within a text are
@@ -43,8 +45,9 @@ impl Group {
         let mut arrays = vec![ArrayInfo::growing("time", "time", layout.chunk_rows, "s", "time")];
         arrays.extend(layout.arrays.iter().map(|spec| ArrayInfo::of(spec, Some(("time", layout.chunk_rows)))));
         if !layout.event_kinds.is_empty() {
-            let event =
-                |name, units, description| ArrayInfo::growing(name, "event", EVENT_CHUNK_ROWS, units, description);
+            let named = layout.labels.iter().map(|(_, labels)| labels.len()).max().unwrap_or(1).max(1);
+            let rows = EVENT_CHUNK_ROWS.saturating_mul(named.next_power_of_two()).min(MOST_EVENT_CHUNK_ROWS);
+            let event = |name, units, description| ArrayInfo::growing(name, "event", rows, units, description);
             let code = |array| ArrayInfo { data_type: DataType::Int32, ..array };
             arrays.push(event("event_time", "s", "time of the event"));
             arrays.push(ArrayInfo {

@@ -78,6 +78,8 @@ fn section_errors_stand_at_their_place() {
         ("solver.method = §\"explicitt\"\n", "solver.method", "\"explicitt\" is not known", "did you mean `explicit`?"),
         ("solver.max_step = §0\n", "solver.max_step", "greater than 0 s", ""),
         ("solver.max_wall_time = §\"10 kg\"\n", "solver.max_wall_time", "is in kg, expected s", ""),
+        ("solver.threads = §2.5\n", "solver.threads", "must be whole, found 2.5", "a whole number from 1 to 1024"),
+        ("solver.threads = §0\n", "solver.threads", "at least 1", "a whole number from 1 to 1024"),
         ("support = §3\n", "support", "expected an array", ""),
         ("support = [§3]\n", "support.0", "expected a table", "name = …"),
     ];

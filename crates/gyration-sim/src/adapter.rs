@@ -9,10 +9,12 @@ use crate::resistance::check_resistances;
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
+use gyration::contractile::Contraction;
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::extended::{self, Numbers};
 use gyration::ledger::Work;
 use gyration::model::Model;
+use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
@@ -34,16 +36,9 @@ pub struct Tolerance {
 const SHARE: f64 = 0.1;
 
 /// A model with its scratch and scales, as a stepper sees it.
-#[derive(Debug)]
-pub struct ModelSystem<'a> {
-    model: &'a Model,
-    prepared: Prepared,
-}
-
-/// Scratch and scales of a run, which belong to the size of its model and not to its numbers: they outlive a change of
-/// loads.
 #[derive(Debug, Clone)]
-pub(crate) struct Prepared {
+pub struct ModelSystem {
+    model: Model,
     workspace: Workspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
@@ -57,79 +52,71 @@ pub(crate) struct Prepared {
     interrupted: bool,
 }
 
-impl Prepared {
-    /// The system of a model of the same bodies.
-    pub fn on(self, model: &Model) -> ModelSystem<'_> {
-        ModelSystem { model, prepared: self }
-    }
-}
-
-impl<'a> ModelSystem<'a> {
+impl ModelSystem {
     /// Prepares a model for a run that starts from `start`.
     ///
     /// # Errors
     /// [`Inadmissible`] if the start is outside the model.
-    pub fn new(model: &'a Model, start: &State, tolerance: Tolerance) -> Result<Self, Inadmissible> {
-        check_resistances(model)?;
+    pub fn new(model: Model, start: &State, tolerance: Tolerance) -> Result<Self, Inadmissible> {
+        check_resistances(&model)?;
         let mut workspace = Workspace::default();
         let mut slopes = vec![0.0; model.dimension()];
         let mut powers = vec![0.0; model.works().len()];
-        rates(model, &mut workspace, start.time, start.numbers(), &mut slopes, &mut powers)?;
-        let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(model, start, &slopes, body)).collect();
-        let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(model, body, *speed)).sum();
+        rates(&model, &mut workspace, start.time, start.numbers(), &mut slopes, &mut powers)?;
+        let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(&model, start, &slopes, body)).collect();
+        let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
-        let viscous = inertialess.map(|(body, speed)| energy_scale(model, body, *speed)).sum();
-        let prepared =
-            Prepared { workspace, tolerance, speeds, energy, radii, viscous, first_rates: slopes, interrupted: false };
-        Ok(prepared.on(model))
-    }
-
-    /// Lets go of the model.
-    pub(crate) fn release(self) -> Prepared {
-        self.prepared
+        let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
+        let first_rates = slopes;
+        Ok(Self { model, workspace, tolerance, speeds, energy, radii, viscous, first_rates, interrupted: false })
     }
 
     /// The model.
-    pub fn model(&self) -> &'a Model {
-        self.model
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The model, whose loads and drives may be changed between two steps.
+    pub(crate) fn model_mut(&mut self) -> &mut Model {
+        &mut self.model
     }
 
     /// The radius of each body's surface about its centre of mass [m].
     pub fn radii(&self) -> &[f64] {
-        &self.prepared.radii
+        &self.radii
     }
 
     /// The rates of the bodies at the start of the run, laid out as the state.
     pub fn first_rates(&self) -> &[f64] {
-        &self.prepared.first_rates
+        &self.first_rates
     }
 
-    /// The scratch of the mechanics, for observations between steps.
-    pub fn workspace(&mut self) -> &mut Workspace {
-        &mut self.prepared.workspace
+    /// The model and the scratch of its mechanics, for observations between steps.
+    pub fn observed(&mut self) -> (&Model, &mut Workspace) {
+        (&self.model, &mut self.workspace)
     }
 
     /// The energy in play of bodies without inertia, which have no kinetic energy [J].
     pub fn viscous_energy(&self) -> f64 {
-        self.prepared.viscous
+        self.viscous
     }
 
     /// Whether something was asked for that was given up, so that what has come of the last step is none of the run.
     pub(crate) fn was_interrupted(&self) -> bool {
-        self.prepared.interrupted
+        self.interrupted
     }
 
     /// What was asked for; notes whether it was given up.
     pub(crate) fn noted<T>(&mut self, found: Result<T, Inadmissible>) -> Result<T, Inadmissible> {
-        found.inspect_err(|left| self.prepared.interrupted |= left.quantity == Quantity::Interruption)
+        found.inspect_err(|left| self.interrupted |= left.quantity == Quantity::Interruption)
     }
 
     /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.
     pub fn speed_scale(&self, body: usize) -> f64 {
-        self.prepared.speeds[body]
+        self.speeds[body]
     }
 }
 
@@ -142,8 +129,12 @@ fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
     }
 }
 
-/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, and one size a
-/// second for a body that nothing moves.
+/// A speed below this part of a size in a period of what drives the body is the rounding of none: a drive may begin
+/// where it turns round.
+const TURNING: f64 = 1e-9;
+
+/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, one size in a
+/// period of what drives it, and one size a second for a body that nothing moves.
 fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
     let (body, slots) = (&model.bodies[index], model.slots(index));
     let (motion, falling) = match body.has_inertia() {
@@ -152,11 +143,14 @@ fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f6
         false => (BodyMotion::of_rates(body, slots, &start.bodies, slopes), 0.0),
     };
     let scale = fastest_speed(body, &motion).max(falling);
-    if scale > 0.0 {
+    let drive = body.contraction().map(Contraction::signal);
+    let driving = drive.into_iter().chain(model.fluid.iter().flat_map(|fluid| fluid.signals()));
+    let driven = body.size * driving.map(Signal::highest_frequency).fold(0.0, f64::max);
+    if scale > TURNING * driven {
         return scale;
     }
     if !body.has_inertia() {
-        return body.size;
+        return if driven > 0.0 { driven } else { body.size };
     }
     // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
     let norm = |slot: Range<usize>| slopes[slot].iter().map(|number| number * number).sum::<f64>().sqrt();
@@ -164,7 +158,7 @@ fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f6
     if scale > 0.0 { scale } else { body.size }
 }
 
-impl System for ModelSystem<'_> {
+impl System for ModelSystem {
     type Inadmissible = Inadmissible;
 
     fn dimension(&self) -> usize {
@@ -180,34 +174,34 @@ impl System for ModelSystem<'_> {
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
-        let found = rates(self.model, &mut self.prepared.workspace, t, y.into(), dy, dw);
+        let found = rates(&self.model, &mut self.workspace, t, y.into(), dy, dw);
         self.noted(found)
     }
 
     fn extended_rates(&mut self, t: f64, y: Extended, dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        let found = rates(self.model, &mut self.prepared.workspace, t, numbers, dy, dw);
+        let found = rates(&self.model, &mut self.workspace, t, numbers, dy, dw);
         self.noted(found)
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
-        let found = jacobian(self.model, &mut self.prepared.workspace, t, y.into(), slopes.diagonal_mut());
+        let found = jacobian(&self.model, &mut self.workspace, t, y.into(), slopes.diagonal_mut());
         self.noted(found)
     }
 
     fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        let found = jacobian(self.model, &mut self.prepared.workspace, t, numbers, slopes.diagonal_mut());
+        let found = jacobian(&self.model, &mut self.workspace, t, numbers, slopes.diagonal_mut());
         self.noted(found)
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
-        let (rtol, atol) = (SHARE * self.prepared.tolerance.rtol, SHARE * self.prepared.tolerance.atol);
-        let mut energy = self.prepared.energy;
+        let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
+        let mut energy = self.energy;
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
-            let gap = smallest_gap(self.model, t, index, &motion).max(0.0);
+            let gap = smallest_gap(&self.model, t, index, &motion).max(0.0);
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);
@@ -217,7 +211,7 @@ impl System for ModelSystem<'_> {
             let extended =
                 gap < NEAR * body.size && body.solid.surface.as_ref().is_some_and(|it| body.keeps_digits(it));
             let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
-            let velocity = atol * self.prepared.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
+            let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
             y_scale[slots.position()].fill(length + rounding);
             y_scale[slots.attitude()].fill((length + rounding) / body.size);
             y_scale[slots.velocity()].fill(velocity);
@@ -240,27 +234,33 @@ impl System for ModelSystem<'_> {
     }
 
     fn extended_project(&mut self, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
-        let ExtendedMut { high: y, low } = y;
-        let work = self.model.works().iter().position(|work| *work == Work::Constraint);
-        let mut correction: f64 = 0.0;
-        for (index, body) in self.model.bodies.iter().enumerate() {
-            let slots = self.model.slots(index);
-            let (size, energy) = match &body.kind {
-                BodyKind::Rigid(_) => {
-                    let quaternion = slots.attitude();
-                    let lacking = low.get_mut(quaternion.clone()).unwrap_or_default();
-                    (normalize(&mut y[quaternion], lacking), 0.0)
-                }
-                BodyKind::Affine(affine) => restore_volume(&affine.interior, slots, y),
-                BodyKind::Contractile(contractile) => restore_contraction(contractile, slots, t, y),
-            };
-            correction = correction.max(size);
-            if let Some(work) = work {
-                w[work] += energy;
-            }
-        }
-        correction
+        project(&self.model, t, y, w)
     }
+}
+
+/// Puts a state back to where the equations keep it, and the energy that it took among the works; returns the size of
+/// the largest correction.
+pub(crate) fn project(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
+    let ExtendedMut { high: y, low } = y;
+    let work = model.works().iter().position(|work| *work == Work::Constraint);
+    let mut correction: f64 = 0.0;
+    for (index, body) in model.bodies.iter().enumerate() {
+        let slots = model.slots(index);
+        let (size, energy) = match &body.kind {
+            BodyKind::Rigid(_) => {
+                let quaternion = slots.attitude();
+                let lacking = low.get_mut(quaternion.clone()).unwrap_or_default();
+                (normalize(&mut y[quaternion], lacking), 0.0)
+            }
+            BodyKind::Affine(affine) => restore_volume(&affine.interior, slots, y),
+            BodyKind::Contractile(contractile) => restore_contraction(contractile, slots, t, y),
+        };
+        correction = correction.max(size);
+        if let Some(work) = work {
+            w[work] += energy;
+        }
+    }
+    correction
 }
 
 /// Puts a quaternion back to length one, by a factor: its direction keeps all its digits, those in `low` too, if there

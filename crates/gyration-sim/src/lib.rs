@@ -10,11 +10,11 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod adapter;
-mod detached;
 mod detection;
 pub mod events;
 pub mod format;
 mod horizon;
+mod island;
 pub mod modes;
 mod outcome;
 mod period;
@@ -29,13 +29,14 @@ mod run_state;
 pub mod sensitivity;
 mod step_end;
 mod stepping;
+mod sum;
 mod summary;
 pub mod survey;
 
 pub use adapter::Tolerance;
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
-pub use ports::{Monitor, Progress, RunError, Sink};
+pub use ports::{Monitor, Progress, RunError, Sink, WindowEnd};
 pub use record::{Job, MemorySink, Provenance, RecordingEnd, Unwatched, differences};
 pub use resistance::{complete, completed, open};
 pub use run::Simulation;

@@ -4,6 +4,8 @@ use crate::adapter::Tolerance;
 use crate::rows::Extras;
 use gyration_ode::{Method, Options};
 use gyration_scene::Built;
+use std::num::NonZeroUsize;
+use std::thread;
 
 /// How long to run, how finely to sample, how precisely to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +22,21 @@ pub struct RunPlan {
     pub options: Options,
     /// What is recorded beyond the usual.
     pub extras: Extras,
+    /// How many threads share the bodies out, one if that is not said; of no consequence to any number.
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// More bodies than that are shared out among all processors.
+const FEW: usize = 7;
+
+impl RunPlan {
+    /// The plan of a run that is alone on its machine: with as many threads as are asked for here or in the scene, else
+    /// with one for each processor if there are more than a few bodies.
+    #[must_use]
+    pub fn alone(self, asked: Option<NonZeroUsize>, bodies: usize) -> Self {
+        let default = || (bodies > FEW).then(|| thread::available_parallelism().ok()).flatten();
+        Self { threads: asked.or(self.threads).or_else(default), ..self }
+    }
 }
 
 /// Rest: every body's fastest material point slower than `speed` for `hold`.
@@ -47,6 +64,7 @@ impl From<&Built> for RunPlan {
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
             options: Options { method, max_step, initial_step: None },
             extras: Extras::new(built.record.quantities.iter().copied(), built.record.origin),
+            threads: plan.threads,
         }
     }
 }

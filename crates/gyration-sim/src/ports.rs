@@ -3,6 +3,7 @@
 use crate::events::Event;
 use crate::outcome::{Reason, Stop};
 use gyration::model::Model;
+use gyration::state::State;
 use gyration_ode::{MemoryError, Statistics, StepReport};
 use gyration_record::RecordError;
 use std::path::PathBuf;
@@ -41,19 +42,28 @@ pub trait Sink {
         Ok(())
     }
 
-    /// The end of a step, when a checkpoint may be taken.
+    /// The end of a window, when a checkpoint may be taken.
     ///
     /// # Errors
     /// Whatever keeps it from being stored.
-    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        let _ = checkpoint;
+    fn window_end(&mut self, at: &dyn WindowEnd) -> Result<(), RecordError> {
+        let _ = at;
         Ok(())
     }
 }
 
+/// A run at the end of a window.
+pub trait WindowEnd {
+    /// What a resumed run goes on from to the same bytes.
+    fn checkpoint(&self) -> Vec<u8>;
+
+    /// The state of all bodies at the time that they have come to.
+    fn state(&self) -> State;
+}
+
 /// What the run says of itself after each step, and whether it is to go on.
 pub trait Monitor {
-    /// Called after each step; a reason to stop ends the run.
+    /// Called after each window; a reason to stop ends the run.
     fn after_step(&mut self, progress: &Progress) -> Option<Reason>;
 }
 
@@ -64,11 +74,11 @@ pub struct Progress<'a> {
     pub time: f64,
     /// The end [s].
     pub end: f64,
-    /// The step just made.
+    /// The last step of the body that holds the run up: the shortest of all.
     pub step: &'a StepReport,
-    /// Counters.
+    /// Counters of all bodies.
     pub statistics: &'a Statistics,
-    /// The model, for names.
+    /// The model of that body, for names.
     pub model: &'a Model,
 }
 

@@ -14,7 +14,7 @@ use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
 use crate::period::period;
 use crate::plan::RunPlan;
-use crate::ports::{Monitor, Progress, RunError, Sink};
+use crate::ports::{Monitor, Progress, RunError, Sink, WindowEnd};
 use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
@@ -81,13 +81,13 @@ impl<'a> Job<'a> {
         Self {
             model,
             start: state,
-            plan: scene.built().into(),
+            plan: RunPlan::from(scene.built()).alone(None, model.bodies.len()),
             max_wall_time: plan.wall_time(),
             attributes: attributes.as_object().cloned().unwrap_or_default(),
         }
     }
 
-    /// Whether a recording is of this scene, whatever its `solver.max_wall_time`.
+    /// Whether a recording is of this scene, whatever its `solver.max_wall_time` and `solver.threads`.
     pub fn is_recorded_in(&self, recording: &Attributes) -> bool {
         comparable(&self.all_attributes()) == comparable(recording)
     }
@@ -202,6 +202,7 @@ fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     let mut resolved = attributes.get("resolved")?.clone();
     if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
         solver.remove("max_wall_time");
+        solver.remove("threads");
     }
     let bodies = [attributes.get("bodies")?, attributes.get("outlines").unwrap_or(&Value::Null)];
     Some((resolved, bodies.into_iter().cloned().collect()))
@@ -280,9 +281,9 @@ impl Sink for RecordingSink {
         self.writer.append_event(gyration_record::Event { time, kind, body: Some(body) })
     }
 
-    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+    fn window_end(&mut self, at: &dyn WindowEnd) -> Result<(), RecordError> {
         if self.flushed.elapsed() >= FLUSH_EVERY {
-            self.writer.flush(&checkpoint())?;
+            self.writer.flush(&at.checkpoint())?;
             self.flushed = Instant::now();
         }
         Ok(())

@@ -1,130 +1,198 @@
-//! The run loop: step, events, samples, audit, rest; until the end, rest, or a stop.
+//! The run loop: windows, events, samples, audit, rest; until the end, rest, or a stop.
+//!
+//! Each body that nothing joins to another is an island with steps of its own. In a window every island comes to one
+//! time or beyond; then what is known of all until the first of them is handed on: events in order of time and body,
+//! rows, the verdict on rest, a checkpoint. How wide windows are and how many threads share the islands out leaves no
+//! trace in any number.
 //!
 //! Sampling never changes the steps: rows come from the dense output. Samples are at t = k·sample (multiplied, not
 //! accumulated); one within 1e-9·sample of `end` is `end`; the last row is the end or the stop. The mechanics reads no
 //! clock; the loop asks its [`Monitor`] whether to go on, and the [`Interruption`] in force.
 //!
-//! An interruption may come within a step, where a resistance takes long. What has come of that step is then none of
-//! the run ([`Simulation::is_whole`]).
+//! Where one island cannot go on, the run ends at the time to which that one has come: the others go back to the
+//! beginning of the window, and come to that time. An interruption ends it in the same way where the island is that has
+//! come least far. It may come within a step, where a resistance takes long. What has come of that window is then none
+//! of the run ([`Simulation::is_whole`]).
 
-use crate::adapter::ModelSystem;
 use crate::events::Event;
-use crate::horizon::horizon;
-use crate::outcome::{Outcome, Stop};
+use crate::island::Island;
+use crate::outcome::{Outcome, Reason, Stop};
 use crate::plan::RunPlan;
-use crate::ports::{Monitor, Progress, RunError, Sink};
-use crate::rows::{Fields, RowScratch};
-use crate::run_state::{DISSIPATION, RunState};
-use crate::step_end::{self, StepEnd};
-use gyration::balance::fastest_speed;
+use crate::ports::{Monitor, Progress, RunError, Sink, WindowEnd};
+use crate::rows::{Fields, Ledger, RowScratch};
+use crate::run_state::RunState;
+use crate::sum::Sum;
+use gyration::Inadmissible;
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
-use gyration::state::State;
-use gyration_ode::{ExtendedMut, Integrator, Statistics, StepReport, System as _};
-use gyration_threads::Interruption;
+use gyration::state::{BodyMotion, State};
+use gyration_ode::Statistics;
+use gyration_threads::{Interruption, in_order};
+use std::num::NonZeroUsize;
 
-/// A run under way: a model as its stepper sees it, and the run.
-pub struct Simulation<'a> {
-    pub(crate) system: ModelSystem<'a>,
-    pub(crate) run: Run,
-}
+/// Steps of all islands together in a window: fewer, and windows become wider; more, and they become narrower. So a
+/// window takes a part of a second, and to share it out among threads next to nothing.
+const STEPS: [u64; 2] = [1 << 12, 1 << 14];
+/// Steps of all islands together at most before the monitor is asked again.
+const MOST_STEPS: u64 = 1 << 14;
+/// The first window is this part of the run, or of a sample.
+const FIRST_WINDOW: f64 = 1e-6;
+/// Into how many pieces of work the islands are shared out, for each thread.
+const PIECES: usize = 16;
 
-/// A run without its model.
-pub(crate) struct Run {
-    pub integrator: Integrator,
-    pub plan: RunPlan,
-    pub state: RunState,
-    /// The bodies at the end of the last step.
-    pub step_ends: Vec<StepEnd>,
-    /// A state within the last step; scratch between samples.
-    pub sampled: State,
-    /// |f| of the contacts of each body after the last step [N].
-    pub forces: Vec<f64>,
-    /// Scratch: the events of a step.
-    pub found: Vec<Event>,
-    /// Since when each signal of each body is known within the step [s].
-    pub since: Vec<[f64; 3]>,
+/// A run under way.
+pub struct Simulation {
+    model: Model,
+    pub(crate) plan: RunPlan,
+    pub(crate) islands: Vec<Island>,
+    /// The island of each body, and its place there.
+    homes: Vec<(usize, usize)>,
+    state: RunState,
+    /// The width of the next window [s].
+    window: f64,
+    /// The bodies of all islands at one time.
+    joined: State,
+    sums: Vec<Sum>,
     /// What the rows hold, and scratch for them.
-    pub fields: Fields,
-    pub rows: RowScratch,
+    fields: Fields,
+    rows: RowScratch,
+    workspace: Workspace,
     /// The time of the last row [s].
-    pub recorded: f64,
+    recorded: f64,
+    /// Scratch: the events of a window.
+    found: Vec<Event>,
+    /// Whether an interruption came within a step.
+    is_broken: bool,
 }
 
-impl<'a> Simulation<'a> {
-    /// Prepares a run from its start; nothing is recorded yet.
+impl Simulation {
+    /// Prepares a run from its start, an island for each body; nothing is recorded yet.
     ///
     /// # Errors
     /// [`RunError::Start`] if the start is outside the model.
-    pub fn new(model: &'a Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        let system = ModelSystem::new(model, start, plan.tolerance)
-            .map_err(|left| RunError::at_start(Stop::by_inadmissible(model, start.time, &left)))?;
-        let run = Run {
-            integrator: Integrator::new(start.time, &start.bodies, &start.works, plan.options),
-            plan,
-            state: RunState::new(model.bodies.len()),
-            step_ends: Vec::new(),
-            sampled: State { low: vec![0.0; start.bodies.len()], ..start.clone() },
-            forces: Vec::new(),
-            found: Vec::new(),
-            since: Vec::new(),
+    pub fn new(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
+        Self::of_islands(model, start, plan, (0..model.bodies.len()).map(|body| vec![body]))
+    }
+
+    /// The same with all bodies in one island: one step serves all.
+    pub fn together(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
+        Self::of_islands(model, start, plan, [(0..model.bodies.len()).collect()].into_iter())
+    }
+
+    fn of_islands(
+        model: &Model,
+        start: &State,
+        plan: RunPlan,
+        members: impl Iterator<Item = Vec<usize>>,
+    ) -> Result<Self, RunError> {
+        let outside = |left: Box<(Model, Inadmissible)>| {
+            let (part, left) = *left;
+            RunError::at_start(Stop::by_inadmissible(&part, start.time, &left))
+        };
+        let islands = members.map(|members| Island::new(model, start, &plan, members).map_err(outside));
+        let islands = islands.collect::<Result<Vec<_>, _>>()?;
+        let mut homes = vec![(0, 0); model.bodies.len()];
+        for (index, island) in islands.iter().enumerate() {
+            island.members().iter().enumerate().for_each(|(place, body)| homes[*body] = (index, place));
+        }
+        Ok(Self {
+            islands,
+            homes,
+            state: RunState::new(start.time),
+            window: FIRST_WINDOW * plan.sample.min(plan.end),
+            joined: State { low: vec![0.0; start.bodies.len()], ..start.clone() },
+            sums: Vec::new(),
             fields: Fields::new(model, &plan.extras),
             rows: RowScratch::default(),
+            workspace: Workspace::default(),
             recorded: f64::NEG_INFINITY,
-        };
-        let mut this = Self { system, run };
-        this.read_step_end();
-        Ok(this)
+            found: Vec::new(),
+            is_broken: false,
+            model: model.clone(),
+            plan,
+        })
     }
 
     /// Goes on from a checkpoint of the same scene; `start` is the scene's start, from which the scales come.
     ///
     /// # Errors
     /// [`RunError::Checkpoint`] if the bytes are not a checkpoint of this scene.
-    pub fn resume(model: &'a Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
+    pub fn resume(model: &Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
         let mut this = Self::new(model, start, plan)?;
-        let (state, memory) = RunState::restore(checkpoint).ok_or_else(|| {
-            RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into())
-        })?;
-        this.run.integrator = Integrator::resume(&memory, plan.options)?;
-        this.run.state = state;
-        this.run.recorded = this.sample_time(this.run.state.next_sample.saturating_sub(1));
-        this.read_step_end();
+        let unfit =
+            || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
+        let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
+        if memories.len() != this.islands.len() {
+            return Err(unfit());
+        }
+        for (island, memory) in this.islands.iter_mut().zip(&memories) {
+            island.resume(memory, &plan, state.time)?;
+        }
+        this.state = state;
+        this.recorded = this.sample_time(this.state.next_sample.saturating_sub(1));
         Ok(this)
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
     }
 
     /// Next sample, audit and events so far.
     pub fn run_state(&self) -> &RunState {
-        &self.run.state
+        &self.state
     }
 
     /// What the run was asked for.
     pub fn plan(&self) -> &RunPlan {
-        &self.run.plan
+        &self.plan
     }
 
     /// Whether state, rows and events are those at the end of a step: false if an interruption came within one.
     pub fn is_whole(&self) -> bool {
-        !self.system.was_interrupted()
+        !self.is_broken
     }
 
-    /// The counters so far.
-    pub fn statistics(&self) -> &Statistics {
-        self.run.integrator.statistics()
+    /// The counters of all islands so far.
+    pub fn statistics(&self) -> Statistics {
+        let first = self.islands.first().map_or_else(Statistics::default, |first| *first.integrator.statistics());
+        self.islands.iter().skip(1).fold(first, |sum, island| sum.and(island.integrator.statistics()))
     }
 
-    /// The state after the last step.
+    /// Largest correction by projection after a step.
+    pub(crate) fn largest_projection(&self) -> f64 {
+        self.islands.iter().map(|island| island.state.largest_projection).fold(0.0, f64::max)
+    }
+
+    /// Largest increment over a step of an island of each work that only takes [J]; −∞ before the first.
+    pub(crate) fn largest_gains(&self) -> [f64; 2] {
+        let gains = self.islands.iter().map(|island| island.state.largest_gains);
+        gains.fold([f64::NEG_INFINITY; 2], |most, gains| [most[0].max(gains[0]), most[1].max(gains[1])])
+    }
+
+    /// The time that all bodies have come to [s].
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// The state at [`Simulation::time`]; that of the last row, where an interruption came within a step of one of
+    /// several islands.
     pub fn state(&self) -> State {
-        State {
-            time: self.run.integrator.time(),
-            bodies: self.run.integrator.state().to_vec(),
-            low: self.run.integrator.state_low().to_vec(),
-            works: self.run.integrator.quadratures().to_vec(),
+        if self.is_broken && self.islands.len() > 1 {
+            return self.joined.clone();
         }
+        let (time, mut sums) = (self.state.time, vec![Sum::default(); self.model.works().len()]);
+        let mut state = State { time, ..self.joined.clone() };
+        for island in &self.islands {
+            island.join(&island.state_at(time), &mut state.bodies, &mut state.low, &mut sums);
+        }
+        state.works = sums.iter().map(Sum::value).collect();
+        state
     }
 
-    /// A checkpoint after the last step.
+    /// A checkpoint at [`Simulation::time`].
     pub fn checkpoint(&self) -> Vec<u8> {
-        self.run.state.checkpoint(&self.run.integrator.memory())
+        self.state.checkpoint(self.islands.iter().map(Island::memory))
     }
 
     /// Records the row t = 0.
@@ -132,17 +200,13 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`RunError`] if the start is outside the model or the row cannot be stored.
     pub fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
-        self.sample_end();
+        self.sample(self.state.time);
         if let Err(stop) = self.record(sink)? {
             return Err(RunError::at_start(stop));
         }
-        self.run.state.next_sample = 1;
-        self.find_forces();
-        for body in 0..self.run.step_ends.len() {
-            self.run.state.signals[body] = self.signals(body);
-        }
-        if self.is_slow() {
-            self.run.state.slow_since = self.run.integrator.time();
+        self.state.next_sample = 1;
+        for island in &mut self.islands {
+            island.begin(&self.plan);
         }
         Ok(())
     }
@@ -159,7 +223,8 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Makes one step, with its events and samples; how the run has ended, if it has.
+    /// Makes one window, with its events and samples; how the run has ended, if it has. Of one island a window is a
+    /// step.
     ///
     /// # Errors
     /// [`RunError::Record`] if the recording fails.
@@ -168,81 +233,202 @@ impl<'a> Simulation<'a> {
         sink: &mut dyn Sink,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<Outcome>, RunError> {
-        let model = self.system.model();
-        if self.run.integrator.time() >= self.run.plan.end {
+        let end = self.plan.end;
+        if self.state.time >= end {
             return Ok(Some(Outcome::Completed));
         }
-        let report = match self.step(sink)? {
-            Ok(report) => report,
-            Err(stop) => return self.stop(stop, sink).map(Some),
-        };
-        if let Err(stop) = self.sample_step(&report, sink)? {
+        let stopped = self.step(sink, monitor)?;
+        if let Err(stop) = stopped {
             return self.stop(stop, sink).map(Some);
         }
-        if self.has_come_to_rest(&report) {
-            self.record_last(sink)?.ok();
-            return Ok(Some(Outcome::AtRest { time: report.end }));
+        if let Err(stop) = self.sample_window(sink)? {
+            return self.stop(stop, sink).map(Some);
         }
-        let (state, integrator) = (&self.run.state, &self.run.integrator);
-        sink.step_end(&|| state.checkpoint(&integrator.memory()))?;
-        let (time, end) = (report.end, self.run.plan.end);
-        let progress = Progress { time, end, step: &report, statistics: integrator.statistics(), model };
-        let asked = monitor.after_step(&progress).map(|reason| Stop::by_request(time, reason));
+        if let Some(time) = self.rest().filter(|time| *time <= self.state.time) {
+            self.state.time = time;
+            self.record_last(sink)?.ok();
+            return Ok(Some(Outcome::AtRest { time }));
+        }
+        sink.window_end(&*self)?;
+        let time = self.state.time;
+        let asked = self.ask(monitor).map(|reason| Stop::by_request(time, reason));
         let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
         Ok(asked.filter(|_| time < end).map(Outcome::Stopped))
     }
 
-    /// Makes one step and finds its events.
-    pub(crate) fn step(&mut self, sink: &mut dyn Sink) -> Result<Result<StepReport, Stop>, RunError> {
-        let (target, before, time) = (self.target(), self.dissipation(), self.run.integrator.time());
-        let made = self.run.integrator.step(&mut self.system, target);
-        if !self.is_whole() {
-            // A shorter step that has gone well is another one than the run would have made.
-            return Ok(Err(Stop::by_interruption(time)));
-        }
-        let report = match made {
-            Ok(report) => report,
-            Err(failure) => return Ok(Err(Stop::by_failure(self.system.model(), &failure))),
-        };
-        self.read_step_end();
-        self.run.state.largest_projection = self.run.state.largest_projection.max(report.projection);
-        self.run.state.note_dissipation(before, self.dissipation());
-        self.find_events(&report, sink)?;
-        Ok(Ok(report))
+    /// Tells the monitor how far the run is, and which island holds it up: the one whose last step was the shortest.
+    pub(crate) fn ask(&self, monitor: &mut dyn Monitor) -> Option<Reason> {
+        let length = |island: &&Island| island.report.as_ref().map_or(f64::INFINITY, |step| step.end - step.start);
+        let slowest = self.islands.iter().min_by(|a, b| length(a).total_cmp(&length(b)))?;
+        let step = slowest.report.as_ref()?;
+        let statistics = &self.statistics();
+        let model = slowest.model();
+        monitor.after_step(&Progress { time: self.state.time, end: self.plan.end, step, statistics, model })
     }
 
-    /// Restarts the stepper after a change of the model.
-    pub(crate) fn restart(&mut self) -> Result<(), Stop> {
-        let model = self.system.model();
-        self.run.integrator.restart(&mut self.system).map_err(|failure| Stop::by_failure(model, &failure))?;
-        // Before the first step the rates at the start stand in the system.
-        let (rates, _) = self.run.integrator.rates();
-        step_end::read(&mut self.run.step_ends, model, self.run.integrator.state(), rates);
+    /// Makes one window and hands on its events.
+    pub(crate) fn step(
+        &mut self,
+        sink: &mut dyn Sink,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Result<(), Stop>, RunError> {
+        let before = self.state.time;
+        let until = self.window_end(sink.wants_event_rows());
+        let stop = loop {
+            self.reach(until, MOST_STEPS);
+            if self.islands.iter().any(|island| island.system.was_interrupted()) {
+                self.is_broken = true;
+                return Ok(Err(Stop::by_interruption(before)));
+            }
+            if let Some(stop) = self.first_stop() {
+                break Some(stop);
+            }
+            let time = self.least_time();
+            if time >= until {
+                break None;
+            }
+            if let Some(reason) = self.ask(monitor) {
+                break Some(Stop::by_request(time, reason));
+            }
+        };
+        if let Some(stop) = &stop {
+            self.go_back(stop.time);
+        }
+        self.settle();
+        self.hand_on_events(before, sink)?;
+        Ok(stop.map_or(Ok(()), Err))
+    }
+
+    /// Up to where the next window goes [s]: to the next sample or the first time of rest at most, so that both lie
+    /// within the last steps of all islands. What is known of all must be so at every event where rows are wanted
+    /// there: then only the islands that are behind all others make a step.
+    fn window_end(&mut self, at_events: bool) -> f64 {
+        let time = self.state.time;
+        if self.islands.len() == 1 || at_events {
+            return time.next_up();
+        }
+        let steps = self.islands.iter_mut().map(|island| std::mem::take(&mut island.window_steps));
+        let steps: u64 = steps.sum();
+        if steps < STEPS[0] {
+            self.window *= 2.0;
+        } else if steps > STEPS[1] {
+            self.window *= 0.5;
+        }
+        let mut until = (time + self.window).min(self.plan.end).min(self.sample_time(self.state.next_sample));
+        if let Some(criterion) = self.plan.stop_at_rest {
+            until = until.min(self.rest().unwrap_or(time + criterion.hold));
+        }
+        if until > time { until } else { time.next_up() }
+    }
+
+    /// Lets all islands come to a time, or make so many steps towards it, all together.
+    fn reach(&mut self, until: f64, most: u64) {
+        let (plan, threads) = (&self.plan, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
+        let count = self.islands.iter().filter(|island| island.time() < until).count();
+        let most = (most / count.max(1) as u64).max(1);
+        let behind = self.islands.iter_mut().filter(|island| island.time() < until);
+        let is_step = until == self.state.time.next_up();
+        if threads.get() == 1 || count == 1 || is_step {
+            behind.for_each(|island| island.reach(until, most, plan));
+            return;
+        }
+        let interruption = Interruption::in_force();
+        let mut behind: Vec<&mut Island> = behind.collect();
+        let piece = count.div_ceil(PIECES * threads.get()).max(1);
+        in_order(behind.chunks_mut(piece), threads, |islands| {
+            interruption.within(|| islands.iter_mut().for_each(|island| island.reach(until, most, plan)));
+        });
+    }
+
+    /// The stop that comes first, if any; of several at one time that of the first body. An interruption comes before
+    /// all, where the island is that has come least far.
+    fn first_stop(&mut self) -> Option<Stop> {
+        let least = self.least_time();
+        let stops = self.islands.iter_mut().filter_map(|island| island.stop.take());
+        let first = stops.reduce(|first, other| match (is_asked(&first), is_asked(&other)) {
+            (true, _) => first,
+            (false, true) => other,
+            _ if other.time < first.time => other,
+            _ => first,
+        })?;
+        Some(if is_asked(&first) { Stop { time: least, ..first } } else { first })
+    }
+
+    /// The time of the island that has come least far [s]; the end if nothing moves.
+    fn least_time(&self) -> f64 {
+        self.islands.iter().map(Island::time).reduce(f64::min).unwrap_or(self.plan.end)
+    }
+
+    /// Undoes what islands have done in this window beyond a time.
+    fn go_back(&mut self, time: f64) {
+        for island in self.islands.iter_mut().filter(|island| island.time() > time) {
+            island.go_back(&self.plan, self.state.time);
+        }
+        // They have been there once.
+        Interruption::default().within(|| self.reach(time, u64::MAX));
+    }
+
+    /// The time that all islands have come to is that of the run.
+    fn settle(&mut self) {
+        self.state.time = self.least_time();
+        for island in &mut self.islands {
+            island.settle(self.state.time);
+        }
+    }
+
+    /// Hands on the events up to the time of the run, in order of time and body.
+    fn hand_on_events(&mut self, before: f64, sink: &mut dyn Sink) -> Result<(), RunError> {
+        let mut found = std::mem::take(&mut self.found);
+        found.clear();
+        let time = self.state.time;
+        for island in &mut self.islands {
+            let known = island.events.partition_point(|event| event.time <= time);
+            found.extend(island.events.drain(..known));
+        }
+        debug_assert!(found.iter().all(|event| event.time >= before));
+        found.sort_by(|a, b| a.time.total_cmp(&b.time));
+        for event in &found {
+            self.state.events[event.kind] += 1;
+            sink.event(event)?;
+            if sink.wants_event_rows() && self.fill_row(event.time) {
+                sink.event_row(event, &self.rows.row)?;
+            }
+        }
+        self.found = found;
         Ok(())
     }
 
-    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time
-    /// at which a support could be reached.
-    fn target(&self) -> f64 {
-        let time = self.run.integrator.time();
-        let mut end = self.run.plan.end;
-        if let Some(rest) = self.run.plan.stop_at_rest
-            && self.run.state.slow_since.is_finite()
-        {
-            end = end.min((self.run.state.slow_since + rest.hold).max(time));
-        }
-        if end <= time {
-            end = self.run.plan.end;
-        }
-        let horizon = horizon(self.system.model(), time, &self.run.step_ends, self.system.radii(), end - time);
-        let target = time + horizon;
-        // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
-        if target > time { target.min(end) } else { end }
+    /// Fills the row of a time within the last steps; false where that state is outside the model.
+    fn fill_row(&mut self, time: f64) -> bool {
+        self.sample(time);
+        let (model, initial) = (&self.model, Some(self.state.initial_energy));
+        self.fields.fill(model, &mut self.workspace, &self.joined, initial, &mut self.rows).is_ok()
+    }
+
+    /// Restarts the stepper of the island of a body after a change of its loads or drive.
+    pub(crate) fn restart(&mut self, body: usize) -> Result<(), Stop> {
+        self.islands[self.homes[body].0].restart()
+    }
+
+    /// Changes loads or drive of a body, by its place in a model; what `change` says of it.
+    pub(crate) fn change<T>(&mut self, body: usize, mut change: impl FnMut(&mut Model, usize) -> T) -> T {
+        let (island, place) = self.homes[body];
+        change(self.islands[island].system.model_mut(), place);
+        change(&mut self.model, body)
+    }
+
+    /// When all bodies will have been slow for long enough [s], as far as is known; none while one of them is not slow.
+    fn rest(&self) -> Option<f64> {
+        let hold = self.plan.stop_at_rest?.hold;
+        let since = self.islands.iter().map(|island| island.state.slow_since);
+        // A maximum that is not a number where one of them is none.
+        let all = since.reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })?;
+        all.is_finite().then_some(all + hold)
     }
 
     /// Ends with the last row, if there is one.
     fn stop(&mut self, stop: Stop, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
-        if self.is_whole() {
+        if self.is_whole() && !is_asked(&stop) {
             self.record_last(sink)?.ok();
         }
         Ok(Outcome::Stopped(stop))
@@ -250,85 +436,117 @@ impl<'a> Simulation<'a> {
 
     /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
     fn sample_time(&self, k: u64) -> f64 {
-        let time = k as f64 * self.run.plan.sample;
-        if (time - self.run.plan.end).abs() <= 1e-9 * self.run.plan.sample { self.run.plan.end } else { time }
+        let time = k as f64 * self.plan.sample;
+        if (time - self.plan.end).abs() <= 1e-9 * self.plan.sample { self.plan.end } else { time }
     }
 
-    /// Records the samples that fall into the last step, and the end; a sample outside the model is a stop.
-    fn sample_step(&mut self, report: &StepReport, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        while self.sample_time(self.run.state.next_sample) <= report.end {
-            self.interpolate(self.sample_time(self.run.state.next_sample));
+    /// Records the samples up to the time of the run, and the end; a sample outside the model is a stop.
+    fn sample_window(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        // Behind the time of rest there are none.
+        let last = self.rest().map_or(self.state.time, |rest| rest.min(self.state.time));
+        while self.sample_time(self.state.next_sample) <= last {
+            self.sample(self.sample_time(self.state.next_sample));
             if let Err(stop) = self.record(sink)? {
                 return Ok(Err(stop));
             }
-            self.run.state.next_sample += 1;
+            self.state.next_sample += 1;
         }
-        if report.end >= self.run.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
+        if last >= self.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
     }
 
-    /// Records the state after the last step, unless it was just sampled.
+    /// Records the state at the time of the run, unless it was just sampled.
     ///
     /// # Errors
     /// [`RunError::Record`] if the row cannot be stored; within, a stop if the state is outside the model.
     pub fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        if self.run.recorded >= self.run.integrator.time() {
+        if self.recorded >= self.state.time {
             return Ok(Ok(()));
         }
-        self.sample_end();
+        self.sample(self.state.time);
         self.record(sink)
     }
 
-    /// Reads the bodies at the end of the last step, or at the start.
-    pub(crate) fn read_step_end(&mut self) {
-        let started = self.run.integrator.statistics().accepted() > 0;
-        let rates = if started { self.run.integrator.rates().0 } else { self.system.first_rates() };
-        step_end::read(&mut self.run.step_ends, self.system.model(), self.run.integrator.state(), rates);
-    }
-
-    /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
-    fn dissipation(&self) -> [f64; 2] {
-        let entries = self.system.model().works().iter().zip(self.run.integrator.quadratures());
-        DISSIPATION.map(|work| entries.clone().find(|(entry, _)| **entry == work).map_or(0.0, |(_, value)| *value))
-    }
-
-    /// Samples the state after the last step.
-    pub(crate) fn sample_end(&mut self) {
-        self.run.sampled.time = self.run.integrator.time();
-        self.run.sampled.bodies.copy_from_slice(self.run.integrator.state());
-        self.run.sampled.low.copy_from_slice(self.run.integrator.state_low());
-        self.run.sampled.works.copy_from_slice(self.run.integrator.quadratures());
-    }
-
-    /// The state at a time within the last step.
-    pub(crate) fn interpolate(&mut self, time: f64) {
-        if time >= self.run.integrator.time() {
-            return self.sample_end();
+    /// Samples all bodies at a time within the last steps.
+    fn sample(&mut self, time: f64) {
+        let Self { islands, joined, sums, .. } = self;
+        joined.time = time;
+        sums.clear();
+        sums.resize(joined.works.len(), Sum::default());
+        for island in islands {
+            island.sample(time);
+            island.join(&island.sampled, &mut joined.bodies, &mut joined.low, sums);
         }
-        self.run.sampled.time = time;
-        let State { bodies, low, works, .. } = &mut self.run.sampled;
-        self.run.integrator.interpolate_extended(time, bodies, works, Some(low));
-        // Between the ends of a step the interpolant is off its manifold by its error.
-        self.system.extended_project(time, ExtendedMut { high: bodies, low }, works);
+        for (work, sum) in joined.works.iter_mut().zip(sums) {
+            *work = sum.value();
+        }
     }
 
-    /// Records `sampled` and audits it, unless it is outside the model.
+    /// The ledger at the time of the run.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub(crate) fn ledger(&mut self) -> Result<Ledger, Stop> {
+        self.sample(self.state.time);
+        let (model, joined, initial) = (&self.model, &self.joined, Some(self.state.initial_energy));
+        let ledger = Ledger::of(model, &mut self.workspace, joined, initial);
+        ledger.map_err(|left| Stop::by_inadmissible(model, joined.time, &left))
+    }
+
+    /// All that a recording would hold of the time of the run.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub(crate) fn row(&mut self) -> Result<Vec<f64>, Stop> {
+        self.sample(self.state.time);
+        let Self { model, fields, workspace, joined, rows, state, .. } = self;
+        let filled = fields.fill(model, workspace, joined, Some(state.initial_energy), rows);
+        filled.map_err(|left| Stop::by_inadmissible(model, joined.time, &left))?;
+        Ok(rows.row.clone())
+    }
+
+    /// Placement and velocity of a body after the last step of its island.
+    pub(crate) fn motion(&self, body: usize) -> &BodyMotion {
+        let (island, place) = self.homes[body];
+        &self.islands[island].step_ends[place].motion
+    }
+
+    /// The shortest step that one of several islands would make [s]; none of one island, which makes it by itself.
+    ///
+    /// # Errors
+    /// [`Stop`] if one of them has no rates.
+    pub(crate) fn shortest_step(&mut self) -> Result<Option<f64>, Stop> {
+        if self.islands.len() == 1 {
+            return Ok(None);
+        }
+        let steps = self.islands.iter_mut().map(Island::next_size);
+        steps.collect::<Result<Vec<_>, _>>().map(|steps| steps.into_iter().reduce(f64::min))
+    }
+
+    /// What the rows hold.
+    pub(crate) fn fields(&self) -> &Fields {
+        &self.fields
+    }
+
+    /// Records `joined` and audits it, unless it is outside the model.
     fn record(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        let (model, time) = (self.system.model(), self.run.sampled.time);
-        let first = self.run.state.next_sample == 0;
-        let initial = (!first).then_some(self.run.state.initial_energy);
-        let viscous = self.system.viscous_energy();
-        let workspace = self.system.workspace();
-        let filled = self.run.fields.fill(model, workspace, &self.run.sampled, initial, &mut self.run.rows);
-        let audit = match self.system.noted(filled) {
+        let time = self.joined.time;
+        let first = self.state.next_sample == 0;
+        let initial = (!first).then_some(self.state.initial_energy);
+        let viscous = self.islands.iter().map(|island| island.system.viscous_energy()).sum();
+        let filled = self.fields.fill(&self.model, &mut self.workspace, &self.joined, initial, &mut self.rows);
+        let audit = match filled {
             Ok(audit) => audit,
-            Err(left) => return Ok(Err(Stop::by_inadmissible(model, time, &left))),
+            Err(left) => {
+                self.is_broken |= left.quantity == gyration::Quantity::Interruption;
+                return Ok(Err(Stop::by_inadmissible(&self.model, time, &left)));
+            }
         };
         if !audit.energy.is_finite() {
             return Ok(Err(Stop::by_infinite_energy(time)));
         }
-        sink.row(time, &self.run.rows.row)?;
-        self.run.recorded = time;
-        let state = &mut self.run.state;
+        sink.row(time, &self.rows.row)?;
+        self.recorded = time;
+        let state = &mut self.state;
         if first {
             state.initial_energy = audit.energy;
         }
@@ -337,26 +555,19 @@ impl<'a> Simulation<'a> {
         state.smallest_gap = state.smallest_gap.min(audit.smallest_gap);
         Ok(Ok(()))
     }
+}
 
-    /// Whether every body's fastest material point is slower than the speed of rest.
-    fn is_slow(&self) -> bool {
-        let Some(rest) = self.run.plan.stop_at_rest else { return false };
-        let bodies = &self.system.model().bodies;
-        // The centre is never the fastest: looked at first, it spares the search in a body that moves.
-        let speed = |end: &StepEnd| end.motion.velocity.velocity.norm();
-        self.run.step_ends.iter().all(|view| speed(view) < rest.speed)
-            && bodies.iter().zip(&self.run.step_ends).all(|(body, end)| fastest_speed(body, &end.motion) < rest.speed)
+/// Whether somebody wanted the stop, who may let the run go on.
+fn is_asked(stop: &Stop) -> bool {
+    matches!(stop.reason, Reason::Interrupted | Reason::WallTime)
+}
+
+impl WindowEnd for Simulation {
+    fn checkpoint(&self) -> Vec<u8> {
+        Self::checkpoint(self)
     }
 
-    /// Whether every body has now been slow for long enough.
-    fn has_come_to_rest(&mut self, report: &StepReport) -> bool {
-        let slow = self.is_slow();
-        if !slow {
-            self.run.state.slow_since = f64::NAN;
-        } else if self.run.state.slow_since.is_nan() {
-            self.run.state.slow_since = report.end;
-        }
-        // The target of the step was slow_since + hold, whatever the rounding of the difference.
-        slow && self.run.plan.stop_at_rest.is_some_and(|rest| report.end >= self.run.state.slow_since + rest.hold)
+    fn state(&self) -> State {
+        Self::state(self)
     }
 }

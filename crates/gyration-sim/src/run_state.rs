@@ -1,53 +1,58 @@
 //! What a run carries from step to step beside the state: the next sample, the audit, the wait for rest.
 //!
-//! A checkpoint is the run state and the stepper's memory as plain little-endian numbers, each list with its length
-//! before it, so that a resumed run goes on to the same bytes.
+//! A checkpoint is the run state, and of each island its own and the stepper's memory, as plain little-endian numbers,
+//! each list with its length before it, so that a resumed run goes on to the same bytes.
 
 use gyration::ledger::Work;
-use gyration_ode::Memory;
+use gyration_ode::{Integrator, Memory};
 
 /// The works that only take: within a body each is a quadratic form of the velocities, with a minus sign.
 pub(crate) const DISSIPATION: [Work; 2] = [Work::Contraction, Work::Viscosity];
 
-/// Beside the state, all that the rest of a run depends on.
+/// Beside the islands, all that the rest of a run depends on.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunState {
+    /// The time that all bodies have come to [s].
+    pub time: f64,
     /// k of the next sample, at t = k·sample.
     pub next_sample: u64,
     /// Σ energies at t = 0 [J].
     pub initial_energy: f64,
-    /// Since when all bodies have been slow [s]; NaN if they are not.
-    pub slow_since: f64,
     /// Largest |residual| of the ledger over the samples [J].
     pub largest_residual: f64,
     /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
     pub energy_in_play: f64,
     /// Smallest gap over the samples [m].
     pub smallest_gap: f64,
+    /// How many events of each kind.
+    pub events: [u64; 3],
+}
+
+/// Beside the state, what the steps of an island change.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct IslandState {
+    /// Since when all its bodies have been slow [s]; NaN if they are not.
+    pub slow_since: f64,
     /// Largest correction by projection after a step.
     pub largest_projection: f64,
     /// Largest increment over a step of each work of [`DISSIPATION`] [J]: at most the error of a step; −∞ before the
     /// first.
     pub largest_gains: [f64; 2],
-    /// How many events of each kind.
-    pub events: [u64; 3],
     /// The last significant signal of each kind for each body; NaN before there is one.
     pub signals: Vec<[f64; 3]>,
 }
 
+/// All that the rest of an island's path depends on.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct IslandMemory {
+    pub state: IslandState,
+    pub stepper: Memory,
+}
+
 impl RunState {
     /// At the start of a run.
-    pub fn new(bodies: usize) -> Self {
-        let signals = vec![[f64::NAN; 3]; bodies];
-        let (slow_since, smallest_gap) = (f64::NAN, f64::INFINITY);
-        Self { slow_since, smallest_gap, largest_gains: [f64::NEG_INFINITY; 2], signals, ..Self::default() }
-    }
-
-    /// Notes what a step has added to the works of [`DISSIPATION`] [J].
-    pub(crate) fn note_dissipation(&mut self, before: [f64; 2], after: [f64; 2]) {
-        for (largest, (before, after)) in self.largest_gains.iter_mut().zip(before.into_iter().zip(after)) {
-            *largest = largest.max(after - before);
-        }
+    pub fn new(time: f64) -> Self {
+        Self { time, smallest_gap: f64::INFINITY, ..Self::default() }
     }
 
     /// Notes a residual of the ledger [J]; one that is not a number stays.
@@ -58,19 +63,10 @@ impl RunState {
         }
     }
 
-    /// Run state and memory as bytes.
-    pub fn checkpoint(&self, memory: &Memory) -> Vec<u8> {
+    /// Run state and islands as bytes.
+    pub(crate) fn checkpoint(&self, islands: impl Iterator<Item = IslandMemory>) -> Vec<u8> {
         let integers = [self.next_sample, self.events[0], self.events[1], self.events[2]];
-        let reals = [
-            self.initial_energy,
-            self.slow_since,
-            self.largest_residual,
-            self.energy_in_play,
-            self.smallest_gap,
-            self.largest_projection,
-            self.largest_gains[0],
-            self.largest_gains[1],
-        ];
+        let reals = [self.time, self.initial_energy, self.largest_residual, self.energy_in_play, self.smallest_gap];
         let mut bytes = Vec::new();
         let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| {
             bytes.extend((numbers.len() as u64).to_le_bytes());
@@ -78,53 +74,77 @@ impl RunState {
         };
         list(&mut integers.into_iter());
         list(&mut reals.iter().map(|real| real.to_bits()));
-        list(&mut self.signals.as_flattened().iter().map(|real| real.to_bits()));
-        list(&mut memory.integers.iter().copied());
-        list(&mut memory.reals.iter().map(|real| real.to_bits()));
+        for IslandMemory { state, stepper } in islands {
+            let reals = [state.slow_since, state.largest_projection, state.largest_gains[0], state.largest_gains[1]];
+            list(&mut reals.iter().map(|real| real.to_bits()));
+            list(&mut state.signals.as_flattened().iter().map(|real| real.to_bits()));
+            list(&mut stepper.integers.iter().copied());
+            list(&mut stepper.reals.iter().map(|real| real.to_bits()));
+        }
         bytes
     }
 
     /// Reads what [`RunState::checkpoint`] wrote; `None` if it is not that.
-    pub fn restore(bytes: &[u8]) -> Option<(Self, Memory)> {
+    pub(crate) fn restore(bytes: &[u8]) -> Option<(Self, Vec<IslandMemory>)> {
         let mut rest = bytes;
-        let mut list = || {
-            let count = usize::try_from(take(&mut rest)?).ok()?;
-            if count > rest.len() / 8 {
-                return None;
-            }
-            (0..count).map(|_| take(&mut rest)).collect::<Option<Vec<u64>>>()
-        };
-        let integers: [u64; 4] = list()?.try_into().ok()?;
-        let reals: [u64; 8] = list()?.try_into().ok()?;
-        let signals = list()?.into_iter().map(f64::from_bits).collect::<Vec<_>>();
+        let integers: [u64; 4] = list(&mut rest)?.try_into().ok()?;
+        let reals: [u64; 5] = list(&mut rest)?.try_into().ok()?;
+        let [time, initial_energy, largest_residual, energy_in_play, smallest_gap] = reals.map(f64::from_bits);
+        let [next_sample, events @ ..] = integers;
+        let state = Self { time, next_sample, initial_energy, largest_residual, energy_in_play, smallest_gap, events };
+        let mut islands = Vec::new();
+        while !rest.is_empty() {
+            islands.push(IslandMemory::read(&mut rest)?);
+        }
+        Some((state, islands))
+    }
+}
+
+impl IslandState {
+    /// At the start of a run.
+    pub fn new(bodies: usize) -> Self {
+        let signals = vec![[f64::NAN; 3]; bodies];
+        Self { slow_since: f64::NAN, largest_gains: [f64::NEG_INFINITY; 2], signals, ..Self::default() }
+    }
+
+    /// Notes what a step has added to the works of [`DISSIPATION`] [J].
+    pub(crate) fn note_dissipation(&mut self, before: [f64; 2], after: [f64; 2]) {
+        for (largest, (before, after)) in self.largest_gains.iter_mut().zip(before.into_iter().zip(after)) {
+            *largest = largest.max(after - before);
+        }
+    }
+}
+
+impl IslandMemory {
+    /// Puts an island in the place of what is remembered.
+    pub fn remember(&mut self, state: &IslandState, integrator: &Integrator) {
+        let mut signals = std::mem::take(&mut self.state.signals);
+        signals.clone_from(&state.signals);
+        self.state = IslandState { signals, ..*state };
+        integrator.remember(&mut self.stepper);
+    }
+
+    fn read(rest: &mut &[u8]) -> Option<Self> {
+        let reals: [u64; 4] = list(rest)?.try_into().ok()?;
+        let [slow_since, largest_projection, largest_gains @ ..] = reals.map(f64::from_bits);
+        let signals = list(rest)?.into_iter().map(f64::from_bits).collect::<Vec<_>>();
         let (signals, rest_of_signals) = signals.as_chunks::<3>();
         if !rest_of_signals.is_empty() {
             return None;
         }
-        let memory = Memory { integers: list()?, reals: list()?.into_iter().map(f64::from_bits).collect() };
-        let [
-            initial_energy,
-            slow_since,
-            largest_residual,
-            energy_in_play,
-            smallest_gap,
-            largest_projection,
-            gains @ ..,
-        ] = reals.map(f64::from_bits);
-        let state = Self {
-            next_sample: integers[0],
-            initial_energy,
-            slow_since,
-            largest_residual,
-            energy_in_play,
-            smallest_gap,
-            largest_projection,
-            largest_gains: gains,
-            events: [integers[1], integers[2], integers[3]],
-            signals: signals.to_vec(),
-        };
-        rest.is_empty().then_some((state, memory))
+        let stepper = Memory { integers: list(rest)?, reals: list(rest)?.into_iter().map(f64::from_bits).collect() };
+        let state = IslandState { slow_since, largest_projection, largest_gains, signals: signals.to_vec() };
+        Some(Self { state, stepper })
     }
+}
+
+/// A list of numbers behind its length.
+fn list(rest: &mut &[u8]) -> Option<Vec<u64>> {
+    let count = usize::try_from(take(rest)?).ok()?;
+    if count > rest.len() / 8 {
+        return None;
+    }
+    (0..count).map(|_| take(rest)).collect()
 }
 
 fn take(bytes: &mut &[u8]) -> Option<u64> {
@@ -137,22 +157,29 @@ fn take(bytes: &mut &[u8]) -> Option<u64> {
 mod tests {
     use super::*;
 
+    fn island(bodies: usize, first: f64) -> IslandMemory {
+        let mut state = IslandState::new(bodies);
+        state.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
+        let stepper = Memory { integers: vec![1, 2, 3], reals: vec![first, f64::INFINITY, -0.0] };
+        IslandMemory { state, stepper }
+    }
+
     #[test]
     fn a_checkpoint_restores_every_bit() {
-        let mut state = RunState { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..RunState::new(2) };
-        state.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
-        let memory = Memory { integers: vec![1, 2, 3], reals: vec![0.1, f64::INFINITY, -0.0] };
-        let bytes = state.checkpoint(&memory);
-        let (read, read_memory) = RunState::restore(&bytes).unwrap();
-        assert_eq!(read.checkpoint(&read_memory), bytes);
-        assert_eq!(read_memory, memory);
-        assert!(read.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
-        assert_eq!(read.largest_gains, [-0.5, -0.25]);
+        let state = RunState { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..RunState::new(0.25) };
+        let islands = [island(2, 0.1), island(1, 0.2)];
+        let bytes = state.checkpoint(islands.iter().cloned());
+        let (read, read_islands) = RunState::restore(&bytes).unwrap();
+        assert_eq!(read, state);
+        assert_eq!(read.checkpoint(read_islands.iter().cloned()), bytes);
+        assert_eq!([&read_islands[0].stepper, &read_islands[1].stepper], [&islands[0].stepper, &islands[1].stepper]);
+        assert!(read_islands[0].state.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
+        assert_eq!(read_islands[1].state.largest_gains, [-0.5, -0.25]);
     }
 
     #[test]
     fn the_step_that_takes_least_is_kept() {
-        let mut state = RunState::new(1);
+        let mut state = IslandState::new(1);
         let works = [[0.0, 0.0], [-1.0, -3.0], [-1.5, -3.0], [-4.0, -2.0]];
         works.windows(2).for_each(|pair| state.note_dissipation(pair[0], pair[1]));
         assert_eq!(state.largest_gains, [-0.5, 1.0]);
@@ -160,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_residual_that_is_no_number_is_kept() {
-        let mut state = RunState::new(1);
+        let mut state = RunState::new(0.0);
         let mut noted = |residual| {
             state.note_residual(residual);
             state.largest_residual
@@ -171,8 +198,10 @@ mod tests {
 
     #[test]
     fn damaged_checkpoints_are_refused() {
-        let bytes = RunState::new(1).checkpoint(&Memory { integers: vec![4], reals: vec![1.0] });
-        assert!((0..bytes.len()).all(|length| RunState::restore(&bytes[..length]).is_none()));
+        let bytes = RunState::new(0.0).checkpoint([island(1, 1.0)].into_iter());
+        // All but the one that ends with the run state: one without islands.
+        let refused = |length: &usize| RunState::restore(&bytes[..*length]).is_none();
+        assert_eq!((0..bytes.len()).filter(refused).count(), bytes.len() - 1);
         let mut huge = bytes;
         huge[..8].copy_from_slice(&u64::MAX.to_le_bytes());
         assert!(RunState::restore(&huge).is_none());

@@ -7,14 +7,13 @@
 //! change the rates are evaluated anew and the error history is forgotten, the size of the step is not. Nothing is
 //! recorded, and the run does not end by itself: neither at the scene's end nor at rest.
 
-use crate::detached::DetachedRun;
 use crate::events::Event;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
-use crate::ports::{Monitor, Progress, RunError, Sink};
+use crate::ports::{Monitor, RunError, Sink};
 use crate::record::{MemorySink, Unwatched};
 use crate::rows::Ledger;
-use crate::run::{Run, Simulation};
+use crate::run::Simulation;
 use gyration::balance::smallest_gap;
 use gyration::body::BodyKind;
 use gyration::contractile::ContractionSource;
@@ -27,15 +26,14 @@ use gyration::tensor::Mat3;
 use gyration_ode::Statistics;
 use gyration_record::RecordError;
 use gyration_scene::Built;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A run that its caller steps.
 pub struct SteppedRun {
-    model: Model,
-    /// None while a step is being made.
-    detached: Option<DetachedRun>,
-    /// Whether the model has changed since the last step.
-    changed: bool,
+    simulation: Simulation,
+    /// The bodies whose loads or drives have changed since the last step.
+    changed: BTreeSet<usize>,
     /// The scene's end [s].
     end: f64,
     events: Vec<Event>,
@@ -80,34 +78,27 @@ impl SteppedRun {
         let plan = RunPlan { stop_at_rest: None, ..RunPlan::from(built) };
         let mut simulation = Simulation::new(&model, &start, plan)?;
         simulation.begin(&mut MemorySink::default())?;
-        let detached = Some(simulation.detach());
-        Ok(Self { model, detached, changed: false, end: plan.end, events: Vec::new() })
+        Ok(Self { simulation, changed: BTreeSet::new(), end: plan.end, events: Vec::new() })
     }
 
     /// The model as it is now.
     pub fn model(&self) -> &Model {
-        &self.model
+        self.simulation.model()
     }
 
     /// The time reached [s].
     pub fn time(&self) -> f64 {
-        self.run().integrator.time()
+        self.simulation.time()
     }
 
     /// The counters so far.
-    pub fn statistics(&self) -> &Statistics {
-        self.run().integrator.statistics()
+    pub fn statistics(&self) -> Statistics {
+        self.simulation.statistics()
     }
 
     /// The state reached.
     pub fn state(&self) -> State {
-        let integrator = &self.run().integrator;
-        State {
-            time: integrator.time(),
-            bodies: integrator.state().to_vec(),
-            low: integrator.state_low().to_vec(),
-            works: integrator.quadratures().to_vec(),
-        }
+        self.simulation.state()
     }
 
     /// The events of all steps so far.
@@ -117,12 +108,12 @@ impl SteppedRun {
 
     /// Placement and velocity of a body.
     pub fn motion(&self, body: usize) -> &BodyMotion {
-        &self.run().step_ends[body].motion
+        self.simulation.motion(body)
     }
 
     /// The smallest distance of a body to a support [m]; infinite without supports or surface.
     pub fn gap(&self, body: usize) -> f64 {
-        smallest_gap(&self.model, self.time(), body, self.motion(body))
+        smallest_gap(self.model(), self.time(), body, self.motion(body))
     }
 
     /// f and M of the contacts of a body.
@@ -131,9 +122,10 @@ impl SteppedRun {
     /// [`Stop`] if the state is outside the model, which an accepted one is not.
     pub fn contact_loads(&self, body: usize) -> Result<Loads, Stop> {
         let (state, mut workspace) = (self.state(), Workspace::default());
-        let read = workspace.read(&self.model, &state);
-        let loads = read.and_then(|(instant, scratch)| acting(&instant.at(&self.model, body), scratch));
-        let loads = loads.map_err(|left| Stop::by_inadmissible(&self.model, self.time(), &left))?;
+        let model = self.model();
+        let read = workspace.read(model, &state);
+        let loads = read.and_then(|(instant, scratch)| acting(&instant.at(model, body), scratch));
+        let loads = loads.map_err(|left| Stop::by_inadmissible(model, self.time(), &left))?;
         Ok(loads.contact)
     }
 
@@ -142,17 +134,12 @@ impl SteppedRun {
     /// # Errors
     /// [`Stop`] if the state is outside the model, which an accepted one is not.
     pub fn ledger(&mut self) -> Result<Ledger, Stop> {
-        self.with(|simulation| {
-            simulation.sample_end();
-            let (model, initial) = (simulation.system.model(), simulation.run.state.initial_energy);
-            let ledger = Ledger::of(model, simulation.system.workspace(), &simulation.run.sampled, Some(initial));
-            ledger.map_err(|left| Stop::by_inadmissible(model, simulation.run.sampled.time, &left))
-        })
+        self.simulation.ledger()
     }
 
     /// The names of the columns, in the order of the CSV, each with its place in the [`row`](Self::row).
     pub fn columns(&self) -> Vec<(String, usize)> {
-        let (arrays, order) = self.run().fields.arrays(&self.model);
+        let (arrays, order) = self.simulation.fields().arrays(self.model());
         let mut places = std::collections::HashMap::new();
         let mut at = 0;
         for array in arrays {
@@ -167,14 +154,7 @@ impl SteppedRun {
     /// # Errors
     /// [`Stop`] if the state is outside the model, which an accepted one is not.
     pub fn row(&mut self) -> Result<Vec<f64>, Stop> {
-        self.with(|simulation| {
-            simulation.sample_end();
-            let (model, initial) = (simulation.system.model(), simulation.run.state.initial_energy);
-            let Simulation { system, run: Run { fields, sampled, rows, .. } } = simulation;
-            let filled = fields.fill(model, system.workspace(), sampled, Some(initial), rows);
-            filled.map_err(|left| Stop::by_inadmissible(model, sampled.time, &left))?;
-            Ok(rows.row.clone())
-        })
+        self.simulation.row()
     }
 
     /// Applies a load to a body until another is applied to it.
@@ -186,7 +166,10 @@ impl SteppedRun {
         if !load.is_finite() {
             return Err(Refusal::NotFinite { body: name });
         }
-        self.changed |= self.model.applied(body) != Some(&load) && self.model.apply(body, load);
+        if self.model().applied(body) != Some(&load) && self.simulation.change(body, |model, at| model.apply(at, load))
+        {
+            self.changed.insert(body);
+        }
         Ok(())
     }
 
@@ -200,26 +183,37 @@ impl SteppedRun {
         if !value.iter().all(|number| number.is_finite()) {
             return Err(Refusal::NotFinite { body: name });
         }
-        let BodyKind::Contractile(contractile) = &mut Arc::make_mut(&mut self.model.bodies[body]).kind else {
-            return Err(Refusal::NoDrive { body: name });
-        };
-        let ContractionSource::Driven { drive, .. } = &mut contractile.contraction.source else {
-            return Err(Refusal::NoDrive { body: name });
-        };
         let constant = Signal::Constant(value);
-        self.changed |= *drive != constant;
-        *drive = constant;
-        Ok(())
+        // Whether it has another drive from now on; none where it has no drive.
+        let set = |model: &mut Model, at: usize| match &mut Arc::make_mut(&mut model.bodies[at]).kind {
+            BodyKind::Contractile(contractile) => match &mut contractile.contraction.source {
+                ContractionSource::Driven { drive, .. } => Some(std::mem::replace(drive, constant.clone()) != constant),
+                ContractionSource::Prescribed(_) => None,
+            },
+            BodyKind::Rigid(_) | BodyKind::Affine(_) => None,
+        };
+        match self.simulation.change(body, set) {
+            None => Err(Refusal::NoDrive { body: name }),
+            Some(changed) => {
+                self.changed.extend(changed.then_some(body));
+                Ok(())
+            }
+        }
     }
 
-    /// Makes one step; past the scene's end it goes on.
+    /// Makes one step; past the scene's end it goes on. Of several bodies it is the shortest that one of them would
+    /// make, and all end there.
     ///
     /// # Errors
     /// [`Stop`] if the run cannot go on; the state stays the last one.
     pub fn step(&mut self) -> Result<(), Stop> {
         let time = self.time();
         let end = if time < self.end { self.end } else { time + self.end };
-        self.step_towards(end, &mut Unwatched)
+        self.restart_changed()?;
+        match self.simulation.shortest_step()? {
+            None => self.step_towards(end, &mut Unwatched),
+            Some(step) => self.advance((time + step).min(end), &mut Unwatched),
+        }
     }
 
     /// Steps to a time, and ends a step there; a time that is not ahead does nothing.
@@ -234,47 +228,29 @@ impl SteppedRun {
     }
 
     fn step_towards(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), Stop> {
+        self.restart_changed()?;
+        self.simulation.plan.end = end;
         let mut kept = EventList(std::mem::take(&mut self.events));
-        let changed = std::mem::take(&mut self.changed);
-        let stepped = self.with(|simulation| {
-            simulation.run.plan.end = end;
-            if changed {
-                simulation.restart()?;
-            }
-            let report = match simulation.step(&mut kept) {
-                Ok(stepped) => stepped?,
-                Err(error) => unreachable!("events that are kept in memory cannot fail: {error}"),
-            };
-            let (model, statistics) = (simulation.system.model(), simulation.run.integrator.statistics());
-            let progress = Progress { time: report.end, end, step: &report, statistics, model };
-            match monitor.after_step(&progress).filter(|_| report.end < end) {
-                Some(reason) => Err(Stop::by_request(report.end, reason)),
-                None => Ok(()),
-            }
-        });
+        let stepped = self.simulation.step(&mut kept, monitor);
         self.events = kept.0;
-        stepped
-    }
-
-    fn run(&self) -> &Run {
-        match &self.detached {
-            Some(detached) => &detached.run,
-            None => unreachable!("a step has panicked"),
+        match stepped {
+            Ok(stepped) => stepped?,
+            Err(error) => unreachable!("events that are kept in memory cannot fail: {error}"),
+        }
+        let time = self.time();
+        match self.simulation.ask(monitor).filter(|_| time < end) {
+            Some(reason) => Err(Stop::by_request(time, reason)),
+            None => Ok(()),
         }
     }
 
-    /// Lets the run go on with the model for a while.
-    fn with<T>(&mut self, act: impl FnOnce(&mut Simulation) -> T) -> T {
-        let Some(detached) = self.detached.take() else { unreachable!("a step has panicked") };
-        let mut simulation = detached.on(&self.model);
-        let done = act(&mut simulation);
-        self.detached = Some(simulation.detach());
-        done
+    fn restart_changed(&mut self) -> Result<(), Stop> {
+        std::mem::take(&mut self.changed).into_iter().try_for_each(|body| self.simulation.restart(body))
     }
 
     /// The name of a body.
     fn named(&self, index: usize) -> Result<String, Refusal> {
-        let bodies = &self.model.bodies;
+        let bodies = &self.model().bodies;
         let body = bodies.get(index).ok_or(Refusal::Body { index, count: bodies.len() })?;
         Ok(body.name.clone())
     }

@@ -4,6 +4,7 @@
 
 mod deforming;
 mod dissipation;
+mod islands;
 mod modes;
 mod random;
 mod random_scenes;

@@ -86,7 +86,7 @@ fn warm_up(system: &mut ModelSystem, start: &State) {
 /// Steps from the first to the end, each with an interpolation and a search for a crossing.
 fn steps_after_the_first(scene: &Scene, method: Method, end: f64) -> (u64, Statistics) {
     let (model, start) = (&scene.built().model, &scene.built().state);
-    let mut system = ModelSystem::new(model, start, Tolerance { rtol: 1e-6, atol: 1e-9 }).unwrap();
+    let mut system = ModelSystem::new(model.clone(), start, Tolerance { rtol: 1e-6, atol: 1e-9 }).unwrap();
     warm_up(&mut system, start);
     let options = Options { method, max_step: 0.1, ..Options::default() };
     let mut integrator = Integrator::new(0.0, &start.bodies, &start.works, options);
@@ -167,7 +167,7 @@ fn a_run_allocates_nothing_in_its_loop() {
     simulation.begin(&mut sink).unwrap();
     simulation.run(&mut sink, &mut Briefly).unwrap();
     assert!(sink.events > 0, "scratch for events has been used");
-    let before = (sink.rows, sink.events, *simulation.statistics());
+    let before = (sink.rows, sink.events, simulation.statistics());
     let mut outcome = None;
     let counted = measure(|| outcome = Some(simulation.run(&mut sink, &mut Unwatched)));
     assert_eq!(outcome.unwrap().unwrap(), Outcome::Completed);

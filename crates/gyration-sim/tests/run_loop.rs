@@ -13,7 +13,7 @@ fn run(text: &str, overrides: &[&str]) -> (MemorySink, gyration_ode::Statistics)
     let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
     simulation.begin(&mut sink).unwrap();
     assert_eq!(simulation.run(&mut sink, &mut Unwatched).unwrap(), Outcome::Completed);
-    (sink, *simulation.statistics())
+    (sink, simulation.statistics())
 }
 
 /// A rod that spins in front of a plane without laws comes closest twice a turn.

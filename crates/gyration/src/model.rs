@@ -29,6 +29,8 @@ pub struct Model {
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
     energies: Vec<Energy>,
+    /// Whether all repulsion and adhesion of the whole model derive from a potential.
+    has_potential: bool,
     /// What a controller applies to each body; empty without one.
     applied: Vec<Applied>,
 }
@@ -45,7 +47,9 @@ impl Model {
         let slots = layout(&bodies);
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
-        let model = Self { gravity, supports, bodies, fluid: None, slots, blocks, works, energies, applied };
+        let has_potential = has_potential(&bodies);
+        let fluid = None;
+        let model = Self { gravity, supports, bodies, fluid, slots, blocks, works, energies, has_potential, applied };
         model.with_ledger()
     }
 
@@ -78,9 +82,10 @@ impl Model {
             fluid: self.fluid.clone(),
             works: Vec::new(),
             energies: Vec::new(),
+            has_potential: self.has_potential,
             applied: members.iter().filter_map(|body| self.applied.get(*body)).copied().collect(),
         };
-        part.enter_ledger(has_potential(&self.bodies));
+        part.enter_ledger();
         part
     }
 
@@ -133,12 +138,12 @@ impl Model {
     /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as
     /// works.
     fn with_ledger(mut self) -> Self {
-        self.enter_ledger(has_potential(&self.bodies));
+        self.enter_ledger();
         self
     }
 
-    /// The same, given whether repulsion and adhesion are an energy.
-    fn enter_ledger(&mut self, potential: bool) {
+    fn enter_ledger(&mut self) {
+        let potential = self.has_potential;
         let mut loads: Vec<Load> = Vec::new();
         for (index, body) in self.bodies.iter().enumerate() {
             let listed = Load::try_each(body, self.fluid.as_deref(), self.applied.get(index), |load| {

@@ -10,6 +10,7 @@ use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, RecordError, Recording, remove};
 use gyration_scene::Scene;
 use gyration_sim::{Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunError, RunSummary, Simulation};
+use gyration_threads::Threads;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -20,7 +21,12 @@ const MOST_NAMES: usize = 10_000;
 pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     let scene = ready(&arguments.scene)?;
     let path = directory(arguments, &scene)?;
-    let job = Job::of(&scene, &provenance());
+    let mut job = Job::of(&scene, &provenance());
+    if let Some(threads) = arguments.threads {
+        let threads =
+            Threads::asked(Some(threads.get())).map_err(|wrong| CliError::arguments(wrong.to_string(), wrong.fix()))?;
+        job.plan.threads = Some(threads);
+    }
     let mut watch = RunProgress::new(!arguments.quiet)?;
     let ended = watch.interruption().within(|| {
         if arguments.resume {

@@ -27,7 +27,7 @@ pub use fluid::TRIANGLES;
 pub(crate) use salvage::salvage;
 
 use crate::check::{PartialScene, Reporter};
-use crate::file::{self, Method, Recorded, Solver, Time};
+use crate::file::{self, Method, Recorded, Solver, Threads, Time};
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
@@ -35,6 +35,7 @@ use gyration::model::Model;
 use gyration::state::{Start, State};
 use gyration::tensor::Vec3;
 use solids::Solids;
+use std::num::NonZeroUsize;
 use std::time::Duration;
 
 /// A scene ready to run.
@@ -84,6 +85,8 @@ pub struct Plan {
     pub max_step: Option<f64>,
     /// The longest computing time \[s\].
     pub max_wall_time: Option<f64>,
+    /// How many threads share the bodies out, if that is said.
+    pub threads: Option<NonZeroUsize>,
 }
 
 impl Plan {
@@ -114,6 +117,7 @@ impl Plan {
             method: solver.method,
             max_step: solver.max_step.map(|step| step.value()),
             max_wall_time: solver.max_wall_time.map(|time| time.value()),
+            threads: solver.threads.map(Threads::count),
         }
     }
 }

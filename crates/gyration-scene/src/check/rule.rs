@@ -68,6 +68,8 @@ pub(super) struct NumberLimits {
     pub(super) most: Option<f64>,
     /// More than this.
     pub(super) above: Option<f64>,
+    /// Without a fraction.
+    pub(super) whole: bool,
 }
 
 impl Rules {
@@ -115,7 +117,12 @@ fn field(schema: &Json) -> FieldRule {
     let number = |keyword: &str| schema.get(keyword).and_then(Json::as_f64);
     FieldRule {
         rule: rule(schema),
-        limits: NumberLimits { least: number("minimum"), most: number("maximum"), above: number("exclusiveMinimum") },
+        limits: NumberLimits {
+            least: number("minimum"),
+            most: number("maximum"),
+            above: number("exclusiveMinimum"),
+            whole: text(schema, "type") == Some("integer"),
+        },
         description: text(schema, "description").unwrap_or_default().to_owned(),
     }
 }
@@ -144,7 +151,7 @@ fn rule(schema: &Json) -> Rule {
         Some("object") => table(schema),
         Some("array") => array(schema),
         Some("boolean") => Rule::Boolean,
-        Some("number") => Rule::Number,
+        Some("number" | "integer") => Rule::Number,
         Some("string") => Rule::Text,
         _ => Rule::Unknown,
     }

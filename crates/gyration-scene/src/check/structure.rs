@@ -128,18 +128,20 @@ impl Walker<'_> {
 
     fn limits(&mut self, number: f64, node: &Node, key: &Key, limits: NumberLimits, unit: &str) {
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let NumberLimits { least, most, above } = limits;
+        let NumberLimits { least, most, above, whole } = limits;
         let broken = match (least, most, above) {
             _ if number.is_nan() => Some("a number".to_owned()),
             _ if number.is_infinite() => Some("finite".to_owned()),
             (_, _, Some(above)) if number <= above => Some(format!("greater than {}{unit}", short(above))),
             (Some(least), _, _) if number < least => Some(format!("at least {}{unit}", short(least))),
             (_, Some(most), _) if number > most => Some(format!("at most {}{unit}", short(most))),
+            _ if whole && number.fract() != 0.0 => Some("whole".to_owned()),
             _ => None,
         };
         if let Some(condition) = broken {
             let message = format!("must be {condition}, found {}{unit}", short(number));
             let range = match (least, most) {
+                (Some(least), Some(most)) if whole => format!("write a whole number from {least} to {most}"),
                 (Some(least), Some(most)) => format!("write a number from {least:?} to {most:?}{unit}"),
                 _ if number.is_nan() => "write the number itself".to_owned(),
                 _ => format!("write a number that is {condition}"),

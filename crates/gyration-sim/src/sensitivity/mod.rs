@@ -146,7 +146,8 @@ impl Sensitivities {
         };
         // Rows with the columns that the quantities know.
         let plan = RunPlan { extras: Extras::default(), ..built.into() };
-        let mut simulation = Simulation::new(model, &built.state, plan)?;
+        // The tangent follows one stepper.
+        let mut simulation = Simulation::together(model, &built.state, plan)?;
         let vary = |number| SceneVariation::new(scene, number).map_err(|reason| Meaningless { from: 0.0, reason });
         let variations = numbers.into_iter().map(vary).collect();
         let mut tangent = Tangent::new(model, &built.state, &plan, variations)?;
@@ -156,11 +157,11 @@ impl Sensitivities {
         let mut sink = MemorySink::default();
         simulation.begin(&mut sink)?;
         loop {
-            let before = simulation.run.integrator.time();
+            let before = simulation.islands[0].integrator.time();
             let ended = simulation.advance(&mut sink, &mut Unwatched)?;
-            let after = simulation.run.integrator.time();
+            let after = simulation.islands[0].integrator.time();
             if after > before {
-                tangent.record(&simulation.run.integrator);
+                tangent.record(&simulation.islands[0].integrator);
             }
             for (time, row) in sink.rows.drain(..) {
                 let is_last = ended.is_some() || time >= plan.end;
@@ -169,11 +170,11 @@ impl Sensitivities {
                 }
                 tangent.reach(time);
                 this.note(time, quantities.of_row(&row));
-                this.differentiate(&mut tangent, &mut quantities, &simulation.run.integrator);
+                this.differentiate(&mut tangent, &mut quantities, &simulation.islands[0].integrator);
             }
             if after > before {
                 tangent.go_on();
-                tangent.cross(&simulation.run.integrator, before);
+                tangent.cross(&simulation.islands[0].integrator, before);
             }
             if let Some(outcome) = ended {
                 this.finish(outcome, &tangent, at);

@@ -33,7 +33,7 @@ pub(super) fn along<E>(
 }
 
 /// The scales of state and works.
-pub(super) fn fill_scales(system: &mut ModelSystem<'_>, state: &State, scales: &mut [f64]) {
+pub(super) fn fill_scales(system: &mut ModelSystem, state: &State, scales: &mut [f64]) {
     let (bodies, works) = scales.split_at_mut(state.bodies.len());
     system.error_scales(state.time, &state.bodies, &state.works, bodies, works);
 }

@@ -58,7 +58,9 @@ pub(super) struct Nodes {
 
 /// S and W after a time of the run.
 pub(super) struct Tangent<'a> {
-    pub(super) system: ModelSystem<'a>,
+    /// The model.
+    pub(super) model: &'a Model,
+    pub(super) system: ModelSystem,
     rule: CollocationRule,
     /// The numbers, with what their kinks do; none for those without a derivative.
     pub(super) variations: Vec<Result<(SceneVariation, Kinks), Meaningless>>,
@@ -90,7 +92,7 @@ impl<'a> Tangent<'a> {
         variations: Vec<Result<SceneVariation, Meaningless>>,
     ) -> Result<Self, RunError> {
         let outside = |left| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
-        let mut system = ModelSystem::new(model, start, SCALES).map_err(outside)?;
+        let mut system = ModelSystem::new(model.clone(), start, SCALES).map_err(outside)?;
         let (n, columns) = (model.dimension(), variations.len() + 1);
         let mut scales = vec![0.0; n + model.works().len()];
         fill_scales(&mut system, start, &mut scales);
@@ -112,6 +114,7 @@ impl<'a> Tangent<'a> {
         }
         let works = DMatrix::zeros(model.works().len(), columns);
         Ok(Self {
+            model,
             system,
             rule: CollocationRule::new(),
             variations: prepared,
@@ -156,7 +159,7 @@ impl<'a> Tangent<'a> {
     /// # Errors
     /// Why they mean nothing.
     pub fn derivative(&mut self, column: usize, quantities: &mut Quantities) -> Result<Vec<f64>, Meaningless> {
-        let model = self.system.model();
+        let model = self.model;
         let (variation, _) = self.variations[column].as_mut().map_err(|lost| lost.clone())?;
         let direction: Vec<f64> = self.state.column(column).iter().chain(&self.works.column(column)).copied().collect();
         let found = quantities.derivative(model, &self.at, &direction, &self.scales, variation);
@@ -211,7 +214,7 @@ impl<'a> Tangent<'a> {
             // What kept it short may be over behind it.
             Ok(next) if self.time == end && end < wanted => self.size = self.size.max(next),
             Ok(next) => self.size = next,
-            Err(left) => self.lose_all(reason(self.system.model(), self.time, &left)),
+            Err(left) => self.lose_all(reason(self.model, self.time, &left)),
         }
     }
 
@@ -238,7 +241,7 @@ impl<'a> Tangent<'a> {
 
     /// The equations at the nodes of a step, and the states there.
     fn nodes(&mut self, from: f64, to: f64) -> Result<Nodes, Inadmissible> {
-        let model = self.system.model();
+        let model = self.model;
         let mut nodes = Nodes::default();
         for (node, part) in NODES.iter().enumerate() {
             self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
@@ -266,7 +269,7 @@ impl<'a> Tangent<'a> {
 
     /// ∂f/∂p and ∂g/∂p in the state at hand; a number for which there is none loses its meaning.
     fn forcing(&mut self) -> (DMatrix<f64>, DMatrix<f64>) {
-        let model = self.system.model();
+        let model = self.model;
         let (n, works) = (self.state.nrows(), self.works.nrows());
         let mut forcing = DMatrix::zeros(n, self.state.ncols());
         let mut forcing_works = DMatrix::zeros(works, self.state.ncols());

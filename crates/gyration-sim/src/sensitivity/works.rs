@@ -39,7 +39,7 @@ impl Tangent<'_> {
 
     /// Comes to the end of a step of the run that ends at a kink, and over it.
     pub fn cross(&mut self, run: &Integrator, from: f64) {
-        if !ends_at_kink(self.system.model(), from, run.time()) {
+        if !ends_at_kink(self.model, from, run.time()) {
             return;
         }
         self.reach(run.time());
@@ -50,7 +50,7 @@ impl Tangent<'_> {
         if moves {
             self.look(run);
             if let Err(left) = self.jump() {
-                self.lose_all(reason(self.system.model(), self.time, &left));
+                self.lose_all(reason(self.model, self.time, &left));
             }
         }
     }

@@ -54,7 +54,7 @@ impl LedgerSummary {
             verdict: balance.verdict(tolerance),
             balance,
             energy_in_play: balance.in_play,
-            least_dissipation: least_dissipation(model, run_state),
+            least_dissipation: least_dissipation(model, simulation.largest_gains()),
         }
     }
 
@@ -107,8 +107,8 @@ fn as_map<S: Serializer>(pairs: &[(&'static str, f64)], serializer: S) -> Result
 }
 
 /// Of the works that only take and that the model has, once there was a step.
-fn least_dissipation(model: &Model, run_state: &RunState) -> Vec<(&'static str, f64)> {
-    let entries = DISSIPATION.iter().zip(run_state.largest_gains);
+fn least_dissipation(model: &Model, largest_gains: [f64; 2]) -> Vec<(&'static str, f64)> {
+    let entries = DISSIPATION.iter().zip(largest_gains);
     let present = entries.filter(|(work, gain)| model.works().contains(work) && gain.is_finite());
     // Adding zero turns −0 into 0.
     present.map(|(work, gain)| (work.name(), -gain + 0.0)).collect()

@@ -50,6 +50,9 @@ pub struct BodySummary {
     pub position: [f64; 3],
     /// Smallest distance to a support [m]; none without supports.
     pub gap: Option<f64>,
+    /// Speed of the centre of mass [m/s].
+    #[serde(skip)]
+    pub speed: f64,
     /// Linear momentum [kg m/s].
     pub linear_momentum: [f64; 3],
     /// Angular momentum about the origin [kg m²/s].
@@ -90,6 +93,7 @@ impl RunSummary {
                     name: model.bodies[index].name.clone(),
                     position: seen.motion.placement.position.into(),
                     gap: seen.gap.is_finite().then_some(seen.gap),
+                    speed: seen.motion.velocity.velocity.norm(),
                     linear_momentum: seen.linear_momentum.into(),
                     angular_momentum: seen.angular_momentum.into(),
                     affine_momentum: [0, 1, 2].map(|row| [0, 1, 2].map(|col| k[(row, col)])),
@@ -141,6 +145,6 @@ fn statistics(simulation: &Simulation) -> Value {
         "switches": s.switches,
         "smallest_step": s.smallest_step,
         "largest_step": s.largest_step,
-        "largest_projection": simulation.run_state().largest_projection,
+        "largest_projection": simulation.largest_projection(),
     })
 }

@@ -8,7 +8,7 @@ use gyration_scene::Scene;
 use serde_json::Value;
 use std::fmt::Write as _;
 
-/// Bodies whose momenta are listed.
+/// Bodies whose momenta are listed; of more there is a summary.
 const MOST_BODIES: usize = 8;
 
 impl RunSummary {
@@ -20,7 +20,7 @@ impl RunSummary {
         let _ = writeln!(text, "{}", steps(self));
         text += &ledger(&self.ledger, start);
         text += &dissipation(&self.ledger);
-        text += &bodies(&self.bodies);
+        text += &if self.bodies.len() > MOST_BODIES { crowd(&self.bodies) } else { bodies(&self.bodies) };
         text += &events(&self.events);
         text.trim_end().to_owned()
     }
@@ -125,7 +125,7 @@ fn verdict(losses: &[Loss], in_play: f64) -> String {
 
 fn bodies(bodies: &[BodySummary]) -> String {
     let mut text = String::from("at the end\n");
-    for body in bodies.iter().take(MOST_BODIES) {
+    for body in bodies {
         let gap = body.gap.map(|gap| format!(", gap {} m", significant(gap, 5))).unwrap_or_default();
         let _ = writeln!(text, "  {:<20} at {} m{gap}", body.name, vector(&body.position));
         let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "", vector(&body.linear_momentum));
@@ -134,10 +134,42 @@ fn bodies(bodies: &[BodySummary]) -> String {
         let rows = [vector(first), vector(second), vector(third)].join(" ");
         let _ = writeln!(text, "  {:<20} affine momentum {rows} kg m²/s", "");
     }
-    if let Some(more) = bodies.len().checked_sub(MOST_BODIES).filter(|more| *more > 0) {
-        let _ = writeln!(text, "  and {more} more");
-    }
     text
+}
+
+/// What many bodies have in common at the end: where they are, how far from supports, how fast, and their momentum.
+fn crowd(bodies: &[BodySummary]) -> String {
+    let mut text = format!("at the end, {} bodies\n", bodies.len());
+    let between = |of: &dyn Fn(&BodySummary) -> f64| {
+        let range = bodies
+            .iter()
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
+        format!("{} to {}", significant(range.0, 5), significant(range.1, 5))
+    };
+    for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        let _ = writeln!(text, "  {name:<20} {} m", between(&|body| body.position[axis]));
+    }
+    if let Some(nearest) = bodies.iter().filter(|body| body.gap.is_some()).min_by(|a, b| gap(a).total_cmp(&gap(b))) {
+        let farthest = bodies.iter().filter_map(|body| body.gap).fold(0.0, f64::max);
+        let (least, most) = (significant(gap(nearest), 5), significant(farthest, 5));
+        let _ = writeln!(text, "  {:<20} {least} ({}) to {most} m", "gap", nearest.name);
+    }
+    let fastest = bodies.iter().max_by(|a, b| a.speed.total_cmp(&b.speed));
+    let mean = (bodies.iter().map(|body| body.speed * body.speed).sum::<f64>() / bodies.len() as f64).sqrt();
+    if let Some(fastest) = fastest {
+        let (mean, most) = (significant(mean, 5), significant(fastest.speed, 5));
+        let _ =
+            writeln!(text, "  {:<20} {mean} m/s in the square mean, at most {most} m/s ({})", "speed", fastest.name);
+    }
+    let total = bodies.iter().fold([0.0; 3], |sum, body| [0, 1, 2].map(|axis| sum[axis] + body.linear_momentum[axis]));
+    let _ = writeln!(text, "  {:<20} {} kg m/s in all", "momentum", vector(&total));
+    text
+}
+
+/// The gap of a body, if it has one.
+fn gap(body: &BodySummary) -> f64 {
+    body.gap.unwrap_or(f64::INFINITY)
 }
 
 fn events(events: &Value) -> String {

@@ -8,7 +8,7 @@ use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
 use gyration_sim::rows::Ledger;
-use gyration_sim::{Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, Simulation, Sink};
+use gyration_sim::{Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, Simulation, Sink, WindowEnd};
 
 /// The most evaluations of a run: enough for some hundred steps. A longer one is audited up to there.
 const MOST_EVALUATIONS: u64 = 6000;
@@ -40,7 +40,7 @@ pub fn run(scene: &Scene) -> Result<RunFigures, RunError> {
     let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
     simulation.begin(&mut auditor)?;
     let outcome = simulation.run(&mut auditor, &mut limit())?;
-    let (statistics, state) = (*simulation.statistics(), simulation.state());
+    let (statistics, state) = (simulation.statistics(), simulation.state());
     let size = job.model.bodies.iter().map(|body| body.size).fold(f64::INFINITY, f64::min);
     Ok(RunFigures {
         outcome,
@@ -104,27 +104,10 @@ impl Sink for Auditor<'_> {
         Ok(())
     }
 
-    fn step_end(&mut self, checkpoint: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
-        let state = state_of(self.model, &checkpoint());
-        self.audit(&state);
+    fn window_end(&mut self, at: &dyn WindowEnd) -> Result<(), RecordError> {
+        self.audit(&at.state());
         Ok(())
     }
-}
-
-/// The state in a checkpoint: the last of its five lists of numbers is time, bodies, works, what they lack, and more.
-fn state_of(model: &Model, checkpoint: &[u8]) -> State {
-    let (words, _) = checkpoint.as_chunks::<8>();
-    let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
-    for _ in 0..4 {
-        let count = words.next().unwrap() as usize;
-        words.by_ref().take(count).for_each(drop);
-    }
-    let _count = words.next();
-    let mut reals = words.map(f64::from_bits);
-    let time = reals.next().unwrap();
-    let [bodies, works, low] =
-        [model.dimension(), model.works().len(), model.dimension()].map(|count| reals.by_ref().take(count).collect());
-    State { time, bodies, low, works }
 }
 
 /// The contact energy [J] that it takes to bring the nearest body to a gap of 1e-9 of its size, turned as it is.

@@ -8,7 +8,8 @@ use gyration_record::{Layout, RecordError};
 use gyration_scene::Recorded;
 use gyration_sim::events::Event;
 use gyration_sim::{
-    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunSummary, Simulation, Sink, limit_in_words,
+    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunSummary, Simulation, Sink, WindowEnd,
+    limit_in_words,
 };
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -141,7 +142,7 @@ impl Sink for Publisher<'_> {
         Ok(())
     }
 
-    fn step_end(&mut self, _: &dyn Fn() -> Vec<u8>) -> Result<(), RecordError> {
+    fn window_end(&mut self, _: &dyn WindowEnd) -> Result<(), RecordError> {
         if self.told.elapsed() >= NEWS_EVERY {
             self.told = Instant::now();
             self.shared.announce();

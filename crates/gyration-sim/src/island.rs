@@ -1,0 +1,373 @@
+//! An island: bodies that nothing joins to any other, with an integrator of their own.
+//!
+//! What an island does depends on its own bodies alone: its steps, the errors that they are allowed, its works and its
+//! events are what they would be if there were no others. A run asks it to come to a time, and it does so by whole
+//! steps: the last one ends there or beyond, and its interpolant says what lies between. How often it is asked leaves
+//! no trace in any number.
+//!
+//! The anchor is the memory before the last step that went past what was asked for. From there an island goes on to the
+//! same bytes: after a kill, or when all that was done since must be forgotten because another island cannot go on.
+
+use crate::adapter::{ModelSystem, project};
+use crate::events::Event;
+use crate::horizon::horizon;
+use crate::outcome::Stop;
+use crate::plan::RunPlan;
+use crate::run_state::{DISSIPATION, IslandMemory, IslandState};
+use crate::step_end::{self, StepEnd};
+use crate::sum::Sum;
+use gyration::Inadmissible;
+use gyration::balance::fastest_speed;
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_ode::{ExtendedMut, Integrator, Memory, MemoryError, StepReport};
+use gyration_threads::Interruption;
+use std::ops::Range;
+
+/// A step longer than this part of what is left to a time may go past it: the end of a run is reached by a step that is
+/// a little longer than the one wanted.
+const MAY_PASS: f64 = 0.5;
+
+/// Bodies with an integrator of their own.
+pub(crate) struct Island {
+    /// Which bodies of the run, in order.
+    members: Vec<usize>,
+    /// Where the numbers of each body stand among those of the run.
+    places: Vec<Range<usize>>,
+    /// Which of the works of the run each of its own is.
+    works: Vec<usize>,
+    pub system: ModelSystem,
+    pub integrator: Integrator,
+    /// Beside the state, what its steps change.
+    pub state: IslandState,
+    /// The bodies at the end of the last step.
+    pub step_ends: Vec<StepEnd>,
+    /// A state within the last step; scratch between samples.
+    pub sampled: State,
+    /// |f| of the contacts of each body after the last step [N].
+    pub forces: Vec<f64>,
+    /// Events that are not handed on yet, in order of time.
+    pub events: Vec<Event>,
+    /// Scratch: since when each signal of each body is known within the step [s].
+    pub since: Vec<[f64; 3]>,
+    /// The last step.
+    pub report: Option<StepReport>,
+    /// How many steps it has made in this window.
+    pub window_steps: u64,
+    /// Why it came no further.
+    pub stop: Option<Stop>,
+    /// From where it can be begun again; none where nobody will ask for that.
+    anchor: Option<Anchor>,
+}
+
+/// Memories of an island.
+struct Anchor {
+    /// Before the last step that went past what was asked for before the last time, or the start.
+    kept: IslandMemory,
+    /// Before the last step that went past what was asked for last, or may have.
+    latest: IslandMemory,
+    /// Whether the latest is newer than the kept one.
+    is_newer: bool,
+}
+
+impl Island {
+    /// Bodies of a run before its first step. One island that is the whole run needs no anchor.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] of the part's model, if the start is outside it; with that model.
+    pub fn new(
+        model: &Model,
+        start: &State,
+        plan: &RunPlan,
+        members: Vec<usize>,
+    ) -> Result<Self, Box<(Model, Inadmissible)>> {
+        let is_whole = members.len() == model.bodies.len();
+        let part = if is_whole { model.clone() } else { model.part(&members) };
+        let places: Vec<Range<usize>> = members.iter().map(|body| model.blocks()[*body].clone()).collect();
+        let of_part = |all: &[f64]| places.iter().flat_map(|place| all.get(place.clone())).flatten().copied().collect();
+        let place = |work| model.works().iter().position(|other| *other == work);
+        let works: Vec<usize> = part.works().iter().filter_map(|work| place(*work)).collect();
+        let own = State {
+            time: start.time,
+            bodies: of_part(&start.bodies),
+            low: of_part(&start.low),
+            works: works.iter().map(|work| start.works[*work]).collect(),
+        };
+        let system = match ModelSystem::new(part.clone(), &own, plan.tolerance) {
+            Ok(system) => system,
+            Err(left) => return Err(Box::new((part, left))),
+        };
+        let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
+        let state = IslandState::new(members.len());
+        let mut this = Self {
+            members,
+            places,
+            works,
+            system,
+            integrator,
+            state,
+            step_ends: Vec::new(),
+            sampled: State { low: vec![0.0; own.bodies.len()], ..own },
+            forces: Vec::new(),
+            events: Vec::new(),
+            since: Vec::new(),
+            report: None,
+            window_steps: 0,
+            stop: None,
+            anchor: None,
+        };
+        this.read_step_end();
+        if !is_whole {
+            let kept = this.memory_now();
+            this.anchor = Some(Anchor { latest: kept.clone(), kept, is_newer: false });
+        }
+        Ok(this)
+    }
+
+    /// Learns what there is to know of the start.
+    pub fn begin(&mut self, plan: &RunPlan) {
+        self.find_forces();
+        for body in 0..self.step_ends.len() {
+            self.state.signals[body] = self.signals(body);
+        }
+        if self.is_slow(plan) {
+            self.state.slow_since = self.time();
+        }
+        if let Some(anchor) = &mut self.anchor {
+            anchor.kept.remember(&self.state, &self.integrator);
+        }
+    }
+
+    /// Which bodies of the run, in order.
+    pub fn members(&self) -> &[usize] {
+        &self.members
+    }
+
+    /// The model of its bodies.
+    pub fn model(&self) -> &Model {
+        self.system.model()
+    }
+
+    /// The time that it has come to [s].
+    pub fn time(&self) -> f64 {
+        self.integrator.time()
+    }
+
+    /// What it goes on from after a checkpoint: the same bytes follow.
+    pub fn memory(&self) -> IslandMemory {
+        self.anchor.as_ref().map_or_else(|| self.memory_now(), |anchor| anchor.kept.clone())
+    }
+
+    fn memory_now(&self) -> IslandMemory {
+        IslandMemory { state: self.state.clone(), stepper: self.integrator.memory() }
+    }
+
+    /// Goes on from a memory, up to the time that the run had come to; its events until then are known.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if it is not one of this island.
+    pub fn resume(&mut self, memory: &IslandMemory, plan: &RunPlan, time: f64) -> Result<(), MemoryError> {
+        let (numbers, works) = (self.integrator.state().len(), self.integrator.quadratures().len());
+        let integrator = Integrator::resume(&memory.stepper, plan.options)?;
+        let fits = integrator.state().len() == numbers && integrator.quadratures().len() == works;
+        if !fits || memory.state.signals.len() != self.members.len() {
+            let Memory { integers, reals } = &memory.stepper;
+            return Err(MemoryError::Length { integers: integers.len(), reals: reals.len() });
+        }
+        self.integrator = integrator;
+        self.state.clone_from(&memory.state);
+        if let Some(anchor) = &mut self.anchor {
+            anchor.kept.clone_from(memory);
+            anchor.is_newer = false;
+        }
+        self.events.clear();
+        self.stop = None;
+        self.read_step_end();
+        // What has been done once is not given up.
+        Interruption::default().within(|| while self.time() < time && self.step(plan).is_ok() {});
+        self.events.retain(|event| event.time > time);
+        Ok(())
+    }
+
+    /// Forgets what was done since the run was at a time.
+    pub fn go_back(&mut self, plan: &RunPlan, time: f64) {
+        let Some(anchor) = &self.anchor else { return };
+        let kept = anchor.kept.clone();
+        let resumed = self.resume(&kept, plan, time);
+        debug_assert!(resumed.is_ok(), "an island remembers itself");
+    }
+
+    /// Steps until a time is reached, or so many steps are made; the reason is in `stop` if it cannot go on. An
+    /// interruption in force is heeded between two steps.
+    pub fn reach(&mut self, until: f64, most: u64, plan: &RunPlan) {
+        self.stop = None;
+        for step in 0..most {
+            if self.time() >= until {
+                return;
+            }
+            if step > 0 && Interruption::due().is_some() {
+                self.stop = Some(Stop::by_interruption(self.time()));
+                return;
+            }
+            if let Some(anchor) = &mut self.anchor
+                && self.integrator.next_size() >= MAY_PASS * (until - self.integrator.time())
+            {
+                anchor.latest.remember(&self.state, &self.integrator);
+                anchor.is_newer = true;
+            }
+            match self.step(plan) {
+                Ok(report) => self.report = Some(report),
+                Err(stop) => {
+                    self.stop = Some(stop);
+                    return;
+                }
+            }
+            self.window_steps += 1;
+        }
+    }
+
+    /// Keeps what was done until a time that all islands have come to: none will go back behind it.
+    pub fn settle(&mut self, time: f64) {
+        let Some(anchor) = &mut self.anchor else { return };
+        if self.integrator.time() == time {
+            anchor.kept.remember(&self.state, &self.integrator);
+        } else if anchor.is_newer {
+            std::mem::swap(&mut anchor.kept, &mut anchor.latest);
+        }
+        anchor.is_newer = false;
+    }
+
+    /// Makes one step and finds its events.
+    fn step(&mut self, plan: &RunPlan) -> Result<StepReport, Stop> {
+        let (target, before, time) = (self.target(plan), self.dissipation(), self.time());
+        let made = self.integrator.step(&mut self.system, target);
+        if self.system.was_interrupted() {
+            // A shorter step that has gone well is another one than the run would have made.
+            return Err(Stop::by_interruption(time));
+        }
+        let report = made.map_err(|failure| Stop::by_failure(self.system.model(), &failure))?;
+        self.read_step_end();
+        self.state.largest_projection = self.state.largest_projection.max(report.projection);
+        self.state.note_dissipation(before, self.dissipation());
+        self.find_events(&report);
+        self.note_rest(plan, report.end);
+        Ok(report)
+    }
+
+    /// Restarts the stepper after a change of the model.
+    ///
+    /// # Errors
+    /// [`Stop`] if the system has no rates.
+    pub fn restart(&mut self) -> Result<(), Stop> {
+        let restarted = self.integrator.restart(&mut self.system);
+        restarted.map_err(|failure| Stop::by_failure(self.system.model(), &failure))?;
+        // Before the first step the rates at the start stand in the system.
+        let (rates, _) = self.integrator.rates();
+        step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
+        if let Some(anchor) = &mut self.anchor {
+            anchor.kept.remember(&self.state, &self.integrator);
+            anchor.is_newer = false;
+        }
+        Ok(())
+    }
+
+    /// The size that its next step is tried with [s].
+    ///
+    /// # Errors
+    /// [`Stop`] if it has no rates.
+    pub fn next_size(&mut self) -> Result<f64, Stop> {
+        if self.integrator.next_size() == 0.0 {
+            self.restart()?;
+        }
+        Ok(self.integrator.next_size())
+    }
+
+    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time
+    /// at which a support could be reached.
+    fn target(&self, plan: &RunPlan) -> f64 {
+        let time = self.time();
+        let mut end = plan.end;
+        if let Some(rest) = plan.stop_at_rest
+            && self.state.slow_since.is_finite()
+        {
+            end = end.min((self.state.slow_since + rest.hold).max(time));
+        }
+        if end <= time {
+            end = plan.end;
+        }
+        let horizon = horizon(self.model(), time, &self.step_ends, self.system.radii(), end - time);
+        let target = time + horizon;
+        // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
+        if target > time { target.min(end) } else { end }
+    }
+
+    /// Reads the bodies at the end of the last step, or at the start.
+    fn read_step_end(&mut self) {
+        let started = self.integrator.statistics().accepted() > 0;
+        let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
+        step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
+    }
+
+    /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
+    fn dissipation(&self) -> [f64; 2] {
+        let entries = self.model().works().iter().zip(self.integrator.quadratures());
+        DISSIPATION.map(|work| entries.clone().find(|(entry, _)| **entry == work).map_or(0.0, |(_, value)| *value))
+    }
+
+    /// Whether every body's fastest material point is slower than the speed of rest.
+    pub fn is_slow(&self, plan: &RunPlan) -> bool {
+        let Some(rest) = plan.stop_at_rest else { return false };
+        // The centre is never the fastest: looked at first, it spares the search in a body that moves.
+        let speed = |end: &StepEnd| end.motion.velocity.velocity.norm();
+        let bodies = self.model().bodies.iter().zip(&self.step_ends);
+        self.step_ends.iter().all(|end| speed(end) < rest.speed)
+            && bodies.into_iter().all(|(body, end)| fastest_speed(body, &end.motion) < rest.speed)
+    }
+
+    /// Notes since when all bodies have been slow.
+    fn note_rest(&mut self, plan: &RunPlan, time: f64) {
+        if !self.is_slow(plan) {
+            self.state.slow_since = f64::NAN;
+        } else if self.state.slow_since.is_nan() {
+            self.state.slow_since = time;
+        }
+    }
+
+    /// Samples the state at a time within the last step, or after it.
+    pub fn sample(&mut self, time: f64) {
+        sample(&self.integrator, self.system.model(), time, &mut self.sampled);
+    }
+
+    /// The state at a time within the last step, or after it.
+    pub fn state_at(&self, time: f64) -> State {
+        let mut state = self.sampled.clone();
+        sample(&self.integrator, self.model(), time, &mut state);
+        state
+    }
+
+    /// Puts its part of a state to that of the run: its numbers in their places, its works to the others.
+    pub fn join(&self, part: &State, bodies: &mut [f64], low: &mut [f64], works: &mut [Sum]) {
+        for (own, place) in self.model().blocks().iter().zip(&self.places) {
+            bodies[place.clone()].copy_from_slice(&part.bodies[own.clone()]);
+            low[place.clone()].copy_from_slice(&part.low[own.clone()]);
+        }
+        for (value, place) in part.works.iter().zip(&self.works) {
+            works[*place].add(*value);
+        }
+    }
+}
+
+/// The state at a time within the last step, or after it.
+fn sample(integrator: &Integrator, model: &Model, time: f64, sampled: &mut State) {
+    let State { time: at, bodies, low, works } = sampled;
+    *at = time;
+    if time >= integrator.time() {
+        bodies.copy_from_slice(integrator.state());
+        low.copy_from_slice(integrator.state_low());
+        works.copy_from_slice(integrator.quadratures());
+        return;
+    }
+    integrator.interpolate_extended(time, bodies, works, Some(low));
+    // Between the ends of a step the interpolant is off its manifold by its error.
+    project(model, time, ExtendedMut { high: bodies, low }, works);
+}
