@@ -303,7 +303,7 @@ impl Island {
 
     /// Reads the bodies at the end of the last step, or at the start.
     fn read_step_end(&mut self) {
-        let started = self.integrator.statistics().accepted() > 0;
+        let started = self.integrator.next_size() != 0.0;
         let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
     }

@@ -61,10 +61,15 @@ pub trait WindowEnd {
     fn state(&self) -> State;
 }
 
-/// What the run says of itself after each step, and whether it is to go on.
+/// What the run says of itself after each window, now and then within a long one, and whether it is to go on.
 pub trait Monitor {
-    /// Called after each window; a reason to stop ends the run.
+    /// Called after each window, and now and then within a long one; a reason to stop ends the run.
     fn after_step(&mut self, progress: &Progress) -> Option<Reason>;
+
+    /// Whether it is to be called after each step of any body, since what it asks for depends on their number.
+    fn counts_steps(&self) -> bool {
+        false
+    }
 }
 
 /// Where a run stands.

@@ -20,7 +20,7 @@ use crate::outcome::{Outcome, Reason, Stop};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink, WindowEnd};
 use crate::rows::{Fields, Ledger, RowScratch};
-use crate::run_state::RunState;
+use crate::run_state::{IslandMemory, RunState};
 use crate::sum::Sum;
 use gyration::Inadmissible;
 use gyration::dynamics::Workspace;
@@ -35,6 +35,8 @@ use std::num::NonZeroUsize;
 const STEPS: [u64; 2] = [1 << 12, 1 << 14];
 /// Steps of all islands together at most before the monitor is asked again.
 const MOST_STEPS: u64 = 1 << 14;
+/// A window that takes more than so many times that ends before its time.
+const MOST_ROUNDS: u32 = 4;
 /// The first window is this part of the run, or of a sample.
 const FIRST_WINDOW: f64 = 1e-6;
 /// Into how many pieces of work the islands are shared out, for each thread.
@@ -48,8 +50,10 @@ pub struct Simulation {
     /// The island of each body, and its place there.
     homes: Vec<(usize, usize)>,
     state: RunState,
-    /// The width of the next window [s].
+    /// How wide windows may be [s].
     window: f64,
+    /// How wide the last one was [s].
+    width: f64,
     /// The bodies of all islands at one time.
     joined: State,
     sums: Vec<Sum>,
@@ -100,6 +104,7 @@ impl Simulation {
             homes,
             state: RunState::new(start.time),
             window: FIRST_WINDOW * plan.sample.min(plan.end),
+            width: 0.0,
             joined: State { low: vec![0.0; start.bodies.len()], ..start.clone() },
             sums: Vec::new(),
             fields: Fields::new(model, &plan.extras),
@@ -123,6 +128,10 @@ impl Simulation {
             || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
         if memories.len() != this.islands.len() {
+            return Err(unfit());
+        }
+        let is_before = |memory: &IslandMemory| memory.stepper.time() <= state.time;
+        if !(state.time <= plan.end && memories.iter().all(is_before)) {
             return Err(unfit());
         }
         for (island, memory) in this.islands.iter_mut().zip(&memories) {
@@ -175,10 +184,10 @@ impl Simulation {
         self.state.time
     }
 
-    /// The state at [`Simulation::time`]; that of the last row, where an interruption came within a step of one of
-    /// several islands.
+    /// The state at [`Simulation::time`]; the last one that was sampled, where an interruption came within a step of
+    /// one of several islands.
     pub fn state(&self) -> State {
-        if self.is_broken && self.islands.len() > 1 {
+        if self.is_scattered() {
             return self.joined.clone();
         }
         let (time, mut sums) = (self.state.time, vec![Sum::default(); self.model.works().len()]);
@@ -188,6 +197,24 @@ impl Simulation {
         }
         state.works = sums.iter().map(Sum::value).collect();
         state
+    }
+
+    /// Whether there are islands at different times that have no common one.
+    fn is_scattered(&self) -> bool {
+        self.is_broken && self.islands.len() > 1
+    }
+
+    /// Lets all islands that are beyond the time of the run end a step there.
+    pub(crate) fn land(&mut self) {
+        if self.islands.len() == 1 {
+            return;
+        }
+        let time = self.state.time;
+        self.plan.end = time;
+        for island in self.islands.iter_mut().filter(|island| island.time() > time) {
+            island.go_back(&self.plan, time);
+        }
+        self.settle();
     }
 
     /// A checkpoint at [`Simulation::time`].
@@ -273,28 +300,40 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<Result<(), Stop>, RunError> {
         let before = self.state.time;
-        let until = self.window_end(sink.wants_event_rows());
-        let stop = loop {
+        let mut until = self.window_end(sink.wants_event_rows() || monitor.counts_steps());
+        let (mut stop, mut rounds) = (None, 0);
+        loop {
             self.reach(until, MOST_STEPS);
             if self.islands.iter().any(|island| island.system.was_interrupted()) {
                 self.is_broken = true;
                 return Ok(Err(Stop::by_interruption(before)));
             }
-            if let Some(stop) = self.first_stop() {
-                break Some(stop);
+            if let Some(found) = self.first_stop() {
+                // Those that are behind it may stop earlier still.
+                until = found.time;
+                stop = Some(found);
             }
             let time = self.least_time();
             if time >= until {
-                break None;
+                break;
             }
-            if let Some(reason) = self.ask(monitor) {
-                break Some(Stop::by_request(time, reason));
+            let asked = self.ask(monitor).map(|reason| Stop::by_request(time, reason));
+            let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
+            if asked.is_some() {
+                stop = asked;
+                break;
             }
-        };
-        if let Some(stop) = &stop {
-            self.go_back(stop.time);
+            rounds += 1;
+            if rounds == MOST_ROUNDS && stop.is_none() {
+                break;
+            }
+        }
+        let reached = until.min(self.least_time());
+        if stop.is_some() || reached < until {
+            self.go_back(reached);
         }
         self.settle();
+        self.width = self.state.time - before;
         self.hand_on_events(before, sink)?;
         Ok(stop.map_or(Ok(()), Err))
     }
@@ -309,10 +348,10 @@ impl Simulation {
         }
         let steps = self.islands.iter_mut().map(|island| std::mem::take(&mut island.window_steps));
         let steps: u64 = steps.sum();
-        if steps < STEPS[0] {
+        if steps < STEPS[0] && self.width >= self.window {
             self.window *= 2.0;
         } else if steps > STEPS[1] {
-            self.window *= 0.5;
+            self.window = 0.5 * self.window.min(self.width);
         }
         let mut until = (time + self.window).min(self.plan.end).min(self.sample_time(self.state.next_sample));
         if let Some(criterion) = self.plan.stop_at_rest {
@@ -340,18 +379,23 @@ impl Simulation {
         });
     }
 
-    /// The stop that comes first, if any; of several at one time that of the first body. An interruption comes before
-    /// all, where the island is that has come least far.
+    /// The stop that comes first, if any; of several at one time that of the first body. An interruption is where the
+    /// island is that has come least far, unless that one cannot go on.
     fn first_stop(&mut self) -> Option<Stop> {
         let least = self.least_time();
-        let stops = self.islands.iter_mut().filter_map(|island| island.stop.take());
-        let first = stops.reduce(|first, other| match (is_asked(&first), is_asked(&other)) {
-            (true, _) => first,
-            (false, true) => other,
-            _ if other.time < first.time => other,
-            _ => first,
-        })?;
-        Some(if is_asked(&first) { Stop { time: least, ..first } } else { first })
+        let (mut first, mut asked): (Option<Stop>, Option<Stop>) = (None, None);
+        for stop in self.islands.iter_mut().filter_map(|island| island.stop.take()) {
+            if is_asked(&stop) {
+                asked = asked.or(Some(stop));
+            } else if first.as_ref().is_none_or(|first| stop.time < first.time) {
+                first = Some(stop);
+            }
+        }
+        match (first, asked) {
+            (Some(first), Some(asked)) if first.time > least => Some(Stop { time: least, ..asked }),
+            (None, Some(asked)) => Some(Stop { time: least, ..asked }),
+            (first, _) => first,
+        }
     }
 
     /// The time of the island that has come least far [s]; the end if nothing moves.
@@ -359,7 +403,7 @@ impl Simulation {
         self.islands.iter().map(Island::time).reduce(f64::min).unwrap_or(self.plan.end)
     }
 
-    /// Undoes what islands have done in this window beyond a time.
+    /// Undoes what islands have done in this window beyond the step that reaches a time to which all have come.
     fn go_back(&mut self, time: f64) {
         for island in self.islands.iter_mut().filter(|island| island.time() > time) {
             island.go_back(&self.plan, self.state.time);
@@ -386,7 +430,8 @@ impl Simulation {
             found.extend(island.events.drain(..known));
         }
         debug_assert!(found.iter().all(|event| event.time >= before));
-        found.sort_by(|a, b| a.time.total_cmp(&b.time));
+        // In place: nothing is allocated.
+        found.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
         for event in &found {
             self.state.events[event.kind] += 1;
             sink.event(event)?;
@@ -459,7 +504,8 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Record`] if the row cannot be stored; within, a stop if the state is outside the model.
     pub fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        if self.recorded >= self.state.time {
+        // Of several islands that are broken there is no state at one time.
+        if self.recorded >= self.state.time || self.is_scattered() {
             return Ok(Ok(()));
         }
         self.sample(self.state.time);

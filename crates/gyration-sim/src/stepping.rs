@@ -75,7 +75,8 @@ impl SteppedRun {
     pub fn new(built: &Built) -> Result<Self, RunError> {
         let model = built.model.clone().under_control();
         let start = State { works: vec![0.0; model.works().len()], ..built.state.clone() };
-        let plan = RunPlan { stop_at_rest: None, ..RunPlan::from(built) };
+        // There are no samples that a window would have to end for.
+        let plan = RunPlan { stop_at_rest: None, sample: f64::INFINITY, ..RunPlan::from(built) };
         let mut simulation = Simulation::new(&model, &start, plan)?;
         simulation.begin(&mut MemorySink::default())?;
         Ok(Self { simulation, changed: BTreeSet::new(), end: plan.end, events: Vec::new() })
@@ -227,9 +228,15 @@ impl SteppedRun {
         Ok(())
     }
 
+    /// Goes on towards a time on which all bodies end a step; where it stops before, they are at one time too.
     fn step_towards(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), Stop> {
         self.restart_changed()?;
         self.simulation.plan.end = end;
+        self.window(monitor).inspect_err(|_| self.simulation.land())
+    }
+
+    fn window(&mut self, monitor: &mut dyn Monitor) -> Result<(), Stop> {
+        let end = self.simulation.plan.end;
         let mut kept = EventList(std::mem::take(&mut self.events));
         let stepped = self.simulation.step(&mut kept, monitor);
         self.events = kept.0;
@@ -245,7 +252,11 @@ impl SteppedRun {
     }
 
     fn restart_changed(&mut self) -> Result<(), Stop> {
-        std::mem::take(&mut self.changed).into_iter().try_for_each(|body| self.simulation.restart(body))
+        while let Some(body) = self.changed.first().copied() {
+            self.simulation.restart(body)?;
+            self.changed.remove(&body);
+        }
+        Ok(())
     }
 
     /// The name of a body.

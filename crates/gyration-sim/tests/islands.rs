@@ -2,11 +2,14 @@
 //! threads.
 
 use crate::runs::{StopAfter, bytes, provenance};
+use gyration::load::Applied;
+use gyration::state::BodyMotion;
+use gyration::tensor::Vec3;
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
 use gyration_sim::{
-    Job, MemorySink, Monitor, Outcome, Progress, Reason, RecordingEnd, RunError, Simulation, Sink, SteppedRun,
+    Job, MemorySink, Monitor, Outcome, Progress, Reason, RecordingEnd, RunError, RunPlan, Simulation, Sink, SteppedRun,
     Unwatched,
 };
 use std::num::NonZeroUsize;
@@ -89,6 +92,19 @@ impl Monitor for Counter {
     fn after_step(&mut self, _: &Progress) -> Option<Reason> {
         self.0 += 1;
         None
+    }
+}
+
+/// Stops after so many steps of all bodies together.
+struct Most(u64);
+
+impl Monitor for Most {
+    fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+        (progress.statistics.accepted() >= self.0).then_some(Reason::Interrupted)
+    }
+
+    fn counts_steps(&self) -> bool {
+        true
     }
 }
 
@@ -203,6 +219,7 @@ fn a_body_that_cannot_go_on_stops_all_at_its_time() {
     let text = [strong, body(0), body(1), weak.to_owned()].concat();
     let scene = parsed(&text, &["time.end=2"]);
     let (seen, outcome, _) = run(&scene, 2, false);
+    assert_eq!(run(&scene, 1, true).1, outcome, "by the smallest windows");
     let Outcome::Stopped(stop) = &outcome else { panic!("{outcome:?}") };
     assert_eq!((stop.reason, stop.body.as_deref()), (Reason::GapClosed, Some("b1")));
     let (last, row) = seen.kept.rows.last().unwrap();
@@ -248,6 +265,75 @@ fn a_controller_finds_all_bodies_at_one_time() {
     for body in 0..5 {
         assert_eq!(run.state().motion(run.model(), body), *run.motion(body));
     }
+}
+
+/// Position, P, velocity and Ṗ of a body, in one list.
+fn numbers(motion: &BodyMotion) -> Vec<f64> {
+    let (placement, velocity) = (&motion.placement, &motion.velocity);
+    let vectors = [placement.position.as_slice(), velocity.velocity.as_slice()].concat();
+    [vectors.as_slice(), placement.gradient.as_slice(), velocity.gradient_rate.as_slice()].concat()
+}
+
+#[test]
+fn a_controller_that_is_stopped_on_its_way_finds_all_bodies_at_one_time_too() {
+    let scene = scene_of(0..5, &[]);
+    let end = |stops: &[usize]| {
+        let mut run = SteppedRun::new(scene.built()).unwrap();
+        for windows in stops {
+            let stop = run.advance(0.1, &mut StopAfter(*windows)).unwrap_err();
+            assert_eq!((stop.time, run.state().time), (run.time(), run.time()));
+            assert!(run.time() > 0.0 && run.time() < 0.1);
+            for body in 0..5 {
+                assert_eq!(run.state().motion(run.model(), body), *run.motion(body), "b{body}");
+            }
+            run.apply(2, Applied { force: Vec3::new(0.0, 0.0, 1e-3), ..Applied::default() }).unwrap();
+            run.apply(2, Applied::default()).unwrap();
+        }
+        run.advance(0.1, &mut Unwatched).unwrap();
+        assert_eq!(run.time(), 0.1);
+        let residual = run.ledger().unwrap().residual;
+        assert!(residual.abs() < 1e-9, "{residual:e}");
+        (0..5).flat_map(|body| numbers(run.motion(body))).collect::<Vec<_>>()
+    };
+    let whole = end(&[]);
+    let apart = end(&[12, 3, 2]).iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("apart by {apart:.1e}");
+    // Other steps to the same place, through impacts: velocities up to 30 1/s at rtol 1e-8.
+    assert!(apart < 1e-4, "{apart:e}");
+}
+
+#[test]
+fn a_limit_of_steps_does_not_depend_on_samples_or_threads() {
+    let stopped = |sample: &str, threads: usize| {
+        let scene = scene_of(0..9, &[sample]);
+        let job = Job::of(&scene, &provenance());
+        let plan = RunPlan { threads: NonZeroUsize::new(threads), ..job.plan };
+        let mut simulation = Simulation::new(job.model, job.start, plan).unwrap();
+        let mut sink = MemorySink::default();
+        simulation.begin(&mut sink).unwrap();
+        let outcome = simulation.run(&mut sink, &mut Most(700)).unwrap();
+        (format!("{outcome:?}"), simulation.statistics().accepted(), simulation.state().bodies)
+    };
+    let found = stopped("time.sample=0.02", 1);
+    println!("{} after {} steps", found.0, found.1);
+    assert!((700..700 + 9).contains(&found.1));
+    assert_eq!(found, stopped("time.sample=0.4", 1));
+    assert_eq!(found, stopped("time.sample=0.001", 2));
+}
+
+#[test]
+fn a_checkpoint_whose_times_do_not_fit_is_refused() {
+    let scene = scene_of(0..2, &[]);
+    let job = Job::of(&scene, &provenance());
+    let (.., whole) = run(&scene, 1, false);
+    // Behind a list of four integers, the first of the reals is the time of the run.
+    for time in [f64::NAN, f64::INFINITY, 5.0, -1.0] {
+        let mut damaged = whole.clone();
+        damaged[48..56].copy_from_slice(&time.to_le_bytes());
+        let refused = Simulation::resume(job.model, job.start, job.plan, &damaged).err();
+        assert!(matches!(refused, Some(RunError::Checkpoint(_))), "{time}");
+    }
+    assert!(Simulation::resume(job.model, job.start, job.plan, &whole).is_ok());
 }
 
 #[test]

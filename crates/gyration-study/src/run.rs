@@ -106,7 +106,8 @@ impl Study {
 
     fn simulate(&self, scene: &Scene, recording: Option<&Path>) -> Result<Option<Ended>, StudyError> {
         let Built { model, state, .. } = scene.built();
-        let mut plan: RunPlan = scene.built().into();
+        // The threads are those of the study.
+        let mut plan = RunPlan { threads: None, ..scene.built().into() };
         if recording.is_none() && !self.needs_samples() {
             plan.sample = plan.end;
         }
@@ -237,6 +238,10 @@ impl Monitor for RunLimits {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
         self.is_over = self.most_steps.is_some_and(|most| progress.statistics.accepted() >= most);
         self.is_over.then_some(Reason::Interrupted)
+    }
+
+    fn counts_steps(&self) -> bool {
+        self.most_steps.is_some()
     }
 }
 
