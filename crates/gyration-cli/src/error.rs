@@ -10,6 +10,7 @@ use gyration_sim::resistance::NoSuchResistance;
 use gyration_sim::{Reason, RunError};
 #[cfg(feature = "study")]
 use gyration_study::calibration::CalibrationError;
+use gyration_threads::Threads;
 #[cfg(feature = "view")]
 use gyration_view::ViewError;
 use std::io;
@@ -78,6 +79,12 @@ pub mod code {
     pub const BAD_FILE: u8 = 3;
     /// Interrupted, as shells count it: 128 + SIGINT.
     pub const INTERRUPTED: u8 = 130;
+}
+
+impl From<Threads> for CliError {
+    fn from(wrong: Threads) -> Self {
+        Self::arguments(wrong.to_string(), wrong.fix())
+    }
 }
 
 impl CliError {

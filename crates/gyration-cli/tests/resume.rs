@@ -50,9 +50,9 @@ fn is_finished(path: &Path) -> bool {
 }
 
 /// Starts runs, each twice as long as the last, until `stop` meets one in the middle; returns its end, `time.end=…`.
-fn met_in_the_middle(sandbox: &Sandbox, output: &str, mut stop: impl FnMut(&str, Child)) -> String {
+fn met_in_the_middle(sandbox: &Sandbox, output: &str, first: u32, mut stop: impl FnMut(&str, Child)) -> String {
     for doubling in 0..20 {
-        let end = format!("time.end={}", 20 << doubling);
+        let end = format!("time.end={}", first << doubling);
         if let Some(child) = start(sandbox, &to(&end, &[]), output, 2) {
             stop(&end, child);
             if !is_finished(&sandbox.path(output)) {
@@ -72,12 +72,28 @@ fn kill(mut child: Child) {
 
 #[test]
 fn killed_runs_go_on_to_the_same_bytes() {
-    let sandbox = Sandbox::with_ball();
-    let end = met_in_the_middle(&sandbox, "part.gyr", |end, child| {
+    assert_survives(&Sandbox::with_ball(), 20);
+}
+
+/// Each has steps of its own, and stands somewhere else when the run is killed.
+#[test]
+fn killed_runs_of_fifty_bodies_go_on_to_the_same_bytes() {
+    let sandbox = Sandbox::new();
+    let (rest, ball) = BALL.split_at(BALL.find("[[body]]").unwrap());
+    let balls = (0..50).map(|k| {
+        let place = format!("position = [{k}, 0, {}]", 0.2 + 0.01 * f64::from(k));
+        ball.replace("\"ball\"", &format!("\"ball{k}\"")).replace("position = [0, 0, 0.2]", &place)
+    });
+    sandbox.write("ball.toml", &[rest.to_owned(), balls.collect()].concat());
+    assert_survives(&sandbox, 1);
+}
+
+fn assert_survives(sandbox: &Sandbox, first: u32) {
+    let end = met_in_the_middle(sandbox, "part.gyr", first, |end, child| {
         kill(child);
         // A second time, behind the rows that it resumes from.
         let rows = rows_on_disk(&sandbox.path("part.gyr"));
-        if let Some(child) = start(&sandbox, &to(end, &["--resume"]), "part.gyr", rows + 1) {
+        if let Some(child) = start(sandbox, &to(end, &["--resume"]), "part.gyr", rows + 1) {
             kill(child);
         }
     });
@@ -85,7 +101,7 @@ fn killed_runs_go_on_to_the_same_bytes() {
     sandbox.done(&to(&end, &["-o", "whole.gyr", "--quiet"]));
     assert_same_bytes(&sandbox.path("whole.gyr"), &sandbox.path("part.gyr"));
     // A third one, with no more than the start on disk.
-    if let Some(child) = start(&sandbox, &to(&end, &[]), "first.gyr", 1) {
+    if let Some(child) = start(sandbox, &to(&end, &[]), "first.gyr", 1) {
         kill(child);
     }
     sandbox.done(&to(&end, &["-o", "first.gyr", "--resume", "--quiet"]));
@@ -98,7 +114,7 @@ fn killed_runs_go_on_to_the_same_bytes() {
 fn interrupted_run_says_how_to_go_on() {
     let sandbox = Sandbox::with_ball();
     let mut said = None;
-    let end = met_in_the_middle(&sandbox, "part.gyr", |_, child| {
+    let end = met_in_the_middle(&sandbox, "part.gyr", 20, |_, child| {
         let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
         assert!(status.success());
         said = Some(Said::from(child.wait_with_output().unwrap()));
@@ -132,6 +148,22 @@ fn run_ended_by_its_wall_time_goes_on_to_the_same_bytes() {
     assert_eq!(whole.keys().collect::<Vec<_>>(), part.keys().collect::<Vec<_>>());
     let different: Vec<_> = whole.iter().filter(|(path, bytes)| part[*path] != **bytes).map(|(path, _)| path).collect();
     assert!(different.is_empty(), "{different:?}");
+}
+
+/// As many threads as anybody likes: no byte is another one.
+#[test]
+fn the_number_of_threads_may_change_from_run_to_run() {
+    let sandbox = Sandbox::with_ball();
+    let second = BALL[BALL.find("[[body]]").unwrap()..].replace("\"ball\"", "\"other\"").replace("0.2]", "0.3]");
+    sandbox.write("two.toml", &format!("{BALL}{second}"));
+    let run = |output, threads| sandbox.done(&["run", "two.toml", "--quiet", "-o", output, "--threads", threads]);
+    run("one.gyr", "1");
+    run("two.gyr", "2");
+    assert_same_bytes(&sandbox.path("one.gyr"), &sandbox.path("two.gyr"));
+    // Nor is it another scene that asks for others.
+    sandbox.done(&["run", "two.toml", "--quiet", "-o", "one.gyr", "--resume", "--set", "solver.threads=3"]);
+    let said = sandbox.refused(2, &["run", "two.toml", "-o", "three.gyr", "--threads", "5000"]);
+    assert!(said.stderr.contains("ask for 1 to 1024"), "{}", said.stderr);
 }
 
 #[test]

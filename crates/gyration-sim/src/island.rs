@@ -4,29 +4,21 @@
 //! events are what they would be if there were no others. A run asks it to come to a time, and it does so by whole
 //! steps: the last one ends there or beyond, and its interpolant says what lies between. How often it is asked leaves
 //! no trace in any number.
-//!
-//! The anchor is the memory before the last step that went past what was asked for. From there an island goes on to the
-//! same bytes: after a kill, or when all that was done since must be forgotten because another island cannot go on.
 
 use crate::adapter::{ModelSystem, project};
+use crate::anchor::Anchor;
 use crate::events::Event;
 use crate::horizon::horizon;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::run_state::{DISSIPATION, IslandMemory, IslandState};
 use crate::step_end::{self, StepEnd};
-use crate::sum::Sum;
-use gyration::Inadmissible;
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ExtendedMut, Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
 use std::ops::Range;
-
-/// A step longer than this part of what is left to a time may go past it: the end of a run is reached by a step that is
-/// a little longer than the one wanted.
-const MAY_PASS: f64 = 0.5;
 
 /// Bodies with an integrator of their own.
 pub(crate) struct Island {
@@ -60,27 +52,12 @@ pub(crate) struct Island {
     anchor: Option<Anchor>,
 }
 
-/// Memories of an island.
-struct Anchor {
-    /// Before the last step that went past what was asked for before the last time, or the start.
-    kept: IslandMemory,
-    /// Before the last step that went past what was asked for last, or may have.
-    latest: IslandMemory,
-    /// Whether the latest is newer than the kept one.
-    is_newer: bool,
-}
-
 impl Island {
     /// Bodies of a run before its first step. One island that is the whole run needs no anchor.
     ///
     /// # Errors
-    /// [`Inadmissible`] of the part's model, if the start is outside it; with that model.
-    pub fn new(
-        model: &Model,
-        start: &State,
-        plan: &RunPlan,
-        members: Vec<usize>,
-    ) -> Result<Self, Box<(Model, Inadmissible)>> {
+    /// [`Stop`] if the start is outside the model.
+    pub fn new(model: &Model, start: &State, plan: &RunPlan, members: Vec<usize>) -> Result<Self, Stop> {
         let is_whole = members.len() == model.bodies.len();
         let part = if is_whole { model.clone() } else { model.part(&members) };
         let places: Vec<Range<usize>> = members.iter().map(|body| model.blocks()[*body].clone()).collect();
@@ -93,10 +70,8 @@ impl Island {
             low: of_part(&start.low),
             works: works.iter().map(|work| start.works[*work]).collect(),
         };
-        let system = match ModelSystem::new(part.clone(), &own, plan.tolerance) {
-            Ok(system) => system,
-            Err(left) => return Err(Box::new((part, left))),
-        };
+        let system = ModelSystem::new(part.clone(), &own, plan.tolerance);
+        let system = system.map_err(|left| Stop::by_inadmissible(&part, start.time, &left))?;
         let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
         let state = IslandState::new(members.len());
         let mut this = Self {
@@ -118,8 +93,7 @@ impl Island {
         };
         this.read_step_end();
         if !is_whole {
-            let kept = this.memory_now();
-            this.anchor = Some(Anchor { latest: kept.clone(), kept, is_newer: false });
+            this.anchor = Some(Anchor::new(this.memory()));
         }
         Ok(this)
     }
@@ -134,7 +108,7 @@ impl Island {
             self.state.slow_since = self.time();
         }
         if let Some(anchor) = &mut self.anchor {
-            anchor.kept.remember(&self.state, &self.integrator);
+            anchor.drop_at(&self.state, &self.integrator);
         }
     }
 
@@ -155,11 +129,10 @@ impl Island {
 
     /// What it goes on from after a checkpoint: the same bytes follow.
     pub fn memory(&self) -> IslandMemory {
-        self.anchor.as_ref().map_or_else(|| self.memory_now(), |anchor| anchor.kept.clone())
-    }
-
-    fn memory_now(&self) -> IslandMemory {
-        IslandMemory { state: self.state.clone(), stepper: self.integrator.memory() }
+        match &self.anchor {
+            Some(anchor) => anchor.kept().clone(),
+            None => IslandMemory { state: self.state.clone(), stepper: self.integrator.memory() },
+        }
     }
 
     /// Goes on from a memory, up to the time that the run had come to; its events until then are known.
@@ -177,8 +150,7 @@ impl Island {
         self.integrator = integrator;
         self.state.clone_from(&memory.state);
         if let Some(anchor) = &mut self.anchor {
-            anchor.kept.clone_from(memory);
-            anchor.is_newer = false;
+            anchor.drop_at(&self.state, &self.integrator);
         }
         self.events.clear();
         self.stop = None;
@@ -192,7 +164,7 @@ impl Island {
     /// Forgets what was done since the run was at a time.
     pub fn go_back(&mut self, plan: &RunPlan, time: f64) {
         let Some(anchor) = &self.anchor else { return };
-        let kept = anchor.kept.clone();
+        let kept = anchor.kept().clone();
         let resumed = self.resume(&kept, plan, time);
         debug_assert!(resumed.is_ok(), "an island remembers itself");
     }
@@ -209,11 +181,8 @@ impl Island {
                 self.stop = Some(Stop::by_interruption(self.time()));
                 return;
             }
-            if let Some(anchor) = &mut self.anchor
-                && self.integrator.next_size() >= MAY_PASS * (until - self.integrator.time())
-            {
-                anchor.latest.remember(&self.state, &self.integrator);
-                anchor.is_newer = true;
+            if let Some(anchor) = &mut self.anchor {
+                anchor.before_step(&self.state, &self.integrator, until);
             }
             match self.step(plan) {
                 Ok(report) => self.report = Some(report),
@@ -228,13 +197,9 @@ impl Island {
 
     /// Keeps what was done until a time that all islands have come to: none will go back behind it.
     pub fn settle(&mut self, time: f64) {
-        let Some(anchor) = &mut self.anchor else { return };
-        if self.integrator.time() == time {
-            anchor.kept.remember(&self.state, &self.integrator);
-        } else if anchor.is_newer {
-            std::mem::swap(&mut anchor.kept, &mut anchor.latest);
+        if let Some(anchor) = &mut self.anchor {
+            anchor.settle(&self.state, &self.integrator, time);
         }
-        anchor.is_newer = false;
     }
 
     /// Makes one step and finds its events.
@@ -265,8 +230,7 @@ impl Island {
         let (rates, _) = self.integrator.rates();
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
         if let Some(anchor) = &mut self.anchor {
-            anchor.kept.remember(&self.state, &self.integrator);
-            anchor.is_newer = false;
+            anchor.drop_at(&self.state, &self.integrator);
         }
         Ok(())
     }
@@ -345,15 +309,14 @@ impl Island {
         state
     }
 
-    /// Puts its part of a state to that of the run: its numbers in their places, its works to the others.
-    pub fn join(&self, part: &State, bodies: &mut [f64], low: &mut [f64], works: &mut [Sum]) {
-        for (own, place) in self.model().blocks().iter().zip(&self.places) {
-            bodies[place.clone()].copy_from_slice(&part.bodies[own.clone()]);
-            low[place.clone()].copy_from_slice(&part.low[own.clone()]);
-        }
-        for (value, place) in part.works.iter().zip(&self.works) {
-            works[*place].add(*value);
-        }
+    /// Where the numbers of each of its bodies stand among its own, and among those of the run.
+    pub fn places(&self) -> impl Iterator<Item = (&Range<usize>, &Range<usize>)> {
+        self.model().blocks().iter().zip(&self.places)
+    }
+
+    /// Which of the works of the run each of its own is.
+    pub fn works(&self) -> &[usize] {
+        &self.works
     }
 }
 

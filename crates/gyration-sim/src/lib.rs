@@ -10,6 +10,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod adapter;
+mod anchor;
 mod detection;
 pub mod events;
 pub mod format;

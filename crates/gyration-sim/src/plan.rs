@@ -4,8 +4,8 @@ use crate::adapter::Tolerance;
 use crate::rows::Extras;
 use gyration_ode::{Method, Options};
 use gyration_scene::Built;
+use gyration_threads::Threads;
 use std::num::NonZeroUsize;
-use std::thread;
 
 /// How long to run, how finely to sample, how precisely to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,12 +30,11 @@ pub struct RunPlan {
 const FEW: usize = 7;
 
 impl RunPlan {
-    /// The plan of a run that is alone on its machine: with as many threads as are asked for here or in the scene, else
-    /// with one for each processor if there are more than a few bodies.
-    #[must_use]
-    pub fn alone(self, asked: Option<NonZeroUsize>, bodies: usize) -> Self {
-        let default = || (bodies > FEW).then(|| thread::available_parallelism().ok()).flatten();
-        Self { threads: asked.or(self.threads).or_else(default), ..self }
+    /// The plan of a run that has the machine to itself: with as many threads as its scene asks for, else with one for
+    /// each processor if there are more than a few bodies.
+    pub fn alone(built: &Built) -> Self {
+        let default = || Threads::asked(None).ok().filter(|_| built.model.bodies.len() > FEW);
+        Self { threads: built.plan.threads.or_else(default), ..built.into() }
     }
 }
 
@@ -64,7 +63,7 @@ impl From<&Built> for RunPlan {
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
             options: Options { method, max_step, initial_step: None },
             extras: Extras::new(built.record.quantities.iter().copied(), built.record.origin),
-            threads: plan.threads,
+            threads: None,
         }
     }
 }

@@ -81,7 +81,7 @@ impl<'a> Job<'a> {
         Self {
             model,
             start: state,
-            plan: RunPlan::from(scene.built()).alone(None, model.bodies.len()),
+            plan: RunPlan::alone(scene.built()),
             max_wall_time: plan.wall_time(),
             attributes: attributes.as_object().cloned().unwrap_or_default(),
         }

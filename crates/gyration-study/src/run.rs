@@ -106,8 +106,7 @@ impl Study {
 
     fn simulate(&self, scene: &Scene, recording: Option<&Path>) -> Result<Option<Ended>, StudyError> {
         let Built { model, state, .. } = scene.built();
-        // The threads are those of the study.
-        let mut plan = RunPlan { threads: None, ..scene.built().into() };
+        let mut plan: RunPlan = scene.built().into();
         if recording.is_none() && !self.needs_samples() {
             plan.sample = plan.end;
         }

@@ -23,9 +23,7 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     let path = directory(arguments, &scene)?;
     let mut job = Job::of(&scene, &provenance());
     if let Some(threads) = arguments.threads {
-        let threads =
-            Threads::asked(Some(threads.get())).map_err(|wrong| CliError::arguments(wrong.to_string(), wrong.fix()))?;
-        job.plan.threads = Some(threads);
+        job.plan.threads = Some(Threads::asked(Some(threads.get()))?);
     }
     let mut watch = RunProgress::new(!arguments.quiet)?;
     let ended = watch.interruption().within(|| {

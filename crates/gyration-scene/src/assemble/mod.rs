@@ -27,7 +27,7 @@ pub use fluid::TRIANGLES;
 pub(crate) use salvage::salvage;
 
 use crate::check::{PartialScene, Reporter};
-use crate::file::{self, Method, Recorded, Solver, Threads, Time};
+use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
@@ -117,7 +117,7 @@ impl Plan {
             method: solver.method,
             max_step: solver.max_step.map(|step| step.value()),
             max_wall_time: solver.max_wall_time.map(|time| time.value()),
-            threads: solver.threads.map(Threads::count),
+            threads: solver.threads.and_then(|threads| NonZeroUsize::new(threads as usize)),
         }
     }
 }

@@ -33,7 +33,7 @@ pub use shape::{
     Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Part, PointMass, Polyhedron, Shape, Sphere, Torus, Union,
 };
 pub use signal::{Constant, Interpolation, Ramp, Signal, Table, Wave};
-pub use solver::{Method, Solver, Threads};
+pub use solver::{Method, Solver};
 pub use support::{Motion, Oscillation, Plane, Support};
 pub use time::{StopAtRest, Time};
 pub use world::World;

@@ -3,7 +3,6 @@
 use crate::quantity::{Duration, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::num::{NonZeroU16, NonZeroUsize};
 
 /// Tolerances and method of the solver.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,36 +28,9 @@ pub struct Solver {
     /// How many threads share the bodies of a run out; all processors by default if there are more than a few. No
     /// number of a recording depends on it.
     #[serde(skip_serializing_if = "Option::is_none")]
+    // Numbers of a scene are read as reals; the structure is checked to hold a whole one.
     #[schemars(with = "Option<u16>", range(min = 1, max = 1024))]
-    pub threads: Option<Threads>,
-}
-
-/// A whole number of threads. Numbers of a scene are read as reals.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "f64", into = "u16")]
-pub struct Threads(NonZeroU16);
-
-impl Threads {
-    /// How many.
-    pub fn count(self) -> NonZeroUsize {
-        self.0.into()
-    }
-}
-
-impl TryFrom<f64> for Threads {
-    type Error = String;
-
-    fn try_from(number: f64) -> Result<Self, String> {
-        let whole = (number.fract() == 0.0 && (1.0..=f64::from(u16::MAX)).contains(&number)).then_some(number as u16);
-        let threads = whole.and_then(NonZeroU16::new).map(Self);
-        threads.ok_or_else(|| format!("`threads` is {number}, expected a whole number from 1 to 1024"))
-    }
-}
-
-impl From<Threads> for u16 {
-    fn from(threads: Threads) -> Self {
-        threads.0.get()
-    }
+    pub threads: Option<f64>,
 }
 
 impl Default for Solver {

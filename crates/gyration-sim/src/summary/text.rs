@@ -191,6 +191,32 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_crowd_is_told_by_what_its_bodies_have_in_common() {
+        let body = |k: usize| BodySummary {
+            name: format!("b{k}"),
+            position: [k as f64, 1.0, -0.5 * k as f64],
+            gap: (k > 0).then_some(0.25 * k as f64),
+            speed: if k == 3 { 2.0 } else { 0.0 },
+            linear_momentum: [0.5, 0.0, k as f64],
+            angular_momentum: [0.0; 3],
+            affine_momentum: [[0.0; 3]; 3],
+        };
+        let text = crowd(&(0..4).map(body).collect::<Vec<_>>());
+        let lines: Vec<String> =
+            text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+        let expected = [
+            "at the end, 4 bodies",
+            "x 0 to 3 m",
+            "y 1 to 1 m",
+            "z -1.5 to 0 m",
+            "gap 0.25 (b1) to 0.75 m",
+            "speed 1 m/s in the square mean, at most 2 m/s (b3)",
+            "momentum (2, 0, 6) kg m/s in all",
+        ];
+        assert_eq!(lines, expected);
+    }
+
+    #[test]
     fn losses_are_told_with_whether_they_are_losses_at_every_step() {
         let loss = |name, least| Loss { name, taken: 1.0, least };
         let both = [loss("contraction", 1e-9), loss("viscosity", 0.0)];

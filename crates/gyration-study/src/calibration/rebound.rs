@@ -62,7 +62,7 @@ impl Drop {
     /// The time of the apex [s], and where the centre of mass is then.
     fn apex(&self) -> Result<(f64, Vec3), String> {
         let built = self.scene.built();
-        let plan = RunPlan { threads: None, ..built.into() };
+        let plan = RunPlan::from(built);
         let place = ColumnPlaces::new(&built.model, &plan).position + 3 * self.index;
         let finder = ApexFinder {
             body: self.index,

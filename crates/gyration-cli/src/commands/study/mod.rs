@@ -47,8 +47,7 @@ fn list() -> Result<u8, CliError> {
 fn run(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, CliError> {
     let shard = shard(arguments.shard.as_deref())?;
     PlotRequest::of_study(study)?;
-    let threads = Threads::asked(arguments.threads.map(NonZeroUsize::get))
-        .map_err(|wrong| CliError::arguments(wrong.to_string(), wrong.fix()))?;
+    let threads = Threads::asked(arguments.threads.map(NonZeroUsize::get))?;
     let mut table = match arguments.resume {
         true => Table::resume(path, study, shard)?,
         false => Table::create(path, study, shard, arguments.force)?,

@@ -1,0 +1,283 @@
+//! The run loop: windows, events, samples, audit, rest; until the end, rest, or a stop.
+//!
+//! Each body that nothing joins to another is an island with steps of its own. In a window every island comes to one
+//! time or beyond; then what is known of all until the first of them is handed on: events in order of time and body,
+//! rows, the verdict on rest, a checkpoint. How wide windows are and how many threads share the islands out leaves no
+//! trace in any number.
+//!
+//! Sampling never changes the steps: rows come from the dense output. Samples are at t = k·sample (multiplied, not
+//! accumulated); one within 1e-9·sample of `end` is `end`; the last row is the end or the stop. The mechanics reads no
+//! clock; the loop asks its [`Monitor`] whether to go on, and the [`Interruption`] in force.
+//!
+//! Where one island cannot go on, the run ends at the time to which that one has come: the others go back to the
+//! beginning of the window, and come to that time. An interruption ends it in the same way where the island is that has
+//! come least far. It may come within a step, where a resistance takes long. What has come of that window is then none
+//! of the run ([`Simulation::is_whole`]).
+
+mod control;
+mod joined;
+mod samples;
+mod window;
+
+use crate::events::Event;
+use crate::island::Island;
+use crate::outcome::{Outcome, Reason, Stop};
+use crate::plan::RunPlan;
+use crate::ports::{Monitor, RunError, Sink, WindowEnd};
+use crate::rows::{Fields, RowScratch};
+use crate::run_state::{IslandMemory, RunState};
+use gyration::dynamics::Workspace;
+use gyration::model::Model;
+use gyration::state::State;
+use gyration_ode::Statistics;
+use gyration_threads::Interruption;
+use joined::Joined;
+use window::WindowWidth;
+
+/// A run under way.
+pub struct Simulation {
+    model: Model,
+    pub(crate) plan: RunPlan,
+    pub(crate) islands: Vec<Island>,
+    /// The island of each body, and its place there.
+    homes: Vec<(usize, usize)>,
+    state: RunState,
+    width: WindowWidth,
+    joined: Joined,
+    /// What the rows hold, and scratch for them.
+    fields: Fields,
+    rows: RowScratch,
+    workspace: Workspace,
+    /// The time of the last row [s].
+    recorded: f64,
+    /// Scratch: the events of a window.
+    found: Vec<Event>,
+    /// Whether an interruption came within a step.
+    is_broken: bool,
+}
+
+impl Simulation {
+    /// Prepares a run from its start, an island for each body; nothing is recorded yet.
+    ///
+    /// # Errors
+    /// [`RunError::Start`] if the start is outside the model.
+    pub fn new(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
+        Self::of_islands(model, start, plan, (0..model.bodies.len()).map(|body| vec![body]))
+    }
+
+    /// The same with all bodies in one island: one step serves all.
+    pub fn together(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
+        Self::of_islands(model, start, plan, [(0..model.bodies.len()).collect()].into_iter())
+    }
+
+    fn of_islands(
+        model: &Model,
+        start: &State,
+        plan: RunPlan,
+        members: impl Iterator<Item = Vec<usize>>,
+    ) -> Result<Self, RunError> {
+        let islands = members.map(|members| Island::new(model, start, &plan, members));
+        let islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
+        let mut homes = vec![(0, 0); model.bodies.len()];
+        for (index, island) in islands.iter().enumerate() {
+            island.members().iter().enumerate().for_each(|(place, body)| homes[*body] = (index, place));
+        }
+        Ok(Self {
+            islands,
+            homes,
+            state: RunState::new(start.time),
+            width: WindowWidth::new(plan.sample.min(plan.end)),
+            joined: Joined::new(model, start),
+            fields: Fields::new(model, &plan.extras),
+            rows: RowScratch::default(),
+            workspace: Workspace::default(),
+            recorded: f64::NEG_INFINITY,
+            found: Vec::new(),
+            is_broken: false,
+            model: model.clone(),
+            plan,
+        })
+    }
+
+    /// Goes on from a checkpoint of the same scene; `start` is the scene's start, from which the scales come.
+    ///
+    /// # Errors
+    /// [`RunError::Checkpoint`] if the bytes are not a checkpoint of this scene.
+    pub fn resume(model: &Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
+        let mut this = Self::new(model, start, plan)?;
+        let unfit =
+            || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
+        let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
+        if memories.len() != this.islands.len() {
+            return Err(unfit());
+        }
+        let is_before = |memory: &IslandMemory| memory.stepper.time() <= state.time;
+        if !(state.time <= plan.end && memories.iter().all(is_before)) {
+            return Err(unfit());
+        }
+        for (island, memory) in this.islands.iter_mut().zip(&memories) {
+            island.resume(memory, &plan, state.time)?;
+        }
+        this.state = state;
+        this.recorded = this.sample_time(this.state.next_sample.saturating_sub(1));
+        Ok(this)
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Next sample, audit and events so far.
+    pub fn run_state(&self) -> &RunState {
+        &self.state
+    }
+
+    /// What the run was asked for.
+    pub fn plan(&self) -> &RunPlan {
+        &self.plan
+    }
+
+    /// Whether state, rows and events are those at the end of a step: false if an interruption came within one.
+    pub fn is_whole(&self) -> bool {
+        !self.is_broken
+    }
+
+    /// The counters of all islands so far.
+    pub fn statistics(&self) -> Statistics {
+        let first = self.islands.first().map_or_else(Statistics::default, |first| *first.integrator.statistics());
+        self.islands.iter().skip(1).fold(first, |sum, island| sum.and(island.integrator.statistics()))
+    }
+
+    /// Largest correction by projection after a step.
+    pub(crate) fn largest_projection(&self) -> f64 {
+        self.islands.iter().map(|island| island.state.largest_projection).fold(0.0, f64::max)
+    }
+
+    /// Largest increment over a step of an island of each work that only takes [J]; −∞ before the first.
+    pub(crate) fn largest_gains(&self) -> [f64; 2] {
+        let gains = self.islands.iter().map(|island| island.state.largest_gains);
+        gains.fold([f64::NEG_INFINITY; 2], |most, gains| [most[0].max(gains[0]), most[1].max(gains[1])])
+    }
+
+    /// The time that all bodies have come to [s].
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// The state at [`Simulation::time`]; the last one that was sampled, where an interruption came within a step of
+    /// one of several islands.
+    pub fn state(&self) -> State {
+        if self.is_scattered() {
+            return self.joined.state.clone();
+        }
+        let mut joined = self.joined.clone();
+        joined.begin(self.state.time);
+        self.islands.iter().for_each(|island| joined.add(island, &island.state_at(self.state.time)));
+        joined.end();
+        joined.state
+    }
+
+    /// Whether there are islands at different times that have no common one.
+    fn is_scattered(&self) -> bool {
+        self.is_broken && self.islands.len() > 1
+    }
+
+    /// A checkpoint at [`Simulation::time`].
+    pub fn checkpoint(&self) -> Vec<u8> {
+        self.state.checkpoint(self.islands.iter().map(Island::memory))
+    }
+
+    /// Records the row t = 0.
+    ///
+    /// # Errors
+    /// [`RunError`] if the start is outside the model or the row cannot be stored.
+    pub fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
+        self.sample(self.state.time);
+        if let Err(stop) = self.record(sink)? {
+            return Err(RunError::at_start(stop));
+        }
+        self.state.next_sample = 1;
+        for island in &mut self.islands {
+            island.begin(&self.plan);
+        }
+        Ok(())
+    }
+
+    /// Steps until the end, rest, or a stop, and records the last row.
+    ///
+    /// # Errors
+    /// [`RunError::Record`] if the recording fails.
+    pub fn run(&mut self, sink: &mut dyn Sink, monitor: &mut dyn Monitor) -> Result<Outcome, RunError> {
+        loop {
+            if let Some(outcome) = self.advance(sink, monitor)? {
+                return Ok(outcome);
+            }
+        }
+    }
+
+    /// Makes one window, with its events and samples; how the run has ended, if it has. Of one island a window is a
+    /// step.
+    ///
+    /// # Errors
+    /// [`RunError::Record`] if the recording fails.
+    pub(crate) fn advance(
+        &mut self,
+        sink: &mut dyn Sink,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Outcome>, RunError> {
+        let end = self.plan.end;
+        if self.state.time >= end {
+            return Ok(Some(Outcome::Completed));
+        }
+        let stopped = self.step(sink, monitor)?;
+        if let Err(stop) = stopped {
+            return self.stop(stop, sink).map(Some);
+        }
+        if let Err(stop) = self.sample_window(sink)? {
+            return self.stop(stop, sink).map(Some);
+        }
+        if let Some(time) = self.rest().filter(|time| *time <= self.state.time) {
+            self.state.time = time;
+            self.record_last(sink)?.ok();
+            return Ok(Some(Outcome::AtRest { time }));
+        }
+        sink.window_end(&*self)?;
+        let time = self.state.time;
+        let asked = self.ask(monitor).map(|reason| Stop::by_request(time, reason));
+        let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
+        Ok(asked.filter(|_| time < end).map(Outcome::Stopped))
+    }
+
+    /// When all bodies will have been slow for long enough [s], as far as is known; none while one of them is not slow.
+    fn rest(&self) -> Option<f64> {
+        let hold = self.plan.stop_at_rest?.hold;
+        let since = self.islands.iter().map(|island| island.state.slow_since);
+        // A maximum that is not a number where one of them is none.
+        let all = since.reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })?;
+        all.is_finite().then_some(all + hold)
+    }
+
+    /// Ends with the last row, if there is one.
+    fn stop(&mut self, stop: Stop, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
+        if self.is_whole() && !is_asked(&stop) {
+            self.record_last(sink)?.ok();
+        }
+        Ok(Outcome::Stopped(stop))
+    }
+}
+
+/// Whether somebody wanted the stop, who may let the run go on.
+fn is_asked(stop: &Stop) -> bool {
+    matches!(stop.reason, Reason::Interrupted | Reason::WallTime)
+}
+
+impl WindowEnd for Simulation {
+    fn checkpoint(&self) -> Vec<u8> {
+        Self::checkpoint(self)
+    }
+
+    fn state(&self) -> State {
+        Self::state(self)
+    }
+}

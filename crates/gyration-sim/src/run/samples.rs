@@ -1,0 +1,120 @@
+//! Samples of a run: the bodies of all islands at one time, rows, the audit of each.
+
+use super::Simulation;
+use crate::outcome::Stop;
+use crate::ports::{RunError, Sink};
+use crate::rows::{Audit, Fields, Ledger};
+use gyration::{Inadmissible, Quantity};
+
+impl Simulation {
+    /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
+    pub(super) fn sample_time(&self, k: u64) -> f64 {
+        let time = k as f64 * self.plan.sample;
+        if (time - self.plan.end).abs() <= 1e-9 * self.plan.sample { self.plan.end } else { time }
+    }
+
+    /// Records the samples up to the time of the run, and the end; a sample outside the model is a stop.
+    pub(super) fn sample_window(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        // Behind the time of rest there are none.
+        let last = self.rest().map_or(self.state.time, |rest| rest.min(self.state.time));
+        while self.sample_time(self.state.next_sample) <= last {
+            self.sample(self.sample_time(self.state.next_sample));
+            if let Err(stop) = self.record(sink)? {
+                return Ok(Err(stop));
+            }
+            self.state.next_sample += 1;
+        }
+        if last >= self.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
+    }
+
+    /// Records the state at the time of the run, unless it was just sampled.
+    ///
+    /// # Errors
+    /// [`RunError::Record`] if the row cannot be stored; within, a stop if the state is outside the model.
+    pub fn record_last(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        // Of several islands that are broken there is no state at one time.
+        if self.recorded >= self.state.time || self.is_scattered() {
+            return Ok(Ok(()));
+        }
+        self.sample(self.state.time);
+        self.record(sink)
+    }
+
+    /// Samples all bodies at a time within the last steps.
+    pub(super) fn sample(&mut self, time: f64) {
+        let Self { islands, joined, .. } = self;
+        joined.begin(time);
+        for island in islands {
+            island.sample(time);
+            joined.add(island, &island.sampled);
+        }
+        joined.end();
+    }
+
+    /// Fills the row of the time that was sampled; `initial` is Σ energies at t = 0.
+    fn fill(&mut self, initial: Option<f64>) -> Result<Audit, Inadmissible> {
+        let Self { model, fields, workspace, joined, rows, .. } = self;
+        fields.fill(model, workspace, &joined.state, initial, rows)
+    }
+
+    /// The row of a time within the last steps; none where that state is outside the model.
+    pub(super) fn row_at(&mut self, time: f64) -> Result<&[f64], Inadmissible> {
+        self.sample(time);
+        self.fill(Some(self.state.initial_energy))?;
+        Ok(&self.rows.row)
+    }
+
+    /// The ledger at the time of the run.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub(crate) fn ledger(&mut self) -> Result<Ledger, Stop> {
+        self.sample(self.state.time);
+        let initial = Some(self.state.initial_energy);
+        let ledger = Ledger::of(&self.model, &mut self.workspace, &self.joined.state, initial);
+        ledger.map_err(|left| Stop::by_inadmissible(&self.model, self.state.time, &left))
+    }
+
+    /// All that a recording would hold of the time of the run.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub(crate) fn row(&mut self) -> Result<Vec<f64>, Stop> {
+        let time = self.state.time;
+        let row = self.row_at(time).map(<[f64]>::to_vec);
+        row.map_err(|left| Stop::by_inadmissible(&self.model, time, &left))
+    }
+
+    /// What the rows hold.
+    pub(crate) fn fields(&self) -> &Fields {
+        &self.fields
+    }
+
+    /// Records the sampled state and audits it, unless it is outside the model.
+    pub(super) fn record(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        let time = self.joined.state.time;
+        let first = self.state.next_sample == 0;
+        let initial = (!first).then_some(self.state.initial_energy);
+        let viscous = self.islands.iter().map(|island| island.system.viscous_energy()).sum();
+        let audit = match self.fill(initial) {
+            Ok(audit) => audit,
+            Err(left) => {
+                self.is_broken |= left.quantity == Quantity::Interruption;
+                return Ok(Err(Stop::by_inadmissible(&self.model, time, &left)));
+            }
+        };
+        if !audit.energy.is_finite() {
+            return Ok(Err(Stop::by_infinite_energy(time)));
+        }
+        sink.row(time, &self.rows.row)?;
+        self.recorded = time;
+        let state = &mut self.state;
+        if first {
+            state.initial_energy = audit.energy;
+        }
+        state.energy_in_play = state.energy_in_play.max(audit.kinetic).max(audit.exchanged).max(viscous);
+        state.note_residual(audit.residual);
+        state.smallest_gap = state.smallest_gap.min(audit.smallest_gap);
+        Ok(Ok(()))
+    }
+}

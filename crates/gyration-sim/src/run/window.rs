@@ -1,0 +1,227 @@
+//! A window: every island comes to one time or beyond, and what is known of all is handed on.
+
+use super::{Simulation, is_asked};
+use crate::island::Island;
+use crate::outcome::{Reason, Stop};
+use crate::ports::{Monitor, Progress, RunError, Sink};
+use gyration_threads::{Interruption, in_order};
+use std::num::NonZeroUsize;
+
+/// Steps of all islands together in a window: fewer, and windows become wider; more, and they become narrower. So a
+/// window takes a part of a second, and to share it out among threads next to nothing.
+const STEPS: [u64; 2] = [1 << 12, 1 << 14];
+/// Steps of all islands together at most before the monitor is asked again.
+const MOST_STEPS: u64 = 1 << 14;
+/// A window that takes more than so many times that ends before its time.
+const MOST_ROUNDS: u32 = 4;
+/// The first window is this part of the run, or of a sample.
+const FIRST_WINDOW: f64 = 1e-6;
+/// Into how many pieces of work the islands are shared out, for each thread.
+const PIECES: usize = 16;
+
+/// How wide windows are: so that they hold as many steps as [`STEPS`] says.
+pub(super) struct WindowWidth {
+    /// At most [s].
+    most: f64,
+    /// That of the last one [s].
+    last: f64,
+}
+
+impl WindowWidth {
+    pub fn new(shortest: f64) -> Self {
+        Self { most: FIRST_WINDOW * shortest, last: 0.0 }
+    }
+
+    /// The width of the next window [s], given the steps of the last one. One that had to end early for something else
+    /// does not say that windows should be wider.
+    fn next(&mut self, steps: u64) -> f64 {
+        if steps < STEPS[0] && self.last >= self.most {
+            self.most *= 2.0;
+        } else if steps > STEPS[1] {
+            self.most = 0.5 * self.most.min(self.last);
+        }
+        self.most
+    }
+}
+
+impl Simulation {
+    /// Tells the monitor how far the run is, and which island holds it up: the one whose last step was the shortest.
+    pub(crate) fn ask(&self, monitor: &mut dyn Monitor) -> Option<Reason> {
+        let length = |island: &&Island| island.report.as_ref().map_or(f64::INFINITY, |step| step.end - step.start);
+        let slowest = self.islands.iter().min_by(|a, b| length(a).total_cmp(&length(b)))?;
+        let step = slowest.report.as_ref()?;
+        let statistics = &self.statistics();
+        let model = slowest.model();
+        monitor.after_step(&Progress { time: self.state.time, end: self.plan.end, step, statistics, model })
+    }
+
+    /// Makes one window and hands on its events.
+    pub(crate) fn step(
+        &mut self,
+        sink: &mut dyn Sink,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Result<(), Stop>, RunError> {
+        let before = self.state.time;
+        let mut until = self.window_end(sink.wants_event_rows() || monitor.counts_steps());
+        let (mut stop, mut rounds) = (None, 0);
+        loop {
+            self.reach(until, MOST_STEPS);
+            if self.islands.iter().any(|island| island.system.was_interrupted()) {
+                self.is_broken = true;
+                return Ok(Err(Stop::by_interruption(before)));
+            }
+            if let Some(found) = self.first_stop() {
+                // Those that are behind it may stop earlier still.
+                until = found.time;
+                stop = Some(found);
+            }
+            let time = self.least_time();
+            if time >= until {
+                break;
+            }
+            let asked = self.ask(monitor).map(|reason| Stop::by_request(time, reason));
+            let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
+            if asked.is_some() {
+                stop = asked;
+                break;
+            }
+            rounds += 1;
+            if rounds == MOST_ROUNDS && stop.is_none() {
+                break;
+            }
+        }
+        let reached = until.min(self.least_time());
+        if stop.is_some() || reached < until {
+            self.go_back(reached);
+        }
+        self.settle();
+        self.width.last = self.state.time - before;
+        self.hand_on_events(before, sink)?;
+        Ok(stop.map_or(Ok(()), Err))
+    }
+
+    /// Up to where the next window goes [s]: to the next sample or the first time of rest at most, so that both lie
+    /// within the last steps of all islands. What is known of all must be so at every event where rows are wanted
+    /// there: then only the islands that are behind all others make a step.
+    fn window_end(&mut self, at_events: bool) -> f64 {
+        let time = self.state.time;
+        if self.islands.len() == 1 || at_events {
+            return time.next_up();
+        }
+        let steps = self.islands.iter_mut().map(|island| std::mem::take(&mut island.window_steps));
+        let width = self.width.next(steps.sum());
+        let mut until = (time + width).min(self.plan.end).min(self.sample_time(self.state.next_sample));
+        if let Some(criterion) = self.plan.stop_at_rest {
+            until = until.min(self.rest().unwrap_or(time + criterion.hold));
+        }
+        if until > time { until } else { time.next_up() }
+    }
+
+    /// Lets all islands come to a time, or make so many steps towards it, all together.
+    fn reach(&mut self, until: f64, most: u64) {
+        let (plan, threads) = (&self.plan, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
+        let count = self.islands.iter().filter(|island| island.time() < until).count();
+        let most = (most / count.max(1) as u64).max(1);
+        let behind = self.islands.iter_mut().filter(|island| island.time() < until);
+        let is_step = until == self.state.time.next_up();
+        if threads.get() == 1 || count == 1 || is_step {
+            behind.for_each(|island| island.reach(until, most, plan));
+            return;
+        }
+        let interruption = Interruption::in_force();
+        let mut behind: Vec<&mut Island> = behind.collect();
+        let piece = count.div_ceil(PIECES * threads.get()).max(1);
+        in_order(behind.chunks_mut(piece), threads, |islands| {
+            interruption.within(|| islands.iter_mut().for_each(|island| island.reach(until, most, plan)));
+        });
+    }
+
+    /// The stop that comes first, if any; of several at one time that of the first body. An interruption is where the
+    /// island is that has come least far, unless that one cannot go on.
+    fn first_stop(&mut self) -> Option<Stop> {
+        let least = self.least_time();
+        let (mut first, mut asked): (Option<Stop>, Option<Stop>) = (None, None);
+        for stop in self.islands.iter_mut().filter_map(|island| island.stop.take()) {
+            if is_asked(&stop) {
+                asked = asked.or(Some(stop));
+            } else if first.as_ref().is_none_or(|first| stop.time < first.time) {
+                first = Some(stop);
+            }
+        }
+        match (first, asked) {
+            (Some(first), Some(asked)) if first.time > least => Some(Stop { time: least, ..asked }),
+            (None, Some(asked)) => Some(Stop { time: least, ..asked }),
+            (first, _) => first,
+        }
+    }
+
+    /// The time of the island that has come least far [s]; the end if nothing moves.
+    fn least_time(&self) -> f64 {
+        self.islands.iter().map(Island::time).reduce(f64::min).unwrap_or(self.plan.end)
+    }
+
+    /// Undoes what islands have done in this window beyond the step that reaches a time to which all have come.
+    fn go_back(&mut self, time: f64) {
+        for island in self.islands.iter_mut().filter(|island| island.time() > time) {
+            island.go_back(&self.plan, self.state.time);
+        }
+        // They have been there once.
+        Interruption::default().within(|| self.reach(time, u64::MAX));
+    }
+
+    /// The time that all islands have come to is that of the run.
+    pub(super) fn settle(&mut self) {
+        self.state.time = self.least_time();
+        for island in &mut self.islands {
+            island.settle(self.state.time);
+        }
+    }
+
+    /// Hands on the events up to the time of the run, in order of time and body.
+    fn hand_on_events(&mut self, before: f64, sink: &mut dyn Sink) -> Result<(), RunError> {
+        let mut found = std::mem::take(&mut self.found);
+        found.clear();
+        let time = self.state.time;
+        for island in &mut self.islands {
+            let known = island.events.partition_point(|event| event.time <= time);
+            found.extend(island.events.drain(..known));
+        }
+        debug_assert!(found.iter().all(|event| event.time >= before));
+        // In place: nothing is allocated.
+        found.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
+        for event in &found {
+            self.state.events[event.kind] += 1;
+            sink.event(event)?;
+            if sink.wants_event_rows()
+                && let Ok(row) = self.row_at(event.time)
+            {
+                sink.event_row(event, row)?;
+            }
+        }
+        self.found = found;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_hold_so_many_steps_whatever_else_ends_them() {
+        // So many steps a second; a sample ends each window after 0.1 s.
+        let settled = |rate: f64, width: &mut WindowWidth| {
+            let mut steps = 0;
+            for _ in 0..5000 {
+                width.last = width.next(steps).min(0.1);
+                steps = (rate * width.last) as u64;
+            }
+            (steps, width.most)
+        };
+        let mut width = WindowWidth::new(0.1);
+        assert!((STEPS[0]..=STEPS[1]).contains(&settled(1e6, &mut width).0));
+        // Quiet for long: the sample alone ends windows, which do not grow without bound meanwhile.
+        assert!(settled(10.0, &mut width).1 <= 0.2);
+        assert!((STEPS[0]..=STEPS[1]).contains(&settled(1e7, &mut width).0));
+    }
+}
