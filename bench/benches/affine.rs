@@ -25,10 +25,10 @@ fn bench_rates(bencher: Bencher, (model, state): (Model, State)) {
 
 fn bench_jacobian(bencher: Bencher, (model, state): (Model, State)) {
     let mut workspace = Workspace::default();
-    let mut blocks = vec![DMatrix::zeros(model.dimension(), model.dimension())];
+    let mut blocks = [DMatrix::zeros(model.dimension(), model.dimension())];
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks)
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks[..])
     });
 }
 

@@ -94,10 +94,10 @@ fn rates_with_inertia(bencher: Bencher, inertia: bool) {
 fn jacobian_with_inertia(bencher: Bencher, inertia: bool) {
     let (model, state) = particle_in_shear(inertia);
     let mut workspace = Workspace::default();
-    let mut blocks = vec![DMatrix::zeros(model.dimension(), model.dimension())];
+    let mut blocks = [DMatrix::zeros(model.dimension(), model.dimension())];
     bencher.bench_local(|| {
         let bodies = divan::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks)
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks[..])
     });
 }
 

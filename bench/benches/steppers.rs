@@ -144,14 +144,14 @@ fn costs_of_mechanics(shape: &str, height: f64) -> (f64, f64) {
     let (model, state) = near_table(shape, height, (6.0, 3.0));
     let mut workspace = Workspace::default();
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
-    let mut blocks = vec![DMatrix::zeros(SIZE, SIZE)];
+    let mut blocks = [DMatrix::zeros(SIZE, SIZE)];
     let call = seconds_each(|| {
         let bodies = std::hint::black_box(&state.bodies);
         rates(&model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers).expect("it is apart");
     });
     let derivatives = seconds_each(|| {
         let bodies = std::hint::black_box(&state.bodies);
-        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks).expect("it is apart");
+        jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks[..]).expect("it is apart");
     });
     (call, derivatives)
 }

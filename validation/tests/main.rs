@@ -69,6 +69,7 @@ mod row31_relaxation;
 mod row32_tank_treading;
 mod row33_history_force;
 mod row34_boundary_elements;
+mod row35_chain;
 mod soft;
 mod spinning;
 mod studies_bounce;

@@ -78,7 +78,7 @@ fn box_bobs_at_the_frequency_of_the_stiffness_of_all_its_faces() {
     let experiment = Experiment::of_scene(&scene(REST_GAP, 1.0));
     let mut blocks = [DMatrix::zeros(13, 13)];
     let bodies = &experiment.start.bodies;
-    jacobian(&experiment.model, &mut Workspace::default(), 0.0, bodies.into(), &mut blocks).unwrap();
+    jacobian(&experiment.model, &mut Workspace::default(), 0.0, bodies.into(), &mut blocks[..]).unwrap();
     // ∂z̈/∂z = −ω²: rows and columns are p₀, quaternion, ṗ₀, Ω.
     let measured = -blocks[0][(9, 2)];
     let (alpha, nu, area, perimeter, height, mass) = (1e-6, 6, 0.01, 0.4, 0.2, 2.0);

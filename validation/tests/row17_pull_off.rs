@@ -86,7 +86,7 @@ fn sphere((attractive, repulsive): (f64, f64), radius: f64, gap: f64) -> Experim
 fn slope(experiment: &Experiment) -> f64 {
     let mut blocks = [DMatrix::zeros(13, 13)];
     let bodies = &experiment.start.bodies;
-    jacobian(&experiment.model, &mut Workspace::default(), 0.0, bodies.into(), &mut blocks)
+    jacobian(&experiment.model, &mut Workspace::default(), 0.0, bodies.into(), &mut blocks[..])
         .unwrap_or_else(|error| panic!("{error:?}"));
     MASS * blocks[0][(9, 2)]
 }

@@ -93,7 +93,7 @@ const STIFF: Case =
 fn square_of_the_jacobian(experiment: &Experiment) -> f64 {
     let mut blocks = [DMatrix::zeros(13, 13)];
     let bodies = &experiment.start.bodies;
-    jacobian(&experiment.model, &mut Workspace::default(), 0.0, bodies.into(), &mut blocks)
+    jacobian(&experiment.model, &mut Workspace::default(), 0.0, bodies.into(), &mut blocks[..])
         .unwrap_or_else(|error| panic!("{error:?}"));
     -0.5 * blocks[0][(11, 5)]
 }

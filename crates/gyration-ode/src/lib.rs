@@ -61,6 +61,6 @@ pub use events::{CrossingDirection, find_crossing};
 pub use extended::{Extended, ExtendedMut};
 pub use integrator::Integrator;
 pub use memory::{Memory, MemoryError};
-pub use pattern::Pattern;
+pub use pattern::{Components, Pattern};
 pub use report::{Cause, Failure, Limit, Method, Options, Statistics, StepReport, Stepper};
 pub use system::System;

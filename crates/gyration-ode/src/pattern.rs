@@ -92,7 +92,7 @@ impl Pattern {
 
 /// The components of a pattern, in the order of their first blocks; the blocks of each ascend.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Components {
+pub struct Components {
     starts: Vec<usize>,
     members: Vec<usize>,
 }

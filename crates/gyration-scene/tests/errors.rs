@@ -229,6 +229,9 @@ fn errors_of_supports_and_contacts_stand_at_their_place() {
 #[test]
 fn errors_of_bodies_stand_at_their_place() {
     let sphere = "shape = { sphere = { radius = 1 } }";
+    let two = format!(
+        "[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[body]]\nname = \"c\"\n{sphere}\nmass = 1\nposition = [0, 0, 7]\n"
+    );
     let rows: &[(String, &str, &str, &str)] = &[
         (format!("§[[body]]\nname = \"b\"\n{sphere}"), "body.b", "no mass", "exactly one"),
         (format!("[[body]]\nname = \"b\"\n{sphere}\ndensity = 1\nmass = §2"), "body.b.mass", "more than one", "exactly one"),
@@ -325,6 +328,36 @@ fn errors_of_bodies_stand_at_their_place() {
             "body.b.spring.0.anchor",
             "no length",
             "move the anchor",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[spring]]\nbetween = [\"b\", §\"c\"]\nstiffness = 1"),
+            "spring.0.between.1",
+            "no body \"c\"",
+            "body: b, ball",
+        ),
+        (
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[spring]]\nbetween = [\"b\", §\"b\"]\nstiffness = 1"),
+            "spring.0.between.1",
+            "both ends are at the body",
+            "two bodies",
+        ),
+        (
+            format!("{two}[[spring]]\nbetween = [\"b\", \"c\"]\npoints = §[[0, 0, -1], [0, 0, 1]]\nstiffness = 1\ndamping = 2"),
+            "spring.0.points",
+            "no length",
+            "leave out `rest_length` and `damping`",
+        ),
+        (
+            format!("{two}[[spring]]\nbetween = [\"b\", \"c\"]\nstiffness = §-1"),
+            "spring.0.stiffness",
+            "",
+            "",
+        ),
+        (
+            format!("{two}[[spring]]\nbetween = §[\"b\"]\nstiffness = 1"),
+            "spring.0.between",
+            "",
+            "",
         ),
         (
             format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = §[0, 0, 0.75]\n[[contact]]\nsupport = \"table\"\nbody = \"b\""),

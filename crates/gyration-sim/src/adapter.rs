@@ -10,7 +10,7 @@ use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
 use gyration::contractile::Contraction;
-use gyration::dynamics::{Workspace, jacobian, rates};
+use gyration::dynamics::{Blocks, Workspace, jacobian, rates};
 use gyration::extended::{self, Numbers};
 use gyration::ledger::Work;
 use gyration::model::Model;
@@ -19,8 +19,10 @@ use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use gyration::{Inadmissible, Quantity};
-use gyration_ode::{BlockMatrix, Extended, ExtendedMut, System};
+use gyration_ode::{BlockMatrix, Extended, ExtendedMut, Pattern, System};
+use nalgebra::DMatrix;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// rtol and atol of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +41,8 @@ const SHARE: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub struct ModelSystem {
     model: Model,
+    /// Which bodies act on which others.
+    pattern: Pattern,
     workspace: Workspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
@@ -70,8 +74,19 @@ impl ModelSystem {
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
-        let first_rates = slopes;
-        Ok(Self { model, workspace, tolerance, speeds, energy, radii, viscous, first_rates, interrupted: false })
+        let (pattern, first_rates) = (pattern(&model), slopes);
+        Ok(Self {
+            model,
+            pattern,
+            workspace,
+            tolerance,
+            speeds,
+            energy,
+            radii,
+            viscous,
+            first_rates,
+            interrupted: false,
+        })
     }
 
     /// The model.
@@ -117,6 +132,25 @@ impl ModelSystem {
     /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.
     pub fn speed_scale(&self, body: usize) -> f64 {
         self.speeds[body]
+    }
+}
+
+/// Which bodies act on which others; they do so by forces, which the rates of places do not feel.
+fn pattern(model: &Model) -> Pattern {
+    let local = |(index, body): (usize, &Arc<Body>)| match body.has_inertia() {
+        true => model.slots(index).places().len(),
+        false => 0,
+    };
+    let local = model.bodies.iter().enumerate().map(local).collect();
+    Pattern::new(model.bodies.len(), model.joins()).with_local_rates(local)
+}
+
+/// The blocks of a matrix, as the mechanics writes them.
+struct Written<'a>(&'a mut BlockMatrix);
+
+impl Blocks for Written<'_> {
+    fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
+        self.0.block_mut(row, column)
     }
 }
 
@@ -173,6 +207,10 @@ impl System for ModelSystem {
         self.model.blocks()
     }
 
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
         let found = rates(&self.model, &mut self.workspace, t, y.into(), dy, dw);
         self.noted(found)
@@ -185,13 +223,13 @@ impl System for ModelSystem {
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
-        let found = jacobian(&self.model, &mut self.workspace, t, y.into(), slopes.diagonal_mut());
+        let found = jacobian(&self.model, &mut self.workspace, t, y.into(), &mut Written(slopes));
         self.noted(found)
     }
 
     fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        let found = jacobian(&self.model, &mut self.workspace, t, numbers, slopes.diagonal_mut());
+        let found = jacobian(&self.model, &mut self.workspace, t, numbers, &mut Written(slopes));
         self.noted(found)
     }
 

@@ -173,6 +173,14 @@ impl Stop {
                 format!("spring {spring} of body {body:?} has no length left"),
                 "Give it rest_length = 0 without damping, or another anchor.".to_string(),
             ),
+            Quantity::BondLength { bond } => {
+                let [one, other] = model.bonds()[bond].bodies.map(|body| &model.bodies[body].name);
+                (
+                    Reason::SpringCollapsed,
+                    format!("the spring between bodies {one:?} and {other:?} has no length left"),
+                    "Give it rest_length = 0 without damping, or other points.".to_string(),
+                )
+            }
             Quantity::Volume => (
                 Reason::Inverted,
                 format!("body {body:?} is flattened: det P has come down to {:e}", left.value),

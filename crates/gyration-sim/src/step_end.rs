@@ -52,8 +52,7 @@ impl StepEnd {
     pub fn contact_force(&self, model: &Model, index: usize) -> Option<f64> {
         let body = &model.bodies[index];
         let alone = |load: Load| if load.pulls() { Err(()) } else { Ok(()) };
-        let alone =
-            Load::try_each(body, model.fluid.as_deref(), model.applied(index), alone).is_ok() && body.pin.is_none();
+        let alone = model.try_each_load(index, alone).is_ok() && body.pin.is_none();
         alone.then(|| body.solid.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }

@@ -15,7 +15,7 @@ use gyration_sim::{
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-const HEAD: &str = r#"
+pub const HEAD: &str = r#"
     time = { end = 0.4, sample = 0.02 }
     [[support]]
     name = "table"
@@ -29,7 +29,7 @@ const HEAD: &str = r#"
 "#;
 
 /// A die that is thrown in a way of its own; every third is a ball, every fifth of rubber.
-fn body(index: usize) -> String {
+pub fn body(index: usize) -> String {
     let shape =
         if index % 3 == 2 { "{ sphere = { radius = \"1 cm\" } }" } else { "{ box = { size = [0.02, 0.02, 0.02] } }" };
     let kind =
@@ -53,16 +53,16 @@ fn scene_of(indices: impl IntoIterator<Item = usize>, overrides: &[&str]) -> Sce
     parsed(&text, overrides)
 }
 
-fn parsed(text: &str, overrides: &[&str]) -> Scene {
+pub fn parsed(text: &str, overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     Scene::parse("scene.toml", text, Path::new(""), &overrides).unwrap()
 }
 
 /// Rows, events and event rows.
 #[derive(Debug, Default, PartialEq)]
-struct Seen {
-    kept: MemorySink,
-    at_events: Vec<(Event, Vec<f64>)>,
+pub struct Seen {
+    pub kept: MemorySink,
+    pub at_events: Vec<(Event, Vec<f64>)>,
     wants_rows: bool,
 }
 
@@ -109,7 +109,7 @@ impl Monitor for Most {
 }
 
 /// What a run tells, its outcome, and its last checkpoint.
-fn run(scene: &Scene, threads: usize, wants_rows: bool) -> (Seen, Outcome, Vec<u8>) {
+pub fn run(scene: &Scene, threads: usize, wants_rows: bool) -> (Seen, Outcome, Vec<u8>) {
     let job = Job::of(scene, &provenance());
     let mut plan = job.plan;
     plan.threads = NonZeroUsize::new(threads);
@@ -121,7 +121,7 @@ fn run(scene: &Scene, threads: usize, wants_rows: bool) -> (Seen, Outcome, Vec<u
 }
 
 /// Position, P, velocity and Ṗ of a body in the row of a model of so many rigid bodies.
-fn motion_in(row: &[f64], bodies: usize, body: usize) -> Vec<f64> {
+pub fn motion_in(row: &[f64], bodies: usize, body: usize) -> Vec<f64> {
     let (mut numbers, mut start) = (Vec::new(), 0);
     for width in [3, 9, 3, 9] {
         numbers.extend_from_slice(&row[start + width * body..start + width * (body + 1)]);

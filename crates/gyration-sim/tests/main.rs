@@ -5,6 +5,7 @@
 mod deforming;
 mod dissipation;
 mod islands;
+mod joined;
 mod modes;
 mod random;
 mod random_scenes;

@@ -4,7 +4,7 @@ use gyration::affine::{AffineBody, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia, Solid};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
-use gyration::load::Spring;
+use gyration::load::{Spring, SpringLaw};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::shape::{Cuboid, Shape, Sphere};
@@ -356,7 +356,11 @@ fn pinned_incompressible_body_has_eight_modes() {
 fn spring_pendulum_bounces_and_swings() {
     let mut body = bare(ball(), 1000.0);
     let (stiffness, mass) = (400.0, body.solid.mass.mass);
-    let spring = Spring { point: Vec3::zeros(), anchor: Vec3::z(), stiffness, rest_length: 0.5, damping: 2.0 };
+    let spring = Spring {
+        point: Vec3::zeros(),
+        anchor: Vec3::z(),
+        law: SpringLaw { stiffness, rest_length: 0.5, damping: 2.0 },
+    };
     body.springs = vec![spring];
     let (rest, found) = survey(&model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8)));
     let length = 0.5 + mass * GRAVITY / stiffness;
@@ -370,8 +374,11 @@ fn spring_pendulum_bounces_and_swings() {
 #[test]
 fn a_search_that_nobody_waits_for_is_given_up() {
     let mut body = bare(ball(), 1000.0);
-    body.springs =
-        vec![Spring { point: Vec3::zeros(), anchor: Vec3::z(), stiffness: 400.0, rest_length: 0.5, damping: 2.0 }];
+    body.springs = vec![Spring {
+        point: Vec3::zeros(),
+        anchor: Vec3::z(),
+        law: SpringLaw { stiffness: 400.0, rest_length: 0.5, damping: 2.0 },
+    }];
     let (model, start) = model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8));
     let at_once = Interruption::default().after(Some(Duration::ZERO));
     assert_eq!(at_once.within(|| rest(&model, &start, 0)), Err(NoRest::Interrupted));

@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Couple, LinearResistance, Spring};
+use crate::load::{Applied, Bond, BondEnd, Couple, LinearResistance, Spring};
 use crate::support::{Support, SupportMotion};
 
 /// A load on a body.
@@ -17,6 +17,8 @@ pub enum Load<'a> {
     Contact(&'a Contact),
     /// A spring to a fixed anchor, with its number in the body.
     Spring(usize, &'a Spring),
+    /// A spring to another body.
+    Bond(BondEnd<'a>),
     /// An affine moment.
     Couple(&'a Couple),
     /// What a controller applies.
@@ -32,6 +34,7 @@ impl<'a> Load<'a> {
     #[inline]
     pub fn try_each<E>(
         body: &'a Body,
+        bonds: impl Iterator<Item = BondEnd<'a>>,
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
@@ -41,6 +44,9 @@ impl<'a> Load<'a> {
         }
         for (number, spring) in body.springs.iter().enumerate() {
             each(Self::Spring(number, spring))?;
+        }
+        for bond in bonds {
+            each(Self::Bond(bond))?;
         }
         let affine = body.affine();
         if let Some(couple) = affine.and_then(|affine| affine.couple.as_ref()) {
@@ -62,7 +68,7 @@ impl<'a> Load<'a> {
     pub fn pulls(&self) -> bool {
         match self {
             Self::Contact(_) | Self::Couple(_) => false,
-            Self::Spring(..) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
+            Self::Spring(..) | Self::Bond(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
         }
     }
 
@@ -80,11 +86,15 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
-            Self::Spring(_, spring) if spring.damping > 0.0 => vec![Work::Load],
+            Self::Spring(_, Spring { law, .. }) | Self::Bond(BondEnd { bond: Bond { law, .. }, .. })
+                if law.damping > 0.0 =>
+            {
+                vec![Work::Load]
+            }
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
-            Self::Spring(..) | Self::Resistance(_) => Vec::new(),
+            Self::Spring(..) | Self::Bond(_) | Self::Resistance(_) => Vec::new(),
         }
     }
 
@@ -95,7 +105,7 @@ impl<'a> Load<'a> {
                 let central = contact.law_set.laws().iter().any(|law| law.kind().is_central());
                 central.then_some(Energy::Contact)
             }
-            Self::Spring(..) => Some(Energy::Load),
+            Self::Spring(..) | Self::Bond(_) => Some(Energy::Load),
             Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
         }
     }

@@ -13,6 +13,11 @@ pub enum Quantity {
         /// Index of the spring in its body.
         spring: usize,
     },
+    /// The length of the bond of this index, which must be > 0 [m].
+    BondLength {
+        /// Index of the bond in the model.
+        bond: usize,
+    },
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.

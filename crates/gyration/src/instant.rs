@@ -60,6 +60,8 @@ pub struct BodyAt<'a> {
     /// The state of all bodies.
     pub(crate) numbers: Numbers<'a>,
     attitude: &'a Attitude,
+    /// Where the other bodies are found.
+    instant: &'a Instant,
 }
 
 /// The kind of a body, with what it needs of its motion more than once.
@@ -168,7 +170,17 @@ impl Instant {
         let BodyInstant { motion, attitude } = &self.bodies[index];
         let extra = &self.state[model.slots(index).extra()];
         let numbers = Numbers { high: &self.state, low: &self.low };
-        BodyAt { model, time: self.time, index, body: &model.bodies[index], motion, extra, numbers, attitude }
+        BodyAt {
+            model,
+            time: self.time,
+            index,
+            body: &model.bodies[index],
+            motion,
+            extra,
+            numbers,
+            attitude,
+            instant: self,
+        }
     }
 }
 
@@ -204,7 +216,18 @@ impl<'a> BodyAt<'a> {
     /// Hands what acts on it to `each`.
     #[inline]
     pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
-        Load::try_each(self.body, self.model.fluid.as_deref(), self.model.applied(self.index), each)
+        self.model.try_each_load(self.index, each)
+    }
+
+    /// The motion of another body; of one without inertia the places alone are known.
+    #[inline]
+    pub(crate) fn other(&self, index: usize) -> &'a BodyMotion {
+        &self.instant.bodies[index].motion
+    }
+
+    /// Another body at the same instant.
+    pub(crate) fn beside(&self, index: usize) -> Self {
+        self.instant.at(self.model, index)
     }
 
     /// A state outside the model.

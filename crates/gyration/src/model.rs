@@ -7,7 +7,7 @@ use crate::body::{Body, Slots};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::Applied;
+use crate::load::{Applied, Bond, Bonds};
 use crate::support::Support;
 use crate::tensor::Vec3;
 use std::convert::Infallible;
@@ -25,6 +25,7 @@ pub struct Model {
     pub bodies: Vec<Arc<Body>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
+    bonds: Bonds,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -48,8 +49,9 @@ impl Model {
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
         let has_potential = has_potential(&bodies);
-        let fluid = None;
-        let model = Self { gravity, supports, bodies, fluid, slots, blocks, works, energies, has_potential, applied };
+        let (fluid, bonds) = (None, Bonds::default());
+        let model =
+            Self { gravity, supports, bodies, fluid, bonds, slots, blocks, works, energies, has_potential, applied };
         model.with_ledger()
     }
 
@@ -60,6 +62,19 @@ impl Model {
         self.with_ledger()
     }
 
+    /// The model with springs between its bodies.
+    ///
+    /// # Panics
+    /// If a bond does not join two bodies of the model, or has a dashpot at a body without inertia, whose velocity no
+    /// other body feels.
+    #[must_use]
+    pub fn bonded(mut self, bonds: Vec<Bond>) -> Self {
+        self.bonds = Bonds::new(self.bodies.len(), bonds);
+        let moves = |bond: &Bond| bond.bodies.iter().all(|body| self.bodies[*body].has_inertia());
+        assert!(self.bonds().iter().all(|bond| bond.law.damping == 0.0 || moves(bond)), "a dashpot without inertia");
+        self.with_ledger()
+    }
+
     /// The model under a controller: loads may be applied to its bodies, and the ledger has their work.
     #[must_use]
     pub fn under_control(mut self) -> Self {
@@ -67,8 +82,8 @@ impl Model {
         self.with_ledger()
     }
 
-    /// The model of some of its bodies, in the order of `members`: as if there were no others, but with the ledger of
-    /// all, as far as it concerns them.
+    /// The model of some of its bodies, whose indices ascend: as if there were no others, but with the ledger of all,
+    /// as far as it concerns them.
     #[must_use]
     pub fn part(&self, members: &[usize]) -> Self {
         let bodies: Vec<Arc<Body>> = members.iter().map(|body| self.bodies[*body].clone()).collect();
@@ -80,6 +95,7 @@ impl Model {
             slots,
             bodies,
             fluid: self.fluid.clone(),
+            bonds: self.bonds.among(members),
             works: Vec::new(),
             energies: Vec::new(),
             has_potential: self.has_potential,
@@ -87,6 +103,28 @@ impl Model {
         };
         part.enter_ledger();
         part
+    }
+
+    /// The springs between its bodies.
+    pub fn bonds(&self) -> &[Bond] {
+        self.bonds.all()
+    }
+
+    /// The pairs (i, j) of bodies of which j acts on i, in order of i; some may come twice.
+    pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..self.bodies.len()).flat_map(|body| self.bonds.of(body).map(move |end| (body, end.other())))
+    }
+
+    /// Whether other bodies act on a body.
+    pub fn is_joined(&self, body: usize) -> bool {
+        self.bonds.of(body).next().is_some()
+    }
+
+    /// Hands what acts on a body to `each`, in the order in which it is summed; stops at the first error.
+    #[inline]
+    pub fn try_each_load<'a, E>(&'a self, index: usize, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
+        let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
+        Load::try_each(body, self.bonds.of(index), fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.
@@ -145,8 +183,8 @@ impl Model {
     fn enter_ledger(&mut self) {
         let potential = self.has_potential;
         let mut loads: Vec<Load> = Vec::new();
-        for (index, body) in self.bodies.iter().enumerate() {
-            let listed = Load::try_each(body, self.fluid.as_deref(), self.applied.get(index), |load| {
+        for index in 0..self.bodies.len() {
+            let listed = self.try_each_load(index, |load| {
                 loads.push(load);
                 Ok::<(), Infallible>(())
             });

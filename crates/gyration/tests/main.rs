@@ -4,10 +4,10 @@
 
 mod affine_balance;
 mod affine_rates;
+mod bonds;
 mod contact_wrench;
 mod contractile_balance;
 mod contractile_rates;
-mod coupling;
 mod curved_moments;
 mod deformed;
 mod deformed_moments;

@@ -11,6 +11,7 @@ import { GhostLayer } from "./ghosts";
 import { LIGHT } from "./material";
 import { OutlineLayer } from "./outlines";
 import { directionsFor } from "./quality";
+import { SpringLayer } from "./springs";
 import type { Stage } from "./stage";
 import { SupportLayer } from "./supports";
 import { TrailLayer } from "./trails";
@@ -35,6 +36,7 @@ export class SceneView {
   readonly supports: SupportLayer;
   private bodies: BodyLayer;
   private readonly outlines: OutlineLayer;
+  private readonly springs: SpringLayer;
   private readonly vectors: VectorLayer;
   private readonly trails: TrailLayer;
   private ghosts: GhostLayer;
@@ -54,12 +56,13 @@ export class SceneView {
     this.bodies = new BodyLayer(recording, stage.quality);
     this.outlines = new OutlineLayer(recording);
     this.supports = new SupportLayer(recording);
+    this.springs = new SpringLayer(recording);
     this.vectors = new VectorLayer(recording);
     this.trails = new TrailLayer(recording);
     this.ghosts = new GhostLayer(recording, stage.quality);
     stage.root.clear();
     stage.root.add(this.supports.group, this.bodies.group, this.outlines.group, this.vectors.group);
-    stage.root.add(this.trails.lines, this.ghosts.group);
+    stage.root.add(this.springs.lines, this.trails.lines, this.ghosts.group);
     this.cast();
     this.fit(kept ?? framed(recording));
     // A run that starts again is looked at as the one before.
@@ -105,6 +108,7 @@ export class SceneView {
     this.bodies.paint(this.colors.at(shown.coloring, frame));
     this.outlines.place(frame);
     this.outlines.paint(this.colors.at(shown.coloring, frame));
+    this.springs.place(frame);
     this.supports.group.visible = shown.supports;
     this.supports.place(frame.time, this.middle(), LIGHT.key.value.toArray() as Vec3);
     this.vectors.shown = shown;
@@ -126,6 +130,7 @@ export class SceneView {
   dispose(): void {
     this.bodies.dispose();
     this.supports.dispose();
+    this.springs.dispose();
     this.vectors.dispose();
     this.trails.dispose();
     this.ghosts.dispose();

@@ -13,7 +13,7 @@ use crate::key::Key;
 use crate::quantity::si;
 use gyration::body::{Body as Moving, Pin};
 use gyration::kinematics::Placement;
-use gyration::load::Spring;
+use gyration::load::{Spring, SpringLaw};
 use gyration::shape::Shape;
 use gyration::state::Start;
 use gyration::tensor::Vec3;
@@ -89,12 +89,13 @@ fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>
         let spring = Spring {
             point: si(&written.point),
             anchor: si(&written.anchor),
-            stiffness: written.stiffness.value(),
-            rest_length: written.rest_length.value(),
-            damping: written.damping.value(),
+            law: SpringLaw {
+                stiffness: written.stiffness.value(),
+                rest_length: written.rest_length.value(),
+                damping: written.damping.value(),
+            },
         };
-        let directed = spring.rest_length > 0.0 || spring.damping > 0.0;
-        if directed && place.place(&spring.point) == spring.anchor {
+        if spring.law.is_directed() && place.place(&spring.point) == spring.anchor {
             let help = "move the anchor, or leave out `rest_length` and `damping`";
             reporter.note(
                 &key.index(index).key("anchor"),

@@ -4,6 +4,7 @@
 
 mod affine;
 mod body;
+mod bond;
 mod constraint;
 mod contact;
 mod context;
@@ -137,6 +138,7 @@ pub(crate) fn assemble(
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
     contact::attach(partial, &mut assembled, reporter);
+    let bonds = bond::bonds(partial, &assembled, reporter);
     for (body, assembled_body) in partial.bodies.iter_mut().zip(&assembled) {
         if let Some(assembled_body) = assembled_body {
             overlap::check(body, assembled_body, &supports, reporter);
@@ -152,6 +154,7 @@ pub(crate) fn assemble(
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }
+    model = model.bonded(bonds);
     let state = State::start(&model, &starts);
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let forms = partial.bodies.iter().zip(&model.bodies).enumerate();

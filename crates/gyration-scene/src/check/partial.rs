@@ -1,7 +1,7 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
 use crate::document::{Diagnostics, Document};
-use crate::file::{Body, Contact, Fluid, Record, SceneFile, Solver, Support, Time, World};
+use crate::file::{Body, Bond, Contact, Fluid, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
 use crate::tree::Node;
 use serde::de::DeserializeOwned;
@@ -25,6 +25,7 @@ pub(crate) struct PartialScene {
     pub(crate) supports: Vec<Placed<Support>>,
     pub(crate) contacts: Vec<Placed<Contact>>,
     pub(crate) bodies: Vec<Placed<Body>>,
+    pub(crate) bonds: Vec<Placed<Bond>>,
     pub(crate) fluid: Option<Fluid>,
 }
 
@@ -42,6 +43,7 @@ impl PartialScene {
             supports: taker.items("support"),
             contacts: taker.items("contact"),
             bodies: taker.items("body"),
+            bonds: taker.items("spring"),
             fluid: taker.section("fluid"),
         }
     }
@@ -57,6 +59,7 @@ impl PartialScene {
             support: self.supports.into_iter().map(|placed| placed.value).collect(),
             contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
             body: self.bodies.into_iter().map(|placed| placed.value).collect(),
+            spring: self.bonds.into_iter().map(|placed| placed.value).collect(),
             fluid: self.fluid,
         })
     }

@@ -26,6 +26,7 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
     partial.supports.iter().for_each(|support| directions(support, reporter));
     references("support", &supports, reporter);
     references("body", &bodies, reporter);
+    ends(&bodies, reporter);
     partial.contacts.iter().for_each(|contact| exponents(contact, reporter));
 }
 
@@ -64,6 +65,33 @@ fn references(section: &str, known: &BTreeSet<String>, reporter: &mut Reporter<'
             let help = suggest::fix(name, known.iter().map(String::as_str), section);
             let message = format!("there is no {section} \"{name}\"");
             reporter.diagnostics.at(node.span, &contacts.index(index).key(section), message, help);
+        }
+    }
+}
+
+/// Notes the springs between bodies, well formed or not, that name a body that is not there or one body twice.
+fn ends(known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
+    let springs = Key::root().key("spring");
+    let document = reporter.document;
+    let items = document.root.get("spring").map(Node::items).unwrap_or_default();
+    for (index, item) in items.iter().enumerate() {
+        let key = springs.index(index).key("between");
+        let ends = item.get("between").map(Node::items).unwrap_or_default();
+        let names: Vec<Option<&str>> = ends.iter().map(Node::text).collect();
+        for (end, (node, name)) in ends.iter().zip(&names).enumerate() {
+            if reporter.diagnostics.is_full() {
+                return;
+            }
+            let Some(name) = name else { continue };
+            let message = if !known.contains(*name) {
+                (format!("there is no body \"{name}\""), suggest::fix(name, known.iter().map(String::as_str), "body"))
+            } else if names[..end].contains(&Some(name)) {
+                let help = "name two bodies; a spring between points of one is its own affair";
+                (format!("both ends are at the body \"{name}\""), help.to_owned())
+            } else {
+                continue;
+            };
+            reporter.diagnostics.at(node.span, &key.index(end), message.0, message.1);
         }
     }
 }

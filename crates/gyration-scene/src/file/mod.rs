@@ -6,6 +6,7 @@
 
 mod affine;
 mod body;
+mod bond;
 mod contact;
 mod contractile;
 mod fluid;
@@ -21,6 +22,7 @@ mod world;
 
 pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
+pub use bond::Bond;
 pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
@@ -71,6 +73,9 @@ pub struct SceneFile {
     /// The bodies.
     #[schemars(length(min = 1))]
     pub body: Vec<Body>,
+    /// Springs between points of two bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spring: Vec<Bond>,
     /// A viscous fluid around the bodies; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluid: Option<Fluid>,

@@ -83,7 +83,7 @@ impl FrozenBody {
     pub fn slopes(&mut self, block: &[f64]) -> Result<DMatrix<f64>, Inadmissible> {
         self.evaluations += 1;
         let mut blocks = [DMatrix::zeros(block.len(), block.len())];
-        let done = jacobian(&self.model, &mut self.workspace, self.time, block.into(), &mut blocks);
+        let done = jacobian(&self.model, &mut self.workspace, self.time, block.into(), &mut blocks[..]);
         done.map_err(|left| Inadmissible { body: self.index, ..left })?;
         let [slopes] = blocks;
         Ok(slopes)

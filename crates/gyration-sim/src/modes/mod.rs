@@ -85,6 +85,9 @@ pub enum NoRest {
     /// The body has no inertia.
     #[error("the body has no inertia: it has no modes, but the velocities that the fluid lets it have")]
     WithoutInertia,
+    /// Springs join it to other bodies.
+    #[error("springs join the body to others: the rest of several bodies together is not looked for")]
+    Joined,
     /// The search came to no end.
     #[error(
         "no rest state was found in {steps} steps from the start: accelerations of up to {acceleration:.2e} (m/s², 1/s²) are \
@@ -165,6 +168,9 @@ impl Mode {
 pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
     if !model.bodies[body].has_inertia() {
         return Err(NoRest::WithoutInertia);
+    }
+    if model.is_joined(body) {
+        return Err(NoRest::Joined);
     }
     let mut frozen = FrozenBody::new(model, start, body);
     match equilibrium::find(&mut frozen) {

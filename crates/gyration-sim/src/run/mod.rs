@@ -1,9 +1,9 @@
 //! The run loop: windows, events, samples, audit, rest; until the end, rest, or a stop.
 //!
-//! Each body that nothing joins to another is an island with steps of its own. In a window every island comes to one
-//! time or beyond; then what is known of all until the first of them is handed on: events in order of time and body,
-//! rows, the verdict on rest, a checkpoint. How wide windows are and how many threads share the islands out leaves no
-//! trace in any number.
+//! Bodies that springs join, through any chain, are an island with steps of its own, and so is each other body. In a
+//! window every island comes to one time or beyond; then what is known of all until the first of them is handed on:
+//! events in order of time and body, rows, the verdict on rest, a checkpoint. How wide windows are and how many threads
+//! share the islands out leaves no trace in any number.
 //!
 //! Sampling never changes the steps: rows come from the dense output. Samples are at t = k·sample (multiplied, not
 //! accumulated); one within 1e-9·sample of `end` is `end`; the last row is the end or the stop. The mechanics reads no
@@ -29,7 +29,7 @@ use crate::run_state::{IslandMemory, RunState};
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::Statistics;
+use gyration_ode::{Components, Pattern, Statistics};
 use gyration_threads::Interruption;
 use joined::Joined;
 use window::WindowWidth;
@@ -57,12 +57,15 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Prepares a run from its start, an island for each body; nothing is recorded yet.
+    /// Prepares a run from its start, an island for each body or set of bodies that springs join; nothing is recorded
+    /// yet.
     ///
     /// # Errors
     /// [`RunError::Start`] if the start is outside the model.
     pub fn new(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        Self::of_islands(model, start, plan, (0..model.bodies.len()).map(|body| vec![body]))
+        let bodies = model.bodies.len();
+        let joined = Components::of(&Pattern::new(bodies, model.joins()), bodies);
+        Self::of_islands(model, start, plan, joined.iter().map(<[usize]>::to_vec))
     }
 
     /// The same with all bodies in one island: one step serves all.

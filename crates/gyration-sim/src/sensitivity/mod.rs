@@ -10,6 +10,7 @@
 //! A derivative is one at a fixed time. Where it means nothing there is a [`Meaningless`] with the reason: see
 //! `docs/sensitivities.md`.
 
+mod blocks;
 mod collocation;
 mod difference;
 mod history;

@@ -8,6 +8,7 @@
 //! at rest takes long steps, and what is varied about it may swing), and over several steps of the run where these are
 //! short (`history`). Works are quadratures by the same nodes (`works`).
 
+use super::blocks::{apart, together};
 use super::collocation::{self, CollocationRule, CollocationStep, NODES, NodeValues};
 use super::history::StepHistory;
 use super::kinks::Kinks;
@@ -222,7 +223,7 @@ impl<'a> Tangent<'a> {
     fn attempt(&mut self, end: f64) -> Result<f64, Inadmissible> {
         let size = end - self.time;
         let nodes = self.nodes(self.time, end)?;
-        let blocks = self.system.blocks().to_vec();
+        let blocks = apart(self.system.blocks(), self.system.pattern());
         let Some(step) = self.rule.step(&blocks, &self.state, size, &nodes.stages) else { return Ok(CHANGE.0 * size) };
         let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
         let error = self.error(&step, &powers, size) / self.tolerance;
@@ -252,7 +253,7 @@ impl<'a> Tangent<'a> {
             let inside = self.at.time - INSIDE * (to - from);
             self.system.jacobian(inside, &self.at.bodies, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
-            nodes.stages.slopes.push(slopes.diagonal().to_vec());
+            nodes.stages.slopes.push(together(slopes, model.blocks()));
             nodes.stages.forcing.push(forcing);
             nodes.powers.push(forcing_works);
             nodes.states.push(State { time: inside, ..self.at.clone() });

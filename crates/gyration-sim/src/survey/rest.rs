@@ -12,7 +12,6 @@
 //! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
 //! where it really rests, deformed by its weight, is its rest state (`modes`).
 
-use gyration::body::Body;
 use gyration::contact::{
     Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
 };
@@ -77,9 +76,9 @@ pub struct Approach<'a> {
 
 impl<'a> Approach<'a> {
     /// Of a body to a support; none for mass points.
-    pub fn new(model: &'a Model, start: &State, body: usize, support: usize) -> Option<Self> {
-        let motion = start.motion(model, body);
-        let (body, plane) = (&model.bodies[body], &model.supports[support]);
+    pub fn new(model: &'a Model, start: &State, index: usize, support: usize) -> Option<Self> {
+        let motion = start.motion(model, index);
+        let (body, plane) = (&model.bodies[index], &model.supports[support]);
         let surface = body.solid.surface.as_ref()?;
         let direction = motion.placement.gradient.tr_mul(&plane.normal);
         let height = plane.gap(&motion.placement.position, start.time);
@@ -95,7 +94,7 @@ impl<'a> Approach<'a> {
             keeps_digits: body.keeps_digits(surface),
             weight: -body.solid.mass.mass * model.gravity.dot(&plane.normal),
             initial_gap,
-            no_rest_because: held_otherwise(body),
+            no_rest_because: held_otherwise(model, index),
         })
     }
 
@@ -191,13 +190,14 @@ impl<'a> Approach<'a> {
 }
 
 /// What holds a body besides a single support, in words.
-fn held_otherwise(body: &Body) -> Option<&'static str> {
+fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
+    let body = &model.bodies[index];
     let acts = |contact: &&Contact| contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().any(acts);
     let mut supports = body.contacts.iter().filter(acts).map(|contact| contact.support());
     let first = supports.next();
     if body.pin.is_some() {
         Some("a pin holds the body as well")
-    } else if !body.springs.is_empty() {
+    } else if !body.springs.is_empty() || model.is_joined(index) {
         Some("springs pull at the body as well")
     } else if supports.any(|support| Some(support) != first) {
         Some("the laws of other supports act on the body as well")

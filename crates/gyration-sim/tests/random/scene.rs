@@ -52,8 +52,28 @@ pub fn scene(case: u64, folder: &Path) -> String {
         "support": supports.iter().map(Support::written).collect::<Value>(),
         "contact": contacts,
         "body": list,
+        "spring": springs(stream, bodies, size, pull),
     })
     .to_string()
+}
+
+/// A spring between the first two bodies, if there are as many; drawn last, so that all else is what it was.
+fn springs(stream: &mut Stream, bodies: usize, size: f64, pull: f64) -> Vec<Value> {
+    if bodies < 2 || stream.chance(0.4) {
+        return Vec::new();
+    }
+    let (mass, pull) = (stream.decade(-6.0, 6.0), pull / size * stream.decade(-1.0, 2.0));
+    let points = [0, 1].map(|_| scaled(stream.direction(), 0.5 * size));
+    let mut spring = json!({
+        "between": ["b1", "b0"],
+        "points": points,
+        "stiffness": mass * pull,
+    });
+    if stream.chance(0.5) {
+        spring["rest_length"] = json!(2.0 * size * stream.unit());
+        spring["damping"] = json!(mass * pull.sqrt() * stream.decade(-2.0, 0.0));
+    }
+    vec![spring]
 }
 
 struct Support {

@@ -1,5 +1,6 @@
 //! Rigid and deformable bodies on a table, beside differences of runs.
 
+use crate::joined::FREE;
 use crate::sensitivities::support::{TIGHT, at_end, disagreement, scene, strings, table};
 
 const BOX: &str = r#"
@@ -95,4 +96,15 @@ fn derivatives_of_an_incompressible_body_are_tangent_to_its_constraint() {
         // rtol = 1e-8, over the run.
         assert!(off.abs() < 1e-7, "{off:e}");
     }
+}
+
+/// Three free bodies in a triangle of springs.
+#[test]
+fn bodies_that_springs_join_agree_with_differences_of_runs() {
+    let keys = ["spring.0.stiffness", "spring.0.damping", "spring.1.points.0.0", "body.c.position.2"];
+    let quantities = ["a.x", "b.P_xy", "c.vz", "energy.load", "work.load"];
+    let overrides = [&strings(&TIGHT)[..], &["time.end=1".to_owned()]].concat();
+    let worst = disagreement(FREE, &overrides, &keys, &quantities, 1e-4);
+    // As of one body.
+    assert!(worst < 1e-5, "{worst:e}");
 }

@@ -15,7 +15,7 @@
 use super::Scratch;
 use super::body_rates::body_rates;
 use super::contractile::ContractileMotion;
-use super::jacobian::body_jacobian;
+use super::jacobian::{Blocks, add_bonds, body_jacobian};
 use super::powers::Powers;
 use crate::body::{Slots, matrix};
 use crate::contractile::ContractionCommand;
@@ -192,13 +192,14 @@ pub(super) fn fill(
     Ok(done)
 }
 
-/// Fills the derivatives of the rates of a body without inertia.
+/// Fills the derivatives of the rates of a body without inertia, by its own numbers and by those of bodies to which
+/// springs join it.
 pub(super) fn fill_jacobian(
     model: &Model,
     instant: &mut Instant,
     scratch: &mut Scratch,
     index: usize,
-    matrix: &mut DMatrix<f64>,
+    blocks: &mut (impl Blocks + ?Sized),
 ) -> Result<(), Inadmissible> {
     let settled = settle(model, instant, scratch, index)?;
     let at = instant.at(model, index);
@@ -206,9 +207,11 @@ pub(super) fn fill_jacobian(
     let filled = body_jacobian(&at, scratch, &mut jacobian);
     let kept = Kept::of(&at);
     let solver = Solver::new(&settled.slots, &jacobian, kept.as_ref());
+    let columns = Columns { settled: &settled, jacobian: &jacobian, kept: kept.as_ref() };
     let solved = filled.and_then(|()| {
-        let columns = Columns { settled: &settled, jacobian: &jacobian, kept: kept.as_ref() };
-        columns.fill(&solver, matrix).ok_or_else(|| without_resistance(index))
+        let own = blocks.block(index, index).map_or(Some(()), |matrix| columns.fill(&solver, matrix));
+        own.ok_or_else(|| without_resistance(index))?;
+        columns.add_bonds(&at, &solver, blocks)
     });
     scratch.matrices.push(jacobian);
     solved
@@ -222,6 +225,29 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
+    /// Adds those by the numbers of bodies to which springs join this one: their forces change its accelerations, and
+    /// so the velocities of its balance.
+    fn add_bonds(&self, at: &BodyAt, solver: &Solver, blocks: &mut (impl Blocks + ?Sized)) -> Result<(), Inadmissible> {
+        let slots = &self.settled.slots;
+        let velocities = slots.velocities();
+        let mut solved = Some(());
+        add_bonds(at, |other, coupling, lower, lift| {
+            let Some(matrix) = blocks.block(at.index, other) else { return };
+            // A dashpot would make velocities follow velocities; there is none, and places alone enter.
+            let (by_place, _) = coupling.accelerations(lower, lift);
+            for (column, loads) in by_place.column_iter().take(at.model.slots(other).places().len()).enumerate() {
+                let change = solver.velocities(&loads.as_slice()[..velocities.len()], 0.0);
+                let Some(change) = change else { return solved = None };
+                for (row, into) in slots.places().chain(slots.extra()).enumerate() {
+                    let along = velocities.clone().zip(change.iter());
+                    let through: f64 = along.map(|(velocity, change)| self.jacobian[(into, velocity)] * change).sum();
+                    matrix[(row, column)] += through;
+                }
+            }
+        })?;
+        solved.ok_or_else(|| without_resistance(at.index))
+    }
+
     /// Writes them; none if the balance cannot be solved.
     fn fill(&self, solver: &Solver, matrix: &mut DMatrix<f64>) -> Option<()> {
         let slots = &self.settled.slots;

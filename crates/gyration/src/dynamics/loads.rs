@@ -13,7 +13,7 @@ use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::BodyAt;
 use crate::ledger::{Energy, Work};
-use crate::load::{LoadSlopes, Loads, Spring, SpringLoads};
+use crate::load::{BondEnd, LoadSlopes, Loads, Spring, SpringLoads};
 
 /// What acts on a body, gravity aside.
 #[derive(Debug, Clone, Copy, Default)]
@@ -58,6 +58,13 @@ impl Acting {
             Load::Spring(number, spring) => {
                 let loads = stretched(at, *number, spring)?;
                 self.powers[Work::Load] += loads.dashpot_power;
+                self.total += loads.total();
+            }
+            Load::Bond(end) => {
+                let loads = bonded(at, end)?;
+                if end.counts() {
+                    self.powers[Work::Load] += loads.dashpot_power;
+                }
                 self.total += loads.total();
             }
             Load::Couple(couple) => {
@@ -112,6 +119,7 @@ pub(super) fn add_slopes(
             }
         }
         Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
+        Load::Bond(end) => slopes.add_spring(&bonded(at, end)?),
         Load::Couple(couple) => {
             let inverse = at.inverse();
             slopes.add_couple(&couple.moment(at.time, &inverse), &inverse);
@@ -143,6 +151,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                         .unwrap_or(0.0)
                 }
                 Load::Spring(_, spring) => spring.energy(&at.motion.placement),
+                Load::Bond(end) => end.energy(&at.motion.placement, &at.other(end.other()).placement),
                 Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
             };
         }
@@ -156,4 +165,12 @@ fn stretched(at: &BodyAt, number: usize, spring: &Spring) -> Result<SpringLoads,
     let loads = spring.loads(&at.motion.placement, &at.motion.velocity);
     let quantity = Quantity::SpringLength { spring: number };
     loads.ok_or_else(|| at.outside(quantity, spring.length(&at.motion.placement)))
+}
+
+/// The force of a bond on the body.
+pub(super) fn bonded(at: &BodyAt, end: &BondEnd) -> Result<SpringLoads, Inadmissible> {
+    let (own, other) = (at.motion, at.other(end.other()));
+    let loads = end.loads((&own.placement, &own.velocity), (&other.placement, &other.velocity));
+    let quantity = Quantity::BondLength { bond: end.number };
+    loads.ok_or_else(|| at.outside(quantity, end.length(&own.placement, &other.placement)))
 }

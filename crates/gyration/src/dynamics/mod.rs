@@ -18,7 +18,7 @@ mod rates;
 mod rigid;
 
 pub use contacts::{gap_at, nearest};
-pub use jacobian::{Coupling, Lift, Lower};
+pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
 pub use rates::{jacobian, rates};
 

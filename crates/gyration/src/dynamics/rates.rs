@@ -11,12 +11,11 @@
 //! `physics.md` §2.
 
 use super::body_rates::body_rates;
-use super::jacobian::body_jacobian;
+use super::jacobian::{Blocks, add_bonds, body_jacobian};
 use super::{Workspace, inertialess};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
-use nalgebra::DMatrix;
 
 /// The rates of all bodies and the powers of all works at time t.
 ///
@@ -47,9 +46,10 @@ pub fn rates(
     Ok(())
 }
 
-/// ∂(rates)/∂(state) of every body, one square matrix a block of `Model::blocks`.
+/// ∂(rates)/∂(state), block (i, j) the rates of body i by the numbers of body j, as `Model::blocks`.
 ///
-/// What is always zero in a matrix is taken to be zero already.
+/// Blocks off the diagonal are added to; on the diagonal, what is always zero is taken to be zero already.
+/// `Model::joins` says where there are others than those on the diagonal.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
@@ -58,14 +58,23 @@ pub fn jacobian(
     workspace: &mut Workspace,
     time: f64,
     state: Numbers,
-    blocks: &mut [DMatrix<f64>],
+    blocks: &mut (impl Blocks + ?Sized),
 ) -> Result<(), Inadmissible> {
     let Workspace { instant, scratch } = workspace;
     instant.read(model, time, state)?;
-    for (index, matrix) in blocks.iter_mut().enumerate() {
+    for index in 0..model.bodies.len() {
+        let Some(matrix) = blocks.block(index, index) else { continue };
         match model.bodies[index].has_inertia() {
-            true => body_jacobian(&instant.at(model, index), scratch, matrix)?,
-            false => inertialess::fill_jacobian(model, instant, scratch, index, matrix)?,
+            true => {
+                let at = instant.at(model, index);
+                body_jacobian(&at, scratch, matrix)?;
+                add_bonds(&at, |other, coupling, lower, lift| {
+                    if let Some(matrix) = blocks.block(index, other) {
+                        coupling.add_to(matrix, lower, lift);
+                    }
+                })?;
+            }
+            false => inertialess::fill_jacobian(model, instant, scratch, index, blocks)?,
         }
     }
     Ok(())

@@ -5,6 +5,7 @@
 //! material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
 
 mod applied;
+mod bond;
 mod couple;
 mod resistance;
 mod slopes;
@@ -12,12 +13,13 @@ mod spring;
 mod wrench;
 
 pub use applied::Applied;
+pub use bond::{Bond, BondEnd, Bonds};
 pub use couple::Couple;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;
-pub(crate) use slopes::{COORDINATES, loads, numbers, unit};
-pub use spring::{Spring, SpringLoads};
+pub(crate) use slopes::{COORDINATES, add_blocks, loads, numbers, unit};
+pub use spring::{Spring, SpringLaw, SpringLoads};
 pub use wrench::{Wrench, WrenchSlope};
 
 use crate::tensor::{Mat3, Vec3, axial};

@@ -78,7 +78,7 @@ impl LoadSlopes {
         add_blocks(&mut self.by_rate, across, |a, b| -moment(a, b));
     }
 
-    /// Adds a spring at a material point.
+    /// Adds a spring at a material point, whose other end stays.
     pub fn add_spring(&mut self, spring: &SpringLoads) {
         let point = |a: usize| if a == 0 { 1.0 } else { spring.point[a - 1] };
         self.loads += spring.total();
@@ -137,7 +137,7 @@ pub(crate) fn unit(place: usize) -> Mat3 {
 }
 
 /// Adds weight(a, b) · block at the 3×3 block (a, b).
-fn add_blocks(matrix: &mut Mat12, block: &Mat3, weight: impl Fn(usize, usize) -> f64) {
+pub(crate) fn add_blocks(matrix: &mut Mat12, block: &Mat3, weight: impl Fn(usize, usize) -> f64) {
     for (coordinate, column) in matrix.as_mut_slice().chunks_exact_mut(COORDINATES).enumerate() {
         for (a, part) in column.chunks_exact_mut(3).enumerate() {
             let weight = weight(a, coordinate / 3);

@@ -62,13 +62,21 @@ impl From<&LoadSlopes> for Coupling {
 impl Coupling {
     /// Adds the block that these derivatives give to a matrix with the rows of one body and the columns of another.
     pub fn add_to(&self, matrix: &mut DMatrix<f64>, lower: &Lower, lift: &Lift) {
-        let by_place = lower.map * (self.by_place * lift.place + self.by_rate * lift.sway);
-        let by_rate = lower.map * (self.by_rate * lift.rate);
+        let (by_place, by_rate) = self.accelerations(lower, lift);
         let rows = lower.slots.velocities();
         for (part, columns) in [(by_place, lift.slots.places()), (by_rate, lift.slots.velocities())] {
             let mut block = matrix.view_mut((rows.start, columns.start), (rows.len(), columns.len()));
             block += part.view((0, 0), (rows.len(), columns.len()));
         }
+    }
+}
+
+impl Coupling {
+    /// The derivatives of the rates of (velocity, rate) of one body, by (position, attitude) and by (velocity, rate) of
+    /// the other.
+    pub(in super::super) fn accelerations(&self, lower: &Lower, lift: &Lift) -> (Mat12, Mat12) {
+        let by_place = lower.map * (self.by_place * lift.place + self.by_rate * lift.sway);
+        (by_place, lower.map * (self.by_rate * lift.rate))
     }
 }
 
@@ -78,7 +86,12 @@ fn packed(force: &Vec3, moment: &Mat3) -> Vec12 {
 }
 
 impl Lift {
-    /// Of a body at an instant; its block begins at 0.
+    /// Of a body at an instant whose block has what its state has: no velocities without inertia.
+    pub(super) fn of_state(at: &BodyAt) -> Self {
+        Self { slots: Slots::of(at.body, 0), ..Self::of(at) }
+    }
+
+    /// Of a body at an instant, with velocities; its block begins at 0.
     pub fn of(at: &BodyAt) -> Self {
         let slots = Slots::with_inertia(at.body, 0);
         let (mut place, mut sway, mut rate) = (Mat12::zeros(), Mat12::zeros(), Mat12::zeros());

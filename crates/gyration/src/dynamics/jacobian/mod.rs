@@ -10,11 +10,13 @@
 //! to more digits than those by q, and go to the block directly.
 
 mod affine;
+mod bonds;
 mod contractile;
 mod coupling;
 mod history;
 mod rigid;
 
+pub(super) use bonds::add_bonds;
 pub use coupling::{Coupling, Lift, Lower};
 
 use super::Scratch;
@@ -23,6 +25,19 @@ use super::history::RigidHistory;
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
 use nalgebra::DMatrix;
+
+/// The blocks of a Jacobian, to be written.
+pub trait Blocks {
+    /// Block (row, column), or none where it is not wanted.
+    fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>>;
+}
+
+/// The blocks of the diagonal alone.
+impl Blocks for [DMatrix<f64>] {
+    fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
+        if row == column { self.get_mut(row) } else { None }
+    }
+}
 
 /// The derivatives of the rates of one body with inertia by its own numbers.
 pub(super) fn body_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMatrix<f64>) -> Result<(), Inadmissible> {

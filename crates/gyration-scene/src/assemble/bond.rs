@@ -1,0 +1,44 @@
+//! Springs between bodies.
+
+use super::body::AssembledBody;
+use super::start::placement;
+use crate::check::{PartialScene, Placed, Reporter};
+use crate::file;
+use crate::quantity::si;
+use gyration::load::{Bond, SpringLaw};
+use std::collections::HashMap;
+
+/// The springs between bodies; notes those that start without a direction, or whose dashpot is at a body without
+/// inertia.
+pub(super) fn bonds(
+    partial: &PartialScene,
+    assembled: &[Option<AssembledBody>],
+    reporter: &mut Reporter<'_>,
+) -> Vec<Bond> {
+    let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.body.name.clone(), index));
+    let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
+    let bond = |Placed { key, value }: &Placed<file::Bond>| {
+        let [Some(&one), Some(&other)] = value.between.each_ref().map(|name| named.get(name)) else { return None };
+        let law = SpringLaw {
+            stiffness: value.stiffness.value(),
+            rest_length: value.rest_length.value(),
+            damping: value.damping.value(),
+        };
+        let bond = Bond { bodies: [one, other], points: value.points.each_ref().map(si), law };
+        let ends = bond.bodies.map(|body| assembled[body].as_ref());
+        let [Some(one), Some(other)] = ends else { return None };
+        if law.is_directed() && bond.length([&placement(&one.start), &placement(&other.start)]) == 0.0 {
+            let message = "the spring starts with no length and has no direction";
+            let help = "move a body or a point, or leave out `rest_length` and `damping`";
+            reporter.note(&key.key("points"), message, help);
+        }
+        let still = [one, other].into_iter().find(|end| !end.body.has_inertia());
+        if let Some(still) = still.filter(|_| law.damping > 0.0) {
+            let message = format!("\"{}\" has no inertia, and no other body feels its velocity", still.body.name);
+            let help = "leave out `damping`, or give the body `inclusion = { inertia = true }`";
+            reporter.note(&key.key("damping"), message, help);
+        }
+        Some(bond)
+    };
+    partial.bonds.iter().filter_map(bond).collect()
+}

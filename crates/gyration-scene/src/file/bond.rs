@@ -1,0 +1,24 @@
+//! `[[spring]]`: springs between bodies.
+
+use crate::quantity::{Length, NonNegative, SpringDamping, Stiffness};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A spring and dashpot between points of two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bond {
+    /// Names of the two bodies.
+    pub between: [String; 2],
+    /// A point of each, relative to its centre of mass in its axes (m).
+    #[serde(default)]
+    pub points: [[Length; 3]; 2],
+    /// Stiffness (N/m).
+    pub stiffness: NonNegative<Stiffness>,
+    /// Length without force (m).
+    #[serde(default)]
+    pub rest_length: NonNegative<Length>,
+    /// Damping along the spring (N s/m).
+    #[serde(default)]
+    pub damping: NonNegative<SpringDamping>,
+}

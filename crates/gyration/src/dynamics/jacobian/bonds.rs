@@ -1,0 +1,38 @@
+//! Blocks off the diagonal: what a spring between two bodies does to one when the other moves.
+//!
+//!   ∂Q_i/∂q_j = −(∂F/∂d) X̃_i⊗X̃_j,   ∂Q_i/∂q̇_j = −(∂F/∂ḋ) X̃_i⊗X̃_j
+
+use super::super::loads::bonded;
+use super::{Coupling, Lift, Lower};
+use crate::acting::Load;
+use crate::inadmissible::Inadmissible;
+use crate::instant::BodyAt;
+use crate::load::{BondEnd, Mat12, SpringLoads, add_blocks};
+use crate::tensor::Vec3;
+
+/// Hands to `each`, for every bond of a body, the other body, ∂Q by its coordinates, B of the one and A of the other.
+pub(in super::super) fn add_bonds(
+    at: &BodyAt,
+    mut each: impl FnMut(usize, &Coupling, &Lower, &Lift),
+) -> Result<(), Inadmissible> {
+    let mut lower = None;
+    at.try_each_load(|load| {
+        let Load::Bond(end) = load else { return Ok(()) };
+        let coupling = Coupling::of_bond(&end, &bonded(at, &end)?);
+        let lower = lower.get_or_insert_with(|| Lower::of(at));
+        each(end.other(), &coupling, lower, &Lift::of_state(&at.beside(end.other())));
+        Ok(())
+    })
+}
+
+impl Coupling {
+    /// Of a bond, given the force on the body.
+    fn of_bond(end: &BondEnd, loads: &SpringLoads) -> Self {
+        let point = |point: &Vec3, place: usize| if place == 0 { 1.0 } else { point[place - 1] };
+        let weight = |a: usize, b: usize| -point(&loads.point, a) * point(&end.other_point(), b);
+        let mut coupling = Self { by_place: Mat12::zeros(), by_rate: Mat12::zeros() };
+        add_blocks(&mut coupling.by_place, &loads.by_place, weight);
+        add_blocks(&mut coupling.by_rate, &loads.by_velocity, weight);
+        coupling
+    }
+}

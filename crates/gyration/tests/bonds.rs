@@ -1,0 +1,191 @@
+//! Springs between bodies of any two kinds: blocks of the Jacobian B_i ∂Q_i A_j against differences, action and
+//! reaction, and the balance of power.
+
+use crate::moving::*;
+use gyration::acting::Load;
+use gyration::body::{Body, BodyKind, Contractile, RigidInertia};
+use gyration::contact::AreaMeasure;
+use gyration::contractile::{Contraction, ContractionSource, Spin};
+use gyration::dynamics::{Blocks, Workspace, jacobian};
+use gyration::kinematics::{Placement, Quaternion, Velocity};
+use gyration::load::{Bond, Frame, SpringLaw};
+use gyration::model::Model;
+use gyration::signal::Signal;
+use gyration::state::{BodyMotion, RigidStart, Start, State};
+use gyration::tensor::{Mat3, Vec3};
+use nalgebra::DMatrix;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// With a direction, and without.
+const DIRECTED: SpringLaw = SpringLaw { stiffness: 2.3, rest_length: 0.4, damping: 0.7 };
+const PLAIN: SpringLaw = SpringLaw { stiffness: 1.9, rest_length: 0.0, damping: 0.0 };
+
+/// Rigid, affine and contractile bodies, free and pinned, compressible or not.
+fn bodies() -> Vec<Body> {
+    let [shape, ..] = shapes();
+    let variant = |incompressible, pinned| Variant {
+        measure: AreaMeasure::DeformedArea,
+        incompressible,
+        pinned,
+        frame: Frame::Space,
+    };
+    let mut bodies = Vec::new();
+    for pinned in [false, true] {
+        for incompressible in [false, true] {
+            let soft = body(shape.clone(), [6.0, 5.0, 4.0, 3.0], variant(incompressible, pinned));
+            let source = ContractionSource::Driven { drive: Signal::Constant(Mat3::identity()), feedback: Vec::new() };
+            for kept_volume in [None, Some(1.0)] {
+                let contraction = Contraction { viscosity: 0.8, kept_volume, spin: Spin::Full, source: source.clone() };
+                let contractile = Contractile::new(soft.affine().unwrap().clone(), contraction);
+                bodies.push(Body { kind: BodyKind::Contractile(Box::new(contractile)), ..soft.clone() });
+            }
+            let inertia = RigidInertia::new(&soft.solid.mass, soft.pin.as_ref()).unwrap();
+            bodies.push(Body { kind: BodyKind::Rigid(inertia), ..soft.clone() });
+            bodies.push(soft);
+        }
+    }
+    bodies
+}
+
+/// A start that no symmetry makes simple; the constraints hold.
+fn start(body: &Body, seed: f64) -> Start {
+    let vector = |seed: f64| Vec3::new(seed.sin(), (2.0 * seed).cos(), (3.0 * seed).sin());
+    let (position, velocity) = (Vec3::new(0.2, 0.1, 1.6) + 0.1 * vector(seed), vector(seed + 0.4));
+    let orientation = Quaternion::from_axis_angle(&vector(seed + 0.8), 0.9 + seed);
+    match body.affine() {
+        None => RigidStart { position, orientation, velocity, angular_velocity: vector(seed + 1.2) }.into(),
+        Some(affine) => {
+            let strain = Mat3::from_fn(|i, j| 0.1 * (seed + 1.3 * i as f64 + 0.7 * (j * j) as f64).sin());
+            let gradient = orientation.rotation() * (Mat3::identity() + strain);
+            let corrected = affine.interior.project(&gradient, &(3.0 * strain));
+            let placement = Placement { position, gradient: corrected.gradient };
+            let velocity = Velocity { velocity, gradient_rate: corrected.rate };
+            Start::Contractile(placement, velocity, Mat3::identity())
+        }
+    }
+}
+
+/// A ring of springs, and two more between bodies that it does not join.
+fn bonds(bodies: usize, laws: [SpringLaw; 2]) -> Vec<Bond> {
+    let bond = |k: usize, one: usize, other: usize| {
+        let seed = k as f64;
+        let point = |seed: f64| 0.4 * Vec3::new(seed.sin(), (2.0 * seed).cos(), (3.0 * seed).sin());
+        Bond { bodies: [one, other], points: [point(seed + 0.3), point(seed + 1.1)], law: laws[k % 2] }
+    };
+    let mut bonds: Vec<Bond> = (0..bodies).map(|k| bond(k, k, (k + 1) % bodies)).collect();
+    bonds.extend([bond(bodies, 2, 0), bond(bodies + 1, 0, 2)]);
+    bonds
+}
+
+fn state(model: &Model) -> State {
+    let starts: Vec<Start> = model.bodies.iter().enumerate().map(|(k, body)| start(body, 0.1 * k as f64)).collect();
+    State::start(model, &starts)
+}
+
+/// All blocks, in rows.
+struct Whole(Vec<Vec<DMatrix<f64>>>);
+
+impl Blocks for Whole {
+    fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
+        self.0.get_mut(row)?.get_mut(column)
+    }
+}
+
+/// Fails where a block is not the derivative of the rates, whatever bodies it is of.
+fn assert_blocks_are_derivatives(model: &Model, state: &State) {
+    let blocks = model.blocks();
+    let zeros = |row: &Range<usize>| blocks.iter().map(|column| DMatrix::zeros(row.len(), column.len())).collect();
+    let mut whole = Whole(blocks.iter().map(zeros).collect());
+    jacobian(model, &mut Workspace::default(), state.time, state.numbers(), &mut whole).unwrap();
+    for (j, columns) in blocks.iter().enumerate() {
+        for (column, place) in columns.clone().enumerate() {
+            let step = 1e-5;
+            let shifted = |shift: f64| {
+                let mut moved = state.bodies.clone();
+                moved[place] += shift;
+                evaluate(model, state.time, &moved).0
+            };
+            let (ahead, behind) = (shifted(step), shifted(-step));
+            for (i, rows) in blocks.iter().enumerate() {
+                let block = &whole.0[i][j];
+                for (row, at) in rows.clone().enumerate() {
+                    let difference = (ahead[at] - behind[at]) / (2.0 * step);
+                    // step² of the third derivatives, and the rounding of rates of some 1e3 over the step.
+                    let error = (difference - block[(row, column)]).abs();
+                    let scale = block.column(column).norm() + 1.0;
+                    assert!(error < 1e-6 * scale, "({i}, {j}) at ({row}, {column}): {error:e} of {scale:e}");
+                }
+            }
+        }
+    }
+    let pairs: Vec<_> = model.joins().collect();
+    for (i, j) in (0..blocks.len()).flat_map(|i| (0..blocks.len()).map(move |j| (i, j))) {
+        assert!(i == j || pairs.contains(&(i, j)) == (whole.0[i][j].amax() > 0.0), "({i}, {j})");
+    }
+}
+
+#[test]
+fn blocks_between_joined_bodies_are_derivatives_of_the_rates() {
+    let bodies = bodies();
+    let bonds = bonds(bodies.len(), [DIRECTED, PLAIN]);
+    let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies).bonded(bonds);
+    let state = state(&model);
+    assert_blocks_are_derivatives(&model, &state);
+    assert_power_is_the_rate_of_energy(&model, &state);
+}
+
+#[test]
+fn blocks_of_joined_bodies_without_inertia_are_derivatives_of_the_rates() {
+    let undamped = SpringLaw { damping: 0.0, ..DIRECTED };
+    let free: Vec<Body> = bodies().into_iter().filter(|body| body.pin.is_none()).collect();
+    let count = free.len();
+    let mut model = immersed(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), free), false);
+    // Every third has inertia.
+    for body in model.bodies.iter_mut().step_by(3) {
+        Arc::make_mut(body).inclusion.as_mut().unwrap().inertia = true;
+    }
+    let fluid = model.fluid.take().unwrap();
+    let model = Model::new(model.gravity, model.supports, model.bodies).in_fluid(fluid);
+    let model = model.bonded(bonds(count, [undamped, PLAIN]));
+    let state = state(&model);
+    assert_blocks_are_derivatives(&model, &state);
+    assert_power_is_the_rate_of_energy(&model, &state);
+}
+
+#[test]
+fn what_a_spring_does_to_one_body_it_undoes_to_the_other() {
+    let count = bodies().len();
+    let model = Model::new(Vec3::zeros(), supports(), bodies()).bonded(bonds(count, [DIRECTED, PLAIN]));
+    let state = state(&model);
+    let motions: Vec<BodyMotion> = (0..count).map(|body| state.motion(&model, body)).collect();
+    let mut sums = vec![(Vec3::zeros(), Vec3::zeros()); model.bonds().len()];
+    for (body, own) in motions.iter().enumerate() {
+        let added = model.try_each_load(body, |load| {
+            let Load::Bond(end) = load else { return Ok(()) };
+            let other = &motions[end.other()];
+            let loads = end.loads((&own.placement, &own.velocity), (&other.placement, &other.velocity)).ok_or(())?;
+            assert!(loads.force.norm() > 1e-3);
+            sums[end.number].0 += loads.force;
+            sums[end.number].1 += own.placement.place(&loads.point).cross(&loads.force);
+            Ok::<(), ()>(())
+        });
+        assert!(added.is_ok());
+    }
+    for (force, torque) in sums {
+        // The forces to the last digit, their moments about the origin as the rounding of products lets them.
+        assert!(force == Vec3::zeros() && torque.norm() < 1e-14, "{force} {torque}");
+    }
+}
+
+#[test]
+fn a_part_of_a_model_has_the_springs_between_its_bodies() {
+    let count = bodies().len();
+    let model = Model::new(Vec3::zeros(), supports(), bodies()).bonded(bonds(count, [DIRECTED, PLAIN]));
+    let part = model.part(&[0, 2, 3, 7]);
+    let kept: Vec<[usize; 2]> = part.bonds().iter().map(|bond| bond.bodies).collect();
+    // 2 and 3 of the ring, and the two more.
+    assert_eq!(kept, [[1, 2], [1, 0], [0, 1]]);
+    assert_eq!(part.joins().collect::<Vec<_>>(), [(0, 1), (0, 1), (1, 2), (1, 0), (1, 0), (2, 1)]);
+    assert!(part.is_joined(0) && !part.is_joined(3));
+}
