@@ -70,6 +70,17 @@ impl Integrator {
         Self::assemble(progress, vectors, options)
     }
 
+    /// The same after other integrations: what the numbers of y lack of twice their digits, and counters to go on from.
+    ///
+    /// # Panics
+    /// If `low` has not the size of y.
+    #[must_use]
+    pub fn succeeding(mut self, low: &[f64], statistics: Statistics) -> Self {
+        self.current.low[..self.progress.dimension].copy_from_slice(low);
+        self.progress.statistics = statistics;
+        self
+    }
+
     /// Continues from a checkpoint, as if there had been none.
     ///
     /// # Errors

@@ -12,6 +12,7 @@
 //! foremost place, and is followed in eighths of its period where it may meet the body. A body at rest, or one that
 //! leaves, is not held up. Steps are cut by this and never lengthened.
 
+use crate::approach::Approach;
 use crate::step_end::StepEnd;
 use gyration::contact::RelativeMotion;
 use gyration::model::Model;
@@ -68,7 +69,25 @@ pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64],
             });
         }
     }
-    step
+    model.bonds().iter().fold(step, |step, bond| match bond.law.reach() {
+        Some(reach) => step.min(before_meeting(bond.bodies.map(|body| &ends[body]), reach, step)),
+        None => step,
+    })
+}
+
+/// The longest step [s] after which two bodies that are out of reach may be halfway within it, at most `longest`.
+fn before_meeting([one, other]: [&StepEnd; 2], reach: f64, longest: f64) -> f64 {
+    let approach = Approach::of(one, other);
+    if approach.distance(0.0) <= reach {
+        return longest;
+    }
+    let nearest = approach.nearest(longest);
+    let left = |time: f64| approach.distance(time) - 0.5 * reach;
+    if left(nearest) <= 0.0 {
+        return first_root(nearest, left);
+    }
+    // The acceleration alone may bring them nearer still.
+    approach.bent(approach.straight(nearest) - 0.5 * reach).min(longest)
 }
 
 /// What drives bodies, and the flow around them.

@@ -1,11 +1,11 @@
-//! An island: bodies that nothing joins to any other, with an integrator of their own.
+//! An island: bodies on which no others act, with an integrator of their own.
 //!
 //! What an island does depends on its own bodies alone: its steps, the errors that they are allowed, its works and its
 //! events are what they would be if there were no others. A run asks it to come to a time, and it does so by whole
 //! steps: the last one ends there or beyond, and its interpolant says what lies between. How often it is asked leaves
 //! no trace in any number.
 
-use crate::adapter::{ModelSystem, project};
+use crate::adapter::ModelSystem;
 use crate::anchor::Anchor;
 use crate::events::Event;
 use crate::horizon::horizon;
@@ -13,10 +13,11 @@ use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::run_state::{DISSIPATION, IslandMemory, IslandState};
 use crate::step_end::{self, StepEnd};
+use crate::way::Way;
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{ExtendedMut, Integrator, Memory, MemoryError, StepReport};
+use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
 use std::ops::Range;
 
@@ -48,16 +49,18 @@ pub(crate) struct Island {
     pub window_steps: u64,
     /// Why it came no further.
     pub stop: Option<Stop>,
+    /// The ways of its bodies since the run was at its time, where bodies may meet others.
+    pub ways: Option<Vec<Vec<Way>>>,
     /// From where it can be begun again; none where nobody will ask for that.
-    anchor: Option<Anchor>,
+    pub anchor: Option<Anchor>,
 }
 
 impl Island {
-    /// Bodies of a run before its first step. One island that is the whole run needs no anchor.
+    /// Bodies of a run before its first step. One island that is the whole run and stays so needs no anchor.
     ///
     /// # Errors
     /// [`Stop`] if the start is outside the model.
-    pub fn new(model: &Model, start: &State, plan: &RunPlan, members: Vec<usize>) -> Result<Self, Stop> {
+    pub fn new(model: &Model, start: &State, plan: &RunPlan, members: Vec<usize>, stays: bool) -> Result<Self, Stop> {
         let is_whole = members.len() == model.bodies.len();
         let part = if is_whole { model.clone() } else { model.part(&members) };
         let places: Vec<Range<usize>> = members.iter().map(|body| model.blocks()[*body].clone()).collect();
@@ -74,6 +77,7 @@ impl Island {
         let system = system.map_err(|left| Stop::by_inadmissible(&part, start.time, &left))?;
         let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
         let state = IslandState::new(members.len());
+        let ways = (!stays).then(|| vec![Vec::new(); members.len()]);
         let mut this = Self {
             members,
             places,
@@ -89,10 +93,11 @@ impl Island {
             report: None,
             window_steps: 0,
             stop: None,
+            ways,
             anchor: None,
         };
         this.read_step_end();
-        if !is_whole {
+        if !(is_whole && stays) {
             this.anchor = Some(Anchor::new(this.memory()));
         }
         Ok(this)
@@ -131,7 +136,10 @@ impl Island {
     pub fn memory(&self) -> IslandMemory {
         match &self.anchor {
             Some(anchor) => anchor.kept().clone(),
-            None => IslandMemory { state: self.state.clone(), stepper: self.integrator.memory() },
+            None => {
+                let (members, state) = (self.members.clone(), self.state.clone());
+                IslandMemory { members, state, stepper: self.integrator.memory() }
+            }
         }
     }
 
@@ -140,6 +148,19 @@ impl Island {
     /// # Errors
     /// [`MemoryError`] if it is not one of this island.
     pub fn resume(&mut self, memory: &IslandMemory, plan: &RunPlan, time: f64) -> Result<(), MemoryError> {
+        self.restore(memory, plan)?;
+        // What has been done once is not given up.
+        Interruption::default()
+            .within(|| while self.time() < time && !self.state.is_parting && self.step(plan).is_ok() {});
+        self.events.retain(|event| event.time > time);
+        Ok(())
+    }
+
+    /// Is again what a memory holds.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if it is not one of this island.
+    pub fn restore(&mut self, memory: &IslandMemory, plan: &RunPlan) -> Result<(), MemoryError> {
         let (numbers, works) = (self.integrator.state().len(), self.integrator.quadratures().len());
         let integrator = Integrator::resume(&memory.stepper, plan.options)?;
         let fits = integrator.state().len() == numbers && integrator.quadratures().len() == works;
@@ -152,12 +173,10 @@ impl Island {
         if let Some(anchor) = &mut self.anchor {
             anchor.drop_at(&self.state, &self.integrator);
         }
-        self.events.clear();
+        self.events.retain(|event| event.time <= memory.stepper.time());
+        self.ways.iter_mut().flatten().for_each(Vec::clear);
         self.stop = None;
         self.read_step_end();
-        // What has been done once is not given up.
-        Interruption::default().within(|| while self.time() < time && self.step(plan).is_ok() {});
-        self.events.retain(|event| event.time > time);
         Ok(())
     }
 
@@ -174,7 +193,7 @@ impl Island {
     pub fn reach(&mut self, until: f64, most: u64, plan: &RunPlan) {
         self.stop = None;
         for step in 0..most {
-            if self.time() >= until {
+            if self.time() >= until || self.state.is_parting {
                 return;
             }
             if step > 0 && Interruption::due().is_some() {
@@ -200,11 +219,17 @@ impl Island {
         if let Some(anchor) = &mut self.anchor {
             anchor.settle(&self.state, &self.integrator, time);
         }
+        self.ways.iter_mut().flatten().for_each(|ways| ways.retain(|way| way.end > time));
     }
 
     /// Makes one step and finds its events.
-    fn step(&mut self, plan: &RunPlan) -> Result<StepReport, Stop> {
-        let (target, before, time) = (self.target(plan), self.dissipation(), self.time());
+    pub fn step(&mut self, plan: &RunPlan) -> Result<StepReport, Stop> {
+        self.step_towards(self.target(plan), plan)
+    }
+
+    /// The same no farther than to a time.
+    pub fn step_towards(&mut self, target: f64, plan: &RunPlan) -> Result<StepReport, Stop> {
+        let (before, time) = (self.dissipation(), self.time());
         let made = self.integrator.step(&mut self.system, target);
         if self.system.was_interrupted() {
             // A shorter step that has gone well is another one than the run would have made.
@@ -215,6 +240,8 @@ impl Island {
         self.state.largest_projection = self.state.largest_projection.max(report.projection);
         self.state.note_dissipation(before, self.dissipation());
         self.find_events(&report);
+        self.note_ways(&report);
+        self.note_parting();
         self.note_rest(plan, report.end);
         Ok(report)
     }
@@ -248,7 +275,7 @@ impl Island {
 
     /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time
     /// at which a support could be reached.
-    fn target(&self, plan: &RunPlan) -> f64 {
+    pub fn target(&self, plan: &RunPlan) -> f64 {
         let time = self.time();
         let mut end = plan.end;
         if let Some(rest) = plan.stop_at_rest
@@ -297,18 +324,6 @@ impl Island {
         }
     }
 
-    /// Samples the state at a time within the last step, or after it.
-    pub fn sample(&mut self, time: f64) {
-        sample(&self.integrator, self.system.model(), time, &mut self.sampled);
-    }
-
-    /// The state at a time within the last step, or after it.
-    pub fn state_at(&self, time: f64) -> State {
-        let mut state = self.sampled.clone();
-        sample(&self.integrator, self.model(), time, &mut state);
-        state
-    }
-
     /// Where the numbers of each of its bodies stand among its own, and among those of the run.
     pub fn places(&self) -> impl Iterator<Item = (&Range<usize>, &Range<usize>)> {
         self.model().blocks().iter().zip(&self.places)
@@ -318,19 +333,4 @@ impl Island {
     pub fn works(&self) -> &[usize] {
         &self.works
     }
-}
-
-/// The state at a time within the last step, or after it.
-fn sample(integrator: &Integrator, model: &Model, time: f64, sampled: &mut State) {
-    let State { time: at, bodies, low, works } = sampled;
-    *at = time;
-    if time >= integrator.time() {
-        bodies.copy_from_slice(integrator.state());
-        low.copy_from_slice(integrator.state_low());
-        works.copy_from_slice(integrator.quadratures());
-        return;
-    }
-    integrator.interpolate_extended(time, bodies, works, Some(low));
-    // Between the ends of a step the interpolant is off its manifold by its error.
-    project(model, time, ExtendedMut { high: bodies, low }, works);
 }

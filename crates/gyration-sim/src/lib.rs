@@ -11,11 +11,13 @@
 
 pub mod adapter;
 mod anchor;
+mod approach;
 mod detection;
 pub mod events;
 pub mod format;
 mod horizon;
 mod island;
+mod meeting;
 pub mod modes;
 mod outcome;
 mod period;
@@ -33,6 +35,8 @@ mod stepping;
 mod sum;
 mod summary;
 pub mod survey;
+mod way;
+mod within;
 
 pub use adapter::Tolerance;
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};

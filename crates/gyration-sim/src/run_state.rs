@@ -38,6 +38,8 @@ pub struct IslandState {
     /// Largest increment over a step of each work of [`DISSIPATION`] [J]: at most the error of a step; −∞ before the
     /// first.
     pub largest_gains: [f64; 2],
+    /// Whether it waits to fall apart.
+    pub is_parting: bool,
     /// The last significant signal of each kind for each body; NaN before there is one.
     pub signals: Vec<[f64; 3]>,
 }
@@ -45,6 +47,8 @@ pub struct IslandState {
 /// All that the rest of an island's path depends on.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct IslandMemory {
+    /// Which bodies, in order.
+    pub members: Vec<usize>,
     pub state: IslandState,
     pub stepper: Memory,
 }
@@ -74,7 +78,9 @@ impl RunState {
         };
         list(&mut integers.into_iter());
         list(&mut reals.iter().map(|real| real.to_bits()));
-        for IslandMemory { state, stepper } in islands {
+        for IslandMemory { members, state, stepper } in islands {
+            list(&mut members.iter().map(|body| *body as u64));
+            list(&mut std::iter::once(u64::from(state.is_parting)));
             let reals = [state.slow_since, state.largest_projection, state.largest_gains[0], state.largest_gains[1]];
             list(&mut reals.iter().map(|real| real.to_bits()));
             list(&mut state.signals.as_flattened().iter().map(|real| real.to_bits()));
@@ -125,6 +131,8 @@ impl IslandMemory {
     }
 
     fn read(rest: &mut &[u8]) -> Option<Self> {
+        let members = list(rest)?.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
+        let [is_parting] = list(rest)?.try_into().ok()?;
         let reals: [u64; 4] = list(rest)?.try_into().ok()?;
         let [slow_since, largest_projection, largest_gains @ ..] = reals.map(f64::from_bits);
         let signals = list(rest)?.into_iter().map(f64::from_bits).collect::<Vec<_>>();
@@ -133,8 +141,10 @@ impl IslandMemory {
             return None;
         }
         let stepper = Memory { integers: list(rest)?, reals: list(rest)?.into_iter().map(f64::from_bits).collect() };
-        let state = IslandState { slow_since, largest_projection, largest_gains, signals: signals.to_vec() };
-        Some(Self { state, stepper })
+        let is_parting = is_parting != 0;
+        let state =
+            IslandState { slow_since, largest_projection, largest_gains, is_parting, signals: signals.to_vec() };
+        Some(Self { members, state, stepper })
     }
 }
 
@@ -160,8 +170,9 @@ mod tests {
     fn island(bodies: usize, first: f64) -> IslandMemory {
         let mut state = IslandState::new(bodies);
         state.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
+        state.is_parting = bodies > 1;
         let stepper = Memory { integers: vec![1, 2, 3], reals: vec![first, f64::INFINITY, -0.0] };
-        IslandMemory { state, stepper }
+        IslandMemory { members: (0..bodies).collect(), state, stepper }
     }
 
     #[test]
@@ -173,6 +184,9 @@ mod tests {
         assert_eq!(read, state);
         assert_eq!(read.checkpoint(read_islands.iter().cloned()), bytes);
         assert_eq!([&read_islands[0].stepper, &read_islands[1].stepper], [&islands[0].stepper, &islands[1].stepper]);
+        assert!(
+            read_islands[0].state.is_parting && read_islands[0].members == [0, 1] && read_islands[1].members == [0]
+        );
         assert!(read_islands[0].state.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
         assert_eq!(read_islands[1].state.largest_gains, [-0.5, -0.25]);
     }

@@ -63,7 +63,7 @@ pub fn parsed(text: &str, overrides: &[&str]) -> Scene {
 pub struct Seen {
     pub kept: MemorySink,
     pub at_events: Vec<(Event, Vec<f64>)>,
-    wants_rows: bool,
+    pub wants_rows: bool,
 }
 
 impl Sink for Seen {

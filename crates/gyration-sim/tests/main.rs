@@ -6,6 +6,7 @@ mod deforming;
 mod dissipation;
 mod islands;
 mod joined;
+mod meetings;
 mod modes;
 mod random;
 mod random_scenes;

@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, BondEnd, Couple, LinearResistance, Spring};
+use crate::load::{Applied, BondEnd, Couple, LinearResistance, Spring};
 use crate::support::{Support, SupportMotion};
 
 /// A load on a body.
@@ -86,11 +86,8 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
-            Self::Spring(_, Spring { law, .. }) | Self::Bond(BondEnd { bond: Bond { law, .. }, .. })
-                if law.damping > 0.0 =>
-            {
-                vec![Work::Load]
-            }
+            Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
+            Self::Bond(end) if end.bond.law.dissipates() => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],

@@ -71,7 +71,7 @@ impl Model {
     pub fn bonded(mut self, bonds: Vec<Bond>) -> Self {
         self.bonds = Bonds::new(self.bodies.len(), bonds);
         let moves = |bond: &Bond| bond.bodies.iter().all(|body| self.bodies[*body].has_inertia());
-        assert!(self.bonds().iter().all(|bond| bond.law.damping == 0.0 || moves(bond)), "a dashpot without inertia");
+        assert!(self.bonds().iter().all(|bond| !bond.law.dissipates() || moves(bond)), "a dashpot without inertia");
         self.with_ledger()
     }
 

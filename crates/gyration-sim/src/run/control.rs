@@ -29,7 +29,7 @@ impl Simulation {
         for island in self.islands.iter_mut().filter(|island| island.time() > time) {
             island.go_back(&self.plan, time);
         }
-        self.settle();
+        self.settle(self.least_time());
     }
 
     /// Placement and velocity of a body after the last step of its island.

@@ -16,6 +16,7 @@
 
 mod control;
 mod joined;
+mod meetings;
 mod samples;
 mod window;
 
@@ -29,9 +30,10 @@ use crate::run_state::{IslandMemory, RunState};
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{Components, Pattern, Statistics};
+use gyration_ode::Statistics;
 use gyration_threads::Interruption;
 use joined::Joined;
+use meetings::{Meetings, homes};
 use window::WindowWidth;
 
 /// A run under way.
@@ -41,6 +43,9 @@ pub struct Simulation {
     pub(crate) islands: Vec<Island>,
     /// The island of each body, and its place there.
     homes: Vec<(usize, usize)>,
+    /// From which the scales of islands come that are yet to be.
+    start: State,
+    meetings: Meetings,
     state: RunState,
     width: WindowWidth,
     joined: Joined,
@@ -63,31 +68,30 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Start`] if the start is outside the model.
     pub fn new(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        let bodies = model.bodies.len();
-        let joined = Components::of(&Pattern::new(bodies, model.joins()), bodies);
-        Self::of_islands(model, start, plan, joined.iter().map(<[usize]>::to_vec))
+        let meetings = Meetings::of(model);
+        Self::of_islands(model, start, plan, meetings.always_joined(model), meetings)
     }
 
     /// The same with all bodies in one island: one step serves all.
     pub fn together(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        Self::of_islands(model, start, plan, [(0..model.bodies.len()).collect()].into_iter())
+        Self::of_islands(model, start, plan, vec![(0..model.bodies.len()).collect()], Meetings::default())
     }
 
     fn of_islands(
         model: &Model,
         start: &State,
         plan: RunPlan,
-        members: impl Iterator<Item = Vec<usize>>,
+        members: Vec<Vec<usize>>,
+        meetings: Meetings,
     ) -> Result<Self, RunError> {
-        let islands = members.map(|members| Island::new(model, start, &plan, members));
+        let stays = meetings.is_empty();
+        let islands = members.into_iter().map(|members| Island::new(model, start, &plan, members, stays));
         let islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
-        let mut homes = vec![(0, 0); model.bodies.len()];
-        for (index, island) in islands.iter().enumerate() {
-            island.members().iter().enumerate().for_each(|(place, body)| homes[*body] = (index, place));
-        }
         Ok(Self {
+            homes: homes(model.bodies.len(), &islands),
             islands,
-            homes,
+            start: start.clone(),
+            meetings,
             state: RunState::new(start.time),
             width: WindowWidth::new(plan.sample.min(plan.end)),
             joined: Joined::new(model, start),
@@ -107,13 +111,15 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Checkpoint`] if the bytes are not a checkpoint of this scene.
     pub fn resume(model: &Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
-        let mut this = Self::new(model, start, plan)?;
         let unfit =
             || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
-        if memories.len() != this.islands.len() {
+        let meetings = Meetings::of(model);
+        let members: Vec<Vec<usize>> = memories.iter().map(|memory| memory.members.clone()).collect();
+        if !meetings.may_be(model, &members) {
             return Err(unfit());
         }
+        let mut this = Self::of_islands(model, start, plan, members, meetings)?;
         let is_before = |memory: &IslandMemory| memory.stepper.time() <= state.time;
         if !(state.time <= plan.end && memories.iter().all(is_before)) {
             return Err(unfit());

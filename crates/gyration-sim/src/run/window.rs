@@ -62,7 +62,8 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<Result<(), Stop>, RunError> {
         let before = self.state.time;
-        let mut until = self.window_end(sink.wants_event_rows() || monitor.counts_steps());
+        let wanted = self.window_end(sink.wants_event_rows() || monitor.counts_steps());
+        let mut until = wanted;
         let (mut stop, mut rounds) = (None, 0);
         loop {
             self.reach(until, MOST_STEPS);
@@ -76,6 +77,19 @@ impl Simulation {
                 stop = Some(found);
             }
             let time = self.least_time();
+            match self.change_islands(until) {
+                Ok(false) => {}
+                // What stopped there may never come to pass.
+                Ok(true) => {
+                    (until, stop) = (wanted, None);
+                    continue;
+                }
+                Err(found) => {
+                    until = found.time;
+                    stop = Some(found);
+                    continue;
+                }
+            }
             if time >= until {
                 break;
             }
@@ -94,7 +108,7 @@ impl Simulation {
         if stop.is_some() || reached < until {
             self.go_back(reached);
         }
-        self.settle();
+        self.settle(self.window_reached(until));
         self.width.last = self.state.time - before;
         self.hand_on_events(before, sink)?;
         Ok(stop.map_or(Ok(()), Err))
@@ -119,11 +133,11 @@ impl Simulation {
 
     /// Lets all islands come to a time, or make so many steps towards it, all together.
     fn reach(&mut self, until: f64, most: u64) {
+        let is_step = self.is_step(until);
         let (plan, threads) = (&self.plan, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
         let count = self.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
         let behind = self.islands.iter_mut().filter(|island| island.time() < until);
-        let is_step = until == self.state.time.next_up();
         if threads.get() == 1 || count == 1 || is_step {
             behind.for_each(|island| island.reach(until, most, plan));
             return;
@@ -156,7 +170,7 @@ impl Simulation {
     }
 
     /// The time of the island that has come least far [s]; the end if nothing moves.
-    fn least_time(&self) -> f64 {
+    pub(super) fn least_time(&self) -> f64 {
         self.islands.iter().map(Island::time).reduce(f64::min).unwrap_or(self.plan.end)
     }
 
@@ -169,9 +183,14 @@ impl Simulation {
         Interruption::default().within(|| self.reach(time, u64::MAX));
     }
 
-    /// The time that all islands have come to is that of the run.
-    pub(super) fn settle(&mut self) {
-        self.state.time = self.least_time();
+    /// Whether a window that goes until a time is one step of the islands that have come least far.
+    pub(super) fn is_step(&self, until: f64) -> bool {
+        until == self.state.time.next_up()
+    }
+
+    /// A time that all islands have come to is that of the run.
+    pub(super) fn settle(&mut self, time: f64) {
+        self.state.time = time;
         for island in &mut self.islands {
             island.settle(self.state.time);
         }

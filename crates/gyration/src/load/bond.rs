@@ -1,14 +1,24 @@
-//! Bonds: springs between material points of two bodies, and how a model keeps them.
+//! Bonds: what joins two bodies, springs between material points of them, and how a model keeps them.
 //!
 //! Both bodies compute the force from their own end; the differences of places and velocities are the same but for the
 //! sign, digit by digit, and so are the forces. Their sum is zero to the last digit. Energy and dissipation belong to
 //! the first end.
 
+use super::bumper::Bumper;
 use super::spring::{SpringLaw, SpringLoads};
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::Vec3;
 
-/// A spring between material points of two bodies.
+/// What a bond does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BondLaw {
+    /// A spring with a dashpot.
+    Spring(SpringLaw),
+    /// A push between centres that are near.
+    Bumper(Bumper),
+}
+
+/// What joins material points of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bond {
     /// The indices of the two bodies, which differ.
@@ -16,7 +26,7 @@ pub struct Bond {
     /// A material point of each (from its centre of mass) [m].
     pub points: [Vec3; 2],
     /// What it does.
-    pub law: SpringLaw,
+    pub law: BondLaw,
 }
 
 /// A bond as one of its bodies sees it.
@@ -38,6 +48,29 @@ pub struct Bonds {
     starts: Vec<usize>,
     /// The number of a bond and which of its ends it is, body by body.
     ends: Vec<(usize, usize)>,
+}
+
+impl BondLaw {
+    /// Whether it takes energy.
+    pub fn dissipates(&self) -> bool {
+        matches!(self, Self::Spring(law) if law.damping > 0.0)
+    }
+
+    /// The distance of the points from which on it does nothing [m]; none if there is none.
+    pub fn reach(&self) -> Option<f64> {
+        match self {
+            Self::Spring(_) => None,
+            Self::Bumper(law) => Some(law.reach),
+        }
+    }
+
+    /// The stored energy [J] at a length l [m].
+    fn energy(&self, length: f64) -> f64 {
+        match self {
+            Self::Spring(law) => law.energy(length),
+            Self::Bumper(law) => law.energy(length),
+        }
+    }
 }
 
 impl Bond {
@@ -80,7 +113,10 @@ impl BondEnd<'_> {
         let (here, there) = (self.bond.points[self.end], self.other_point());
         let along = own.0.place(&here) - other.0.place(&there);
         let speed = own.1.at(&here) - other.1.at(&there);
-        self.bond.law.loads(along, speed, here)
+        match self.bond.law {
+            BondLaw::Spring(law) => law.loads(along, speed, here),
+            BondLaw::Bumper(law) => law.loads(along),
+        }
     }
 }
 
@@ -88,13 +124,15 @@ impl Bonds {
     /// The bonds between so many bodies.
     ///
     /// # Panics
-    /// If a bond joins a body to itself, or names one that does not exist.
+    /// If a bond joins a body to itself, or names one that does not exist, or if a bumper is off the centres.
     pub fn new(bodies: usize, all: Vec<Bond>) -> Self {
         if all.is_empty() {
             return Self::default();
         }
         let joins = |bond: &Bond| bond.bodies[0] != bond.bodies[1] && bond.bodies.iter().all(|body| *body < bodies);
         assert!(all.iter().all(joins), "a bond joins two of the {bodies} bodies");
+        let central = |bond: &Bond| bond.law.reach().is_none() || bond.points == [Vec3::zeros(); 2];
+        assert!(all.iter().all(central), "a bumper is between centres");
         let mut ends: Vec<(usize, usize)> = (0..all.len()).flat_map(|number| [(number, 0), (number, 1)]).collect();
         let body = |(number, end): &(usize, usize)| all[*number].bodies[*end];
         ends.sort_by_key(body);

@@ -6,6 +6,7 @@
 
 mod applied;
 mod bond;
+mod bumper;
 mod couple;
 mod resistance;
 mod slopes;
@@ -13,7 +14,8 @@ mod spring;
 mod wrench;
 
 pub use applied::Applied;
-pub use bond::{Bond, BondEnd, Bonds};
+pub use bond::{Bond, BondEnd, BondLaw, Bonds};
+pub use bumper::Bumper;
 pub use couple::Couple;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};

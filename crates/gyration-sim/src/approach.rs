@@ -1,0 +1,51 @@
+//! How two centres come nearer to one another, if both go on as they do.
+//!
+//!   |Δp(t)| ≥ |Δp + Δṗ t| − ½ |Δp̈| t²
+
+use crate::step_end::StepEnd;
+use gyration::tensor::Vec3;
+
+/// The motion of one centre as seen from another, if both go on as they do.
+pub(crate) struct Approach {
+    place: Vec3,
+    velocity: Vec3,
+    /// |Δp̈₀| [m/s²].
+    acceleration: f64,
+}
+
+impl Approach {
+    pub fn of(one: &StepEnd, other: &StepEnd) -> Self {
+        let [a, b] = [one, other].map(|end| (&end.motion, end.acceleration));
+        Self {
+            place: a.0.placement.position - b.0.placement.position,
+            velocity: a.0.velocity.velocity - b.0.velocity.velocity,
+            acceleration: (a.1 - b.1).norm(),
+        }
+    }
+
+    /// The distance after a time without acceleration [m].
+    pub fn straight(&self, time: f64) -> f64 {
+        (self.place + time * self.velocity).norm()
+    }
+
+    /// A bound on the distance after a time [m].
+    pub fn distance(&self, time: f64) -> f64 {
+        self.straight(time) - 0.5 * self.acceleration * time * time
+    }
+
+    /// When they are nearest within a time, without acceleration [s].
+    pub fn nearest(&self, within: f64) -> f64 {
+        let square = self.velocity.norm_squared();
+        if square > 0.0 { (-self.place.dot(&self.velocity) / square).clamp(0.0, within) } else { 0.0 }
+    }
+
+    /// The time in which the acceleration changes the distance by no more than a length [s].
+    pub fn bent(&self, length: f64) -> f64 {
+        (2.0 * length / self.acceleration).sqrt()
+    }
+
+    /// A bound on the smallest distance within a time [m].
+    pub fn least(&self, within: f64) -> f64 {
+        self.straight(self.nearest(within)) - 0.5 * self.acceleration * within * within
+    }
+}

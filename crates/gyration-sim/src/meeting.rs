@@ -1,0 +1,145 @@
+//! Bodies that come within reach of one another, and go out of it: islands that become one, and fall apart.
+//!
+//! Both are told by the paths of the islands alone, whatever windows and threads there are. Two islands become one at
+//! the later of the beginnings of the two steps within which their bodies may meet first: up to there each has moved as
+//! if there were no others, and its steps say so. An island falls apart at the end of a step behind which some of its
+//! bodies are out of reach of the others, and stay so for a few steps if they go on as they do.
+
+use crate::approach::Approach;
+use crate::island::Island;
+use crate::outcome::Stop;
+use crate::plan::RunPlan;
+use crate::way::{NODES, Way};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::Vec3;
+use gyration_ode::{Components, Integrator, Options, Pattern, Statistics, StepReport};
+use gyration_threads::Interruption;
+
+/// For how many of its next steps bodies must stay out of reach before an island falls apart.
+const AHEAD: f64 = 2.0;
+
+impl Island {
+    /// Notes the ways of its bodies over the last step.
+    pub fn note_ways(&mut self, report: &StepReport) {
+        let Self { integrator, system, sampled, ways, .. } = self;
+        let Some(ways) = ways else { return };
+        let model = system.model();
+        let mut centers = vec![[Vec3::zeros(); NODES]; model.bodies.len()];
+        for (k, time) in Way::nodes(report.start, report.end).into_iter().enumerate() {
+            integrator.interpolate(time, &mut sampled.bodies, &mut sampled.works);
+            for (body, centers) in centers.iter_mut().enumerate() {
+                centers[k] = sampled.motion(model, body).placement.position;
+            }
+        }
+        for (ways, centers) in ways.iter_mut().zip(&centers) {
+            ways.push(Way::through((report.start, report.end), centers));
+        }
+    }
+
+    /// Notes whether some of its bodies are out of reach of the others, and stay so.
+    pub fn note_parting(&mut self) {
+        self.state.is_parting = self.ways.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
+    }
+
+    /// The sets of its bodies, by their places, that are within reach of one another or will be soon.
+    pub fn parts(&self) -> Components {
+        let (model, ahead) = (self.model(), AHEAD * self.integrator.next_size());
+        let near = |bodies: [usize; 2], reach: f64| {
+            let [one, other] = bodies.map(|body| &self.step_ends[body]);
+            Approach::of(one, other).least(ahead) <= reach
+        };
+        let joined = model.bonds().iter().filter(|bond| bond.law.reach().is_none_or(|reach| near(bond.bodies, reach)));
+        Components::of(&Pattern::new(model.bodies.len(), joined.map(|bond| bond.bodies.into())), model.bodies.len())
+    }
+
+    /// Comes to a time within its ways, by a step that ends there; what it has done since is forgotten.
+    ///
+    /// # Errors
+    /// [`Stop`] if that step cannot be made.
+    pub fn come_to(&mut self, time: f64, plan: &RunPlan, since: f64) -> Result<(), Stop> {
+        // The last step that begins no later is cut there, the others are repeated.
+        let begins = self.ways.iter().flatten().next().into_iter().flatten().map(|way| way.start);
+        let cut = begins.filter(|begin| *begin <= time).fold(f64::NEG_INFINITY, f64::max);
+        if let Some(kept) = self.anchor.as_ref().map(|anchor| anchor.kept().clone()) {
+            let restored = self.restore(&kept, plan);
+            debug_assert!(restored.is_ok(), "an island remembers itself");
+        }
+        let come = Interruption::default().within(|| {
+            while self.time() < cut {
+                self.step(plan)?;
+            }
+            while self.time() < time {
+                self.step_towards(time.min(self.target(plan)), plan)?;
+            }
+            Ok(())
+        });
+        self.events.retain(|event| event.time > since);
+        come
+    }
+
+    /// The island of some bodies that goes on from others, all of which are at one time; their works are summed, or
+    /// left to another.
+    ///
+    /// # Errors
+    /// [`Stop`] if together they have no rates.
+    pub fn successor(
+        (model, start, plan): (&Model, &State, &RunPlan),
+        members: Vec<usize>,
+        before: &[&Island],
+        takes_works: bool,
+    ) -> Result<Self, Stop> {
+        let mut this = Self::new(model, start, plan, members, false)?;
+        let time = before.iter().map(|island| island.time()).fold(f64::NEG_INFINITY, f64::max);
+        let step = before.iter().map(|island| island.integrator.next_size()).filter(|size| *size > 0.0);
+        let step = step.reduce(f64::min);
+        let (mut numbers, mut low) = (vec![0.0; model.dimension()], vec![0.0; model.dimension()]);
+        let mut works = vec![0.0; model.works().len()];
+        let mut statistics = Statistics::default();
+        for island in before {
+            let integrator = &island.integrator;
+            for (own, place) in island.places() {
+                numbers[place.clone()].copy_from_slice(&integrator.state()[own.clone()]);
+                low[place.clone()].copy_from_slice(&integrator.state_low()[own.clone()]);
+            }
+            if takes_works {
+                island.works().iter().zip(integrator.quadratures()).for_each(|(place, work)| works[*place] += work);
+                statistics = statistics.and(integrator.statistics());
+            }
+        }
+        let of_own =
+            |all: &[f64]| this.places().flat_map(|(_, place)| &all[place.clone()]).copied().collect::<Vec<f64>>();
+        let own_works: Vec<f64> = this.works().iter().map(|place| works[*place]).collect();
+        let options = Options { initial_step: step, ..plan.options };
+        let (numbers, low) = (of_own(&numbers), of_own(&low));
+        this.integrator = Integrator::new(time, &numbers, &own_works, options).succeeding(&low, statistics);
+        this.take_over(before, takes_works);
+        this.restart()?;
+        Ok(this)
+    }
+
+    /// Takes over what is known of its bodies beside their state.
+    fn take_over(&mut self, before: &[&Island], with_events: bool) {
+        for (place, body) in self.members().to_vec().into_iter().enumerate() {
+            for island in before {
+                if let Some(there) = island.members().iter().position(|other| *other == body) {
+                    self.state.signals[place] = island.state.signals[there];
+                }
+            }
+        }
+        // A maximum that is not a number where one of them is none.
+        let later = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) };
+        let since = before.iter().map(|island| island.state.slow_since).reduce(later);
+        self.state.slow_since = since.unwrap_or(f64::NAN);
+        for island in before {
+            self.state.largest_projection = self.state.largest_projection.max(island.state.largest_projection);
+            for (own, gain) in self.state.largest_gains.iter_mut().zip(island.state.largest_gains) {
+                *own = own.max(gain);
+            }
+        }
+        if with_events {
+            self.events = before.iter().flat_map(|island| island.events.iter().copied()).collect();
+            self.events.sort_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Which islands become one, and which fall apart, in order of time.
+//!
+//! Islands go on as if there were no others; what they do is right up to the first time at which two of them may have
+//! met. The earliest change of all is carried out, the islands that it concerns begin anew there, and all is looked at
+//! again. A change that is carried out stands: none that is found later comes before it.
+
+use super::Simulation;
+use crate::island::Island;
+use crate::outcome::Stop;
+use gyration::model::Model;
+use gyration_ode::{Components, Pattern};
+
+/// The pairs of bodies that act on one another within a reach.
+#[derive(Debug, Default)]
+pub(super) struct Meetings {
+    pairs: Vec<([usize; 2], f64)>,
+}
+
+/// A change of the islands.
+#[derive(Debug, Clone, PartialEq)]
+enum Change {
+    /// Two islands may meet within steps of which the later one begins here.
+    Meets([usize; 2]),
+    /// An island waits to fall apart.
+    Parts(usize),
+}
+
+impl Meetings {
+    /// Those of a model.
+    pub fn of(model: &Model) -> Self {
+        let pairs = model.bonds().iter().filter_map(|bond| Some((bond.bodies, bond.law.reach()?)));
+        Self { pairs: pairs.collect() }
+    }
+
+    /// Whether no body meets another.
+    pub fn is_empty(&self) -> bool {
+        self.pairs.is_empty()
+    }
+
+    /// The sets of bodies that act on one another however far they are.
+    pub fn always_joined(&self, model: &Model) -> Vec<Vec<usize>> {
+        let always = model.bonds().iter().filter(|bond| bond.law.reach().is_none());
+        let bodies = model.bodies.len();
+        let joined = Components::of(&Pattern::new(bodies, always.map(|bond| bond.bodies.into())), bodies);
+        joined.iter().map(<[usize]>::to_vec).collect()
+    }
+
+    /// Whether these could be the islands of a model: each body in one of them, with all to which it is joined.
+    pub fn may_be(&self, model: &Model, islands: &[Vec<usize>]) -> bool {
+        let always = self.always_joined(model);
+        if self.is_empty() {
+            return islands == always;
+        }
+        let mut all: Vec<usize> = islands.concat();
+        all.sort_unstable();
+        let ascend = islands.iter().all(|members| members.is_sorted());
+        let home = |body: &usize| islands.iter().position(|members| members.contains(body));
+        all.into_iter().eq(0..model.bodies.len())
+            && ascend
+            && always.iter().all(|joined| joined.iter().all(|body| home(body) == home(&joined[0])))
+    }
+}
+
+/// The island of each body, and its place there.
+pub(super) fn homes(bodies: usize, islands: &[Island]) -> Vec<(usize, usize)> {
+    let mut homes = vec![(0, 0); bodies];
+    for (index, island) in islands.iter().enumerate() {
+        island.members().iter().enumerate().for_each(|(place, body)| homes[*body] = (index, place));
+    }
+    homes
+}
+
+impl Simulation {
+    /// Carries out the earliest change of the islands, if it comes before a time; whether there was one. One at that
+    /// time is left to the next window.
+    ///
+    /// # Errors
+    /// [`Stop`] where the islands cannot go on as they are to.
+    pub(super) fn change_islands(&mut self, until: f64) -> Result<bool, Stop> {
+        match self.first_change().filter(|(time, _)| *time < until) {
+            None => Ok(false),
+            Some((time, Change::Meets(islands))) => self.unite(islands, time).map(|()| true),
+            Some((_, Change::Parts(island))) => self.part(island).map(|()| true),
+        }
+    }
+
+    /// The time of the first change of the islands [s]; infinite if none is known.
+    pub(super) fn change_time(&self) -> f64 {
+        self.first_change().map_or(f64::INFINITY, |(time, _)| time)
+    }
+
+    /// The earliest change within what is known of all islands.
+    fn first_change(&self) -> Option<(f64, Change)> {
+        if self.meetings.is_empty() {
+            return None;
+        }
+        let known = self.least_time();
+        let first = match (self.first_meeting(), self.first_parting()) {
+            (Some(meets), Some(parts)) if parts.0 < meets.0 => Some(parts),
+            (meets, parts) => meets.or(parts),
+        };
+        first.filter(|(time, _)| *time <= known)
+    }
+
+    /// To where a window has come that went until a time [s]: where the island is that has come least far, but not
+    /// beyond what it was to see, since islands may change there.
+    pub(super) fn window_reached(&self, until: f64) -> f64 {
+        let least = self.least_time();
+        match (self.meetings.is_empty(), self.is_step(until)) {
+            (true, _) => least,
+            (false, true) => least.min(self.change_time()),
+            (false, false) => least.min(until),
+        }
+    }
+
+    /// The first time from which on two islands may not be followed apart.
+    fn first_meeting(&self) -> Option<(f64, Change)> {
+        let mut first: Option<(f64, [usize; 2])> = None;
+        for (bodies, reach) in &self.meetings.pairs {
+            let [one, other] = bodies.map(|body| self.homes[body]);
+            if one.0 == other.0 {
+                continue;
+            }
+            let ways =
+                |(island, place): (usize, usize)| self.islands[island].ways.iter().flat_map(move |ways| &ways[place]);
+            for way in ways(one) {
+                for beside in ways(other).filter(|beside| beside.start < way.end && way.start < beside.end) {
+                    let time = way.start.max(beside.start);
+                    let earlier = first.is_none_or(|first| time < first.0);
+                    if earlier && way.may_meet(beside, *reach) {
+                        first = Some((time, [one.0.min(other.0), one.0.max(other.0)]));
+                    }
+                }
+            }
+        }
+        first.map(|(time, islands)| (time, Change::Meets(islands)))
+    }
+
+    /// The first island that waits to fall apart.
+    fn first_parting(&self) -> Option<(f64, Change)> {
+        let waiting = self.islands.iter().enumerate().filter(|(_, island)| island.state.is_parting);
+        let first = waiting.min_by(|(_, a), (_, b)| a.time().total_cmp(&b.time()));
+        first.map(|(index, island)| (island.time(), Change::Parts(index)))
+    }
+
+    /// Makes one island of two at a time.
+    fn unite(&mut self, [one, other]: [usize; 2], time: f64) -> Result<(), Stop> {
+        for island in [one, other] {
+            self.islands[island].come_to(time, &self.plan, self.state.time)?;
+        }
+        let second = self.islands.remove(other);
+        let first = self.islands.remove(one);
+        let mut members = [first.members(), second.members()].concat();
+        members.sort_unstable();
+        let scene = (&self.model, &self.start, &self.plan);
+        let united = Island::successor(scene, members, &[&first, &second], true);
+        match united {
+            Ok(united) => self.put([united]),
+            Err(stop) => {
+                self.put([first, second]);
+                return Err(stop);
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets an island fall apart where it stands.
+    fn part(&mut self, index: usize) -> Result<(), Stop> {
+        let island = &self.islands[index];
+        let scene = (&self.model, &self.start, &self.plan);
+        let parts = island.parts();
+        let members = parts.iter().map(|places| places.iter().map(|place| island.members()[*place]).collect());
+        let parts: Result<Vec<Island>, Stop> = members
+            .enumerate()
+            .map(|(k, members): (usize, Vec<usize>)| Island::successor(scene, members, &[island], k == 0))
+            .collect();
+        let parts = parts?;
+        self.islands.remove(index);
+        self.put(parts);
+        Ok(())
+    }
+
+    /// Puts islands to the others, all in order of their first bodies.
+    fn put(&mut self, islands: impl IntoIterator<Item = Island>) {
+        self.islands.extend(islands);
+        self.islands.sort_by_key(|island| island.members()[0]);
+        self.homes = homes(self.model.bodies.len(), &self.islands);
+    }
+}

@@ -1,0 +1,226 @@
+//! Bodies that come within reach of one another and part again: islands that become one and fall apart.
+//!
+//! The law is that of bumpers between centres, which no scene has: soft balls. Samples, windows, threads and kills
+//! leave no trace; momentum and energy are kept; one step for all bodies finds the same paths.
+
+use crate::islands::{Seen, motion_in, parsed};
+use crate::runs::StopAfter;
+use gyration::load::{Bond, BondLaw, Bumper, SpringLaw};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::Vec3;
+use gyration_ode::Statistics;
+use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Unwatched};
+use std::num::NonZeroUsize;
+
+const REACH: f64 = 0.2;
+
+/// Balls of so many numbers each: where they are, and how fast.
+fn balls(starts: &[([f64; 3], [f64; 3])], stiffness: f64, overrides: &[&str]) -> (Model, State, RunPlan) {
+    let mut text =
+        "world = { gravity = [0, 0, 0] }\ntime = { end = 4, sample = 0.25 }\nsolver = { rtol = 1e-9, atol = 1e-11 }\n"
+            .to_owned();
+    for (k, (place, speed)) in starts.iter().enumerate() {
+        text += &format!(
+            "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {}\nposition = {place:?}\nvelocity = {speed:?}\n\
+             angular_velocity = [1, 2, {k}]\n",
+            1.0 + 0.1 * k as f64
+        );
+    }
+    let scene = parsed(&text, overrides);
+    let built = scene.built();
+    let bumper =
+        |bodies| Bond { bodies, points: [Vec3::zeros(); 2], law: BondLaw::Bumper(Bumper { stiffness, reach: REACH }) };
+    let pairs = (0..starts.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+    let model = built.model.clone().bonded(pairs.map(bumper).collect());
+    let state = State { works: vec![0.0; model.works().len()], ..built.state.clone() };
+    (model, state, RunPlan::from(built))
+}
+
+/// A cloud of balls within a box, all towards its middle and a little beside it.
+fn cloud(count: usize, overrides: &[&str]) -> (Model, State, RunPlan) {
+    let mut seed = 1_u64;
+    let mut number = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let mut starts: Vec<([f64; 3], [f64; 3])> = Vec::new();
+    while starts.len() < count {
+        let place = [0; 3].map(|_| 2.0 * number());
+        let apart = |other: &[f64; 3]| (Vec3::from(*other) - Vec3::from(place)).norm() > 1.2 * REACH;
+        if starts.iter().all(|(other, _)| apart(other)) {
+            starts.push((place, [0, 1, 2].map(|axis| -0.6 * place[axis] + 0.5 * number())));
+        }
+    }
+    balls(&starts, 2000.0, overrides)
+}
+
+/// Rows, events, outcome, checkpoint and counters.
+struct Found {
+    kept: MemorySink,
+    outcome: Outcome,
+    checkpoint: Vec<u8>,
+    statistics: Statistics,
+    state: State,
+    residual: f64,
+}
+
+fn run_of(mut simulation: Simulation) -> Found {
+    let mut kept = MemorySink::default();
+    simulation.begin(&mut kept).unwrap();
+    let outcome = simulation.run(&mut kept, &mut Unwatched).unwrap();
+    Found {
+        outcome,
+        checkpoint: simulation.checkpoint(),
+        statistics: simulation.statistics(),
+        state: simulation.state(),
+        residual: simulation.run_state().largest_residual,
+        kept,
+    }
+}
+
+fn run((model, start, plan): &(Model, State, RunPlan)) -> Found {
+    run_of(Simulation::new(model, start, *plan).unwrap())
+}
+
+fn momentum(model: &Model, state: &State) -> Vec3 {
+    let own = |body: usize| model.bodies[body].solid.mass.mass * state.motion(model, body).velocity.velocity;
+    (0..model.bodies.len()).map(own).sum()
+}
+
+#[test]
+fn two_balls_that_meet_part_as_their_law_says() {
+    // Head on in the frame of their centre of mass: they turn back with the speeds they came with.
+    let starts = [([-0.5, 0.0, 0.0], [1.0, 0.3, 0.0]), ([0.5, 0.0, 0.0], [-1.0, 0.3, 0.0])];
+    let scene = balls(&starts, 2000.0, &["time.end=1"]);
+    let found = run(&scene);
+    assert_eq!(found.outcome, Outcome::Completed);
+    let (m, n) = (1.0, 1.1);
+    let center = (m - n) / (m + n);
+    let speeds = [0, 1].map(|body| found.state.motion(&scene.0, body).velocity.velocity);
+    println!("{speeds:?}, residual {:.1e} J, {} steps", found.residual, found.statistics.accepted());
+    for (speed, came) in speeds.iter().zip([1.0, -1.0]) {
+        let error = speed - Vec3::new(2.0 * center - came, 0.3, 0.0);
+        assert!(error.norm() < 1e-9, "{error}");
+    }
+    // Before and behind the impact each has steps of its own, which free flight makes long.
+    assert!(found.statistics.accepted() < 200, "{}", found.statistics.accepted());
+    assert!(found.residual < 1e-9);
+}
+
+#[test]
+fn one_step_for_all_finds_the_same_paths() {
+    let scene = cloud(12, &["solver.rtol=1e-11", "solver.atol=1e-13"]);
+    let own = run(&scene);
+    let together = run_of(Simulation::together(&scene.0, &scene.1, scene.2).unwrap());
+    assert_eq!((&own.outcome, &together.outcome), (&Outcome::Completed, &Outcome::Completed));
+    let place = |found: &Found, body: usize| found.state.motion(&scene.0, body).placement.position;
+    let apart = (0..12).map(|body| (place(&own, body) - place(&together, body)).norm()).fold(0.0, f64::max);
+    let moved = (0..12).map(|body| (place(&own, body) - scene.1.motion(&scene.0, body).placement.position).norm());
+    println!(
+        "apart by {apart:.1e}; {} against {} evaluations of all, moved by {:.2} at most",
+        own.statistics.rate_evaluations,
+        together.statistics.rate_evaluations,
+        moved.fold(0.0, f64::max)
+    );
+    // Each impact multiplies errors of 1e-12 by some five.
+    assert!(apart < 1e-8, "{apart:e}");
+    let change = (momentum(&scene.0, &own.state) - momentum(&scene.0, &scene.1)).norm();
+    println!("momentum changed by {change:.1e}, residual {:.1e} J", own.residual);
+    assert!(change < 1e-13 && own.residual < 1e-9);
+}
+
+#[test]
+fn samples_windows_and_threads_leave_no_trace() {
+    let found = |sample: &str, threads: usize| {
+        let (model, start, plan) = cloud(20, &[sample]);
+        let plan = RunPlan { threads: NonZeroUsize::new(threads), ..plan };
+        run(&(model, start, plan))
+    };
+    let one = found("time.sample=0.25", 1);
+    assert_eq!(one.outcome, Outcome::Completed);
+    for (sample, threads) in [("time.sample=0.25", 2), ("time.sample=4", 1), ("time.sample=0.01", 3)] {
+        let other = found(sample, threads);
+        assert_eq!(other.state, one.state, "{sample}, {threads} threads");
+        assert_eq!(other.statistics, one.statistics);
+        assert_eq!(format!("{:?}", other.kept.events), format!("{:?}", one.kept.events));
+    }
+    let again = found("time.sample=0.25", 2);
+    assert!(again.checkpoint == one.checkpoint && format!("{:?}", again.kept.rows) == format!("{:?}", one.kept.rows));
+}
+
+#[test]
+fn a_run_goes_on_from_any_checkpoint_to_the_same_bytes() {
+    let scene = cloud(12, &[]);
+    let whole = run(&scene);
+    for windows in [1, 4, 9, 14] {
+        let mut run = Simulation::new(&scene.0, &scene.1, scene.2).unwrap();
+        let (mut kept, mut stop) = (MemorySink::default(), StopAfter(windows));
+        run.begin(&mut kept).unwrap();
+        assert!(matches!(run.run(&mut kept, &mut stop).unwrap(), Outcome::Stopped(_)), "{windows} were too many");
+        let mut rest = Simulation::resume(&scene.0, &scene.1, scene.2, &run.checkpoint()).unwrap();
+        rest.run(&mut kept, &mut Unwatched).unwrap();
+        assert_eq!(rest.state(), whole.state, "{windows}");
+        assert_eq!(rest.statistics(), whole.statistics);
+        assert!(rest.checkpoint() == whole.checkpoint);
+        assert_eq!(format!("{:?}", kept.rows), format!("{:?}", whole.kept.rows));
+    }
+}
+
+#[test]
+fn rows_at_events_are_those_of_the_path() {
+    // A floor far below makes apexes; gravity bends the ways.
+    let overrides = ["world.gravity=[0, 0, -2]", "time.end=2"];
+    let (model, start, plan) = cloud(9, &overrides);
+    let rows = |wants_rows| {
+        let mut simulation = Simulation::new(&model, &start, plan).unwrap();
+        let mut seen = Seen { wants_rows, ..Seen::default() };
+        simulation.begin(&mut seen).unwrap();
+        simulation.run(&mut seen, &mut Unwatched).unwrap();
+        (seen, simulation.state())
+    };
+    let ((with, end), (without, same)) = (rows(true), rows(false));
+    assert_eq!((&end, &with.kept.events), (&same, &without.kept.events));
+    assert!(with.kept.events.len() > 3 && with.at_events.len() == with.kept.events.len());
+    for (event, row) in &with.at_events {
+        // The apex of a body is where its centre has no velocity upwards.
+        let speed = motion_in(row, 9, event.body)[12 + 2];
+        assert!(speed.abs() < 1e-6, "{event:?}: {speed:e} m/s");
+    }
+}
+
+#[test]
+fn balls_that_pass_one_another_never_know_of_each_other() {
+    let starts = [([-0.5, 0.0, 0.0], [1.0, 0.0, 0.0]), ([0.5, 0.21, 0.0], [-1.0, 0.0, 0.0])];
+    let (model, start, plan) = balls(&starts, 2000.0, &["time.end=1"]);
+    let found = run(&(model.clone(), start.clone(), plan));
+    let apart = model.bonded(Vec::new());
+    let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
+    assert_eq!(found.state.bodies, alone.state.bodies);
+    assert_eq!(found.statistics, alone.statistics);
+}
+
+#[test]
+fn springs_stay_while_neighbours_come_and_go() {
+    // A pair on a spring is hit by a ball, and goes on as a pair.
+    let starts = [
+        ([0.0, 0.0, 0.0], [0.0; 3]),
+        ([0.0, 0.6, 0.0], [0.0; 3]),
+        ([-1.0, 0.02, 0.0], [1.5, 0.0, 0.0]),
+        ([0.0, 3.0, 0.0], [0.0; 3]),
+    ];
+    let (model, start, plan) = balls(&starts, 2000.0, &["time.end=3"]);
+    let spring = SpringLaw { stiffness: 30.0, rest_length: 0.6, damping: 0.0 };
+    let mut bonds = model.bonds().to_vec();
+    bonds.push(Bond { bodies: [1, 0], points: [Vec3::zeros(); 2], law: BondLaw::Spring(spring) });
+    let model = model.bonded(bonds);
+    let start = State { works: vec![0.0; model.works().len()], ..start };
+    let own = run(&(model.clone(), start.clone(), plan));
+    let together = run_of(Simulation::together(&model, &start, plan).unwrap());
+    let place = |found: &Found, body: usize| found.state.motion(&model, body).placement.position;
+    let apart = (0..4).map(|body| (place(&own, body) - place(&together, body)).norm()).fold(0.0, f64::max);
+    println!("apart by {apart:.1e}; hit: {:?}", place(&own, 0));
+    assert!(apart < 1e-7 && place(&own, 0).x > 0.5 && place(&own, 3) == Vec3::new(0.0, 3.0, 0.0));
+    let change = (momentum(&model, &own.state) - momentum(&model, &start)).norm();
+    assert!(change < 1e-13 && own.residual < 1e-8, "{change:e} {:e}", own.residual);
+}
