@@ -51,13 +51,18 @@ impl Meetings {
         if self.is_empty() {
             return islands == always;
         }
-        let mut all: Vec<usize> = islands.concat();
-        all.sort_unstable();
-        let ascend = islands.iter().all(|members| members.is_sorted());
-        let home = |body: &usize| islands.iter().position(|members| members.contains(body));
-        all.into_iter().eq(0..model.bodies.len())
-            && ascend
-            && always.iter().all(|joined| joined.iter().all(|body| home(body) == home(&joined[0])))
+        let mut homes = vec![None; model.bodies.len()];
+        for (island, members) in islands.iter().enumerate() {
+            for body in members {
+                match homes.get_mut(*body) {
+                    Some(home @ None) => *home = Some(island),
+                    _ => return false,
+                }
+            }
+        }
+        let whole =
+            |joined: &Vec<usize>| joined.iter().all(|body| homes[*body].is_some() && homes[*body] == homes[joined[0]]);
+        islands.iter().all(|members| members.is_sorted()) && always.iter().all(whole)
     }
 }
 
@@ -185,5 +190,43 @@ impl Simulation {
         self.islands.extend(islands);
         self.islands.sort_by_key(|island| island.members()[0]);
         self.homes = homes(self.model.bodies.len(), &self.islands);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration::load::{Bond, BondLaw, Bumper, SpringLaw};
+    use gyration::tensor::Vec3;
+    use std::path::Path;
+
+    #[test]
+    fn islands_of_a_checkpoint_hold_each_body_once_with_all_to_which_it_is_joined() {
+        let body = |k: usize| {
+            format!(
+                "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\nposition = [{k}, 0, 0]\n"
+            )
+        };
+        let text: String =
+            ["time = { end = 1, sample = 1 }\n".to_owned()].into_iter().chain((0..4).map(body)).collect();
+        let scene = gyration_scene::Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+        let bond = |bodies, law| Bond { bodies, points: [Vec3::zeros(); 2], law };
+        let spring = BondLaw::Spring(SpringLaw { stiffness: 1.0, rest_length: 0.0, damping: 0.0 });
+        let bumper = BondLaw::Bumper(Bumper { stiffness: 1.0, reach: 0.3 });
+        let model = scene.built().model.clone().bonded(vec![bond([3, 1], spring), bond([0, 1], bumper)]);
+        let meetings = Meetings::of(&model);
+        let may_be =
+            |islands: &[&[usize]]| meetings.may_be(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());
+        assert!(may_be(&[&[0], &[1, 3], &[2]]) && may_be(&[&[0, 1, 3], &[2]]) && may_be(&[&[0, 1, 2, 3]]));
+        // One parted, one missing, one twice, one too many, one that does not ascend.
+        for wrong in [
+            &[&[0][..], &[1], &[2], &[3]][..],
+            &[&[0], &[1, 3]],
+            &[&[0], &[1, 3], &[2], &[2]],
+            &[&[0], &[1, 3], &[2, 4]],
+            &[&[0], &[3, 1], &[2]],
+        ] {
+            assert!(!may_be(wrong), "{wrong:?}");
+        }
     }
 }
