@@ -7,13 +7,13 @@ import type { Recording } from "../data/recording";
 import { type Spring, type SpringEnd, springsOf } from "../data/springs";
 import { norm } from "../math/mat3";
 
-const COLOR = "#7d8590";
+const COLOR = "#5f6773";
 /** Teeth of a spring. */
 const TEETH = 9;
 /** The part of a spring at each end that is straight. */
 const STRAIGHT = 0.12;
 /** Half the width of a spring, in its first length. */
-const WIDTH = 0.05;
+const WIDTH = 0.09;
 
 export class SpringLayer {
   readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOR }));
