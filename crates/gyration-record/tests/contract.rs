@@ -1,6 +1,6 @@
 //! What is written is read, exported and protected as the contract says.
 
-use crate::common::{attributes, checkpoint, event, finished, layout, row, time, tree, write_to};
+use crate::common::{attributes, checkpoint, crowd, event, finished, layout, row, time, tree, write_to};
 use gyration_record::{Attributes, Event, RecordError, Recording, Writer, export, remove};
 use serde_json::{Value, json};
 use std::fs;
@@ -36,6 +36,25 @@ fn what_was_appended_is_read_whole_by_rows_and_by_column() {
     assert_eq!(recording.array("position").unwrap().units, "m");
     assert_eq!(recording.array("position").unwrap().description, "position of the bodies");
     assert_eq!(recording.chunks().collect::<Vec<_>>(), [0..4, 4..8, 8..10]);
+}
+
+/// 256 events a body in a chunk, of the next power of two of bodies, and 65,536 at most: a crowd leaves few files.
+#[test]
+fn chunks_of_events_grow_with_the_bodies_up_to_a_limit() {
+    let folder = tempdir().unwrap();
+    for (bodies, rows) in [(1, 256), (2, 512), (3, 1024), (256, 65_536), (10_000, 65_536)] {
+        let path = folder.path().join(format!("{bodies}.gyr"));
+        let mut writer = Writer::create(&path, &crowd(bodies), Attributes::new()).unwrap();
+        writer.append(0.0, &vec![0.0; bodies]).unwrap();
+        for n in 0..=rows {
+            writer.append_event(Event { time: n as f64, kind: 0, body: Some(n % bodies) }).unwrap();
+        }
+        writer.flush(b"state").unwrap();
+        // The one that is too many for a chunk begins the next.
+        let chunk = |index: usize| path.join(format!("event_time/c.{index}")).exists();
+        assert_eq!([0, 1, 2].map(chunk), [true, true, false], "{bodies} bodies");
+        assert_eq!(Recording::open(&path).unwrap().events().unwrap().len(), rows + 1);
+    }
 }
 
 #[test]

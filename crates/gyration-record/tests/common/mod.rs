@@ -39,6 +39,24 @@ pub fn layout(chunk_rows: usize) -> Layout {
     }
 }
 
+/// A number of each of many bodies, and events.
+pub fn crowd(bodies: usize) -> Layout {
+    let speed = ArraySpec {
+        name: "speed".into(),
+        dims: vec![Dimension::new("body", bodies)],
+        units: "m/s".into(),
+        description: "speed of the bodies".into(),
+        columns: Vec::new(),
+    };
+    Layout {
+        arrays: vec![speed],
+        labels: vec![("body".into(), (0..bodies).map(|k| format!("b{k}")).collect())],
+        fixed: Vec::new(),
+        csv_order: Vec::new(),
+        ..layout(1)
+    }
+}
+
 pub fn attributes(json: serde_json::Value) -> Attributes {
     json.as_object().unwrap().clone()
 }
