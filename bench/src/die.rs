@@ -7,6 +7,7 @@
 //!
 //! Throw k has random numbers of its own (SplitMix64 from the key k), so that it is the same whatever else is thrown.
 
+use crate::random::Random;
 use gyration::kinematics::Quaternion;
 use gyration::model::Model;
 use gyration::state::State;
@@ -108,35 +109,5 @@ position = [0, 0, 0.2]
         let down = state.motion(&self.model, 0).placement.gradient.tr_mul(&Vec3::new(0.0, 0.0, -1.0));
         let axis = down.iamax();
         2 * axis + usize::from(down[axis] > 0.0)
-    }
-}
-
-/// SplitMix64, from a key; independent of the order in which throws are made.
-struct Random(u64);
-
-impl Random {
-    fn new(key: u64) -> Self {
-        let mut this = Self(key.wrapping_mul(0xD1B5_4A32_D192_ED03));
-        this.next();
-        this
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// In (0, 1).
-    fn uniform(&mut self) -> f64 {
-        ((self.next() >> 11) as f64 + 0.5) * 2.0_f64.powi(-53)
-    }
-
-    /// Standard normal, by Box and Muller.
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * self.uniform().ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.uniform()).cos()
     }
 }

@@ -1,6 +1,8 @@
 //! Set-ups shared by the benchmarks and by the instruction counts: a body near a table under three laws.
 
+pub mod crowd;
 pub mod die;
+mod random;
 pub mod soft;
 
 use gyration::model::Model;
