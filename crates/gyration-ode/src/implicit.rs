@@ -28,6 +28,8 @@ pub(crate) struct Implicit {
     /// A state beside the start of the step, and its rate.
     beside: Vec<f64>,
     beside_rate: Vec<f64>,
+    /// What it is sized for.
+    layout: SystemLayout,
 }
 
 impl Implicit {
@@ -36,12 +38,22 @@ impl Implicit {
         Self { stages: NewtonStages::holding(collocation), ..Self::default() }
     }
 
-    /// Sizes the scratch for a layout; the polynomial stays.
-    pub fn resize(&mut self, layout: &SystemLayout) {
+    /// Sizes the scratch for a layout, unless it has that size; the polynomial stays.
+    pub fn fit(&mut self, layout: &SystemLayout) {
+        if self.layout == *layout {
+            return;
+        }
         self.stages.resize(layout);
+        self.stages.linear.set_layout(layout);
         for vector in [&mut self.error, &mut self.beside, &mut self.beside_rate] {
             vector.resize(layout.width, 0.0);
         }
+        self.layout.clone_from(layout);
+    }
+
+    /// Whether it is sized for so many numbers of state and quadratures.
+    pub fn is_sized_for(&self, dimension: usize, width: usize) -> bool {
+        self.layout.dimension == dimension && self.layout.width == width
     }
 
     /// Attempts a step from one point, where the stages were linearized, to `to`, whose time is set.

@@ -1,7 +1,8 @@
 //! The integrator: its state, its start, its checkpoint. How it steps is in `step`.
 //!
 //! Size and stepper of the next step, the error history and everything else that is carried along is in `StepperState`,
-//! so that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it.
+//! so that a checkpoint can hold it. The vectors are sized at the first step and stay; nothing is allocated after it,
+//! unless many share what `scratch` has.
 
 use crate::context::Point;
 use crate::control::StepControl;
@@ -29,6 +30,8 @@ pub struct Integrator {
     pub(crate) event_scratch: Vec<f64>,
     /// Whether scratch and scales are ready.
     pub(crate) open: bool,
+    /// Whether the scratch of the implicit stepper has the size of the system.
+    pub(crate) fitted: bool,
 }
 
 /// What the last accepted step has left to interpolate with.
@@ -112,6 +115,7 @@ impl Integrator {
             implicit: Implicit::holding(vectors.collocation),
             event_scratch: vec![0.0; width],
             open: false,
+            fitted: false,
         }
     }
 

@@ -8,7 +8,7 @@
 //! | to read | file |
 //! |---|---|
 //! | what a system must say | `system` |
-//! | one accepted step | `integrator`, `step` |
+//! | one accepted step | `integrator`, `step`, `scratch` |
 //! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
 //! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear_system` |
 //! | which blocks couple | `pattern`, `block_matrix`, `layout` |
@@ -49,6 +49,7 @@ mod prince;
 mod radau;
 mod reduction;
 mod report;
+mod scratch;
 mod shifted;
 mod spectrum;
 mod step;
@@ -63,4 +64,5 @@ pub use integrator::Integrator;
 pub use memory::{Memory, MemoryError};
 pub use pattern::{Components, Pattern};
 pub use report::{Cause, Failure, Limit, Method, Options, Statistics, StepReport, Stepper};
+pub use scratch::Scratch;
 pub use system::System;

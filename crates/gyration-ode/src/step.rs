@@ -104,6 +104,9 @@ impl Integrator {
     /// Sizes the scratch, and at the very start evaluates the rates and chooses the first step.
     fn prepare<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
         if self.open && self.layout.fits(system) {
+            if !self.fitted {
+                self.size_scratch();
+            }
             return Ok(());
         }
         let layout = SystemLayout::of(system);
@@ -116,13 +119,18 @@ impl Integrator {
             self.layout.width - self.layout.dimension,
         );
         self.layout = layout;
-        self.implicit.stages.linear.set_layout(&self.layout);
+        self.size_scratch();
         if self.open {
             return Ok(());
         }
         self.explicit = Explicit::new(self.layout.width);
-        self.implicit.resize(&self.layout);
         self.start(system)
+    }
+
+    /// Sizes the scratch of the implicit stepper.
+    fn size_scratch(&mut self) {
+        self.implicit.fit(&self.layout);
+        self.fitted = true;
     }
 
     fn start<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {

@@ -74,6 +74,8 @@ impl ModelSystem {
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
+        // One of its own, if it needs one: most are lent one.
+        let workspace = Workspace::default();
         let (pattern, first_rates) = (pattern(&model), slopes);
         Ok(Self {
             model,
@@ -112,6 +114,11 @@ impl ModelSystem {
     /// The model and the scratch of its mechanics, for observations between steps.
     pub fn observed(&mut self) -> (&Model, &mut Workspace) {
         (&self.model, &mut self.workspace)
+    }
+
+    /// Puts scratch of the mechanics in the place of its own.
+    pub(crate) fn exchange_workspace(&mut self, workspace: &mut Workspace) {
+        std::mem::swap(&mut self.workspace, workspace);
     }
 
     /// The energy in play of bodies without inertia, which have no kinetic energy [J].

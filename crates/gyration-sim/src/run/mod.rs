@@ -27,6 +27,7 @@ use crate::plan::RunPlan;
 use crate::ports::{Monitor, RunError, Sink, WindowEnd};
 use crate::rows::{Fields, RowScratch};
 use crate::run_state::{IslandMemory, RunState};
+use crate::scratch::SharedScratch;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
@@ -53,6 +54,8 @@ pub struct Simulation {
     fields: Fields,
     rows: RowScratch,
     workspace: Workspace,
+    /// Scratch of the islands, where there are several.
+    shared: SharedScratch,
     /// The time of the last row [s].
     recorded: f64,
     /// Scratch: the events of a window.
@@ -86,7 +89,8 @@ impl Simulation {
     ) -> Result<Self, RunError> {
         let stays = meetings.is_empty();
         let islands = members.into_iter().map(|members| Island::new(model, start, &plan, members, stays));
-        let islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
+        let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
+        islands.shrink_to_fit();
         Ok(Self {
             homes: homes(model.bodies.len(), &islands),
             islands,
@@ -98,6 +102,7 @@ impl Simulation {
             fields: Fields::new(model, &plan.extras),
             rows: RowScratch::default(),
             workspace: Workspace::default(),
+            shared: SharedScratch::default(),
             recorded: f64::NEG_INFINITY,
             found: Vec::new(),
             is_broken: false,
@@ -207,9 +212,7 @@ impl Simulation {
             return Err(RunError::at_start(stop));
         }
         self.state.next_sample = 1;
-        for island in &mut self.islands {
-            island.begin(&self.plan);
-        }
+        self.shared.lend(self.islands.iter_mut(), |island| island.begin(&self.plan));
         Ok(())
     }
 

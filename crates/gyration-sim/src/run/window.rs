@@ -134,19 +134,22 @@ impl Simulation {
     /// Lets all islands come to a time, or make so many steps towards it, all together.
     fn reach(&mut self, until: f64, most: u64) {
         let is_step = self.is_step(until);
-        let (plan, threads) = (&self.plan, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
+        if let [only] = &mut self.islands[..] {
+            return only.reach(until, most, &self.plan);
+        }
+        let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
         let count = self.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
         let behind = self.islands.iter_mut().filter(|island| island.time() < until);
         if threads.get() == 1 || count == 1 || is_step {
-            behind.for_each(|island| island.reach(until, most, plan));
-            return;
+            return shared.lend(behind, |island| island.reach(until, most, plan));
         }
         let interruption = Interruption::in_force();
         let mut behind: Vec<&mut Island> = behind.collect();
         let piece = count.div_ceil(PIECES * threads.get()).max(1);
         in_order(behind.chunks_mut(piece), threads, |islands| {
-            interruption.within(|| islands.iter_mut().for_each(|island| island.reach(until, most, plan)));
+            let islands = islands.iter_mut().map(|island| &mut **island);
+            interruption.within(|| shared.lend(islands, |island| island.reach(until, most, plan)));
         });
     }
 
