@@ -15,6 +15,7 @@ use crate::scene::Scene;
 use crate::suggest;
 use crate::tree::Node;
 use crate::unknown::Unknown;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// A scene whose text is read.
@@ -85,9 +86,11 @@ impl Template {
     }
 
     fn checked(&self, overrides: &[Override]) -> Result<Scene, SceneErrors> {
-        let mut document = self.document.clone();
+        let mut document = Cow::Borrowed(&self.document);
         let mut diagnostics = Diagnostics::of(ErrorKind::Structure);
-        read::apply(&mut document, overrides, &mut diagnostics);
+        if !overrides.is_empty() {
+            read::apply(document.to_mut(), overrides, &mut diagnostics);
+        }
         structure(&document.root, &RULES, &mut diagnostics);
         let mut partial = PartialScene::new(&document, &mut diagnostics);
         let mut reporter = Reporter { document: &document, diagnostics: &mut diagnostics };
@@ -98,7 +101,7 @@ impl Template {
         match (partial.complete(), built) {
             (Some(file), Some((built, forms))) if diagnostics.is_empty() => {
                 let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
-                let unknown = (!forms.is_empty()).then(|| Box::new(Unknown { forms, document }));
+                let unknown = (!forms.is_empty()).then(|| Box::new(Unknown { forms, document: document.into_owned() }));
                 Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built, unknown })
             }
             _ => Err(document.errors(diagnostics)),

@@ -29,15 +29,16 @@ pub struct Body {
     /// It moves as a rigid body, as it does if no kind is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<Rigid>,
+    // What few bodies have stands apart: ten thousand rigid ones are small.
     /// It deforms homogeneously.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub affine: Option<Affine>,
+    pub affine: Option<Box<Affine>>,
     /// It deforms homogeneously and contracts by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contractile: Option<Contractile>,
+    pub contractile: Option<Box<Contractile>>,
     /// It is immersed in the fluid; any other body ignores it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inclusion: Option<Inclusion>,
+    pub inclusion: Option<Box<Inclusion>>,
     /// Initial position of the centre of mass (m).
     #[serde(default)]
     pub position: [Length; 3],
@@ -68,7 +69,7 @@ impl Body {
     /// What a body that deforms has beside a contraction, and the key of the table where it stands.
     pub(crate) fn deformable(&self) -> Option<(&'static str, &Affine)> {
         let contractile = || self.contractile.as_ref().map(|it| ("contractile", &it.affine));
-        self.affine.as_ref().map(|affine| ("affine", affine)).or_else(contractile)
+        self.affine.as_deref().map(|affine| ("affine", affine)).or_else(contractile)
     }
 }
 
