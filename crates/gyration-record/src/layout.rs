@@ -116,7 +116,7 @@ impl Layout {
     }
 
     /// Where each CSV column is found, in the order of the CSV: its name, its array and its place in a row of it.
-    pub(crate) fn columns(&self) -> Result<Vec<(String, String, usize)>, RecordError> {
+    pub(crate) fn columns(&self) -> Result<Vec<(&str, &str, usize)>, RecordError> {
         let mut places = BTreeMap::new();
         for array in &self.arrays {
             if !array.columns.is_empty() && array.columns.len() != array.row_len() {
@@ -124,19 +124,21 @@ impl Layout {
                 return Err(RecordError::layout(format!("the array `{name}` takes {len} column names or none")));
             }
             for (index, column) in array.columns.iter().enumerate().filter(|(_, column)| !column.is_empty()) {
-                if !is_column(column) || column == "t" || places.insert(column.as_str(), (&array.name, index)).is_some()
+                if !is_column(column)
+                    || column == "t"
+                    || places.insert(column.as_str(), (array.name.as_str(), index)).is_some()
                 {
                     return Err(RecordError::layout(format!("the column `{column}` is taken twice or not a name")));
                 }
             }
         }
-        let found = |column: &String| {
+        let mut columns = Vec::with_capacity(self.csv_order.len());
+        for column in &self.csv_order {
             let (array, index) = places.remove(column.as_str()).ok_or_else(|| {
                 RecordError::layout(format!("csv_order names `{column}`, which is no column or was named before"))
             })?;
-            Ok((column.clone(), array.clone(), index))
-        };
-        let columns = self.csv_order.iter().map(found).collect::<Result<_, _>>()?;
+            columns.push((column.as_str(), array, index));
+        }
         match places.keys().next() {
             Some(column) => Err(RecordError::layout(format!("csv_order leaves out the column `{column}`"))),
             None => Ok(columns),
@@ -215,8 +217,8 @@ mod tests {
         let layout = layout();
         layout.check().unwrap();
         let columns = layout.columns().unwrap();
-        assert_eq!(columns[0], ("b.x".into(), "position".into(), 3));
-        assert_eq!(columns[3], ("a.y".into(), "position".into(), 1));
+        assert_eq!(columns[0], ("b.x", "position", 3));
+        assert_eq!(columns[3], ("a.y", "position", 1));
     }
 
     #[test]

@@ -40,8 +40,8 @@ impl Group {
     /// The metadata of a new recording.
     pub(crate) fn new(layout: &Layout, mut attributes: Attributes) -> Result<Self, RecordError> {
         check_attributes(&attributes)?;
-        let text = |(name, array, index): &(String, String, usize)| Value::from(format!("{name} = {array}[{index}]"));
-        let columns = layout.columns()?.iter().map(text).collect::<Vec<_>>();
+        let text = |(name, array, index): (&str, &str, usize)| Value::from(format!("{name} = {array}[{index}]"));
+        let columns = layout.columns()?.into_iter().map(text).collect::<Vec<_>>();
         let mut arrays = vec![ArrayInfo::growing("time", "time", layout.chunk_rows, "s", "time")];
         arrays.extend(layout.arrays.iter().map(|spec| ArrayInfo::of(spec, Some(("time", layout.chunk_rows)))));
         if !layout.event_kinds.is_empty() {
@@ -79,9 +79,9 @@ impl Group {
 
     /// The group's `zarr.json`.
     pub(crate) fn to_json(&self) -> Vec<u8> {
-        let mut attributes = self.attributes.clone();
-        attributes.insert(CHECKSUM.into(), check::UNKNOWN.into());
-        let mut text = group_json(&attributes, &self.arrays);
+        let place = Value::from(check::UNKNOWN);
+        let attributes = self.attributes.iter().map(|(name, value)| (name.as_str(), value));
+        let mut text = group_json(attributes.chain([(CHECKSUM, &place)]), &self.arrays);
         check::seal(&mut text, CHECKSUM_PLACE);
         text
     }

@@ -6,6 +6,7 @@
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -16,10 +17,10 @@ pub(crate) fn array_json(array: &ArrayInfo) -> Vec<u8> {
 }
 
 /// The `zarr.json` of a whole recording: attributes in alphabetical order, whatever order they were set in.
-pub(crate) fn group_json(attributes: &Attributes, arrays: &[ArrayInfo]) -> Vec<u8> {
+pub(crate) fn group_json<'a>(attributes: impl Iterator<Item = (&'a str, &'a Value)>, arrays: &[ArrayInfo]) -> Vec<u8> {
     let metadata = arrays.iter().map(|array| (array.name.clone(), ZarrArray::of(array))).collect();
     json(&ZarrGroup {
-        attributes: attributes.clone().into_iter().collect(),
+        attributes: attributes.collect(),
         consolidated_metadata: Some(Consolidated { kind: "inline".into(), must_understand: false, metadata }),
         ..ZarrGroup::empty()
     })
@@ -72,11 +73,12 @@ pub(crate) struct Marker {
     pub(crate) attributes: Attributes,
 }
 
+/// The attributes are borrowed to write them; `Marker` reads them.
 #[derive(Serialize, Deserialize)]
-pub(crate) struct ZarrGroup {
+pub(crate) struct ZarrGroup<A = IgnoredAny> {
     zarr_format: u8,
     node_type: String,
-    attributes: BTreeMap<String, Value>,
+    attributes: A,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) consolidated_metadata: Option<Consolidated>,
 }
@@ -157,7 +159,7 @@ fn codecs(data_type: DataType, is_checked: bool) -> Vec<Codec> {
     std::iter::once(plain).chain(is_checked.then_some(Codec::Checksum)).collect()
 }
 
-impl ZarrGroup {
+impl<'a> ZarrGroup<BTreeMap<&'a str, &'a Value>> {
     fn empty() -> Self {
         let attributes = BTreeMap::new();
         Self { zarr_format: 3, node_type: "group".into(), attributes, consolidated_metadata: None }

@@ -42,8 +42,10 @@ pub struct Job<'a> {
     pub plan: RunPlan,
     /// How long it may take; the recording can be resumed after that.
     pub max_wall_time: Option<Duration>,
-    /// Attributes of the recording: scene, resolved form, version, commit.
-    pub attributes: Attributes,
+    /// What it was made from.
+    scene: &'a Scene,
+    /// Which program runs it.
+    provenance: Provenance,
 }
 
 /// The end of a recorded run.
@@ -68,22 +70,13 @@ impl<'a> Job<'a> {
     /// A scene ready to run.
     pub fn of(scene: &'a Scene, provenance: &Provenance) -> Self {
         let Built { model, state, plan, .. } = scene.built();
-        let attributes = json!({
-            "title": scene.file().title,
-            "scene_name": scene.name(),
-            "scene": scene.text(),
-            "overrides": scene.overrides(),
-            "resolved": scene.resolved(),
-            "version": provenance.version,
-            "commit": provenance.commit,
-            "tolerances": { "rtol": plan.rtol, "atol": plan.atol },
-        });
         Self {
             model,
             start: state,
             plan: RunPlan::alone(scene.built()),
             max_wall_time: plan.wall_time(),
-            attributes: attributes.as_object().cloned().unwrap_or_default(),
+            scene,
+            provenance: provenance.clone(),
         }
     }
 
@@ -183,9 +176,20 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// The attributes of the recording before the run has ended: those given, bodies, supports, gravity.
+    /// The attributes of the recording before the run has ended: scene, resolved form, version, commit; bodies,
+    /// supports, gravity.
     pub fn all_attributes(&self) -> Attributes {
-        let mut attributes = self.attributes.clone();
+        let Self { scene, provenance, plan, .. } = self;
+        let mut attributes = Attributes::new();
+        attributes.insert("title".into(), json!(scene.file().title));
+        attributes.insert("scene_name".into(), json!(scene.name()));
+        attributes.insert("scene".into(), json!(scene.text()));
+        attributes.insert("overrides".into(), json!(scene.overrides()));
+        attributes.insert("resolved".into(), scene.resolved());
+        attributes.insert("version".into(), json!(provenance.version));
+        attributes.insert("commit".into(), json!(provenance.commit));
+        let (rtol, atol) = (plan.tolerance.rtol, plan.tolerance.atol);
+        attributes.insert("tolerances".into(), json!({ "rtol": rtol, "atol": atol }));
         let surfaces = Surfaces::of(&self.model.bodies);
         let bodies = self.model.bodies.iter().zip(surfaces.of_bodies());
         attributes.insert("bodies".into(), bodies.map(|(body, surface)| describe_body(body, *surface)).collect());
