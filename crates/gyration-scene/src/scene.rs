@@ -76,6 +76,15 @@ impl Scene {
         Ok(toml::to_string(&self.file)?)
     }
 
+    /// The resolved form in TOML with only these of its bodies; where contacts name others, it is no scene.
+    ///
+    /// # Errors
+    /// [`NotToml`] if it has none.
+    pub fn excerpt(&self, bodies: &[usize]) -> Result<String, NotToml> {
+        let body = bodies.iter().filter_map(|index| self.file.body.get(*index)).cloned().collect();
+        Ok(toml::to_string(&SceneFile { body, ..self.file.clone() })?)
+    }
+
     /// The forms whose resistance is not known.
     pub fn unknown_forms(&self) -> &[UnknownForm] {
         self.unknown.as_ref().map_or(&[], |unknown| &unknown.forms)

@@ -7,14 +7,17 @@
 //!
 //! Nothing here steps in time, and nothing is written anywhere.
 
+mod balance;
 mod bodies;
 mod contraction;
+mod crowd;
 mod kind;
 mod laws;
 mod mass;
 mod modes;
 mod rest;
 mod text;
+mod words;
 
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, Survey, modes, modes_in_json};
 pub use kind::KindSurvey;
@@ -22,4 +25,4 @@ pub use laws::LawSurvey;
 pub use mass::MassSurvey;
 pub use modes::{ModeSurvey, RestState, ShapeSurvey};
 pub use rest::{Approach, RestGap};
-pub use text::write_rest;
+pub use words::write_rest;

@@ -12,6 +12,7 @@
 //! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
 //! where it really rests, deformed by its weight, is its rest state (`modes`).
 
+use super::balance::TrialGaps;
 use gyration::contact::{
     Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
 };
@@ -27,10 +28,6 @@ use std::f64::consts::TAU;
 const SEARCHED: (f64, f64) = (1e-15, 1e3);
 /// The least such fraction elsewhere.
 const LEAST_ELSEWHERE: f64 = 1e-9;
-/// Trial gaps in a decade; two balances nearer than that would be missed.
-const TRIALS_PER_DECADE: f64 = 25.0;
-/// Halvings of a bracket: a step of the search is halved to below rounding.
-const HALVINGS: usize = 60;
 
 /// A gap at which the weight is carried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -146,23 +143,17 @@ impl<'a> Approach<'a> {
             return Vec::new();
         }
         let least = if self.keeps_digits { SEARCHED.0 } else { LEAST_ELSEWHERE };
-        let (low, high) = (least * self.size, SEARCHED.1 * self.size);
-        let count = (TRIALS_PER_DECADE * libm::log10(high / low)).ceil() as usize;
-        let gap = |k: usize| low * libm::pow(high / low, k as f64 / count as f64);
+        let trials = TrialGaps::between(least * self.size, SEARCHED.1 * self.size);
         let balance = |gap: f64| Some(self.force(gap)? - self.weight);
-        let mut rests = Vec::new();
-        let mut previous = None;
-        for k in 0..=count {
-            let here = balance(gap(k)).map(|value| (gap(k), value));
-            if let (Some(before), Some(here)) = (previous, here)
-                && crosses(before, here)
-                && let Some(root) = bisect(before, here, balance)
-            {
-                rests.extend(self.rest_at(root));
-            }
-            previous = here;
-        }
-        rests
+        let roots = if self.only_pushes() { trials.root_of_falling(balance) } else { trials.roots(balance) };
+        roots.into_iter().filter_map(|root| self.rest_at(root)).collect()
+    }
+
+    /// Whether F(d) falls with the gap: all central terms push.
+    fn only_pushes(&self) -> bool {
+        let laws = self.contacts.iter().flat_map(|contact| contact.law_set.laws());
+        let mut central = laws.filter(|law| law.kind().is_central()).flat_map(|law| law.terms()).flatten();
+        central.all(|term| term.coefficient >= 0.0)
     }
 
     fn rest_at(&self, gap: f64) -> Option<RestGap> {
@@ -208,22 +199,6 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
 
 fn acts(term: Term) -> bool {
     term.coefficient != 0.0
-}
-
-/// Whether the balance changes its sign; a zero counts with what follows, so that it is found once.
-fn crosses(before: (f64, f64), here: (f64, f64)) -> bool {
-    (before.1 > 0.0) != (here.1 > 0.0)
-}
-
-/// The root between two gaps, by halving in ln d.
-fn bisect(before: (f64, f64), here: (f64, f64), balance: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let (mut low, mut high) = (before.0, here.0);
-    let positive_below = before.1 > 0.0;
-    for _ in 0..HALVINGS {
-        let middle = (low * high).sqrt();
-        if (balance(middle)? > 0.0) == positive_below { low = middle } else { high = middle }
-    }
-    Some((low * high).sqrt())
 }
 
 /// The time constant [s] of an oscillator of angular frequency ω [rad/s] and damping ratio ζ, that of its slowest part.
@@ -277,15 +252,5 @@ mod tests {
         assert!((below - above).abs() < 1e-5);
         // Far beyond, the body creeps with c/k = 2ζ/ω.
         assert!((decay_time(frequency, 1e9) / (2e9 / frequency) - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn halving_finds_the_root_of_a_falling_and_of_a_rising_balance() {
-        for sign in [1.0, -1.0] {
-            let balance = |gap: f64| Some(sign * (2.0 - gap));
-            let root = bisect((0.5, balance(0.5).unwrap()), (30.0, balance(30.0).unwrap()), balance);
-            // Sixty halvings of ln 60 leave rounding.
-            assert!((root.unwrap() - 2.0).abs() < 1e-14);
-        }
     }
 }

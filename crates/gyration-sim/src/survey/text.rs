@@ -1,24 +1,30 @@
 //! The survey of a scene as text, as `gyration check` prints it.
 
-use super::bodies::{BodySurvey, PairSurvey, Survey};
-use super::kind::KindSurvey;
-use super::laws::LawSurvey;
-use super::modes::{ModeSurvey, RestState};
-use super::rest::RestGap;
-use crate::format::{significant, vector};
+use super::bodies::Survey;
+use super::crowd::{MOST_BODIES, sorts, write_crowd};
+use super::words::write_body;
+use crate::format::vector;
 use gyration_scene::{NotToml, Scene};
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 
 /// Stands above the resolved scene, a comment of TOML.
 const HEADING: &str = "# The resolved scene: SI units, every default in its place";
+/// The same, where bodies of a crowd are left out.
+const EXCERPT: &str = "# The resolved scene: SI units, every default in its place; of the bodies the first of each \
+                       sort, all with --json";
 
 impl Survey {
-    /// The survey of a scene as text, and the resolved scene; from the heading on the text is itself a scene.
+    /// The survey of a scene as text, and the resolved scene; from the heading on the text is itself a scene. Of many
+    /// bodies, those that are told alike are told once.
     ///
     /// # Errors
     /// [`NotToml`] if the resolved scene has no form in TOML.
     pub fn text(&self, scene: &Scene) -> Result<String, NotToml> {
-        Ok(format!("{}\n{HEADING}\n\n{}", in_words(scene, self), scene.to_toml()?))
+        if self.bodies.len() <= MOST_BODIES {
+            return Ok(format!("{}\n{HEADING}\n\n{}", in_words(scene, self), scene.to_toml()?));
+        }
+        let first: Vec<usize> = sorts(&self.bodies).iter().filter_map(|sort| sort.first().copied()).collect();
+        Ok(format!("{}\n{EXCERPT}\n\n{}", in_words(scene, self), scene.excerpt(&first)?))
     }
 }
 
@@ -38,140 +44,13 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let (origin, normal) = (vector(&support.origin.into()), vector(&support.normal.into()));
         let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
     }
+    if survey.bodies.len() > MOST_BODIES {
+        write_crowd(&mut text, &survey.bodies);
+        return text;
+    }
     for body in &survey.bodies {
         text.push('\n');
         write_body(&mut text, body);
     }
     text
-}
-
-fn write_body(text: &mut String, body: &BodySurvey) {
-    let mass = &body.mass;
-    let volume = if mass.volume > 0.0 { format!(", volume {} m³", short(mass.volume)) } else { String::new() };
-    let _ = writeln!(text, "body {}", body.name);
-    let _ = writeln!(text, "  kind            {}", kind(&body.kind));
-    for load in &body.kind.loads {
-        let _ = writeln!(text, "                  {load}");
-    }
-    let _ = writeln!(text, "  mass            {} kg{volume}, size {} m", short(mass.mass), short(body.size));
-    let _ = writeln!(text, "  centre of mass  {} m in the shape's frame", vector(&mass.center));
-    let _ = writeln!(text, "  inertia         {} kg m² about the principal axes", vector(&mass.inertia_principal));
-    let _ = writeln!(text, "  Euler tensor    {} kg m² along them", vector(&mass.euler_principal));
-    for pair in &body.supports {
-        write_pair(text, pair, body.kind.material.is_some());
-    }
-    if let Some(reason) = &body.no_rest_state_because {
-        let _ = writeln!(text, "  no rest state: {reason}");
-    }
-    if let Some(rest) = &body.rest_state {
-        let _ = write_rest(text, rest);
-        rest.modes.chunk_by(alike).for_each(|modes| write_modes(text, modes));
-    }
-}
-
-fn kind(kind: &KindSurvey) -> String {
-    let words = kind.material.as_ref().map(|material| format!(": {material}")).unwrap_or_default();
-    let incompressible = if kind.incompressible { ", incompressible" } else { "" };
-    format!("{}{incompressible}{words}", kind.kind)
-}
-
-/// Whether two motions have the same frequency and decay to the digits that are printed.
-fn alike(a: &ModeSurvey, b: &ModeSurvey) -> bool {
-    a.motion == b.motion && short(a.frequency_hz) == short(b.frequency_hz) && decay(a) == decay(b)
-}
-
-fn decay(mode: &ModeSurvey) -> String {
-    let rates: Vec<String> = mode.decay_rates.iter().filter(|rate| **rate != 0.0).map(|rate| short(*rate)).collect();
-    match (mode.motion, rates.first()) {
-        (_, None) => "does not decay".to_owned(),
-        ("oscillates", Some(rate)) => format!("decays with {rate} 1/s"),
-        _ => format!("decays with {} 1/s", rates.join(" and ")),
-    }
-}
-
-/// Motions of one frequency.
-fn write_modes(text: &mut String, modes: &[ModeSurvey]) {
-    let Some(first) = modes.first() else { return };
-    let head = match first.motion {
-        "oscillates" => format!("{} Hz", short(first.frequency_hz)),
-        motion => motion.to_owned(),
-    };
-    let times = if modes.len() > 1 { format!(" (×{})", modes.len()) } else { String::new() };
-    let words: Vec<&str> = modes.iter().map(|mode| mode.in_words.as_str()).collect();
-    let _ = writeln!(text, "    {head}{times}, {}: {}", decay(first), words.join("; "));
-}
-
-fn write_pair(text: &mut String, pair: &PairSurvey, deforms: bool) {
-    let _ = writeln!(text, "  on {}: gap {} m at the start", pair.support, short(pair.initial_gap));
-    if pair.laws.is_empty() {
-        let _ = writeln!(text, "    no law acts between the two");
-        return;
-    }
-    for law in &pair.laws {
-        let _ = writeln!(text, "    {}", verdict(law));
-    }
-    if !pair.forbids_touching {
-        let _ = writeln!(text, "    no law forbids touching: a body that is fast enough gets there, and the run stops");
-    }
-    if let Some(reason) = pair.no_rest_because {
-        let _ = writeln!(text, "    no gap of rest is given: {reason}, and this support alone does not tell");
-    } else if pair.rests.is_empty() {
-        let weight = pair.weight;
-        let _ = writeln!(
-            text,
-            "    no gap at which the laws balance the weight's part along the normal, {} N",
-            short(weight)
-        );
-    }
-    for rest in &pair.rests {
-        write_gap(text, rest, deforms);
-    }
-}
-
-/// The touch-or-not verdict on a law.
-fn verdict(law: &LawSurvey) -> String {
-    let LawSurvey { law: name, exponent, .. } = law;
-    let (Some(feature), Some(critical)) = (law.feature, law.critical_exponent) else {
-        return format!("{name:<10} ν = {exponent}");
-    };
-    match law.forbids_touching {
-        _ if !law.acts => format!("{name:<10} has no strength: does nothing"),
-        Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
-        Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
-        None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
-    }
-}
-
-fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
-    if !rest.stable {
-        let _ = writeln!(text, "    balance at a gap of {} m, unstable", short(rest.gap));
-        return;
-    }
-    let if_so = if deforms { "if it kept the shape of its start" } else { "in this orientation" };
-    let _ = writeln!(text, "    rests at a gap of {} m {if_so}", short(rest.gap));
-    let period = rest.period.map_or_else(String::new, |period| format!(", period {} s", short(period)));
-    let _ = writeln!(text, "      stiffness {} N/m{period}", short(rest.stiffness));
-    if let (Some(ratio), Some(time)) = (rest.damping_ratio, rest.damping_time) {
-        let kind = if ratio < 1.0 { "oscillates" } else { "creeps" };
-        let _ = writeln!(text, "      damping ratio {}: {kind}, decays in {} s", short(ratio), short(time));
-    }
-    if let Some(time) = rest.friction_time {
-        let _ = writeln!(text, "      sliding decays in {} s", short(time));
-    }
-}
-
-/// Place, gap, stretches and pressure at rest.
-pub fn write_rest(text: &mut String, rest: &RestState) -> fmt::Result {
-    let gap = rest.gap.map(|gap| format!(", gap {} m", short(gap))).unwrap_or_default();
-    writeln!(text, "  rests at {} m{gap}", vector(&rest.position))?;
-    if rest.stretches != [1.0; 3] {
-        let pressure = rest.pressure.map(|pressure| format!(", pressure {} Pa", short(pressure))).unwrap_or_default();
-        writeln!(text, "  stretches {}{pressure}", rest.stretches.map(|stretch| format!("{stretch:.6}")).join(", "))?;
-    }
-    Ok(())
-}
-
-/// Five digits.
-fn short(value: f64) -> String {
-    significant(value, 5)
 }

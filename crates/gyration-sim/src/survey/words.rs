@@ -1,0 +1,155 @@
+//! One body of a survey in words: what it is, its laws with each support, where it rests.
+
+use super::bodies::{BodySurvey, PairSurvey};
+use super::kind::KindSurvey;
+use super::laws::LawSurvey;
+use super::modes::{ModeSurvey, RestState};
+use super::rest::RestGap;
+use crate::format::{significant, vector};
+use std::fmt::{self, Write as _};
+
+// Writing to a string does not fail: the results of writeln! are dropped in this file.
+
+/// A body, under its name.
+pub(super) fn write_body(text: &mut String, body: &BodySurvey) {
+    let _ = writeln!(text, "body {}", body.name);
+    write_solid(text, body);
+    for pair in &body.supports {
+        write_pair(text, pair, body.kind.material.is_some());
+    }
+    write_rest_state(text, body);
+}
+
+/// Kind, mass and size.
+pub(super) fn write_solid(text: &mut String, body: &BodySurvey) {
+    let mass = &body.mass;
+    let volume = if mass.volume > 0.0 { format!(", volume {} m³", short(mass.volume)) } else { String::new() };
+    let _ = writeln!(text, "  kind            {}", kind(&body.kind));
+    for load in &body.kind.loads {
+        let _ = writeln!(text, "                  {load}");
+    }
+    let _ = writeln!(text, "  mass            {} kg{volume}, size {} m", short(mass.mass), short(body.size));
+    let _ = writeln!(text, "  centre of mass  {} m in the shape's frame", vector(&mass.center));
+    let _ = writeln!(text, "  inertia         {} kg m² about the principal axes", vector(&mass.inertia_principal));
+    let _ = writeln!(text, "  Euler tensor    {} kg m² along them", vector(&mass.euler_principal));
+}
+
+/// Where a body that deforms rests, and how it moves about that state.
+pub(super) fn write_rest_state(text: &mut String, body: &BodySurvey) {
+    if let Some(reason) = &body.no_rest_state_because {
+        let _ = writeln!(text, "  no rest state: {reason}");
+    }
+    if let Some(rest) = &body.rest_state {
+        let _ = write_rest(text, rest);
+        rest.modes.chunk_by(alike).for_each(|modes| write_modes(text, modes));
+    }
+}
+
+fn kind(kind: &KindSurvey) -> String {
+    let words = kind.material.as_ref().map(|material| format!(": {material}")).unwrap_or_default();
+    let incompressible = if kind.incompressible { ", incompressible" } else { "" };
+    format!("{}{incompressible}{words}", kind.kind)
+}
+
+/// Whether two motions have the same frequency and decay to the digits that are printed.
+fn alike(a: &ModeSurvey, b: &ModeSurvey) -> bool {
+    a.motion == b.motion && short(a.frequency_hz) == short(b.frequency_hz) && decay(a) == decay(b)
+}
+
+fn decay(mode: &ModeSurvey) -> String {
+    let rates: Vec<String> = mode.decay_rates.iter().filter(|rate| **rate != 0.0).map(|rate| short(*rate)).collect();
+    match (mode.motion, rates.first()) {
+        (_, None) => "does not decay".to_owned(),
+        ("oscillates", Some(rate)) => format!("decays with {rate} 1/s"),
+        _ => format!("decays with {} 1/s", rates.join(" and ")),
+    }
+}
+
+/// Motions of one frequency.
+fn write_modes(text: &mut String, modes: &[ModeSurvey]) {
+    let Some(first) = modes.first() else { return };
+    let head = match first.motion {
+        "oscillates" => format!("{} Hz", short(first.frequency_hz)),
+        motion => motion.to_owned(),
+    };
+    let times = if modes.len() > 1 { format!(" (×{})", modes.len()) } else { String::new() };
+    let words: Vec<&str> = modes.iter().map(|mode| mode.in_words.as_str()).collect();
+    let _ = writeln!(text, "    {head}{times}, {}: {}", decay(first), words.join("; "));
+}
+
+fn write_pair(text: &mut String, pair: &PairSurvey, deforms: bool) {
+    let _ = writeln!(text, "  on {}: gap {} m at the start", pair.support, short(pair.initial_gap));
+    write_laws(text, pair);
+    if pair.rests.is_empty() && pair.no_rest_because.is_none() && !pair.laws.is_empty() {
+        let weight = short(pair.weight);
+        let _ = writeln!(text, "    no gap at which the laws balance the weight's part along the normal, {weight} N");
+    }
+    for rest in &pair.rests {
+        write_gap(text, rest, deforms);
+    }
+}
+
+/// What the laws forbid, and whether they alone tell where the body rests.
+pub(super) fn write_laws(text: &mut String, pair: &PairSurvey) {
+    if pair.laws.is_empty() {
+        let _ = writeln!(text, "    no law acts between the two");
+        return;
+    }
+    for law in &pair.laws {
+        let _ = writeln!(text, "    {}", verdict(law));
+    }
+    if !pair.forbids_touching {
+        let _ = writeln!(text, "    no law forbids touching: a body that is fast enough gets there, and the run stops");
+    }
+    if let Some(reason) = pair.no_rest_because {
+        let _ = writeln!(text, "    no gap of rest is given: {reason}, and this support alone does not tell");
+    }
+}
+
+/// The touch-or-not verdict on a law.
+fn verdict(law: &LawSurvey) -> String {
+    let LawSurvey { law: name, exponent, .. } = law;
+    let (Some(feature), Some(critical)) = (law.feature, law.critical_exponent) else {
+        return format!("{name:<10} ν = {exponent}");
+    };
+    match law.forbids_touching {
+        _ if !law.acts => format!("{name:<10} has no strength: does nothing"),
+        Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
+        Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
+        None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
+    }
+}
+
+fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
+    if !rest.stable {
+        let _ = writeln!(text, "    balance at a gap of {} m, unstable", short(rest.gap));
+        return;
+    }
+    let if_so = if deforms { "if it kept the shape of its start" } else { "in this orientation" };
+    let _ = writeln!(text, "    rests at a gap of {} m {if_so}", short(rest.gap));
+    let period = rest.period.map_or_else(String::new, |period| format!(", period {} s", short(period)));
+    let _ = writeln!(text, "      stiffness {} N/m{period}", short(rest.stiffness));
+    if let (Some(ratio), Some(time)) = (rest.damping_ratio, rest.damping_time) {
+        let kind = if ratio < 1.0 { "oscillates" } else { "creeps" };
+        let _ = writeln!(text, "      damping ratio {}: {kind}, decays in {} s", short(ratio), short(time));
+    }
+    if let Some(time) = rest.friction_time {
+        let _ = writeln!(text, "      sliding decays in {} s", short(time));
+    }
+}
+
+/// Place, gap, stretches and pressure at rest.
+pub fn write_rest(text: &mut String, rest: &RestState) -> fmt::Result {
+    let gap = rest.gap.map(|gap| format!(", gap {} m", short(gap))).unwrap_or_default();
+    writeln!(text, "  rests at {} m{gap}", vector(&rest.position))?;
+    if rest.stretches != [1.0; 3] {
+        let pressure = rest.pressure.map(|pressure| format!(", pressure {} Pa", short(pressure))).unwrap_or_default();
+        writeln!(text, "  stretches {}{pressure}", rest.stretches.map(|stretch| format!("{stretch:.6}")).join(", "))?;
+    }
+    Ok(())
+}
+
+/// Five digits.
+pub(super) fn short(value: f64) -> String {
+    significant(value, 5)
+}
