@@ -339,7 +339,7 @@ fn errors_of_bodies_stand_at_their_place() {
             format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[spring]]\nbetween = [\"b\", §\"b\"]\nstiffness = 1"),
             "spring.0.between.1",
             "both ends are at the body",
-            "two bodies",
+            "two different bodies",
         ),
         (
             format!("{two}[[spring]]\nbetween = [\"b\", \"c\"]\npoints = §[[0, 0, -1], [0, 0, 1]]\nstiffness = 1\ndamping = 2"),

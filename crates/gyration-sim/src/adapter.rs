@@ -6,15 +6,14 @@
 //! step may spend a tenth of either.
 
 use crate::resistance::check_resistances;
+use crate::scales::{energy_scale, speed_scale, spring_frequency};
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
-use gyration::contractile::Contraction;
 use gyration::dynamics::{Blocks, Workspace, jacobian, rates};
 use gyration::extended::{self, Numbers};
 use gyration::ledger::Work;
 use gyration::model::Model;
-use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
@@ -46,6 +45,8 @@ pub struct ModelSystem {
     workspace: Workspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
+    /// √(Σk/m) of the springs at each body [1/s].
+    frequencies: Vec<f64>,
     energy: f64,
     radii: Vec<f64>,
     /// What the fluid turns into heat while bodies without inertia move by their size [J].
@@ -72,6 +73,7 @@ impl ModelSystem {
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
+        let frequencies = (0..model.bodies.len()).map(|body| spring_frequency(&model, body)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // One of its own, if it needs one: most are lent one.
@@ -83,6 +85,7 @@ impl ModelSystem {
             workspace,
             tolerance,
             speeds,
+            frequencies,
             energy,
             radii,
             viscous,
@@ -161,44 +164,6 @@ impl Blocks for Written<'_> {
     }
 }
 
-/// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its
-/// size, η v size².
-fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
-    match &model.fluid {
-        Some(fluid) if !body.has_inertia() => fluid.viscosity * speed * body.size * body.size,
-        _ => 0.5 * body.solid.mass.mass * speed * speed,
-    }
-}
-
-/// A speed below this part of a size in a period of what drives the body is the rounding of none: a drive may begin
-/// where it turns round.
-const TURNING: f64 = 1e-9;
-
-/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, one size in a
-/// period of what drives it, and one size a second for a body that nothing moves.
-fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
-    let (body, slots) = (&model.bodies[index], model.slots(index));
-    let (motion, falling) = match body.has_inertia() {
-        true => (start.motion(model, index), (model.gravity.norm() * body.size).sqrt()),
-        // Gravity moves it as fast as the fluid allows.
-        false => (BodyMotion::of_rates(body, slots, &start.bodies, slopes), 0.0),
-    };
-    let scale = fastest_speed(body, &motion).max(falling);
-    let drive = body.contraction().map(Contraction::signal);
-    let driving = drive.into_iter().chain(model.fluid.iter().flat_map(|fluid| fluid.signals()));
-    let driven = body.size * driving.map(Signal::highest_frequency).fold(0.0, f64::max);
-    if scale > TURNING * driven {
-        return scale;
-    }
-    if !body.has_inertia() {
-        return if driven > 0.0 { driven } else { body.size };
-    }
-    // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
-    let norm = |slot: Range<usize>| slopes[slot].iter().map(|number| number * number).sum::<f64>().sqrt();
-    let scale = ((norm(slots.velocity()) + norm(slots.rate()) * body.size) * body.size).sqrt();
-    if scale > 0.0 { scale } else { body.size }
-}
-
 impl System for ModelSystem {
     type Inadmissible = Inadmissible;
 
@@ -256,7 +221,9 @@ impl System for ModelSystem {
             let extended =
                 gap < NEAR * body.size && body.solid.surface.as_ref().is_some_and(|it| body.keeps_digits(it));
             let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
-            let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed;
+            // Springs make velocities of the rounding of places.
+            let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];
+            let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;
             y_scale[slots.position()].fill(length + rounding);
             y_scale[slots.attitude()].fill((length + rounding) / body.size);
             y_scale[slots.velocity()].fill(velocity);

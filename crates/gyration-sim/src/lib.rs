@@ -29,6 +29,7 @@ pub mod resistance;
 pub mod rows;
 mod run;
 mod run_state;
+mod scales;
 mod scratch;
 pub mod sensitivity;
 mod step_end;

@@ -216,3 +216,61 @@ fn islands_of_several_bodies_share_threads() {
     };
     assert!(state(1) == state(2));
 }
+
+/// Balls on a stretched line of springs between two anchors, in balance but for rounding; the first moves, or none.
+fn stretched(stiffness: f64, speed: f64, method: &str) -> Scene {
+    let direction = Vec3::new(0.6, 0.0, 0.8);
+    let at = |part: f64| format!("{:?}", (part * direction).as_slice());
+    let mut text = format!(
+        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 0.1 }}\nsolver = {{ method = \"{method}\" }}\n"
+    );
+    for k in 0..6 {
+        let place = 0.1 * (k + 1) as f64;
+        let end = match k {
+            0 => Some(0.0),
+            5 => Some(0.7),
+            _ => None,
+        };
+        let anchor = end.map(|end| {
+            format!("spring = [{{ anchor = {}, stiffness = {stiffness:e}, rest_length = 0.05 }}]\n", at(end))
+        });
+        text += &format!(
+            "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.02 }} }}\nmass = 0.1\nposition = {}\n\
+             velocity = [0, {}, 0]\n{}",
+            at(place),
+            if k == 0 { speed } else { 0.0 },
+            anchor.unwrap_or_default()
+        );
+    }
+    for k in 0..5 {
+        text += &format!(
+            "[[spring]]\nbetween = [\"b{k}\", \"b{}\"]\nstiffness = {stiffness:e}\nrest_length = 0.05\n",
+            k + 1
+        );
+    }
+    parsed(&text, &[])
+}
+
+#[test]
+fn springs_in_balance_hold_no_run_up_by_their_rounding() {
+    for (stiffness, speed, methods) in [
+        (1e4, 0.0, &["auto", "implicit"][..]),
+        (1e9, 0.0, &["auto", "implicit"]),
+        (1e4, 1e-3, &["auto"]),
+        (1e6, 1e-3, &["auto"]),
+    ] {
+        for method in methods {
+            let scene = stretched(stiffness, speed, method);
+            let job = Job::of(&scene, &provenance());
+            let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+            let mut sink = MemorySink::default();
+            simulation.begin(&mut sink).unwrap();
+            // Twenty steps a period of the fastest wave; some for those that do not move.
+            let periods = if speed > 0.0 { (4.0 * stiffness / 0.1).sqrt() / std::f64::consts::TAU } else { 0.0 };
+            let most = 200 + (20.0 * periods) as usize;
+            let outcome = simulation.run(&mut sink, &mut StopAfter(most)).unwrap();
+            println!("k = {stiffness:e}, {speed} m/s, {method}: {:?}", simulation.statistics());
+            assert_eq!(outcome, Outcome::Completed, "k = {stiffness:e}, {speed} m/s, {method}");
+        }
+    }
+}

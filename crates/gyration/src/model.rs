@@ -64,6 +64,8 @@ impl Model {
 
     /// The model with springs between its bodies.
     ///
+    /// To be called when all bodies are what they are to be.
+    ///
     /// # Panics
     /// If a bond does not join two bodies of the model, or has a dashpot at a body without inertia, whose velocity no
     /// other body feels.
@@ -115,9 +117,9 @@ impl Model {
         (0..self.bodies.len()).flat_map(|body| self.bonds.of(body).map(move |end| (body, end.other())))
     }
 
-    /// Whether other bodies act on a body.
+    /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
-        self.bonds.of(body).next().is_some()
+        self.bonds.of(body).any(|end| end.bond.law.acts())
     }
 
     /// Hands what acts on a body to `each`, in the order in which it is summed; stops at the first error.

@@ -10,6 +10,8 @@ export interface SpringEnd {
 
 export interface Spring {
   ends: [SpringEnd, SpringEnd];
+  /** The length without force [m]. */
+  rest: number;
 }
 
 /** All springs of the scene. */
@@ -20,8 +22,9 @@ export function springsOf(header: Header): Spring[] {
     const place = index.get(String(table(body).name));
     if (place === undefined) return [];
     return list(table(body).spring).map((spring): Spring => {
-      const { point, anchor } = table(spring);
+      const { point, anchor, rest_length } = table(spring);
       return {
+        rest: Number(rest_length ?? 0),
         ends: [
           { body: place, at: vector(point) },
           { body: null, at: vector(anchor) },
@@ -35,6 +38,7 @@ export function springsOf(header: Header): Spring[] {
     if (one === undefined || other === undefined) return [];
     return [
       {
+        rest: Number(table(spring).rest_length ?? 0),
         ends: [
           { body: one, at: vector(here) },
           { body: other, at: vector(there) },

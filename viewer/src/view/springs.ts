@@ -12,18 +12,20 @@ const COLOR = "#5f6773";
 const TEETH = 9;
 /** The part of a spring at each end that is straight. */
 const STRAIGHT = 0.12;
-/** Half the width of a spring, in its first length. */
+/** Half the width of a spring, in its length without force or in half a size of its body, if that is more. */
 const WIDTH = 0.09;
 
 export class SpringLayer {
   readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOR }));
   private readonly springs: Spring[];
   private readonly position: BufferAttribute;
-  /** Half the width of each [m]; known once it has been placed. */
-  private readonly widths: number[] = [];
+  /** Half the width of each [m]. */
+  private readonly widths: number[];
 
   constructor(recording: Recording) {
     this.springs = springsOf(recording.header);
+    const size = (body: number | null) => (body === null ? 0 : recording.header.bodies[body].size);
+    this.widths = this.springs.map(({ ends, rest }) => WIDTH * Math.max(rest, 0.5 * size(ends[0].body)));
     const points = TEETH + 3;
     const count = this.springs.length * points;
     this.position = new BufferAttribute(new Float32Array(3 * count), 3).setUsage(DynamicDrawUsage);
@@ -40,7 +42,6 @@ export class SpringLayer {
     if (!this.lines.visible) return;
     this.springs.forEach(({ ends }, spring) => {
       const [from, to] = ends.map((end) => placed(end, frame));
-      this.widths[spring] ??= WIDTH * norm(difference(to, from));
       zigzag(from, to, this.widths[spring]).forEach(([x, y, z], k) => {
         this.position.setXYZ(spring * (TEETH + 3) + k, x, y, z);
       });

@@ -8,7 +8,7 @@ import { bodyNamed, headerOf } from "./made";
 
 const resolved = {
   body: [
-    { name: "a", spring: [{ point: [0, 0, 1], anchor: [1, 2, 3], stiffness: 1 }] },
+    { name: "a", spring: [{ point: [0, 0, 1], anchor: [1, 2, 3], stiffness: 1, rest_length: 0.3 }] },
     { name: "b", spring: [] },
   ],
   spring: [
@@ -38,6 +38,7 @@ describe("springs", () => {
         { body: 0, at: [2, 0, 0] },
       ],
     ]);
+    expect(springsOf(header).map(({ rest }) => rest)).toEqual([0.3, 0]);
     expect(springsOf(headerOf())).toEqual([]);
   });
 

@@ -19,6 +19,9 @@ pub(super) fn bonds(
     let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
     let bond = |Placed { key, value }: &Placed<file::Bond>| {
         let [Some(&one), Some(&other)] = value.between.each_ref().map(|name| named.get(name)) else { return None };
+        if one == other {
+            return None;
+        }
         let law = SpringLaw {
             stiffness: value.stiffness.value(),
             rest_length: value.rest_length.value(),
@@ -28,7 +31,12 @@ pub(super) fn bonds(
         let ends = bond.bodies.map(|body| assembled[body].as_ref());
         let [Some(one), Some(other)] = ends else { return None };
         if law.is_directed() && bond.length([&placement(&one.start), &placement(&other.start)]) == 0.0 {
-            let message = "the spring starts with no length and has no direction";
+            let [x, y, z] = placement(&one.start).place(&bond.points[0]).into();
+            let (first, second) = (&one.body.name, &other.body.name);
+            let message = format!(
+                "the spring starts with no length and has no direction: both points, of \"{first}\" and of \"{second}\", \
+                 are at [{x}, {y}, {z}]"
+            );
             let help = "move a body or a point, or leave out `rest_length` and `damping`";
             reporter.note(&key.key("points"), message, help);
         }

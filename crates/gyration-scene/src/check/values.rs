@@ -1,4 +1,5 @@
-//! What the structure cannot say about supports, contacts and times: names, references, directions, counts.
+//! What the structure cannot say about supports, contacts, springs between bodies and times: names, references,
+//! directions, counts.
 //!
 //! Bodies are checked where they are built.
 
@@ -86,7 +87,7 @@ fn ends(known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
             let message = if !known.contains(*name) {
                 (format!("there is no body \"{name}\""), suggest::fix(name, known.iter().map(String::as_str), "body"))
             } else if names[..end].contains(&Some(name)) {
-                let help = "name two bodies; a spring between points of one is its own affair";
+                let help = "name two different bodies; to a point of space leads a `spring` of the body";
                 (format!("both ends are at the body \"{name}\""), help.to_owned())
             } else {
                 continue;

@@ -1,26 +1,30 @@
-//! Blocks of a state whose equations are solved apart.
+//! Sets of bodies whose equations are solved apart: each that acts on no other.
 
-use gyration_ode::{BlockMatrix, Pattern};
+use gyration_ode::{BlockMatrix, Components};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-/// The blocks whose equations are solved apart: all bodies together where some act on others.
-pub(super) fn apart(blocks: &[Range<usize>], pattern: &Pattern) -> Vec<Range<usize>> {
-    let whole = 0..blocks.last().map_or(0, |block| block.end);
-    if pattern.is_uncoupled() { blocks.to_vec() } else { std::iter::once(whole).collect() }
+/// The places of the numbers of each set of blocks that hang together.
+pub(super) fn apart(slopes: &BlockMatrix, blocks: &[Range<usize>]) -> Vec<Vec<usize>> {
+    let places = |members: &[usize]| members.iter().flat_map(|block| blocks[*block].clone()).collect();
+    Components::of(slopes.pattern(), blocks.len()).iter().map(places).collect()
 }
 
-/// The matrices of these blocks.
-pub(super) fn together(slopes: BlockMatrix, blocks: &[Range<usize>]) -> Vec<DMatrix<f64>> {
-    if slopes.pattern().is_uncoupled() {
-        return slopes.diagonal().to_vec();
-    }
-    let n = blocks.last().map_or(0, |block| block.end);
-    let mut whole = DMatrix::zeros(n, n);
-    for (row, rows) in blocks.iter().enumerate() {
-        for (column, part) in slopes.row(row) {
-            whole.view_mut((rows.start, blocks[column].start), part.shape()).copy_from(part);
+/// The matrix of each of these sets.
+pub(super) fn together(slopes: &BlockMatrix, blocks: &[Range<usize>]) -> Vec<DMatrix<f64>> {
+    let matrix = |members: &[usize]| {
+        let mut starts = vec![0; blocks.len()];
+        let size = members.iter().fold(0, |start, block| {
+            starts[*block] = start;
+            start + blocks[*block].len()
+        });
+        let mut matrix = DMatrix::zeros(size, size);
+        for row in members {
+            for (column, part) in slopes.row(*row) {
+                matrix.view_mut((starts[*row], starts[column]), part.shape()).copy_from(part);
+            }
         }
-    }
-    vec![whole]
+        matrix
+    };
+    Components::of(slopes.pattern(), blocks.len()).iter().map(matrix).collect()
 }

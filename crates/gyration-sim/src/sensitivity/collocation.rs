@@ -10,7 +10,6 @@
 
 use super::stage_equations::{STAGES, Square, StageEquations};
 use nalgebra::DMatrix;
-use std::ops::Range;
 
 /// c, the zeros of d⁴/dx⁴ (x⁴ (x − 1)⁵).
 pub(super) const NODES: [f64; STAGES] =
@@ -62,24 +61,26 @@ impl CollocationRule {
     /// Makes a step of a size from S₀; none if the equations have no solution.
     pub fn step(
         &self,
-        blocks: &[Range<usize>],
+        sets: &[Vec<usize>],
         start: &DMatrix<f64>,
         size: f64,
         stages: &NodeValues,
     ) -> Option<CollocationStep> {
         let (rows, columns) = start.shape();
         let mut increments = vec![DMatrix::zeros(rows, columns); STAGES];
-        for (block, range) in blocks.iter().enumerate() {
-            let n = range.len();
-            let slopes = std::array::from_fn(|i| &stages.slopes[i][block]);
+        for (set, places) in sets.iter().enumerate() {
+            let n = places.len();
+            let slopes = std::array::from_fn(|i| &stages.slopes[i][set]);
             let mut solved = DMatrix::zeros(STAGES * n, columns);
-            let own = start.rows(range.start, n);
+            let own = start.select_rows(places);
             for (i, (slopes, forcing)) in slopes.iter().zip(&stages.forcing).enumerate() {
-                solved.rows_mut(i * n, n).copy_from(&(*slopes * own + forcing.rows(range.start, n)));
+                solved.rows_mut(i * n, n).copy_from(&(*slopes * &own + forcing.select_rows(places)));
             }
             StageEquations::new(self.inverse / size, slopes).solve(&mut solved)?;
             for (i, increment) in increments.iter_mut().enumerate() {
-                increment.rows_mut(range.start, n).copy_from(&solved.rows(i * n, n));
+                for (row, place) in places.iter().enumerate() {
+                    increment.row_mut(*place).copy_from(&solved.row(i * n + row));
+                }
             }
         }
         let rate = |i: usize| {
@@ -141,8 +142,7 @@ mod tests {
         slopes: impl Fn(f64) -> DMatrix<f64>,
         forcing: impl Fn(f64) -> DMatrix<f64>,
     ) -> DMatrix<f64> {
-        let (rule, size, blocks) =
-            (CollocationRule::new(), 1.0 / steps as f64, vec![Range { start: 0, end: start.nrows() }]);
+        let (rule, size, blocks) = (CollocationRule::new(), 1.0 / steps as f64, vec![(0..start.nrows()).collect()]);
         let mut value = start.clone();
         for k in 0..steps {
             let times = NODES.map(|node| (k as f64 + node) * size);

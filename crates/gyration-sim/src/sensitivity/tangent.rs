@@ -51,6 +51,8 @@ const INSIDE: f64 = 1e-10;
 #[derive(Default)]
 pub(super) struct Nodes {
     stages: NodeValues,
+    /// The sets of numbers whose equations are solved apart.
+    sets: Vec<Vec<usize>>,
     /// The state there, just inside of the step.
     pub states: Vec<State>,
     /// ∂g/∂p, a column for each number.
@@ -223,8 +225,9 @@ impl<'a> Tangent<'a> {
     fn attempt(&mut self, end: f64) -> Result<f64, Inadmissible> {
         let size = end - self.time;
         let nodes = self.nodes(self.time, end)?;
-        let blocks = apart(self.system.blocks(), self.system.pattern());
-        let Some(step) = self.rule.step(&blocks, &self.state, size, &nodes.stages) else { return Ok(CHANGE.0 * size) };
+        let Some(step) = self.rule.step(&nodes.sets, &self.state, size, &nodes.stages) else {
+            return Ok(CHANGE.0 * size);
+        };
         let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
         let error = self.error(&step, &powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
@@ -253,7 +256,8 @@ impl<'a> Tangent<'a> {
             let inside = self.at.time - INSIDE * (to - from);
             self.system.jacobian(inside, &self.at.bodies, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
-            nodes.stages.slopes.push(together(slopes, model.blocks()));
+            nodes.sets = apart(&slopes, model.blocks());
+            nodes.stages.slopes.push(together(&slopes, model.blocks()));
             nodes.stages.forcing.push(forcing);
             nodes.powers.push(forcing_works);
             nodes.states.push(State { time: inside, ..self.at.clone() });

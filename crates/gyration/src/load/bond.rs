@@ -51,6 +51,23 @@ pub struct Bonds {
 }
 
 impl BondLaw {
+    /// Whether it does anything.
+    pub fn acts(&self) -> bool {
+        match self {
+            Self::Spring(law) => law.stiffness > 0.0 || law.damping > 0.0,
+            Self::Bumper(law) => law.stiffness > 0.0,
+        }
+    }
+
+    /// k [N/m]: no force changes faster with the distance.
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Self::Spring(law) => law.stiffness,
+            // −F′ at l = 0.
+            Self::Bumper(law) => 4.0 * law.stiffness,
+        }
+    }
+
     /// Whether it takes energy.
     pub fn dissipates(&self) -> bool {
         matches!(self, Self::Spring(law) if law.damping > 0.0)
