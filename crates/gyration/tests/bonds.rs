@@ -142,6 +142,22 @@ fn blocks_between_joined_bodies_are_derivatives_of_the_rates() {
 }
 
 #[test]
+fn blocks_of_joined_spheres_that_the_fluid_remembers_are_derivatives_of_the_rates() {
+    let [_, sphere, ..] = shapes();
+    let variant =
+        Variant { measure: AreaMeasure::DeformedArea, incompressible: false, pinned: false, frame: Frame::Space };
+    let soft = body(sphere, [6.0, 5.0, 4.0, 3.0], variant);
+    let inertia = RigidInertia::new(&soft.solid.mass, None).unwrap();
+    let rigid = Body { kind: BodyKind::Rigid(inertia), ..soft };
+    let model = with_history(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), vec![rigid; 4]));
+    assert!(model.bodies.len() == 4 && model.bodies.iter().all(|body| body.history().is_some()));
+    let model = model.bonded(bonds(4, [DIRECTED, PLAIN]));
+    let state = state(&model);
+    assert_blocks_are_derivatives(&model, &state);
+    assert_power_is_the_rate_of_energy(&model, &state);
+}
+
+#[test]
 fn blocks_of_joined_bodies_without_inertia_are_derivatives_of_the_rates() {
     let undamped = SpringLaw { damping: 0.0, ..DIRECTED };
     let free: Vec<Body> = bodies().into_iter().filter(|body| body.pin.is_none()).collect();

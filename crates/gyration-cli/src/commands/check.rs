@@ -13,7 +13,10 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let scene = open(&arguments.scene)?;
     let survey = Survey::of(&scene).map_err(LoadError::from)?;
     let text = if arguments.json {
-        let value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": survey.bodies });
+        let mut value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": survey.bodies });
+        if !survey.springs.is_empty() {
+            value["springs"] = json!(survey.springs);
+        }
         format!("{value:#}\n")
     } else {
         survey.text(&scene)?

@@ -5,6 +5,7 @@ use super::laws::LawSurvey;
 use super::mass::MassSurvey;
 use super::modes::RestState;
 use super::rest::{Approach, RestGap};
+use super::springs::SpringSurvey;
 use crate::resistance::completed;
 use gyration::body::Body;
 use gyration::model::Model;
@@ -21,6 +22,9 @@ use std::sync::Arc;
 pub struct Survey {
     /// The bodies, in order.
     pub bodies: Vec<BodySurvey>,
+    /// The springs between bodies, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<SpringSurvey>,
 }
 
 /// What can be said of one body.
@@ -112,7 +116,8 @@ impl Survey {
         let deforms = scene.unknown_forms().iter().any(|form| form.resolution.is_some());
         let scene = if deforms { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
-        Ok(Self { bodies: (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect() })
+        let bodies = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
+        Ok(Self { bodies, springs: SpringSurvey::all(model, start) })
     }
 }
 

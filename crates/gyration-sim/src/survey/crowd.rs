@@ -12,12 +12,14 @@ use std::fmt::Write as _;
 /// A number that a gap of rest may have.
 type OfRest = fn(&RestGap) -> Option<f64>;
 
+/// Sorts of bodies that are told.
+const MOST_SORTS: usize = 8;
 /// Bodies that are told one by one; of more there is a summary.
-pub(super) const MOST_BODIES: usize = 8;
+pub(super) const MOST_BODIES: usize = 100;
 
 // Writing to a string does not fail: the results of writeln! are dropped in this file.
 
-/// The bodies of each sort, in the order of the first ones; at most as many sorts as bodies are told one by one.
+/// The bodies of each sort, in the order of the first ones, as many as are told.
 pub(super) fn sorts(bodies: &[BodySurvey]) -> Vec<Vec<usize>> {
     let mut sorts: Vec<Vec<usize>> = Vec::new();
     let mut known = HashMap::new();
@@ -28,7 +30,7 @@ pub(super) fn sorts(bodies: &[BodySurvey]) -> Vec<Vec<usize>> {
             None => sorts.push(vec![index]),
         }
     }
-    sorts.truncate(MOST_BODIES);
+    sorts.truncate(MOST_SORTS);
     sorts
 }
 
@@ -141,9 +143,9 @@ mod tests {
             let scene = Scene::parse("crowd.toml", &text, Path::new(""), &[]).unwrap();
             Survey::of(&scene).unwrap().text(&scene).unwrap()
         };
-        let text = told(20);
-        assert_eq!(text.lines().count(), told(200).lines().count());
-        assert!(text.contains("\n19 bodies alike, b0 to b19\n") && text.contains("\nbody b3\n"), "{text}");
+        let text = told(120);
+        assert_eq!(text.lines().count(), told(300).lines().count());
+        assert!(text.contains("\n119 bodies alike, b0 to b119\n") && text.contains("\nbody b3\n"), "{text}");
         let line = text.lines().find(|line| line.starts_with("  on table: gap 0.04")).unwrap();
         assert!(line.contains(" to 0.04") && line.ends_with(" m at the start"), "{line}");
         assert_eq!(text.matches("[[body]]").count(), 2, "{text}");

@@ -16,6 +16,7 @@ mod laws;
 mod mass;
 mod modes;
 mod rest;
+mod springs;
 mod text;
 mod words;
 
@@ -25,4 +26,5 @@ pub use laws::LawSurvey;
 pub use mass::MassSurvey;
 pub use modes::{ModeSurvey, RestState, ShapeSurvey};
 pub use rest::{Approach, RestGap};
+pub use springs::SpringSurvey;
 pub use words::write_rest;

@@ -2,6 +2,7 @@
 
 use super::bodies::Survey;
 use super::crowd::{MOST_BODIES, sorts, write_crowd};
+use super::springs::write_springs;
 use super::words::write_body;
 use crate::format::vector;
 use gyration_scene::{NotToml, Scene};
@@ -44,6 +45,7 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let (origin, normal) = (vector(&support.origin.into()), vector(&support.normal.into()));
         let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
     }
+    write_springs(&mut text, &survey.springs);
     if survey.bodies.len() > MOST_BODIES {
         write_crowd(&mut text, &survey.bodies);
         return text;

@@ -45,10 +45,17 @@ impl Calibration {
     }
 }
 
-/// The index of the body.
+/// The index of the body, which nothing joins to others.
 pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
     let found = model.bodies.iter().position(|body| body.name == experiment.body);
-    found.ok_or_else(|| format!("there is no body `{}`", experiment.body))
+    let found = found.ok_or_else(|| format!("there is no body `{}`", experiment.body))?;
+    if model.is_joined(found) {
+        let name = &experiment.body;
+        return Err(format!(
+            "springs join the body `{name}` to others: what is measured of it would be of all of them"
+        ));
+    }
+    Ok(found)
 }
 
 /// The normal of the first support that acts on a body.

@@ -1,0 +1,104 @@
+//! What the survey says of the springs between bodies: how long they are, and how fast they swing.
+//!
+//!   T = 2π √(μ/k),   ζ = c/(2 √(kμ)),   1/μ = 1/m₁ + 1/m₂
+//!
+//! of two free bodies on the line of the spring; what else holds or turns them makes it another period.
+
+use crate::format::significant;
+use gyration::load::{Bond, BondLaw};
+use gyration::model::Model;
+use gyration::state::State;
+use serde::Serialize;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+/// Springs that are told one by one.
+const MOST: usize = 12;
+
+/// What can be said of a spring between two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpringSurvey {
+    /// Names of its bodies.
+    pub between: [String; 2],
+    /// k [N/m].
+    pub stiffness: f64,
+    /// l₀ [m].
+    pub rest_length: f64,
+    /// l at the start [m].
+    pub initial_length: f64,
+    /// T [s]; none without stiffness.
+    pub period: Option<f64>,
+    /// ζ; none without stiffness or without a dashpot.
+    pub damping_ratio: Option<f64>,
+}
+
+impl SpringSurvey {
+    /// The springs between the bodies of a model, in order.
+    pub fn all(model: &Model, start: &State) -> Vec<Self> {
+        model.bonds().iter().filter_map(|bond| Self::of(model, start, bond)).collect()
+    }
+
+    fn of(model: &Model, start: &State, bond: &Bond) -> Option<Self> {
+        let BondLaw::Spring(law) = bond.law else { return None };
+        let [one, other] = bond.bodies.map(|body| start.motion(model, body).placement);
+        let [m, n] = bond.bodies.map(|body| model.bodies[body].solid.mass.mass);
+        let reduced = m * n / (m + n);
+        let period = (law.stiffness > 0.0).then(|| TAU * (reduced / law.stiffness).sqrt());
+        let damped = period.filter(|_| law.damping > 0.0);
+        Some(Self {
+            between: bond.bodies.map(|body| model.bodies[body].name.clone()),
+            stiffness: law.stiffness,
+            rest_length: law.rest_length,
+            initial_length: bond.length([&one, &other]),
+            period,
+            damping_ratio: damped.map(|_| law.damping / (2.0 * (law.stiffness * reduced).sqrt())),
+        })
+    }
+}
+
+/// The springs as text, a line each.
+pub(super) fn write_springs(text: &mut String, springs: &[SpringSurvey]) {
+    let short = |value: f64| significant(value, 5);
+    for spring in springs.iter().take(MOST) {
+        let [one, other] = &spring.between;
+        let (stiffness, rest, length) =
+            (short(spring.stiffness), short(spring.rest_length), short(spring.initial_length));
+        let period = spring.period.map(|period| format!("; period {} s", short(period))).unwrap_or_default();
+        let ratio = spring.damping_ratio.map(|ratio| format!(", damping ratio {}", short(ratio))).unwrap_or_default();
+        let _ = writeln!(
+            text,
+            "spring     {one} to {other}: {stiffness} N/m, {rest} m without force, {length} m at the start{period}{ratio}"
+        );
+    }
+    if springs.len() > MOST {
+        let _ = writeln!(text, "           and {} springs more: all with --json", springs.len() - MOST);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::survey::Survey;
+    use gyration_scene::Scene;
+    use std::path::Path;
+
+    #[test]
+    fn springs_are_told_with_the_period_of_two_free_bodies() {
+        let ball = |name: &str, mass: f64, place: f64| {
+            format!(
+                "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {mass}\nposition = [{place}, 0, 0]\n"
+            )
+        };
+        let spring = "[[spring]]\nbetween = [\"a\", \"b\"]\npoints = [[0.1, 0, 0], [0, 0, 0]]\nstiffness = 6\nrest_length = 1.5\ndamping = 1.2\n";
+        let text = ["time = { end = 1, sample = 1 }\n", &ball("a", 1.0, 0.0), &ball("b", 2.0, 2.0), spring].concat();
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+        let survey = Survey::of(&scene).unwrap();
+        let [told] = &survey.springs[..] else { panic!("{:?}", survey.springs) };
+        // μ = 2/3 kg, ω = 3 rad/s, ζ = 1.2/(2·2).
+        assert!((told.period.unwrap() - std::f64::consts::TAU / 3.0).abs() < 1e-15);
+        assert!((told.damping_ratio.unwrap() - 0.3).abs() < 1e-15 && (told.initial_length - 1.9).abs() < 1e-15);
+        let line =
+            "spring     a to b: 6 N/m, 1.5 m without force, 1.9 m at the start; period 2.0944 s, damping ratio 0.3\n";
+        let words = survey.text(&scene).unwrap();
+        assert!(words.contains(line), "{words}");
+    }
+}
