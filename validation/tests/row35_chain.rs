@@ -33,7 +33,8 @@ impl Springs {
     fn between(&self, n: usize) -> String {
         let Self { stiffness, damping, face } = self;
         format!(
-            "[[spring]]\nbetween = [\"g{n}\", \"g{}\"]\npoints = [[{face}, 0, 0], [{}, 0, 0]]\nstiffness = {stiffness}\n\
+            "[[spring]]\nbetween = [\"g{n}\", \"g{}\"]\npoints = [[{face}, 0, 0], [{}, 0, 0]]\n\
+             stiffness = {stiffness}\n\
              damping = {damping}\nrest_length = {:?}\n",
             n + 1,
             -face,
@@ -45,7 +46,8 @@ impl Springs {
     fn half(&self, side: f64, n: usize) -> String {
         let anchor = (n as f64 + 0.5 * side) * SPACING;
         format!(
-            "spring = [{{ point = [{}, 0, 0], anchor = [{anchor:?}, 0, 0], stiffness = {}, damping = {}, rest_length = {:?} }}]\n",
+            "spring = [{{ point = [{}, 0, 0], anchor = [{anchor:?}, 0, 0], stiffness = {}, \
+             damping = {}, rest_length = {:?} }}]\n",
             side * self.face,
             2.0 * self.stiffness,
             2.0 * self.damping,

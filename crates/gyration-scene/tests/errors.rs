@@ -230,7 +230,8 @@ fn errors_of_supports_and_contacts_stand_at_their_place() {
 fn errors_of_bodies_stand_at_their_place() {
     let sphere = "shape = { sphere = { radius = 1 } }";
     let two = format!(
-        "[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[body]]\nname = \"c\"\n{sphere}\nmass = 1\nposition = [0, 0, 7]\n"
+        "[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n\
+         [[body]]\nname = \"c\"\n{sphere}\nmass = 1\nposition = [0, 0, 7]\n"
     );
     let rows: &[(String, &str, &str, &str)] = &[
         (format!("§[[body]]\nname = \"b\"\n{sphere}"), "body.b", "no mass", "exactly one"),
@@ -330,19 +331,22 @@ fn errors_of_bodies_stand_at_their_place() {
             "move the anchor",
         ),
         (
-            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[spring]]\nbetween = [\"b\", §\"c\"]\nstiffness = 1"),
+            format!("{two}[[spring]]\nbetween = [\"b\", §\"d\"]\nstiffness = 1"),
             "spring.0.between.1",
-            "no body \"c\"",
-            "body: b, ball",
+            "no body \"d\"",
+            "body: b, ball, c",
         ),
         (
-            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = [0, 0, 9]\n[[spring]]\nbetween = [\"b\", §\"b\"]\nstiffness = 1"),
+            format!("{two}[[spring]]\nbetween = [\"b\", §\"b\"]\nstiffness = 1"),
             "spring.0.between.1",
             "both ends are at the body",
             "two different bodies",
         ),
         (
-            format!("{two}[[spring]]\nbetween = [\"b\", \"c\"]\npoints = §[[0, 0, -1], [0, 0, 1]]\nstiffness = 1\ndamping = 2"),
+            format!(
+                "{two}[[spring]]\nbetween = [\"b\", \"c\"]\npoints = §[[0, 0, -1], [0, 0, 1]]\n\
+                 stiffness = 1\ndamping = 2"
+            ),
             "spring.0.points",
             "no length",
             "leave out `rest_length` and `damping`",

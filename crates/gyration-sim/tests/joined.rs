@@ -85,7 +85,7 @@ pub const FREE: &str = r#"
     gradient = [[1.1, 0.1, 0], [0, 0.9, 0], [0, 0.05, 1.0101010101010102]]
     [[body]]
     name = "c"
-    shape = { points = [{ mass = 1, at = [0.1, 0, 0] }, { mass = 2, at = [0, 0.1, 0] }, { mass = 1, at = [0, 0, 0.1] }] }
+    shape = { points = [{ mass = 1, at = [0.1, 0, 0] }, { mass = 2, at = [0, 0.1, 0] }, { mass = 1, at = [0, 0, 0.1] }]}
     position = [10, 0.6, 0.2]
     [[spring]]
     between = ["a", "b"]
@@ -162,7 +162,8 @@ fn explicit_and_implicit_steps_follow_the_same_bodies() {
 fn drawn_together() -> String {
     let ball = |name: &str, place: f64| {
         format!(
-            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\nposition = [{place}, 0, 0]\n"
+            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\n\
+             position = [{place}, 0, 0]\n"
         )
     };
     [

@@ -22,7 +22,8 @@ fn balls(starts: &[([f64; 3], [f64; 3])], stiffness: f64, overrides: &[&str]) ->
             .to_owned();
     for (k, (place, speed)) in starts.iter().enumerate() {
         text += &format!(
-            "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {}\nposition = {place:?}\nvelocity = {speed:?}\n\
+            "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {}\n\
+             position = {place:?}\nvelocity = {speed:?}\n\
              angular_velocity = [1, 2, {k}]\n",
             1.0 + 0.1 * k as f64
         );

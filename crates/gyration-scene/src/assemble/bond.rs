@@ -34,8 +34,8 @@ pub(super) fn bonds(
             let [x, y, z] = placement(&one.start).place(&bond.points[0]).into();
             let (first, second) = (&one.body.name, &other.body.name);
             let message = format!(
-                "the spring starts with no length and has no direction: both points, of \"{first}\" and of \"{second}\", \
-                 are at [{x}, {y}, {z}]"
+                "the spring starts with no length and has no direction: both points, of \"{first}\" and of \
+                 \"{second}\", are at [{x}, {y}, {z}]"
             );
             let help = "move a body or a point, or leave out `rest_length` and `damping`";
             reporter.note(&key.key("points"), message, help);

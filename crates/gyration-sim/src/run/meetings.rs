@@ -204,7 +204,8 @@ mod tests {
     fn islands_of_a_checkpoint_hold_each_body_once_with_all_to_which_it_is_joined() {
         let body = |k: usize| {
             format!(
-                "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\nposition = [{k}, 0, 0]\n"
+                "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\n\
+                 position = [{k}, 0, 0]\n"
             )
         };
         let text: String =

@@ -67,7 +67,8 @@ pub(super) fn write_springs(text: &mut String, springs: &[SpringSurvey]) {
         let ratio = spring.damping_ratio.map(|ratio| format!(", damping ratio {}", short(ratio))).unwrap_or_default();
         let _ = writeln!(
             text,
-            "spring     {one} to {other}: {stiffness} N/m, {rest} m without force, {length} m at the start{period}{ratio}"
+            "spring     {one} to {other}: {stiffness} N/m, {rest} m without force, \
+             {length} m at the start{period}{ratio}"
         );
     }
     if springs.len() > MOST {
@@ -85,10 +86,12 @@ mod tests {
     fn springs_are_told_with_the_period_of_two_free_bodies() {
         let ball = |name: &str, mass: f64, place: f64| {
             format!(
-                "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {mass}\nposition = [{place}, 0, 0]\n"
+                "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {mass}\n\
+                 position = [{place}, 0, 0]\n"
             )
         };
-        let spring = "[[spring]]\nbetween = [\"a\", \"b\"]\npoints = [[0.1, 0, 0], [0, 0, 0]]\nstiffness = 6\nrest_length = 1.5\ndamping = 1.2\n";
+        let spring = "[[spring]]\nbetween = [\"a\", \"b\"]\npoints = [[0.1, 0, 0], [0, 0, 0]]\n\
+                      stiffness = 6\nrest_length = 1.5\ndamping = 1.2\n";
         let text = ["time = { end = 1, sample = 1 }\n", &ball("a", 1.0, 0.0), &ball("b", 2.0, 2.0), spring].concat();
         let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
         let survey = Survey::of(&scene).unwrap();
