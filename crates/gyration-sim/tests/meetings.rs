@@ -170,7 +170,7 @@ fn a_run_goes_on_from_any_checkpoint_to_the_same_bytes() {
 
 #[test]
 fn rows_at_events_are_those_of_the_path() {
-    // A floor far below makes apexes; gravity bends the ways.
+    // Gravity bends the ways, and bodies that rise have an apex.
     let overrides = ["world.gravity=[0, 0, -2]", "time.end=2"];
     let (model, start, plan) = cloud(9, &overrides);
     let rows = |wants_rows| {
