@@ -16,6 +16,7 @@ mod facet_moments;
 mod mass;
 mod materials;
 mod moving;
+mod pairs;
 mod rigid_rates;
 mod shapes;
 mod solids;

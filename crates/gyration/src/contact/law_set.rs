@@ -5,7 +5,7 @@
 
 use super::potential::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, Term};
-use crate::surface::{Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments};
+use crate::surface::{MomentPlan, Moments, OrientedMoments, request};
 use std::sync::Arc;
 
 /// What a body meets.
@@ -150,21 +150,11 @@ impl LawSet {
     }
 }
 
-/// The index of the request for this exponent, made or raised to the order.
-fn request(requests: &mut Vec<MomentRequest>, exponent: f64, order: usize) -> usize {
-    let kernel = Kernel::Power(exponent);
-    if let Some(index) = requests.iter().position(|request| request.kernel == kernel) {
-        requests[index].order = requests[index].order.max(order);
-        return index;
-    }
-    requests.push(MomentRequest { kernel, order });
-    requests.len() - 1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::contact::{Damping, Friction, Repulsion};
+    use crate::surface::{Kernel, MomentRequest};
 
     #[test]
     fn laws_share_the_powers_that_they_have_in_common() {

@@ -57,3 +57,4 @@ pub use line::LineKernel;
 pub use moments::{Kernel, MomentRequest, Moments};
 pub use oriented::OrientedMoments;
 pub use plan::MomentPlan;
+pub(crate) use plan::request;

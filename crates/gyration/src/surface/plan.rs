@@ -1,7 +1,7 @@
 //! Requests of moments, planned once for each contact.
 
 use super::facets::{BATCH, FacetPlan};
-use super::moments::MomentRequest;
+use super::moments::{Kernel, MomentRequest};
 
 /// The moments that a contact needs, with all that does not depend on the gaps worked out once.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,4 +22,15 @@ impl MomentPlan {
     pub fn requests(&self) -> &[MomentRequest] {
         &self.requests
     }
+}
+
+/// The index of the request for d^−ν among those wanted, made or raised to the order.
+pub(crate) fn request(requests: &mut Vec<MomentRequest>, exponent: f64, order: usize) -> usize {
+    let kernel = Kernel::Power(exponent);
+    if let Some(index) = requests.iter().position(|request| request.kernel == kernel) {
+        requests[index].order = requests[index].order.max(order);
+        return index;
+    }
+    requests.push(MomentRequest { kernel, order });
+    requests.len() - 1
 }

@@ -1,0 +1,117 @@
+//! What acts between two bodies, and the moments of their surfaces that it needs.
+
+use crate::contact::{AreaMeasure, ContactLaw, Damping, Friction, LawKind, Repulsion};
+use crate::surface::{MomentPlan, request};
+
+/// The laws between two bodies: a repulsion, which places the plane, and what resists their motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairLaws {
+    /// In which measure of area the tractions are given.
+    pub measure: AreaMeasure,
+    /// What places the plane.
+    pub repulsion: Repulsion,
+    laws: Vec<ContactLaw>,
+    /// Of d^(1−ν), d^−ν and d^−(ν+1).
+    pub(super) placing: MomentPlan,
+    pub(super) viscous: Vec<ViscousLaw>,
+    /// d^−ν′ of each viscous law.
+    pub(super) resisting: MomentPlan,
+    /// d^−ν′ and d^−(ν′+1) of each.
+    pub(super) resisting_slopes: MomentPlan,
+}
+
+/// Damping or friction: β (d/d₀)^−ν′.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ViscousLaw {
+    pub kind: LawKind,
+    /// β d₀^ν′.
+    pub coefficient: f64,
+    /// ν′.
+    pub exponent: f64,
+    /// Where its moments stand in the plan `resisting`.
+    pub value: usize,
+    /// Where those of ν′ and of ν′ + 1 stand in the plan `resisting_slopes`.
+    pub slopes: [usize; 2],
+}
+
+/// Why laws cannot act between two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum PairLawsError {
+    /// Nothing places the plane.
+    #[error("no repulsion")]
+    NoRepulsion,
+    /// The potential does not grow enough towards the plane for it to stay off both bodies.
+    #[error("repulsion has the exponent {exponent}")]
+    TooWeak {
+        /// ν < 2.
+        exponent: f64,
+    },
+    /// A law that is not there between bodies.
+    #[error("no {} between bodies", .kind.name())]
+    Missing {
+        /// Its kind.
+        kind: LawKind,
+    },
+    /// A measure that is not there between bodies.
+    #[error("no such measure between bodies")]
+    Measure,
+}
+
+/// The least exponent with which a plane stays off both bodies.
+const LEAST_EXPONENT: f64 = 2.0;
+
+impl PairLaws {
+    /// Joins the laws between two bodies.
+    ///
+    /// # Errors
+    /// [`PairLawsError`]: without repulsion, with one of ν < 2, with adhesion, or per deformed area with a potential.
+    pub fn new(measure: AreaMeasure, laws: Vec<ContactLaw>) -> Result<Self, PairLawsError> {
+        let mut placing = None;
+        let mut viscous = Vec::new();
+        let (mut values, mut slopes) = (Vec::new(), Vec::new());
+        for law in &laws {
+            match law {
+                ContactLaw::Repulsion(repulsion) => placing = Some(*repulsion),
+                ContactLaw::Damping(Damping { exponent, .. }) | ContactLaw::Friction(Friction { exponent, .. }) => {
+                    let coefficient = law.terms().iter().flatten().map(|term| term.coefficient).sum();
+                    let value = request(&mut values, *exponent, 2);
+                    let slopes = [request(&mut slopes, *exponent, 2), request(&mut slopes, exponent + 1.0, 3)];
+                    viscous.push(ViscousLaw { kind: law.kind(), coefficient, exponent: *exponent, value, slopes });
+                }
+                ContactLaw::Adhesion(_) => return Err(PairLawsError::Missing { kind: LawKind::Adhesion }),
+            }
+        }
+        let repulsion = placing.filter(|law| law.alpha > 0.0).ok_or(PairLawsError::NoRepulsion)?;
+        let exponent = repulsion.exponent;
+        if exponent < LEAST_EXPONENT {
+            return Err(PairLawsError::TooWeak { exponent });
+        }
+        if measure == AreaMeasure::DeformedAreaPotential {
+            return Err(PairLawsError::Measure);
+        }
+        let mut placing = Vec::new();
+        for (order, exponent) in [exponent - 1.0, exponent, exponent + 1.0].into_iter().enumerate() {
+            request(&mut placing, exponent, order);
+        }
+        Ok(Self {
+            measure,
+            repulsion,
+            laws,
+            placing: MomentPlan::new(placing),
+            viscous,
+            resisting: MomentPlan::new(values),
+            resisting_slopes: MomentPlan::new(slopes),
+        })
+    }
+
+    /// The laws.
+    pub fn laws(&self) -> &[ContactLaw] {
+        &self.laws
+    }
+
+    /// αd₀ · (a gap d in all of a unit of surface): α d₀ (d/d₀)^(1−ν)/(ν−1) [J/m²].
+    pub(super) fn potential(&self, gap: f64) -> f64 {
+        let Repulsion { alpha, exponent, reference_gap } = self.repulsion;
+        alpha * reference_gap * libm::pow(gap / reference_gap, 1.0 - exponent) / (exponent - 1.0)
+    }
+}

@@ -1,0 +1,47 @@
+//! Two bodies that meet: one massless plane between them, which both feel as they feel a plane.
+//!
+//! A plane y = (n, c), |n| = 1, has the points n·x = c; body A is above it, body B below. With q_i = (p₀ | P) of a body,
+//! a 3×4 matrix, and X̃ = (1; X), the gap of a point is
+//!
+//!   d_i = z_i·X̃,   z_i = σ_i (q_iᵀn − c e₀),   σ_A = 1, σ_B = −1
+//!   U_i(y) = ∫ α d₀ (d_i/d₀)^(1−ν)/(ν−1) dA,   D_i = (U_i/αd₀)^(−1/(ν−1))
+//!   √Φ = √(w_A D_A) + √(w_B D_B),   U = αd₀ · min over the planes of Φ^(−(ν−1))
+//!   w_A = ℓ_B/(ℓ_A + ℓ_B),   w_B = ℓ_A/(ℓ_A + ℓ_B),   ℓ = √(reference surface)
+//!
+//! Φ is concave, so that there is one such plane, if the convex hulls of the two can be separated, and it moves
+//! analytically with them. Having no mass it is in balance: what one body exerts on it, the other takes. Source:
+//! `pairs.md`.
+//!
+//! | file       | what                                                            |
+//! |------------|-----------------------------------------------------------------|
+//! | `laws`     | what acts between two bodies, and the moments that it needs      |
+//! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
+//! | `separate` | a plane between them to begin with                               |
+//! | `plane`    | the plane of least potential, by Newton's method on log U        |
+//! | `mediator` | damping and friction against the velocities of the plane        |
+//! | `loads`    | forces, moments, energy and powers                               |
+//! | `slopes`   | their derivatives by the coordinates and velocities of both      |
+
+mod laws;
+mod loads;
+mod mediator;
+mod plane;
+mod separate;
+mod side;
+mod slopes;
+
+pub use laws::{PairLaws, PairLawsError};
+pub use loads::{PairLoads, PairScratch};
+pub use plane::Plane;
+pub use side::Side;
+pub use slopes::PairSlopes;
+
+use nalgebra::{Matrix3x4, Matrix4, Vector4};
+
+/// (p₀ | P), (ṗ₀ | Ṗ) or (f | M).
+pub(crate) type Mat34 = Matrix3x4<f64>;
+type Mat4 = Matrix4<f64>;
+type Vec4 = Vector4<f64>;
+
+/// A above the plane, B below.
+const SIGNS: [f64; 2] = [1.0, -1.0];

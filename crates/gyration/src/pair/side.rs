@@ -1,0 +1,135 @@
+//! One of the bodies of a pair: its gaps to a plane, and what its surface brings.
+
+use super::laws::PairLaws;
+use super::plane::Plane;
+use super::{Mat4, Mat34, Vec4};
+use crate::contact::Deformation;
+use crate::kinematics::{Placement, Velocity};
+use crate::surface::{GapClosed, GapField, MomentPlan, Moments, Surface};
+use crate::tensor::{Mat3, Vec3};
+
+/// One of the two bodies, or a convex part of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Side<'a> {
+    /// Its surface, relative to the centre of mass.
+    pub surface: &'a Surface,
+    /// p₀ and P.
+    pub placement: &'a Placement,
+    /// ṗ₀ and Ṗ.
+    pub velocity: &'a Velocity,
+    /// P⁻¹.
+    pub inverse: Mat3,
+    /// None of a rigid body, on which all measures of area are the same.
+    pub deformation: Option<Deformation>,
+    /// A gap that cannot be told from zero [m].
+    pub least_gap: f64,
+}
+
+/// A side with places taken from the centre of mass of A, from which no large numbers cancel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Half<'a> {
+    pub side: Side<'a>,
+    /// σ.
+    pub sign: f64,
+    /// (p₀ − o | P).
+    pub columns: Mat34,
+    /// √w.
+    pub root_share: f64,
+    /// Whether its areas are those of the deformed body.
+    pub cofactor: Option<Mat3>,
+}
+
+/// U, and its derivatives by z: U′ = −a, U″ = h.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Potential {
+    /// U [J].
+    pub value: f64,
+    /// a = ∫α(d/d₀)^−ν X̃ dA.
+    pub first: Vec4,
+    /// h = ν ∫(α/d₀)(d/d₀)^−(ν+1) X̃⊗X̃ dA.
+    pub second: Mat4,
+}
+
+/// ∫κ X̃⊗X̃ dA from its parts.
+pub(super) fn joined(zeroth: f64, first: &Vec3, second: &Mat3) -> Mat4 {
+    let mut joined = Mat4::zeros();
+    joined[(0, 0)] = zeroth;
+    joined.fixed_view_mut::<3, 1>(1, 0).copy_from(first);
+    joined.fixed_view_mut::<1, 3>(0, 1).copy_from(&first.transpose());
+    joined.fixed_view_mut::<3, 3>(1, 1).copy_from(second);
+    joined
+}
+
+impl Half<'_> {
+    /// z of a plane.
+    pub fn heights(&self, plane: &Plane) -> Vec4 {
+        let mut heights = self.columns.tr_mul(&plane.normal);
+        heights[0] -= plane.offset;
+        self.sign * heights
+    }
+
+    /// The change of z with that of a plane.
+    pub fn heights_by(&self, normal: &Vec3, offset: f64) -> Vec4 {
+        let mut heights = self.columns.tr_mul(normal);
+        heights[0] -= offset;
+        self.sign * heights
+    }
+
+    /// The change of a plane's potential by (n, c), Tᵀ a: the transpose of that.
+    pub fn pulled_back(&self, a: &Vec4) -> Vec4 {
+        let along = self.columns * a;
+        self.sign * Vec4::new(along.x, along.y, along.z, -a[0])
+    }
+
+    /// The gaps to a plane.
+    fn field(heights: &Vec4) -> GapField {
+        GapField::new(heights[0], heights.fixed_rows::<3>(1).into())
+    }
+
+    /// The smallest gap to a plane [m] and the material point where it is.
+    pub fn smallest_gap(&self, plane: &Plane) -> (f64, Vec3) {
+        self.side.surface.smallest_gap(&Self::field(&self.heights(plane)))
+    }
+
+    /// The moments of a plan, in the measure of the pair.
+    pub fn moments(&self, plane: &Plane, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
+        let field = Self::field(&self.heights(plane));
+        match &self.cofactor {
+            Some(cofactor) => self.side.surface.deformed_moments(&field, cofactor, plan, out),
+            None => self.side.surface.planned_moments(&field, plan, out),
+        }
+    }
+
+    /// The potential of a plane.
+    pub fn potential(&self, laws: &PairLaws, plane: &Plane, room: &mut [Moments]) -> Result<Potential, GapClosed> {
+        self.moments(plane, &laws.placing, room)?;
+        let term = laws.repulsion.term();
+        let [energy, force, stiffness] = room else { unreachable!("the plan of a repulsion has three powers") };
+        Ok(Potential {
+            value: term.coefficient / (term.exponent - 1.0) * energy.zeroth,
+            first: term.coefficient * force.joined_first(),
+            second: term.exponent * term.coefficient * joined(stiffness.zeroth, &stiffness.first, &stiffness.second),
+        })
+    }
+
+    /// (ṗ₀ | Ṗ).
+    pub fn rates(&self) -> Mat34 {
+        columns(&self.side.velocity.velocity, &self.side.velocity.gradient_rate)
+    }
+}
+
+/// (a | A).
+pub(super) fn columns(first: &Vec3, rest: &Mat3) -> Mat34 {
+    let mut columns = Mat34::zeros();
+    columns.set_column(0, first);
+    columns.fixed_view_mut::<3, 3>(0, 1).copy_from(rest);
+    columns
+}
+
+impl Moments {
+    /// ∫κ X̃ dA.
+    pub(super) fn joined_first(&self) -> Vec4 {
+        let first = &self.first;
+        Vec4::new(self.zeroth, first.x, first.y, first.z)
+    }
+}

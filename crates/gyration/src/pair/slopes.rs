@@ -1,0 +1,94 @@
+//! The derivatives of what two bodies do to each other, by the coordinates and velocities of both.
+//!
+//! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
+//! change by those of one more power of the gap, and everything else by the chain rule.
+
+use super::laws::PairLaws;
+use super::loads::{Met, PairScratch, ViscousMoments};
+use super::mediator::Slope;
+use super::plane::Change;
+use super::side::Side;
+use super::{Mat34, SIGNS};
+use crate::load::{COORDINATES, Loads, Mat12};
+use crate::surface::GapClosed;
+
+/// What a pair of bodies does to both, and its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairSlopes {
+    /// (f, M) on A and on B.
+    pub on: [Loads; 2],
+    /// ∂Q_i/∂q_j.
+    pub by_place: [[Mat12; 2]; 2],
+    /// ∂Q_i/∂q̇_j.
+    pub by_rate: [[Mat12; 2]; 2],
+}
+
+impl PairSlopes {
+    /// Places the plane between two bodies, integrates the laws over both, and differentiates them.
+    ///
+    /// The area factor of a body that deforms is held.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if no plane separates them.
+    pub fn integrate(laws: &PairLaws, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
+        let met = Met::new(laws, sides, scratch)?;
+        let halves = met.halves.each_ref();
+        let mut on = [met.repulsion(0), met.repulsion(1)];
+        let zeros = [[Mat12::zeros(); 2]; 2];
+        let mut slopes = Self { on: [Loads::default(); 2], by_place: zeros, by_rate: zeros };
+        let changes: [Change; BOTH] =
+            std::array::from_fn(|column| met.placed.along(halves, places(column).each_ref()));
+        for (column, change) in changes.iter().enumerate() {
+            add(&mut slopes.by_place, column, [0, 1].map(|side| met.repulsion_along(side, change)));
+        }
+        let normal = &met.placed.plane.normal;
+        met.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
+            on[0] += mediator.loads(0);
+            on[1] += mediator.loads(1);
+            let bent = [0, 1].map(|side| Slope::new(law, shares, side, moments[side]));
+            for (column, change) in changes.iter().enumerate() {
+                let (placed, places) = ((&met.placed, shares), places(column));
+                let (foot, places) = ((&met.foot, &bent), (places.each_ref(), change));
+                add(&mut slopes.by_place, column, mediator.along_places(law, halves, placed, foot, places));
+                let (body, moved) = (column / COORDINATES, unit(column % COORDINATES));
+                add(&mut slopes.by_rate, column, mediator.along_rates(normal, body, &moved));
+            }
+        })?;
+        slopes.on = met.opposite(on);
+        Ok(slopes)
+    }
+}
+
+/// The coordinates of both bodies.
+const BOTH: usize = 2 * COORDINATES;
+
+/// The columns of a matrix that are one, counted by (p₀ | P) column by column.
+fn unit(coordinate: usize) -> Mat34 {
+    let mut unit = Mat34::zeros();
+    unit[coordinate] = 1.0;
+    unit
+}
+
+/// (δq_A, δq_B) of one coordinate of the two.
+fn places(column: usize) -> [Mat34; 2] {
+    [0, 1].map(|body| if column / COORDINATES == body { unit(column % COORDINATES) } else { Mat34::zeros() })
+}
+
+/// Adds the change of (f | M) on both with one coordinate of the two.
+fn add(slopes: &mut [[Mat12; 2]; 2], column: usize, change: [Mat34; 2]) {
+    let (body, coordinate) = (column / COORDINATES, column % COORDINATES);
+    for (rows, change) in slopes.iter_mut().zip(&change) {
+        for (entry, number) in rows[body].column_mut(coordinate).iter_mut().zip(change.iter()) {
+            *entry += number;
+        }
+    }
+}
+
+impl Met<'_> {
+    /// The change of the repulsion on a side.
+    fn repulsion_along(&self, side: usize, change: &Change) -> Mat34 {
+        let (normal, first) = (&self.placed.plane.normal, &self.placed.potentials[side].first);
+        let pressed = (change.weights[side] * normal + change.normal) * first.transpose();
+        SIGNS[side] * self.placed.weights[side] * (pressed + normal * change.first[side].transpose())
+    }
+}
