@@ -7,7 +7,7 @@ use crate::body::{Body, Slots};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, Bonds};
+use crate::load::{Applied, Bond, Joints};
 use crate::support::Support;
 use crate::tensor::Vec3;
 use std::convert::Infallible;
@@ -25,7 +25,7 @@ pub struct Model {
     pub bodies: Vec<Arc<Body>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
-    bonds: Bonds,
+    bonds: Joints<Bond>,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -49,7 +49,7 @@ impl Model {
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
         let has_potential = has_potential(&bodies);
-        let (fluid, bonds) = (None, Bonds::default());
+        let (fluid, bonds) = (None, Joints::default());
         let model =
             Self { gravity, supports, bodies, fluid, bonds, slots, blocks, works, energies, has_potential, applied };
         model.with_ledger()
@@ -71,7 +71,9 @@ impl Model {
     /// other body feels.
     #[must_use]
     pub fn bonded(mut self, bonds: Vec<Bond>) -> Self {
-        self.bonds = Bonds::new(self.bodies.len(), bonds);
+        let central = |bond: &Bond| bond.law.reach().is_none() || bond.points == [Vec3::zeros(); 2];
+        assert!(bonds.iter().all(central), "a bumper is between centres");
+        self.bonds = Joints::new(self.bodies.len(), bonds);
         let moves = |bond: &Bond| bond.bodies.iter().all(|body| self.bodies[*body].has_inertia());
         assert!(self.bonds().iter().all(|bond| !bond.law.dissipates() || moves(bond)), "a dashpot without inertia");
         self.with_ledger()
@@ -119,7 +121,7 @@ impl Model {
 
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
-        self.bonds.of(body).any(|end| end.bond.law.acts())
+        self.bonds.of(body).any(|end| end.joint.law.acts())
     }
 
     /// Hands what acts on a body to `each`, in the order in which it is summed; stops at the first error.

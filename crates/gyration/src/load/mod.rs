@@ -8,15 +8,17 @@ mod applied;
 mod bond;
 mod bumper;
 mod couple;
+mod joints;
 mod resistance;
 mod slopes;
 mod spring;
 mod wrench;
 
 pub use applied::Applied;
-pub use bond::{Bond, BondEnd, BondLaw, Bonds};
+pub use bond::{Bond, BondEnd, BondLaw};
 pub use bumper::Bumper;
 pub use couple::Couple;
+pub use joints::{Joint, JointEnd, Joints};
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;

@@ -109,9 +109,21 @@ impl PairLaws {
         &self.laws
     }
 
-    /// αd₀ · (a gap d in all of a unit of surface): α d₀ (d/d₀)^(1−ν)/(ν−1) [J/m²].
-    pub(super) fn potential(&self, gap: f64) -> f64 {
+    /// U_m [J]: no pair of surfaces [m²] with these shares has more at a distance D [m].
+    ///
+    ///   U_m = φ(D) (√w_A S_A^−q + √w_B S_B^−q)^(−1/q),   φ(D) = α d₀ (D/d₀)^(1−ν)/(ν−1)
+    pub(super) fn most(&self, distance: f64, areas: [f64; 2]) -> f64 {
         let Repulsion { alpha, exponent, reference_gap } = self.repulsion;
-        alpha * reference_gap * libm::pow(gap / reference_gap, 1.0 - exponent) / (exponent - 1.0)
+        let density = alpha * reference_gap * libm::pow(distance / reference_gap, 1.0 - exponent) / (exponent - 1.0);
+        let power = 0.5 / (exponent - 1.0);
+        let shares = shares(areas);
+        let sum: f64 = (0..2).map(|i| shares[i].sqrt() * libm::pow(areas[i], -power)).sum();
+        density * libm::pow(sum, -1.0 / power)
     }
+}
+
+/// w of surfaces of these areas.
+pub(super) fn shares(areas: [f64; 2]) -> [f64; 2] {
+    let [above, below] = areas.map(f64::sqrt);
+    [below / (above + below), above / (above + below)]
 }

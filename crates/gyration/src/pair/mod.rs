@@ -18,6 +18,7 @@
 //! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
 //! | `separate` | a plane between them to begin with                               |
 //! | `plane`    | the plane of least potential, by Newton's method on log U        |
+//! | `met`      | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator` | damping and friction against the velocities of the plane        |
 //! | `loads`    | forces, moments, energy and powers                               |
 //! | `slopes`   | their derivatives by the coordinates and velocities of both      |
@@ -25,18 +26,24 @@
 mod laws;
 mod loads;
 mod mediator;
+mod met;
 mod plane;
 mod separate;
 mod side;
 mod slopes;
 
 pub use laws::{PairLaws, PairLawsError};
-pub use loads::{PairLoads, PairScratch};
+pub use loads::PairLoads;
+pub use met::PairScratch;
 pub use plane::Plane;
 pub use side::Side;
 pub use slopes::PairSlopes;
 
+use crate::load::Joint;
+use crate::surface::Surface;
+use crate::tensor::{Mat3, Vec3};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
+use std::sync::Arc;
 
 /// (p₀ | P), (ṗ₀ | Ṗ) or (f | M).
 pub(crate) type Mat34 = Matrix3x4<f64>;
@@ -45,3 +52,51 @@ type Vec4 = Vector4<f64>;
 
 /// A above the plane, B below.
 const SIGNS: [f64; 2] = [1.0, -1.0];
+
+/// Two bodies of a model that meet, or convex parts of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The indices of the two bodies, A and B, which differ.
+    pub bodies: [usize; 2],
+    /// Which part of each.
+    pub parts: [usize; 2],
+    /// What acts between them.
+    pub laws: Arc<PairLaws>,
+    /// The distance at which it begins [m]; none if it is everywhere.
+    pub reach: Option<f64>,
+    /// U_c [J]: below it nothing acts.
+    threshold: f64,
+    /// The radius of each about its centre of mass, in the reference shape [m].
+    radii: [f64; 2],
+}
+
+impl Pair {
+    /// Of two parts of bodies, given their surfaces.
+    pub fn new(
+        bodies: [usize; 2],
+        parts: [usize; 2],
+        laws: Arc<PairLaws>,
+        reach: Option<f64>,
+        surfaces: [&Surface; 2],
+    ) -> Self {
+        let threshold = reach.map_or(0.0, |reach| laws.most(reach, surfaces.map(Surface::area)));
+        // |X| is the speed of X under the unit gradient rate.
+        let radii = surfaces.map(|surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity()));
+        Self { bodies, parts, laws, reach, threshold, radii }
+    }
+
+    /// The distance of the centres from which on two rigid bodies do nothing to each other [m]; none if there is none.
+    pub fn span(&self) -> Option<f64> {
+        self.reach.map(|reach| reach + self.radii[0] + self.radii[1])
+    }
+}
+
+impl Joint for Pair {
+    fn bodies(&self) -> [usize; 2] {
+        self.bodies
+    }
+
+    fn renumbered(&self, bodies: [usize; 2]) -> Self {
+        Self { bodies, ..self.clone() }
+    }
+}

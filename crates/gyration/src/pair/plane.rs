@@ -45,6 +45,8 @@ pub(super) struct Placed {
     pub slopes: [Vec3; 2],
     /// r.
     gradient: Vec3,
+    /// δ log χ′ by δ log U.
+    fading: f64,
     /// K.
     pub curvature: Cholesky<f64, Const<3>>,
     /// q.
@@ -122,7 +124,38 @@ impl Placed {
             curvature += parts[i] * (own - (1.0 + power) * slopes[i] * slopes[i].transpose());
         }
         let curvature = curvature.cholesky().ok_or(GapClosed { gap: f64::NAN })?;
-        Ok(Self { plane, potentials, parts, energy, weights, tangents, heights, slopes, gradient, curvature, power })
+        let fading = 0.0;
+        Ok(Self {
+            plane,
+            potentials,
+            parts,
+            energy,
+            weights,
+            tangents,
+            heights,
+            slopes,
+            gradient,
+            fading,
+            curvature,
+            power,
+        })
+    }
+
+    /// Lets the pair begin at an energy U_c [J], four times differentiable: χ(U) = U (1 − U_c/U)₊⁵ in the place of U.
+    ///
+    ///   χ′ = (1 − x)⁴ (1 + 4x),   χ″ = 20 x² (1 − x)³/U,   x = U_c/U
+    pub fn fade(&mut self, threshold: f64) {
+        let part = (threshold / self.energy).min(1.0);
+        let left = 1.0 - part;
+        self.energy *= left.powi(5);
+        let slope = left.powi(4) * (1.0 + 4.0 * part);
+        self.weights = self.weights.map(|weight| slope * weight);
+        self.fading = if left > 0.0 { 20.0 * part * part / (left * (1.0 + 4.0 * part)) } else { 0.0 };
+    }
+
+    /// Whether they do nothing to each other.
+    pub fn is_out_of_reach(&self) -> bool {
+        self.weights == [0.0; 2]
     }
 
     /// A plane of less potential along a step; none if that is not to be had.
@@ -169,9 +202,8 @@ impl Placed {
         Change {
             normal: self.tangents[0] * moved.x + self.tangents[1] * moved.y,
             first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
-            weights: by_side.map(|side| (1.0 + self.power) * (growth - side)),
+            weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + self.fading * growth),
             heights,
-            growth,
         }
     }
 }
@@ -187,6 +219,4 @@ pub(super) struct Change {
     pub first: [Vec4; 2],
     /// δ log λ.
     pub weights: [f64; 2],
-    /// δ log U.
-    pub growth: f64,
 }

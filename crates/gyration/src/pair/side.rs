@@ -75,12 +75,6 @@ impl Half<'_> {
         self.sign * heights
     }
 
-    /// The change of a plane's potential by (n, c), Tᵀ a: the transpose of that.
-    pub fn pulled_back(&self, a: &Vec4) -> Vec4 {
-        let along = self.columns * a;
-        self.sign * Vec4::new(along.x, along.y, along.z, -a[0])
-    }
-
     /// The gaps to a plane.
     fn field(heights: &Vec4) -> GapField {
         GapField::new(heights[0], heights.fixed_rows::<3>(1).into())

@@ -3,12 +3,11 @@
 //! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
 //! change by those of one more power of the gap, and everything else by the chain rule.
 
-use super::laws::PairLaws;
-use super::loads::{Met, PairScratch, ViscousMoments};
+use super::met::{Met, PairScratch, ViscousMoments};
 use super::mediator::Slope;
 use super::plane::Change;
 use super::side::Side;
-use super::{Mat34, SIGNS};
+use super::{Mat34, Pair, SIGNS};
 use crate::load::{COORDINATES, Loads, Mat12};
 use crate::surface::GapClosed;
 
@@ -30,8 +29,8 @@ impl PairSlopes {
     ///
     /// # Errors
     /// [`GapClosed`] if no plane separates them.
-    pub fn integrate(laws: &PairLaws, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
-        let met = Met::new(laws, sides, scratch)?;
+    pub fn integrate(pair: &Pair, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
+        let met = Met::new(pair, sides, scratch)?;
         let halves = met.halves.each_ref();
         let mut on = [met.repulsion(0), met.repulsion(1)];
         let zeros = [[Mat12::zeros(); 2]; 2];
@@ -40,6 +39,9 @@ impl PairSlopes {
             std::array::from_fn(|column| met.placed.along(halves, places(column).each_ref()));
         for (column, change) in changes.iter().enumerate() {
             add(&mut slopes.by_place, column, [0, 1].map(|side| met.repulsion_along(side, change)));
+        }
+        if met.placed.is_out_of_reach() {
+            return Ok(slopes);
         }
         let normal = &met.placed.plane.normal;
         met.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {

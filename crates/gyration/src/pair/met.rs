@@ -1,0 +1,112 @@
+//! A pair whose plane is found.
+
+use super::laws::{ViscousLaw, shares};
+use super::mediator::{Mediator, Shares};
+use super::plane::{Placed, place};
+use super::side::{Half, Side, columns};
+use super::{Mat34, Pair, SIGNS};
+use crate::contact::AreaMeasure;
+use crate::surface::{GapClosed, Moments};
+use crate::tensor::Vec3;
+
+/// Room for the moments of a pair; made once, reused.
+#[derive(Debug, Clone, Default)]
+pub struct PairScratch {
+    pub(super) moments: [Vec<Moments>; 2],
+}
+
+/// Which moments of viscous laws are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ViscousMoments {
+    /// Those of d^−ν′.
+    Values,
+    /// Beside them those of d^−(ν′+1).
+    Slopes,
+}
+
+/// A pair whose plane is found.
+pub(super) struct Met<'a> {
+    pub pair: &'a Pair,
+    pub halves: [Half<'a>; 2],
+    pub placed: Placed,
+    /// The foot of the repulsion on the plane, from A's centre [m].
+    pub foot: Vec3,
+}
+
+impl PairScratch {
+    /// So many moments of each side, growing if this is the first use.
+    pub(super) fn take(&mut self, count: usize) -> [&mut [Moments]; 2] {
+        self.moments.each_mut().map(|moments| {
+            if moments.len() < count {
+                moments.resize(count, Moments::default());
+            }
+            &mut moments[..count]
+        })
+    }
+}
+
+impl<'a> Met<'a> {
+    /// Places the plane.
+    pub fn new(pair: &'a Pair, sides: [&Side<'a>; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
+        let laws = &pair.laws;
+        let shares = shares(sides.map(|side| side.surface.area()));
+        let origin = sides[0].placement.position;
+        let halves = [0, 1].map(|i| {
+            let side = sides[i];
+            let deformed = laws.measure != AreaMeasure::ReferenceArea;
+            Half {
+                side: *side,
+                sign: SIGNS[i],
+                columns: columns(&(side.placement.position - origin), &side.placement.gradient),
+                root_share: shares[i].sqrt(),
+                cofactor: side.deformation.filter(|_| deformed).map(|deformation| deformation.cofactor),
+            }
+        });
+        let [room, _] = scratch.take(laws.placing.requests().len());
+        let mut placed = place(laws, halves.each_ref(), room)?;
+        placed.fade(pair.threshold);
+        let first = &placed.potentials[0].first;
+        let center = halves[0].columns * first / first[0];
+        let plane = &placed.plane;
+        let foot = center - (center.dot(&plane.normal) - plane.offset) * plane.normal;
+        Ok(Self { pair, halves, placed, foot })
+    }
+
+    /// (f | M) of the repulsion on a side.
+    pub fn repulsion(&self, side: usize) -> Mat34 {
+        let Placed { plane, weights, potentials, .. } = &self.placed;
+        SIGNS[side] * weights[side] * plane.normal * potentials[side].first.transpose()
+    }
+
+    /// Hands damping and friction to `each`, with the moments of both sides from which they are.
+    pub fn each_mediator(
+        &self,
+        moments: ViscousMoments,
+        scratch: &mut PairScratch,
+        mut each: impl FnMut(&ViscousLaw, &Shares, &Mediator, [&[Moments]; 2]),
+    ) -> Result<(), GapClosed> {
+        let laws = &self.pair.laws;
+        if laws.viscous.is_empty() || self.placed.is_out_of_reach() {
+            return Ok(());
+        }
+        let plan = match moments {
+            ViscousMoments::Values => &laws.resisting,
+            ViscousMoments::Slopes => &laws.resisting_slopes,
+        };
+        let shares = Shares::new(laws, &self.placed);
+        let [above, below] = scratch.take(plan.requests().len());
+        self.halves[0].moments(&self.placed.plane, plan, above)?;
+        self.halves[1].moments(&self.placed.plane, plan, below)?;
+        let rooms = [&*above, &*below];
+        for law in &laws.viscous {
+            let place = match moments {
+                ViscousMoments::Values => law.value,
+                ViscousMoments::Slopes => law.slopes[0],
+            };
+            let (halves, moments) = (self.halves.each_ref(), rooms.map(|room| &room[place]));
+            let mediator = Mediator::new(law, halves, (&self.placed, &shares), &self.foot, moments)?;
+            each(law, &shares, &mediator, rooms);
+        }
+        Ok(())
+    }
+}
