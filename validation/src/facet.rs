@@ -55,11 +55,11 @@ impl FacetBody {
         let body = Body {
             name: "facet".into(),
             kind: BodyKind::Rigid(inertia),
-            solid: Arc::new(Solid {
+            solid: Arc::new(Solid::with_surface(
+                Shape::Box(Cuboid { size: Vec3::repeat(side) }),
                 mass,
-                shape: Shape::Box(Cuboid { size: Vec3::repeat(side) }),
-                surface: Some(surface.unwrap_or_else(|error| panic!("{error}"))),
-            }),
+                surface.unwrap_or_else(|error| panic!("{error}")),
+            )),
             contacts: vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), self.laws.clone()))],
             springs: Vec::new(),
             inclusion: None,

@@ -14,6 +14,7 @@ use gyration::dynamics::{Blocks, Workspace, jacobian, rates};
 use gyration::extended::{self, Numbers};
 use gyration::ledger::Work;
 use gyration::model::Model;
+use gyration::pair::PairGap;
 use gyration::state::{BodyMotion, State, contraction_at};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
@@ -49,6 +50,8 @@ pub struct ModelSystem {
     frequencies: Vec<f64>,
     energy: f64,
     radii: Vec<f64>,
+    /// The gaps of the pairs of bodies when they were last looked at.
+    gaps: Vec<PairGap>,
     /// What the fluid turns into heat while bodies without inertia move by their size [J].
     viscous: f64,
     /// The rates of the bodies at the start.
@@ -88,6 +91,7 @@ impl ModelSystem {
             frequencies,
             energy,
             radii,
+            gaps: Vec::new(),
             viscous,
             first_rates,
             interrupted: false,
@@ -208,10 +212,13 @@ impl System for ModelSystem {
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
         let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
         let mut energy = self.energy;
+        let Self { model, workspace, gaps, .. } = self;
+        let apart = workspace.pair_gaps(model, (t, y.into()), gaps).is_ok();
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
-            let gap = smallest_gap(&self.model, t, index, &motion).max(0.0);
+            let pairs = self.model.pairs_of(index).map(|end| if apart { self.gaps[end.number].gap } else { 0.0 });
+            let gap = pairs.fold(smallest_gap(&self.model, t, index, &motion), f64::min).max(0.0);
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);

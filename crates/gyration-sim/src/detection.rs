@@ -9,6 +9,7 @@ use crate::island::Island;
 use crate::step_end::StepEnd;
 use gyration::balance::observe;
 use gyration::dynamics::acting;
+use gyration::pair::PairGap;
 use gyration::state::{BodyMotion, State};
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
@@ -20,7 +21,7 @@ impl Island {
     pub fn signals(&self, body: usize) -> Signals {
         let (model, time) = (self.model(), self.time());
         let (motion, speed) = (self.step_ends[body].motion, self.system.speed_scale(body));
-        let [apex, approach] = self.motion_signals(body, time, &motion);
+        let [apex, approach] = self.motion_signals(body, time, (&motion, &self.gaps));
         [apex, approach, events::lift_off(model, body, self.forces[body], speed)]
     }
 
@@ -32,14 +33,14 @@ impl Island {
         forces.clear();
         let balanced = |(body, end): (usize, &StepEnd)| end.contact_force(model, body).unwrap_or(f64::NAN);
         forces.extend(step_ends.iter().enumerate().map(balanced));
-        let unknown = |body: usize, force: f64| force.is_nan() && !model.bodies[body].contacts.is_empty();
+        let unknown = |body: usize, force: f64| force.is_nan() && model.has_contact(body);
         if !(0..forces.len()).any(|body| unknown(body, forces[body])) {
             return;
         }
         self.sample(self.time());
         let (model, workspace) = self.system.observed();
         let Ok((instant, scratch)) = workspace.read(model, &self.sampled) else { return };
-        let unknown = |body: usize, force: f64| force.is_nan() && !model.bodies[body].contacts.is_empty();
+        let unknown = |body: usize, force: f64| force.is_nan() && model.has_contact(body);
         for (body, force) in self.forces.iter_mut().enumerate().filter(|(body, force)| unknown(*body, **force)) {
             *force = acting(&instant.at(model, body), scratch).map_or(f64::NAN, |acting| acting.contact.force.norm());
         }
@@ -55,6 +56,11 @@ impl Island {
             if part < PARTS {
                 let State { bodies, low, works, .. } = &mut self.sampled;
                 self.integrator.interpolate_extended(time, bodies, works, Some(low));
+                let (model, workspace) = self.system.observed();
+                let sampled = (time, self.sampled.bodies.as_slice().into());
+                if workspace.pair_gaps(model, sampled, &mut self.sampled_gaps).is_err() {
+                    self.sampled_gaps.clear();
+                }
             } else {
                 self.find_forces();
             }
@@ -69,7 +75,7 @@ impl Island {
     /// The signals of a body in the sampled state, but for the one that needs a force.
     fn signals_within(&self, body: usize, time: f64) -> Signals {
         let motion = self.sampled.motion(self.model(), body);
-        let [apex, approach] = self.motion_signals(body, time, &motion);
+        let [apex, approach] = self.motion_signals(body, time, (&motion, &self.sampled_gaps));
         [apex, approach, f64::NAN]
     }
 
@@ -88,7 +94,7 @@ impl Island {
     /// The time of an event between two times of the last step [s].
     fn locate(&mut self, body: usize, kind: usize, since: f64, until: f64) -> f64 {
         let speed = self.system.speed_scale(body);
-        let Self { system, sampled: state, integrator, .. } = self;
+        let Self { system, sampled: state, sampled_gaps: gaps, integrator, .. } = self;
         let (model, workspace) = system.observed();
         let (this, slots) = (&model.bodies[body], model.slots(body));
         let signal = |time: f64, bodies: &[f64], _: &[f64]| {
@@ -103,16 +109,21 @@ impl Island {
                     let seen = observe(model, workspace, state, body);
                     events::lift_off(model, body, seen.map_or(f64::NAN, |seen| seen.contact_force.norm()), speed)
                 }
-                _ => events::approach(model, time, body, &motion(), speed),
+                _ => {
+                    if workspace.pair_gaps(model, (time, bodies.into()), gaps).is_err() {
+                        gaps.clear();
+                    }
+                    events::approach(model, time, body, (&motion(), gaps), speed)
+                }
             }
         };
         let direction = if events::rises(kind) { CrossingDirection::Rising } else { CrossingDirection::Falling };
         find_crossing(integrator, (since, until), signal, direction, 1).unwrap_or(until)
     }
 
-    fn motion_signals(&self, body: usize, time: f64, motion: &BodyMotion) -> [f64; 2] {
+    fn motion_signals(&self, body: usize, time: f64, (motion, gaps): (&BodyMotion, &[PairGap])) -> [f64; 2] {
         let (model, speed) = (self.model(), self.system.speed_scale(body));
-        [events::apex(model, body, motion, speed), events::approach(model, time, body, motion, speed)]
+        [events::apex(model, body, motion, speed), events::approach(model, time, body, (motion, gaps), speed)]
     }
 }
 

@@ -14,6 +14,7 @@
 
 use gyration::dynamics::nearest;
 use gyration::model::Model;
+use gyration::pair::PairGap;
 use gyration::state::BodyMotion;
 use serde::{Deserialize, Serialize};
 
@@ -70,16 +71,21 @@ pub fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 
     -motion.velocity.velocity.dot(&model.gravity) / (gravity * speed * REST)
 }
 
-/// The rate of the smallest gap; NaN without surface or supports.
-pub fn approach(model: &Model, time: f64, body: usize, motion: &BodyMotion, speed: f64) -> f64 {
-    let nearest = nearest(model, time, body, motion).filter(|_| model.bodies[body].has_inertia());
-    nearest.map_or(f64::NAN, |nearest| nearest.speed / (speed * REST))
+/// The rate of the smallest gap, given those to other bodies; NaN without surface, or with nothing to come near to.
+pub fn approach(model: &Model, time: f64, body: usize, (motion, gaps): (&BodyMotion, &[PairGap]), speed: f64) -> f64 {
+    if !model.bodies[body].has_inertia() {
+        return f64::NAN;
+    }
+    let support = nearest(model, time, body, motion).map(|nearest| (nearest.gap, nearest.speed));
+    let bodies = model.pairs_of(body).map(|end| gaps.get(end.number).map(|slab| (slab.gap, slab.rate)));
+    let near = support.into_iter().chain(bodies.flatten()).filter(|(gap, _)| *gap < f64::INFINITY);
+    near.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(f64::NAN, |(_, rate)| rate / (speed * REST))
 }
 
 /// The size of the contact force [N]; NaN without contacts.
 pub fn lift_off(model: &Model, body: usize, force: f64, speed: f64) -> f64 {
     let this = &model.bodies[body];
-    if this.contacts.is_empty() || !this.has_inertia() {
+    if !model.has_contact(body) || !this.has_inertia() {
         return f64::NAN;
     }
     let gravity = model.gravity.norm();

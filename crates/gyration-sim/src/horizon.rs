@@ -10,12 +10,15 @@
 //! sees. Of a body that deforms, a has |P̈ᵀn| r besides, and the sphere grows with |P|. A step also ends where a couple
 //! or a drive has a kink, and takes a quarter of a drive's fastest period at most. An oscillating support counts as its
 //! foremost place, and is followed in eighths of its period where it may meet the body. A body at rest, or one that
-//! leaves, is not held up. Steps are cut by this and never lengthened.
+//! leaves, is not held up. Two bodies that meet approach a plane between them, with the normal of their own; those that
+//! are out of reach of each other come halfway into it. Steps are cut by this and never lengthened.
 
 use crate::approach::Approach;
 use crate::step_end::StepEnd;
 use gyration::contact::RelativeMotion;
+use gyration::kinematics::Placement;
 use gyration::model::Model;
+use gyration::pair::{Pair, PairGap};
 use gyration::signal::Signal;
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::{GapField, Surface};
@@ -49,7 +52,13 @@ struct PlaneApproach<'a> {
 }
 
 /// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
-pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64], longest: f64) -> f64 {
+pub(crate) fn horizon(
+    model: &Model,
+    time: f64,
+    (ends, gaps): (&[StepEnd], &[PairGap]),
+    radii: &[f64],
+    longest: f64,
+) -> f64 {
     let mut step = next_kink(model, time).map_or(longest, |kink| longest.min(kink - time));
     for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
         step = step.min(DRIVE_PART / frequency);
@@ -69,25 +78,34 @@ pub(crate) fn horizon(model: &Model, time: f64, ends: &[StepEnd], radii: &[f64],
             });
         }
     }
-    model.bonds().iter().fold(step, |step, bond| match bond.law.reach() {
-        Some(reach) => step.min(before_meeting(bond.bodies.map(|body| &ends[body]), reach, step)),
-        None => step,
-    })
+    let bonds = model.bonds().iter().filter_map(|bond| Some((bond.bodies, bond.law.reach()?)));
+    for (bodies, reach) in bonds {
+        step = step.min(before_meeting(bodies.map(|body| &ends[body]), (reach, 0.5 * reach), step));
+    }
+    for (pair, slab) in model.pairs().iter().zip(gaps) {
+        let both = pair.bodies.map(|body| &ends[body]);
+        step = step.min(match (slab.gap < f64::INFINITY, pair.span().zip(pair.half_span())) {
+            (false, Some(spans)) => before_meeting(both, spans, step),
+            _ => BodyApproach::of(model, pair, both, radii, &slab.normal).time(step),
+        });
+    }
+    step
 }
 
-/// The longest step [s] after which two bodies that are out of reach may be halfway within it, at most `longest`.
-fn before_meeting([one, other]: [&StepEnd; 2], reach: f64, longest: f64) -> f64 {
+/// The longest step [s] after which two bodies that are out of a reach may be at another distance within it, at most
+/// `longest`.
+fn before_meeting([one, other]: [&StepEnd; 2], (reach, within): (f64, f64), longest: f64) -> f64 {
     let approach = Approach::of(one, other);
     if approach.distance(0.0) <= reach {
         return longest;
     }
     let nearest = approach.nearest(longest);
-    let left = |time: f64| approach.distance(time) - 0.5 * reach;
+    let left = |time: f64| approach.distance(time) - within;
     if left(nearest) <= 0.0 {
         return first_root(nearest, left);
     }
     // The acceleration alone may bring them nearer still.
-    approach.bent(approach.straight(nearest) - 0.5 * reach).min(longest)
+    approach.bent(approach.straight(nearest) - within).min(longest)
 }
 
 /// What drives bodies, and the flow around them.
@@ -119,10 +137,20 @@ impl<'a> PlaneApproach<'a> {
             field.height = (motion.placement.position - support.origin).dot(&support.normal) - reach(support);
             velocity = motion.velocity.velocity;
         }
-        let normal: &Vec3 = &support.normal;
+        Self::along(&support.normal, (end, &end.acceleration), (surface, radius), (field, velocity))
+    }
+
+    /// Towards a plane with this normal, given the gaps, and velocity and acceleration of the centre relative to it.
+    fn along(
+        normal: &Vec3,
+        (end, acceleration): (&StepEnd, &Vec3),
+        (surface, radius): (&'a Surface, f64),
+        (field, velocity): (GapField, Vec3),
+    ) -> Self {
+        let motion = &end.motion;
         let rate = GapField::new(normal.dot(&velocity), motion.velocity.gradient_rate.tr_mul(normal));
         let stretching = end.stretching.map_or(0.0, |stretching| stretching.tr_mul(normal).norm() * radius);
-        let acceleration = (-end.acceleration.dot(normal)).max(0.0) + stretching;
+        let acceleration = (-acceleration.dot(normal)).max(0.0) + stretching;
         let gradient = &motion.placement.gradient;
         // No point is farther from the centre than |P| times its distance in the reference shape.
         let (radius, growth, spin) = match end.stretching {
@@ -155,6 +183,59 @@ impl<'a> PlaneApproach<'a> {
         let height = self.field.height + t * self.rate.height;
         let direction = self.field.direction + t * self.rate.direction;
         self.surface.smallest_gap(&GapField::new(height, direction)).0 - 0.5 * self.acceleration * t * t
+    }
+}
+
+/// The motion of two bodies towards each other: each to a plane between them that stands still.
+struct BodyApproach<'a> {
+    halves: [PlaneApproach<'a>; 2],
+    centers: Approach,
+}
+
+impl<'a> BodyApproach<'a> {
+    fn of(model: &'a Model, pair: &Pair, ends: [&StepEnd; 2], radii: &[f64], normal: &Vec3) -> Self {
+        // A sees all of the acceleration, as if B had none.
+        let accelerations = [ends[0].acceleration - ends[1].acceleration, Vec3::zeros()];
+        let halves = [0, 1].map(|side| {
+            let (end, body) = (ends[side], pair.bodies[side]);
+            let normal = if side == 0 { *normal } else { -normal };
+            let Placement { position, gradient } = &end.motion.placement;
+            // The gaps of both count in sum: the plane may pass anywhere.
+            let field = GapField::new(position.dot(&normal), gradient.tr_mul(&normal));
+            let surface = model.bodies[body].solid.part(pair.parts[side]);
+            PlaneApproach::along(
+                &normal,
+                (end, &accelerations[side]),
+                (surface, radii[body]),
+                (field, end.motion.velocity.velocity),
+            )
+        });
+        Self { halves, centers: Approach::of(ends[0], ends[1]) }
+    }
+
+    /// The longest step [s] that this approach allows, at most `longest`.
+    fn time(&self, longest: f64) -> f64 {
+        let [one, other] = &self.halves;
+        let clear = PART * self.clear(longest);
+        if clear >= longest {
+            return longest;
+        }
+        let straight = PART * first_root(longest / PART, |t| one.smallest_gap(t) + other.smallest_gap(t));
+        clear.max(straight.min(TURN / one.spin.max(other.spin))).min(longest)
+    }
+
+    /// The time for which the spheres around the two stay apart [s], at most a part more than `longest`.
+    fn clear(&self, longest: f64) -> f64 {
+        let within = longest / PART;
+        let apart = |t: f64| {
+            let radii: f64 = self.halves.iter().map(|half| half.radius + t * half.growth).sum();
+            self.centers.distance(t) - radii
+        };
+        let nearest = self.centers.nearest(within);
+        if apart(nearest) <= 0.0 {
+            return first_root(nearest, apart);
+        }
+        if apart(within) > 0.0 { within } else { nearest }
     }
 }
 

@@ -16,6 +16,7 @@ use crate::step_end::{self, StepEnd};
 use crate::way::Way;
 use gyration::balance::fastest_speed;
 use gyration::model::Model;
+use gyration::pair::PairGap;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
@@ -35,6 +36,10 @@ pub(crate) struct Island {
     pub state: IslandState,
     /// The bodies at the end of the last step.
     pub step_ends: Vec<StepEnd>,
+    /// The gaps of its pairs of bodies there, by number.
+    pub gaps: Vec<PairGap>,
+    /// The same in the sampled state.
+    pub sampled_gaps: Vec<PairGap>,
     /// A state within the last step; scratch between samples.
     pub sampled: State,
     /// |f| of the contacts of each body after the last step [N].
@@ -86,6 +91,8 @@ impl Island {
             integrator,
             state,
             step_ends: Vec::new(),
+            gaps: Vec::new(),
+            sampled_gaps: Vec::new(),
             sampled: State { low: vec![0.0; own.bodies.len()], ..own },
             forces: Vec::new(),
             events: Vec::new(),
@@ -256,6 +263,7 @@ impl Island {
         // Before the first step the rates at the start stand in the system.
         let (rates, _) = self.integrator.rates();
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
+        self.find_gaps();
         if let Some(anchor) = &mut self.anchor {
             anchor.drop_at(&self.state, &self.integrator);
         }
@@ -286,7 +294,7 @@ impl Island {
         if end <= time {
             end = plan.end;
         }
-        let horizon = horizon(self.model(), time, &self.step_ends, self.system.radii(), end - time);
+        let horizon = horizon(self.model(), time, (&self.step_ends, &self.gaps), self.system.radii(), end - time);
         let target = time + horizon;
         // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
         if target > time { target.min(end) } else { end }
@@ -297,6 +305,17 @@ impl Island {
         let started = self.integrator.next_size() != 0.0;
         let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
+        self.find_gaps();
+    }
+
+    /// Reads the gaps between its bodies after the last step.
+    fn find_gaps(&mut self) {
+        let Self { system, integrator, gaps, .. } = self;
+        let (model, workspace) = system.observed();
+        // A step ends where there are rates, and so gaps.
+        if workspace.pair_gaps(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
+            gaps.clear();
+        }
     }
 
     /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.

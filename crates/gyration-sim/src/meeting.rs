@@ -49,8 +49,8 @@ impl Island {
             let [one, other] = bodies.map(|body| &self.step_ends[body]);
             Approach::of(one, other).least(ahead) <= reach
         };
-        let joined = model.bonds().iter().filter(|bond| bond.law.reach().is_none_or(|reach| near(bond.bodies, reach)));
-        Components::of(&Pattern::new(model.bodies.len(), joined.map(|bond| bond.bodies.into())), model.bodies.len())
+        let joined = model.reaches().filter(|(bodies, reach)| reach.is_none_or(|reach| near(*bodies, reach)));
+        Components::of(&Pattern::new(model.bodies.len(), joined.map(|(bodies, _)| bodies.into())), model.bodies.len())
     }
 
     /// Comes to a time within its ways, by a step that ends there; what it has done since is forgotten.

@@ -168,6 +168,16 @@ impl Stop {
                  small for the digits of a number: raise an exponent, a coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
+            Quantity::PairGap { pair } => {
+                let [one, other] = model.pairs()[pair].bodies.map(|body| &model.bodies[body].name);
+                (
+                    Reason::GapClosed,
+                    format!("bodies {one:?} and {other:?} reach each other{}", in_brackets(left.value)),
+                    "The gap is too small for the digits of a number: raise an exponent, a coefficient or d0, or \
+                     reduce the speed."
+                        .to_string(),
+                )
+            }
             Quantity::SpringLength { spring } => (
                 Reason::SpringCollapsed,
                 format!("spring {spring} of body {body:?} has no length left"),

@@ -7,7 +7,8 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, BondEnd, Couple, LinearResistance, Spring};
+use crate::load::{Applied, BondEnd, Couple, JointEnd, LinearResistance, Spring};
+use crate::pair::Pair;
 use crate::support::{Support, SupportMotion};
 
 /// A load on a body.
@@ -19,6 +20,8 @@ pub enum Load<'a> {
     Spring(usize, &'a Spring),
     /// A spring to another body.
     Bond(BondEnd<'a>),
+    /// Another body that it meets.
+    Pair(JointEnd<'a, Pair>),
     /// An affine moment.
     Couple(&'a Couple),
     /// What a controller applies.
@@ -34,7 +37,7 @@ impl<'a> Load<'a> {
     #[inline]
     pub fn try_each<E>(
         body: &'a Body,
-        bonds: impl Iterator<Item = BondEnd<'a>>,
+        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = JointEnd<'a, Pair>>),
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
@@ -47,6 +50,9 @@ impl<'a> Load<'a> {
         }
         for bond in bonds {
             each(Self::Bond(bond))?;
+        }
+        for pair in pairs {
+            each(Self::Pair(pair))?;
         }
         let affine = body.affine();
         if let Some(couple) = affine.and_then(|affine| affine.couple.as_ref()) {
@@ -67,7 +73,7 @@ impl<'a> Load<'a> {
     /// Whether it has a force beside those of the contacts.
     pub fn pulls(&self) -> bool {
         match self {
-            Self::Contact(_) | Self::Couple(_) => false,
+            Self::Contact(_) | Self::Pair(_) | Self::Couple(_) => false,
             Self::Spring(..) | Self::Bond(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
         }
     }
@@ -86,6 +92,7 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
+            Self::Pair(end) => end.joint.laws.laws().iter().map(|law| law.kind().work()).collect(),
             Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.joint.law.dissipates() => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
@@ -102,6 +109,7 @@ impl<'a> Load<'a> {
                 let central = contact.law_set.laws().iter().any(|law| law.kind().is_central());
                 central.then_some(Energy::Contact)
             }
+            Self::Pair(_) => Some(Energy::Contact),
             Self::Spring(..) | Self::Bond(_) => Some(Energy::Load),
             Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
         }

@@ -25,7 +25,8 @@ use crate::tensor::{Mat3, Vec3};
 pub struct BodyObservation {
     /// Placement, velocity, spin.
     pub motion: BodyMotion,
-    /// Smallest distance to a support [m]; infinite without supports or surface.
+    /// Smallest distance to a support, or width of the slab to a body that it meets [m]; infinite without either, or
+    /// without surface.
     pub gap: f64,
     /// Contact force [N].
     pub contact_force: Vec3,
@@ -89,7 +90,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
     BodyObservation {
         motion: *motion,
-        gap: gap_at(at),
+        gap: acting.nearest_body.map_or_else(|| gap_at(at), |gap| gap.min(gap_at(at))),
         contact_force: acting.contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.

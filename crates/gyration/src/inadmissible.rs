@@ -18,6 +18,11 @@ pub enum Quantity {
         /// Index of the bond in the model.
         bond: usize,
     },
+    /// The width of the slab between the bodies of the pair of this index, which must be > 0 [m].
+    PairGap {
+        /// Index of the pair in the model.
+        pair: usize,
+    },
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.

@@ -7,7 +7,8 @@ use crate::body::{Body, Slots};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, Joints};
+use crate::load::{Applied, Bond, Joint, JointEnd, Joints};
+use crate::pair::Pair;
 use crate::support::Support;
 use crate::tensor::Vec3;
 use std::convert::Infallible;
@@ -26,6 +27,7 @@ pub struct Model {
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
     bonds: Joints<Bond>,
+    pairs: Joints<Pair>,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -48,10 +50,22 @@ impl Model {
         let slots = layout(&bodies);
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
-        let has_potential = has_potential(&bodies);
-        let (fluid, bonds) = (None, Joints::default());
-        let model =
-            Self { gravity, supports, bodies, fluid, bonds, slots, blocks, works, energies, has_potential, applied };
+        let has_potential = has_potential(&bodies, &[]);
+        let (fluid, bonds, pairs) = (None, Joints::default(), Joints::default());
+        let model = Self {
+            gravity,
+            supports,
+            bodies,
+            fluid,
+            bonds,
+            pairs,
+            slots,
+            blocks,
+            works,
+            energies,
+            has_potential,
+            applied,
+        };
         model.with_ledger()
     }
 
@@ -79,6 +93,21 @@ impl Model {
         self.with_ledger()
     }
 
+    /// The model with bodies that meet.
+    ///
+    /// To be called when all bodies are what they are to be.
+    ///
+    /// # Panics
+    /// If a pair is not of two bodies of the model, or of a body without inertia, whose velocity no other body feels.
+    #[must_use]
+    pub fn paired(mut self, pairs: Vec<Pair>) -> Self {
+        let moves = |pair: &Pair| pair.bodies.iter().all(|body| self.bodies[*body].has_inertia());
+        assert!(pairs.iter().all(moves), "bodies that meet have inertia");
+        self.pairs = Joints::new(self.bodies.len(), pairs);
+        self.has_potential = has_potential(&self.bodies, self.pairs.all());
+        self.with_ledger()
+    }
+
     /// The model under a controller: loads may be applied to its bodies, and the ledger has their work.
     #[must_use]
     pub fn under_control(mut self) -> Self {
@@ -100,6 +129,7 @@ impl Model {
             bodies,
             fluid: self.fluid.clone(),
             bonds: self.bonds.among(members),
+            pairs: self.pairs.among(members),
             works: Vec::new(),
             energies: Vec::new(),
             has_potential: self.has_potential,
@@ -114,21 +144,48 @@ impl Model {
         self.bonds.all()
     }
 
+    /// Its bodies that meet.
+    pub fn pairs(&self) -> &[Pair] {
+        self.pairs.all()
+    }
+
+    /// The pairs of a body, as it sees them.
+    pub fn pairs_of(&self, body: usize) -> impl Iterator<Item = JointEnd<'_, Pair>> {
+        self.pairs.of(body)
+    }
+
     /// The pairs (i, j) of bodies of which j acts on i, in order of i; some may come twice.
     pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.bodies.len()).flat_map(|body| self.bonds.of(body).map(move |end| (body, end.other())))
+        (0..self.bodies.len()).flat_map(|body| {
+            let bonds = self.bonds.of(body).map(move |end| (body, end.other()));
+            bonds.chain(self.pairs.of(body).map(move |end| (body, end.other())))
+        })
+    }
+
+    /// The pairs of bodies that act on one another, with the distance of their centres from which on they do not; none
+    /// if there is none.
+    pub fn reaches(&self) -> impl Iterator<Item = ([usize; 2], Option<f64>)> {
+        let rigid = |pair: &&Pair| pair.bodies.iter().all(|body| self.bodies[*body].affine().is_none());
+        let bonds = self.bonds().iter().map(|bond| (bond.bodies, bond.law.reach()));
+        bonds.chain(self.pairs().iter().map(move |pair| (pair.bodies, Some(pair).filter(rigid).and_then(Pair::span))))
+    }
+
+    /// Whether a body has a contact, with a support or another body.
+    pub fn has_contact(&self, body: usize) -> bool {
+        !self.bodies[body].contacts.is_empty() || self.pairs.of(body).next().is_some()
     }
 
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
-        self.bonds.of(body).any(|end| end.joint.law.acts())
+        self.bonds.of(body).any(|end| end.joint.law.acts()) || self.pairs.of(body).next().is_some()
     }
 
     /// Hands what acts on a body to `each`, in the order in which it is summed; stops at the first error.
     #[inline]
     pub fn try_each_load<'a, E>(&'a self, index: usize, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
-        Load::try_each(body, self.bonds.of(index), fluid, self.applied(index), each)
+        let joints = (self.bonds.of(index), self.pairs.of(index));
+        Load::try_each(body, joints, fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.
@@ -217,11 +274,13 @@ fn layout(bodies: &[Arc<Body>]) -> Vec<Slots> {
 }
 
 /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
-fn has_potential(bodies: &[Arc<Body>]) -> bool {
-    let deforming = bodies.iter().filter(|body| body.affine().is_some());
-    let mut contacts = deforming.flat_map(|body| &body.contacts);
-    contacts.all(|contact| {
+fn has_potential(bodies: &[Arc<Body>], pairs: &[Pair]) -> bool {
+    let deforms = |body: &Arc<Body>| body.affine().is_some();
+    let mut contacts = bodies.iter().filter(|body| deforms(body)).flat_map(|body| &body.contacts);
+    let contacts = contacts.all(|contact| {
         let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
         contact.law_set.measure != AreaMeasure::DeformedArea || !acts
-    })
+    });
+    let rigid = |pair: &Pair| !pair.bodies().iter().any(|body| deforms(&bodies[*body]));
+    contacts && pairs.iter().all(|pair| pair.laws.measure != AreaMeasure::DeformedArea || rigid(pair))
 }

@@ -58,7 +58,11 @@ impl Half {
             false => (&mut moved.placement.position, &mut moved.placement.gradient),
             true => (&mut moved.velocity.velocity, &mut moved.velocity.gradient_rate),
         };
-        if place < 3 { vector[place] += by } else { matrix[place - 3] += by }
+        if place < 3 {
+            vector[place] += by
+        } else {
+            matrix[place - 3] += by
+        }
         moved
     }
 
@@ -84,7 +88,8 @@ fn rotation(next: &mut impl FnMut() -> f64) -> Mat3 {
 }
 
 fn shapes() -> Vec<(&'static str, Surface)> {
-    let tetrahedron = [Vec3::new(-0.4, -0.4, -0.3), Vec3::new(0.5, -0.3, -0.3), Vec3::new(0.0, 0.6, -0.3), Vec3::z() * 0.6];
+    let tetrahedron =
+        [Vec3::new(-0.4, -0.4, -0.3), Vec3::new(0.5, -0.3, -0.3), Vec3::new(0.0, 0.6, -0.3), Vec3::z() * 0.6];
     let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
     vec![
         ("box", Surface::cuboid(&Vec3::new(0.8, 1.0, 1.3))),
@@ -99,8 +104,7 @@ fn shapes() -> Vec<(&'static str, Surface)> {
 
 fn laws(exponents: [f64; 3], viscous: bool) -> PairLaws {
     let [repulsion, damping, friction] = exponents;
-    let mut laws =
-        vec![ContactLaw::Repulsion(Repulsion { alpha: 1.3, exponent: repulsion, reference_gap: 0.1 })];
+    let mut laws = vec![ContactLaw::Repulsion(Repulsion { alpha: 1.3, exponent: repulsion, reference_gap: 0.1 })];
     if viscous {
         laws.push(ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.2 }));
         laws.push(ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.15 }));
@@ -202,7 +206,9 @@ fn slopes_agree_with_differences() {
         let exponents = [[6.0, 6.0, 6.0], [2.5, 4.0, 3.0], [12.0, 10.0, 6.5]][k % 3];
         let laws = laws(exponents, true);
         let sides = [one.side(), other.side()];
-        let slopes = PairSlopes::integrate(&pair(&laws, reach, [&one, &other]), sides.each_ref(), &mut PairScratch::default()).unwrap();
+        let slopes =
+            PairSlopes::integrate(&pair(&laws, reach, [&one, &other]), sides.each_ref(), &mut PairScratch::default())
+                .unwrap();
         let at = within(&laws, reach, [&one, &other]);
         for body in 0..2 {
             assert!(off(&numbers(&slopes.on[body]), &numbers(&at.on[body])) < 1e-12);
@@ -290,8 +296,8 @@ fn balls_and_faces_have_their_closed_forms() {
         let radius = 0.7;
         let [one, other] = [2.0 * radius + gap, 0.0].map(|height| still(Surface::sphere(radius), height));
         let found = loads(&law, [&one, &other]).on[0].force.z;
-        let wanted = PI * radius * alpha * d0.powf(nu) * (gap.powf(1.0 - nu) - (gap + 4.0 * radius).powf(1.0 - nu))
-            / (nu - 1.0);
+        let wanted =
+            PI * radius * alpha * d0.powf(nu) * (gap.powf(1.0 - nu) - (gap + 4.0 * radius).powf(1.0 - nu)) / (nu - 1.0);
         assert!((found / wanted - 1.0).abs() < 1e-9, "{gap}: {found} and {wanted}");
     }
     // A cube on a larger slab: the face of each counts, and the whole surfaces in the shares.

@@ -1,57 +1,87 @@
-//! Contacts: each `[[contact]]` goes to the body that it names, or to all bodies with a surface.
+//! Contacts: each `[[contact]]` goes to the bodies that it names, or to all bodies with a surface.
 
 use super::body::AssembledBody;
+use super::pair;
+use super::partners::{self, Names, Partners};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
-use std::collections::HashMap;
+use gyration::pair::Pair;
 use std::sync::Arc;
 
-/// The most pairs of a body and a contact in a scene.
+/// The most pairs of a body and a support, or another body, in a scene.
 const MOST_PAIRS: usize = 1_000_000;
 
-/// Gives the bodies their contacts; notes a contact that names a body without a surface, and a law out of range.
-pub(super) fn attach(partial: &PartialScene, assembled: &mut [Option<AssembledBody>], reporter: &mut Reporter<'_>) {
-    let supports: HashMap<&str, usize> =
-        partial.supports.iter().enumerate().map(|(index, support)| (support.value.name.as_str(), index)).collect();
-    let bodies = named(assembled);
-    let mut pairs = 0;
+/// Gives the bodies their contacts with supports, and returns the pairs of bodies that meet; notes a contact with what
+/// has no surface, and laws out of range.
+pub(super) fn attach(
+    partial: &PartialScene,
+    assembled: &mut [Option<AssembledBody>],
+    reporter: &mut Reporter<'_>,
+) -> Vec<Pair> {
+    let names = Names::of(partial);
+    let mut count = 0;
+    let mut pairs = Vec::new();
     for Placed { key, value } in &partial.contacts {
-        let law_set = Arc::new(LawSet::new(measure(value.measure), laws(value)));
-        law_set.laws().iter().for_each(|law| range(law, key, reporter));
-        let met = match &value.body {
-            Some(name) => bodies.get(name).map_or(0..0, |&index| index..index + 1),
-            None => 0..assembled.len(),
-        };
-        pairs += met.len();
-        if pairs > MOST_PAIRS {
-            let message = format!("with this contact there are more than {MOST_PAIRS} of a body and a support");
-            reporter.note(key, message, "give each contact the `body` that it is for");
-            return;
-        }
-        let support = supports.get(value.support.as_str()).copied();
-        for assembled_body in assembled[met].iter_mut().flatten() {
-            match (&assembled_body.body.solid.surface, support) {
-                (Some(_), Some(support)) => {
-                    assembled_body.body.contacts.push(Acting::with_support(support, Arc::clone(&law_set)));
+        let (measure, laws) = (measure(value.measure), laws(value));
+        laws.iter().for_each(|law| range(law, key, reporter));
+        let Some(partners) = names.partners(value, assembled) else { continue };
+        let before = count;
+        match partners {
+            Partners::Support { support, bodies, named } => {
+                count += bodies.len();
+                if let Some(reach) = &value.reach {
+                    let message = format!("a support is felt at any distance, and so beyond {} m", reach.value());
+                    reporter.note(&key.key("reach"), message, "leave it out: it is for pairs of bodies");
                 }
-                (None, _) if value.body.is_some() => {
-                    let message = format!("\"{}\" has no surface", assembled_body.body.name);
-                    reporter.note(&key.key("body"), message, "name a body whose shape has a surface");
+                let law_set = Arc::new(LawSet::new(measure, laws));
+                let between = key.key(if value.between.is_some() { "between" } else { "body" });
+                for body in bodies.into_iter().take(most(before)) {
+                    let Some(assembled_body) = &mut assembled[body] else { continue };
+                    match &assembled_body.body.solid.surface {
+                        Some(_) => {
+                            assembled_body.body.contacts.push(Acting::with_support(support, Arc::clone(&law_set)));
+                        }
+                        None if named => without_surface(assembled_body, &between, reporter),
+                        None => {}
+                    }
                 }
-                _ => {}
+            }
+            Partners::Bodies(groups) => {
+                let Some(laws) = pair::laws(measure, laws, key, reporter) else { continue };
+                let found = partners::pairs(&groups).take(most(before)).inspect(|_| count += 1);
+                let met = found.map(|bodies| (bodies, bodies.map(|body| assembled[body].as_ref())));
+                let reach = value.reach.as_ref().map(|reach| reach.value());
+                pair::meet(met, (&laws, reach), key, &mut pairs, reporter);
+                if count == before {
+                    let message = "it is between no two different bodies";
+                    reporter.note(&key.key("between"), message, "name two bodies, or groups that have two");
+                }
+            }
+            Partners::Supports => {
+                let help = "name a body or a group of bodies: supports move as prescribed";
+                reporter.note(&key.key("between"), "it is between two supports", help);
             }
         }
+        if count >= MOST_PAIRS {
+            let message = format!("with this contact there are {MOST_PAIRS} pairs or more");
+            reporter.note(key, message, "give each contact the bodies that it is for");
+            break;
+        }
     }
+    pairs
 }
 
-/// Where the body of each name stands.
-fn named(assembled: &[Option<AssembledBody>]) -> HashMap<String, usize> {
-    let name = |(index, assembled_body): (usize, &Option<AssembledBody>)| {
-        Some((assembled_body.as_ref()?.body.name.clone(), index))
-    };
-    assembled.iter().enumerate().filter_map(name).collect()
+/// How many more pairs there may be.
+fn most(count: usize) -> usize {
+    MOST_PAIRS.saturating_sub(count)
+}
+
+/// Notes a body that cannot meet anything.
+pub(super) fn without_surface(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) {
+    let message = format!("\"{}\" has no surface", assembled.body.name);
+    reporter.note(key, message, "name a body whose shape has a surface");
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

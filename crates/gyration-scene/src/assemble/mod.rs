@@ -15,6 +15,8 @@ mod mass;
 mod material;
 mod orientation;
 mod overlap;
+mod pair;
+mod partners;
 mod resolve;
 mod salvage;
 mod shape;
@@ -137,7 +139,7 @@ pub(crate) fn assemble(
         partial.bodies.iter().map(|body| AssembledBody::new(body, context, solids, reporter)).collect();
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    contact::attach(partial, &mut assembled, reporter);
+    let pairs = contact::attach(partial, &mut assembled, reporter);
     let bonds = bond::bonds(partial, &assembled, reporter);
     for (body, assembled_body) in partial.bodies.iter_mut().zip(&assembled) {
         if let Some(assembled_body) = assembled_body {
@@ -154,7 +156,7 @@ pub(crate) fn assemble(
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }
-    model = model.bonded(bonds);
+    model = model.bonded(bonds).paired(pairs);
     let state = State::start(&model, &starts);
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let forms = partial.bodies.iter().zip(&model.bodies).enumerate();

@@ -28,6 +28,7 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
     references("support", &supports, reporter);
     references("body", &bodies, reporter);
     ends(&bodies, reporter);
+    partners(&supports, &bodies, reporter);
     partial.contacts.iter().for_each(|contact| exponents(contact, reporter));
 }
 
@@ -93,6 +94,46 @@ fn ends(known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
                 continue;
             };
             reporter.diagnostics.at(node.span, &key.index(end), message.0, message.1);
+        }
+    }
+}
+
+/// Notes the contacts, well formed or not, that say neither or both of `support` and `between`, or name there what is
+/// no body, group or support.
+fn partners(supports: &BTreeSet<String>, bodies: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
+    let document = reporter.document;
+    let items = |section: &str| document.root.get(section).map(Node::items).unwrap_or_default();
+    let group = |body: &Node| -> Vec<String> {
+        let words = body.get("group").into_iter().flat_map(|group| match group.text() {
+            Some(_) => std::slice::from_ref(group),
+            None => group.items(),
+        });
+        words.filter_map(Node::text).map(str::to_owned).collect()
+    };
+    let mut known: BTreeSet<String> = supports.union(bodies).cloned().collect();
+    known.extend(items("body").iter().flat_map(group));
+    for (index, item) in items("contact").iter().enumerate() {
+        if reporter.diagnostics.is_full() {
+            return;
+        }
+        let key = Key::root().key("contact").index(index);
+        let Some(between) = item.get("between") else {
+            if item.get("support").is_none() {
+                let help = "name a `support`, or two bodies, groups or supports `between` which it acts";
+                reporter.diagnostics.at(item.span, &key.key("support"), "the key \"support\" is missing", help);
+            }
+            continue;
+        };
+        for short in ["support", "body"].into_iter().filter(|short| item.get(short).is_some()) {
+            let help = format!("leave out `{short}`, or `between`");
+            reporter.diagnostics.at(between.span, &key.key("between"), format!("it stands beside `{short}`"), help);
+        }
+        for (end, node) in between.items().iter().enumerate() {
+            if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
+                let help = suggest::fix(name, known.iter().map(String::as_str), "one of");
+                let message = format!("there is no body, group or support \"{name}\"");
+                reporter.diagnostics.at(node.span, &key.key("between").index(end), message, help);
+            }
         }
     }
 }

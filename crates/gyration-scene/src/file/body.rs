@@ -1,6 +1,6 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Contractile, Inclusion, Orientation, Shape};
+use super::{Affine, Contractile, Inclusion, OneOrMany, Orientation, Shape};
 use crate::quantity::{
     AngularVelocity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness,
     Velocity,
@@ -14,6 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct Body {
     /// Its name, `[A-Za-z0-9_-]+`; names its columns in a recording.
     pub name: String,
+    /// Words by which contacts name many bodies; its own name is one of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<OneOrMany<String>>,
     /// Its reference shape; may be absent with `mass_properties`, the body then has no surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,

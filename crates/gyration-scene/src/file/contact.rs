@@ -4,15 +4,22 @@ use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The laws between a support and a body, or all bodies.
+/// The laws between a support and a body, or all bodies; or between any two of many.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
-    /// Name of the support.
-    pub support: String,
+    /// Name of the support; or `between`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
     /// Name of the body; every body with a surface if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
+    /// Names of bodies, groups or supports: every pair of two different ones, each pair once.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<[String; 2]>,
+    /// The distance at which a pair of bodies begins to feel each other, smoothly (m); without it they always do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reach: Option<Positive<Length>>,
     /// The area that tractions are per; it makes no difference to a rigid body.
     #[serde(default)]
     pub measure: Measure,

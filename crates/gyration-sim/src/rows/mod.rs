@@ -164,8 +164,8 @@ fn body_array(model: &Model, field: &BodyField) -> ArraySpec {
 fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
     let body = &model.bodies[index];
     let applies = match field.name {
-        GAP => body.solid.surface.is_some() && !model.supports.is_empty(),
-        CONTACT_FORCE => !body.contacts.is_empty(),
+        GAP => body.solid.surface.is_some() && (!model.supports.is_empty() || model.has_contact(index)),
+        CONTACT_FORCE => model.has_contact(index),
         name => applies(name, body),
     };
     let name = |suffix: &&str| if applies { format!("{}.{suffix}", body.name) } else { String::new() };

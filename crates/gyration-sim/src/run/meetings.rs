@@ -28,8 +28,7 @@ enum Change {
 impl Meetings {
     /// Those of a model.
     pub fn of(model: &Model) -> Self {
-        let pairs = model.bonds().iter().filter_map(|bond| Some((bond.bodies, bond.law.reach()?)));
-        Self { pairs: pairs.collect() }
+        Self { pairs: model.reaches().filter_map(|(bodies, reach)| Some((bodies, reach?))).collect() }
     }
 
     /// Whether no body meets another.
@@ -39,9 +38,9 @@ impl Meetings {
 
     /// The sets of bodies that act on one another however far they are.
     pub fn always_joined(&self, model: &Model) -> Vec<Vec<usize>> {
-        let always = model.bonds().iter().filter(|bond| bond.law.reach().is_none());
+        let always = model.reaches().filter(|(_, reach)| reach.is_none());
         let bodies = model.bodies.len();
-        let joined = Components::of(&Pattern::new(bodies, always.map(|bond| bond.bodies.into())), bodies);
+        let joined = Components::of(&Pattern::new(bodies, always.map(|(bodies, _)| bodies.into())), bodies);
         joined.iter().map(<[usize]>::to_vec).collect()
     }
 

@@ -214,6 +214,11 @@ impl Body {
         kept && self.has_inertia()
     }
 
+    /// The gap [m] to a body whose centre is so far away that cannot be told from zero.
+    pub(crate) fn least_distance(&self, distance: f64) -> f64 {
+        RESOLUTION * (self.size + distance)
+    }
+
     /// The gap [m] that cannot be told from zero.
     pub(crate) fn least_gap(&self, field: &GapField) -> f64 {
         let resolution = if field.lack.is_some() { EXTENDED_RESOLUTION } else { RESOLUTION };

@@ -13,12 +13,39 @@ pub struct Solid {
     pub mass: MassProperties,
     /// The surface relative to the centre of mass; none for mass points.
     pub surface: Option<Surface>,
+    /// The surfaces of its convex parts, if there are several, likewise.
+    parts: Vec<Surface>,
 }
 
 impl Solid {
     /// A shape with its mass properties in the frame of the shape.
     pub fn new(shape: Shape, mass: MassProperties) -> Self {
         let surface = shape.surface().map(|surface| surface.translated(&-mass.center));
-        Self { shape, mass, surface }
+        let parts = shape.convex_parts().unwrap_or_default();
+        let parts = if parts.len() > 1 { parts } else { Vec::new() };
+        let parts = parts.into_iter().map(|part| part.translated(&-mass.center)).collect();
+        Self { shape, mass, surface, parts }
+    }
+
+    /// A shape whose surface is another than its own, in one piece and relative to the centre of mass.
+    pub fn with_surface(shape: Shape, mass: MassProperties, surface: Surface) -> Self {
+        Self { shape, mass, surface: Some(surface), parts: Vec::new() }
+    }
+
+    /// How many convex parts meet other bodies.
+    pub fn count_parts(&self) -> usize {
+        if self.surface.is_some() { self.parts.len().max(1) } else { 0 }
+    }
+
+    /// The surface of a convex part.
+    ///
+    /// # Panics
+    /// If there is no such part.
+    pub fn part(&self, index: usize) -> &Surface {
+        match (&self.surface, self.parts.get(index)) {
+            (_, Some(part)) => part,
+            (Some(whole), None) if index == 0 => whole,
+            _ => unreachable!("a pair is between parts that bodies have"),
+        }
     }
 }

@@ -79,7 +79,7 @@ pub(super) fn carrying(at: &BodyAt, contact: &Contact) -> Vec3 {
 
 /// How the body takes its surface along; none of a rigid one.
 #[inline]
-fn deformation(at: &BodyAt) -> Option<Deformation> {
+pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
     let gyration = at.gyration()?;
     Some(Deformation { inverse: gyration.inverse, cofactor: gyration.volume_ratio * gyration.inverse.transpose() })
 }

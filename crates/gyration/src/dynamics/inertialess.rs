@@ -15,7 +15,7 @@
 use super::Scratch;
 use super::body_rates::body_rates;
 use super::contractile::ContractileMotion;
-use super::jacobian::{Blocks, add_bonds, body_jacobian};
+use super::jacobian::{Blocks, add_joints, body_jacobian};
 use super::powers::Powers;
 use crate::body::{Slots, matrix};
 use crate::contractile::ContractionCommand;
@@ -211,7 +211,7 @@ pub(super) fn fill_jacobian(
     let solved = filled.and_then(|()| {
         let own = blocks.block(index, index).map_or(Some(()), |matrix| columns.fill(&solver, matrix));
         own.ok_or_else(|| without_resistance(index))?;
-        columns.add_bonds(&at, &solver, blocks)
+        columns.add_joints((&at, scratch), &solver, blocks)
     });
     scratch.matrices.push(jacobian);
     solved
@@ -227,11 +227,16 @@ struct Columns<'a> {
 impl Columns<'_> {
     /// Adds those by the numbers of bodies to which springs join this one: their forces change its accelerations, and
     /// so the velocities of its balance.
-    fn add_bonds(&self, at: &BodyAt, solver: &Solver, blocks: &mut (impl Blocks + ?Sized)) -> Result<(), Inadmissible> {
+    fn add_joints(
+        &self,
+        (at, scratch): (&BodyAt, &Scratch),
+        solver: &Solver,
+        blocks: &mut (impl Blocks + ?Sized),
+    ) -> Result<(), Inadmissible> {
         let slots = &self.settled.slots;
         let velocities = slots.velocities();
         let mut solved = Some(());
-        add_bonds(at, |other, coupling, lower, lift| {
+        add_joints(at, scratch, |other, coupling, lower, lift| {
             let Some(matrix) = blocks.block(at.index, other) else { return };
             // A dashpot would make velocities follow velocities; there is none, and places alone enter.
             let (by_place, _) = coupling.accelerations(lower, lift);

@@ -22,6 +22,8 @@ pub struct Acting {
     pub contact: Loads,
     /// f and M of all loads.
     pub total: Loads,
+    /// The smallest gap to another body that it meets [m].
+    pub nearest_body: Option<f64>,
     /// The powers of their works.
     pub(crate) powers: Powers,
 }
@@ -66,6 +68,17 @@ impl Acting {
                     self.powers[Work::Load] += loads.dashpot_power;
                 }
                 self.total += loads.total();
+            }
+            Load::Pair(end) => {
+                let pair = &scratch.met.loads[end.number];
+                if end.counts() {
+                    for law in LawKind::ALL {
+                        self.powers.add(law, pair.powers[law as usize]);
+                    }
+                }
+                self.nearest_body = Some(self.nearest_body.map_or(pair.gap, |gap| gap.min(pair.gap)));
+                self.contact += pair.on[end.end];
+                self.total += pair.on[end.end];
             }
             Load::Couple(couple) => {
                 let moment = couple.moment(at.time, &at.inverse());
@@ -120,6 +133,13 @@ pub(super) fn add_slopes(
         }
         Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
         Load::Bond(end) => slopes.add_spring(&bonded(at, end)?),
+        Load::Pair(end) => {
+            if let Some(pair) = &scratch.met.slopes[end.number] {
+                slopes.loads += pair.on[end.end];
+                slopes.by_place += pair.by_place[end.end][end.end];
+                slopes.by_rate += pair.by_rate[end.end][end.end];
+            }
+        }
         Load::Couple(couple) => {
             let inverse = at.inverse();
             slopes.add_couple(&couple.moment(at.time, &inverse), &inverse);
@@ -152,7 +172,8 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 }
                 Load::Spring(_, spring) => spring.energy(&at.motion.placement),
                 Load::Bond(end) => end.energy(&at.motion.placement, &at.other(end.other()).placement),
-                Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
+                Load::Pair(end) if end.counts() => scratch.met.loads[end.number].energy,
+                Load::Pair(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
             };
         }
         Ok(())

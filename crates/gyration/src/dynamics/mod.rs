@@ -13,6 +13,7 @@ mod immersed;
 mod inertialess;
 mod jacobian;
 mod loads;
+mod pairs;
 mod powers;
 mod rates;
 mod rigid;
@@ -20,6 +21,7 @@ mod rigid;
 pub use contacts::{gap_at, nearest};
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
+pub use pairs::PairEnd;
 pub use rates::{jacobian, rates};
 
 pub(crate) use affine::{balance as affine_balance, moment};
@@ -46,6 +48,7 @@ pub struct Workspace {
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
     pub(crate) contact: ContactScratch,
+    pub(crate) met: pairs::Met,
     /// The Jacobians of bodies with inertia, by their number of rows.
     matrices: Vec<DMatrix<f64>>,
     numbers: Vec<f64>,
@@ -74,6 +77,7 @@ impl Workspace {
     pub fn read(&mut self, model: &Model, state: &State) -> Result<(&Instant, &mut Scratch), Inadmissible> {
         let Self { instant, scratch } = self;
         instant.read(model, state.time, state.numbers())?;
+        pairs::meet(model, instant, scratch, true)?;
         for index in 0..model.bodies.len() {
             if !model.bodies[index].has_inertia() {
                 inertialess::settle(model, instant, scratch, index)?;

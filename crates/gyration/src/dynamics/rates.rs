@@ -11,8 +11,8 @@
 //! `physics.md` §2.
 
 use super::body_rates::body_rates;
-use super::jacobian::{Blocks, add_bonds, body_jacobian};
-use super::{Workspace, inertialess};
+use super::jacobian::{Blocks, add_joints, body_jacobian};
+use super::{Workspace, inertialess, pairs};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
@@ -33,6 +33,7 @@ pub fn rates(
 ) -> Result<(), Inadmissible> {
     let Workspace { instant, scratch } = workspace;
     instant.read(model, time, state)?;
+    pairs::meet(model, instant, scratch, false)?;
     powers.fill(0.0);
     for index in 0..model.bodies.len() {
         let done = match model.bodies[index].has_inertia() {
@@ -62,13 +63,14 @@ pub fn jacobian(
 ) -> Result<(), Inadmissible> {
     let Workspace { instant, scratch } = workspace;
     instant.read(model, time, state)?;
+    pairs::differentiate(model, instant, scratch)?;
     for index in 0..model.bodies.len() {
         let Some(matrix) = blocks.block(index, index) else { continue };
         match model.bodies[index].has_inertia() {
             true => {
                 let at = instant.at(model, index);
                 body_jacobian(&at, scratch, matrix)?;
-                add_bonds(&at, |other, coupling, lower, lift| {
+                add_joints(&at, scratch, |other, coupling, lower, lift| {
                     if let Some(matrix) = blocks.block(index, other) {
                         coupling.add_to(matrix, lower, lift);
                     }

@@ -33,10 +33,8 @@ pub struct PairLoads {
 impl Met<'_> {
     /// The loads that (f | M) of both sides are, B's opposite to A's.
     pub fn opposite(&self, on: [Mat34; 2]) -> [Loads; 2] {
-        let [above, below] = on.map(|on| Loads {
-            force: on.column(0).into(),
-            moment: on.fixed_columns::<3>(1).into_owned(),
-        });
+        let [above, below] =
+            on.map(|on| Loads { force: on.column(0).into(), moment: on.fixed_columns::<3>(1).into_owned() });
         let about_foot = |half: &Half, loads: &Loads| {
             let arm = half.columns.column(0) - self.foot;
             let own: Mat3 = loads.moment * half.side.placement.gradient.transpose();

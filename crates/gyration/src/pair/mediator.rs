@@ -212,8 +212,8 @@ impl Mediator {
             };
             let rates = half.rates();
             let sign = if self.kind == LawKind::Damping { 1.0 } else { -1.0 };
-            slips[side] = sign
-                * (change.normal * rates.tr_mul(n).transpose() + n * rates.tr_mul(&change.normal).transpose());
+            slips[side] =
+                sign * (change.normal * rates.tr_mul(n).transpose() + n * rates.tr_mul(&change.normal).transpose());
             for k in 0..3 {
                 slips[side] -= self.motion[k] * fields[side][k];
             }

@@ -4,7 +4,7 @@ use super::laws::{ViscousLaw, shares};
 use super::mediator::{Mediator, Shares};
 use super::plane::{Placed, place};
 use super::side::{Half, Side, columns};
-use super::{Mat34, Pair, SIGNS};
+use super::{Mat34, Pair, SIGNS, Vec4};
 use crate::contact::AreaMeasure;
 use crate::surface::{GapClosed, Moments};
 use crate::tensor::Vec3;
@@ -45,23 +45,27 @@ impl PairScratch {
     }
 }
 
+/// Both sides, their places from the centre of A; `deformed` if their areas are.
+pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2] {
+    let shares = shares(sides.map(|side| side.surface.area()));
+    let origin = sides[0].placement.position;
+    [0, 1].map(|i| {
+        let side = sides[i];
+        Half {
+            side: *side,
+            sign: SIGNS[i],
+            columns: columns(&(side.placement.position - origin), &side.placement.gradient),
+            root_share: shares[i].sqrt(),
+            cofactor: side.deformation.filter(|_| deformed).map(|deformation| deformation.cofactor),
+        }
+    })
+}
+
 impl<'a> Met<'a> {
     /// Places the plane.
     pub fn new(pair: &'a Pair, sides: [&Side<'a>; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
         let laws = &pair.laws;
-        let shares = shares(sides.map(|side| side.surface.area()));
-        let origin = sides[0].placement.position;
-        let halves = [0, 1].map(|i| {
-            let side = sides[i];
-            let deformed = laws.measure != AreaMeasure::ReferenceArea;
-            Half {
-                side: *side,
-                sign: SIGNS[i],
-                columns: columns(&(side.placement.position - origin), &side.placement.gradient),
-                root_share: shares[i].sqrt(),
-                cofactor: side.deformation.filter(|_| deformed).map(|deformation| deformation.cofactor),
-            }
-        });
+        let halves = halves(sides, laws.measure != AreaMeasure::ReferenceArea);
         let [room, _] = scratch.take(laws.placing.requests().len());
         let mut placed = place(laws, halves.each_ref(), room)?;
         placed.fade(pair.threshold);
@@ -108,5 +112,41 @@ impl<'a> Met<'a> {
             each(law, &shares, &mediator, rooms);
         }
         Ok(())
+    }
+}
+
+/// The slab between two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairGap {
+    /// Its width along the normal of their plane [m]; infinite where that was not asked for.
+    pub gap: f64,
+    /// How fast it widens [m/s].
+    pub rate: f64,
+    /// n, from B to A.
+    pub normal: Vec3,
+}
+
+impl PairGap {
+    /// Of bodies that are too far apart to ask.
+    pub const FAR: Self = Self { gap: f64::INFINITY, rate: 0.0, normal: Vec3::new(0.0, 0.0, 0.0) };
+}
+
+impl Pair {
+    /// The slab between two bodies along the normal of their plane.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if no plane separates them.
+    pub fn gap(&self, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<PairGap, GapClosed> {
+        let met = Met::new(self, sides, scratch)?;
+        let halves = met.halves.each_ref();
+        let rates = halves.map(Half::rates);
+        let change = met.placed.along(halves, rates.each_ref());
+        let (mut gap, mut rate) = (0.0, 0.0);
+        for (half, heights) in halves.into_iter().zip(&change.heights) {
+            let (own, point) = half.smallest_gap(&met.placed.plane);
+            gap += own;
+            rate += heights.dot(&Vec4::new(1.0, point.x, point.y, point.z));
+        }
+        Ok(PairGap { gap, rate, normal: met.placed.plane.normal })
     }
 }

@@ -16,6 +16,7 @@
 //! |------------|-----------------------------------------------------------------|
 //! | `laws`     | what acts between two bodies, and the moments that it needs      |
 //! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
+//! | `overlap`  | two bodies that no plane separates                              |
 //! | `separate` | a plane between them to begin with                               |
 //! | `plane`    | the plane of least potential, by Newton's method on log U        |
 //! | `met`      | a pair whose plane is found, and what both ends have of it       |
@@ -27,6 +28,7 @@ mod laws;
 mod loads;
 mod mediator;
 mod met;
+mod overlap;
 mod plane;
 mod separate;
 mod side;
@@ -34,7 +36,8 @@ mod slopes;
 
 pub use laws::{PairLaws, PairLawsError};
 pub use loads::PairLoads;
-pub use met::PairScratch;
+pub use met::{PairGap, PairScratch};
+pub use overlap::Overlap;
 pub use plane::Plane;
 pub use side::Side;
 pub use slopes::PairSlopes;
@@ -83,6 +86,11 @@ impl Pair {
         // |X| is the speed of X under the unit gradient rate.
         let radii = surfaces.map(|surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity()));
         Self { bodies, parts, laws, reach, threshold, radii }
+    }
+
+    /// The distance of the centres at which two rigid bodies are as far apart as the half of their reach at least [m].
+    pub fn half_span(&self) -> Option<f64> {
+        self.span().zip(self.reach).map(|(span, reach)| span - 0.5 * reach)
     }
 
     /// The distance of the centres from which on two rigid bodies do nothing to each other [m]; none if there is none.

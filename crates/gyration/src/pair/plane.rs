@@ -182,9 +182,8 @@ impl Placed {
     /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane.
     pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2]) -> Change {
         let own = [0, 1].map(|i| halves[i].sign * change[i].tr_mul(&self.plane.normal));
-        let growth = |heights: [Vec4; 2]| {
-            [0, 1].map(|i| -self.potentials[i].first.dot(&heights[i]) / self.potentials[i].value)
-        };
+        let growth =
+            |heights: [Vec4; 2]| [0, 1].map(|i| -self.potentials[i].first.dot(&heights[i]) / self.potentials[i].value);
         let mean = |growth: [f64; 2]| self.parts[0] * growth[0] + self.parts[1] * growth[1];
         let at_rest = growth(own);
         let mut right = Vec3::zeros();

@@ -3,8 +3,8 @@
 //! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
 //! change by those of one more power of the gap, and everything else by the chain rule.
 
-use super::met::{Met, PairScratch, ViscousMoments};
 use super::mediator::Slope;
+use super::met::{Met, PairScratch, ViscousMoments};
 use super::plane::Change;
 use super::side::Side;
 use super::{Mat34, Pair, SIGNS};
@@ -35,8 +35,7 @@ impl PairSlopes {
         let mut on = [met.repulsion(0), met.repulsion(1)];
         let zeros = [[Mat12::zeros(); 2]; 2];
         let mut slopes = Self { on: [Loads::default(); 2], by_place: zeros, by_rate: zeros };
-        let changes: [Change; BOTH] =
-            std::array::from_fn(|column| met.placed.along(halves, places(column).each_ref()));
+        let changes: [Change; BOTH] = std::array::from_fn(|column| met.placed.along(halves, places(column).each_ref()));
         for (column, change) in changes.iter().enumerate() {
             add(&mut slopes.by_place, column, [0, 1].map(|side| met.repulsion_along(side, change)));
         }

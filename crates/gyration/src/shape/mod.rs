@@ -9,6 +9,7 @@
 
 mod capsule;
 mod cone;
+mod convex;
 mod cuboid;
 mod cylinder;
 mod edges;
@@ -29,6 +30,7 @@ mod wireframe;
 
 pub use capsule::Capsule;
 pub use cone::Cone;
+pub use convex::NotConvex;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use edges::Edge;

@@ -10,14 +10,14 @@
 //! to more digits than those by q, and go to the block directly.
 
 mod affine;
-mod bonds;
 mod contractile;
 mod coupling;
 mod history;
+mod joints;
 mod rigid;
 
-pub(super) use bonds::add_bonds;
 pub use coupling::{Coupling, Lift, Lower};
+pub(super) use joints::add_joints;
 
 use super::Scratch;
 use super::contractile::ContractileMotion;

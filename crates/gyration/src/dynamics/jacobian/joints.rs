@@ -1,7 +1,10 @@
-//! Blocks off the diagonal: what a spring between two bodies does to one when the other moves.
+//! Blocks off the diagonal: what a spring between two bodies, or their meeting, does to one when the other moves.
+//!
+//! Of a spring these are
 //!
 //!   ∂Q_i/∂q_j = −(∂F/∂d) X̃_i⊗X̃_j,   ∂Q_i/∂q̇_j = −(∂F/∂ḋ) X̃_i⊗X̃_j
 
+use super::super::Scratch;
 use super::super::loads::bonded;
 use super::{Coupling, Lift, Lower};
 use crate::acting::Load;
@@ -10,17 +13,27 @@ use crate::instant::BodyAt;
 use crate::load::{BondEnd, Mat12, SpringLoads, add_blocks};
 use crate::tensor::Vec3;
 
-/// Hands to `each`, for every bond of a body, the other body, ∂Q by its coordinates, B of the one and A of the other.
-pub(in super::super) fn add_bonds(
+/// Hands to `each`, for every bond and pair of a body, the other body, ∂Q by its coordinates, B of the one and A of the
+/// other.
+pub(in super::super) fn add_joints(
     at: &BodyAt,
+    scratch: &Scratch,
     mut each: impl FnMut(usize, &Coupling, &Lower, &Lift),
 ) -> Result<(), Inadmissible> {
     let mut lower = None;
     at.try_each_load(|load| {
-        let Load::Bond(end) = load else { return Ok(()) };
-        let coupling = Coupling::of_bond(&end, &bonded(at, &end)?);
+        let (other, coupling) = match load {
+            Load::Bond(end) => (end.other(), Coupling::of_bond(&end, &bonded(at, &end)?)),
+            Load::Pair(end) => {
+                let Some(slopes) = &scratch.met.slopes[end.number] else { return Ok(()) };
+                let (own, other) = (end.end, 1 - end.end);
+                let (by_place, by_rate) = (slopes.by_place[own][other], slopes.by_rate[own][other]);
+                (end.other(), Coupling { by_place, by_rate })
+            }
+            _ => return Ok(()),
+        };
         let lower = lower.get_or_insert_with(|| Lower::of(at));
-        each(end.other(), &coupling, lower, &Lift::of_state(&at.beside(end.other())));
+        each(other, &coupling, lower, &Lift::of_state(&at.beside(other)));
         Ok(())
     })
 }

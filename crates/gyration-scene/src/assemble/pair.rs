@@ -1,0 +1,108 @@
+//! Bodies that meet: what acts between each two, and whether they are apart at the start.
+
+use super::body::AssembledBody;
+use super::contact::without_surface;
+use super::start::placement;
+use crate::check::Reporter;
+use crate::key::Key;
+use gyration::contact::{AreaMeasure, ContactLaw};
+use gyration::pair::{Overlap, Pair, PairLaws, PairLawsError};
+use std::sync::Arc;
+
+/// The laws of a contact between bodies; notes what cannot act there.
+pub(super) fn laws(
+    measure: AreaMeasure,
+    laws: Vec<ContactLaw>,
+    key: &Key,
+    reporter: &mut Reporter<'_>,
+) -> Option<Arc<PairLaws>> {
+    let error = match PairLaws::new(measure, laws) {
+        Ok(laws) => return Some(Arc::new(laws)),
+        Err(error) => error,
+    };
+    let (key, message, help) = match error {
+        PairLawsError::NoRepulsion => (
+            key.key("repulsion"),
+            "between bodies nothing says where the plane between them stands".to_owned(),
+            "give it a `repulsion` with alpha > 0, which places the plane",
+        ),
+        PairLawsError::TooWeak { exponent } => (
+            key.key("repulsion").key("nu"),
+            format!("{exponent:?} is less than 2, the least with which a plane stays off both bodies"),
+            "write an exponent of 2 or more",
+        ),
+        PairLawsError::Missing { kind } => (
+            key.key(kind.name()),
+            format!("this version has no {} between bodies", kind.name()),
+            "leave it out, or give it to contacts with supports",
+        ),
+        PairLawsError::Measure => (
+            key.key("measure"),
+            "this version has no such measure between bodies".to_owned(),
+            "write \"deformed_area\" or \"reference_area\"",
+        ),
+    };
+    reporter.note(&key, message, help);
+    None
+}
+
+/// Adds a pair of each convex part of one body and of the other; notes bodies that cannot meet, or do so at the start.
+pub(super) fn meet<'a>(
+    bodies: impl Iterator<Item = ([usize; 2], [Option<&'a AssembledBody>; 2])>,
+    (laws, reach): (&Arc<PairLaws>, Option<f64>),
+    key: &Key,
+    pairs: &mut Vec<Pair>,
+    reporter: &mut Reporter<'_>,
+) {
+    let between = key.key("between");
+    for (indices, both) in bodies {
+        let [Some(one), Some(other)] = both else { continue };
+        if reporter.diagnostics.is_full() {
+            return;
+        }
+        let able = [one, other].into_iter().all(|assembled| can_meet(assembled, &between, reporter));
+        if !able {
+            continue;
+        }
+        let counts = [one, other].map(|assembled| assembled.body.solid.count_parts());
+        for parts in (0..counts[0]).flat_map(|first| (0..counts[1]).map(move |second| [first, second])) {
+            let surfaces = [one.body.solid.part(parts[0]), other.body.solid.part(parts[1])];
+            let pair = Pair::new(indices, parts, Arc::clone(laws), reach, surfaces);
+            let placements = [one, other].map(|assembled| placement(&assembled.start));
+            if let Err(overlap) = Overlap::check(surfaces, placements.each_ref()) {
+                overlapping([one, other], &overlap, &between, reporter);
+                break;
+            }
+            pairs.push(pair);
+        }
+    }
+}
+
+/// Whether a body can meet others; notes why not.
+fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) -> bool {
+    let name = &assembled.body.name;
+    if assembled.body.solid.surface.is_none() {
+        without_surface(assembled, key, reporter);
+        return false;
+    }
+    if let Err(why) = assembled.body.solid.shape.convex_parts() {
+        let message = format!("\"{name}\" cannot meet other bodies: {why}");
+        reporter.note(key, message, "make its shape a union of convex ones: a plane stands between convex bodies");
+        return false;
+    }
+    if !assembled.body.has_inertia() {
+        let message = format!("\"{name}\" has no inertia: this version has no meeting of such bodies");
+        reporter.note(key, message, "give the body `inclusion = { inertia = true }`");
+        return false;
+    }
+    true
+}
+
+fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
+    let [one, other] = both.map(|assembled| &assembled.body.name);
+    let [x, y, z] = overlap.normal.into();
+    let depth = overlap.depth;
+    let message = format!("\"{one}\" and \"{other}\" reach each other at the start, by {depth:.6e} m");
+    let help = format!("move \"{one}\" by more than {depth:.6e} m along [{x:.6}, {y:.6}, {z:.6}]");
+    reporter.note(key, message, help);
+}

@@ -1,0 +1,89 @@
+//! Who meets whom: the bodies and the support that the words of a contact name.
+
+use super::body::AssembledBody;
+use crate::check::PartialScene;
+use crate::file::Contact;
+use std::collections::HashMap;
+
+/// Supports and groups by name.
+pub(super) struct Names<'a> {
+    supports: HashMap<&'a str, usize>,
+    /// The bodies of a group, ascending; a body's own name is a group of one.
+    groups: HashMap<&'a str, Vec<usize>>,
+}
+
+/// What a contact is between.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Partners {
+    /// A support and bodies; `named` if they were named one by one, and so must be able to meet it.
+    Support { support: usize, bodies: Vec<usize>, named: bool },
+    /// Any two different bodies of these sets.
+    Bodies([Vec<usize>; 2]),
+    /// Two supports.
+    Supports,
+}
+
+impl<'a> Names<'a> {
+    /// Those of a scene.
+    pub fn of(partial: &'a PartialScene) -> Self {
+        let supports = partial.supports.iter().enumerate();
+        let supports = supports.map(|(index, support)| (support.value.name.as_str(), index)).collect();
+        let mut groups: HashMap<&str, Vec<usize>> = HashMap::new();
+        for (index, body) in partial.bodies.iter().enumerate() {
+            let words = body.value.group.as_ref().map_or(&[][..], |group| group.as_slice());
+            for word in words.iter().chain([&body.value.name]) {
+                let group = groups.entry(word).or_default();
+                if group.last() != Some(&index) {
+                    group.push(index);
+                }
+            }
+        }
+        Self { supports, groups }
+    }
+
+    /// The partners of a contact; none where a name is not known, which has been noted.
+    pub fn partners(&self, contact: &Contact, bodies: &[Option<AssembledBody>]) -> Option<Partners> {
+        let Some([one, other]) = &contact.between else {
+            let support = *self.supports.get(contact.support.as_deref()?)?;
+            let (bodies, named) = match &contact.body {
+                Some(name) => (self.groups.get(name.as_str())?.clone(), true),
+                None => ((0..bodies.len()).collect(), false),
+            };
+            return Some(Partners::Support { support, bodies, named });
+        };
+        let support = |name: &String| self.supports.get(name.as_str()).copied();
+        let group = |name: &String| self.groups.get(name.as_str()).cloned();
+        match (group(one), group(other)) {
+            (Some(one), Some(other)) => Some(Partners::Bodies([one, other])),
+            (Some(bodies), None) => Some(Partners::Support { support: support(other)?, bodies, named: true }),
+            (None, Some(bodies)) => Some(Partners::Support { support: support(one)?, bodies, named: true }),
+            (None, None) => support(one).and(support(other)).map(|_| Partners::Supports),
+        }
+    }
+}
+
+/// The pairs of two different bodies of two sets, each pair once, in order of the first set.
+pub(super) fn pairs<'a>([one, other]: &'a [Vec<usize>; 2]) -> impl Iterator<Item = [usize; 2]> + 'a {
+    let of_first = move |first: &'a usize| {
+        // Where both are in both sets, the pair comes once.
+        let again = move |second: &usize| {
+            second < first && one.binary_search(second).is_ok() && other.binary_search(first).is_ok()
+        };
+        other.iter().filter(move |second| *second != first && !again(second)).map(|second| [*first, *second])
+    };
+    one.iter().flat_map(of_first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_of_two_different_bodies_and_come_once() {
+        let of = |one: &[usize], other: &[usize]| pairs(&[one.to_vec(), other.to_vec()]).collect::<Vec<_>>();
+        assert_eq!(of(&[0, 1, 2], &[0, 1, 2]), [[0, 1], [0, 2], [1, 2]]);
+        assert_eq!(of(&[0], &[1]), [[0, 1]]);
+        assert_eq!(of(&[2], &[0, 1, 2]), [[2, 0], [2, 1]]);
+        assert_eq!(of(&[0, 1], &[1, 2]), [[0, 1], [0, 2], [1, 2]]);
+    }
+}
