@@ -308,12 +308,12 @@ impl Island {
         self.find_gaps();
     }
 
-    /// Reads the gaps between its bodies after the last step.
+    /// Finds the planes between its bodies after the last step, from which those of the next begin.
     fn find_gaps(&mut self) {
         let Self { system, integrator, gaps, .. } = self;
         let (model, workspace) = system.observed();
         // A step ends where there are rates, and so gaps.
-        if workspace.pair_gaps(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
+        if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
             gaps.clear();
         }
     }

@@ -122,7 +122,7 @@ fn loads(laws: &PairLaws, halves: [&Half; 2]) -> PairLoads {
 
 fn within(laws: &PairLaws, reach: Option<f64>, [one, other]: [&Half; 2]) -> PairLoads {
     let pair = pair(laws, reach, [one, other]);
-    PairLoads::integrate(&pair, [&one.side(), &other.side()], &mut PairScratch::default()).unwrap()
+    PairLoads::integrate(&pair, [&one.side(), &other.side()], None, &mut PairScratch::default()).unwrap()
 }
 
 /// Every pair of shapes, some apart, some close.
@@ -143,7 +143,7 @@ fn pairs() -> impl Iterator<Item = (String, Half, Half)> {
             let (one, other) = place(distance);
             let pair = pair(&laws([6.0; 3], false), None, [&one, &other]);
             let sides = [one.side(), other.side()];
-            let found = PairLoads::integrate(&pair, sides.each_ref(), &mut PairScratch::default());
+            let found = PairLoads::integrate(&pair, sides.each_ref(), None, &mut PairScratch::default());
             found.is_ok_and(|loads| loads.gap > if k % 2 == 0 { 0.03 } else { 0.3 })
         };
         let (mut near, mut far) = (0.0, 4.0);
@@ -206,9 +206,13 @@ fn slopes_agree_with_differences() {
         let exponents = [[6.0, 6.0, 6.0], [2.5, 4.0, 3.0], [12.0, 10.0, 6.5]][k % 3];
         let laws = laws(exponents, true);
         let sides = [one.side(), other.side()];
-        let slopes =
-            PairSlopes::integrate(&pair(&laws, reach, [&one, &other]), sides.each_ref(), &mut PairScratch::default())
-                .unwrap();
+        let slopes = PairSlopes::integrate(
+            &pair(&laws, reach, [&one, &other]),
+            sides.each_ref(),
+            None,
+            &mut PairScratch::default(),
+        )
+        .unwrap();
         let at = within(&laws, reach, [&one, &other]);
         for body in 0..2 {
             assert!(off(&numbers(&slopes.on[body]), &numbers(&at.on[body])) < 1e-12);

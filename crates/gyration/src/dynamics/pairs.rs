@@ -7,7 +7,7 @@ use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, Instant, KindAt};
 use crate::load::JointEnd;
 use crate::model::Model;
-use crate::pair::{Pair, PairGap, PairLoads, PairScratch, PairSlopes, Side};
+use crate::pair::{Guess, Pair, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::surface::GapClosed;
 
 /// A pair as one of its bodies sees it.
@@ -20,7 +20,17 @@ pub(crate) struct Met {
     pub loads: Vec<PairLoads>,
     /// The same, where derivatives are wanted; none out of reach.
     pub slopes: Vec<Option<PairSlopes>>,
+    /// Where the planes were at a time, from which they are looked for; empty if that is not remembered.
+    remembered: (f64, Vec<PairGap>),
     room: PairScratch,
+}
+
+impl Met {
+    /// Where a plane is looked for first at a time.
+    fn guess(&self, number: usize, time: f64) -> Option<Guess> {
+        let (since, slabs) = &self.remembered;
+        slabs.get(number)?.guess(time - since)
+    }
 }
 
 /// Finds what all pairs do to their bodies; of those that are so far apart that it is nothing, the gaps only where
@@ -31,30 +41,36 @@ pub(super) fn meet(
     scratch: &mut Scratch,
     everywhere: bool,
 ) -> Result<(), Inadmissible> {
-    let Met { loads, room, .. } = &mut scratch.met;
-    loads.clear();
+    let met = &mut scratch.met;
+    met.loads.clear();
     for (number, pair) in model.pairs().iter().enumerate() {
+        let guess = met.guess(number, instant.time());
         let bodies = pair.bodies.map(|body| instant.at(model, body));
         let found = match !everywhere && is_far(pair, &bodies) {
             true => Ok(PairLoads::default()),
-            false => with_sides(pair, &bodies, |sides| PairLoads::integrate(pair, sides, room)),
+            false => {
+                with_sides(pair, &bodies, |sides| PairLoads::integrate(pair, sides, guess.as_ref(), &mut met.room))
+            }
         };
-        loads.push(found.map_err(|closed| outside(&bodies, number, closed))?);
+        met.loads.push(found.map_err(|closed| outside(&bodies, number, closed))?);
     }
     Ok(())
 }
 
 /// The same with derivatives.
 pub(super) fn differentiate(model: &Model, instant: &Instant, scratch: &mut Scratch) -> Result<(), Inadmissible> {
-    let Met { slopes, room, .. } = &mut scratch.met;
-    slopes.clear();
+    let met = &mut scratch.met;
+    met.slopes.clear();
     for (number, pair) in model.pairs().iter().enumerate() {
+        let guess = met.guess(number, instant.time());
         let bodies = pair.bodies.map(|body| instant.at(model, body));
         let found = match is_far(pair, &bodies) {
             true => Ok(None),
-            false => with_sides(pair, &bodies, |sides| PairSlopes::integrate(pair, sides, room)).map(Some),
+            false => with_sides(pair, &bodies, |sides| {
+                PairSlopes::integrate(pair, sides, guess.as_ref(), &mut met.room).map(Some)
+            }),
         };
-        slopes.push(found.map_err(|closed| outside(&bodies, number, closed))?);
+        met.slopes.push(found.map_err(|closed| outside(&bodies, number, closed))?);
     }
     Ok(())
 }
@@ -77,13 +93,33 @@ impl Workspace {
         let Self { instant, scratch } = self;
         instant.read(model, time, state)?;
         for (number, pair) in model.pairs().iter().enumerate() {
+            let guess = scratch.met.guess(number, time);
             let bodies = pair.bodies.map(|body| instant.at(model, body));
             let found = match is_far(pair, &bodies) {
                 true => Ok(PairGap::FAR),
-                false => with_sides(pair, &bodies, |sides| pair.gap(sides, &mut scratch.met.room)),
+                false => with_sides(pair, &bodies, |sides| pair.gap(sides, guess.as_ref(), &mut scratch.met.room)),
             };
             gaps.push(found.map_err(|closed| outside(&bodies, number, closed))?);
         }
+        Ok(())
+    }
+
+    /// The same as if nothing were known, and from then on planes are looked for where they are then: what follows is
+    /// the same for whoever comes to this state.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates two of them; nothing is remembered then.
+    pub fn remember_pairs(
+        &mut self,
+        model: &Model,
+        (time, state): (f64, Numbers),
+        gaps: &mut Vec<PairGap>,
+    ) -> Result<(), Inadmissible> {
+        self.scratch.met.remembered.1.clear();
+        self.pair_gaps(model, (time, state), gaps)?;
+        let (since, slabs) = &mut self.scratch.met.remembered;
+        *since = time;
+        slabs.extend_from_slice(gaps);
         Ok(())
     }
 }

@@ -5,7 +5,7 @@
 //! The plane is in balance, so that the wrenches of the two are opposite; computed apart they differ by rounding, which
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
 
-use super::met::{Met, PairScratch, ViscousMoments};
+use super::met::{Guess, Met, PairScratch, ViscousMoments};
 use super::side::{Half, Side};
 use super::{Mat34, Pair};
 use crate::contact::LawKind;
@@ -53,8 +53,13 @@ impl PairLoads {
     ///
     /// # Errors
     /// [`GapClosed`] if no plane separates them.
-    pub fn integrate(pair: &Pair, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
-        let met = Met::new(pair, sides, scratch)?;
+    pub fn integrate(
+        pair: &Pair,
+        sides: [&Side; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<Self, GapClosed> {
+        let met = Met::new(pair, sides, guess, scratch)?;
         let mut on = [met.repulsion(0), met.repulsion(1)];
         let mut powers = [0.0; LawKind::COUNT];
         let rates = met.halves.each_ref().map(Half::rates);

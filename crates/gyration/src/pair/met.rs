@@ -63,11 +63,16 @@ pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2]
 
 impl<'a> Met<'a> {
     /// Places the plane.
-    pub fn new(pair: &'a Pair, sides: [&Side<'a>; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
+    pub fn new(
+        pair: &'a Pair,
+        sides: [&Side<'a>; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<Self, GapClosed> {
         let laws = &pair.laws;
         let halves = halves(sides, laws.measure != AreaMeasure::ReferenceArea);
         let [room, _] = scratch.take(laws.placing.requests().len());
-        let mut placed = place(laws, halves.each_ref(), room)?;
+        let mut placed = place(laws, halves.each_ref(), guess, room)?;
         placed.fade(pair.threshold);
         let first = &placed.potentials[0].first;
         let center = halves[0].columns * first / first[0];
@@ -115,6 +120,8 @@ impl<'a> Met<'a> {
     }
 }
 
+const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);
+
 /// The slab between two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairGap {
@@ -124,11 +131,30 @@ pub struct PairGap {
     pub rate: f64,
     /// n, from B to A.
     pub normal: Vec3,
+    /// ṅ [1/s].
+    pub turning: Vec3,
+    /// The part of it that is above the plane.
+    pub share: f64,
+}
+
+/// Where a plane is looked for first: along a normal, at a part of the slab.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guess {
+    /// n, from B to A.
+    pub normal: Vec3,
+    /// The part of the slab that is above it.
+    pub share: f64,
 }
 
 impl PairGap {
     /// Of bodies that are too far apart to ask.
-    pub const FAR: Self = Self { gap: f64::INFINITY, rate: 0.0, normal: Vec3::new(0.0, 0.0, 0.0) };
+    pub const FAR: Self = Self { gap: f64::INFINITY, rate: 0.0, normal: ZEROS, turning: ZEROS, share: 0.5 };
+
+    /// Where the plane will be after a time [s], if all goes on as it does; none for bodies that are far apart.
+    pub fn guess(&self, after: f64) -> Option<Guess> {
+        let normal = (self.normal + after * self.turning).try_normalize(0.0)?;
+        Some(Guess { normal, share: self.share })
+    }
 }
 
 impl Pair {
@@ -136,17 +162,23 @@ impl Pair {
     ///
     /// # Errors
     /// [`GapClosed`] if no plane separates them.
-    pub fn gap(&self, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<PairGap, GapClosed> {
-        let met = Met::new(self, sides, scratch)?;
+    pub fn gap(
+        &self,
+        sides: [&Side; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<PairGap, GapClosed> {
+        let met = Met::new(self, sides, guess, scratch)?;
         let halves = met.halves.each_ref();
         let rates = halves.map(Half::rates);
         let change = met.placed.along(halves, rates.each_ref());
-        let (mut gap, mut rate) = (0.0, 0.0);
-        for (half, heights) in halves.into_iter().zip(&change.heights) {
+        let (mut gaps, mut rate) = ([0.0; 2], 0.0);
+        for ((half, heights), gap) in halves.into_iter().zip(&change.heights).zip(&mut gaps) {
             let (own, point) = half.smallest_gap(&met.placed.plane);
-            gap += own;
+            *gap = own;
             rate += heights.dot(&Vec4::new(1.0, point.x, point.y, point.z));
         }
-        Ok(PairGap { gap, rate, normal: met.placed.plane.normal })
+        let gap = gaps[0] + gaps[1];
+        Ok(PairGap { gap, rate, normal: met.placed.plane.normal, turning: change.normal, share: gaps[0] / gap })
     }
 }

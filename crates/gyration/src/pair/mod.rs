@@ -17,7 +17,7 @@
 //! | `laws`     | what acts between two bodies, and the moments that it needs      |
 //! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
 //! | `overlap`  | two bodies that no plane separates                              |
-//! | `separate` | a plane between them to begin with                               |
+//! | `separate` | a plane between them to begin with, guessed or found             |
 //! | `plane`    | the plane of least potential, by Newton's method on log U        |
 //! | `met`      | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator` | damping and friction against the velocities of the plane        |
@@ -36,7 +36,7 @@ mod slopes;
 
 pub use laws::{PairLaws, PairLawsError};
 pub use loads::PairLoads;
-pub use met::{PairGap, PairScratch};
+pub use met::{Guess, PairGap, PairScratch};
 pub use overlap::Overlap;
 pub use plane::Plane;
 pub use side::Side;

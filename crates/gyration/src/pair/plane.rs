@@ -10,7 +10,8 @@
 //! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
 
 use super::laws::PairLaws;
-use super::separate::separate;
+use super::met::Guess;
+use super::separate::{guessed, separate};
 use super::side::{Half, Potential};
 use super::{Mat34, Vec4};
 use crate::surface::{GapClosed, Moments};
@@ -82,8 +83,14 @@ impl Plane {
 ///
 /// # Errors
 /// The gap that is closed, if nothing separates the bodies.
-pub(super) fn place(laws: &PairLaws, halves: [&Half; 2], room: &mut [Moments]) -> Result<Placed, GapClosed> {
-    let start = separate(halves).map_err(|gap| GapClosed { gap })?;
+pub(super) fn place(
+    laws: &PairLaws,
+    halves: [&Half; 2],
+    guess: Option<&Guess>,
+    room: &mut [Moments],
+) -> Result<Placed, GapClosed> {
+    let guessed = guess.and_then(|guess| guessed(halves, guess));
+    let start = guessed.map_or_else(|| separate(halves), Ok).map_err(|gap| GapClosed { gap })?;
     let mut placed = Placed::at(laws, halves, start, room)?;
     let mut last = f64::INFINITY;
     for _ in 0..MOST_STEPS {

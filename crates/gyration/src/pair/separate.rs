@@ -7,6 +7,7 @@
 //!
 //! It ends when the slab is half as wide as |v|. Source: Gilbert, Johnson and Keerthi 1988.
 
+use super::met::Guess;
 use super::plane::Plane;
 use super::side::Half;
 use crate::tensor::{Mat3, Vec3};
@@ -52,6 +53,15 @@ pub(super) fn separate(halves: [&Half; 2]) -> Result<Plane, f64> {
         }
     }
     Err(width.min(0.0))
+}
+
+/// The plane of a guess, unless it does not separate the bodies.
+pub(super) fn guessed([above, below]: [&Half; 2], guess: &Guess) -> Option<Plane> {
+    let Guess { normal, share } = *guess;
+    let lowest = above.lowest(&normal).dot(&normal);
+    let slab = lowest - below.lowest(&-normal).dot(&normal);
+    let least = above.side.least_gap + below.side.least_gap;
+    (slab > least).then(|| Plane { normal, offset: lowest - share * slab })
 }
 
 impl Half<'_> {

@@ -4,7 +4,7 @@
 //! change by those of one more power of the gap, and everything else by the chain rule.
 
 use super::mediator::Slope;
-use super::met::{Met, PairScratch, ViscousMoments};
+use super::met::{Guess, Met, PairScratch, ViscousMoments};
 use super::plane::Change;
 use super::side::Side;
 use super::{Mat34, Pair, SIGNS};
@@ -29,8 +29,13 @@ impl PairSlopes {
     ///
     /// # Errors
     /// [`GapClosed`] if no plane separates them.
-    pub fn integrate(pair: &Pair, sides: [&Side; 2], scratch: &mut PairScratch) -> Result<Self, GapClosed> {
-        let met = Met::new(pair, sides, scratch)?;
+    pub fn integrate(
+        pair: &Pair,
+        sides: [&Side; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<Self, GapClosed> {
+        let met = Met::new(pair, sides, guess, scratch)?;
         let halves = met.halves.each_ref();
         let mut on = [met.repulsion(0), met.repulsion(1)];
         let zeros = [[Mat12::zeros(); 2]; 2];
