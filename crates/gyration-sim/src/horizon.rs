@@ -78,10 +78,6 @@ pub(crate) fn horizon(
             });
         }
     }
-    let bonds = model.bonds().iter().filter_map(|bond| Some((bond.bodies, bond.law.reach()?)));
-    for (bodies, reach) in bonds {
-        step = step.min(before_meeting(bodies.map(|body| &ends[body]), (reach, 0.5 * reach), step));
-    }
     for (pair, slab) in model.pairs().iter().zip(gaps) {
         let both = pair.bodies.map(|body| &ends[body]);
         step = step.min(match (slab.gap < f64::INFINITY, pair.span().zip(pair.half_span())) {

@@ -77,7 +77,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
     let listed = model.try_each_load(index, |load| {
         stiffness += match load {
             Load::Spring(_, spring) => spring.law.stiffness,
-            Load::Bond(end) => end.joint.law.stiffness(),
+            Load::Bond(end) => end.joint.law.stiffness,
             _ => 0.0,
         };
         Ok::<(), Infallible>(())

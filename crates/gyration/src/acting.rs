@@ -94,7 +94,7 @@ impl<'a> Load<'a> {
             }
             Self::Pair(end) => end.joint.laws.laws().iter().map(|law| law.kind().work()).collect(),
             Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
-            Self::Bond(end) if end.joint.law.dissipates() => vec![Work::Load],
+            Self::Bond(end) if end.joint.law.damping > 0.0 => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],

@@ -173,7 +173,7 @@ fn forces_are_the_derivative_of_the_potential() {
     for (name, one, other) in pairs() {
         for exponent in [2.0, 2.5, 6.0, 12.0] {
             let laws = laws([exponent; 3], false);
-            let reach = (exponent == 2.5).then_some(0.8);
+            let reach = (exponent == 6.0).then(|| 30.0 * loads(&laws, [&one, &other]).gap);
             let found = within(&laws, reach, [&one, &other]);
             let step = 2e-3 / exponent * found.gap;
             for body in 0..2 {
@@ -201,10 +201,11 @@ fn forces_are_the_derivative_of_the_potential() {
 fn slopes_agree_with_differences() {
     let mut worst: f64 = 0.0;
     for (k, (name, one, other)) in pairs().enumerate() {
-        // Far beyond the gaps, a little beyond them, and none.
-        let reach = [Some(3.0), Some(0.8), None][k % 3];
         let exponents = [[6.0, 6.0, 6.0], [2.5, 4.0, 3.0], [12.0, 10.0, 6.5]][k % 3];
         let laws = laws(exponents, true);
+        // Far beyond the gaps, a little beyond them, and none.
+        let gap = loads(&laws, [&one, &other]).gap;
+        let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];
         let sides = [one.side(), other.side()];
         let slopes = PairSlopes::integrate(
             &pair(&laws, reach, [&one, &other]),
@@ -334,4 +335,31 @@ fn translation_is_resisted_as_the_normal_force_says_whatever_the_shapes() {
         let wanted = -beta * d0.powi(6) / (1.3 * 0.1_f64.powi(6)) * push * speed;
         assert!((found / wanted - 1.0).abs() < 1e-10, "{name}: {found} and {wanted}");
     }
+}
+
+#[test]
+fn a_pair_is_nothing_beyond_its_reach_and_nearly_whole_well_within() {
+    let mut tightest: f64 = 0.0;
+    for (name, mut one, mut other) in pairs() {
+        // Rigid bodies: the bound is of their own surfaces.
+        let mut next = noise(4.0);
+        for half in [&mut one, &mut other] {
+            half.placement.gradient = rotation(&mut next);
+        }
+        let way = (one.placement.position - other.placement.position).normalize();
+        one.placement.position += way;
+        for exponent in [2.0, 2.5, 6.0, 12.0] {
+            let laws = laws([exponent; 3], true);
+            let whole = loads(&laws, [&one, &other]);
+            // The slab is no wider than the distance.
+            let beyond = within(&laws, Some(0.999 * whole.gap), [&one, &other]);
+            assert_eq!((beyond.energy, beyond.on[0].force.norm()), (0.0, 0.0), "{name}, nu {exponent}");
+            let reach = 30.0 * whole.gap;
+            let inside = within(&laws, Some(reach), [&one, &other]);
+            let part = inside.energy / whole.energy;
+            tightest = tightest.max(part);
+            assert!(part > 0.0 && part < 1.0, "{name}, nu {exponent}: {part}");
+        }
+    }
+    println!("at a thirtieth of the reach up to {tightest:.9} of the energy");
 }

@@ -5,7 +5,7 @@ use super::start::placement;
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file;
 use crate::quantity::si;
-use gyration::load::{Bond, BondLaw, SpringLaw};
+use gyration::load::{Bond, SpringLaw};
 use std::collections::HashMap;
 
 /// The springs between bodies; notes those that start without a direction, or whose dashpot is at a body without
@@ -27,7 +27,7 @@ pub(super) fn bonds(
             rest_length: value.rest_length.value(),
             damping: value.damping.value(),
         };
-        let bond = Bond { bodies: [one, other], points: value.points.each_ref().map(si), law: BondLaw::Spring(law) };
+        let bond = Bond { bodies: [one, other], points: value.points.each_ref().map(si), law };
         let ends = bond.bodies.map(|body| assembled[body].as_ref());
         let [Some(one), Some(other)] = ends else { return None };
         if law.is_directed() && bond.length([&placement(&one.start), &placement(&other.start)]) == 0.0 {

@@ -195,7 +195,7 @@ impl Simulation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gyration::load::{Bond, BondLaw, Bumper, SpringLaw};
+    use gyration::load::{Bond, SpringLaw};
     use gyration::tensor::Vec3;
     use std::path::Path;
 
@@ -207,13 +207,13 @@ mod tests {
                  position = [{k}, 0, 0]\n"
             )
         };
-        let text: String =
-            ["time = { end = 1, sample = 1 }\n".to_owned()].into_iter().chain((0..4).map(body)).collect();
+        let head = "time = { end = 1, sample = 1 }\n[[contact]]\nbetween = [\"b0\", \"b1\"]\nreach = 0.1\n\
+                    repulsion = { alpha = 1, nu = 6, d0 = 0.1 }\n";
+        let text: String = [head.to_owned()].into_iter().chain((0..4).map(body)).collect();
         let scene = gyration_scene::Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
-        let bond = |bodies, law| Bond { bodies, points: [Vec3::zeros(); 2], law };
-        let spring = BondLaw::Spring(SpringLaw { stiffness: 1.0, rest_length: 0.0, damping: 0.0 });
-        let bumper = BondLaw::Bumper(Bumper { stiffness: 1.0, reach: 0.3 });
-        let model = scene.built().model.clone().bonded(vec![bond([3, 1], spring), bond([0, 1], bumper)]);
+        let spring = SpringLaw { stiffness: 1.0, rest_length: 0.0, damping: 0.0 };
+        let bond = Bond { bodies: [3, 1], points: [Vec3::zeros(); 2], law: spring };
+        let model = scene.built().model.clone().bonded(vec![bond]);
         let meetings = Meetings::of(&model);
         let may_be =
             |islands: &[&[usize]]| meetings.may_be(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());

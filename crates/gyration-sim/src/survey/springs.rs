@@ -5,7 +5,7 @@
 //! of two free bodies on the line of the spring; what else holds or turns them makes it another period.
 
 use crate::format::significant;
-use gyration::load::{Bond, BondLaw};
+use gyration::load::Bond;
 use gyration::model::Model;
 use gyration::state::State;
 use serde::Serialize;
@@ -39,7 +39,7 @@ impl SpringSurvey {
     }
 
     fn of(model: &Model, start: &State, bond: &Bond) -> Option<Self> {
-        let BondLaw::Spring(law) = bond.law else { return None };
+        let law = bond.law;
         let [one, other] = bond.bodies.map(|body| start.motion(model, body).placement);
         let [m, n] = bond.bodies.map(|body| model.bodies[body].solid.mass.mass);
         let reduced = m * n / (m + n);

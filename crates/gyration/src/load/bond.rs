@@ -4,22 +4,12 @@
 //! sign, digit by digit, and so are the forces. Their sum is zero to the last digit. Energy and dissipation belong to
 //! the first end.
 
-use super::bumper::Bumper;
 use super::joints::{Joint, JointEnd};
 use super::spring::{SpringLaw, SpringLoads};
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::Vec3;
 
-/// What a bond does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BondLaw {
-    /// A spring with a dashpot.
-    Spring(SpringLaw),
-    /// A push between centres that are near.
-    Bumper(Bumper),
-}
-
-/// What joins material points of two bodies.
+/// A spring between material points of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bond {
     /// The indices of the two bodies, which differ.
@@ -27,7 +17,7 @@ pub struct Bond {
     /// A material point of each (from its centre of mass) [m].
     pub points: [Vec3; 2],
     /// What it does.
-    pub law: BondLaw,
+    pub law: SpringLaw,
 }
 
 /// A bond as one of its bodies sees it.
@@ -40,46 +30,6 @@ impl Joint for Bond {
 
     fn renumbered(&self, bodies: [usize; 2]) -> Self {
         Self { bodies, ..*self }
-    }
-}
-
-impl BondLaw {
-    /// Whether it does anything.
-    pub fn acts(&self) -> bool {
-        match self {
-            Self::Spring(law) => law.stiffness > 0.0 || law.damping > 0.0,
-            Self::Bumper(law) => law.stiffness > 0.0,
-        }
-    }
-
-    /// k [N/m]: no force changes faster with the distance.
-    pub fn stiffness(&self) -> f64 {
-        match self {
-            Self::Spring(law) => law.stiffness,
-            // −F′ at l = 0.
-            Self::Bumper(law) => 4.0 * law.stiffness,
-        }
-    }
-
-    /// Whether it takes energy.
-    pub fn dissipates(&self) -> bool {
-        matches!(self, Self::Spring(law) if law.damping > 0.0)
-    }
-
-    /// The distance of the points from which on it does nothing [m]; none if there is none.
-    pub fn reach(&self) -> Option<f64> {
-        match self {
-            Self::Spring(_) => None,
-            Self::Bumper(law) => Some(law.reach),
-        }
-    }
-
-    /// The stored energy [J] at a length l [m].
-    fn energy(&self, length: f64) -> f64 {
-        match self {
-            Self::Spring(law) => law.energy(length),
-            Self::Bumper(law) => law.energy(length),
-        }
     }
 }
 
@@ -113,9 +63,6 @@ impl BondEnd<'_> {
         let (here, there) = (self.joint.points[self.end], self.other_point());
         let along = own.0.place(&here) - other.0.place(&there);
         let speed = own.1.at(&here) - other.1.at(&there);
-        match self.joint.law {
-            BondLaw::Spring(law) => law.loads(along, speed, here),
-            BondLaw::Bumper(law) => law.loads(along),
-        }
+        self.joint.law.loads(along, speed, here)
     }
 }

@@ -6,7 +6,6 @@
 
 mod applied;
 mod bond;
-mod bumper;
 mod couple;
 mod joints;
 mod resistance;
@@ -15,8 +14,7 @@ mod spring;
 mod wrench;
 
 pub use applied::Applied;
-pub use bond::{Bond, BondEnd, BondLaw};
-pub use bumper::Bumper;
+pub use bond::{Bond, BondEnd};
 pub use couple::Couple;
 pub use joints::{Joint, JointEnd, Joints};
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};

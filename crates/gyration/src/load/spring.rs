@@ -48,6 +48,11 @@ pub struct SpringLoads {
 }
 
 impl SpringLaw {
+    /// Whether it does anything.
+    pub fn acts(&self) -> bool {
+        self.stiffness > 0.0 || self.damping > 0.0
+    }
+
     /// Whether it needs a direction, which is lost where it has no length.
     pub fn is_directed(&self) -> bool {
         self.rest_length > 0.0 || self.damping > 0.0

@@ -109,16 +109,18 @@ impl PairLaws {
         &self.laws
     }
 
-    /// U_m [J]: no pair of surfaces [m²] with these shares has more at a distance D [m].
+    /// U_m [J]: no pair of surfaces [m²] has more at a distance D [m].
     ///
-    ///   U_m = φ(D) (√w_A S_A^−q + √w_B S_B^−q)^(−1/q),   φ(D) = α d₀ (D/d₀)^(1−ν)/(ν−1)
+    ///   U_m = φ(D) (w_A S_A^−p + w_B S_B^−p)^(−1/p),   φ(D) = α d₀ (D/d₀)^(1−ν)/(ν−1),   p = 1/(ν−1)
+    ///
+    /// Whatever their shapes, a plane across the shortest way between them has U_i ≤ φ(g_i) S_i with g_A + g_B = D, and
+    /// the best g_A : g_B is that of w_i S_i^−p. (`pairs.md` has the bound with D for each of the two gaps.)
     pub(super) fn most(&self, distance: f64, areas: [f64; 2]) -> f64 {
         let Repulsion { alpha, exponent, reference_gap } = self.repulsion;
         let density = alpha * reference_gap * libm::pow(distance / reference_gap, 1.0 - exponent) / (exponent - 1.0);
-        let power = 0.5 / (exponent - 1.0);
         let shares = shares(areas);
-        let sum: f64 = (0..2).map(|i| shares[i].sqrt() * libm::pow(areas[i], -power)).sum();
-        density * libm::pow(sum, -1.0 / power)
+        let mean: f64 = (0..2).map(|i| shares[i] * libm::pow(areas[i], -1.0 / (exponent - 1.0))).sum();
+        density * libm::pow(mean, 1.0 - exponent)
     }
 }
 
