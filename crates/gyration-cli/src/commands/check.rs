@@ -17,6 +17,9 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
         if !survey.springs.is_empty() {
             value["springs"] = json!(survey.springs);
         }
+        if !survey.meetings.is_empty() {
+            value["meetings"] = json!(survey.meetings);
+        }
         format!("{value:#}\n")
     } else {
         survey.text(&scene)?

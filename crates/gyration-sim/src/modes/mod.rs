@@ -85,8 +85,8 @@ pub enum NoRest {
     /// The body has no inertia.
     #[error("the body has no inertia: it has no modes, but the velocities that the fluid lets it have")]
     WithoutInertia,
-    /// Springs join it to other bodies.
-    #[error("springs join the body to others: the rest of several bodies together is not looked for")]
+    /// Other bodies act on it.
+    #[error("other bodies act on the body: the rest of several bodies together is not looked for")]
     Joined,
     /// The search came to no end.
     #[error(

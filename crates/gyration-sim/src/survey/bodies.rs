@@ -3,6 +3,7 @@
 use super::kind::KindSurvey;
 use super::laws::LawSurvey;
 use super::mass::MassSurvey;
+use super::meetings::MeetingSurvey;
 use super::modes::RestState;
 use super::rest::{Approach, RestGap};
 use super::springs::SpringSurvey;
@@ -25,6 +26,8 @@ pub struct Survey {
     /// The springs between bodies, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub springs: Vec<SpringSurvey>,
+    /// The bodies that meet.
+    pub meetings: Vec<MeetingSurvey>,
 }
 
 /// What can be said of one body.
@@ -117,7 +120,7 @@ impl Survey {
         let scene = if deforms { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
         let bodies = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
-        Ok(Self { bodies, springs: SpringSurvey::all(model, start) })
+        Ok(Self { bodies, springs: SpringSurvey::all(model, start), meetings: MeetingSurvey::all(model, start) })
     }
 }
 

@@ -14,6 +14,7 @@ mod crowd;
 mod kind;
 mod laws;
 mod mass;
+mod meetings;
 mod modes;
 mod rest;
 mod springs;
@@ -24,6 +25,7 @@ pub use bodies::{BodyModes, BodySurvey, PairSurvey, Survey, modes, modes_in_json
 pub use kind::KindSurvey;
 pub use laws::LawSurvey;
 pub use mass::MassSurvey;
+pub use meetings::MeetingSurvey;
 pub use modes::{ModeSurvey, RestState, ShapeSurvey};
 pub use rest::{Approach, RestGap};
 pub use springs::SpringSurvey;

@@ -188,6 +188,8 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
     let first = supports.next();
     if body.pin.is_some() {
         Some("a pin holds the body as well")
+    } else if model.pairs_of(index).next().is_some() {
+        Some("other bodies meet it as well")
     } else if !body.springs.is_empty() || model.is_joined(index) {
         Some("springs pull at the body as well")
     } else if supports.any(|support| Some(support) != first) {

@@ -2,6 +2,7 @@
 
 use super::bodies::Survey;
 use super::crowd::{MOST_BODIES, sorts, write_crowd};
+use super::meetings::write_meetings;
 use super::springs::write_springs;
 use super::words::write_body;
 use crate::format::vector;
@@ -46,6 +47,7 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
     }
     write_springs(&mut text, &survey.springs);
+    write_meetings(&mut text, &survey.meetings);
     if survey.bodies.len() > MOST_BODIES {
         write_crowd(&mut text, &survey.bodies);
         return text;

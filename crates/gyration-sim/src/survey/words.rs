@@ -107,7 +107,7 @@ pub(super) fn write_laws(text: &mut String, pair: &PairSurvey) {
 }
 
 /// The touch-or-not verdict on a law.
-fn verdict(law: &LawSurvey) -> String {
+pub(super) fn verdict(law: &LawSurvey) -> String {
     let LawSurvey { law: name, exponent, .. } = law;
     let (Some(feature), Some(critical)) = (law.feature, law.critical_exponent) else {
         return format!("{name:<10} ν = {exponent}");

@@ -52,7 +52,8 @@ pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, Stri
     if model.is_joined(found) {
         let name = &experiment.body;
         return Err(format!(
-            "springs join the body `{name}` to others: what is measured of it would be of all of them"
+            "other bodies act on the body `{name}`, which it meets or to which springs join it: what is measured of it \
+             would be of all of them"
         ));
     }
     Ok(found)

@@ -1,0 +1,113 @@
+//! What the survey says of bodies that meet: their gap at the start, and whether a law forbids them to touch.
+//!
+//! The verdict is that of the sharper of the two features.
+
+use super::laws::LawSurvey;
+use super::words::verdict;
+use crate::format::significant;
+use gyration::dynamics::Workspace;
+use gyration::model::Model;
+use gyration::pair::Pair;
+use gyration::state::State;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Meetings that are told one by one.
+const MOST: usize = 12;
+
+/// What can be said of two bodies that meet.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MeetingSurvey {
+    /// Names of the two.
+    pub between: [String; 2],
+    /// The width of the slab between them at the start [m]; none where they are out of reach.
+    pub initial_gap: Option<f64>,
+    /// The distance at which they begin to feel each other [m]; none if they always do.
+    pub reach: Option<f64>,
+    /// The laws between them.
+    pub laws: Vec<LawSurvey>,
+    /// Whether one of the laws forbids touching.
+    pub forbids_touching: bool,
+}
+
+impl MeetingSurvey {
+    /// The meetings of a model, in order.
+    pub fn all(model: &Model, start: &State) -> Vec<Self> {
+        let mut gaps = Vec::new();
+        // A scene whose bodies reach each other at the start has been refused.
+        let known = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps).is_ok();
+        let gap = |number: usize| gaps.get(number).map(|slab| slab.gap).filter(|gap| known && gap.is_finite());
+        model.pairs().iter().enumerate().map(|(number, pair)| Self::of(model, pair, gap(number))).collect()
+    }
+
+    fn of(model: &Model, pair: &Pair, initial_gap: Option<f64>) -> Self {
+        let bodies = pair.bodies.map(|body| &model.bodies[body]);
+        let shapes = bodies.map(|body| &body.solid.shape);
+        let [first, second] = shapes.map(|shape| shape.sharpest_feature());
+        let sharper = if first >= second { shapes[0] } else { shapes[1] };
+        let laws: Vec<LawSurvey> = pair.laws.laws().iter().map(|law| LawSurvey::of(law, sharper)).collect();
+        Self {
+            between: bodies.map(|body| body.name.clone()),
+            initial_gap,
+            reach: pair.reach,
+            forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
+            laws,
+        }
+    }
+}
+
+/// The meetings as text, those with the same laws under one verdict.
+pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
+    let short = |value: f64| significant(value, 5);
+    let mut told: Option<&MeetingSurvey> = None;
+    for meeting in meetings.iter().take(MOST) {
+        let [one, other] = &meeting.between;
+        let gap = meeting
+            .initial_gap
+            .map_or_else(|| "out of reach at the start".to_owned(), |gap| format!("gap {} m at the start", short(gap)));
+        let reach = meeting.reach.map(|reach| format!(", felt within {} m", short(reach))).unwrap_or_default();
+        let _ = writeln!(text, "meeting    {one} with {other}: {gap}{reach}");
+        if told.is_some_and(|told| told.laws == meeting.laws) {
+            continue;
+        }
+        told = Some(meeting);
+        for law in &meeting.laws {
+            let _ = writeln!(text, "             {}", verdict(law));
+        }
+        if !meeting.forbids_touching {
+            let _ = writeln!(
+                text,
+                "             no law forbids touching: bodies that are fast enough do, and the run stops"
+            );
+        }
+    }
+    if meetings.len() > MOST {
+        let _ = writeln!(text, "           and {} meetings more: all with --json", meetings.len() - MOST);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::survey::Survey;
+    use gyration_scene::Scene;
+    use std::path::Path;
+
+    #[test]
+    fn meetings_are_told_with_the_sharper_feature() {
+        let text = r#"
+            time = { end = 1, sample = 1 }
+            contact = [{ between = ["a", "b"], repulsion = { alpha = 1, nu = 2.5, d0 = 0.01 }, reach = 2 }]
+            body = [
+                { name = "a", shape = { box = { size = [0.2, 0.2, 0.2] } }, mass = 1 },
+                { name = "b", shape = { sphere = { radius = 0.1 } }, mass = 1, position = [0, 0, 0.5] },
+            ]
+        "#;
+        let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap();
+        let survey = Survey::of(&scene).unwrap();
+        let [told] = &survey.meetings[..] else { panic!("{:?}", survey.meetings) };
+        assert!((told.initial_gap.unwrap() - 0.3).abs() < 1e-12 && told.reach == Some(2.0));
+        assert!(!told.forbids_touching && told.laws[0].feature == Some("vertex"));
+        let words = survey.text(&scene).unwrap();
+        assert!(words.contains("meeting    a with b: gap 0.3 m at the start, felt within 2 m\n"), "{words}");
+    }
+}
