@@ -70,6 +70,7 @@ mod row32_tank_treading;
 mod row33_history_force;
 mod row34_boundary_elements;
 mod row35_chain;
+mod row36_meetings;
 mod soft;
 mod spinning;
 mod studies_bounce;
