@@ -19,6 +19,7 @@ mod gallery_dice;
 mod gallery_elastic;
 mod gallery_euler_disk;
 mod gallery_fluid;
+mod gallery_meetings;
 mod gallery_rattleback;
 mod gallery_rock;
 mod gallery_rocking_block;

@@ -43,6 +43,11 @@ static SCENES: &[(&str, &str)] = &[
     ("settle", include_str!("../../../scenes/settle.toml")),
     ("swimmer", include_str!("../../../scenes/swimmer.toml")),
     ("basset", include_str!("../../../scenes/basset.toml")),
+    ("collide", include_str!("../../../scenes/collide.toml")),
+    ("cradle", include_str!("../../../scenes/cradle.toml")),
+    ("dice-pair", include_str!("../../../scenes/dice-pair.toml")),
+    ("overhang", include_str!("../../../scenes/overhang.toml")),
+    ("soft-collision", include_str!("../../../scenes/soft-collision.toml")),
 ];
 
 /// Name and text of each scene of the gallery.

@@ -1,0 +1,76 @@
+//! The gallery's `collide`, `soft-collision`, `dice-pair`, `overhang` and `cradle`: bodies that meet.
+
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::{Vec3, axial};
+use gyration_sim::Outcome;
+use gyration_validation::{Case, Experiment};
+
+/// Σ m ṗ₀ and Σ (p₀ × m ṗ₀ + axial of Ṗ J Pᵀ).
+fn momenta(model: &Model, state: &State) -> (Vec3, Vec3) {
+    let mut sum = (Vec3::zeros(), Vec3::zeros());
+    for (index, body) in model.bodies.iter().enumerate() {
+        let motion = state.motion(model, index);
+        let momentum = body.solid.mass.mass * motion.velocity.velocity;
+        let own = motion.velocity.gradient_rate * body.solid.mass.euler_tensor * motion.placement.gradient.transpose();
+        sum.0 += momentum;
+        sum.1 += motion.placement.position.cross(&momentum) + axial(&own);
+    }
+    sum
+}
+
+#[test]
+fn boxes_and_rubber_balls_that_collide_keep_their_momenta() {
+    for (name, case) in [("collide", "gallery: collide"), ("soft-collision", "gallery: soft-collision")] {
+        let experiment = Experiment::of_gallery(name, &[]);
+        let run = experiment.run();
+        let (before, after) = (momenta(&experiment.model, &experiment.start), momenta(&experiment.model, &run.end));
+        let case = Case { row: None, name: case, source: "momenta of two bodies alone" };
+        case.check("change of momentum [kg m/s]", 0.0, (after.0 - before.0).norm(), 1e-14);
+        // To the tolerance of the steps.
+        case.check("change of angular momentum [kg m²/s]", 0.0, (after.1 - before.1).norm(), 1e-9);
+        assert!(run.relative_residual() < 1e-7);
+        let turned = [0, 1].map(|body| {
+            let spin = |state: &State| state.motion(&experiment.model, body).angular_velocity();
+            (spin(&run.end) - spin(&experiment.start)).norm()
+        });
+        assert!(turned.iter().all(|turned| *turned > 0.5), "{turned:?}: they have met");
+    }
+}
+
+#[test]
+fn dice_that_meet_settle_beside_each_other() {
+    let experiment = Experiment::of_gallery("dice-pair", &[]);
+    let run = experiment.run();
+    let [left, right] = [0, 1].map(|body| run.end.motion(&experiment.model, body));
+    let case = Case { row: None, name: "gallery: dice-pair", source: "W = αA (d/d₀)^−ν under a face" };
+    // 0.1 N on 4 cm² of 245 Pa; the sides are felt by a hundredth of it.
+    for (quantity, motion) in [("gap under the left die [m]", &left), ("gap under the right die [m]", &right)] {
+        case.check(quantity, 6.0e-4, motion.placement.position.z - 0.01, 0.02);
+    }
+    assert!(left.placement.position.x < right.placement.position.x - 0.02 && run.relative_residual() < 1e-7);
+}
+
+#[test]
+fn a_brick_tips_over_another_beyond_half_of_its_length_and_not_within() {
+    for (place, tips) in [("0.045", false), ("0.055", true)] {
+        let experiment = Experiment::of_gallery("overhang", &[&format!("body.upper.position.0={place}")]);
+        let run = experiment.attempt();
+        assert!(!matches!(run.outcome, Outcome::Stopped(_)), "{}", run.outcome.in_words());
+        let upper = run.end.motion(&experiment.model, 1);
+        let fallen = upper.placement.gradient[(2, 0)].abs() > 0.3;
+        assert_eq!(fallen, tips, "at {place} m: {}", upper.placement.gradient);
+    }
+}
+
+#[test]
+fn the_last_ball_of_a_cradle_takes_nearly_all_of_the_speed() {
+    let experiment = Experiment::of_gallery("cradle", &[]);
+    let run = experiment.sampled(0.001).until(0.3).sampled(0.001).run();
+    let fastest = |ball: &str| run.column(&format!("{ball}.vx")).into_iter().fold(0.0, f64::max);
+    let (first, last) = (fastest("ball-0"), fastest("ball-4"));
+    println!("{:.4} of the speed", last / first);
+    // Balls that touch and act at no distance: all of it. Here the others tremble with the rest.
+    assert!(last / first > 0.95 && last / first < 1.0, "{first} {last}");
+    assert!(run.relative_residual() < 1e-7);
+}
