@@ -1,13 +1,13 @@
 //! Row 36: two bodies that meet.
 //!
 //! A body and its mirror image move as one of them against a plane without friction, with half its d₀ and twice its
-//! damping. Balls and faces have the force of their closed forms. Head on they have the velocities of elastic impact, or
-//! with damping of ν′ = ν, c = β/α, those that leave with e of them,
+//! damping. Balls and faces have the force of their closed forms. Head on they have the velocities of elastic impact,
+//! or with damping of ν′ = ν, c = β/α, those that leave with e of them,
 //!
 //!   c v e + ln(1 − c v e) = −c v + ln(1 + c v)
 //!
-//! whatever masses, radii and areas. A ball that grazes another one loses its slip; a block that slides on another loses
-//! its speed at the rate c g m₁(1/m₁ + 1/m₂); one on a smooth wedge drives it away.
+//! whatever masses, radii and areas. A ball that grazes another one loses its slip; a block that slides on another
+//! loses its speed at the rate c g m₁(1/m₁ + 1/m₂); one on a smooth wedge drives it away.
 
 use gyration::state::BodyMotion;
 use gyration::tensor::Vec3;
@@ -65,7 +65,8 @@ fn a_body_and_its_mirror_image_move_as_one_of_them_on_a_plane() {
                      damping = {{ beta = {beta}, nu = 4, d0 = {d0} }}\n"
                 )
             };
-            // Of rigid bodies friction has nothing to do. Those that deform slide on the plane between them, which is rigid.
+            // Of rigid bodies friction has nothing to do. Those that deform slide on the plane between them, which is
+            // rigid.
             let friction = if rigid { "friction = { beta = 1e3, nu = 5, d0 = 0.01 }" } else { "" };
             let both = [
                 body("a", &table(axis, spin), place, velocity),

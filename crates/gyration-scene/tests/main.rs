@@ -11,6 +11,7 @@ mod contractile_robust;
 mod contractile_tables;
 mod corpus;
 mod errors;
+mod meetings;
 mod robust;
 mod scenes;
 mod together;

@@ -1,7 +1,7 @@
 //! Bodies that come within reach of one another and part again: islands that become one and fall apart.
 //!
-//! Balls whose contact has a reach. Samples, windows, threads and kills
-//! leave no trace; momentum and energy are kept; one step for all bodies finds the same paths.
+//! Balls whose contact has a reach. Samples, windows, threads and kills leave no trace; momentum and energy are kept;
+//! one step for all bodies finds the same paths.
 
 use crate::islands::{Seen, motion_in, parsed};
 use crate::runs::StopAfter;

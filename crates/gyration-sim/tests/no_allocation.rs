@@ -130,6 +130,45 @@ fn no_step_allocates_in_a_fluid() {
     }
 }
 
+/// A box and a rubber ball that meet, again and again between two springs.
+const MEETING: &str = r#"
+    [time]
+    end = 2.0
+    sample = 0.01
+    [world]
+    gravity = [0, 0, 0]
+    [[contact]]
+    between = ["box", "ball"]
+    measure = "reference_area"
+    repulsion = { alpha = "245 Pa", nu = 6, d0 = "0.6 mm" }
+    damping = { beta = 1e3, nu = 3, d0 = "0.6 mm" }
+    friction = { beta = 1e3, nu = 3, d0 = "0.6 mm" }
+    [[body]]
+    name = "box"
+    shape = { box = { size = ["2 cm", "2 cm", "2 cm"] } }
+    density = "1.25 g/cm^3"
+    angular_velocity = [0, 20, 3]
+    spring = [{ anchor = [0, 0, 0], stiffness = 10 }]
+    [[body]]
+    name = "ball"
+    shape = { sphere = { radius = "1 cm" } }
+    density = "1.25 g/cm^3"
+    affine = { material = { neo_hookean_log = { lambda = "60 kPa", mu = "30 kPa" } }, viscosity = 20 }
+    position = [0.05, 0, 0.002]
+    velocity = [-0.3, 0, 0]
+    spring = [{ anchor = [0.02, 0, 0], stiffness = 10 }]
+"#;
+
+#[test]
+fn no_step_allocates_where_bodies_meet() {
+    for (method, end) in [(Method::Explicit, 0.5), (Method::Implicit, 0.15)] {
+        let (allocations, s) = steps_after_the_first(&parsed(MEETING), method, end);
+        println!("{method:?}: {allocations} allocations, {s:?}");
+        assert_eq!(allocations, 0, "{method:?}");
+        assert!(s.accepted() > 50, "{method:?}");
+    }
+}
+
 /// Looks at everything and keeps nothing.
 #[derive(Default)]
 struct Nowhere {

@@ -2,7 +2,7 @@
 
 use super::body::AssembledBody;
 use super::pair;
-use super::partners::{self, Names, Partners};
+use super::partners::{self, Names, Partners, without_surface};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
@@ -64,8 +64,8 @@ pub(super) fn attach(
                 reporter.note(&key.key("between"), "it is between two supports", help);
             }
         }
-        if count >= MOST_PAIRS {
-            let message = format!("with this contact there are {MOST_PAIRS} pairs or more");
+        if count > MOST_PAIRS {
+            let message = format!("with this contact there are more than {MOST_PAIRS} pairs of what meets");
             reporter.note(key, message, "give each contact the bodies that it is for");
             break;
         }
@@ -73,15 +73,9 @@ pub(super) fn attach(
     pairs
 }
 
-/// How many more pairs there may be.
+/// How many more pairs are looked at: one too many tells that there are too many.
 fn most(count: usize) -> usize {
-    MOST_PAIRS.saturating_sub(count)
-}
-
-/// Notes a body that cannot meet anything.
-pub(super) fn without_surface(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) {
-    let message = format!("\"{}\" has no surface", assembled.body.name);
-    reporter.note(key, message, "name a body whose shape has a surface");
+    (MOST_PAIRS + 1).saturating_sub(count)
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

@@ -1,7 +1,7 @@
 //! Bodies that meet: what acts between each two, and whether they are apart at the start.
 
 use super::body::AssembledBody;
-use super::contact::without_surface;
+use super::partners::without_surface;
 use super::start::placement;
 use crate::check::Reporter;
 use crate::key::Key;

@@ -1,8 +1,9 @@
 //! Who meets whom: the bodies and the support that the words of a contact name.
 
 use super::body::AssembledBody;
-use crate::check::PartialScene;
+use crate::check::{PartialScene, Reporter};
 use crate::file::Contact;
+use crate::key::Key;
 use std::collections::HashMap;
 
 /// Supports and groups by name.
@@ -72,6 +73,12 @@ pub(super) fn pairs<'a>([one, other]: &'a [Vec<usize>; 2]) -> impl Iterator<Item
         other.iter().filter(move |second| *second != first && !again(second)).map(|second| [*first, *second])
     };
     one.iter().flat_map(of_first)
+}
+
+/// Notes a body that cannot meet anything.
+pub(super) fn without_surface(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) {
+    let message = format!("\"{}\" has no surface", assembled.body.name);
+    reporter.note(key, message, "name a body whose shape has a surface");
 }
 
 #[cfg(test)]

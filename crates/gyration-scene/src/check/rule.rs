@@ -41,7 +41,7 @@ pub(super) enum Rule {
     Named(Box<FieldRule>),
     /// An array of so many items.
     Array { item: Box<FieldRule>, least: usize, most: usize },
-    /// One table of this kind, or an array of them.
+    /// One table or text of this kind, or an array of them.
     Several(Box<FieldRule>),
     /// An array of the first kind, or a table of the second.
     Either(Box<FieldRule>, Box<FieldRule>),

@@ -37,7 +37,8 @@ impl Walker<'_> {
                 table.iter().for_each(|(name, entry)| self.visit(&entry.node, &key.key(name), field));
             }
             (Value::Array(items), Rule::Several(item)) => self.items(items, key, item),
-            (_, Rule::Several(item)) => self.visit(node, key, item),
+            (Value::Table(_), Rule::Several(item)) => self.visit(node, key, item),
+            (Value::Text(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Text) => {}
             (Value::Array(_), Rule::Either(array, _)) => self.visit(node, key, array),
             (Value::Table(_), Rule::Either(_, table)) => self.visit(node, key, table),
             (Value::Array(items), Rule::Array { item, least, most }) => {

@@ -41,4 +41,18 @@ impl LawSurvey {
             forbids_touching: critical.and_then(forbids),
         }
     }
+
+    /// The touch-or-not verdict in words.
+    pub(super) fn verdict(&self) -> String {
+        let Self { law: name, exponent, .. } = self;
+        let (Some(feature), Some(critical)) = (self.feature, self.critical_exponent) else {
+            return format!("{name:<10} ν = {exponent}");
+        };
+        match self.forbids_touching {
+            _ if !self.acts => format!("{name:<10} has no strength: does nothing"),
+            Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
+            Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
+            None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
+        }
+    }
 }

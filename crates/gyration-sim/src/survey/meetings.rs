@@ -3,7 +3,6 @@
 //! The verdict is that of the sharper of the two features.
 
 use super::laws::LawSurvey;
-use super::words::verdict;
 use crate::format::significant;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
@@ -72,7 +71,7 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
         }
         told = Some(meeting);
         for law in &meeting.laws {
-            let _ = writeln!(text, "             {}", verdict(law));
+            let _ = writeln!(text, "             {}", law.verdict());
         }
         if !meeting.forbids_touching {
             let _ = writeln!(

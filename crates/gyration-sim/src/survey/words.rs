@@ -2,7 +2,6 @@
 
 use super::bodies::{BodySurvey, PairSurvey};
 use super::kind::KindSurvey;
-use super::laws::LawSurvey;
 use super::modes::{ModeSurvey, RestState};
 use super::rest::RestGap;
 use crate::format::{significant, vector};
@@ -96,27 +95,13 @@ pub(super) fn write_laws(text: &mut String, pair: &PairSurvey) {
         return;
     }
     for law in &pair.laws {
-        let _ = writeln!(text, "    {}", verdict(law));
+        let _ = writeln!(text, "    {}", law.verdict());
     }
     if !pair.forbids_touching {
         let _ = writeln!(text, "    no law forbids touching: a body that is fast enough gets there, and the run stops");
     }
     if let Some(reason) = pair.no_rest_because {
         let _ = writeln!(text, "    no gap of rest is given: {reason}, and this support alone does not tell");
-    }
-}
-
-/// The touch-or-not verdict on a law.
-pub(super) fn verdict(law: &LawSurvey) -> String {
-    let LawSurvey { law: name, exponent, .. } = law;
-    let (Some(feature), Some(critical)) = (law.feature, law.critical_exponent) else {
-        return format!("{name:<10} ν = {exponent}");
-    };
-    match law.forbids_touching {
-        _ if !law.acts => format!("{name:<10} has no strength: does nothing"),
-        Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
-        Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
-        None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
     }
 }
 

@@ -5,7 +5,8 @@
 //! The plane is in balance, so that the wrenches of the two are opposite; computed apart they differ by rounding, which
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
 
-use super::met::{Guess, Met, PairScratch, ViscousMoments};
+use super::met::{Met, PairScratch, ViscousMoments};
+use super::plane::Guess;
 use super::side::{Half, Side};
 use super::{Mat34, Pair};
 use crate::contact::LawKind;

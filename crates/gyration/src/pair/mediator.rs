@@ -14,7 +14,7 @@
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 
 use super::laws::{PairLaws, ViscousLaw};
-use super::plane::{Change, Placed};
+use super::least::{Change, Placed};
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, SIGNS, Vec4};
 use crate::contact::LawKind;
@@ -100,8 +100,8 @@ fn projector(kind: LawKind, n: &Vec3) -> Mat3 {
 fn fields(kind: LawKind, placed: &Placed, from_foot: &Mat34) -> [Mat34; 3] {
     let (n, [one, other]) = (&placed.plane.normal, &placed.tangents);
     if kind == LawKind::Damping {
-        let along = |tangent: &Vec3| n * from_foot.tr_mul(tangent).transpose();
-        [uniform(n), along(one), along(other)]
+        let tilt = |tangent: &Vec3| n * from_foot.tr_mul(tangent).transpose();
+        [uniform(n), tilt(one), tilt(other)]
     } else {
         [uniform(one), uniform(other), cross_matrix(n) * from_foot]
     }
@@ -112,6 +112,16 @@ fn uniform(v: &Vec3) -> Mat34 {
     let mut uniform = Mat34::zeros();
     uniform.set_column(0, v);
     uniform
+}
+
+/// Σ η_k B_k.
+fn combined(motion: &Vec3, fields: &[Mat34; 3]) -> Mat34 {
+    motion.x * fields[0] + motion.y * fields[1] + motion.z * fields[2]
+}
+
+/// B_k · A of each k.
+fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
+    Vec3::from_fn(|k, _| fields[k].dot(weighed))
 }
 
 /// (p₀ − foot | P) of a side, both places from A's centre.
@@ -153,10 +163,8 @@ impl Mediator {
         }
         let system = matrix.cholesky().ok_or(GapClosed { gap: f64::NAN })?;
         let motion = system.solve(&right);
-        for side in 0..2 {
-            for k in 0..3 {
-                slips[side] -= motion[k] * fields[side][k];
-            }
+        for (slip, fields) in slips.iter_mut().zip(&fields) {
+            *slip -= combined(&motion, fields);
         }
         Ok(Self { kind, moments, fields, slips, motion, system, feet })
     }
@@ -175,9 +183,9 @@ impl Mediator {
     pub fn along_rates(&self, normal: &Vec3, side: usize, change: &Mat34) -> [Mat34; 2] {
         let change = projector(self.kind, normal) * change;
         let weighed = change * self.moments[side];
-        let motion = self.system.solve(&Vec3::from_fn(|k, _| self.fields[side][k].dot(&weighed)));
+        let motion = self.system.solve(&along(&self.fields[side], &weighed));
         [0, 1].map(|other| {
-            let carried: Mat34 = (0..3).map(|k| motion[k] * self.fields[other][k]).sum();
+            let carried = combined(&motion, &self.fields[other]);
             let slip = if other == side { change - carried } else { -carried };
             -(slip * self.moments[other])
         })
@@ -201,11 +209,11 @@ impl Mediator {
             moments[side] = self.moments_along(law, (half, side), placed, &slopes[side], (place, change), shares);
             let from_foot = from_foot(half, foot);
             fields[side] = if self.kind == LawKind::Damping {
-                let along = |k: usize| {
+                let tilt = |k: usize| {
                     let row = (from_foot.tr_mul(&turned[k]) + place.tr_mul(&placed.tangents[k])).transpose();
                     change.normal * from_foot.tr_mul(&placed.tangents[k]).transpose() + n * row
                 };
-                [uniform(&change.normal), along(0), along(1)]
+                [uniform(&change.normal), tilt(0), tilt(1)]
             } else {
                 let spin = cross_matrix(&change.normal) * from_foot + cross_matrix(n) * place;
                 [uniform(&turned[0]), uniform(&turned[1]), spin]
@@ -214,18 +222,14 @@ impl Mediator {
             let sign = if self.kind == LawKind::Damping { 1.0 } else { -1.0 };
             slips[side] =
                 sign * (change.normal * rates.tr_mul(n).transpose() + n * rates.tr_mul(&change.normal).transpose());
-            for k in 0..3 {
-                slips[side] -= self.motion[k] * fields[side][k];
-            }
+            slips[side] -= combined(&self.motion, &fields[side]);
             let pressed = self.slips[side] * self.moments[side];
             let changed = self.slips[side] * moments[side] + slips[side] * self.moments[side];
-            for k in 0..3 {
-                right[k] += fields[side][k].dot(&pressed) + self.fields[side][k].dot(&changed);
-            }
+            right += along(&fields[side], &pressed) + along(&self.fields[side], &changed);
         }
         let motion = self.system.solve(&right);
         [0, 1].map(|side| {
-            let carried: Mat34 = (0..3).map(|k| motion[k] * self.fields[side][k]).sum();
+            let carried = combined(&motion, &self.fields[side]);
             -((slips[side] - carried) * self.moments[side] + self.slips[side] * moments[side])
         })
     }

@@ -1,8 +1,9 @@
 //! A pair whose plane is found.
 
 use super::laws::{ViscousLaw, shares};
+use super::least::{Placed, place};
 use super::mediator::{Mediator, Shares};
-use super::plane::{Placed, place};
+use super::plane::Guess;
 use super::side::{Half, Side, columns};
 use super::{Mat34, Pair, SIGNS, Vec4};
 use crate::contact::AreaMeasure;
@@ -134,15 +135,6 @@ pub struct PairGap {
     /// ṅ [1/s].
     pub turning: Vec3,
     /// The part of it that is above the plane.
-    pub share: f64,
-}
-
-/// Where a plane is looked for first: along a normal, at a part of the slab.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Guess {
-    /// n, from B to A.
-    pub normal: Vec3,
-    /// The part of the slab that is above it.
     pub share: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Two bodies that meet: one massless plane between them, which both feel as they feel a plane.
 //!
-//! A plane y = (n, c), |n| = 1, has the points n·x = c; body A is above it, body B below. With q_i = (p₀ | P) of a body,
-//! a 3×4 matrix, and X̃ = (1; X), the gap of a point is
+//! A plane y = (n, c), |n| = 1, has the points n·x = c; body A is above it, body B below. With q_i = (p₀ | P) of a
+//! body, a 3×4 matrix, and X̃ = (1; X), the gap of a point is
 //!
 //!   d_i = z_i·X̃,   z_i = σ_i (q_iᵀn − c e₀),   σ_A = 1, σ_B = −1
 //!   U_i(y) = ∫ α d₀ (d_i/d₀)^(1−ν)/(ν−1) dA,   D_i = (U_i/αd₀)^(−1/(ν−1))
@@ -18,13 +18,15 @@
 //! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
 //! | `overlap`  | two bodies that no plane separates                              |
 //! | `separate` | a plane between them to begin with, guessed or found             |
-//! | `plane`    | the plane of least potential, by Newton's method on log U        |
+//! | `plane`    | a plane, and where it may be                                    |
+//! | `least`    | the plane of least potential, by Newton's method on log U        |
 //! | `met`      | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator` | damping and friction against the velocities of the plane        |
 //! | `loads`    | forces, moments, energy and powers                               |
 //! | `slopes`   | their derivatives by the coordinates and velocities of both      |
 
 mod laws;
+mod least;
 mod loads;
 mod mediator;
 mod met;
@@ -36,9 +38,9 @@ mod slopes;
 
 pub use laws::{PairLaws, PairLawsError};
 pub use loads::PairLoads;
-pub use met::{Guess, PairGap, PairScratch};
+pub use met::{PairGap, PairScratch};
 pub use overlap::Overlap;
-pub use plane::Plane;
+pub use plane::{Guess, Plane};
 pub use side::Side;
 pub use slopes::PairSlopes;
 

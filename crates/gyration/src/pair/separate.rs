@@ -1,14 +1,13 @@
 //! A plane between two convex bodies: the point next to the origin of the differences of their points.
 //!
-//! A − B is convex, and v, its point next to the origin, is the shortest way between them. It is approached by the hulls
-//! of up to four of its points, w being the farthest against v:
+//! A − B is convex, and v, its point next to the origin, is the shortest way between them. It is approached by the
+//! hulls of up to four of its points, w being the farthest against v:
 //!
 //!   v·w/|v| ≤ width of the slab along v ≤ distance ≤ |v|
 //!
 //! It ends when the slab is half as wide as |v|. Source: Gilbert, Johnson and Keerthi 1988.
 
-use super::met::Guess;
-use super::plane::Plane;
+use super::plane::{Guess, Plane};
 use super::side::Half;
 use crate::tensor::{Mat3, Vec3};
 
@@ -61,7 +60,7 @@ pub(super) fn guessed([above, below]: [&Half; 2], guess: &Guess) -> Option<Plane
     let lowest = above.lowest(&normal).dot(&normal);
     let slab = lowest - below.lowest(&-normal).dot(&normal);
     let least = above.side.least_gap + below.side.least_gap;
-    (slab > least).then(|| Plane { normal, offset: lowest - share * slab })
+    (slab > least).then_some(Plane { normal, offset: lowest - share * slab })
 }
 
 impl Half<'_> {

@@ -3,9 +3,10 @@
 //! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
 //! change by those of one more power of the gap, and everything else by the chain rule.
 
+use super::least::Change;
 use super::mediator::Slope;
-use super::met::{Guess, Met, PairScratch, ViscousMoments};
-use super::plane::Change;
+use super::met::{Met, PairScratch, ViscousMoments};
+use super::plane::Guess;
 use super::side::Side;
 use super::{Mat34, Pair, SIGNS};
 use crate::load::{COORDINATES, Loads, Mat12};

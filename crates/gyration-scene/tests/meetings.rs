@@ -1,0 +1,140 @@
+//! Contacts between bodies and groups: who meets whom, and what is wrong with it.
+
+use crate::common::{BALL, TABLE, TIME, assert_error, assert_resolves_to_itself};
+use gyration_scene::Scene;
+use std::path::Path;
+
+const REPULSION: &str = "repulsion = { alpha = 1, nu = 6, d0 = 0.01 }";
+
+/// A box beside the ball, with these lines.
+fn cube(lines: &str) -> String {
+    format!("[[body]]\nname = \"cube\"\nshape = {{ box = {{ size = [0.2, 0.2, 0.2] }} }}\nmass = 1\n{lines}\n")
+}
+
+fn contact(lines: &str) -> String {
+    format!("[[contact]]\n{lines}\n")
+}
+
+#[test]
+fn groups_and_names_say_who_meets_whom() {
+    let grains = (0..3).map(|k| {
+        format!(
+            "[[body]]\nname = \"g{k}\"\ngroup = [\"grain\", \"steel\"]\nshape = {{ sphere = {{ radius = 0.1 }} }}\n\
+             mass = 1\nposition = [{k}, 2, 1]\n"
+        )
+    });
+    let texts = [
+        TIME.to_owned(),
+        TABLE.to_owned(),
+        BALL.to_owned(),
+        contact(&format!("between = [\"grain\", \"steel\"]\n{REPULSION}")),
+        contact(&format!("between = [\"ball\", \"grain\"]\nreach = \"5 cm\"\n{REPULSION}")),
+        contact(&format!("between = [\"table\", \"steel\"]\n{REPULSION}")),
+    ];
+    let text: String = texts.into_iter().chain(grains).collect();
+    let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+    assert_resolves_to_itself(&scene);
+    let model = &scene.built().model;
+    let found: Vec<_> = model.pairs().iter().map(|pair| (pair.bodies, pair.reach)).collect();
+    let near = Some(0.05);
+    let wanted = [([1, 2], None), ([1, 3], None), ([2, 3], None), ([0, 1], near), ([0, 2], near), ([0, 3], near)];
+    assert_eq!(found, wanted);
+    let on_table: Vec<usize> = model.bodies.iter().map(|body| body.contacts.len()).collect();
+    assert_eq!(on_table, [0, 1, 1, 1]);
+}
+
+#[test]
+fn parts_of_unions_meet_one_by_one() {
+    let part =
+        |z: f64| format!("{{ shape = {{ sphere = {{ radius = 0.1 }} }}, offset = [0, 0, {z:?}], density = 1000 }}");
+    let dumbbell = format!(
+        "[[body]]\nname = \"dumbbell\"\nshape = {{ union = {{ parts = [{}, {}] }} }}\nposition = [1, 0, 1]\n",
+        part(-0.2),
+        part(0.2)
+    );
+    let text = [TIME, BALL, &dumbbell, &contact(&format!("between = [\"ball\", \"dumbbell\"]\n{REPULSION}"))].concat();
+    let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+    let parts: Vec<_> = scene.built().model.pairs().iter().map(|pair| pair.parts).collect();
+    assert_eq!(parts, [[0, 0], [0, 1]]);
+}
+
+#[test]
+fn what_is_wrong_with_a_meeting_is_told_at_its_key() {
+    let torus = "[[body]]\nname = \"ring\"\nshape = { torus = { major_radius = 0.3, minor_radius = 0.1 } }\nmass = 1\n";
+    let points = "[[body]]\nname = \"points\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }, \
+                  { mass = 1, at = [1, 0, 0] }, { mass = 1, at = [0, 1, 0] }] }\n";
+    let between = |names: &str, laws: &str| contact(&format!("between = {names}\n{laws}"));
+    let both = "[\"ball\", \"cube\"]";
+    let rows: Vec<(String, &str, &str, &str)> = vec![
+        (
+            between("[\"ball\", §\"cub\"]", REPULSION),
+            "contact.0.between.1",
+            "no body, group or support \"cub\"",
+            "cube",
+        ),
+        (format!("§{}", contact(REPULSION)), "contact.0.support", "missing", "`between`"),
+        (
+            between(&format!("§{both}"), &format!("support = \"table\"\n{REPULSION}")),
+            "contact.0.between",
+            "beside `support`",
+            "leave out",
+        ),
+        (between("§[\"ball\", \"ball\"]", REPULSION), "contact.0.between", "no two different bodies", "groups"),
+        (between("§[\"table\", \"table\"]", REPULSION), "contact.0.between", "two supports", "name a body"),
+        (
+            between("[\"table\", \"ball\"]", &format!("{REPULSION}\nreach = §1")),
+            "contact.0.reach",
+            "at any distance",
+            "leave it out",
+        ),
+        (
+            format!("§{}", between(both, "damping = { beta = 1, nu = 3 }")),
+            "contact.0.repulsion",
+            "where the plane",
+            "alpha > 0",
+        ),
+        (
+            between(both, "repulsion = { alpha = 1, nu = §1.5, d0 = 0.01 }"),
+            "contact.0.repulsion.nu",
+            "1.5 is less than 2",
+            "2 or more",
+        ),
+        (
+            between(both, &format!("{REPULSION}\nadhesion = §{{ beta = 1, nu_attractive = 3, nu_repulsive = 6 }}")),
+            "contact.0.adhesion",
+            "no adhesion between bodies",
+            "supports",
+        ),
+        (
+            between(both, &format!("{REPULSION}\nmeasure = §\"deformed_area_potential\"")),
+            "contact.0.measure",
+            "between bodies",
+            "reference_area",
+        ),
+        (
+            format!("{torus}{}", between("§[\"ball\", \"ring\"]", REPULSION)),
+            "contact.0.between",
+            "\"ring\" cannot meet other bodies: a torus is not convex",
+            "union",
+        ),
+        (
+            format!("{points}{}", between("§[\"ball\", \"points\"]", REPULSION)),
+            "contact.0.between",
+            "\"points\" has no surface",
+            "surface",
+        ),
+    ];
+    for (text, key, message, help) in rows {
+        assert_error(&format!("{TIME}{TABLE}{BALL}{}{text}", cube("")), key, message, help);
+    }
+}
+
+#[test]
+fn bodies_that_reach_each_other_at_the_start_are_told_with_the_way_apart() {
+    // The ball is in the cube by 3 cm along z.
+    let cube = cube("position = [0.01, 0, 0.83]");
+    let meeting = contact(&format!("between = §[\"ball\", \"cube\"]\n{REPULSION}"));
+    let text = format!("{TIME}{BALL}{cube}{meeting}");
+    assert_error(&text, "contact.0.between", "reach each other at the start, by 3.0", "along [");
+    assert_error(&text, "contact.0.between", "\"ball\" and \"cube\"", "0.000000, 1.000000]");
+}
