@@ -213,20 +213,23 @@ impl System for ModelSystem {
         let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
         let mut energy = self.energy;
         let Self { model, workspace, gaps, .. } = self;
-        let apart = workspace.pair_gaps(model, (t, y.into()), gaps).is_ok();
+        let known = workspace.pair_gaps(model, (t, y.into()), gaps).is_ok();
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
-            let pairs = self.model.pairs_of(index).map(|end| if apart { self.gaps[end.number].gap } else { 0.0 });
-            let gap = pairs.fold(smallest_gap(&self.model, t, index, &motion), f64::min).max(0.0);
+            let pairs = self.model.pairs_of(index).map(|end| if known { self.gaps[end.number].gap } else { 0.0 });
+            let apart = pairs.fold(f64::INFINITY, f64::min);
+            let gap = smallest_gap(&self.model, t, index, &motion).min(apart).max(0.0);
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);
             // The rounding of the places from which the gap is computed is all that can be had, unless their numbers
             // have twice the digits.
             let lengths = motion.placement.position.norm() + body.size;
-            let extended =
-                gap < NEAR * body.size && body.solid.surface.as_ref().is_some_and(|it| body.keeps_digits(it));
+            let keeps = || body.solid.surface.as_ref().is_some_and(|surface| body.keeps_digits(surface));
+            let near = NEAR * body.size;
+            // A gap between two bodies has the digits of one number.
+            let extended = gap < near && apart > near && keeps();
             let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
             // Springs make velocities of the rounding of places.
             let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];

@@ -46,6 +46,16 @@ impl Island {
         }
     }
 
+    /// Finds the planes between its bodies after the last step, from which those of the next begin.
+    pub fn find_gaps(&mut self) {
+        let Self { system, integrator, gaps, .. } = self;
+        let (model, workspace) = system.observed();
+        // A step ends where there are rates, and so gaps.
+        if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
+            gaps.clear();
+        }
+    }
+
     /// Finds the events of the last step, in order of time behind those found before.
     pub fn find_events(&mut self, report: &StepReport) {
         let before = self.events.len();

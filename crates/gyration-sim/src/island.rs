@@ -308,16 +308,6 @@ impl Island {
         self.find_gaps();
     }
 
-    /// Finds the planes between its bodies after the last step, from which those of the next begin.
-    fn find_gaps(&mut self) {
-        let Self { system, integrator, gaps, .. } = self;
-        let (model, workspace) = system.observed();
-        // A step ends where there are rates, and so gaps.
-        if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
-            gaps.clear();
-        }
-    }
-
     /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
     fn dissipation(&self) -> [f64; 2] {
         let entries = self.model().works().iter().zip(self.integrator.quadratures());

@@ -46,11 +46,15 @@ pub(super) fn meet(
     for (number, pair) in model.pairs().iter().enumerate() {
         let guess = met.guess(number, instant.time());
         let bodies = pair.bodies.map(|body| instant.at(model, body));
-        let found = match !everywhere && is_far(pair, &bodies) {
-            true => Ok(PairLoads::default()),
-            false => {
-                with_sides(pair, &bodies, |sides| PairLoads::integrate(pair, sides, guess.as_ref(), &mut met.room))
-            }
+        let centers = bodies.each_ref().map(|at| &at.motion.placement.position);
+        let nothing = match is_far(pair, &bodies) {
+            true if everywhere => pair.apart(centers),
+            true => Some(PairLoads::default()),
+            false => None,
+        };
+        let found = match nothing {
+            Some(nothing) => Ok(nothing),
+            None => with_sides(pair, &bodies, |sides| PairLoads::integrate(pair, sides, guess.as_ref(), &mut met.room)),
         };
         met.loads.push(found.map_err(|closed| outside(&bodies, number, closed))?);
     }

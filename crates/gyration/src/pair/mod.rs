@@ -73,6 +73,8 @@ pub struct Pair {
     threshold: f64,
     /// The radius of each about its centre of mass, in the reference shape [m].
     radii: [f64; 2],
+    /// Whether both are balls about their centres of mass.
+    are_balls: bool,
 }
 
 impl Pair {
@@ -87,7 +89,19 @@ impl Pair {
         let threshold = reach.map_or(0.0, |reach| laws.most(reach, surfaces.map(Surface::area)));
         // |X| is the speed of X under the unit gradient rate.
         let radii = surfaces.map(|surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity()));
-        Self { bodies, parts, laws, reach, threshold, radii }
+        let are_balls = surfaces.iter().all(|surface| surface.ball().is_some());
+        Self { bodies, parts, laws, reach, threshold, radii, are_balls }
+    }
+
+    /// What two rigid balls with these centres do out of reach, nothing, with the gap between them; none of other
+    /// shapes.
+    pub fn apart(&self, centers: [&Vec3; 2]) -> Option<PairLoads> {
+        let between = centers[0] - centers[1];
+        let distance = between.norm();
+        let normal = between / distance;
+        let gap = distance - self.radii[0] - self.radii[1];
+        let point = centers[1] + (self.radii[1] + 0.5 * gap) * normal;
+        self.are_balls.then(|| PairLoads { gap, normal, point, ..PairLoads::default() })
     }
 
     /// The distance of the centres at which two rigid bodies are as far apart as the half of their reach at least [m].

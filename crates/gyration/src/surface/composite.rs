@@ -100,6 +100,14 @@ impl Surface {
         Self { facets: self.facets.merged(&other.facets), patches: [self.patches.as_slice(), &other.patches].concat() }
     }
 
+    /// The radius [m] of one sphere about the origin of X; none of any other surface.
+    pub fn ball(&self) -> Option<f64> {
+        match self.patches.as_slice() {
+            [patch] if self.facets.is_empty() => patch.ball(),
+            _ => None,
+        }
+    }
+
     /// Area [m²].
     pub fn area(&self) -> f64 {
         self.facets.area() + self.patches.iter().map(Patch::area).sum::<f64>()

@@ -72,6 +72,14 @@ impl Patch {
         }
     }
 
+    /// The radius [m] of a sphere about the origin of X; none of any other patch.
+    pub fn ball(&self) -> Option<f64> {
+        match &self.primitive {
+            Primitive::Sphere(sphere) if self.offset == Vec3::zeros() => Some(sphere.radius),
+            _ => None,
+        }
+    }
+
     /// The point X of the patch that is farthest along `direction`.
     pub fn support(&self, direction: &Vec3) -> Vec3 {
         let own = self.rotation.tr_mul(direction);

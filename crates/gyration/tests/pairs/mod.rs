@@ -1,0 +1,170 @@
+//! Two bodies and the plane between them: forces are the derivative of the potential, derivatives agree with
+//! differences, momenta and powers balance, and nothing depends on who is called A or where all of it stands.
+
+mod relations;
+mod values;
+
+use gyration::contact::{AreaMeasure, ContactLaw, Damping, Friction, Repulsion};
+use gyration::kinematics::{Placement, Velocity};
+use gyration::load::Loads;
+use gyration::pair::{Pair, PairLaws, PairLoads, PairScratch, Side};
+use gyration::surface::Surface;
+use gyration::tensor::{Mat3, Vec3, axial};
+use std::sync::Arc;
+
+/// A body of a pair.
+#[derive(Debug, Clone)]
+struct Half {
+    surface: Surface,
+    placement: Placement,
+    velocity: Velocity,
+}
+
+/// Numbers in [−1, 1] that no symmetry makes simple.
+fn noise(seed: f64) -> impl FnMut() -> f64 {
+    let mut k = seed;
+    move || {
+        k += 1.0;
+        (12.9898 * k).sin() * (78.233 * k).cos()
+    }
+}
+
+fn vector(next: &mut impl FnMut() -> f64) -> Vec3 {
+    Vec3::new(next(), next(), next())
+}
+
+impl Half {
+    fn new(surface: &Surface, position: Vec3, rotation: Mat3, seed: f64) -> Self {
+        let mut next = noise(seed);
+        let strain = 0.1 * Mat3::from_fn(|_, _| next());
+        let velocity = Velocity { velocity: vector(&mut next), gradient_rate: Mat3::from_fn(|_, _| next()) };
+        let gradient = rotation * (Mat3::identity() + strain);
+        Self { surface: surface.clone(), placement: Placement { position, gradient }, velocity }
+    }
+
+    fn side(&self) -> Side<'_> {
+        Side {
+            surface: &self.surface,
+            placement: &self.placement,
+            velocity: &self.velocity,
+            inverse: self.placement.gradient.try_inverse().unwrap(),
+            deformation: None,
+            least_gap: 0.0,
+        }
+    }
+
+    /// One of its twelve coordinates, or of their rates, changed.
+    fn shifted(&self, place: usize, by: f64, rates: bool) -> Self {
+        let mut moved = self.clone();
+        let (vector, matrix) = match rates {
+            false => (&mut moved.placement.position, &mut moved.placement.gradient),
+            true => (&mut moved.velocity.velocity, &mut moved.velocity.gradient_rate),
+        };
+        if place < 3 {
+            vector[place] += by
+        } else {
+            matrix[place - 3] += by
+        }
+        moved
+    }
+
+    fn turned(&self, rotation: &Mat3, shift: &Vec3) -> Self {
+        let Placement { position, gradient } = &self.placement;
+        let Velocity { velocity, gradient_rate } = &self.velocity;
+        Self {
+            surface: self.surface.clone(),
+            placement: Placement { position: rotation * position + shift, gradient: rotation * gradient },
+            velocity: Velocity { velocity: rotation * velocity, gradient_rate: rotation * gradient_rate },
+        }
+    }
+
+    /// p₀ × f + ∫x × q.
+    fn torque(&self, loads: &Loads) -> Vec3 {
+        let own: Mat3 = loads.moment * self.placement.gradient.transpose();
+        self.placement.position.cross(&loads.force) + axial(&own)
+    }
+}
+
+fn rotation(next: &mut impl FnMut() -> f64) -> Mat3 {
+    nalgebra::Rotation3::new(3.0 * vector(next)).into_inner()
+}
+
+fn shapes() -> Vec<(&'static str, Surface)> {
+    let tetrahedron =
+        [Vec3::new(-0.4, -0.4, -0.3), Vec3::new(0.5, -0.3, -0.3), Vec3::new(0.0, 0.6, -0.3), Vec3::z() * 0.6];
+    let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    vec![
+        ("box", Surface::cuboid(&Vec3::new(0.8, 1.0, 1.3))),
+        ("sphere", Surface::sphere(0.6)),
+        ("ellipsoid", Surface::ellipsoid(&Vec3::new(0.4, 0.6, 0.8))),
+        ("cylinder", Surface::cylinder(0.5, 1.1)),
+        ("cone", Surface::cone(0.5, 1.0)),
+        ("capsule", Surface::capsule(0.3, 0.8)),
+        ("tetrahedron", Surface::from_triangles(&tetrahedron, &triangles).unwrap()),
+    ]
+}
+
+fn laws(exponents: [f64; 3], viscous: bool) -> PairLaws {
+    let [repulsion, damping, friction] = exponents;
+    let mut laws = vec![ContactLaw::Repulsion(Repulsion { alpha: 1.3, exponent: repulsion, reference_gap: 0.1 })];
+    if viscous {
+        laws.push(ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.2 }));
+        laws.push(ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.15 }));
+    }
+    PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap()
+}
+
+fn pair(laws: &PairLaws, reach: Option<f64>, halves: [&Half; 2]) -> Pair {
+    Pair::new([0, 1], [0, 0], Arc::new(laws.clone()), reach, halves.map(|half| &half.surface))
+}
+
+fn loads(laws: &PairLaws, halves: [&Half; 2]) -> PairLoads {
+    within(laws, None, halves)
+}
+
+fn within(laws: &PairLaws, reach: Option<f64>, [one, other]: [&Half; 2]) -> PairLoads {
+    let pair = pair(laws, reach, [one, other]);
+    PairLoads::integrate(&pair, [&one.side(), &other.side()], None, &mut PairScratch::default()).unwrap()
+}
+
+/// Every pair of shapes, some apart, some close.
+fn pairs() -> impl Iterator<Item = (String, Half, Half)> {
+    let shapes = shapes();
+    let count = shapes.len();
+    (0..count * count).filter(move |k| k / count <= k % count).map(move |k| {
+        let ((one, above), (other, below)) = (&shapes[k / count], &shapes[k % count]);
+        let mut next = noise(10.0 * k as f64);
+        let way = vector(&mut next).normalize();
+        let (a, b) = (rotation(&mut next), rotation(&mut next));
+        let place = |distance: f64| {
+            let shift = Vec3::new(3.0, -2.0, 1.0);
+            (Half::new(above, shift + distance * way, a, k as f64), Half::new(below, shift, b, 0.5 + k as f64))
+        };
+        // The distance at which they are some 0.03 or 0.3 apart, by halving.
+        let apart = |distance: f64| {
+            let (one, other) = place(distance);
+            let pair = pair(&laws([6.0; 3], false), None, [&one, &other]);
+            let sides = [one.side(), other.side()];
+            let found = PairLoads::integrate(&pair, sides.each_ref(), None, &mut PairScratch::default());
+            found.is_ok_and(|loads| loads.gap > if k % 2 == 0 { 0.03 } else { 0.3 })
+        };
+        let (mut near, mut far) = (0.0, 4.0);
+        for _ in 0..20 {
+            let middle = 0.5 * (near + far);
+            if apart(middle) { far = middle } else { near = middle }
+        }
+        let (above, below) = place(far);
+        (format!("{one} and {other}"), above, below)
+    })
+}
+
+fn numbers(loads: &Loads) -> Vec<f64> {
+    loads.force.iter().chain(loads.moment.iter()).copied().collect()
+}
+
+/// The largest difference of numbers, relative to the largest of them.
+fn off(found: &[f64], wanted: &[f64]) -> f64 {
+    let size = wanted.iter().fold(0.0_f64, |most, number| most.max(number.abs()));
+    let differences = found.iter().zip(wanted).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max) / size
+}

@@ -1,0 +1,124 @@
+//! Relations that hold for every pair of bodies.
+
+use super::{laws, loads, noise, numbers, off, pair, pairs, rotation, vector, within};
+use gyration::contact::LawKind;
+use gyration::load::Loads;
+use gyration::pair::{PairScratch, PairSlopes};
+
+#[test]
+fn forces_are_the_derivative_of_the_potential() {
+    let mut worst: f64 = 0.0;
+    for (name, one, other) in pairs() {
+        for exponent in [2.0, 2.5, 6.0, 12.0] {
+            let laws = laws([exponent; 3], false);
+            let reach = (exponent == 6.0).then(|| 30.0 * loads(&laws, [&one, &other]).gap);
+            let found = within(&laws, reach, [&one, &other]);
+            let step = 2e-3 / exponent * found.gap;
+            for body in 0..2 {
+                let energy = |place: usize, by: f64| {
+                    let mut halves = [one.clone(), other.clone()];
+                    halves[body] = halves[body].shifted(place, by, false);
+                    within(&laws, reach, halves.each_ref()).energy
+                };
+                let slope = |place: usize| {
+                    let central = |by: f64| (energy(place, by) - energy(place, -by)) / (2.0 * by);
+                    -(4.0 * central(step) - central(2.0 * step)) / 3.0
+                };
+                let wanted: Vec<f64> = (0..12).map(slope).collect();
+                let error = off(&numbers(&found.on[body]), &wanted);
+                worst = worst.max(error);
+                // Fourth order: (ν step/gap)⁴ of truncation, and the error of the moments times gap/step.
+                assert!(error < 1e-8, "{name}, nu {exponent}, body {body}: {error:e}");
+            }
+        }
+    }
+    println!("worst difference {worst:.1e}");
+}
+
+#[test]
+fn slopes_agree_with_differences() {
+    let mut worst: f64 = 0.0;
+    for (k, (name, one, other)) in pairs().enumerate() {
+        let exponents = [[6.0, 6.0, 6.0], [2.5, 4.0, 3.0], [12.0, 10.0, 6.5]][k % 3];
+        let laws = laws(exponents, true);
+        // Far beyond the gaps, a little beyond them, and none.
+        let gap = loads(&laws, [&one, &other]).gap;
+        let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];
+        let sides = [one.side(), other.side()];
+        let slopes = PairSlopes::integrate(
+            &pair(&laws, reach, [&one, &other]),
+            sides.each_ref(),
+            None,
+            &mut PairScratch::default(),
+        )
+        .unwrap();
+        let at = within(&laws, reach, [&one, &other]);
+        for body in 0..2 {
+            assert!(off(&numbers(&slopes.on[body]), &numbers(&at.on[body])) < 1e-12);
+        }
+        let step = 1e-4 * at.gap;
+        for (rates, found) in [(false, &slopes.by_place), (true, &slopes.by_rate)] {
+            for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let shifted = |place: usize, by: f64| {
+                    let mut halves = [one.clone(), other.clone()];
+                    halves[moved] = halves[moved].shifted(place, by, rates);
+                    numbers(&within(&laws, reach, halves.each_ref()).on[acting])
+                };
+                let column = |place: usize| {
+                    let central = |by: f64| {
+                        let (up, down) = (shifted(place, by), shifted(place, -by));
+                        up.into_iter().zip(down).map(move |(up, down)| (up - down) / (2.0 * by))
+                    };
+                    central(step).zip(central(2.0 * step)).map(|(near, far)| (4.0 * near - far) / 3.0)
+                };
+                let wanted: Vec<f64> = (0..12).flat_map(column).collect();
+                let error = off(found[acting][moved].as_slice(), &wanted);
+                worst = worst.max(error);
+                assert!(error < 1e-8, "{name}, rates {rates}, on {acting} by {moved}: {error:e}");
+            }
+        }
+    }
+    println!("worst difference {worst:.1e}");
+}
+
+#[test]
+fn momenta_and_powers_balance() {
+    for (name, one, other) in pairs() {
+        let laws = laws([6.0, 5.0, 4.0], true);
+        let found = loads(&laws, [&one, &other]);
+        let [above, below] = &found.on;
+        assert_eq!(above.force, -below.force, "{name}");
+        let torques = [one.torque(above), other.torque(below)];
+        // The places are some 4 m from the origin.
+        assert!((torques[0] + torques[1]).norm() < 1e-13 * 4.0 * above.force.norm(), "{name}");
+        let power: f64 = [(&one, above), (&other, below)]
+            .map(|(half, loads)| loads.power(&half.velocity.velocity, &half.velocity.gradient_rate))
+            .iter()
+            .sum();
+        let booked: f64 = found.powers.iter().sum();
+        assert!((power - booked).abs() < 1e-11 * above.force.norm(), "{name}: {power} and {booked}");
+        for kind in [LawKind::Damping, LawKind::Friction] {
+            assert!(found.powers[kind as usize] < 0.0, "{name}");
+        }
+    }
+}
+
+#[test]
+fn names_and_axes_do_not_matter() {
+    let mut next = noise(0.3);
+    let (turn, shift) = (rotation(&mut next), vector(&mut next));
+    for (name, one, other) in pairs() {
+        let laws = laws([6.0, 5.0, 4.0], true);
+        let found = loads(&laws, [&one, &other]);
+        let swapped = loads(&laws, [&other, &one]);
+        let turned = loads(&laws, [&one.turned(&turn, &shift), &other.turned(&turn, &shift)]);
+        for body in 0..2 {
+            let Loads { force, moment } = found.on[body];
+            let apart = off(&numbers(&swapped.on[1 - body]), &numbers(&found.on[body]));
+            assert!(apart < 1e-11, "{name}: {apart:e}");
+            let wanted = Loads { force: turn * force, moment: turn * moment };
+            let apart = off(&numbers(&turned.on[body]), &numbers(&wanted));
+            assert!(apart < 1e-11, "{name}: {apart:e}");
+        }
+    }
+}
