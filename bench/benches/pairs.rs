@@ -61,6 +61,16 @@ impl Meeting {
         this
     }
 
+    /// The same a time later [s], in a straight line.
+    fn moved(&self, time: f64) -> Self {
+        let placements = [0, 1].map(|i| {
+            let (Placement { position, gradient }, velocity) = (&self.placements[i], &self.velocities[i]);
+            let gradient = gradient + time * velocity.gradient_rate;
+            Placement { position: position + time * velocity.velocity, gradient }
+        });
+        Self { placements, surface: self.surface.clone(), pair: self.pair.clone(), velocities: self.velocities }
+    }
+
     fn sides(&self) -> [Side<'_>; 2] {
         [0, 1].map(|i| Side {
             surface: &self.surface,
@@ -81,6 +91,20 @@ impl Meeting {
 #[divan::bench(args = NAMES)]
 fn forces(bencher: Bencher, name: &str) {
     bench(bencher, name, false);
+}
+
+/// The same from where the plane was a fiftieth of the time to contact before.
+#[divan::bench(args = NAMES)]
+fn forces_from_the_plane_before(bencher: Bencher, name: &str) {
+    let meeting = Meeting::new(name, false);
+    let before = meeting.moved(-1e-4);
+    let mut scratch = PairScratch::default();
+    let [one, other] = before.sides();
+    let slab = meeting.pair.gap([&one, &other], None, &mut scratch).expect("the bodies are apart");
+    let guess = slab.guess(1e-4);
+    let [one, other] = meeting.sides();
+    let sides = [&one, &other];
+    bencher.bench_local(|| PairLoads::integrate(&meeting.pair, divan::black_box(sides), guess.as_ref(), &mut scratch));
 }
 
 #[divan::bench(args = NAMES)]

@@ -50,7 +50,7 @@ impl Island {
     pub fn find_gaps(&mut self) {
         let Self { system, integrator, gaps, .. } = self;
         let (model, workspace) = system.observed();
-        // A step ends where there are rates, and so gaps.
+        // A step ends where there are rates, and so gaps; without them the horizon has nothing to go by.
         if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
             gaps.clear();
         }

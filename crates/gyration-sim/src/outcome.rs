@@ -168,6 +168,16 @@ impl Stop {
                  small for the digits of a number: raise an exponent, a coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
+            Quantity::PairGap { pair } if left.value.is_nan() => {
+                let [one, other] = model.pairs()[pair].bodies.map(|body| &model.bodies[body].name);
+                (
+                    Reason::GapClosed,
+                    format!("the plane between bodies {one:?} and {other:?} cannot be found"),
+                    "Their potential leaves the range of numbers, or the digits of their gap do not suffice: choose a \
+                     d0 nearer to the gaps, a smaller exponent, or give the contact a `reach`."
+                        .to_string(),
+                )
+            }
             Quantity::PairGap { pair } => {
                 let [one, other] = model.pairs()[pair].bodies.map(|body| &model.bodies[body].name);
                 (

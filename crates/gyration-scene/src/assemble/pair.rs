@@ -9,6 +9,9 @@ use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::pair::{Overlap, Pair, PairLaws, PairLawsError};
 use std::sync::Arc;
 
+/// The most pairs of convex parts of bodies in a scene.
+const MOST_PARTS: usize = 1_000_000;
+
 /// The laws of a contact between bodies; notes what cannot act there.
 pub(super) fn laws(
     measure: AreaMeasure,
@@ -73,7 +76,17 @@ pub(super) fn meet<'a>(
                 overlapping([one, other], &overlap, &between, reporter);
                 break;
             }
+            if !pair.has_range() {
+                let help = "write a distance nearer to the gaps at which bodies turn back";
+                reporter.note(&key.key("reach"), "the energy at this distance leaves the range of numbers", help);
+                return;
+            }
             pairs.push(pair);
+            if pairs.len() > MOST_PARTS {
+                let message = format!("with this contact there are more than {MOST_PARTS} pairs of parts of unions");
+                reporter.note(&between, message, "give each contact the bodies that it is for, or unions fewer parts");
+                return;
+            }
         }
     }
 }

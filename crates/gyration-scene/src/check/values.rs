@@ -112,6 +112,7 @@ fn partners(supports: &BTreeSet<String>, bodies: &BTreeSet<String>, reporter: &m
     };
     let mut known: BTreeSet<String> = supports.union(bodies).cloned().collect();
     known.extend(items("body").iter().flat_map(group));
+    let moving: BTreeSet<String> = items("body").iter().flat_map(group).chain(bodies.iter().cloned()).collect();
     for (index, item) in items("contact").iter().enumerate() {
         if reporter.diagnostics.is_full() {
             return;
@@ -129,6 +130,11 @@ fn partners(supports: &BTreeSet<String>, bodies: &BTreeSet<String>, reporter: &m
             reporter.diagnostics.at(between.span, &key.key("between"), format!("it stands beside `{short}`"), help);
         }
         for (end, node) in between.items().iter().enumerate() {
+            if let Some(name) = node.text().filter(|name| supports.contains(*name) && moving.contains(*name)) {
+                let message = format!("\"{name}\" is a support, and a body or a group too");
+                let help = "give the support another name";
+                reporter.diagnostics.at(node.span, &key.key("between").index(end), message, help);
+            }
             if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
                 let help = suggest::fix(name, known.iter().map(String::as_str), "one of");
                 let message = format!("there is no body, group or support \"{name}\"");

@@ -35,7 +35,8 @@ impl WindowWidth {
     /// The width of the next window [s], given the steps of the last one. One that had to end early for something else
     /// does not say that windows should be wider.
     fn next(&mut self, steps: u64) -> f64 {
-        if steps < STEPS[0] && self.last >= self.most {
+        // The last width is a difference of times.
+        if steps < STEPS[0] && self.last >= 0.5 * self.most {
             self.most *= 2.0;
         } else if steps > STEPS[1] {
             self.most = 0.5 * self.most.min(self.last);

@@ -49,7 +49,7 @@ pub(super) fn meet(
         let centers = bodies.each_ref().map(|at| &at.motion.placement.position);
         let nothing = match is_far(pair, &bodies) {
             true if everywhere => pair.apart(centers),
-            true => Some(PairLoads::default()),
+            true => Some(PairLoads { gap: f64::INFINITY, ..PairLoads::default() }),
             false => None,
         };
         let found = match nothing {

@@ -73,7 +73,10 @@ impl PairLaws {
             match law {
                 ContactLaw::Repulsion(repulsion) => placing = Some(*repulsion),
                 ContactLaw::Damping(Damping { exponent, .. }) | ContactLaw::Friction(Friction { exponent, .. }) => {
-                    let coefficient = law.terms().iter().flatten().map(|term| term.coefficient).sum();
+                    let coefficient: f64 = law.terms().iter().flatten().map(|term| term.coefficient).sum();
+                    if coefficient == 0.0 {
+                        continue;
+                    }
                     let value = request(&mut values, *exponent, 2);
                     let slopes = [request(&mut slopes, *exponent, 2), request(&mut slopes, exponent + 1.0, 3)];
                     viscous.push(ViscousLaw { kind: law.kind(), coefficient, exponent: *exponent, value, slopes });

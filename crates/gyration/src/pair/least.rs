@@ -51,6 +51,12 @@ const CONVERGED: f64 = 1e-29;
 /// Below this squared decrement steps are whole, and a decrement that no longer falls is rounding.
 const NEAR: f64 = 1e-10;
 
+/// What sums of moments are rounded to.
+const ROUNDING: f64 = 1e-13;
+
+/// A squared decrement with which a plane is not found.
+const LOST: f64 = 1e-8;
+
 /// More steps, and more halvings of one, than planes take.
 const MOST_STEPS: usize = 100;
 const MOST_HALVINGS: usize = 60;
@@ -71,13 +77,16 @@ pub(super) fn place(
     guess: Option<&Guess>,
     room: &mut [Moments],
 ) -> Result<Placed, GapClosed> {
-    let guessed = guess.and_then(|guess| guessed(halves, guess));
-    let start = guessed.map_or_else(|| separate(halves), Ok).map_err(|gap| GapClosed { gap })?;
-    let mut placed = Placed::at(laws, halves, start, room)?;
-    let mut last = f64::INFINITY;
+    let guessed = guess.and_then(|guess| Placed::at(laws, halves, guessed(halves, guess)?, room).ok());
+    let mut placed = match guessed {
+        Some(placed) => placed,
+        None => Placed::at(laws, halves, separate(halves).map_err(|gap| GapClosed { gap })?, room)?,
+    };
+    let (mut last, mut left) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..MOST_STEPS {
         let step = -placed.curvature.solve(&placed.gradient);
         let decrement = -step.dot(&placed.gradient);
+        left = decrement;
         if decrement <= CONVERGED || (decrement < NEAR && decrement > 0.25 * last) {
             break;
         }
@@ -85,7 +94,8 @@ pub(super) fn place(
         let Some(next) = placed.descend(laws, halves, &step, decrement, room) else { break };
         placed = next;
     }
-    Ok(placed)
+    // A plane that is not in balance would push without a potential.
+    if left < LOST { Ok(placed) } else { Err(GapClosed { gap: f64::NAN }) }
 }
 
 impl Placed {
@@ -159,7 +169,7 @@ impl Placed {
         let mut part = 1.0;
         for _ in 0..MOST_HALVINGS {
             if let Ok(next) = Self::at(laws, halves, self.plane.moved(&self.tangents, &(part * step)), room)
-                && (next.energy <= self.energy || decrement < NEAR)
+                && (next.energy <= self.energy * (1.0 + ROUNDING) || decrement < NEAR)
             {
                 return Some(next);
             }

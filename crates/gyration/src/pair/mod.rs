@@ -93,6 +93,11 @@ impl Pair {
         Self { bodies, parts, laws, reach, threshold, radii, are_balls }
     }
 
+    /// Whether the energy at which it begins is a number; zero without a reach.
+    pub fn has_range(&self) -> bool {
+        self.reach.is_none() || self.threshold.is_normal()
+    }
+
     /// What two rigid balls with these centres do out of reach, nothing, with the gap between them; none of other
     /// shapes.
     pub fn apart(&self, centers: [&Vec3; 2]) -> Option<PairLoads> {

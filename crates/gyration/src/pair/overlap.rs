@@ -64,6 +64,10 @@ impl Overlap {
         let ways = between.try_normalize(0.0).into_iter().chain(axes).chain(spiral);
         let found = ways.map(|normal| Self { normal, depth: depth(&normal) });
         let shortest = found.min_by(|one, other| one.depth.total_cmp(&other.depth));
-        Err(shortest.unwrap_or(Self { normal: Vec3::z(), depth: f64::NAN }))
+        match shortest {
+            // One of them separates the two.
+            Some(found) if found.depth < -halves.iter().map(|half| half.side.least_gap).sum::<f64>() => Ok(()),
+            found => Err(found.unwrap_or(Self { normal: Vec3::z(), depth: f64::NAN })),
+        }
     }
 }

@@ -14,6 +14,9 @@ use crate::tensor::{Mat3, Vec3};
 /// The part of the distance that the slab of the plane has at least.
 const PART: f64 = 0.5;
 
+/// A height above the others, relative to the longest edge, at which a point is among them.
+const FLAT: f64 = 1e-7;
+
 /// The most points of a hull in space that its point next to the origin is between.
 const POINTS: usize = 4;
 
@@ -28,30 +31,29 @@ pub(super) fn separate(halves: [&Half; 2]) -> Result<Plane, f64> {
     if direction.norm_squared() <= 0.0 {
         direction = Vec3::z();
     }
+    let least = above.side.least_gap + below.side.least_gap;
+    let share = above.root_share * above.root_share;
     let mut simplex = Simplex::default();
-    let mut width = f64::NEG_INFINITY;
+    // The widest slab so far: any that is open separates the two.
+    let mut best: Option<(f64, Plane)> = None;
     for _ in 0..MOST_STEPS {
-        let normal = direction.normalize();
+        let Some(normal) = direction.try_normalize(0.0) else { break };
         let lowest = above.lowest(&normal);
         let difference = lowest - below.lowest(&-normal);
         let slab = difference.dot(&normal);
-        width = width.max(slab);
-        if slab >= PART * direction.norm().min(difference.norm()) {
-            let least = above.side.least_gap + below.side.least_gap;
-            let share = above.root_share * above.root_share;
-            let plane = Plane { normal, offset: lowest.dot(&normal) - share * slab };
-            return if slab > least { Ok(plane) } else { Err(slab) };
+        if best.as_ref().is_none_or(|(width, _)| slab > *width) {
+            best = Some((slab, Plane { normal, offset: lowest.dot(&normal) - share * slab }));
         }
-        if simplex.count == POINTS {
+        if slab >= PART * direction.norm().min(difference.norm()) || simplex.count == POINTS {
             break;
         }
         simplex.add(difference);
         direction = simplex.shrink();
-        if direction.norm_squared() <= 0.0 {
-            break;
-        }
     }
-    Err(width.min(0.0))
+    match best {
+        Some((width, plane)) if width > least => Ok(plane),
+        best => Err(best.map_or(f64::NAN, |(width, _)| width)),
+    }
 }
 
 /// The plane of a guess, unless it does not separate the bodies.
@@ -91,7 +93,16 @@ impl Simplex {
         let least = nearest.min_by(|(a, _), (b, _)| a.norm_squared().total_cmp(&b.norm_squared()));
         let Some((nearest, subset)) = least else { return Vec3::zeros() };
         *self = subset;
-        nearest
+        if self.count != 3 {
+            return nearest;
+        }
+        // Next to a face, the face tells the direction to more digits than a small difference of its points.
+        let [first, second, third, _] = self.points;
+        let across = (second - first).cross(&(third - first));
+        match across.try_normalize(0.0) {
+            Some(normal) if normal.dot(&first) != 0.0 => normal * normal.dot(&first),
+            _ => nearest,
+        }
     }
 
     /// Those of its points whose bits are set.
@@ -103,7 +114,8 @@ impl Simplex {
         members
     }
 
-    /// The point next to the origin of the plane through all points, if it is between them.
+    /// The point next to the origin of the plane through all points, if it is between them; none of points that are not
+    /// in general position.
     fn nearest(&self) -> Option<Vec3> {
         let first = self.points[0];
         let count = self.count - 1;
@@ -112,7 +124,12 @@ impl Simplex {
         let edges = [edge(0), edge(1), edge(2)];
         let mut gram = Mat3::from_fn(|i, j| edges[i].dot(&edges[j]));
         (count..3).for_each(|i| gram[(i, i)] = 1.0);
-        let weights = gram.cholesky()?.solve(&Vec3::from_fn(|i, _| -edges[i].dot(&first)));
+        let factors = gram.cholesky()?;
+        let (pivots, longest) = (factors.l_dirty().diagonal(), edges.iter().map(Vec3::norm).fold(0.0, f64::max));
+        if (0..count).any(|i| pivots[i] <= FLAT * longest) {
+            return None;
+        }
+        let weights = factors.solve(&Vec3::from_fn(|i, _| -edges[i].dot(&first)));
         let inside = weights.iter().all(|weight| *weight >= 0.0) && weights.sum() <= 1.0;
         inside.then(|| edges.iter().zip(weights.iter()).fold(first, |sum, (edge, weight)| sum + *weight * edge))
     }

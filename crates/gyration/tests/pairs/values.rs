@@ -1,9 +1,10 @@
 //! Closed forms of balls, faces and translation, and the reach of a pair.
 
 use super::{Half, laws, loads, noise, pair, pairs, rotation, vector, within};
-use gyration::contact::Repulsion;
+use gyration::contact::{AreaMeasure, ContactLaw, Damping, Repulsion};
 use gyration::kinematics::{Placement, Velocity};
 use gyration::load::Loads;
+use gyration::pair::{PairLaws, PairLoads, PairScratch};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use std::f64::consts::PI;
@@ -100,4 +101,45 @@ fn balls_out_of_reach_have_the_gap_of_their_plane() {
     let found = within(&law, Some(0.5), [&one, &other]);
     assert_eq!((found.energy, found.on[0], told.on[0]), (0.0, told.on[0], Loads::default()));
     assert!((told.gap - found.gap).abs() < 1e-14 && (told.normal - found.normal).norm() < 1e-14, "{told:?} {found:?}");
+}
+
+/// Bodies face to face, anywhere and turned anyhow, at gaps that few digits tell from zero.
+#[test]
+fn planes_are_found_between_faces_that_nearly_touch() {
+    let law = laws([6.0; 3], false);
+    let cube = || Surface::cuboid(&Vec3::repeat(1.0));
+    let kinds = [
+        (cube(), cube(), 1.0),
+        (Surface::cuboid(&Vec3::new(10.0, 10.0, 1.0)), cube(), 1.0),
+        (Surface::cylinder(0.5, 1.0), cube(), 1.0),
+        (Surface::cylinder(0.5, 1.0), Surface::cylinder(0.3, 1.0), 1.0),
+    ];
+    let mut next = noise(0.7);
+    for (kind, (above, below, height)) in kinds.into_iter().enumerate() {
+        for gap in [1e-4, 1e-5, 1e-6, 1e-7] {
+            for _ in 0..10 {
+                let (turn, twist) = (rotation(&mut next), 3.0 * next());
+                let twist = nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), twist).into_inner();
+                let place = turn * Vec3::new(0.4 * next(), 0.4 * next(), height + gap);
+                let mut halves = [still(above.clone(), 0.0), still(below.clone(), 0.0)];
+                halves[0].placement = Placement { position: place, gradient: turn * twist };
+                halves[1].placement.gradient = turn;
+                let pair = pair(&law, None, halves.each_ref());
+                let sides = halves.each_ref().map(|half| half.side());
+                let found = PairLoads::integrate(&pair, sides.each_ref(), None, &mut PairScratch::default());
+                let told = found.unwrap_or_else(|closed| panic!("kind {kind} at {gap:e}: {closed}")).gap;
+                assert!(told > 0.0 && told < gap + 1e-14, "kind {kind}: {told:e} of {gap:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn viscous_laws_without_strength_do_nothing() {
+    let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 0.1 });
+    let none = ContactLaw::Damping(Damping { beta: 0.0, exponent: 6.0, reference_gap: 0.1 });
+    let law = |laws| PairLaws::new(AreaMeasure::DeformedArea, laws).unwrap();
+    let halves = [still(Surface::sphere(0.5), 1.1), still(Surface::sphere(0.5), 0.0)];
+    let [with, without] = [law(vec![repulsion, none]), law(vec![repulsion])];
+    assert_eq!(loads(&with, halves.each_ref()), loads(&without, halves.each_ref()));
 }
