@@ -19,6 +19,9 @@ const FIRST_WINDOW: f64 = 1e-6;
 /// Into how many pieces of work the islands are shared out, for each thread.
 const PIECES: usize = 16;
 
+/// What the width of a window lacks, as a difference of times that are far longer.
+const ROUNDING: f64 = 1e-6;
+
 /// How wide windows are: so that they hold as many steps as [`STEPS`] says.
 pub(super) struct WindowWidth {
     /// At most [s].
@@ -36,7 +39,7 @@ impl WindowWidth {
     /// does not say that windows should be wider.
     fn next(&mut self, steps: u64) -> f64 {
         // The last width is a difference of times.
-        if steps < STEPS[0] && self.last >= 0.5 * self.most {
+        if steps < STEPS[0] && self.last >= (1.0 - ROUNDING) * self.most {
             self.most *= 2.0;
         } else if steps > STEPS[1] {
             self.most = 0.5 * self.most.min(self.last);
