@@ -124,6 +124,32 @@ fn what_is_wrong_with_a_meeting_is_told_at_its_key() {
             "surface",
         ),
     ];
+    let rows = rows.into_iter().chain([
+        (
+            between(both, &format!("{REPULSION}\nreach = §1e-70")),
+            "contact.0.reach",
+            "leaves the range of numbers",
+            "nearer to the gaps",
+        ),
+        (
+            format!("{}{}", TABLE.replace("table", "cube"), between("[\"ball\", §\"cube\"]", REPULSION)),
+            "contact.0.between.1",
+            "a support, and a body or a group too",
+            "another name",
+        ),
+        (
+            "[[body]]\nname = \"c\"\ngroup = §\"cube\"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n".into(),
+            "body.c.group",
+            "the name of another body",
+            "another name",
+        ),
+        (
+            "[[body]]\nname = \"c\"\ngroup = §[\"a b\"]\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n".into(),
+            "body.c.group",
+            "is not a name",
+            "letters",
+        ),
+    ]);
     for (text, key, message, help) in rows {
         assert_error(&format!("{TIME}{TABLE}{BALL}{}{text}", cube("")), key, message, help);
     }

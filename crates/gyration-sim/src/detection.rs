@@ -50,7 +50,7 @@ impl Island {
     pub fn find_gaps(&mut self) {
         let Self { system, integrator, gaps, .. } = self;
         let (model, workspace) = system.observed();
-        // A step ends where there are rates, and so gaps; without them the horizon has nothing to go by.
+        // Where no plane is found there are no rates either: the next step stops the run with that.
         if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
             gaps.clear();
         }

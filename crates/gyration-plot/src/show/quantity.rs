@@ -65,7 +65,7 @@ impl PlotQuantity {
                 ("strip", "Outlines at successive times, from the side; bodies that spin on the spot from above")
             }
             Self::Height => ("height", "Heights of the centres of mass"),
-            Self::Gap => ("gap", "Smallest distances to a support"),
+            Self::Gap => ("gap", "Smallest distances to a support or another body"),
             Self::Stretch => ("stretch", "Principal stretches of bodies that deform"),
             Self::Forces => ("forces", "Forces of contact"),
             Self::Energy => ("energy", "Energies, works and the residual of their balance"),

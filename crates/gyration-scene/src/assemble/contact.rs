@@ -2,16 +2,14 @@
 
 use super::body::AssembledBody;
 use super::pair;
-use super::partners::{self, Names, Partners, without_surface};
+use super::partners::{self, MOST_PAIRS, Names, Partners, without_surface};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::pair::Pair;
+use std::collections::BTreeSet;
 use std::sync::Arc;
-
-/// The most pairs of a body and a support, or another body, in a scene.
-const MOST_PAIRS: usize = 1_000_000;
 
 /// Gives the bodies their contacts with supports, and returns the pairs of bodies that meet; notes a contact with what
 /// has no surface, and laws out of range.
@@ -50,11 +48,17 @@ pub(super) fn attach(
             }
             Partners::Bodies(groups) => {
                 let Some(laws) = pair::laws(measure, laws, key, reporter) else { continue };
+                // Each body is looked at once, however many it meets.
+                let named: BTreeSet<usize> = groups.iter().flatten().copied().collect();
+                let named = named.into_iter().filter_map(|body| assembled[body].as_ref());
+                let unable = named.filter(|body| !pair::can_meet(body, &key.key("between"), reporter)).count();
                 let found = partners::pairs(&groups).take(most(before)).inspect(|_| count += 1);
                 let met = found.map(|bodies| (bodies, bodies.map(|body| assembled[body].as_ref())));
                 let reach = value.reach.as_ref().map(|reach| reach.value());
-                pair::meet(met, (&laws, reach), key, &mut pairs, reporter);
-                if count == before {
+                if unable == 0 {
+                    pair::meet(met, (&laws, reach), key, &mut pairs, reporter);
+                }
+                if unable == 0 && count == before {
                     let message = "it is between no two different bodies";
                     reporter.note(&key.key("between"), message, "name two bodies, or groups that have two");
                 }

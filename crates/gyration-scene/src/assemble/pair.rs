@@ -1,16 +1,13 @@
 //! Bodies that meet: what acts between each two, and whether they are apart at the start.
 
 use super::body::AssembledBody;
-use super::partners::without_surface;
+use super::partners::{MOST_PAIRS, without_surface};
 use super::start::placement;
 use crate::check::Reporter;
 use crate::key::Key;
 use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::pair::{Overlap, Pair, PairLaws, PairLawsError};
 use std::sync::Arc;
-
-/// The most pairs of convex parts of bodies in a scene.
-const MOST_PARTS: usize = 1_000_000;
 
 /// The laws of a contact between bodies; notes what cannot act there.
 pub(super) fn laws(
@@ -49,7 +46,8 @@ pub(super) fn laws(
     None
 }
 
-/// Adds a pair of each convex part of one body and of the other; notes bodies that cannot meet, or do so at the start.
+/// Adds a pair of each part of one body and of the other, which can meet; notes those that reach each other at the
+/// start.
 pub(super) fn meet<'a>(
     bodies: impl Iterator<Item = ([usize; 2], [Option<&'a AssembledBody>; 2])>,
     (laws, reach): (&Arc<PairLaws>, Option<f64>),
@@ -62,10 +60,6 @@ pub(super) fn meet<'a>(
         let [Some(one), Some(other)] = both else { continue };
         if reporter.diagnostics.is_full() {
             return;
-        }
-        let able = [one, other].into_iter().all(|assembled| can_meet(assembled, &between, reporter));
-        if !able {
-            continue;
         }
         let counts = [one, other].map(|assembled| assembled.body.solid.count_parts());
         for parts in (0..counts[0]).flat_map(|first| (0..counts[1]).map(move |second| [first, second])) {
@@ -82,8 +76,8 @@ pub(super) fn meet<'a>(
                 return;
             }
             pairs.push(pair);
-            if pairs.len() > MOST_PARTS {
-                let message = format!("with this contact there are more than {MOST_PARTS} pairs of parts of unions");
+            if pairs.len() > MOST_PAIRS {
+                let message = format!("with this contact there are more than {MOST_PAIRS} pairs of parts of unions");
                 reporter.note(&between, message, "give each contact the bodies that it is for, or unions fewer parts");
                 return;
             }
@@ -92,13 +86,13 @@ pub(super) fn meet<'a>(
 }
 
 /// Whether a body can meet others; notes why not.
-fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) -> bool {
+pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let name = &assembled.body.name;
     if assembled.body.solid.surface.is_none() {
         without_surface(assembled, key, reporter);
         return false;
     }
-    if let Err(why) = assembled.body.solid.shape.convex_parts() {
+    if let Err(why) = assembled.body.solid.shape.check_convex() {
         let message = format!("\"{name}\" cannot meet other bodies: {why}");
         reporter.note(key, message, "make its shape a union of convex ones: a plane stands between convex bodies");
         return false;

@@ -6,6 +6,9 @@ use crate::file::Contact;
 use crate::key::Key;
 use std::collections::HashMap;
 
+/// The most pairs of a body and a support, or of parts of two bodies, in a scene.
+pub(super) const MOST_PAIRS: usize = 1_000_000;
+
 /// Supports and groups by name.
 pub(super) struct Names<'a> {
     supports: HashMap<&'a str, usize>,

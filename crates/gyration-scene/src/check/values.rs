@@ -110,6 +110,20 @@ fn partners(supports: &BTreeSet<String>, bodies: &BTreeSet<String>, reporter: &m
         });
         words.filter_map(Node::text).map(str::to_owned).collect()
     };
+    for (index, body) in items("body").iter().enumerate() {
+        let own = body.get("name").and_then(Node::text);
+        for word in group(body).iter().filter(|word| Some(word.as_str()) != own) {
+            let Some(node) = body.get("group") else { continue };
+            let key = Key::root().key("body").index(index).key("group");
+            if !is_name(word) {
+                let help = "use letters A to Z and a to z, digits, `_` and `-`";
+                reporter.diagnostics.at(node.span, &key, format!("\"{word}\" is not a name"), help);
+            } else if bodies.contains(word) {
+                let message = format!("\"{word}\" is the name of another body, which is a group of its own");
+                reporter.diagnostics.at(node.span, &key, message, "give the group another name");
+            }
+        }
+    }
     let mut known: BTreeSet<String> = supports.union(bodies).cloned().collect();
     known.extend(items("body").iter().flat_map(group));
     let moving: BTreeSet<String> = items("body").iter().flat_map(group).chain(bodies.iter().cloned()).collect();

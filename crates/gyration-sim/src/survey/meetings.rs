@@ -61,9 +61,9 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
     let mut told: Option<&MeetingSurvey> = None;
     for meeting in meetings.iter().take(MOST) {
         let [one, other] = &meeting.between;
-        let gap = meeting
-            .initial_gap
-            .map_or_else(|| "out of reach at the start".to_owned(), |gap| format!("gap {} m at the start", short(gap)));
+        let unknown = if meeting.reach.is_some() { "out of reach at the start" } else { "no plane found at the start" };
+        let gap =
+            meeting.initial_gap.map_or_else(|| unknown.to_owned(), |gap| format!("gap {} m at the start", short(gap)));
         let reach = meeting.reach.map(|reach| format!(", felt within {} m", short(reach))).unwrap_or_default();
         let _ = writeln!(text, "meeting    {one} with {other}: {gap}{reach}");
         if told.is_some_and(|told| told.laws == meeting.laws) {

@@ -13,7 +13,7 @@ pub struct Solid {
     pub mass: MassProperties,
     /// The surface relative to the centre of mass; none for mass points.
     pub surface: Option<Surface>,
-    /// The surfaces of its convex parts, if there are several, likewise.
+    /// The surfaces of the parts of a union, likewise.
     parts: Vec<Surface>,
 }
 
@@ -21,9 +21,7 @@ impl Solid {
     /// A shape with its mass properties in the frame of the shape.
     pub fn new(shape: Shape, mass: MassProperties) -> Self {
         let surface = shape.surface().map(|surface| surface.translated(&-mass.center));
-        let parts = shape.convex_parts().unwrap_or_default();
-        let parts = if parts.len() > 1 { parts } else { Vec::new() };
-        let parts = parts.into_iter().map(|part| part.translated(&-mass.center)).collect();
+        let parts = shape.part_surfaces().iter().map(|part| part.translated(&-mass.center)).collect();
         Self { shape, mass, surface, parts }
     }
 
@@ -32,12 +30,12 @@ impl Solid {
         Self { shape, mass, surface: Some(surface), parts: Vec::new() }
     }
 
-    /// How many convex parts meet other bodies.
+    /// How many parts meet other bodies.
     pub fn count_parts(&self) -> usize {
         if self.surface.is_some() { self.parts.len().max(1) } else { 0 }
     }
 
-    /// The surface of a convex part.
+    /// The surface of a part.
     ///
     /// # Panics
     /// If there is no such part.

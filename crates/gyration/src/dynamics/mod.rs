@@ -21,7 +21,6 @@ mod rigid;
 pub use contacts::{gap_at, nearest};
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
-pub use pairs::PairEnd;
 pub use rates::{jacobian, rates};
 
 pub(crate) use affine::{balance as affine_balance, moment};

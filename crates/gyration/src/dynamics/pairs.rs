@@ -5,13 +5,9 @@ use super::{Scratch, Workspace};
 use crate::extended::Numbers;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, Instant, KindAt};
-use crate::load::JointEnd;
 use crate::model::Model;
 use crate::pair::{Guess, Pair, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::surface::GapClosed;
-
-/// A pair as one of its bodies sees it.
-pub type PairEnd<'a> = JointEnd<'a, Pair>;
 
 /// What all pairs of a model do at an instant.
 #[derive(Debug, Clone, Default)]
@@ -33,6 +29,22 @@ impl Met {
     }
 }
 
+/// Hands each pair to `each`, with its bodies, and where its plane is looked for first.
+fn for_each(
+    model: &Model,
+    instant: &Instant,
+    met: &mut Met,
+    mut each: impl FnMut(&mut Met, &Pair, &[BodyAt; 2], Option<&Guess>) -> Result<(), GapClosed>,
+) -> Result<(), Inadmissible> {
+    for (number, pair) in model.pairs().iter().enumerate() {
+        let guess = met.guess(number, instant.time());
+        let bodies = pair.bodies.map(|body| instant.at(model, body));
+        let outside = |closed: GapClosed| bodies[0].outside(Quantity::PairGap { pair: number }, closed.gap);
+        each(met, pair, &bodies, guess.as_ref()).map_err(outside)?;
+    }
+    Ok(())
+}
+
 /// Finds what all pairs do to their bodies; of those that are so far apart that it is nothing, the gaps only where
 /// `everywhere` asks for them.
 pub(super) fn meet(
@@ -41,42 +53,29 @@ pub(super) fn meet(
     scratch: &mut Scratch,
     everywhere: bool,
 ) -> Result<(), Inadmissible> {
-    let met = &mut scratch.met;
-    met.loads.clear();
-    for (number, pair) in model.pairs().iter().enumerate() {
-        let guess = met.guess(number, instant.time());
-        let bodies = pair.bodies.map(|body| instant.at(model, body));
-        let centers = bodies.each_ref().map(|at| &at.motion.placement.position);
-        let nothing = match is_far(pair, &bodies) {
-            true if everywhere => pair.apart(centers),
+    scratch.met.loads.clear();
+    for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
+        let nothing = match is_far(pair, bodies) {
+            true if everywhere => pair.apart(bodies.each_ref().map(|at| &at.motion.placement.position)),
             true => Some(PairLoads { gap: f64::INFINITY, ..PairLoads::default() }),
             false => None,
         };
-        let found = match nothing {
-            Some(nothing) => Ok(nothing),
-            None => with_sides(pair, &bodies, |sides| PairLoads::integrate(pair, sides, guess.as_ref(), &mut met.room)),
-        };
-        met.loads.push(found.map_err(|closed| outside(&bodies, number, closed))?);
-    }
-    Ok(())
+        met.loads.push(match nothing {
+            Some(nothing) => nothing,
+            None => with_sides(pair, bodies, |sides| PairLoads::integrate(pair, sides, guess, &mut met.room))?,
+        });
+        Ok(())
+    })
 }
 
 /// The same with derivatives.
 pub(super) fn differentiate(model: &Model, instant: &Instant, scratch: &mut Scratch) -> Result<(), Inadmissible> {
-    let met = &mut scratch.met;
-    met.slopes.clear();
-    for (number, pair) in model.pairs().iter().enumerate() {
-        let guess = met.guess(number, instant.time());
-        let bodies = pair.bodies.map(|body| instant.at(model, body));
-        let found = match is_far(pair, &bodies) {
-            true => Ok(None),
-            false => with_sides(pair, &bodies, |sides| {
-                PairSlopes::integrate(pair, sides, guess.as_ref(), &mut met.room).map(Some)
-            }),
-        };
-        met.slopes.push(found.map_err(|closed| outside(&bodies, number, closed))?);
-    }
-    Ok(())
+    scratch.met.slopes.clear();
+    for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
+        let integrate = |sides: [&Side; 2]| PairSlopes::integrate(pair, sides, guess, &mut met.room);
+        met.slopes.push(if is_far(pair, bodies) { None } else { Some(with_sides(pair, bodies, integrate)?) });
+        Ok(())
+    })
 }
 
 impl Workspace {
@@ -96,16 +95,11 @@ impl Workspace {
         }
         let Self { instant, scratch } = self;
         instant.read(model, time, state)?;
-        for (number, pair) in model.pairs().iter().enumerate() {
-            let guess = scratch.met.guess(number, time);
-            let bodies = pair.bodies.map(|body| instant.at(model, body));
-            let found = match is_far(pair, &bodies) {
-                true => Ok(PairGap::FAR),
-                false => with_sides(pair, &bodies, |sides| pair.gap(sides, guess.as_ref(), &mut scratch.met.room)),
-            };
-            gaps.push(found.map_err(|closed| outside(&bodies, number, closed))?);
-        }
-        Ok(())
+        for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
+            let gap = |sides: [&Side; 2]| pair.gap(sides, guess, &mut met.room);
+            gaps.push(if is_far(pair, bodies) { PairGap::FAR } else { with_sides(pair, bodies, gap)? });
+            Ok(())
+        })
     }
 
     /// The same as if nothing were known, and from then on planes are looked for where they are then: what follows is
@@ -149,8 +143,4 @@ fn with_sides<T>(pair: &Pair, bodies: &[BodyAt; 2], each: impl FnOnce([&Side; 2]
         }
     });
     each([&one, &other])
-}
-
-fn outside([one, _]: &[BodyAt; 2], number: usize, closed: GapClosed) -> Inadmissible {
-    one.outside(Quantity::PairGap { pair: number }, closed.gap)
 }

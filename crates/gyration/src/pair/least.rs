@@ -24,7 +24,7 @@ pub(super) struct Placed {
     pub plane: Plane,
     pub potentials: [Potential; 2],
     /// s.
-    pub parts: [f64; 2],
+    parts: [f64; 2],
     /// U [J].
     pub energy: f64,
     /// λ.
@@ -32,17 +32,17 @@ pub(super) struct Placed {
     /// The directions in which n turns.
     pub tangents: [Vec3; 2],
     /// Z.
-    pub heights: [Matrix4x3<f64>; 2],
+    heights: [Matrix4x3<f64>; 2],
     /// ρ.
-    pub slopes: [Vec3; 2],
+    slopes: [Vec3; 2],
     /// r.
     gradient: Vec3,
     /// δ log χ′ by δ log U.
     fading: f64,
     /// K.
-    pub curvature: Cholesky<f64, Const<3>>,
+    curvature: Cholesky<f64, Const<3>>,
     /// q.
-    pub power: f64,
+    power: f64,
 }
 
 /// A squared Newton decrement that is rounding: the plane is known to fifteen digits of what its forces feel.
@@ -82,15 +82,15 @@ pub(super) fn place(
         Some(placed) => placed,
         None => Placed::at(laws, halves, separate(halves).map_err(|gap| GapClosed { gap })?, room)?,
     };
-    let (mut last, mut left) = (f64::INFINITY, f64::INFINITY);
+    let mut left = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let step = -placed.curvature.solve(&placed.gradient);
         let decrement = -step.dot(&placed.gradient);
+        let falls = decrement >= NEAR || decrement <= 0.25 * left;
         left = decrement;
-        if decrement <= CONVERGED || (decrement < NEAR && decrement > 0.25 * last) {
+        if decrement <= CONVERGED || !falls {
             break;
         }
-        last = decrement;
         let Some(next) = placed.descend(laws, halves, &step, decrement, room) else { break };
         placed = next;
     }

@@ -17,7 +17,7 @@
 use super::laws::{PairLaws, ViscousLaw};
 use super::least::{Change, Placed};
 use super::side::{Half, joined};
-use super::{Mat4, Mat34, SIGNS, Vec4};
+use super::{Mat4, Mat34, Vec4};
 use crate::contact::LawKind;
 use crate::surface::{GapClosed, Moments};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
@@ -80,9 +80,9 @@ impl Shares {
 }
 
 /// G of a side: X̃ of the material point that stands at the foot of another on the plane.
-fn feet(half: &Half, placed: &Placed, side: usize) -> Mat4 {
+fn feet(half: &Half, placed: &Placed) -> Mat4 {
     let across = half.side.inverse * placed.plane.normal;
-    let heights = SIGNS[side] * half.heights(&placed.plane);
+    let heights = half.sign * half.heights(&placed.plane);
     Mat4::identity() - upright(&across) * heights.transpose()
 }
 
@@ -143,7 +143,7 @@ impl Mediator {
         moments: [&Moments; 2],
     ) -> Result<Self, GapClosed> {
         let kind = law.kind;
-        let feet = (kind == LawKind::Friction).then(|| [0, 1].map(|side| feet(halves[side], placed, side)));
+        let feet = (kind == LawKind::Friction).then(|| halves.map(|half| feet(half, placed)));
         let moments = [0, 1].map(|side| {
             let Moments { zeroth, first, second, .. } = moments[side];
             let whole = shares.coefficient(law, side) * joined(*zeroth, first, second);
@@ -252,8 +252,7 @@ impl Mediator {
         let across = inverse * n;
         let gradient = place.fixed_columns::<3>(1);
         let turned = inverse * (change.normal - gradient * across);
-        let sign = SIGNS[side];
-        let moved = -sign
+        let moved = -half.sign
             * (upright(&turned) * half.heights(&placed.plane).transpose() + upright(&across) * heights.transpose());
         let cross = moved * slope.value * feet.transpose();
         feet * changed * feet.transpose() + cross + cross.transpose()

@@ -5,7 +5,7 @@ use super::least::{Placed, place};
 use super::mediator::{Mediator, Shares};
 use super::plane::Guess;
 use super::side::{Half, Side, columns};
-use super::{Mat34, Pair, SIGNS, Vec4};
+use super::{Mat34, Pair, Vec4};
 use crate::contact::AreaMeasure;
 use crate::surface::{GapClosed, Moments};
 use crate::tensor::Vec3;
@@ -46,6 +46,9 @@ impl PairScratch {
     }
 }
 
+/// A is above the plane, B below.
+const SIGNS: [f64; 2] = [1.0, -1.0];
+
 /// Both sides, their places from the centre of A; `deformed` if their areas are.
 pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2] {
     let shares = shares(sides.map(|side| side.surface.area()));
@@ -85,7 +88,7 @@ impl<'a> Met<'a> {
     /// (f | M) of the repulsion on a side.
     pub fn repulsion(&self, side: usize) -> Mat34 {
         let Placed { plane, weights, potentials, .. } = &self.placed;
-        SIGNS[side] * weights[side] * plane.normal * potentials[side].first.transpose()
+        self.halves[side].sign * weights[side] * plane.normal * potentials[side].first.transpose()
     }
 
     /// Hands damping and friction to `each`, with the moments of both sides from which they are.

@@ -40,7 +40,7 @@ pub use laws::{PairLaws, PairLawsError};
 pub use loads::PairLoads;
 pub use met::{PairGap, PairScratch};
 pub use overlap::Overlap;
-pub use plane::{Guess, Plane};
+pub use plane::Guess;
 pub use side::Side;
 pub use slopes::PairSlopes;
 
@@ -54,9 +54,6 @@ use std::sync::Arc;
 pub(crate) type Mat34 = Matrix3x4<f64>;
 type Mat4 = Matrix4<f64>;
 type Vec4 = Vector4<f64>;
-
-/// A above the plane, B below.
-const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// Two bodies of a model that meet, or convex parts of them.
 #[derive(Debug, Clone, PartialEq)]

@@ -31,7 +31,11 @@ impl Overlap {
     pub fn check(surfaces: [&Surface; 2], placements: [&Placement; 2]) -> Result<(), Self> {
         let velocity = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
         let between = placements[0].position - placements[1].position;
-        let size = surfaces.map(|surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity()));
+        // |P X| is the speed of X under the gradient rate P.
+        let size = [0, 1].map(|i| surfaces[i].fastest_point(&Vec3::zeros(), &placements[i].gradient));
+        if between.norm() > size[0] + size[1] {
+            return Ok(());
+        }
         let [one, other] = [0, 1].map(|i| Side {
             surface: surfaces[i],
             placement: placements[i],

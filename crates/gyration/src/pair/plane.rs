@@ -4,7 +4,7 @@ use crate::tensor::Vec3;
 
 /// A plane: n, and c from the centre of mass of A.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
+pub(super) struct Plane {
     /// n, from B to A.
     pub normal: Vec3,
     /// c = n·x [m].

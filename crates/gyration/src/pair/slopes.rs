@@ -8,7 +8,7 @@ use super::mediator::Slope;
 use super::met::{Met, PairScratch, ViscousMoments};
 use super::plane::Guess;
 use super::side::Side;
-use super::{Mat34, Pair, SIGNS};
+use super::{Mat34, Pair};
 use crate::load::{COORDINATES, Loads, Mat12};
 use crate::surface::GapClosed;
 
@@ -96,6 +96,6 @@ impl Met<'_> {
     fn repulsion_along(&self, side: usize, change: &Change) -> Mat34 {
         let (normal, first) = (&self.placed.plane.normal, &self.placed.potentials[side].first);
         let pressed = (change.weights[side] * normal + change.normal) * first.transpose();
-        SIGNS[side] * self.placed.weights[side] * (pressed + normal * change.first[side].transpose())
+        self.halves[side].sign * self.placed.weights[side] * (pressed + normal * change.first[side].transpose())
     }
 }

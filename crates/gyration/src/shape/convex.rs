@@ -4,7 +4,7 @@
 //! and a mesh is one where it bends outward over all its edges.
 
 use super::edges::half_edges;
-use super::{Polyhedron, Shape};
+use super::{Polyhedron, Shape, UnionPart};
 use crate::surface::Surface;
 
 /// How far a corner may stand out beyond a neighbouring face, relative to the size: coordinates in decimals.
@@ -17,7 +17,7 @@ pub enum NotConvex {
     #[error("a torus is not convex")]
     Ring,
     /// A mesh with a dent.
-    #[error("the mesh is not convex: at the edge from vertex {} to {} it bends inward by {depth:e} m", .edge[0], .edge[1])]
+    #[error("the mesh is not convex: it bends inward by {depth:e} m at the edge from vertex {} to {}", .edge[0], .edge[1])]
     Dent {
         /// The vertices of an edge.
         edge: [usize; 2],
@@ -30,27 +30,30 @@ pub enum NotConvex {
 }
 
 impl Shape {
-    /// The surfaces of its convex parts, in the shape's frame; none of points.
+    /// Whether it is convex, or a union of convex parts.
     ///
     /// # Errors
     /// [`NotConvex`] where a part is not.
-    pub fn convex_parts(&self) -> Result<Vec<Surface>, NotConvex> {
+    pub fn check_convex(&self) -> Result<(), NotConvex> {
         match self {
             Self::Torus(_) => Err(NotConvex::Ring),
-            Self::Polyhedron(polyhedron) => {
-                polyhedron.check_convex()?;
-                Ok(vec![polyhedron.surface()])
-            }
-            Self::Union(union) => {
-                let mut parts = Vec::new();
-                for part in &union.parts {
-                    let own = part.shape.convex_parts()?;
-                    parts.extend(own.iter().map(|surface| surface.transformed(&part.rotation, &part.offset)));
-                }
-                Ok(parts)
-            }
-            _ => Ok(self.surface().into_iter().collect()),
+            Self::Polyhedron(polyhedron) => polyhedron.check_convex(),
+            Self::Union(union) => union.parts.iter().try_for_each(|part| part.shape.check_convex()),
+            _ => Ok(()),
         }
+    }
+
+    /// The surfaces of the parts of a union, those of its unions among them, in the shape's frame; none of any other.
+    pub fn part_surfaces(&self) -> Vec<Surface> {
+        let Self::Union(union) = self else { return Vec::new() };
+        let surfaces = |part: &UnionPart| {
+            let own = match &part.shape {
+                Self::Union(_) => part.shape.part_surfaces(),
+                shape => shape.surface().into_iter().collect(),
+            };
+            own.into_iter().map(|surface| surface.transformed(&part.rotation, &part.offset)).collect::<Vec<_>>()
+        };
+        union.parts.iter().flat_map(surfaces).collect()
     }
 }
 

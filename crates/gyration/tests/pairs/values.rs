@@ -62,7 +62,7 @@ fn translation_is_resisted_as_the_normal_force_says_whatever_the_shapes() {
 }
 
 #[test]
-fn a_pair_is_nothing_beyond_its_reach_and_nearly_whole_well_within() {
+fn a_pair_is_nothing_beyond_its_reach_and_less_than_whole_within() {
     let mut tightest: f64 = 0.0;
     for (name, mut one, mut other) in pairs() {
         // Rigid bodies: the bound is of their own surfaces.
