@@ -230,6 +230,17 @@ impl<'a> BodyAt<'a> {
         self.instant.at(self.model, index)
     }
 
+    /// The place of its centre of mass from that of another body [m], to all the digits of the state: p₀ − p₀′ has those
+    /// of the difference, wherever the origin is. A pinned body has those of one number.
+    #[inline]
+    pub(crate) fn from(&self, other: &Self) -> Vec3 {
+        if self.numbers.low.is_empty() || self.body.pin.is_some() || other.body.pin.is_some() {
+            return self.motion.placement.position - other.motion.placement.position;
+        }
+        let [own, there] = [self, other].map(|at| at.model.slots(at.index).position().start);
+        Vec3::from_fn(|i, _| (self.numbers.at(own + i) - self.numbers.at(there + i)).value())
+    }
+
     /// A state outside the model.
     pub(crate) fn outside(&self, quantity: Quantity, value: f64) -> Inadmissible {
         Inadmissible { body: self.index, quantity, value }

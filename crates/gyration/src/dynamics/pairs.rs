@@ -8,6 +8,7 @@ use crate::instant::{BodyAt, Instant, KindAt};
 use crate::model::Model;
 use crate::pair::{Guess, Pair, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::surface::GapClosed;
+use crate::tensor::Vec3;
 
 /// What all pairs of a model do at an instant.
 #[derive(Debug, Clone, Default)]
@@ -56,7 +57,10 @@ pub(super) fn meet(
     scratch.met.loads.clear();
     for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
         let nothing = match is_far(pair, bodies) {
-            true if everywhere => pair.apart(bodies.each_ref().map(|at| &at.motion.placement.position)),
+            true if everywhere => {
+                let [one, other] = bodies;
+                pair.apart(&one.from(other), &other.motion.placement.position)
+            }
             true => Some(PairLoads { gap: f64::INFINITY, ..PairLoads::default() }),
             false => None,
         };
@@ -126,16 +130,17 @@ impl Workspace {
 fn is_far(pair: &Pair, [one, other]: &[BodyAt; 2]) -> bool {
     let rigid = |at: &BodyAt| matches!(at.kind(), KindAt::Rigid(..));
     let Some(span) = pair.span().filter(|_| rigid(one) && rigid(other)) else { return false };
-    (one.motion.placement.position - other.motion.placement.position).norm() >= span
+    one.from(other).norm() >= span
 }
 
 fn with_sides<T>(pair: &Pair, bodies: &[BodyAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
+    let apart = bodies[1].from(&bodies[0]);
     let [one, other] = [0, 1].map(|end| {
         let at = &bodies[end];
-        let apart = bodies[0].motion.placement.position - bodies[1].motion.placement.position;
         Side {
             surface: at.body.solid.part(pair.parts[end]),
             placement: &at.motion.placement,
+            from_first: if end == 0 { Vec3::zeros() } else { apart },
             velocity: &at.motion.velocity,
             inverse: at.inverse(),
             deformation: deformation(at),

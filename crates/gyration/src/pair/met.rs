@@ -52,13 +52,12 @@ const SIGNS: [f64; 2] = [1.0, -1.0];
 /// Both sides, their places from the centre of A; `deformed` if their areas are.
 pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2] {
     let shares = shares(sides.map(|side| side.surface.area()));
-    let origin = sides[0].placement.position;
     [0, 1].map(|i| {
         let side = sides[i];
         Half {
             side: *side,
             sign: SIGNS[i],
-            columns: columns(&(side.placement.position - origin), &side.placement.gradient),
+            columns: columns(&side.from_first, &side.placement.gradient),
             root_share: shares[i].sqrt(),
             cofactor: side.deformation.filter(|_| deformed).map(|deformation| deformation.cofactor),
         }

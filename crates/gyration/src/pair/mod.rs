@@ -95,14 +95,13 @@ impl Pair {
         self.reach.is_none() || self.threshold.is_normal()
     }
 
-    /// What two rigid balls with these centres do out of reach, nothing, with the gap between them; none of other
-    /// shapes.
-    pub fn apart(&self, centers: [&Vec3; 2]) -> Option<PairLoads> {
-        let between = centers[0] - centers[1];
+    /// What two rigid balls do out of reach, nothing, with the gap between them, given the place of A from B and that of
+    /// B [m]; none of other shapes.
+    pub fn apart(&self, between: &Vec3, place: &Vec3) -> Option<PairLoads> {
         let distance = between.norm();
         let normal = between / distance;
         let gap = distance - self.radii[0] - self.radii[1];
-        let point = centers[1] + (self.radii[1] + 0.5 * gap) * normal;
+        let point = place + (self.radii[1] + 0.5 * gap) * normal;
         self.are_balls.then(|| PairLoads { gap, normal, point, ..PairLoads::default() })
     }
 

@@ -39,6 +39,7 @@ impl Overlap {
         let [one, other] = [0, 1].map(|i| Side {
             surface: surfaces[i],
             placement: placements[i],
+            from_first: placements[i].position - placements[0].position,
             velocity: &velocity,
             inverse: Mat3::identity(),
             deformation: None,

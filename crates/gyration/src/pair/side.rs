@@ -15,6 +15,8 @@ pub struct Side<'a> {
     pub surface: &'a Surface,
     /// p₀ and P.
     pub placement: &'a Placement,
+    /// The place of its centre of mass from that of A [m]: a difference of places to twice their digits.
+    pub from_first: Vec3,
     /// ṗ₀ and Ṗ.
     pub velocity: &'a Velocity,
     /// P⁻¹.

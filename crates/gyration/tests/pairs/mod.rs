@@ -42,10 +42,12 @@ impl Half {
         Self { surface: surface.clone(), placement: Placement { position, gradient }, velocity }
     }
 
-    fn side(&self) -> Side<'_> {
+    /// As one of two, of which `first` is A.
+    fn side(&self, first: &Self) -> Side<'_> {
         Side {
             surface: &self.surface,
             placement: &self.placement,
+            from_first: self.placement.position - first.placement.position,
             velocity: &self.velocity,
             inverse: self.placement.gradient.try_inverse().unwrap(),
             deformation: None,
@@ -124,7 +126,7 @@ fn loads(laws: &PairLaws, halves: [&Half; 2]) -> PairLoads {
 
 fn within(laws: &PairLaws, reach: Option<f64>, [one, other]: [&Half; 2]) -> PairLoads {
     let pair = pair(laws, reach, [one, other]);
-    PairLoads::integrate(&pair, [&one.side(), &other.side()], None, &mut PairScratch::default()).unwrap()
+    PairLoads::integrate(&pair, [&one.side(one), &other.side(one)], None, &mut PairScratch::default()).unwrap()
 }
 
 /// Every pair of shapes, some apart, some close.
@@ -144,7 +146,7 @@ fn pairs() -> impl Iterator<Item = (String, Half, Half)> {
         let apart = |distance: f64| {
             let (one, other) = place(distance);
             let pair = pair(&laws([6.0; 3], false), None, [&one, &other]);
-            let sides = [one.side(), other.side()];
+            let sides = [one.side(&one), other.side(&one)];
             let found = PairLoads::integrate(&pair, sides.each_ref(), None, &mut PairScratch::default());
             found.is_ok_and(|loads| loads.gap > if k % 2 == 0 { 0.03 } else { 0.3 })
         };

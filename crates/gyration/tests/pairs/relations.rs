@@ -44,7 +44,7 @@ fn slopes_agree_with_differences() {
         // Far beyond the gaps, a little beyond them, and none.
         let gap = loads(&laws, [&one, &other]).gap;
         let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];
-        let sides = [one.side(), other.side()];
+        let sides = [one.side(&one), other.side(&one)];
         let slopes = PairSlopes::integrate(
             &pair(&laws, reach, [&one, &other]),
             sides.each_ref(),

@@ -97,7 +97,7 @@ fn balls_out_of_reach_have_the_gap_of_their_plane() {
         half
     });
     let pair = pair(&law, Some(0.5), [&one, &other]);
-    let told = pair.apart([&one.placement.position, &other.placement.position]).unwrap();
+    let told = pair.apart(&(one.placement.position - other.placement.position), &other.placement.position).unwrap();
     let found = within(&law, Some(0.5), [&one, &other]);
     assert_eq!((found.energy, found.on[0], told.on[0]), (0.0, told.on[0], Loads::default()));
     assert!((told.gap - found.gap).abs() < 1e-14 && (told.normal - found.normal).norm() < 1e-14, "{told:?} {found:?}");
@@ -125,7 +125,7 @@ fn planes_are_found_between_faces_that_nearly_touch() {
                 halves[0].placement = Placement { position: place, gradient: turn * twist };
                 halves[1].placement.gradient = turn;
                 let pair = pair(&law, None, halves.each_ref());
-                let sides = halves.each_ref().map(|half| half.side());
+                let sides = halves.each_ref().map(|half| half.side(&halves[0]));
                 let found = PairLoads::integrate(&pair, sides.each_ref(), None, &mut PairScratch::default());
                 let told = found.unwrap_or_else(|closed| panic!("kind {kind} at {gap:e}: {closed}")).gap;
                 assert!(told > 0.0 && told < gap + 1e-14, "kind {kind}: {told:e} of {gap:e}");
