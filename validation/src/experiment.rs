@@ -134,7 +134,7 @@ impl Experiment {
             outcome,
             end: simulation.state(),
             largest_residual: simulation.run_state().largest_residual,
-            energy_in_play: simulation.run_state().energy_in_play,
+            energy_in_play: simulation.energy_in_play(),
             steps: simulation.statistics().accepted(),
             arrays: arrays(&self.model, &self.plan.extras),
         }

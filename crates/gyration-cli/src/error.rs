@@ -1,6 +1,4 @@
-//! What keeps the program from doing what it was asked, with the exit code that tells it to scripts.
-//!
-//! 1: the run ended early; 2: bad arguments or scene; 3: the scene file or the recording cannot be read or written.
+//! What keeps the program from doing what it was asked, with the exit code that tells it to scripts ([`code`]).
 
 use gyration_files::in_words;
 use gyration_plot::PlotError;
@@ -67,16 +65,18 @@ pub enum CliError {
     Signal(#[from] ctrlc::Error),
 }
 
-/// Exit codes of the program.
+/// Exit codes of the program; `docs/exit-codes.md` is this list.
 pub mod code {
     /// Done.
     pub const DONE: u8 = 0;
-    /// The run ended early, for a physical or numerical reason or at `max_wall_time`.
+    /// The run ended early, for a physical or numerical reason or at `max_wall_time`; whatever its ledger.
     pub const ENDED_EARLY: u8 = 1;
     /// Bad arguments or scene.
     pub const BAD_INPUT: u8 = 2;
     /// The scene file or the recording cannot be read or written.
     pub const BAD_FILE: u8 = 3;
+    /// Done, but the energy balance is open, by any amount: of a run, or of one run of a study.
+    pub const OPEN: u8 = 4;
     /// Interrupted, as shells count it: 128 + SIGINT.
     pub const INTERRUPTED: u8 = 130;
 }

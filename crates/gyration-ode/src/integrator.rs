@@ -28,7 +28,7 @@ pub struct Integrator {
     pub(crate) explicit: Explicit,
     pub(crate) implicit: Implicit,
     pub(crate) event_scratch: Vec<f64>,
-    /// Whether scratch and scales are ready.
+    /// Whether scratch is ready, and rates, scales and step are known.
     pub(crate) open: bool,
     /// Whether the scratch of the implicit stepper has the size of the system.
     pub(crate) fitted: bool,
@@ -57,6 +57,7 @@ impl Integrator {
             u: [y, w].concat(),
             low: vec![0.0; y.len() + w.len()],
             rate: vec![0.0; y.len() + w.len()],
+            scale: vec![0.0; y.len() + w.len()],
             collocation: vec![0.0; 3 * (y.len() + w.len())],
         };
         let progress = StepperState {
@@ -73,14 +74,13 @@ impl Integrator {
         Self::assemble(progress, vectors, options)
     }
 
-    /// The same after other integrations: what the numbers of y lack of twice their digits, and counters to go on from.
+    /// The same after other integrations: what the numbers of y lack of twice their digits.
     ///
     /// # Panics
     /// If `low` has not the size of y.
     #[must_use]
-    pub fn succeeding(mut self, low: &[f64], statistics: Statistics) -> Self {
+    pub fn succeeding(mut self, low: &[f64]) -> Self {
         self.current.low[..self.progress.dimension].copy_from_slice(low);
-        self.progress.statistics = statistics;
         self
     }
 
@@ -102,7 +102,7 @@ impl Integrator {
         };
         let width = vectors.u.len();
         let mut current = Point::new(vectors.t, vectors.u);
-        (current.low, current.rate) = (vectors.low, vectors.rate);
+        (current.low, current.rate, current.scale) = (vectors.low, vectors.rate, vectors.scale);
         Self {
             options,
             layout: SystemLayout { dimension: progress.dimension, width, ..SystemLayout::default() },

@@ -1,9 +1,11 @@
 //! Everything that the next step depends on, as plain numbers: a checkpoint.
 //!
 //! A run continued from a `Memory` makes the same steps, to the last bit, as one that was never interrupted: state,
-//! rate (that of the projected state), step, error history, the collocation polynomial from which Newton's method
-//! starts, the votes for another stepper, and the counters. Options and system are the caller's to repeat. The
-//! interpolant of the last step is not part of it: sample before you stop.
+//! rate (that of the projected state), the error allowed there, step, error history, the collocation polynomial from
+//! which Newton's method starts, the votes for another stepper, and the counters. A system may find its error scales by
+//! a search whose last digit depends on where it began; so they are kept, and never found anew at the start of a step.
+//! Options and system are the caller's to repeat. The interpolant of the last step is not part of it: sample before you
+//! stop.
 
 use crate::auto::Switch;
 use crate::context::Point;
@@ -11,7 +13,7 @@ use crate::control::StepControl;
 use crate::report::{Statistics, Stepper};
 
 /// The version of the layout of the numbers.
-const VERSION: u64 = 4;
+const VERSION: u64 = 5;
 /// The integers before and besides the vectors.
 const INTEGERS: usize = 18;
 /// The reals besides the vectors.
@@ -78,19 +80,23 @@ pub(crate) struct StepperState {
     pub statistics: Statistics,
 }
 
-/// The vectors of a checkpoint: u = (y, w), what it lacks, its rate, and the collocation polynomial (three times as
-/// long).
+/// The vectors of a checkpoint: u = (y, w), what it lacks, its rate, the error allowed, and the collocation polynomial
+/// (three times as long).
 pub(crate) struct CheckpointVectors {
     pub t: f64,
     pub u: Vec<f64>,
     pub low: Vec<f64>,
     pub rate: Vec<f64>,
+    pub scale: Vec<f64>,
     pub collocation: Vec<f64>,
 }
 
+/// How many numbers the vectors hold for each of u.
+const VECTORS: usize = 7;
+
 /// Writes a checkpoint, in the place of what stands in the memory.
 pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point, collocation: &[f64]) {
-    let Point { t, u, low, rate, .. } = point;
+    let Point { t, u, low, rate, scale } = point;
     let StepperState { control, switch, statistics: s, .. } = progress;
     let Memory { reals, integers } = memory;
     reals.clear();
@@ -115,11 +121,12 @@ pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point
         s.factorizations,
         s.switches,
     ]);
-    reals.reserve(REALS + 6 * u.len());
+    reals.reserve(REALS + VECTORS * u.len());
     reals.push(*t);
     reals.extend_from_slice(u);
     reals.extend_from_slice(low);
     reals.extend_from_slice(rate);
+    reals.extend_from_slice(scale);
     reals.extend_from_slice(collocation);
     reals.extend_from_slice(&[
         progress.step,
@@ -150,18 +157,19 @@ pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors
     if ints.len() != INTEGERS || reals.len() < REALS {
         return Err(wrong);
     }
-    let width = (reals.len() - REALS) / 6;
+    let width = (reals.len() - REALS) / VECTORS;
     let (dimension, quadratures) = (ints[1], ints[2]);
-    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + 6 * width {
+    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + VECTORS * width {
         return Err(wrong);
     }
-    let (vectors, rest) = reals[1..].split_at(6 * width);
+    let (vectors, rest) = reals[1..].split_at(VECTORS * width);
     let vectors = CheckpointVectors {
         t: reals[0],
         u: vectors[..width].to_vec(),
         low: vectors[width..2 * width].to_vec(),
         rate: vectors[2 * width..3 * width].to_vec(),
-        collocation: vectors[3 * width..].to_vec(),
+        scale: vectors[3 * width..4 * width].to_vec(),
+        collocation: vectors[4 * width..].to_vec(),
     };
     let progress = StepperState {
         dimension: dimension as usize,

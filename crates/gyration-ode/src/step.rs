@@ -135,14 +135,12 @@ impl Integrator {
 
     fn start<S: System>(&mut self, system: &mut S) -> Result<(), Failure<S::Inadmissible>> {
         let Self { layout, progress, current, other, .. } = self;
-        let mut context = Context { system, layout, statistics: &mut progress.statistics };
         if !progress.started {
+            let mut context = Context { system, layout, statistics: &mut progress.statistics };
             let rates =
                 context.evaluate(current.t, Extended { high: &current.u, low: &current.low }, &mut current.rate);
             rates.map_err(|cause| Failure::NoRates { time: current.t, cause })?;
-        }
-        context.scales(current);
-        if !progress.started {
+            context.scales(current);
             let max_step = self.options.max_step;
             progress.step = match self.options.initial_step {
                 Some(step) => step.min(max_step),

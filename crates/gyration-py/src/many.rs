@@ -194,7 +194,7 @@ fn ended(scene: &Built, keep: Option<&[String]>, stop: &AtomicBool) -> Result<Ru
         steps: statistics.accepted(),
         rejected: statistics.rejected_error + statistics.rejected_domain + statistics.newton_failures,
         evaluations: statistics.rate_evaluations,
-        residual: run_state.largest_residual / run_state.energy_in_play,
+        residual: run_state.largest_residual / simulation.energy_in_play(),
         ledger: Some(Verdict::of(job.model, &simulation)),
         last: by_column(&job, &last.0, keep),
     })

@@ -6,7 +6,7 @@
 //! step may spend a tenth of either.
 
 use crate::resistance::check_resistances;
-use crate::scales::{energy_scale, speed_scale, spring_frequency};
+use crate::scales::{energy_scale, speed_scales, spring_frequency};
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
@@ -67,11 +67,27 @@ impl ModelSystem {
     /// [`Inadmissible`] if the start is outside the model.
     pub fn new(model: Model, start: &State, tolerance: Tolerance) -> Result<Self, Inadmissible> {
         check_resistances(&model)?;
-        let mut workspace = Workspace::default();
-        let mut slopes = vec![0.0; model.dimension()];
-        let mut powers = vec![0.0; model.works().len()];
-        rates(&model, &mut workspace, start.time, start.numbers(), &mut slopes, &mut powers)?;
-        let speeds: Vec<f64> = (0..model.bodies.len()).map(|body| speed_scale(&model, start, &slopes, body)).collect();
+        let slopes = first_rates(&model, start)?;
+        let speeds = speed_scales(&model, start, &slopes)?;
+        Ok(Self::assemble(model, tolerance, slopes, speeds))
+    }
+
+    /// The same for some bodies of a run, given their speed scales in it [m/s].
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if the start is outside the model.
+    pub(crate) fn of_run(
+        model: Model,
+        start: &State,
+        tolerance: Tolerance,
+        speeds: Vec<f64>,
+    ) -> Result<Self, Inadmissible> {
+        check_resistances(&model)?;
+        let slopes = first_rates(&model, start)?;
+        Ok(Self::assemble(model, tolerance, slopes, speeds))
+    }
+
+    fn assemble(model: Model, tolerance: Tolerance, first_rates: Vec<f64>, speeds: Vec<f64>) -> Self {
         let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
@@ -81,8 +97,8 @@ impl ModelSystem {
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // One of its own, if it needs one: most are lent one.
         let workspace = Workspace::default();
-        let (pattern, first_rates) = (pattern(&model), slopes);
-        Ok(Self {
+        let pattern = pattern(&model);
+        Self {
             model,
             pattern,
             workspace,
@@ -95,7 +111,7 @@ impl ModelSystem {
             viscous,
             first_rates,
             interrupted: false,
-        })
+        }
     }
 
     /// The model.
@@ -143,10 +159,21 @@ impl ModelSystem {
         found.inspect_err(|left| self.interrupted |= left.quantity == Quantity::Interruption)
     }
 
-    /// The speed scale of a body [m/s]: its initial speed or √(g·size), whichever is larger.
+    /// The speed scale of a body [m/s].
     pub fn speed_scale(&self, body: usize) -> f64 {
         self.speeds[body]
     }
+}
+
+/// The rates of the bodies at the start of a run, laid out as the state.
+///
+/// # Errors
+/// [`Inadmissible`] if the start is outside the model.
+pub(crate) fn first_rates(model: &Model, start: &State) -> Result<Vec<f64>, Inadmissible> {
+    let mut slopes = vec![0.0; model.dimension()];
+    let mut powers = vec![0.0; model.works().len()];
+    rates(model, &mut Workspace::default(), start.time, start.numbers(), &mut slopes, &mut powers)?;
+    Ok(slopes)
 }
 
 /// Which bodies act on which others; they do so by forces, which the rates of places do not feel.
@@ -233,6 +260,10 @@ impl System for ModelSystem {
             let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
             // Springs make velocities of the rounding of places.
             let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];
+            // So do pairs, whose forces are off by some ν ε size/gap: velocities by that part of themselves.
+            let exponents = self.model.pairs_of(index).map(|end| end.joint.laws.repulsion.exponent);
+            let lost = if apart > 0.0 { exponents.fold(0.0, f64::max) * body.size / apart } else { 0.0 };
+            let shaken = shaken + 4.0 * f64::EPSILON * lost * speed.max(self.speeds[index]);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;
             y_scale[slots.position()].fill(length + rounding);
             y_scale[slots.attitude()].fill((length + rounding) / body.size);

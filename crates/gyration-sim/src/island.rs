@@ -14,13 +14,25 @@ use crate::plan::RunPlan;
 use crate::run_state::{DISSIPATION, IslandMemory, IslandState};
 use crate::step_end::{self, StepEnd};
 use crate::way::Way;
-use gyration::balance::fastest_speed;
+use gyration::balance::{fastest_speed, kinetic_energy};
 use gyration::model::Model;
 use gyration::pair::PairGap;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
 use std::ops::Range;
+
+/// What islands of a run begin from.
+#[derive(Clone, Copy)]
+pub(crate) struct Setting<'a> {
+    /// All bodies of the run.
+    pub model: &'a Model,
+    /// The first state, from which the scales come.
+    pub start: &'a State,
+    /// The speed scales of all bodies [m/s].
+    pub speeds: &'a [f64],
+    pub plan: &'a RunPlan,
+}
 
 /// Bodies with an integrator of their own.
 pub(crate) struct Island {
@@ -65,7 +77,8 @@ impl Island {
     ///
     /// # Errors
     /// [`Stop`] if the start is outside the model.
-    pub fn new(model: &Model, start: &State, plan: &RunPlan, members: Vec<usize>, stays: bool) -> Result<Self, Stop> {
+    pub fn new(setting: Setting, members: Vec<usize>, stays: bool) -> Result<Self, Stop> {
+        let Setting { model, start, speeds, plan } = setting;
         let is_whole = members.len() == model.bodies.len();
         let part = if is_whole { model.clone() } else { model.part(&members) };
         let places: Vec<Range<usize>> = members.iter().map(|body| model.blocks()[*body].clone()).collect();
@@ -78,7 +91,8 @@ impl Island {
             low: of_part(&start.low),
             works: works.iter().map(|work| start.works[*work]).collect(),
         };
-        let system = ModelSystem::new(part.clone(), &own, plan.tolerance);
+        let speeds = members.iter().map(|body| speeds[*body]).collect();
+        let system = ModelSystem::of_run(part.clone(), &own, plan.tolerance, speeds);
         let system = system.map_err(|left| Stop::by_inadmissible(&part, start.time, &left))?;
         let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
         let state = IslandState::new(members.len());
@@ -104,6 +118,7 @@ impl Island {
             anchor: None,
         };
         this.read_step_end();
+        this.note_in_play();
         if !(is_whole && stays) {
             this.anchor = Some(Anchor::new(this.memory()));
         }
@@ -246,6 +261,7 @@ impl Island {
         self.read_step_end();
         self.state.largest_projection = self.state.largest_projection.max(report.projection);
         self.state.note_dissipation(before, self.dissipation());
+        self.note_in_play();
         self.find_events(&report);
         self.note_ways(&report);
         self.note_parting();
@@ -312,6 +328,17 @@ impl Island {
     fn dissipation(&self) -> [f64; 2] {
         let entries = self.model().works().iter().zip(self.integrator.quadratures());
         DISSIPATION.map(|work| entries.clone().find(|(entry, _)| **entry == work).map_or(0.0, |(_, value)| *value))
+    }
+
+    /// The kinetic energy of some of its bodies, by their places, at the end of the last step [J].
+    pub fn kinetic_energy(&self, places: impl Iterator<Item = usize>) -> f64 {
+        places.map(|place| kinetic_energy(&self.model().bodies[place], &self.step_ends[place].motion)).sum()
+    }
+
+    /// Notes the energy in play.
+    pub fn note_in_play(&mut self) {
+        let kinetic = self.kinetic_energy(0..self.members.len());
+        self.state.in_play.note(kinetic, self.integrator.quadratures());
     }
 
     /// Whether every body's fastest material point is slower than the speed of rest.

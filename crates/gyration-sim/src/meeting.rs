@@ -6,14 +6,13 @@
 //! bodies are out of reach of the others, and stay so for a few steps if they go on as they do.
 
 use crate::approach::Approach;
-use crate::island::Island;
+use crate::in_play::InPlay;
+use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::way::{NODES, Way};
-use gyration::model::Model;
-use gyration::state::State;
 use gyration::tensor::Vec3;
-use gyration_ode::{Components, Integrator, Options, Pattern, Statistics, StepReport};
+use gyration_ode::{Components, Integrator, Options, Pattern, StepReport};
 use gyration_threads::Interruption;
 
 /// For how many of its next steps bodies must stay out of reach before an island falls apart.
@@ -78,48 +77,43 @@ impl Island {
         come
     }
 
-    /// The island of some bodies that goes on from others, all of which are at one time; their works are summed, or
-    /// left to another.
+    /// The island of some bodies that goes on from others, all of which are at one time; its works begin at zero.
     ///
     /// # Errors
     /// [`Stop`] if together they have no rates.
-    pub fn successor(
-        (model, start, plan): (&Model, &State, &RunPlan),
-        members: Vec<usize>,
-        before: &[&Island],
-        takes_works: bool,
-    ) -> Result<Self, Stop> {
-        let mut this = Self::new(model, start, plan, members, false)?;
+    pub fn successor(setting: Setting, members: Vec<usize>, before: &[&Island], in_play: InPlay) -> Result<Self, Stop> {
+        let Setting { model, plan, .. } = setting;
+        let mut this = Self::new(setting, members, false)?;
         let time = before.iter().map(|island| island.time()).fold(f64::NEG_INFINITY, f64::max);
         let step = before.iter().map(|island| island.integrator.next_size()).filter(|size| *size > 0.0);
         let step = step.reduce(f64::min);
         let (mut numbers, mut low) = (vec![0.0; model.dimension()], vec![0.0; model.dimension()]);
-        let mut works = vec![0.0; model.works().len()];
-        let mut statistics = Statistics::default();
         for island in before {
             let integrator = &island.integrator;
             for (own, place) in island.places() {
                 numbers[place.clone()].copy_from_slice(&integrator.state()[own.clone()]);
                 low[place.clone()].copy_from_slice(&integrator.state_low()[own.clone()]);
             }
-            if takes_works {
-                island.works().iter().zip(integrator.quadratures()).for_each(|(place, work)| works[*place] += work);
-                statistics = statistics.and(integrator.statistics());
-            }
         }
         let of_own =
             |all: &[f64]| this.places().flat_map(|(_, place)| &all[place.clone()]).copied().collect::<Vec<f64>>();
-        let own_works: Vec<f64> = this.works().iter().map(|place| works[*place]).collect();
-        let options = Options { initial_step: step, ..plan.options };
         let (numbers, low) = (of_own(&numbers), of_own(&low));
-        this.integrator = Integrator::new(time, &numbers, &own_works, options).succeeding(&low, statistics);
-        this.take_over(before, takes_works);
+        let options = Options { initial_step: step, ..plan.options };
+        this.integrator = Integrator::new(time, &numbers, &vec![0.0; this.works().len()], options).succeeding(&low);
+        this.take_over(before);
+        this.state.in_play = in_play;
+        // The planes of the rates there are looked for from where they are.
+        this.find_gaps();
         this.restart()?;
+        this.note_in_play();
+        if let Some(anchor) = &mut this.anchor {
+            anchor.drop_at(&this.state, &this.integrator);
+        }
         Ok(this)
     }
 
     /// Takes over what is known of its bodies beside their state.
-    fn take_over(&mut self, before: &[&Island], with_events: bool) {
+    fn take_over(&mut self, before: &[&Island]) {
         for (place, body) in self.members().to_vec().into_iter().enumerate() {
             for island in before {
                 if let Some(there) = island.members().iter().position(|other| *other == body) {
@@ -137,9 +131,11 @@ impl Island {
                 *own = own.max(gain);
             }
         }
-        if with_events {
-            self.events = before.iter().flat_map(|island| island.events.iter().copied()).collect();
-            self.events.sort_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
-        }
+    }
+
+    /// Takes the events of other islands that are not handed on yet.
+    pub fn take_events<'a>(&mut self, before: impl IntoIterator<Item = &'a Island>) {
+        self.events = before.into_iter().flat_map(|island| island.events.iter().copied()).collect();
+        self.events.sort_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
     }
 }

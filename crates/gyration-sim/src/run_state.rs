@@ -1,10 +1,14 @@
-//! What a run carries from step to step beside the state: the next sample, the audit, the wait for rest.
+//! What a run carries from step to step beside the state: the next sample, the audit, the wait for rest, what islands
+//! have done that are no more.
 //!
 //! A checkpoint is the run state, and of each island its own and the stepper's memory, as plain little-endian numbers,
 //! each list with its length before it, so that a resumed run goes on to the same bytes.
 
+use crate::in_play::InPlay;
+use crate::looseness::Looseness;
+use crate::sum::Sum;
 use gyration::ledger::Work;
-use gyration_ode::{Integrator, Memory};
+use gyration_ode::{Integrator, Memory, Statistics};
 
 /// The works that only take: within a body each is a quadratic form of the velocities, with a minus sign.
 pub(crate) const DISSIPATION: [Work; 2] = [Work::Contraction, Work::Viscosity];
@@ -20,12 +24,34 @@ pub struct RunState {
     pub initial_energy: f64,
     /// Largest |residual| of the ledger over the samples [J].
     pub largest_residual: f64,
-    /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
-    pub energy_in_play: f64,
+    /// What the energies leave open at the start.
+    pub(crate) looseness: Looseness,
     /// Smallest gap over the samples [m].
     pub smallest_gap: f64,
     /// How many events of each kind.
     pub events: [u64; 3],
+    /// What islands have done that are no more.
+    pub(crate) settled: Settled,
+}
+
+/// What islands have done up to where they merged or fell apart. It belongs to the run: an island begins with works of
+/// zero, so that none is lost where a part has no place for it, and none is counted twice.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Settled {
+    /// The works of the run [J], in order; empty before an island ended.
+    pub works: Vec<Sum>,
+    pub statistics: Statistics,
+}
+
+impl Settled {
+    /// Takes over what an island has done, given which of so many works of the run each of its own is.
+    pub fn take(&mut self, count: usize, places: &[usize], integrator: &Integrator) {
+        self.works.resize(count, Sum::default());
+        for (place, work) in places.iter().zip(integrator.quadratures()) {
+            self.works[*place].add(*work);
+        }
+        self.statistics = self.statistics.and(integrator.statistics());
+    }
 }
 
 /// Beside the state, what the steps of an island change.
@@ -42,6 +68,8 @@ pub struct IslandState {
     pub is_parting: bool,
     /// The last significant signal of each kind for each body; NaN before there is one.
     pub signals: Vec<[f64; 3]>,
+    /// The energy in play at the ends of its steps.
+    pub in_play: InPlay,
 }
 
 /// All that the rest of an island's path depends on.
@@ -70,7 +98,8 @@ impl RunState {
     /// Run state and islands as bytes.
     pub(crate) fn checkpoint(&self, islands: impl Iterator<Item = IslandMemory>) -> Vec<u8> {
         let integers = [self.next_sample, self.events[0], self.events[1], self.events[2]];
-        let reals = [self.time, self.initial_energy, self.largest_residual, self.energy_in_play, self.smallest_gap];
+        let Looseness { of_lengths, of_pairs } = self.looseness;
+        let reals = [self.time, self.initial_energy, self.largest_residual, of_lengths, of_pairs, self.smallest_gap];
         let mut bytes = Vec::new();
         let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| {
             bytes.extend((numbers.len() as u64).to_le_bytes());
@@ -78,10 +107,13 @@ impl RunState {
         };
         list(&mut integers.into_iter());
         list(&mut reals.iter().map(|real| real.to_bits()));
+        self.settled.write(&mut list);
         for IslandMemory { members, state, stepper } in islands {
             list(&mut members.iter().map(|body| *body as u64));
             list(&mut std::iter::once(u64::from(state.is_parting)));
-            let reals = [state.slow_since, state.largest_projection, state.largest_gains[0], state.largest_gains[1]];
+            let [first, second] = state.largest_gains;
+            let reals = [[state.slow_since, state.largest_projection, first], state.in_play.numbers()];
+            let reals = [reals.as_flattened(), &[second]].concat();
             list(&mut reals.iter().map(|real| real.to_bits()));
             list(&mut state.signals.as_flattened().iter().map(|real| real.to_bits()));
             list(&mut stepper.integers.iter().copied());
@@ -94,15 +126,76 @@ impl RunState {
     pub(crate) fn restore(bytes: &[u8]) -> Option<(Self, Vec<IslandMemory>)> {
         let mut rest = bytes;
         let integers: [u64; 4] = list(&mut rest)?.try_into().ok()?;
-        let reals: [u64; 5] = list(&mut rest)?.try_into().ok()?;
-        let [time, initial_energy, largest_residual, energy_in_play, smallest_gap] = reals.map(f64::from_bits);
+        let reals: [u64; 6] = list(&mut rest)?.try_into().ok()?;
+        let [time, initial_energy, largest_residual, of_lengths, of_pairs, smallest_gap] = reals.map(f64::from_bits);
+        let looseness = Looseness { of_lengths, of_pairs };
         let [next_sample, events @ ..] = integers;
-        let state = Self { time, next_sample, initial_energy, largest_residual, energy_in_play, smallest_gap, events };
+        let settled = Settled::read(&mut rest)?;
+        let state =
+            Self { time, next_sample, initial_energy, largest_residual, looseness, smallest_gap, events, settled };
         let mut islands = Vec::new();
         while !rest.is_empty() {
             islands.push(IslandMemory::read(&mut rest)?);
         }
         Some((state, islands))
+    }
+}
+
+/// How many integers of the counters a checkpoint has.
+const COUNTERS: usize = 9;
+
+impl Settled {
+    fn write(&self, list: &mut impl FnMut(&mut dyn ExactSizeIterator<Item = u64>)) {
+        let sums: Vec<[u64; 3]> = self.works.iter().map(|work| work.bits()).collect();
+        list(&mut sums.as_flattened().iter().copied());
+        let s = &self.statistics;
+        let counters: [u64; COUNTERS] = [
+            s.explicit_steps,
+            s.implicit_steps,
+            s.rejected_error,
+            s.rejected_domain,
+            s.newton_failures,
+            s.rate_evaluations,
+            s.jacobians,
+            s.factorizations,
+            s.switches,
+        ];
+        list(&mut counters.into_iter());
+        list(&mut [s.smallest_step, s.largest_step].into_iter().map(f64::to_bits));
+    }
+
+    fn read(rest: &mut &[u8]) -> Option<Self> {
+        let sums = list(rest)?;
+        let (sums, rest_of_sums) = sums.as_chunks::<3>();
+        let works = sums.iter().map(|bits| Sum::of_bits(*bits)).collect();
+        let counters: [u64; COUNTERS] = list(rest)?.try_into().ok()?;
+        let [
+            explicit_steps,
+            implicit_steps,
+            rejected_error,
+            rejected_domain,
+            newton_failures,
+            rate_evaluations,
+            jacobians,
+            factorizations,
+            switches,
+        ] = counters;
+        let reals: [u64; 2] = list(rest)?.try_into().ok()?;
+        let [smallest_step, largest_step] = reals.map(f64::from_bits);
+        let statistics = Statistics {
+            explicit_steps,
+            implicit_steps,
+            rejected_error,
+            rejected_domain,
+            newton_failures,
+            rate_evaluations,
+            jacobians,
+            factorizations,
+            switches,
+            smallest_step,
+            largest_step,
+        };
+        rest_of_sums.is_empty().then_some(Self { works, statistics })
     }
 }
 
@@ -133,8 +226,9 @@ impl IslandMemory {
     fn read(rest: &mut &[u8]) -> Option<Self> {
         let members = list(rest)?.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
         let [is_parting] = list(rest)?.try_into().ok()?;
-        let reals: [u64; 4] = list(rest)?.try_into().ok()?;
-        let [slow_since, largest_projection, largest_gains @ ..] = reals.map(f64::from_bits);
+        let reals: [u64; 7] = list(rest)?.try_into().ok()?;
+        let [slow_since, largest_projection, first, in_play @ .., second] = reals.map(f64::from_bits);
+        let (largest_gains, in_play) = ([first, second], InPlay::of_numbers(in_play));
         let signals = list(rest)?.into_iter().map(f64::from_bits).collect::<Vec<_>>();
         let (signals, rest_of_signals) = signals.as_chunks::<3>();
         if !rest_of_signals.is_empty() {
@@ -142,8 +236,8 @@ impl IslandMemory {
         }
         let stepper = Memory { integers: list(rest)?, reals: list(rest)?.into_iter().map(f64::from_bits).collect() };
         let is_parting = is_parting != 0;
-        let state =
-            IslandState { slow_since, largest_projection, largest_gains, is_parting, signals: signals.to_vec() };
+        let signals = signals.to_vec();
+        let state = IslandState { slow_since, largest_projection, largest_gains, is_parting, signals, in_play };
         Some(Self { members, state, stepper })
     }
 }
@@ -171,6 +265,7 @@ mod tests {
         let mut state = IslandState::new(bodies);
         state.note_dissipation([-1.0, -2.0], [-1.5, -2.25]);
         state.is_parting = bodies > 1;
+        state.in_play.note(3.0, &[0.25, -0.5]);
         let stepper = Memory { integers: vec![1, 2, 3], reals: vec![first, f64::INFINITY, -0.0] };
         IslandMemory { members: (0..bodies).collect(), state, stepper }
     }
@@ -178,6 +273,14 @@ mod tests {
     #[test]
     fn a_checkpoint_restores_every_bit() {
         let state = RunState { next_sample: 17, initial_energy: -0.1, events: [1, 2, 3], ..RunState::new(0.25) };
+        let works = [[1.0, 1e-20, 0.1], [-0.0; 3]];
+        let works = works.map(|terms| {
+            let mut sum = Sum::default();
+            terms.into_iter().for_each(|term| sum.add(term));
+            sum
+        });
+        let statistics = Statistics { implicit_steps: 5, smallest_step: 0.1, ..Statistics::default() };
+        let state = RunState { settled: Settled { works: works.to_vec(), statistics }, ..state };
         let islands = [island(2, 0.1), island(1, 0.2)];
         let bytes = state.checkpoint(islands.iter().cloned());
         let (read, read_islands) = RunState::restore(&bytes).unwrap();
@@ -189,6 +292,7 @@ mod tests {
         );
         assert!(read_islands[0].state.slow_since.is_nan() && read.smallest_gap == f64::INFINITY);
         assert_eq!(read_islands[1].state.largest_gains, [-0.5, -0.25]);
+        assert_eq!(read_islands[0].state.in_play.numbers(), [3.0, 0.75, 0.0]);
     }
 
     #[test]

@@ -1,14 +1,20 @@
 //! The scales of a body that do not change in a run: how fast it moves by itself, how much energy that is, how fast its
 //! springs swing it.
 
+use gyration::Inadmissible;
 use gyration::acting::Load;
 use gyration::balance::fastest_speed;
 use gyration::body::Body;
 use gyration::contractile::Contraction;
+use gyration::dynamics::{Scratch, Workspace, each_push};
+use gyration::instant::BodyAt;
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
+use gyration::support::SupportMotion;
+use gyration_ode::{Components, Pattern};
 use std::convert::Infallible;
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its
@@ -24,9 +30,46 @@ pub(crate) fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
 /// where it turns round.
 const TURNING: f64 = 1e-9;
 
-/// A body's own speed [m/s]: initial or √(g·size); where both vanish that of its first acceleration, one size in a
-/// period of what drives it, and one size a second for a body that nothing moves.
-pub(crate) fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
+/// The speed scales of the bodies of a run [m/s]; those of an island are the same as those of the run.
+///
+/// A body's own scale is its initial speed or √(g·size), or one size in a period of what drives it. A body that starts
+/// at rest without gravity takes that of the accelerations which contacts, springs and other bodies would give it one
+/// by one, or the speed of a support: where they cancel, what is left is rounding. Whatever bodies act on one another,
+/// however far they are, may share their motion: each takes the largest speed among them, as far as their largest
+/// momentum would move it. A body that nothing moves takes one size a second.
+///
+/// # Errors
+/// [`Inadmissible`] if the start is outside the model.
+pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Result<Vec<f64>, Inadmissible> {
+    let bodies = model.bodies.len();
+    let mut scales: Vec<f64> = (0..bodies).map(|index| own_scale(model, start, slopes, index)).collect();
+    if (0..bodies).any(|index| scales[index] == 0.0) {
+        let mut workspace = Workspace::default();
+        let (instant, scratch) = workspace.read(model, start)?;
+        for index in 0..bodies {
+            if scales[index] == 0.0 {
+                scales[index] = pushed(&instant.at(model, index), slopes, scratch)?;
+            }
+        }
+    }
+    let joined = Pattern::new(bodies, model.reaches().map(|(bodies, _)| bodies.into()));
+    for members in Components::of(&joined, bodies).iter().filter(|members| members.len() > 1) {
+        let mass = |body: usize| model.bodies[body].solid.mass.mass;
+        let moving = || members.iter().filter(|body| model.bodies[**body].has_inertia());
+        let speed = moving().map(|body| scales[*body]).fold(0.0, f64::max);
+        let momentum = moving().map(|body| mass(*body) * scales[*body]).fold(0.0, f64::max);
+        moving().for_each(|body| scales[*body] = scales[*body].max(speed.min(momentum / mass(*body))));
+    }
+    for (scale, body) in scales.iter_mut().zip(&model.bodies) {
+        if *scale == 0.0 {
+            *scale = body.size;
+        }
+    }
+    Ok(scales)
+}
+
+/// How fast a body moves by itself [m/s]; zero if it starts at rest and neither gravity nor a drive moves it.
+fn own_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 {
     let (body, slots) = (&model.bodies[index], model.slots(index));
     let (motion, falling) = match body.has_inertia() {
         true => (start.motion(model, index), (model.gravity.norm() * body.size).sqrt()),
@@ -37,38 +80,39 @@ pub(crate) fn speed_scale(model: &Model, start: &State, slopes: &[f64], index: u
     let drive = body.contraction().map(Contraction::signal);
     let driving = drive.into_iter().chain(model.fluid.iter().flat_map(|fluid| fluid.signals()));
     let driven = body.size * driving.map(Signal::highest_frequency).fold(0.0, f64::max);
-    if scale > TURNING * driven {
-        return scale;
+    match () {
+        () if scale > TURNING * driven => scale,
+        () if !body.has_inertia() => driven,
+        () => 0.0,
     }
-    if !body.has_inertia() {
-        return if driven > 0.0 { driven } else { body.size };
-    }
-    // A body that starts at rest without gravity: the velocities' places in the rates hold the accelerations.
-    let norm = |slot: Range<usize>| slopes[slot].iter().map(|number| number * number).sum::<f64>().sqrt();
-    let acceleration = norm(slots.velocity()) + norm(slots.rate()) * body.size;
-    // Where springs hold each other in balance, what is left of them is rounding.
-    let scale = (acceleration.max(pulled(model, start, index)) * body.size).sqrt();
-    if scale > 0.0 { scale } else { body.size }
 }
 
-/// The accelerations that the springs at a body would give to its centre one by one, in sum [m/s²].
-fn pulled(model: &Model, start: &State, index: usize) -> f64 {
-    let own = start.motion(model, index);
-    let mut sum = 0.0;
-    let listed = model.try_each_load(index, |load| {
-        let loads = match load {
-            Load::Spring(_, spring) => spring.loads(&own.placement, &own.velocity),
-            Load::Bond(end) => {
-                let other = start.motion(model, end.other());
-                end.loads((&own.placement, &own.velocity), (&other.placement, &other.velocity))
-            }
-            _ => None,
-        };
-        sum += loads.map_or(0.0, |loads| loads.force.norm());
-        Ok::<(), Infallible>(())
-    });
-    let Ok(()) = listed;
-    sum / model.bodies[index].solid.mass.mass
+/// The speed that what acts on a body at rest gives it over its size [m/s], or that of a support that it meets.
+fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Inadmissible> {
+    let BodyAt { model, body, index, .. } = *at;
+    if !body.has_inertia() {
+        return Ok(0.0);
+    }
+    // The velocities' places in the rates hold the accelerations.
+    let slots = model.slots(index);
+    let norm = |slot: Range<usize>| slopes[slot].iter().map(|number| number * number).sum::<f64>().sqrt();
+    let acceleration = norm(slots.velocity()) + norm(slots.rate()) * body.size;
+    let mut forces = 0.0;
+    each_push(at, scratch, |push| forces += push.force)?;
+    let supports = body.contacts.iter().map(|contact| fastest_motion(&model.supports[contact.support()].motion));
+    let carried = supports.fold(0.0, f64::max);
+    Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))
+}
+
+/// The largest speed of a support [m/s].
+fn fastest_motion(motion: &SupportMotion) -> f64 {
+    match motion {
+        SupportMotion::Fixed => 0.0,
+        SupportMotion::Velocity(velocity) => velocity.norm(),
+        SupportMotion::Oscillation { direction, amplitude, frequency, .. } => {
+            (TAU * frequency * amplitude).abs() * direction.norm()
+        }
+    }
 }
 
 /// √(Σk/m) of the springs at a body [1/s].

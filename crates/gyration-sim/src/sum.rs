@@ -1,7 +1,7 @@
 //! A sum whose rounding does not grow with the number of its terms.
 
 /// A compensated sum (Neumaier): the sum of the terms to about its own rounding, in whatever sizes they come.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Sum {
     sum: f64,
     /// What the roundings have taken.
@@ -20,6 +20,16 @@ impl Sum {
         let sum = self.sum + term;
         self.lost += if self.sum.abs() >= term.abs() { (self.sum - sum) + term } else { (term - sum) + self.sum };
         self.sum = sum;
+    }
+
+    /// The numbers of a checkpoint: sum, what the roundings have taken, whether there is a term.
+    pub fn bits(&self) -> [u64; 3] {
+        [self.sum.to_bits(), self.lost.to_bits(), u64::from(self.is_begun)]
+    }
+
+    /// From the numbers of a checkpoint.
+    pub fn of_bits([sum, lost, is_begun]: [u64; 3]) -> Self {
+        Self { sum: f64::from_bits(sum), lost: f64::from_bits(lost), is_begun: is_begun != 0 }
     }
 
     /// The sum.

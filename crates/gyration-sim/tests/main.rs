@@ -8,6 +8,8 @@ mod islands;
 mod joined;
 mod meetings;
 mod modes;
+mod partings;
+mod pressed;
 mod random;
 mod random_scenes;
 mod replay;

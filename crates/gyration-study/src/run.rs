@@ -195,7 +195,7 @@ fn ending(simulation: &Simulation, outcome: &Outcome, is_over: bool, verdict: Ve
     };
     let count = |number: u64| Value::Integer(number as i64);
     let residual =
-        if run_state.largest_residual == 0.0 { 0.0 } else { run_state.largest_residual / run_state.energy_in_play };
+        if run_state.largest_residual == 0.0 { 0.0 } else { run_state.largest_residual / simulation.energy_in_play() };
     [
         Value::Text(name),
         reason,

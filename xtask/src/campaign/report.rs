@@ -5,8 +5,8 @@ use super::table::Table;
 use crate::json::Json;
 use std::path::Path;
 
-/// Above this part of the energy in play a residual makes a run useless: it exits with 1.
-const MOST_LOST: f64 = 0.01;
+/// The exit code of a run that has come to its end with an open ledger.
+const OPEN: i32 = 4;
 
 /// A run that has ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,9 +37,9 @@ impl Report {
             return Err(format!("the ledger is open: {is_open}, which stderr tells otherwise"));
         }
         let in_play = number("energy_in_play")?;
-        let is_useless = largest > MOST_LOST * in_play && is_open;
         let expected = match outcome.as_str() {
-            "completed" | "at_rest" => i32::from(is_useless),
+            "completed" | "at_rest" if is_open => OPEN,
+            "completed" | "at_rest" => 0,
             _ => 1,
         };
         if said.code != Some(expected) {
@@ -69,8 +69,9 @@ impl Report {
         if !told("largest_residual").is_some_and(agrees) {
             return Err(format!("the rows have a residual of {largest:e} J, --json another"));
         }
-        if told("energy_in_play").is_none_or(|told| told < table.in_play() * (1.0 - 1e-12)) {
-            return Err(format!("the rows have {:e} J in play, --json less", table.in_play()));
+        // Steps need not end where a row sees most in play, but they resolve the motion.
+        if told("energy_in_play").is_none_or(|told| told < 0.5 * table.in_play()) {
+            return Err(format!("the rows have {:e} J in play, --json not half of it", table.in_play()));
         }
         if self.outcome == "completed" && table.end() != end {
             return Err(format!("completed at t = {:?}, not at {end:?}", table.end()));
@@ -128,7 +129,7 @@ mod tests {
     fn reports_that_agree_with_themselves_pass() {
         let outcome = |said: &Said| Report::of(said).unwrap().outcome;
         assert_eq!(outcome(&said("\"completed\"", 1e-4, "closed", 0, false)), "completed");
-        assert_eq!(outcome(&said(r#"{"at_rest": {"time": 1.0}}"#, 0.005, "open", 0, true)), "at_rest");
+        assert_eq!(outcome(&said(r#"{"at_rest": {"time": 1.0}}"#, 0.005, "open", 4, true)), "at_rest");
         assert_eq!(outcome(&said("\"completed\"", 0.02, "open", 1, true)), "completed");
         assert_eq!(outcome(&said(STOPPED, 1e-4, "closed", 1, false)), "gap_closed");
     }
@@ -139,6 +140,7 @@ mod tests {
             (said("\"completed\"", 0.02, "closed", 1, true), "J allowed"),
             (said("\"completed\"", 0.02, "open", 1, false), "stderr"),
             (said("\"completed\"", 0.02, "open", 0, true), "exits with"),
+            (said("\"completed\"", 0.02, "open", 1, true), "exits with"),
             (said(STOPPED, 1e-4, "closed", 0, false), "exits with"),
             (said("{}", 1e-4, "closed", 0, false), "no kind"),
         ] {

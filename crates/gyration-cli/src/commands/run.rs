@@ -9,7 +9,9 @@ use crate::provenance::provenance;
 use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, RecordError, Recording, remove};
 use gyration_scene::Scene;
-use gyration_sim::{Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunError, RunSummary, Simulation};
+use gyration_sim::{
+    Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunError, RunSummary, Simulation, Verdict,
+};
 use gyration_threads::Threads;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -57,11 +59,13 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     }
 }
 
-/// A run whose ledger lost too much has not been done, whatever its end.
+/// The exit code that tells a script how the run ended.
 fn exit_code(summary: &RunSummary) -> u8 {
     match &summary.outcome {
-        Outcome::Completed | Outcome::AtRest { .. } if summary.ledger.balance().is_useless() => code::ENDED_EARLY,
-        Outcome::Completed | Outcome::AtRest { .. } => code::DONE,
+        Outcome::Completed | Outcome::AtRest { .. } => match summary.ledger.verdict {
+            Verdict::Closed => code::DONE,
+            Verdict::Open => code::OPEN,
+        },
         Outcome::Stopped(stop) if stop.reason == Reason::Interrupted => code::INTERRUPTED,
         Outcome::Stopped(_) => code::ENDED_EARLY,
     }

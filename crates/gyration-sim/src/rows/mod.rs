@@ -116,17 +116,11 @@ impl Fields {
         let ledger = row.len();
         row.resize(ledger + model.energies().len(), 0.0);
         energies_at(model, instant, scratch, &mut row[ledger..])?;
-        let (energy, kinetic) = (row[ledger..].iter().sum(), row[ledger]);
+        let energy = row[ledger..].iter().sum();
         let residual = residual(energy, initial, &state.works);
         row.extend(&state.works);
         row.push(residual);
-        Ok(Audit {
-            energy,
-            kinetic,
-            exchanged: state.works.iter().map(|work| work.abs()).sum(),
-            residual,
-            smallest_gap: bodies.iter().map(|body| body.gap).fold(f64::INFINITY, f64::min),
-        })
+        Ok(Audit { energy, residual, smallest_gap: bodies.iter().map(|body| body.gap).fold(f64::INFINITY, f64::min) })
     }
 }
 
@@ -221,10 +215,6 @@ impl Ledger {
 pub struct Audit {
     /// Σ energies [J].
     pub energy: f64,
-    /// Kinetic energy [J].
-    pub kinetic: f64,
-    /// Σ |works| [J].
-    pub exchanged: f64,
     /// (Σ energies) − (Σ energies at 0) − Σ works [J].
     pub residual: f64,
     /// Smallest gap of all bodies [m]; infinite where none applies.

@@ -1,6 +1,7 @@
 //! The bodies of all islands at one time.
 
 use crate::island::Island;
+use crate::run_state::Settled;
 use crate::sum::Sum;
 use gyration::model::Model;
 use gyration::state::State;
@@ -19,10 +20,13 @@ impl Joined {
         Self { state, works: vec![Sum::default(); model.works().len()] }
     }
 
-    /// Begins with a time [s], at which every island is then to be added, in order.
-    pub fn begin(&mut self, time: f64) {
+    /// Begins with a time [s] and what islands have done that are no more; every island is then to be added, in order.
+    pub fn begin(&mut self, time: f64, settled: &Settled) {
         self.state.time = time;
         self.works.fill(Sum::default());
+        for (work, settled) in self.works.iter_mut().zip(&settled.works) {
+            *work = *settled;
+        }
     }
 
     /// Adds the state of an island.

@@ -156,10 +156,15 @@ impl Simulation {
         let first = self.islands.remove(one);
         let mut members = [first.members(), second.members()].concat();
         members.sort_unstable();
-        let scene = (&self.model, &self.start, &self.plan);
-        let united = Island::successor(scene, members, &[&first, &second], true);
+        let works = [&first, &second].map(|island| island.integrator.quadratures());
+        let in_play = first.state.in_play.merged(works[0], second.state.in_play, works[1]);
+        let united = Island::successor(self.setting(), members, &[&first, &second], in_play);
         match united {
-            Ok(united) => self.put([united]),
+            Ok(mut united) => {
+                united.take_events([&first, &second]);
+                self.settle_works([&first, &second]);
+                self.put([united]);
+            }
             Err(stop) => {
                 self.put([first, second]);
                 return Err(stop);
@@ -171,17 +176,31 @@ impl Simulation {
     /// Lets an island fall apart where it stands.
     fn part(&mut self, index: usize) -> Result<(), Stop> {
         let island = &self.islands[index];
-        let scene = (&self.model, &self.start, &self.plan);
-        let parts = island.parts();
-        let members = parts.iter().map(|places| places.iter().map(|place| island.members()[*place]).collect());
-        let parts: Result<Vec<Island>, Stop> = members
-            .enumerate()
-            .map(|(k, members): (usize, Vec<usize>)| Island::successor(scene, members, &[island], k == 0))
-            .collect();
-        let parts = parts?;
-        self.islands.remove(index);
+        let whole = island.kinetic_energy(0..island.members().len());
+        let components = island.parts();
+        let count = components.iter().count() as f64;
+        let parts = components.iter().map(|places| {
+            let members = places.iter().map(|place| island.members()[*place]).collect();
+            let kinetic = island.kinetic_energy(places.iter().copied());
+            let share = if whole > 0.0 { kinetic / whole } else { 1.0 / count };
+            let in_play = island.state.in_play.share(island.integrator.quadratures(), share);
+            Island::successor(self.setting(), members, &[island], in_play)
+        });
+        let mut parts = parts.collect::<Result<Vec<Island>, Stop>>()?;
+        let island = self.islands.remove(index);
+        // Its events are handed on by any of the parts.
+        parts[0].take_events([&island]);
+        self.settle_works([&island]);
         self.put(parts);
         Ok(())
+    }
+
+    /// Keeps what islands have done that end here.
+    fn settle_works<'a>(&mut self, ended: impl IntoIterator<Item = &'a Island>) {
+        let count = self.model.works().len();
+        for island in ended {
+            self.state.settled.take(count, island.works(), &island.integrator);
+        }
     }
 
     /// Puts islands to the others, all in order of their first bodies.

@@ -20,14 +20,19 @@ mod meetings;
 mod samples;
 mod window;
 
+use crate::adapter::first_rates;
 use crate::events::Event;
-use crate::island::Island;
+use crate::in_play::InPlay;
+use crate::island::{Island, Setting};
 use crate::outcome::{Outcome, Reason, Stop};
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, RunError, Sink, WindowEnd};
+use crate::resistance::check_resistances;
 use crate::rows::{Fields, RowScratch};
 use crate::run_state::{IslandMemory, RunState};
+use crate::scales::speed_scales;
 use crate::scratch::SharedScratch;
+use gyration::Inadmissible;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
@@ -46,6 +51,8 @@ pub struct Simulation {
     homes: Vec<(usize, usize)>,
     /// From which the scales of islands come that are yet to be.
     start: State,
+    /// The speed scales of all bodies [m/s].
+    speeds: Vec<f64>,
     meetings: Meetings,
     state: RunState,
     width: WindowWidth,
@@ -88,13 +95,19 @@ impl Simulation {
         meetings: Meetings,
     ) -> Result<Self, RunError> {
         let stays = meetings.is_empty();
-        let islands = members.into_iter().map(|members| Island::new(model, start, &plan, members, stays));
+        let outside = |left: Inadmissible| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
+        check_resistances(model).map_err(outside)?;
+        let speeds = first_rates(model, start).and_then(|slopes| speed_scales(model, start, &slopes));
+        let speeds = speeds.map_err(outside)?;
+        let setting = Setting { model, start, speeds: &speeds, plan: &plan };
+        let islands = members.into_iter().map(|members| Island::new(setting, members, stays));
         let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
         islands.shrink_to_fit();
         Ok(Self {
             homes: homes(model.bodies.len(), &islands),
             islands,
             start: start.clone(),
+            speeds,
             meetings,
             state: RunState::new(start.time),
             width: WindowWidth::new(plan.sample.min(plan.end)),
@@ -109,6 +122,11 @@ impl Simulation {
             model: model.clone(),
             plan,
         })
+    }
+
+    /// What islands begin from.
+    fn setting(&self) -> Setting<'_> {
+        Setting { model: &self.model, start: &self.start, speeds: &self.speeds, plan: &self.plan }
     }
 
     /// Goes on from a checkpoint of the same scene; `start` is the scene's start, from which the scales come.
@@ -159,8 +177,14 @@ impl Simulation {
 
     /// The counters of all islands so far.
     pub fn statistics(&self) -> Statistics {
-        let first = self.islands.first().map_or_else(Statistics::default, |first| *first.integrator.statistics());
-        self.islands.iter().skip(1).fold(first, |sum, island| sum.and(island.integrator.statistics()))
+        let settled = self.state.settled.statistics;
+        self.islands.iter().fold(settled, |sum, island| sum.and(island.integrator.statistics()))
+    }
+
+    /// The energy in play at the ends of all steps [J].
+    pub fn energy_in_play(&self) -> f64 {
+        let viscous = self.islands.iter().map(|island| island.system.viscous_energy()).sum();
+        InPlay::of_all(self.islands.iter().map(|island| island.state.in_play)).max(viscous)
     }
 
     /// Largest correction by projection after a step.
@@ -186,7 +210,7 @@ impl Simulation {
             return self.joined.state.clone();
         }
         let mut joined = self.joined.clone();
-        joined.begin(self.state.time);
+        joined.begin(self.state.time, &self.state.settled);
         self.islands.iter().for_each(|island| joined.add(island, &island.state_at(self.state.time)));
         joined.end();
         joined.state

@@ -1,6 +1,7 @@
 //! Samples of a run: the bodies of all islands at one time, rows, the audit of each.
 
 use super::Simulation;
+use crate::looseness::Looseness;
 use crate::outcome::Stop;
 use crate::ports::{RunError, Sink};
 use crate::rows::{Audit, Fields, Ledger};
@@ -42,8 +43,8 @@ impl Simulation {
 
     /// Samples all bodies at a time within the last steps.
     pub(super) fn sample(&mut self, time: f64) {
-        let Self { islands, joined, .. } = self;
-        joined.begin(time);
+        let Self { islands, joined, state, .. } = self;
+        joined.begin(time, &state.settled);
         for island in islands {
             island.sample(time);
             joined.add(island, &island.sampled);
@@ -95,7 +96,6 @@ impl Simulation {
         let time = self.joined.state.time;
         let first = self.state.next_sample == 0;
         let initial = (!first).then_some(self.state.initial_energy);
-        let viscous = self.islands.iter().map(|island| island.system.viscous_energy()).sum();
         let audit = match self.fill(initial) {
             Ok(audit) => audit,
             Err(left) => {
@@ -108,11 +108,12 @@ impl Simulation {
         }
         sink.row(time, &self.rows.row)?;
         self.recorded = time;
-        let state = &mut self.state;
         if first {
-            state.initial_energy = audit.energy;
+            let looseness = Looseness::of(&self.model, &mut self.workspace, &self.joined.state, self.plan.tolerance);
+            self.state.looseness = looseness.unwrap_or_default();
+            self.state.initial_energy = audit.energy;
         }
-        state.energy_in_play = state.energy_in_play.max(audit.kinetic).max(audit.exchanged).max(viscous);
+        let state = &mut self.state;
         state.note_residual(audit.residual);
         state.smallest_gap = state.smallest_gap.min(audit.smallest_gap);
         Ok(Ok(()))

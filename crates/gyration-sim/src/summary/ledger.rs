@@ -1,9 +1,10 @@
 //! The ledger of a run in its summary: energies, works, residual, and whether it closes.
 
 use super::verdict::{ADVICE, Balance, Verdict};
+use crate::looseness::Looseness;
 use crate::rows::Ledger;
 use crate::run::Simulation;
-use crate::run_state::{DISSIPATION, RunState};
+use crate::run_state::DISSIPATION;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use serde::{Serialize, Serializer};
@@ -27,7 +28,7 @@ pub struct LedgerSummary {
     pub allowed_residual: f64,
     /// Whether the balance closes.
     pub verdict: Verdict,
-    /// The energy in play [J]: the largest kinetic energy, or sum of |works|, over the samples.
+    /// The energy in play [J]: the largest kinetic energy, or sum of |works|, at the end of any step.
     pub energy_in_play: f64,
     /// What contraction and viscosity took in the step in which they took least [J], by name; a negative one is the
     /// error of a step. Without those that the model does not have.
@@ -43,7 +44,8 @@ impl LedgerSummary {
         let (state, run_state, tolerance) = (simulation.state(), simulation.run_state(), simulation.plan().tolerance);
         let none = || Ledger { energies: Vec::new(), works: Vec::new(), residual: f64::NAN };
         let end = Ledger::of(model, workspace, &state, Some(run_state.initial_energy)).unwrap_or_else(|_| none());
-        let balance = balance(run_state, &end.energies);
+        let looseness = Looseness::of(model, workspace, &state, tolerance).unwrap_or_default();
+        let balance = balance(simulation, &end.energies, looseness);
         Self {
             initial_energy: run_state.initial_energy,
             energies: model.energies().iter().map(|energy| energy.name()).zip(end.energies).collect(),
@@ -85,8 +87,8 @@ impl LedgerSummary {
 impl Verdict {
     /// The verdict on a run as far as it has got, which [`LedgerSummary::verdict`] would be.
     pub fn of(model: &Model, simulation: &Simulation) -> Self {
-        // What closes without the rounding of the energies at the end closes with it: they are rarely needed.
-        let without = balance(simulation.run_state(), &[]).verdict(simulation.plan().tolerance);
+        // What closes without the state at the end closes with it, which is rarely needed.
+        let without = balance(simulation, &[], Looseness::default()).verdict(simulation.plan().tolerance);
         match without {
             Self::Closed => Self::Closed,
             Self::Open => LedgerSummary::of(model, &mut Workspace::default(), simulation).verdict,
@@ -94,11 +96,19 @@ impl Verdict {
     }
 }
 
-/// The residual of a run and what it is compared with; `energies` are those at the end.
-fn balance(run_state: &RunState, energies: &[f64]) -> Balance {
+/// The residual of a run and what it is compared with; `energies` and looseness are those at the end.
+fn balance(simulation: &Simulation, energies: &[f64], looseness: Looseness) -> Balance {
+    let run_state = simulation.run_state();
+    let looseness = looseness.max(run_state.looseness);
     let end: f64 = energies.iter().map(|value| value.abs()).sum();
     let total = run_state.initial_energy.abs().max(end);
-    Balance { residual: run_state.largest_residual, in_play: run_state.energy_in_play, total }
+    Balance {
+        residual: run_state.largest_residual,
+        in_play: simulation.energy_in_play(),
+        total,
+        loaded: looseness.of_lengths,
+        of_pairs: looseness.of_pairs,
+    }
 }
 
 /// Pairs as an object, in their order.

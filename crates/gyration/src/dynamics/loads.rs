@@ -182,7 +182,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
 }
 
 /// The force of a spring.
-fn stretched(at: &BodyAt, number: usize, spring: &Spring) -> Result<SpringLoads, Inadmissible> {
+pub(super) fn stretched(at: &BodyAt, number: usize, spring: &Spring) -> Result<SpringLoads, Inadmissible> {
     let loads = spring.loads(&at.motion.placement, &at.motion.velocity);
     let quantity = Quantity::SpringLength { spring: number };
     loads.ok_or_else(|| at.outside(quantity, spring.length(&at.motion.placement)))

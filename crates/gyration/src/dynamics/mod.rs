@@ -15,12 +15,14 @@ mod jacobian;
 mod loads;
 mod pairs;
 mod powers;
+mod pushes;
 mod rates;
 mod rigid;
 
 pub use contacts::{gap_at, nearest};
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
+pub use pushes::{Push, each_push};
 pub use rates::{jacobian, rates};
 
 pub(crate) use affine::{balance as affine_balance, moment};

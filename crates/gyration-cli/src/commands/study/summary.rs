@@ -48,14 +48,14 @@ fn repetitions(count: u64) -> String {
 }
 
 /// Tells what must not go unseen of a finished table, also if all else is kept quiet, and gives its exit code: a study
-/// none of whose runs could be made is no success.
+/// none of whose runs could be made is no success, nor is one with an open ledger.
 pub fn verdict(digest: &Digest) -> u8 {
     if let Some(warning) = digest.open.warning() {
         output::say(&format!("gyration: warning: {warning} The column `ledger` tells which they are."));
     }
     let failed = digest.column("outcome").and_then(|(_, spread)| spread.texts.get(FAILED)).copied().unwrap_or(0);
     if failed == 0 || failed < digest.rows {
-        return code::DONE;
+        return if digest.open.count > 0 { code::OPEN } else { code::DONE };
     }
     let reasons = digest.column("reason").map(|(_, spread)| spread.texts.keys().next().cloned()).unwrap_or_default();
     output::say(&format!("gyration: no run could be made: {}", reasons.unwrap_or_default()));

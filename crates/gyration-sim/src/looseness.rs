@@ -1,0 +1,61 @@
+//! What the energies of a state leave open: so much a ledger that is right may miss.
+//!
+//!   Σ |f| (atol·size + rtol·min(g, size)) + Σ (8(ν−1) + ν size/g) ε U
+//!
+//! The first sum is over the contacts, springs and pairs of all bodies: the step control allows each length the error in
+//! brackets, and the energy of what is loaded at rest feels it at first order, however small the motion about it is. The
+//! second is over the pairs of bodies, whose gaps are differences: the rounding of their energies.
+
+use crate::adapter::Tolerance;
+use gyration::Inadmissible;
+use gyration::dynamics::{Workspace, each_push};
+use gyration::model::Model;
+use gyration::state::State;
+use std::ops::Add;
+
+/// What the energies of a state leave open.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Looseness {
+    /// Forces times the lengths that the step control allows [J].
+    pub of_lengths: f64,
+    /// The rounding of the energies of pairs [J].
+    pub of_pairs: f64,
+}
+
+impl Add for Looseness {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { of_lengths: self.of_lengths + other.of_lengths, of_pairs: self.of_pairs + other.of_pairs }
+    }
+}
+
+impl Looseness {
+    /// Of a state.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where it is outside the model.
+    pub fn of(
+        model: &Model,
+        workspace: &mut Workspace,
+        state: &State,
+        tolerance: Tolerance,
+    ) -> Result<Self, Inadmissible> {
+        let Tolerance { rtol, atol } = tolerance;
+        let (instant, scratch) = workspace.read(model, state)?;
+        let mut sum = Self::default();
+        for (index, body) in model.bodies.iter().enumerate() {
+            each_push(&instant.at(model, index), scratch, |push| {
+                let of_lengths = push.force * (atol * body.size + rtol * push.gap.min(body.size));
+                sum = sum + Self { of_lengths, of_pairs: push.rounding };
+            })?;
+        }
+        Ok(sum)
+    }
+
+    /// The larger of each.
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self { of_lengths: self.of_lengths.max(other.of_lengths), of_pairs: self.of_pairs.max(other.of_pairs) }
+    }
+}

@@ -1,0 +1,65 @@
+//! The forces on a body one by one: what is there where they cancel.
+//!
+//! Speed scales and the verdict on the ledger go by these, never by a net force: of a body that is pressed from all
+//! sides that is rounding.
+
+use super::Scratch;
+use super::contacts::meet;
+use super::loads::{bonded, stretched};
+use crate::acting::Load;
+use crate::contact::ContactLoads;
+use crate::inadmissible::Inadmissible;
+use crate::instant::BodyAt;
+use crate::load::BondEnd;
+
+/// One of the forces on a body that come from a support, a spring or another body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Push {
+    /// |f| [N].
+    pub force: f64,
+    /// The length on which it depends [m]: the gap of a contact, the length of a spring.
+    pub gap: f64,
+    /// What its energy is rounded to [J], where that is more than the last digit; each pair has it once.
+    ///
+    /// U of a pair of bodies is Σ^(−2(ν−1)) of a gap that is a difference: (8(ν−1) + ν size/gap) ε U.
+    pub rounding: f64,
+}
+
+/// Hands the forces of contacts, springs and pairs on a body to `each`.
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push)) -> Result<(), Inadmissible> {
+    at.try_each_load(|load| {
+        match load {
+            Load::Contact(contact) => {
+                let push = meet(at, contact, |it| {
+                    let loads = ContactLoads::integrate(&contact.law_set, it, &mut scratch.contact)?;
+                    let gap = it.surface.smallest_gap(&it.field).0;
+                    Ok(Push { force: loads.total().force.norm(), gap, rounding: 0.0 })
+                })?;
+                push.into_iter().for_each(&mut each);
+            }
+            Load::Spring(number, spring) => {
+                let force = stretched(at, number, spring)?.total().force.norm();
+                each(Push { force, gap: spring.length(&at.motion.placement), rounding: 0.0 });
+            }
+            Load::Bond(end) => each(of_bond(at, &end)?),
+            Load::Pair(end) => {
+                let pair = &scratch.met.loads[end.number];
+                let exponent = end.joint.laws.repulsion.exponent;
+                let digits = 8.0 * (exponent - 1.0) + exponent * at.body.size / pair.gap;
+                let rounding = if end.counts() { digits * f64::EPSILON * pair.energy } else { 0.0 };
+                each(Push { force: pair.on[end.end].force.norm(), gap: pair.gap, rounding });
+            }
+            Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {}
+        }
+        Ok(())
+    })
+}
+
+fn of_bond(at: &BodyAt, end: &BondEnd) -> Result<Push, Inadmissible> {
+    let force = bonded(at, end)?.total().force.norm();
+    let gap = end.length(&at.motion.placement, &at.other(end.other()).placement);
+    Ok(Push { force, gap, rounding: 0.0 })
+}
