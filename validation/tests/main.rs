@@ -5,6 +5,7 @@
 mod case_contracting_box;
 mod case_deforming_inclusion;
 mod case_gallery_dissipates;
+mod case_kept_through_partings;
 mod case_pinned_audit;
 mod case_slender_inclusion;
 mod case_small_gaps;
