@@ -2,9 +2,11 @@
 //!
 //! Stops at the first error of syntax. A key that occurs twice is an error.
 
+use super::printed::{HELP, Printed};
 use crate::document::Diagnostics;
 use crate::key::Key;
 use crate::tree::{Entry, Node, Span, Table, Value};
+use std::ops::Range;
 
 /// The deepest nesting; a scene needs less than twenty.
 const DEEPEST: usize = 64;
@@ -15,7 +17,16 @@ pub(super) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Node {
     let mut reader = JsonReader { text, at: text.len() - body.len() };
     match reader.document() {
         Ok(node) => node,
-        Err(SyntaxError { start, end, message, help }) => {
+        Err(error) => {
+            // The first error is at the first value that NumPy printed.
+            let printed = Printed::of(text).filter(|printed| printed.first.start == error.start);
+            let SyntaxError { start, end, message, help } = match printed {
+                None => error,
+                Some(printed) => {
+                    let Range { start, end } = printed.first;
+                    SyntaxError { start, end, message: printed.message(), help: HELP }
+                }
+            };
             diagnostics.at(Span { text: 0, start, end }, &Key::root(), format!("not valid JSON: {message}"), help);
             Node { value: Value::Table(Table::new()), span: Span::default() }
         }

@@ -5,6 +5,7 @@
 
 mod json;
 mod overrides;
+mod printed;
 mod toml;
 
 pub(crate) use overrides::apply;

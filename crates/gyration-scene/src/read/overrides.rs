@@ -5,6 +5,7 @@
 //! are made where there are none, items of arrays are not. Whatever an override brings is from then on placed in its
 //! own text; what is a number already has no text, and no place.
 
+use super::printed::Printed;
 use super::toml;
 use crate::document::{Diagnostics, Document, NamedText};
 use crate::key::{Key, name_of};
@@ -106,6 +107,7 @@ fn parsed(raw: &str, text: usize, offset: usize) -> Result<Node, Diagnostics> {
     match toml::parse_value(trimmed, text, offset) {
         Ok(node) => Ok(node),
         Err(errors) if trimmed.starts_with(['[', '{', '"', '\'']) || trimmed.is_empty() => Err(errors),
+        Err(errors) if Printed::of(trimmed).is_some() => Err(errors),
         Err(_) => {
             let span = Span { text, start: offset, end: offset + trimmed.len() };
             Ok(Node { value: Value::Text(trimmed.to_owned()), span })

@@ -1,5 +1,6 @@
 //! TOML into the tree, with every syntax error of the text.
 
+use super::printed::{HELP, Printed};
 use crate::document::Diagnostics;
 use crate::key::Key;
 use crate::tree::{Entry, Node, Span, Table, Value};
@@ -9,7 +10,15 @@ use toml::de::{DeTable, DeValue, Error};
 
 /// Reads a TOML document.
 pub(super) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Node {
-    let (table, errors) = DeTable::parse_recoverable(text);
+    let printed;
+    let (mut table, mut errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty()
+        && let Some(found) = Printed::of(text)
+    {
+        note_printed(&found, 0, 0, diagnostics);
+        printed = found;
+        (table, errors) = DeTable::parse_recoverable(&printed.plain);
+    }
     note(&errors, 0, 0, text.len(), diagnostics);
     Node { value: Value::Table(convert_table(table.into_inner(), 0, 0)), span: Span { text: 0, start: 0, end: 0 } }
 }
@@ -24,8 +33,17 @@ pub(super) fn parse_value(value: &str, text: usize, offset: usize) -> Result<Nod
         return Ok(convert(parsed, text, offset));
     }
     let mut diagnostics = Diagnostics::default();
-    note(&errors, text, offset, offset + value.len(), &mut diagnostics);
+    match Printed::of(value) {
+        Some(printed) => note_printed(&printed, text, offset, &mut diagnostics),
+        None => note(&errors, text, offset, offset + value.len(), &mut diagnostics),
+    }
     Err(diagnostics)
+}
+
+/// One diagnostic for all that NumPy printed.
+fn note_printed(printed: &Printed, text: usize, offset: usize, diagnostics: &mut Diagnostics) {
+    let span = shift(printed.first.clone(), text, offset);
+    diagnostics.at(span, &Key::root(), format!("not valid TOML: {}", printed.message()), HELP);
 }
 
 /// One diagnostic a place: what follows from the first error there says nothing new.
