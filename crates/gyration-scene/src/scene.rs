@@ -6,6 +6,7 @@ use crate::error::{ErrorKind, NotToml, SceneErrors};
 use crate::file::SceneFile;
 use crate::key::Key;
 use crate::overriding::Override;
+use crate::units::without_rounding;
 use crate::unknown::{FIX, GIVEN_UP, NoForm, PATIENCE, Unknown, UnknownForm};
 use gyration::body::Body;
 use gyration::fluid::Form;
@@ -68,12 +69,12 @@ impl Scene {
         serde_json::to_value(&self.file).unwrap_or_default()
     }
 
-    /// The resolved form in TOML.
+    /// The resolved form in TOML, for people: without what a change of units has left in the last digit of a number.
     ///
     /// # Errors
     /// [`NotToml`] if it has none.
     pub fn to_toml(&self) -> Result<String, NotToml> {
-        Ok(toml::to_string(&self.file)?)
+        Ok(numbers_as_shown(&toml::to_string(&self.file)?))
     }
 
     /// The resolved form in TOML with only these of its bodies; where contacts name others, it is no scene.
@@ -82,7 +83,7 @@ impl Scene {
     /// [`NotToml`] if it has none.
     pub fn excerpt(&self, bodies: &[usize]) -> Result<String, NotToml> {
         let body = bodies.iter().filter_map(|index| self.file.body.get(*index)).cloned().collect();
-        Ok(toml::to_string(&SceneFile { body, ..self.file.clone() })?)
+        Ok(numbers_as_shown(&toml::to_string(&SceneFile { body, ..self.file.clone() })?))
     }
 
     /// The forms whose resistance is not known.
@@ -121,5 +122,53 @@ impl Scene {
             }
         }
         if diagnostics.is_empty() { Ok(self) } else { Err(document.errors(diagnostics)) }
+    }
+}
+
+/// Digits from which on a number may end with rounding.
+const MANY_DIGITS: usize = 15;
+
+/// A text of TOML with the numbers that its long numbers stand for.
+fn numbers_as_shown(text: &str) -> String {
+    let is_of_number = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '+' | '-' | '_');
+    let mut shown = String::with_capacity(text.len());
+    let mut quote = None;
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let word = rest.find(|c| !is_of_number(c)).unwrap_or(rest.len());
+        if quote.is_none() && word > MANY_DIGITS {
+            let (word, behind) = rest.split_at(word);
+            match word.parse::<f64>().map(without_rounding) {
+                Ok(value) if value.is_finite() => shown.push_str(&format!("{value:?}")),
+                _ => shown.push_str(word),
+            }
+            rest = behind;
+            continue;
+        }
+        quote = match (quote, first) {
+            (None, '"' | '\'') => Some(first),
+            // A quote within double quotes stands behind a backslash.
+            (Some(open), _) if open == first && (open == '\'' || !shown.ends_with('\\')) => None,
+            (open, _) => open,
+        };
+        let length = if quote.is_none() { word.max(first.len_utf8()) } else { first.len_utf8() };
+        let (piece, behind) = rest.split_at(length);
+        shown.push_str(piece);
+        rest = behind;
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_a_text_are_shown_without_rounding_and_strings_stay() {
+        let text = "title = \"of 1249.9999999999998\"\nx = [1249.9999999999998, -0.30000000000000004, 1e-5]\n\
+                    key-0.30000000000000004 = 0.3333333333333333\n";
+        let shown = "title = \"of 1249.9999999999998\"\nx = [1250.0, -0.3, 1e-5]\n\
+                     key-0.30000000000000004 = 0.3333333333333333\n";
+        assert_eq!(numbers_as_shown(text), shown);
     }
 }

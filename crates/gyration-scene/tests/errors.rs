@@ -473,3 +473,19 @@ fn what_numpy_printed_is_one_error_that_says_so() {
     let open = "velocity = [np.float64(1, 0, 0]\n";
     assert!(!errors("scene.toml", &ball(open), &[]).to_string().contains("NumPy"));
 }
+
+#[test]
+fn numbers_with_a_unit_are_told_without_rounding() {
+    let row = "[[contact]]\nsupport = \"table\"\nreach = §\"-12.5 mm\"\n";
+    assert_error(&format!("{TIME}{TABLE}{BALL}{row}"), "contact.0.reach", "found -0.0125 m", "greater than 0 m");
+    let found = errors("scene.toml", &format!("{TIME}{BALL}density = \"-1.25 g/cm^3\"\n"), &[]);
+    assert!(found.to_string().contains("found -1250 kg/m^3"), "{found}");
+}
+
+/// Symptom: `"auto" does not begin with a number`, where the format has it and this version has not.
+#[test]
+fn a_reach_that_is_to_be_found_is_told_to_be_not_yet_known() {
+    let contact = "[[contact]]\nbetween = [\"ball\", \"ball\"]\nreach = §\"auto\"\n\
+                   repulsion = { alpha = 1, nu = 6 }\n";
+    assert_error(&format!("{TIME}{BALL}{contact}"), "contact.0.reach", "\"auto\" is not yet known", "give a length");
+}

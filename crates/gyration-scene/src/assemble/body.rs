@@ -11,6 +11,7 @@ use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
+use crate::units::shown;
 use gyration::body::{Body as Moving, Pin};
 use gyration::kinematics::Placement;
 use gyration::load::{Spring, SpringLaw};
@@ -33,7 +34,7 @@ impl AssembledBody {
         solids: &mut Solids,
         reporter: &mut Reporter<'_>,
     ) -> Option<Self> {
-        let Placed { key, value } = placed;
+        let Placed { key, value, .. } = placed;
         let deforming = WrittenDeformation::of(placed, context, reporter);
         let attitude = WrittenPlacement::of(placed, deforming.start(), reporter);
         let source = MassSource::of(placed, reporter);
@@ -77,8 +78,9 @@ const FARTHEST_PIN: f64 = 1e4;
 fn near(arm: Option<&Vec3>, shape: &Shape, key: &Key, reporter: &mut Reporter<'_>) {
     let (distance, size) = (arm.map_or(0.0, Vec3::norm), shape.size());
     if size > 0.0 && distance > FARTHEST_PIN * size {
-        let message = format!("the pin is {distance:e} m from the centre of mass of a body of {size:e} m");
-        let help = format!("write a point within {:e} m, in metres from the centre of mass", FARTHEST_PIN * size);
+        let (distance, size, farthest) = (shown(distance), shown(size), shown(FARTHEST_PIN * size));
+        let message = format!("the pin is {distance} m from the centre of mass of a body of {size} m");
+        let help = format!("write a point within {farthest} m, in metres from the centre of mass");
         reporter.note(&key.key("pin"), message, help);
     }
 }

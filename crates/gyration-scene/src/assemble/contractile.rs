@@ -11,6 +11,7 @@ use crate::check::{Reporter, direction};
 use crate::file::{self, FeltMeasure, OneOrMany};
 use crate::key::Key;
 use crate::quantity::Pressure;
+use crate::units::shown;
 use gyration::contractile::{Contraction, ContractionSource, Feedback, FeedbackMeasure, Spin};
 use gyration::signal::{Jet, Signal, Smoothness};
 use gyration::tensor::Mat3;
@@ -135,7 +136,7 @@ fn drive(
     let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), not_finite) else {
         return Some(signal);
     };
-    reporter.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
+    reporter.note(key, format!("at t = {} s {message}", shown(time)), "write smaller numbers");
     None
 }
 
@@ -156,7 +157,7 @@ fn prescribed(
     let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), fault) else { return Some(signal) };
     let help = "keep det G > 0 over the whole run: a contraction that varies about none is \
                 { sum = [{ constant = { value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } }, …] }";
-    reporter.note(key, format!("at t = {time:?} s {message}"), help);
+    reporter.note(key, format!("at t = {} s {message}", shown(time)), help);
     None
 }
 
@@ -191,7 +192,7 @@ fn feedback(
     let (gain, bias) = (matrix(&written.gain), matrix(&written.bias));
     if let Some([least, most]) = written.limits {
         if least >= most {
-            let message = format!("the limits, {least:?} and {most:?}, do not increase");
+            let message = format!("the limits, {} and {}, do not increase", shown(least), shown(most));
             reporter.note(&key.key("limits"), message, "write [least, most], the values that the measure counts as");
             return None;
         }

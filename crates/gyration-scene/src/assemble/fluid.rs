@@ -10,6 +10,7 @@ use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion 
 use crate::key::Key;
 use crate::quantity::si;
 use crate::table::read_vectors;
+use crate::units::shown;
 use crate::unknown::{FIX, UnknownForm, no_surface};
 use gyration::body::{Body as Moving, BodyKind};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion, Resolution};
@@ -43,7 +44,7 @@ fn gradient(written: &FlowGradient, key: &Key, context: &SceneContext, reporter:
     };
     let fault = |value: &Mat3| not_finite(value).or_else(|| swells(value));
     let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), fault) else { return Some(signal) };
-    let at = if matches!(signal, Signal::Constant(_)) { String::new() } else { format!("at t = {time:?} s ") };
+    let at = if matches!(signal, Signal::Constant(_)) { String::new() } else { format!("at t = {} s ", shown(time)) };
     let help = "change a diagonal entry so that the three add up to 0, for instance [[1, 0, 0], [0, -1, 0], [0, 0, 0]]";
     reporter.note(key, format!("{at}{message}"), help);
     None
@@ -58,7 +59,8 @@ fn swells(gradient: &Mat3) -> Option<String> {
     let grows = trace.abs() > ROUNDING * gradient.amax();
     grows.then(|| {
         format!(
-            "its trace is {trace:?} 1/s: the fluid would swell everywhere, but it is incompressible and has no sources"
+            "its trace is {} 1/s: the fluid would swell everywhere, but it is incompressible and has no sources",
+            shown(trace)
         )
     })
 }
@@ -97,7 +99,7 @@ fn vector_signal(
     let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), not_finite) else {
         return Some(signal);
     };
-    reporter.note(key, format!("at t = {time:?} s {message}"), "write smaller numbers");
+    reporter.note(key, format!("at t = {} s {message}", shown(time)), "write smaller numbers");
     None
 }
 
@@ -144,7 +146,7 @@ impl ImmersedBody<'_> {
 
     /// Notes velocities that a body without inertia cannot be given.
     fn gives_no_velocity(&self, reporter: &mut Reporter<'_>) -> bool {
-        let Placed { key, value } = self.placed;
+        let Placed { key, value, .. } = self.placed;
         let moves = |vector: Option<Vec3>| vector.is_some_and(|vector| vector != Vec3::zeros());
         let given = [
             ("velocity", moves(Some(si(&value.velocity)))),

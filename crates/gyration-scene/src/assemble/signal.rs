@@ -9,6 +9,7 @@ use crate::check::Reporter;
 use crate::file::{Interpolation as Written, Ramp, Signal as WrittenSignal, Table, Wave as WrittenWave};
 use crate::key::Key;
 use crate::table::{TableFault, read_tensors};
+use crate::units::shown;
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};
 use gyration::tensor::Mat3;
 use std::path::Path;
@@ -84,7 +85,7 @@ impl SignalBuilder<'_, '_> {
         let [first, last] = made.span();
         let end = self.context.end.unwrap_or(last);
         if first > 0.0 {
-            let message = format!("table {} begins late, at {first:?} s: the run begins at 0 s", path.display());
+            let message = format!("table {} begins late, at {} s: the run begins at 0 s", path.display(), shown(first));
             self.reporter.note(key, message, "add a row at t = 0");
         }
         if last < end {

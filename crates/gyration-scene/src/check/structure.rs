@@ -8,7 +8,7 @@ use crate::error::ErrorKind;
 use crate::key::Key;
 use crate::suggest;
 use crate::tree::{Node, Table, Value};
-use crate::units::{Unit, UnitDimension, UnitError, parse_quantity};
+use crate::units::{Unit, UnitDimension, UnitError, parse_quantity, shown};
 use std::collections::BTreeMap;
 
 /// Notes where the tree departs from the rules of its format.
@@ -55,6 +55,12 @@ impl Walker<'_> {
                 self.limits(*number, node, key, field.limits, symbol);
             }
             (Value::Text(text), Rule::Quantity { symbol, unit, example }) => {
+                // `reach = "auto"` is in the format, and not in this version.
+                if text == "auto" && key.ends_with("reach") {
+                    let help = format!("give a length: a number in {symbol}, or a string such as \"{example}\"");
+                    self.diagnostics.at(node.span, key, "\"auto\" is not yet known", help);
+                    return;
+                }
                 match in_unit(text, unit, symbol, example) {
                     Ok(number) => self.limits(number, node, key, field.limits, symbol),
                     Err((message, help)) => self.diagnostics.at(node.span, key, message, help),
@@ -133,17 +139,20 @@ impl Walker<'_> {
         let broken = match (least, most, above) {
             _ if number.is_nan() => Some("a number".to_owned()),
             _ if number.is_infinite() => Some("finite".to_owned()),
-            (_, _, Some(above)) if number <= above => Some(format!("greater than {}{unit}", short(above))),
-            (Some(least), _, _) if number < least => Some(format!("at least {}{unit}", short(least))),
-            (_, Some(most), _) if number > most => Some(format!("at most {}{unit}", short(most))),
+            (_, _, Some(above)) if number <= above => Some(format!("greater than {}{unit}", shown(above))),
+            (Some(least), _, _) if number < least => Some(format!("at least {}{unit}", shown(least))),
+            (_, Some(most), _) if number > most => Some(format!("at most {}{unit}", shown(most))),
             _ if whole && number.fract() != 0.0 => Some("whole".to_owned()),
             _ => None,
         };
         if let Some(condition) = broken {
-            let message = format!("must be {condition}, found {}{unit}", short(number));
+            // Beyond a limit by rounding, a number is told with all its digits.
+            let found = Some(shown(number)).filter(|found| !condition.contains(found.as_str()));
+            let found = found.unwrap_or_else(|| format!("{number:?}"));
+            let message = format!("must be {condition}, found {found}{unit}");
             let range = match (least, most) {
                 (Some(least), Some(most)) if whole => format!("write a whole number from {least} to {most}"),
-                (Some(least), Some(most)) => format!("write a number from {least:?} to {most:?}{unit}"),
+                (Some(least), Some(most)) => format!("write a number from {} to {}{unit}", shown(least), shown(most)),
                 _ if number.is_nan() => "write the number itself".to_owned(),
                 _ => format!("write a number that is {condition}"),
             };
@@ -209,11 +218,6 @@ fn choices(words: &[String], tags: &BTreeMap<String, FieldRule>) -> String {
     }
 }
 
-/// A number as people write it: `0` and `0.01`, but `1e-14`.
-fn short(number: f64) -> String {
-    if number == number.trunc() && number.abs() < 1e6 { format!("{number}") } else { format!("{number:?}") }
-}
-
 fn mismatch_help(value: &Value, rule: &Rule, expected: &str) -> String {
     match (value, rule) {
         (Value::Null, _) => "leave the key out".to_owned(),
@@ -242,7 +246,7 @@ fn in_unit(text: &str, wanted: &Unit, symbol: &str, example: &str) -> Result<f64
     if unit.dimension == UnitDimension::default() {
         return Err((
             format!("\"{text}\" has no unit"),
-            format!("write {number:?} without quotes, in {symbol}, or add a unit"),
+            format!("write {} without quotes, in {symbol}, or add a unit", shown(number)),
         ));
     }
     let message = format!("\"{text}\" is in {}, expected {symbol} ({})", unit.dimension, wanted.dimension);

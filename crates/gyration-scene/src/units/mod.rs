@@ -95,5 +95,23 @@ impl Unit {
     }
 }
 
+/// The number that a value stands for, without what the rounding of a change of units has left: 1250 for
+/// 1249.9999999999998.
+pub fn without_rounding(value: f64) -> f64 {
+    /// What few operations leave, in parts of the value.
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    let rounded = (11..15).find_map(|decimals| {
+        let rounded: f64 = format!("{value:.decimals$e}").parse().ok()?;
+        ((rounded - value).abs() <= ROUNDING * value.abs()).then_some(rounded)
+    });
+    rounded.unwrap_or(value)
+}
+
+/// A number as people write it: `0` and `0.01`, but `1e-14`, and without rounding.
+pub fn shown(value: f64) -> String {
+    let value = without_rounding(value);
+    if value == value.trunc() && value.abs() < 1e6 { format!("{value}") } else { format!("{value:?}") }
+}
+
 #[cfg(test)]
 mod tests;

@@ -52,6 +52,16 @@ fn quantities_have_the_size_and_dimension_of_their_units() {
 }
 
 #[test]
+fn numbers_are_shown_without_the_rounding_that_they_carry() {
+    let sums = [1249.9999999999998, 0.1 + 0.2, 3.0 * 1.1, 1e-3 * 0.7, -1e-14, 0.0, 250.0, 123456789.125, 1.0 / 3.0];
+    let words = ["1250", "0.3", "3.3", "0.0007", "-1e-14", "0", "250", "123456789.125", "0.3333333333333333"];
+    assert_eq!(sums.map(shown), words);
+    // Further off than rounding is another number.
+    assert_eq!(shown(1249.999999999), "1249.999999999");
+    assert_eq!(shown(1250.000000000001), "1250.000000000001");
+}
+
+#[test]
 fn what_is_no_quantity_is_refused_with_its_reason() {
     let unknown = |text: &str| match parse_quantity(text) {
         Err(UnitError::UnknownUnit { symbol, nearest }) => (symbol, nearest),
