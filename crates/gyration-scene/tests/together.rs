@@ -35,3 +35,45 @@ fn what_a_wrong_key_leaves_open_is_not_held_against_the_others() {
                   angular_velocity = [0, \"fast\", 0]\n";
     assert_eq!(keys(pinned), ["body.die.angular_velocity.1"]);
 }
+
+/// The keys of all errors of a scene of two balls, with these lines of the first and these behind both.
+fn keys_of_two(first: &str, rest: &str) -> Vec<String> {
+    let ball = |lines: &str| format!("[[body]]\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\n{lines}\n");
+    let second = ball("name = \"b\"\ngroup = \"balls\"\nposition = [1, 0, 1]");
+    let text = format!("time = {{ end = 1.0, sample = 0.1 }}\n{}{second}{rest}", ball(first));
+    match Scene::parse("scene.toml", &text, Path::new(""), &[]) {
+        Ok(_) => Vec::new(),
+        Err(errors) => errors.as_slice().iter().map(|error| error.key.clone()).collect(),
+    }
+}
+
+#[test]
+fn a_body_with_an_error_still_counts_for_names_and_groups() {
+    let repulsion = "repulsion = { alpha = 1, nu = 6, d0 = 0.01 }\n";
+    let contact = |between: &str| format!("[[contact]]\nbetween = {between}\n{repulsion}");
+    let spring = "[[spring]]\nbetween = [\"a\", \"b\"]\npoints = [[0, 0, 0], [0, 0, 0]]\nstiffness = 1\n";
+    let table = "[[support]]\nname = \"table\"\nplane = {}\ncolour = 1\n";
+    let colour = "name = \"a\"\ngroup = \"balls\"\ncolour = \"red\"";
+    let rows = [
+        (colour, contact("[\"balls\", \"balls\"]"), vec!["body.a.colour"]),
+        (colour, contact("[\"a\", \"b\"]") + spring, vec!["body.a.colour"]),
+        (
+            colour,
+            format!("{table}[[contact]]\nsupport = \"table\"\nbody = \"a\"\n{repulsion}"),
+            vec!["body.a.colour", "support.table.colour"],
+        ),
+        // A name or a group that cannot be read may be any.
+        ("name = \"a\"\ngroup = 5", contact("[\"balls\", \"balls\"]"), vec!["body.a.group"]),
+        ("name = \"a\"\ngroup = [5]", contact("[\"steel\", \"b\"]"), vec!["body.a.group.0"]),
+        ("name = 5", contact("[\"a\", \"b\"]") + spring, vec!["body.0.name"]),
+        ("name = \"my ball\"", contact("[\"my ball\", \"b\"]"), vec!["body.0.name"]),
+        // What is wrong with the contact itself is told beside.
+        (colour, contact("[\"b\", \"b\"]"), vec!["body.a.colour", "contact.0.between"]),
+        (colour, contact("[\"c\", \"b\"]"), vec!["body.a.colour", "contact.0.between.0"]),
+    ];
+    for (first, rest, wanted) in rows {
+        let mut found = keys_of_two(first, &rest);
+        found.sort();
+        assert_eq!(found, wanted, "{first}\n{rest}");
+    }
+}

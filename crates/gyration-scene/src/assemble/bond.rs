@@ -17,7 +17,7 @@ pub(super) fn bonds(
 ) -> Vec<Bond> {
     let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.body.name.clone(), index));
     let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
-    let bond = |Placed { key, value }: &Placed<file::Bond>| {
+    let bond = |Placed { key, value, .. }: &Placed<file::Bond>| {
         let [Some(&one), Some(&other)] = value.between.each_ref().map(|name| named.get(name)) else { return None };
         if one == other {
             return None;

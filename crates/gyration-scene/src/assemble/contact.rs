@@ -6,6 +6,7 @@ use super::partners::{self, MOST_PAIRS, Names, Partners, without_surface};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
+use crate::units::shown;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::pair::Pair;
 use std::collections::BTreeSet;
@@ -21,7 +22,7 @@ pub(super) fn attach(
     let names = Names::of(partial);
     let mut count = 0;
     let mut pairs = Vec::new();
-    for Placed { key, value } in &partial.contacts {
+    for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
         let Some(partners) = names.partners(value, assembled) else { continue };
@@ -30,7 +31,8 @@ pub(super) fn attach(
             Partners::Support { support, bodies, named } => {
                 count += bodies.len();
                 if let Some(reach) = &value.reach {
-                    let message = format!("a support is felt at any distance, and so beyond {} m", reach.value());
+                    let message =
+                        format!("a support is felt at any distance, and so beyond {} m", shown(reach.value()));
                     reporter.note(&key.key("reach"), message, "leave it out: it is for pairs of bodies");
                 }
                 let law_set = Arc::new(LawSet::new(measure, laws));
@@ -58,7 +60,7 @@ pub(super) fn attach(
                 if unable == 0 {
                     pair::meet(met, (&laws, reach), key, &mut pairs, reporter);
                 }
-                if unable == 0 && count == before {
+                if unable == 0 && count == before && names.are_known() {
                     let message = "it is between no two different bodies";
                     reporter.note(&key.key("between"), message, "name two bodies, or groups that have two");
                 }

@@ -22,7 +22,7 @@ pub(super) struct WrittenDeformation {
 impl WrittenDeformation {
     /// Reads it; notes what is wrong with it, and a body of two kinds.
     pub(super) fn of(placed: &Placed<Body>, context: &SceneContext, reporter: &mut Reporter<'_>) -> Self {
-        let Placed { key, value } = placed;
+        let Placed { key, value, .. } = placed;
         one_kind(value, key, reporter);
         let parts = value.deformable().map(|(name, it)| AffineParts::of(it, &key.key(name), context.base, reporter));
         let contracting = value.contractile.as_ref();
@@ -43,7 +43,7 @@ impl WrittenDeformation {
         has_surface: bool,
         reporter: &mut Reporter<'_>,
     ) -> Option<BodyKind> {
-        let Placed { key, value } = placed;
+        let Placed { key, value, .. } = placed;
         let name = if value.mass_properties.is_some() { "mass_properties" } else { "shape" };
         let arm = value.pin.as_ref().map(si);
         let interior = key.key(value.deformable().map_or("affine", |(name, _)| name));

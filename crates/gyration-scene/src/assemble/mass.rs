@@ -27,7 +27,7 @@ pub(super) enum MassSource {
 impl MassSource {
     /// The source of a body's mass; notes a choice that is not exactly one.
     pub(super) fn of(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Self> {
-        let Placed { key, value } = body;
+        let Placed { key, value, .. } = body;
         let given = match (value.density, value.mass, &value.mass_properties) {
             (Some(density), None, None) => Some(Self::Density(density.value())),
             (None, Some(mass), None) => Some(Self::Mass(mass.value())),

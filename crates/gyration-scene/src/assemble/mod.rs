@@ -135,14 +135,17 @@ pub(crate) fn assemble(
     reporter: &mut Reporter<'_>,
 ) -> Option<(Built, Vec<UnknownForm>)> {
     let solids = &mut Solids::default();
-    let mut assembled: Vec<Option<AssembledBody>> =
-        partial.bodies.iter().map(|body| AssembledBody::new(body, context, solids, reporter)).collect();
+    // A place for each body of the file: one with an error still counts for names and groups.
+    let mut assembled: Vec<Option<AssembledBody>> = vec![None; partial.roll.len()];
+    for body in &partial.bodies {
+        assembled[body.number] = AssembledBody::new(body, context, solids, reporter);
+    }
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
     let pairs = contact::attach(partial, &mut assembled, reporter);
     let bonds = bond::bonds(partial, &assembled, reporter);
-    for (body, assembled_body) in partial.bodies.iter_mut().zip(&assembled) {
-        if let Some(assembled_body) = assembled_body {
+    for body in &mut partial.bodies {
+        if let Some(assembled_body) = &assembled[body.number] {
             overlap::check(body, assembled_body, &supports, reporter);
             resolve::resolve(&mut body.value, &assembled_body.start);
         }

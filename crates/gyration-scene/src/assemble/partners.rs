@@ -12,8 +12,10 @@ pub(super) const MOST_PAIRS: usize = 1_000_000;
 /// Supports and groups by name.
 pub(super) struct Names<'a> {
     supports: HashMap<&'a str, usize>,
-    /// The bodies of a group, ascending; a body's own name is a group of one.
+    /// The bodies of a group, well formed or not, ascending; a body's own name is a group of one.
     groups: HashMap<&'a str, Vec<usize>>,
+    /// Whether name and groups of every body are written as they must be.
+    are_known: bool,
 }
 
 /// What a contact is between.
@@ -33,16 +35,20 @@ impl<'a> Names<'a> {
         let supports = partial.supports.iter().enumerate();
         let supports = supports.map(|(index, support)| (support.value.name.as_str(), index)).collect();
         let mut groups: HashMap<&str, Vec<usize>> = HashMap::new();
-        for (index, body) in partial.bodies.iter().enumerate() {
-            let words = body.value.group.as_ref().map_or(&[][..], |group| group.as_slice());
-            for word in words.iter().chain([&body.value.name]) {
+        for (index, body) in partial.roll.iter().enumerate() {
+            for word in &body.words {
                 let group = groups.entry(word).or_default();
                 if group.last() != Some(&index) {
                     group.push(index);
                 }
             }
         }
-        Self { supports, groups }
+        Self { supports, groups, are_known: partial.roll.iter().all(|body| body.are_known) }
+    }
+
+    /// Whether it is known of every body which groups it is in.
+    pub fn are_known(&self) -> bool {
+        self.are_known
     }
 
     /// The partners of a contact; none where a name is not known, which has been noted.

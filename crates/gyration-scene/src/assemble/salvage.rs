@@ -48,7 +48,7 @@ pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: 
         }
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Diagnostics::default();
-        let (placed, solids) = (Placed { key: key.clone(), value }, &mut Solids::default());
+        let (placed, solids) = (Placed { key: key.clone(), number: index, value }, &mut Solids::default());
         AssembledBody::new(&placed, context, solids, &mut Reporter { document, diagnostics: &mut found });
         let counts = |place: &Key| checked.iter().any(|name| key.key(name).holds(place));
         diagnostics.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));

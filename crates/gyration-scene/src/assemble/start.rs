@@ -35,7 +35,7 @@ impl WrittenPlacement {
     /// Reads P and Ṗ of a body that starts with a contraction, if it has one; notes what cannot be, what is said twice,
     /// and what only another kind of body has.
     pub(super) fn of(placed: &Placed<Body>, contraction: Option<Jet>, reporter: &mut Reporter<'_>) -> Option<Self> {
-        let Placed { key, value } = placed;
+        let Placed { key, value, .. } = placed;
         match value.deformable() {
             None => deformable_keys(value, key, reporter),
             Some(_) => said_twice(value, key, reporter),

@@ -3,7 +3,7 @@
 use crate::document::{Diagnostics, Document};
 use crate::file::{Body, Bond, Contact, Fluid, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
-use crate::tree::Node;
+use crate::tree::{Node, Value};
 use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 
@@ -11,7 +11,32 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone)]
 pub(crate) struct Placed<T> {
     pub(crate) key: Key,
+    /// Its place among all that the file has of its kind, well formed or not.
+    pub(crate) number: usize,
     pub(crate) value: T,
+}
+
+/// The words by which contacts name a body.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct BodyWords {
+    /// Its name and its groups, as far as they are texts.
+    pub(crate) words: Vec<String>,
+    /// Whether these are all: name and group are written as they must be.
+    pub(crate) are_known: bool,
+}
+
+impl BodyWords {
+    /// Those of a body as it is written.
+    pub(crate) fn of(body: &Node) -> Self {
+        let group = body.get("group");
+        let nodes = match group {
+            Some(Node { value: Value::Array(items), .. }) => items.as_slice(),
+            group => group.map(std::slice::from_ref).unwrap_or_default(),
+        };
+        let written: Vec<Option<&str>> = nodes.iter().chain(body.get("name")).map(Node::text).collect();
+        let are_known = body.get("name").is_some() && written.iter().all(Option::is_some);
+        Self { words: written.into_iter().flatten().map(str::to_owned).collect(), are_known }
+    }
 }
 
 /// The well-formed parts of a scene.
@@ -25,6 +50,8 @@ pub(crate) struct PartialScene {
     pub(crate) supports: Vec<Placed<Support>>,
     pub(crate) contacts: Vec<Placed<Contact>>,
     pub(crate) bodies: Vec<Placed<Body>>,
+    /// What every body of the file is called, well formed or not.
+    pub(crate) roll: Vec<BodyWords>,
     pub(crate) bonds: Vec<Placed<Bond>>,
     pub(crate) fluid: Option<Fluid>,
 }
@@ -43,6 +70,7 @@ impl PartialScene {
             supports: taker.items("support"),
             contacts: taker.items("contact"),
             bodies: taker.items("body"),
+            roll: document.root.get("body").map(Node::items).unwrap_or_default().iter().map(BodyWords::of).collect(),
             bonds: taker.items("spring"),
             fluid: taker.section("fluid"),
         }
@@ -82,7 +110,7 @@ impl Taker<'_> {
         let items = self.root.get(name).map(Node::items).unwrap_or_default();
         let take = |(index, node)| {
             let key = key.index(index);
-            self.take(node, &key).map(|value| Placed { key, value })
+            self.take(node, &key).map(|value| Placed { key, number: index, value })
         };
         items.iter().enumerate().filter_map(take).collect()
     }

@@ -3,6 +3,7 @@
 //!
 //! Bodies are checked where they are built.
 
+use super::partial::BodyWords;
 use super::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Motion, Record, Support, Time};
 use crate::key::{Key, is_name};
@@ -16,8 +17,7 @@ const MOST_SAMPLES: f64 = 1e8;
 
 /// Notes what is wrong with the values of a partial scene, its bodies apart.
 pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
-    let supports = names("support", reporter);
-    let bodies = names("body", reporter);
+    let (supports, bodies) = (Named::of("support", reporter), Named::of("body", reporter));
     if let Some(time) = &partial.time {
         samples(time, reporter);
     }
@@ -28,33 +28,54 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
     references("support", &supports, reporter);
     references("body", &bodies, reporter);
     ends(&bodies, reporter);
-    partners(&supports, &bodies, reporter);
+    partners(&supports, &bodies, &partial.roll, reporter);
     partial.contacts.iter().for_each(|contact| exponents(contact, reporter));
 }
 
-/// The names of an array of tables, well formed or not; notes those that are no names or occur twice.
-fn names(section: &str, reporter: &mut Reporter<'_>) -> BTreeSet<String> {
-    let key = Key::root().key(section);
-    let document = reporter.document;
-    let items = document.root.get(section).map(Node::items).unwrap_or_default();
-    let mut names = BTreeSet::new();
-    for (index, item) in items.iter().enumerate() {
-        let Some(node) = item.get("name") else { continue };
-        let Some(name) = node.text() else { continue };
-        let place = key.index(index).key("name");
-        if !is_name(name) {
-            let help = "use letters A to Z and a to z, digits, `_` and `-`";
-            reporter.diagnostics.at(node.span, &place, format!("\"{name}\" is not a name"), help);
-        } else if !names.insert(name.to_owned()) {
-            let message = format!("the {section} \"{name}\" occurs twice");
-            reporter.diagnostics.at(node.span, &place, message, "give each a name of its own");
+/// The names of an array of tables, well formed or not.
+struct Named {
+    names: BTreeSet<String>,
+    /// Whether each of them has one: a name that cannot be read may be any.
+    are_known: bool,
+}
+
+impl Named {
+    /// Those of a section; notes those that are no names or occur twice.
+    fn of(section: &str, reporter: &mut Reporter<'_>) -> Self {
+        let key = Key::root().key(section);
+        let document = reporter.document;
+        let items = document.root.get(section).map(Node::items).unwrap_or_default();
+        let mut named = Self { names: BTreeSet::new(), are_known: true };
+        for (index, item) in items.iter().enumerate() {
+            let Some((node, name)) = item.get("name").and_then(|node| Some((node, node.text()?))) else {
+                named.are_known = false;
+                continue;
+            };
+            let place = key.index(index).key("name");
+            let is_new = named.names.insert(name.to_owned());
+            if !is_name(name) {
+                let help = "use letters A to Z and a to z, digits, `_` and `-`";
+                reporter.diagnostics.at(node.span, &place, format!("\"{name}\" is not a name"), help);
+            } else if !is_new {
+                let message = format!("the {section} \"{name}\" occurs twice");
+                reporter.diagnostics.at(node.span, &place, message, "give each a name of its own");
+            }
         }
+        named
     }
-    names
+
+    /// Whether nothing has this name.
+    fn lacks(&self, name: &str) -> bool {
+        self.are_known && !self.names.contains(name)
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &str> + Clone {
+        self.names.iter().map(String::as_str)
+    }
 }
 
 /// Notes the contacts, well formed or not, that name a support or a body that is not there.
-fn references(section: &str, known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
+fn references(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
     let contacts = Key::root().key("contact");
     let document = reporter.document;
     let items = document.root.get("contact").map(Node::items).unwrap_or_default();
@@ -63,8 +84,8 @@ fn references(section: &str, known: &BTreeSet<String>, reporter: &mut Reporter<'
         if reporter.diagnostics.is_full() {
             return;
         }
-        if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
-            let help = suggest::fix(name, known.iter().map(String::as_str), section);
+        if let Some(name) = node.text().filter(|name| known.lacks(name)) {
+            let help = suggest::fix(name, known.iter(), section);
             let message = format!("there is no {section} \"{name}\"");
             reporter.diagnostics.at(node.span, &contacts.index(index).key(section), message, help);
         }
@@ -72,7 +93,7 @@ fn references(section: &str, known: &BTreeSet<String>, reporter: &mut Reporter<'
 }
 
 /// Notes the springs between bodies, well formed or not, that name a body that is not there or one body twice.
-fn ends(known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
+fn ends(known: &Named, reporter: &mut Reporter<'_>) {
     let springs = Key::root().key("spring");
     let document = reporter.document;
     let items = document.root.get("spring").map(Node::items).unwrap_or_default();
@@ -85,8 +106,8 @@ fn ends(known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
                 return;
             }
             let Some(name) = name else { continue };
-            let message = if !known.contains(*name) {
-                (format!("there is no body \"{name}\""), suggest::fix(name, known.iter().map(String::as_str), "body"))
+            let message = if known.lacks(name) {
+                (format!("there is no body \"{name}\""), suggest::fix(name, known.iter(), "body"))
             } else if names[..end].contains(&Some(name)) {
                 let help = "name two different bodies; to a point of space leads a `spring` of the body";
                 (format!("both ends are at the body \"{name}\""), help.to_owned())
@@ -100,33 +121,26 @@ fn ends(known: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
 
 /// Notes the contacts, well formed or not, that say neither or both of `support` and `between`, or name there what is
 /// no body, group or support.
-fn partners(supports: &BTreeSet<String>, bodies: &BTreeSet<String>, reporter: &mut Reporter<'_>) {
+fn partners(supports: &Named, bodies: &Named, roll: &[BodyWords], reporter: &mut Reporter<'_>) {
     let document = reporter.document;
     let items = |section: &str| document.root.get(section).map(Node::items).unwrap_or_default();
-    let group = |body: &Node| -> Vec<String> {
-        let words = body.get("group").into_iter().flat_map(|group| match group.text() {
-            Some(_) => std::slice::from_ref(group),
-            None => group.items(),
-        });
-        words.filter_map(Node::text).map(str::to_owned).collect()
-    };
-    for (index, body) in items("body").iter().enumerate() {
+    for (index, (body, words)) in items("body").iter().zip(roll).enumerate() {
         let own = body.get("name").and_then(Node::text);
-        for word in group(body).iter().filter(|word| Some(word.as_str()) != own) {
+        for word in words.words.iter().filter(|word| Some(word.as_str()) != own) {
             let Some(node) = body.get("group") else { continue };
             let key = Key::root().key("body").index(index).key("group");
             if !is_name(word) {
                 let help = "use letters A to Z and a to z, digits, `_` and `-`";
                 reporter.diagnostics.at(node.span, &key, format!("\"{word}\" is not a name"), help);
-            } else if bodies.contains(word) {
+            } else if bodies.names.contains(word) {
                 let message = format!("\"{word}\" is the name of another body, which is a group of its own");
                 reporter.diagnostics.at(node.span, &key, message, "give the group another name");
             }
         }
     }
-    let mut known: BTreeSet<String> = supports.union(bodies).cloned().collect();
-    known.extend(items("body").iter().flat_map(group));
-    let moving: BTreeSet<String> = items("body").iter().flat_map(group).chain(bodies.iter().cloned()).collect();
+    let moving: BTreeSet<&str> = roll.iter().flat_map(|body| &body.words).map(String::as_str).collect();
+    let known: BTreeSet<&str> = supports.iter().chain(moving.iter().copied()).collect();
+    let are_known = supports.are_known && roll.iter().all(|body| body.are_known);
     for (index, item) in items("contact").iter().enumerate() {
         if reporter.diagnostics.is_full() {
             return;
@@ -144,13 +158,13 @@ fn partners(supports: &BTreeSet<String>, bodies: &BTreeSet<String>, reporter: &m
             reporter.diagnostics.at(between.span, &key.key("between"), format!("it stands beside `{short}`"), help);
         }
         for (end, node) in between.items().iter().enumerate() {
-            if let Some(name) = node.text().filter(|name| supports.contains(*name) && moving.contains(*name)) {
+            if let Some(name) = node.text().filter(|name| supports.names.contains(*name) && moving.contains(*name)) {
                 let message = format!("\"{name}\" is a support, and a body or a group too");
                 let help = "give the support another name";
                 reporter.diagnostics.at(node.span, &key.key("between").index(end), message, help);
             }
-            if let Some(name) = node.text().filter(|name| !known.contains(*name)) {
-                let help = suggest::fix(name, known.iter().map(String::as_str), "one of");
+            if let Some(name) = node.text().filter(|name| are_known && !known.contains(*name)) {
+                let help = suggest::fix(name, known.iter().copied(), "one of");
                 let message = format!("there is no body, group or support \"{name}\"");
                 reporter.diagnostics.at(node.span, &key.key("between").index(end), message, help);
             }
