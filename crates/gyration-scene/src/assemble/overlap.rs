@@ -26,10 +26,16 @@ pub(super) fn check(
         }
         let (body, name) = (&assembled.body.name, &support.name);
         let [x, y, z] = support.normal.into();
-        let message =
-            format!("\"{body}\" reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
-        let lift = if gap < 0.0 { format!("by more than {:.6e} m ", -gap) } else { "a little ".into() };
+        let (message, lift) = if gap < -TOUCH * assembled.body.size {
+            let reaches = format!("reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");
+            (reaches, format!("by more than {:.6e} m ", -gap))
+        } else {
+            (format!("touches the support \"{name}\" at the start"), "a little ".to_owned())
+        };
         let help = format!("move it {lift}along the normal [{x}, {y}, {z}]: forces of short range keep bodies apart");
-        reporter.note(&placed.key.key("position"), message, help);
+        reporter.note(&placed.key.key("position"), format!("\"{body}\" {message}"), help);
     }
 }
+
+/// A depth that cannot be told from none, in sizes of the body.
+const TOUCH: f64 = 64.0 * f64::EPSILON;

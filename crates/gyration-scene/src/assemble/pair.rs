@@ -108,8 +108,13 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
 fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
     let [one, other] = both.map(|assembled| &assembled.body.name);
     let [x, y, z] = overlap.normal.into();
-    let depth = overlap.depth;
-    let message = format!("\"{one}\" and \"{other}\" reach each other at the start, by {depth:.6e} m");
-    let help = format!("move \"{one}\" by more than {depth:.6e} m along [{x:.6}, {y:.6}, {z:.6}]");
-    reporter.note(key, message, help);
+    let way = format!("along [{x:.6}, {y:.6}, {z:.6}]");
+    let (message, by) = match overlap.touches() {
+        true => ("touch at the start, and no force holds at a gap of 0".to_owned(), "a little".to_owned()),
+        false => {
+            let depth = format!("{:.6e} m", overlap.depth);
+            (format!("reach each other at the start, by {depth}"), format!("by more than {depth}"))
+        }
+    };
+    reporter.note(key, format!("\"{one}\" and \"{other}\" {message}"), format!("move \"{one}\" {by} {way}"));
 }

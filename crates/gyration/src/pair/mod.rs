@@ -17,6 +17,7 @@
 //! | `laws`     | what acts between two bodies, and the moments that it needs      |
 //! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
 //! | `overlap`  | two bodies that no plane separates                              |
+//! | `deepest`  | the shortest way apart of these                                 |
 //! | `separate` | a plane between them to begin with, guessed or found             |
 //! | `plane`    | a plane, and where it may be                                    |
 //! | `least`    | the plane of least potential, by Newton's method on log U        |
@@ -25,6 +26,7 @@
 //! | `loads`    | forces, moments, energy and powers                               |
 //! | `slopes`   | their derivatives by the coordinates and velocities of both      |
 
+mod deepest;
 mod laws;
 mod least;
 mod loads;

@@ -1,29 +1,34 @@
 //! Two convex bodies that reach each other: how far, and which way apart.
 
+use super::deepest::shortest_way;
 use super::met::halves;
 use super::separate::separate;
 use super::side::Side;
 use crate::kinematics::{Placement, Velocity};
+use crate::surface::curved::Patch;
 use crate::surface::{GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
-use std::f64::consts::PI;
 
 /// Two bodies that no plane separates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
     /// A way for A that separates them.
     pub normal: Vec3,
-    /// How far along it [m]; of many ways tried, the shortest.
+    /// How far along it [m]: the shortest way apart, to a thousandth.
     pub depth: f64,
+    /// A depth that cannot be told from none [m].
+    pub resolution: f64,
 }
-
-/// How many ways apart are tried.
-const WAYS: usize = 2000;
 
 /// A distance that cannot be told from zero, relative to the size and the distance of the centres.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
 impl Overlap {
+    /// Whether they touch: neither apart nor into each other, as far as numbers tell.
+    pub fn touches(&self) -> bool {
+        self.depth <= self.resolution
+    }
+
     /// Whether two convex bodies are apart.
     ///
     /// # Errors
@@ -49,30 +54,41 @@ impl Overlap {
         if separate(halves.each_ref()).is_ok() {
             return Ok(());
         }
-        let depth = |normal: &Vec3| {
-            let lowest = |i: usize, sign: f64| {
-                let Placement { position, gradient } = placements[i];
-                let height = sign * (position - placements[1].position).dot(normal);
-                surfaces[i].smallest_gap(&GapField::new(height, sign * gradient.tr_mul(normal))).0
-            };
-            -(lowest(0, 1.0) + lowest(1, -1.0))
+        let resolution: f64 = halves.iter().map(|half| half.side.least_gap).sum();
+        // The point of a body that is lowest along a way, from the centre of B.
+        let lowest = |i: usize, normal: &Vec3| {
+            let Placement { position, gradient } = placements[i];
+            let field = GapField::new(0.0, gradient.tr_mul(normal));
+            position - placements[1].position + gradient * surfaces[i].smallest_gap(&field).1
         };
-        // Points of a spiral, as evenly as may be, and the line of the centres.
-        let turn = PI * (3.0 - 5.0_f64.sqrt());
-        let spiral = (0..WAYS).map(|k| {
-            let z = 1.0 - (2 * k + 1) as f64 / WAYS as f64;
-            let (sin, cos) = libm::sincos(turn * k as f64);
-            let radius = (1.0 - z * z).sqrt();
-            Vec3::new(radius * cos, radius * sin, z)
+        let difference = |normal: &Vec3| lowest(1, &-normal) - lowest(0, normal);
+        let told = |normal: Vec3| (normal, difference(&normal).dot(&normal));
+        // Of bodies that touch, the line of the centres may be the way to the last digit.
+        let central = between.try_normalize(0.0).map(told);
+        let search = shortest_way(&difference);
+        // The search approaches a face between round bodies, and does not meet it.
+        let faces = search.into_iter().flat_map(|(way, _)| {
+            let of = [0, 1].map(|i| faces_along(surfaces[i], placements[i], if i == 0 { -way } else { way }));
+            let [above, below] = of;
+            above.into_iter().map(|normal| -normal).chain(below).map(told).collect::<Vec<_>>()
         });
-        let axes = [Vec3::x(), -Vec3::x(), Vec3::y(), -Vec3::y(), Vec3::z(), -Vec3::z()];
-        let ways = between.try_normalize(0.0).into_iter().chain(axes).chain(spiral);
-        let found = ways.map(|normal| Self { normal, depth: depth(&normal) });
-        let shortest = found.min_by(|one, other| one.depth.total_cmp(&other.depth));
-        match shortest {
-            // One of them separates the two.
-            Some(found) if found.depth < -halves.iter().map(|half| half.side.least_gap).sum::<f64>() => Ok(()),
-            found => Err(found.unwrap_or(Self { normal: Vec3::z(), depth: f64::NAN })),
-        }
+        let found = faces.chain(search).chain(central);
+        let shortest = found.min_by(|(_, one), (_, other)| one.total_cmp(other));
+        let (normal, depth) = shortest.unwrap_or((Vec3::z(), f64::NAN));
+        if depth < -resolution { Ok(()) } else { Err(Self { normal, depth, resolution }) }
     }
+}
+
+/// How near to a way the normals of faces are that are tried: the cosine of 26°.
+const NEAR: f64 = 0.9;
+/// Faces that are tried.
+const MOST_FACES: usize = 200;
+
+/// The normals of the flat faces of a body near a way, in space.
+fn faces_along(surface: &Surface, placement: &Placement, way: Vec3) -> Vec<Vec3> {
+    let Some(inverse) = placement.gradient.try_inverse() else { return Vec::new() };
+    let facets = surface.facets.triangles().map(|[a, b, c]| (b - a).cross(&(c - a)));
+    let disks = surface.patches.iter().filter_map(Patch::flat_normal).flat_map(|normal| [normal, -normal]);
+    let normals = facets.chain(disks).filter_map(|normal| inverse.tr_mul(&normal).try_normalize(0.0));
+    normals.filter(|normal| normal.dot(&way) > NEAR).take(MOST_FACES).collect()
 }

@@ -59,6 +59,19 @@ impl Patch {
         self.transformed(&Mat3::identity(), &Vec3::new(0.0, 0.0, by))
     }
 
+    /// The normal of a flat one, up to its sign.
+    pub(crate) fn flat_normal(&self) -> Option<Vec3> {
+        match &self.primitive {
+            Primitive::Disk(_) => Some(self.rotation.column(2).into_owned()),
+            Primitive::Sphere(_)
+            | Primitive::Hemisphere(_)
+            | Primitive::Ellipsoid(_)
+            | Primitive::CylinderWall(_)
+            | Primitive::ConeWall(_)
+            | Primitive::Torus(_) => None,
+        }
+    }
+
     /// Area [m²].
     pub fn area(&self) -> f64 {
         match &self.primitive {
