@@ -5,6 +5,7 @@ use gyration::{Inadmissible, Quantity};
 use gyration_ode::{Cause, Failure, Limit};
 use gyration_threads::{Interrupted, Interruption};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -173,9 +174,11 @@ impl Stop {
                 (
                     Reason::GapClosed,
                     format!("the plane between bodies {one:?} and {other:?} cannot be found"),
-                    "Their potential leaves the range of numbers, or the digits of their gap do not suffice: choose a \
-                     d0 nearer to the gaps, a smaller exponent, or give the contact a `reach`."
-                        .to_string(),
+                    hardly_forbidden(model, pair).unwrap_or_else(|| {
+                        "Their potential leaves the range of numbers, or the digits of their gap do not suffice: \
+                         choose a d0 nearer to the gaps, a smaller exponent, or give the contact a `reach`."
+                            .to_string()
+                    }),
                 )
             }
             Quantity::PairGap { pair } => {
@@ -183,9 +186,11 @@ impl Stop {
                 (
                     Reason::GapClosed,
                     format!("bodies {one:?} and {other:?} reach each other{}", in_brackets(left.value)),
-                    "The gap is too small for the digits of a number: raise an exponent, a coefficient or d0, or \
-                     reduce the speed."
-                        .to_string(),
+                    hardly_forbidden(model, pair).unwrap_or_else(|| {
+                        "The gap is too small for the digits of a number: raise an exponent, a coefficient or d0, or \
+                         reduce the speed."
+                            .to_string()
+                    }),
                 )
             }
             Quantity::SpringLength { spring } => (
@@ -257,6 +262,22 @@ impl Stop {
         };
         Self { time, reason, body: Some(body), what, advice }
     }
+}
+
+/// What to do about a pair whose repulsion does not forbid its sharper feature to touch, or only just does.
+fn hardly_forbidden(model: &Model, pair: usize) -> Option<String> {
+    let pair = &model.pairs()[pair];
+    let feature = pair.bodies.iter().filter_map(|body| model.bodies[*body].solid.shape.sharpest_feature()).max()?;
+    let (exponent, critical) = (pair.laws.repulsion.exponent, feature.critical_exponent());
+    let forbids = match exponent.partial_cmp(&critical)? {
+        Ordering::Less => "does not forbid",
+        Ordering::Equal => "only just forbids",
+        Ordering::Greater => return None,
+    };
+    Some(format!(
+        "A repulsion of exponent {exponent} {forbids} that they touch ({feature}): choose a larger exponent, more than \
+         {critical}; or raise a coefficient or d0, or reduce the speed."
+    ))
 }
 
 /// The gap, if the last attempt left one to tell.

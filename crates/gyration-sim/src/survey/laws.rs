@@ -1,7 +1,8 @@
 //! Whether a law forbids a shape to touch: its exponent against that of the sharpest feature.
 //!
-//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p. The table of 1 +
-//! p is that of `gyration::shape::Feature`. Source: `physics.md` §3.
+//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p; at ν = 1 + p only
+//! as ln d, so that a body that is fast enough comes nearer than the digits of a number tell. The table of 1 + p is that
+//! of `gyration::shape::Feature`. Source: `docs/theory-rigid.md`.
 
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::shape::Shape;
@@ -22,6 +23,8 @@ pub struct LawSurvey {
     pub acts: bool,
     /// Whether the law forbids touching; none for friction, which does not act along the normal.
     pub forbids_touching: Option<bool>,
+    /// Whether it only just does: the work against it grows as the logarithm of the gap.
+    pub only_just: bool,
 }
 
 impl LawSurvey {
@@ -32,13 +35,15 @@ impl LawSurvey {
         let acts = law.terms().iter().flatten().any(|term| term.coefficient != 0.0);
         let forbids = |critical: f64| (law.kind() != LawKind::Friction).then_some(acts && exponent >= critical);
         let critical = feature.map(|feature| feature.critical_exponent());
+        let forbids_touching = critical.and_then(forbids);
         Self {
             law: law.kind().name(),
             exponent,
             feature: feature.map(|feature| feature.name()),
             critical_exponent: critical,
             acts,
-            forbids_touching: critical.and_then(forbids),
+            forbids_touching,
+            only_just: forbids_touching == Some(true) && critical == Some(exponent),
         }
     }
 
@@ -50,6 +55,10 @@ impl LawSurvey {
         };
         match self.forbids_touching {
             _ if !self.acts => format!("{name:<10} has no strength: does nothing"),
+            Some(true) if self.only_just => format!(
+                "{name:<10} ν = {exponent} = {critical} ({feature}): forbids touching only just, by a logarithm of the gap; \
+                 a larger exponent forbids it"
+            ),
             Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
             Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
             None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),

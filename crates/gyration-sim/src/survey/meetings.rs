@@ -109,4 +109,35 @@ mod tests {
         let words = survey.text(&scene).unwrap();
         assert!(words.contains("meeting    a with b: gap 0.3 m at the start, felt within 2 m\n"), "{words}");
     }
+
+    /// The critical exponents of a corner, a rim and a smooth point are 3, 2.5 and 2.
+    #[test]
+    fn at_the_critical_exponent_a_law_only_just_forbids_touching() {
+        let shapes = [
+            ("box = { size = [0.2, 0.2, 0.2] }", 3.0, "vertex"),
+            ("cylinder = { radius = 0.1, height = 0.1 }", 2.5, "rim"),
+            ("ellipsoid = { semi_axes = [0.1, 0.1, 0.2] }", 2.0, "smooth point"),
+        ];
+        for (shape, critical, feature) in shapes {
+            let told = |nu: f64| {
+                let text = format!(
+                    "time = {{ end = 1, sample = 1 }}\nsupport = [{{ name = \"table\", plane = {{}} }}]\ncontact = [\
+                     {{ between = [\"a\", \"b\"], repulsion = {{ alpha = 1, nu = {nu}, d0 = 0.01 }} }},\
+                     {{ support = \"table\", body = \"a\", repulsion = {{ alpha = 1, nu = {nu}, d0 = 0.01 }} }}]\n\
+                     body = [{{ name = \"a\", shape = {{ {shape} }}, mass = 1, position = [0, 0, 1] }},\
+                     {{ name = \"b\", shape = {{ sphere = {{ radius = 0.1 }} }}, mass = 1, position = [0, 0, 2] }}]\n"
+                );
+                let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+                let survey = Survey::of(&scene).unwrap();
+                assert!(survey.meetings[0].forbids_touching && survey.bodies[0].supports[0].forbids_touching);
+                survey.text(&scene).unwrap()
+            };
+            // For the two bodies and for the plane alike.
+            let words = told(critical);
+            let line = format!("ν = {critical} = {critical} ({feature}): forbids touching only just");
+            assert_eq!(words.matches(&line).count(), 2, "{words}");
+            let words = told(critical + 0.25);
+            assert!(!words.contains("only just") && words.contains(": forbids touching\n"), "{words}");
+        }
+    }
 }
