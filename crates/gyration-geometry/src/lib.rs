@@ -15,8 +15,10 @@ mod obj;
 mod ply;
 mod ply_header;
 mod polygon;
+mod shells;
 mod stl;
 
 pub use fault::{FileFault, FilePlace, Trouble};
 pub use hull::{HullError, hull};
 pub use mesh::{MAX_MESH_BYTES, MeshError, parse_mesh, read_mesh};
+pub use shells::{ShellFault, Shells, doubly_enclosed};

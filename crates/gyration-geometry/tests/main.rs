@@ -4,3 +4,4 @@
 
 mod corpus;
 mod meshes;
+mod shells;
