@@ -11,6 +11,7 @@ mod drive_plots;
 mod export;
 mod full_disk;
 mod python;
+mod remarks;
 mod resistance;
 mod resume;
 mod run;

@@ -35,7 +35,9 @@ pub fn run(
     monitor.finish(py).map_err(|error| errors::interrupted(py, error, &how_to_go_on(&options, &path)))?;
     let told = done?;
     warn(py, options.output.as_ref().and_then(|_| leave_overview(&path)))?;
-    warn(py, told.as_ref().and_then(|told| told.warning.clone()))?;
+    for warning in told.iter().flat_map(|told| &told.warnings) {
+        warn(py, Some(warning.clone()))?;
+    }
     Recording::of_run(&path, kept, told.map(|told| told.summary))
 }
 
@@ -61,8 +63,8 @@ fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<T
 /// What the program would say of a run.
 struct Told {
     summary: String,
-    /// That its ledger is open.
-    warning: Option<String>,
+    /// What it leaves out, or cannot mean; that its ledger is open.
+    warnings: Vec<String>,
 }
 
 /// The run itself, and what is told of it; nothing if it had ended before.
@@ -87,7 +89,8 @@ fn record(scene: &Scene, options: &RecordOptions, path: &Path, monitor: &mut Ask
 
 fn told(scene: &Scene, path: &Path, summary: &RunSummary) -> PyResult<Told> {
     let start = Stored::open(path).and_then(|stored| summary.energies_at_start(&stored)).map_err(errors::record)?;
-    Ok(Told { summary: summary.text(scene, &start), warning: summary.ledger.warning() })
+    let warnings = summary.warnings.iter().cloned().chain(summary.ledger.warning()).collect();
+    Ok(Told { summary: summary.text(scene, &start), warnings })
 }
 
 /// What to do after Ctrl-C.

@@ -15,6 +15,7 @@ use crate::outcome::{Outcome, Reason};
 use crate::period::period;
 use crate::plan::RunPlan;
 use crate::ports::{Monitor, Progress, RunError, Sink, WindowEnd};
+use crate::remarks::{LeftOut, Remarks};
 use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
@@ -110,7 +111,7 @@ impl<'a> Job<'a> {
             let mut sink = RecordingSink { writer, flushed: Instant::now() };
             simulation.begin(&mut sink)?;
             sink.writer.flush(&simulation.checkpoint())?;
-            self.finish(simulation, sink, watch)
+            self.finish(path, simulation, sink, watch)
         })
     }
 
@@ -138,21 +139,34 @@ impl<'a> Job<'a> {
         self.interruption().within(|| {
             let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
             let sink = RecordingSink { writer: resumed.writer, flushed: Instant::now() };
-            self.finish(simulation, sink, watch)
+            self.finish(path, simulation, sink, watch)
         })
+    }
+
+    /// What must be told of the run before it begins.
+    pub fn remarks(&self) -> Remarks {
+        Remarks::at_start(self.model, self.start, self.plan.tolerance.rtol)
     }
 
     fn finish(
         &self,
+        path: &Path,
         mut simulation: Simulation,
         mut sink: RecordingSink,
         watch: &mut dyn Monitor,
     ) -> Result<RecordingEnd, RunError> {
         let began = Instant::now();
         let outcome = simulation.run(&mut sink, watch)?;
-        let summary = RunSummary::of(self.model, &mut simulation, outcome, Some(began.elapsed()));
+        let mut summary = RunSummary::of(self.model, &mut simulation, outcome, Some(began.elapsed()));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
+            summary.warnings = Remarks::without_fluid(self.model, self.start, self.plan.tolerance.rtol).warnings;
+            if LeftOut::may_be(self.model) {
+                // What came near is asked of the rows: they must be there.
+                sink.writer.flush(&checkpoint)?;
+                let left_out = LeftOut::in_rows(self.model, &Recording::open(path)?)?;
+                summary.warnings.extend(left_out.warnings(self.model));
+            }
             sink.writer.finish(summary.attributes(), &checkpoint)?;
         } else if simulation.is_whole() {
             sink.writer.flush(&checkpoint)?;
@@ -196,6 +210,10 @@ impl<'a> Job<'a> {
         attributes.insert("outlines".into(), surfaces.distinct().iter().map(|body| describe_outline(body)).collect());
         attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
+        let warnings = self.remarks().warnings;
+        if !warnings.is_empty() {
+            attributes.insert("warnings".into(), json!(warnings));
+        }
         attributes
     }
 }

@@ -12,6 +12,7 @@ mod partings;
 mod pressed;
 mod random;
 mod random_scenes;
+mod remarks;
 mod replay;
 mod run_loop;
 mod runs;

@@ -69,6 +69,8 @@ export interface Summary {
   energy_in_play?: number;
   least_dissipation?: Record<string, number>;
   events?: Record<string, number>;
+  /** What the run leaves out, or cannot mean. */
+  warnings?: string[];
   [other: string]: unknown;
 }
 

@@ -19,6 +19,7 @@ export function summaryPanel(recording: Recording): HTMLElement {
       "Outcome",
       h("p", { class: "outcome" }, outcomeInWords(recording)),
       openLedger(header),
+      ...warnings(header),
       events(header),
     ),
     ledgerSection(recording),
@@ -82,6 +83,12 @@ function notes({ notes, thinned }: Header): HTMLElement[] {
 function openLedger(header: Header): HTMLElement | null {
   const words = openLedgerInWords(header);
   return words ? h("p", { class: "note bad", role: "note" }, words) : null;
+}
+
+function warnings({ summary }: Header): HTMLElement[] {
+  return (summary?.warnings ?? []).map((words) =>
+    h("p", { class: "note bad", role: "note" }, `Warning: ${words}.`),
+  );
 }
 
 function events(header: Header): HTMLElement | null {

@@ -20,6 +20,11 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
         if !survey.meetings.is_empty() {
             value["meetings"] = json!(survey.meetings);
         }
+        for (name, told) in [("notes", &survey.remarks.notes), ("warnings", &survey.remarks.warnings)] {
+            if !told.is_empty() {
+                value[name] = json!(told);
+            }
+        }
         format!("{value:#}\n")
     } else {
         survey.text(&scene)?

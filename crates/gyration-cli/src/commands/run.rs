@@ -10,7 +10,7 @@ use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, RecordError, Recording, remove};
 use gyration_scene::Scene;
 use gyration_sim::{
-    Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, RunError, RunSummary, Simulation, Verdict,
+    Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, Remarks, RunError, RunSummary, Simulation, Verdict,
 };
 use gyration_threads::Threads;
 use serde_json::{Value, json};
@@ -27,6 +27,8 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     if let Some(threads) = arguments.threads {
         job.plan.threads = Some(Threads::asked(Some(threads.get()))?);
     }
+    let remarks = job.remarks();
+    tell_remarks(arguments, &remarks);
     let mut watch = RunProgress::new(!arguments.quiet)?;
     let ended = watch.interruption().within(|| {
         if arguments.resume {
@@ -49,7 +51,7 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     }
     match ended {
         Ended::Ran(summary) => {
-            tell(arguments, &scene, &path, &summary)?;
+            tell(arguments, &scene, &path, (&*summary, &remarks))?;
             Ok(exit_code(&summary))
         }
         Ended::AlreadyFinished(attributes) => {
@@ -115,7 +117,20 @@ fn make_room(arguments: &RunArguments, job: &Job, path: &Path) -> Result<(), Cli
     Ok(())
 }
 
-fn tell(arguments: &RunArguments, scene: &Scene, path: &Path, summary: &RunSummary) -> Result<(), CliError> {
+/// What must be told of the run before it begins.
+fn tell_remarks(arguments: &RunArguments, remarks: &Remarks) {
+    if !arguments.quiet {
+        remarks.notes.iter().for_each(|note| output::say(&format!("gyration: note: {note}")));
+    }
+    remarks.warnings.iter().for_each(|warning| output::say(&format!("gyration: warning: {warning}")));
+}
+
+fn tell(
+    arguments: &RunArguments,
+    scene: &Scene,
+    path: &Path,
+    (summary, before): (&RunSummary, &Remarks),
+) -> Result<(), CliError> {
     let start = summary.energies_at_start(&Recording::open(path)?)?;
     let picture = shown(&path.join(OVERVIEW));
     if arguments.json {
@@ -129,6 +144,9 @@ fn tell(arguments: &RunArguments, scene: &Scene, path: &Path, summary: &RunSumma
     } else if !arguments.quiet {
         output::say(&summary.text(scene, &start));
         output::say(&format!("recording  {}\npicture    {picture}", shown(path)));
+    }
+    for warning in summary.warnings.iter().filter(|warning| !before.warnings.contains(warning)) {
+        output::say(&format!("gyration: warning: {warning}"));
     }
     if let (Some(warning), true) = (summary.ledger.warning(), arguments.quiet || arguments.json) {
         output::say(&format!("gyration: warning: {warning}"));

@@ -39,6 +39,9 @@ pub struct RunSummary {
     pub smallest_gap: Option<f64>,
     /// How many events of each kind.
     pub events: Value,
+    /// What must be told of the run besides, its ledger apart; none before it is recorded to its end.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
 }
 
 /// One body at the end of a run.
@@ -63,7 +66,7 @@ pub struct BodySummary {
 
 impl RunSummary {
     /// The names of [`RunSummary::attributes`].
-    pub const ATTRIBUTES: [&str; 8] = [
+    pub const ATTRIBUTES: [&str; 9] = [
         "outcome",
         "outcome_in_words",
         "statistics",
@@ -72,6 +75,7 @@ impl RunSummary {
         "energy_in_play",
         "least_dissipation",
         "events",
+        "warnings",
     ];
 
     /// The summary of a run that has ended.
@@ -110,6 +114,7 @@ impl RunSummary {
             bodies,
             smallest_gap: Some(run_state.smallest_gap).filter(|gap| gap.is_finite()),
             events: Value::Object(events),
+            warnings: Vec::new(),
         }
     }
 
@@ -127,6 +132,9 @@ impl RunSummary {
             attributes.insert("least_dissipation".into(), Value::Object(entries.collect()));
         }
         attributes.insert("events".into(), self.events.clone());
+        if !self.warnings.is_empty() {
+            attributes.insert("warnings".into(), json!(self.warnings));
+        }
         attributes
     }
 }

@@ -9,7 +9,7 @@ const TRIALS_PER_DECADE: f64 = 25.0;
 const HALVINGS: usize = 60;
 
 /// Trial gaps [m], ascending.
-pub(super) struct TrialGaps {
+pub(crate) struct TrialGaps {
     least: f64,
     ratio: f64,
     /// How many steps the row has: one less than gaps.

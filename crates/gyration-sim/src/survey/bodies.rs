@@ -7,6 +7,7 @@ use super::meetings::MeetingSurvey;
 use super::modes::RestState;
 use super::rest::{Approach, RestGap};
 use super::springs::SpringSurvey;
+use crate::remarks::Remarks;
 use crate::resistance::completed;
 use gyration::body::Body;
 use gyration::model::Model;
@@ -28,6 +29,9 @@ pub struct Survey {
     pub springs: Vec<SpringSurvey>,
     /// The bodies that meet.
     pub meetings: Vec<MeetingSurvey>,
+    /// What must be told of the scene besides.
+    #[serde(flatten)]
+    pub remarks: Remarks,
 }
 
 /// What can be said of one body.
@@ -120,7 +124,12 @@ impl Survey {
         let scene = if deforms { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
         let bodies = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
-        Ok(Self { bodies, springs: SpringSurvey::all(model, start), meetings: MeetingSurvey::all(model, start) })
+        Ok(Self {
+            bodies,
+            springs: SpringSurvey::all(model, start),
+            meetings: MeetingSurvey::all(model, start),
+            remarks: Remarks::at_start(model, start, scene.built().plan.rtol),
+        })
     }
 }
 

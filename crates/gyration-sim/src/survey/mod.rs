@@ -7,7 +7,7 @@
 //!
 //! Nothing here steps in time, and nothing is written anywhere.
 
-mod balance;
+pub(crate) mod balance;
 mod bodies;
 mod contraction;
 mod crowd;

@@ -6,6 +6,7 @@ use super::meetings::write_meetings;
 use super::springs::write_springs;
 use super::words::write_body;
 use crate::format::vector;
+use gyration_scene::units::shown;
 use gyration_scene::{NotToml, Scene};
 use std::fmt::Write as _;
 
@@ -37,9 +38,10 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
     let plan = &built.plan;
     let mut text = format!("{}\n\n", scene.title());
     let _ = writeln!(text, "gravity    {} m/s²", vector(&built.model.gravity.into()));
-    let _ = writeln!(text, "time       to {} s, a sample every {} s", plan.end, plan.sample);
+    let _ = writeln!(text, "time       to {} s, a sample every {} s", shown(plan.end), shown(plan.sample));
     if let Some(rest) = &plan.stop_at_rest {
-        let _ = writeln!(text, "           ends early if slower than {} m/s for {} s", rest.speed, rest.hold);
+        let (speed, hold) = (shown(rest.speed), shown(rest.hold));
+        let _ = writeln!(text, "           ends early if slower than {speed} m/s for {hold} s");
     }
     let _ = writeln!(text, "solver     rtol {:e}, atol {:e}", plan.rtol, plan.atol);
     for support in built.model.supports.iter() {
@@ -48,6 +50,12 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
     }
     write_springs(&mut text, &survey.springs);
     write_meetings(&mut text, &survey.meetings);
+    for note in &survey.remarks.notes {
+        let _ = writeln!(text, "note       {note}");
+    }
+    for warning in &survey.remarks.warnings {
+        let _ = writeln!(text, "warning    {warning}");
+    }
     if survey.bodies.len() > MOST_BODIES {
         write_crowd(&mut text, &survey.bodies);
         return text;

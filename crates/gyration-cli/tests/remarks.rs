@@ -1,0 +1,38 @@
+//! What the program says of scenes that run all the same: `check` in its text, `run` on stderr, both in JSON.
+
+use crate::common::{Sandbox, assert_same_bytes};
+use serde_json::Value;
+
+/// Two balls in a fluid; or, without it, two balls that no contact joins.
+fn balls(distance: f64, inclusion: &str, head: &str) -> String {
+    let ball = |name: &str, x: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.005 }} }}\ndensity = 2500\n\
+             position = [{x:?}, 0, 1]\n{inclusion}\n"
+        )
+    };
+    format!("[time]\nend = 0.01\nsample = 0.005\n{head}{}{}", ball("a", 0.0), ball("b", distance))
+}
+
+#[test]
+fn a_note_is_told_and_a_warning_stands_in_the_recording() {
+    let sandbox = Sandbox::new();
+    sandbox.write("apart.toml", &balls(0.1, "", ""));
+    let note = "\"a\" and \"b\" do not meet: no contact says so";
+    assert!(sandbox.done(&["check", "apart.toml"]).stdout.contains(&format!("\nnote       {note}\n")));
+    let said = sandbox.done(&["run", "apart.toml"]);
+    assert!(said.stderr.contains(&format!("gyration: note: {note}\n")) && !said.stderr.contains("warning"));
+    assert_eq!(sandbox.done(&["run", "apart.toml", "--quiet", "-o", "quiet.gyr"]).stderr, "");
+    let fluid = "[fluid]\nviscosity = 1.0\ndensity = 1000\n";
+    sandbox.write("fluid.toml", &balls(0.0105, "inclusion = { inertia = false }", fluid));
+    let told = sandbox.done(&["check", "fluid.toml", "--json"]).stdout;
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let warning = told["warnings"][0].as_str().unwrap();
+    assert!(warning.contains("the fluid between") && warning.contains("1.54"), "{warning}");
+    let said = sandbox.done(&["run", "fluid.toml", "--quiet"]);
+    assert!(said.stderr.contains(&format!("gyration: warning: {warning}\n")), "{}", said.stderr);
+    let summary = sandbox.done(&["run", "fluid.toml", "--json", "-o", "again.gyr"]).stdout;
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    assert!(summary["warnings"][0].as_str().unwrap().contains("the fluid between"), "{summary}");
+    assert_same_bytes(&sandbox.path("fluid.gyr"), &sandbox.path("again.gyr"));
+}

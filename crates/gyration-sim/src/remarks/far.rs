@@ -1,0 +1,38 @@
+//! Bodies so far from the origin that the digits of their places do not tell the gaps at which they meet.
+
+use super::trial::TrialPair;
+use crate::format::significant;
+use gyration::model::Model;
+use gyration::state::State;
+
+/// What the gap of a pair is known to, in parts of the distance from the origin: places are numbers of sixteen digits.
+/// Gaps that are differences in twice the digits would have the square of it.
+const DIGIT: f64 = f64::EPSILON;
+/// In so many tolerances an error of the energy is told: as of the ledger.
+const MARGIN: f64 = 100.0;
+/// Distances from the origin, in sizes, that are not looked at.
+const NEAR: f64 = 1e3;
+/// Pairs that are looked at.
+const MOST_PAIRS: usize = 20;
+
+/// What must be told of the pair that is farthest from the origin, to be run with this relative tolerance.
+pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String> {
+    let place = |body: usize| start.motion(model, body).placement.position.norm();
+    let far = |body: usize| place(body) > NEAR * model.bodies[body].size;
+    let mut pairs = model.pairs().iter().filter(|pair| pair.bodies.iter().any(|body| far(*body))).take(MOST_PAIRS);
+    pairs.find_map(|pair| {
+        let distance = place(pair.bodies[0]).max(place(pair.bodies[1]));
+        let gap = TrialPair::of(model, start, pair).turning_gap()?;
+        // A repulsion d^−ν turns the rounding of a gap into so much of its energy.
+        let error = pair.laws.repulsion.exponent * DIGIT * distance / gap;
+        if error <= MARGIN * rtol {
+            return None;
+        }
+        let [one, other] = pair.bodies.map(|body| &model.bodies[body].name);
+        let (distance, gap, digit) = (significant(distance, 3), significant(gap, 2), DIGIT * distance);
+        Some(format!(
+            "\"{one}\" and \"{other}\" are {distance} m from the origin, where places are known to {digit:.1e} m, and \
+             turn back at a gap of about {gap} m: move all bodies and supports nearer to the origin"
+        ))
+    })
+}

@@ -1,0 +1,210 @@
+//! What the fluid between inclusions, and between one and a support, would do: nothing of it is computed.
+//!
+//! Each inclusion moves as if it were alone in the fluid. For two equal rigid spheres and for one above a plane it is
+//! known how much that leaves out (`neighbor`); of other bodies, R being half the largest diameter, the
+//! first term tells its size: 1 + 3R/2r of the speed at a distance r of the centres, 1/(1 − 9R/8h) of the drag at a
+//! height h above a plane.
+
+use super::nearby::{Ball, overlapping};
+use super::neighbor::{pair_speed_ratio, plane_drag_ratio};
+use crate::format::significant;
+use gyration::body::BodyKind;
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::Vec3;
+use gyration_record::{RecordError, Recording};
+
+/// Within so many radii a neighbour is told: beyond, it changes less than a seventh.
+const NEAR: f64 = 10.0;
+/// The height, in radii, below which the first term of a plane tells nothing.
+const LEAST_HEIGHT: f64 = 1.2;
+
+/// Rows that are looked at.
+const MOST_ROWS: usize = 10_000;
+/// Places of bodies that are read at once.
+const MOST_NUMBERS: usize = 300_000;
+
+/// A neighbour in the fluid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Near {
+    time: f64,
+    body: usize,
+    /// A body or a support.
+    other: usize,
+    /// Between the centres, or from the centre to the plane [m].
+    distance: f64,
+    /// How many times the speed, or the drag, of one alone.
+    ratio: f64,
+    /// Whether that is the first term alone.
+    is_rough: bool,
+}
+
+/// What is left out of the fluid: of all neighbours the ones that matter most.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct LeftOut {
+    pair: Option<Near>,
+    plane: Option<Near>,
+    /// How many pairs of inclusions were near each other at a time.
+    pairs: usize,
+    /// How many inclusions were near a support at a time.
+    planes: usize,
+}
+
+impl LeftOut {
+    /// What is left out in a state.
+    pub(crate) fn at(model: &Model, state: &State) -> Self {
+        let position = |body: usize| state.motion(model, body).placement.position;
+        let positions: Vec<Vec3> = (0..model.bodies.len()).map(position).collect();
+        let mut left_out = Self::default();
+        left_out.note(model, state.time, &positions);
+        left_out
+    }
+
+    /// What is left out at the rows of a recording of the model; of very many, at some of them.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub(crate) fn in_rows(model: &Model, recording: &Recording) -> Result<Self, RecordError> {
+        let mut left_out = Self::default();
+        let rows = recording.rows();
+        let chunk = (MOST_NUMBERS / model.bodies.len().max(1)).max(1);
+        let stride = rows.div_ceil(MOST_ROWS).max(1);
+        for first in (0..rows).step_by(chunk) {
+            let range = first..(first + chunk).min(rows);
+            let times = recording.read_rows("time", range.clone())?.data;
+            let places = recording.read_rows("position", range)?.data;
+            for (row, (time, row_places)) in times.iter().zip(places.chunks_exact(3 * model.bodies.len())).enumerate() {
+                if (first + row) % stride == 0 || first + row + 1 == rows {
+                    let positions: Vec<Vec3> = row_places.chunks_exact(3).map(Vec3::from_column_slice).collect();
+                    left_out.note(model, *time, &positions);
+                }
+            }
+        }
+        Ok(left_out)
+    }
+
+    /// Whether a model may leave anything out.
+    pub(crate) fn may_be(model: &Model) -> bool {
+        let immersed = || model.bodies.iter().filter(|body| body.inclusion.is_some());
+        model.fluid.is_some() && (immersed().nth(1).is_some() || immersed().any(|body| !body.contacts.is_empty()))
+    }
+
+    /// Notes the bodies at a time, each with its centre.
+    pub(crate) fn note(&mut self, model: &Model, time: f64, positions: &[Vec3]) {
+        if model.fluid.is_none() {
+            return;
+        }
+        let inclusions = model.bodies.iter().zip(positions).enumerate();
+        let inclusions =
+            inclusions.filter(|(_, (body, place))| body.inclusion.is_some() && place.iter().all(|c| c.is_finite()));
+        let radius = |body: usize| 0.5 * model.bodies[body].size;
+        let ball = |(body, (_, center)): (usize, (_, &Vec3))| Ball {
+            body,
+            center: *center,
+            radius: 0.5 * NEAR * radius(body),
+        };
+        let mut balls: Vec<Ball> = inclusions.map(ball).collect();
+        let (mut pairs, mut planes) = (0, 0);
+        for ball in &balls {
+            let mut supports: Vec<usize> = model.bodies[ball.body].contacts.iter().map(|it| it.support()).collect();
+            supports.sort_unstable();
+            supports.dedup();
+            for support in supports {
+                let height = model.supports[support].gap(&ball.center, time);
+                if height < NEAR * radius(ball.body) {
+                    planes += 1;
+                    largest(&mut self.plane, above(model, ball.body, (support, height), time));
+                }
+            }
+        }
+        overlapping(&mut balls, |one, other| {
+            pairs += 1;
+            let distance = (one.center - other.center).norm();
+            largest(&mut self.pair, beside(model, [one.body, other.body], distance, time));
+            true
+        });
+        self.pairs = self.pairs.max(pairs);
+        self.planes = self.planes.max(planes);
+    }
+
+    /// What must be told of it.
+    pub(crate) fn warnings(&self, model: &Model) -> Vec<String> {
+        let mut told = Vec::new();
+        let when = |near: &Near| match near.time > 0.0 {
+            true => format!(" at t = {} s", significant(near.time, 5)),
+            false => " at the start".to_owned(),
+        };
+        let about = |near: &Near| if near.is_rough { "about " } else { "" };
+        let name = |body: usize| &model.bodies[body].name;
+        if let Some(near) = &self.pair {
+            let (distance, ratio) = (significant(near.distance, 4), significant(near.ratio, 3));
+            let more = match self.pairs {
+                0 | 1 => String::new(),
+                pairs => format!("; so of {pairs} pairs of inclusions within {NEAR} radii"),
+            };
+            told.push(format!(
+                "the fluid between \"{}\" and \"{}\" is left out: {distance} m apart{}, they would move along their line \
+                 {}{ratio} times as fast{more}",
+                name(near.body),
+                name(near.other),
+                when(near),
+                about(near)
+            ));
+        }
+        if let Some(near) = &self.plane {
+            let (height, ratio) = (significant(near.distance, 4), significant(near.ratio, 3));
+            let more = match self.planes {
+                0 | 1 => String::new(),
+                planes => format!("; so of {planes} inclusions within {NEAR} radii of a support"),
+            };
+            told.push(format!(
+                "the fluid between \"{}\" and the support \"{}\" is left out: with the centre {height} m above it{}, the \
+                 drag towards it would be {}{ratio} times as large{more}",
+                name(near.body),
+                model.supports[near.other].name,
+                when(near),
+                about(near)
+            ));
+        }
+        told
+    }
+}
+
+/// Keeps the neighbour that matters more, the first of those that matter alike.
+fn largest(kept: &mut Option<Near>, near: Near) {
+    if kept.is_none_or(|kept| near.ratio > kept.ratio) {
+        *kept = Some(near);
+    }
+}
+
+/// Whether a body is a rigid sphere.
+fn is_ball(model: &Model, body: usize) -> bool {
+    let body = &model.bodies[body];
+    matches!(body.kind, BodyKind::Rigid(_))
+        && body.solid.surface.as_ref().is_some_and(|surface| surface.ball().is_some())
+}
+
+/// Two inclusions beside each other.
+fn beside(model: &Model, bodies: [usize; 2], distance: f64, time: f64) -> Near {
+    let radii = bodies.map(|body| 0.5 * model.bodies[body].size);
+    let radius = radii[0].max(radii[1]);
+    let are_equal = (radii[0] - radii[1]).abs() <= 1e-9 * radius && bodies.iter().all(|body| is_ball(model, *body));
+    let is_rough = !are_equal || distance <= 2.0 * radius;
+    // Nearer than in touch the first term means nothing more.
+    let ratio = match is_rough {
+        true => 1.0 + 1.5 * radius / distance.max(radii[0] + radii[1]),
+        false => pair_speed_ratio(distance / radius),
+    };
+    Near { time, body: bodies[0], other: bodies[1], distance, ratio, is_rough }
+}
+
+/// An inclusion above a support.
+fn above(model: &Model, body: usize, (support, height): (usize, f64), time: f64) -> Near {
+    let radius = 0.5 * model.bodies[body].size;
+    let is_rough = !is_ball(model, body) || height <= radius;
+    let ratio = match is_rough {
+        true => 1.0 / (1.0 - 9.0 / (8.0 * (height / radius).max(LEAST_HEIGHT))),
+        false => plane_drag_ratio(height / radius),
+    };
+    Near { time, body, other: support, distance: height, ratio, is_rough }
+}

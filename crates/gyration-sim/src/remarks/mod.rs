@@ -1,0 +1,51 @@
+//! What a user must be told of a scene that runs all the same: what it leaves out, and what it cannot mean.
+//!
+//! A note is worth a line; a warning says that the answer may not be the one that was asked for. Nothing here changes a
+//! run, and all of it takes a time that grows as the number of bodies.
+
+mod far;
+mod fluid;
+mod meshes;
+mod nearby;
+mod neighbor;
+mod reaches;
+mod stored;
+mod strangers;
+mod trial;
+
+pub(crate) use fluid::LeftOut;
+
+use gyration::model::Model;
+use gyration::state::State;
+use serde::Serialize;
+
+/// Notes and warnings, a line each.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Remarks {
+    /// What is as it was asked for, and may not be meant.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// What makes the answer another than that of the question.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+}
+
+impl Remarks {
+    /// Those of a model in its first state, which is to be run with this relative tolerance.
+    pub fn at_start(model: &Model, start: &State, rtol: f64) -> Self {
+        let mut remarks = Self::without_fluid(model, start, rtol);
+        remarks.warnings.extend(LeftOut::at(model, start).warnings(model));
+        remarks
+    }
+
+    /// The same without what the fluid between bodies would do.
+    pub(crate) fn without_fluid(model: &Model, start: &State, rtol: f64) -> Self {
+        let mut remarks = Self::default();
+        strangers::remark(model, start, &mut remarks);
+        remarks.warnings.extend(meshes::warnings(model));
+        remarks.warnings.extend(stored::warning(model, start));
+        remarks.warnings.extend(reaches::warnings(model, start));
+        remarks.warnings.extend(far::warning(model, start, rtol));
+        remarks
+    }
+}

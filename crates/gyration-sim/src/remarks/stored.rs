@@ -1,0 +1,106 @@
+//! Energy that contacts store at the start and that dwarfs all other: bodies that begin too near are shot apart.
+
+use super::trial::stored;
+use crate::format::significant;
+use crate::survey::Approach;
+use gyration::body::Body;
+use gyration::contact::{ContactLaw, LawKind};
+use gyration::model::Model;
+use gyration::pair::Pair;
+use gyration::state::{BodyMotion, State};
+use gyration::tensor::{Mat3, Vec3};
+
+/// So many times all other energy is no start that was meant.
+const DWARFS: f64 = 1e3;
+/// The gap, in sizes, below which energy is told where there is no other to compare it with.
+const TINY: f64 = 1e-6;
+/// Pairs whose energy is looked at.
+const MOST_PAIRS: usize = 10_000;
+
+/// What must be told of the contact that stores most.
+pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
+    let pairs = model.pairs().iter().take(MOST_PAIRS).filter_map(|pair| Near::of_pair(model, start, pair));
+    let bodies = model.bodies.iter().enumerate().filter(|(_, body)| !body.contacts.is_empty()).take(MOST_PAIRS);
+    let planes = bodies.flat_map(|(index, _)| {
+        (0..model.supports.len()).filter_map(move |support| Near::of_support(model, start, (index, support)))
+    });
+    let most = pairs.chain(planes).max_by(|one, other| one.energy.total_cmp(&other.energy))?;
+    let bodies = || most.bodies.iter().flatten();
+    let other: f64 = bodies().map(|body| other_energy(model, start, *body)).sum();
+    let size = bodies().map(|body| model.bodies[*body].size).fold(f64::INFINITY, f64::min);
+    let dwarfs = if other > 0.0 { most.energy > DWARFS * other } else { most.gap < TINY * size };
+    if !dwarfs {
+        return None;
+    }
+    let (energy, gap) = (significant(most.energy, 3), significant(most.gap, 3));
+    let times = match other > 0.0 {
+        true => format!(", {} times all other energy there", significant(most.energy / other, 2)),
+        false => String::new(),
+    };
+    Some(format!(
+        "{} begin {gap} m apart, and the contact between them stores {energy} J{times}: they are shot apart",
+        most.names
+    ))
+}
+
+/// Two that meet, with what their repulsion stores.
+struct Near {
+    names: String,
+    /// The bodies among them.
+    bodies: [Option<usize>; 2],
+    gap: f64,
+    energy: f64,
+}
+
+impl Near {
+    /// A pair at the start, unless its balls are farther apart than they are large.
+    fn of_pair(model: &Model, start: &State, pair: &Pair) -> Option<Self> {
+        let bodies: [&Body; 2] = pair.bodies.map(|body| &*model.bodies[body]);
+        let motions: [BodyMotion; 2] = pair.bodies.map(|body| start.motion(model, body));
+        let between = motions[0].placement.position - motions[1].placement.position;
+        let reach = |end: usize| {
+            let surface = bodies[end].solid.part(pair.parts[end]);
+            surface.fastest_point(&Vec3::zeros(), &motions[end].placement.gradient)
+        };
+        if between.norm() > 2.0 * (reach(0) + reach(1)) {
+            return None;
+        }
+        let loads = stored(pair, bodies, &motions)?;
+        let names = format!("\"{}\" and \"{}\"", bodies[0].name, bodies[1].name);
+        Some(Self { names, bodies: pair.bodies.map(Some), gap: loads.gap, energy: loads.energy })
+    }
+
+    /// A body and a support at the start.
+    fn of_support(model: &Model, start: &State, (body, support): (usize, usize)) -> Option<Self> {
+        let approach = Approach::new(model, start, body, support)?;
+        let laws = model.bodies[body].contacts.iter().filter(|contact| contact.support() == support);
+        let laws = laws.flat_map(|contact| contact.law_set.laws());
+        let exponent = laws.filter(|law| law.kind() == LawKind::Repulsion).map(ContactLaw::leading_exponent);
+        let exponent = exponent.fold(1.0, f64::max);
+        let gap = approach.initial_gap;
+        if exponent <= 1.0 || gap > approach.size() {
+            return None;
+        }
+        // Of a face the force F ∝ d^−ν stores F d/(ν − 1), of what is sharper a little more.
+        let energy = approach.force(gap)? * gap / (exponent - 1.0);
+        let names = format!("\"{}\" and the support \"{}\"", model.bodies[body].name, model.supports[support].name);
+        Some(Self { names, bodies: [Some(body), None], gap, energy })
+    }
+}
+
+/// Kinetic energy of a body, its weight over its size, and the energy of its material at a strain of a half [J].
+fn other_energy(model: &Model, start: &State, body: usize) -> f64 {
+    let BodyMotion { velocity, .. } = start.motion(model, body);
+    let body = &model.bodies[body];
+    let mass = &body.solid.mass;
+    let rate = &velocity.gradient_rate;
+    let spin = 0.5 * (rate * mass.euler_tensor * rate.transpose()).trace();
+    let kinetic = 0.5 * mass.mass * velocity.velocity.norm_squared() + spin;
+    let weight = mass.mass * model.gravity.norm() * body.size;
+    let elastic = body.affine().and_then(|affine| {
+        let material = affine.interior.material.as_ref()?;
+        let strained = Mat3::from_diagonal(&Vec3::new(1.5, 1.0, 1.0 / 1.5));
+        Some(affine.interior.volume * material.response(&strained).energy.abs())
+    });
+    kinetic + weight + elastic.unwrap_or(0.0)
+}

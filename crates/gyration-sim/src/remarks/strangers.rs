@@ -1,0 +1,144 @@
+//! Bodies between which no contact stands: they pass through each other.
+
+use super::Remarks;
+use super::nearby::{Ball, overlapping};
+use gyration::body::{Body, BodyKind};
+use gyration::model::Model;
+use gyration::pair::Overlap;
+use gyration::state::{BodyMotion, State};
+use gyration::tensor::{Mat3, Vec3};
+use std::collections::HashSet;
+
+/// Pairs whose overlap is computed.
+const MOST_COMPUTED: usize = 2_000;
+/// Pinned bodies whose pairs are looked at one by one.
+const MOST_PINNED: usize = 300;
+
+/// Says which bodies do not meet; warns of those that overlap.
+pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
+    let solid: Vec<usize> =
+        (0..model.bodies.len()).filter(|body| model.bodies[*body].solid.surface.is_some()).collect();
+    let sorted = |[one, other]: [usize; 2]| if one < other { [one, other] } else { [other, one] };
+    let mut known: HashSet<[usize; 2]> = model.pairs().iter().map(|pair| sorted(pair.bodies)).collect();
+    let all = solid.len() * solid.len().saturating_sub(1) / 2;
+    if known.len() >= all {
+        return;
+    }
+    let meeting = known.len();
+    known.extend(apart_for_ever(model, &solid));
+    let strangers = all.saturating_sub(known.len());
+    let Some([one, other]) = first_stranger(&solid, &known) else { return };
+    let name = |body: usize| &model.bodies[body].name;
+    let who = match (strangers, meeting) {
+        (1, _) => format!("\"{}\" and \"{}\" do not meet", name(one), name(other)),
+        (_, 0) if strangers == all => format!("the {} bodies do not meet one another", solid.len()),
+        _ => format!(
+            "{strangers} of {all} pairs of bodies do not meet, \"{}\" and \"{}\" among them",
+            name(one),
+            name(other)
+        ),
+    };
+    // What a spring joins may overlap: links of a chain.
+    known.extend(model.bonds().iter().map(|bond| sorted(bond.bodies)));
+    let told = format!("{who}: no contact says so");
+    match Overlapping::among(model, start, &solid, &known) {
+        Some(found) => remarks.warnings.push(format!("{told}, and {}", found.in_words(model, strangers == 1))),
+        None => remarks.notes.push(told),
+    }
+}
+
+/// Strangers that overlap at the start.
+struct Overlapping {
+    first: [usize; 2],
+    depth: f64,
+    count: usize,
+    /// Whether there may be more.
+    has_more: bool,
+}
+
+impl Overlapping {
+    /// Those of some bodies, but for pairs that are known.
+    fn among(model: &Model, start: &State, solid: &[usize], known: &HashSet<[usize; 2]>) -> Option<Self> {
+        // Of what is not convex the hull tells nothing.
+        let convex = solid.iter().filter(|body| model.bodies[**body].solid.shape.check_convex().is_ok());
+        let mut balls: Vec<Ball> = convex.map(|body| ball(model, start, *body)).collect();
+        let mut found: Option<Self> = None;
+        let mut computed = 0;
+        let is_whole = overlapping(&mut balls, |one, other| {
+            let bodies = [one.body, other.body];
+            if known.contains(&bodies) {
+                return true;
+            }
+            computed += 1;
+            if let Some(depth) = depth(model, start, bodies) {
+                found.get_or_insert(Self { first: bodies, depth, count: 0, has_more: false }).count += 1;
+            }
+            computed < MOST_COMPUTED
+        });
+        found.map(|found| Self { has_more: !is_whole, ..found })
+    }
+
+    /// In words, after the two have been named if they are the only strangers.
+    fn in_words(&self, model: &Model, is_only: bool) -> String {
+        let depth = crate::format::significant(self.depth, 3);
+        if self.count == 1 && !self.has_more {
+            let [one, other] = self.first.map(|body| &model.bodies[body].name);
+            let who = if is_only { "they".to_owned() } else { format!("\"{one}\" and \"{other}\"") };
+            return format!("{who} overlap at the start, by {depth} m");
+        }
+        let [one, other] = self.first.map(|body| &model.bodies[body].name);
+        let least = if self.has_more { "at least " } else { "" };
+        format!("{least}{} pairs overlap at the start, \"{one}\" and \"{other}\" by {depth} m", self.count)
+    }
+}
+
+/// The ball around a body about its centre of mass.
+fn ball(model: &Model, start: &State, body: usize) -> Ball {
+    let placement = start.motion(model, body).placement;
+    let radius = model.bodies[body].solid.surface.as_ref();
+    // |P X| is the speed of X under the gradient rate P.
+    let radius = radius.map_or(0.0, |surface| surface.fastest_point(&Vec3::zeros(), &placement.gradient));
+    Ball { body, center: placement.position, radius }
+}
+
+/// How far two bodies reach into each other, if any of their parts do [m].
+fn depth(model: &Model, start: &State, bodies: [usize; 2]) -> Option<f64> {
+    let motions: [BodyMotion; 2] = bodies.map(|body| start.motion(model, body));
+    let solids = bodies.map(|body| &model.bodies[body].solid);
+    let parts =
+        (0..solids[0].count_parts()).flat_map(|one| (0..solids[1].count_parts()).map(move |other| [one, other]));
+    let overlaps = parts.filter_map(|[one, other]| {
+        let surfaces = [solids[0].part(one), solids[1].part(other)];
+        Overlap::check(surfaces, motions.each_ref().map(|motion| &motion.placement)).err()
+    });
+    overlaps.filter(|overlap| !overlap.touches()).map(|overlap| overlap.depth).max_by(f64::total_cmp)
+}
+
+/// Pairs of rigid bodies that pins keep apart.
+fn apart_for_ever(model: &Model, solid: &[usize]) -> Vec<[usize; 2]> {
+    let reach = |body: &Body| {
+        let pin = body.pin.filter(|_| matches!(body.kind, BodyKind::Rigid(_)))?;
+        // The farthest point from the pin is the fastest of a unit gradient rate that leaves the pin at rest.
+        let farthest = body.solid.surface.as_ref()?.fastest_point(&-pin.point, &Mat3::identity());
+        Some((pin.anchor, farthest))
+    };
+    let pinned = solid.iter().filter_map(|body| Some((*body, reach(&model.bodies[*body])?)));
+    let pinned: Vec<(usize, (Vec3, f64))> = pinned.take(MOST_PINNED).collect();
+    let mut apart = Vec::new();
+    for (place, (one, (anchor, reach))) in pinned.iter().enumerate() {
+        for (other, (other_anchor, other_reach)) in &pinned[place + 1..] {
+            if (anchor - other_anchor).norm() > reach + other_reach {
+                apart.push([*one, *other]);
+            }
+        }
+    }
+    apart
+}
+
+/// The first two bodies that are not known to meet or to stay apart.
+fn first_stranger(solid: &[usize], known: &HashSet<[usize; 2]>) -> Option<[usize; 2]> {
+    let pairs =
+        solid.iter().enumerate().flat_map(|(place, one)| solid[place + 1..].iter().map(move |two| [*one, *two]));
+    // There are no more known ones to pass.
+    pairs.take(known.len() + 1).find(|pair| !known.contains(pair))
+}

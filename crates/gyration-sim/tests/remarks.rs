@@ -1,0 +1,166 @@
+//! What is told of scenes that run all the same: in the survey, and in the recording of a run.
+
+use crate::runs::provenance;
+use gyration_record::Recording;
+use gyration_scene::Scene;
+use gyration_sim::survey::Survey;
+use gyration_sim::{Job, Remarks, Unwatched};
+use std::path::Path;
+
+const HEAD: &str = "[world]\ngravity = [0, 0, 0]\n[time]\nend = 0.01\nsample = 0.005\n";
+const REPULSION: &str = "repulsion = { alpha = 100, nu = 6, d0 = 1e-3 }\n";
+
+fn ball(name: &str, radius: f64, lines: &str) -> String {
+    format!("[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = {radius} }} }}\nmass = 1\n{lines}\n")
+}
+
+fn at(x: f64) -> String {
+    format!("position = [{x:?}, 0, 0]\n")
+}
+
+fn between(one: &str, other: &str, lines: &str) -> String {
+    format!("[[contact]]\nbetween = [\"{one}\", \"{other}\"]\n{REPULSION}{lines}\n")
+}
+
+fn scene(text: &str) -> Scene {
+    Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+fn remarks(text: &str) -> Remarks {
+    Survey::of(&scene(text)).unwrap().remarks
+}
+
+/// The warnings that a recording of the scene has at its end.
+fn recorded(text: &str) -> Vec<String> {
+    let (scene, folder) = (scene(text), tempfile::tempdir().unwrap());
+    let path = folder.path().join("run.gyr");
+    Job::of(&scene, &provenance()).record(&path, &mut Unwatched).unwrap();
+    let warnings = Recording::open(&path).unwrap().attributes().get("warnings").cloned();
+    warnings.map(|warnings| serde_json::from_value(warnings).unwrap()).unwrap_or_default()
+}
+
+#[test]
+fn bodies_that_no_contact_joins_are_told_in_one_line() {
+    let [a, b, c] = ["a", "b", "c"].map(|name| ball(name, 0.02, &at(f64::from(name.as_bytes()[0]) - 97.0)));
+    let alone = remarks(&format!("{HEAD}{a}"));
+    assert_eq!(alone, Remarks::default());
+    let two = remarks(&format!("{HEAD}{a}{b}"));
+    assert_eq!(two.notes, ["\"a\" and \"b\" do not meet: no contact says so"]);
+    assert!(two.warnings.is_empty() && recorded(&format!("{HEAD}{a}{b}")).is_empty());
+    let three = remarks(&format!("{HEAD}{a}{b}{c}"));
+    assert_eq!(three.notes, ["the 3 bodies do not meet one another: no contact says so"]);
+    let one_of_three = remarks(&format!("{HEAD}{a}{b}{c}{}", between("a", "c", "")));
+    assert_eq!(
+        one_of_three.notes,
+        ["2 of 3 pairs of bodies do not meet, \"a\" and \"b\" among them: no contact says so"]
+    );
+    let all = format!("{HEAD}{a}{b}{c}{}{}{}", between("a", "b", ""), between("a", "c", ""), between("b", "c", ""));
+    assert_eq!(remarks(&all), Remarks::default());
+}
+
+#[test]
+fn bodies_without_a_contact_that_overlap_are_warned_of() {
+    let (a, b) = (ball("a", 0.02, &at(0.0)), ball("b", 0.02, &at(0.03)));
+    let found = remarks(&format!("{HEAD}{a}{b}"));
+    let told = "\"a\" and \"b\" do not meet: no contact says so, and they overlap at the start, by 0.01 m";
+    assert_eq!((found.notes.len(), &found.warnings[..]), (0, &[told.to_owned()][..]));
+    assert_eq!(recorded(&format!("{HEAD}{a}{b}")), found.warnings);
+    // A spring joins the links of a chain, which may overlap.
+    let spring = "[[spring]]\nbetween = [\"a\", \"b\"]\nstiffness = 1\n";
+    assert!(remarks(&format!("{HEAD}{a}{b}{spring}")).warnings.is_empty());
+    // In touch they do not overlap.
+    let touching = remarks(&format!("{HEAD}{a}{}", ball("b", 0.02, &at(0.04))));
+    assert_eq!((touching.notes.len(), touching.warnings.len()), (1, 0));
+    // Of many, the line counts.
+    let crowd: String = (0..60).map(|k| ball(&format!("b{k}"), 0.02, &at(0.03 * f64::from(k)))).collect();
+    let [told] = &remarks(&format!("{HEAD}{crowd}")).warnings[..] else { panic!("one line") };
+    assert!(
+        told.starts_with("the 60 bodies do not meet one another: no contact says so, and 59 pairs overlap"),
+        "{told}"
+    );
+}
+
+#[test]
+fn bodies_that_pins_keep_apart_need_no_contact() {
+    let pinned = |name: &str, x: f64| ball(name, 0.02, &format!("{}pin = [0, 0, 0.03]", at(x)));
+    assert_eq!(remarks(&format!("{HEAD}{}{}", pinned("a", 0.0), pinned("b", 0.11))), Remarks::default());
+    assert_eq!(remarks(&format!("{HEAD}{}{}", pinned("a", 0.0), pinned("b", 0.09))).notes.len(), 1);
+}
+
+#[test]
+fn a_reach_within_the_gaps_of_turning_is_warned_of() {
+    let told = |reach: &str, speed: f64| {
+        let moving = |name: &str, x: f64, v: f64| ball(name, 0.02, &format!("{}velocity = [{v:?}, 0, 0]", at(x)));
+        let bodies = moving("a", -0.05, speed) + &moving("b", 0.05, -speed);
+        remarks(&format!("{HEAD}{bodies}{}", between("a", "b", &format!("reach = {reach}")))).warnings
+    };
+    let [short] = &told("\"1 um\"", 0.5)[..] else { panic!("one warning") };
+    assert!(short.starts_with("the reach of 1.00e-6 m between \"a\" and \"b\" is short: they turn back at"), "{short}");
+    assert!(told("0.02", 0.5).is_empty());
+    // Nothing brings them together: the reference gap of the law is what there is.
+    let [short] = &told("0.005", 0.0)[..] else { panic!("one warning") };
+    assert!(short.contains("d0 is 0.001 m"), "{short}");
+    assert!(told("0.011", 0.0).is_empty());
+}
+
+#[test]
+fn energy_stored_at_the_start_that_dwarfs_all_other_is_warned_of() {
+    let told = |gap: f64, gravity: &str| {
+        let bodies = ball("a", 0.05, &at(0.0)) + &ball("b", 0.05, &at(0.1 + gap));
+        remarks(&format!("{gravity}[time]\nend = 0.01\nsample = 0.01\n{bodies}{}", between("a", "b", ""))).warnings
+    };
+    for gravity in ["", "[world]\ngravity = [0, 0, 0]\n"] {
+        let [warning] = &told(1e-10, gravity)[..] else { panic!("one warning") };
+        assert!(warning.contains("\"a\" and \"b\" begin 1.00") && warning.contains("they are shot apart"), "{warning}");
+        assert!(told(1e-3, gravity).is_empty());
+    }
+    let above = |height: f64| {
+        let table = "[[support]]\nname = \"table\"\nplane = {}\n[[contact]]\nsupport = \"table\"\n";
+        let body = ball("a", 0.05, &format!("position = [0, 0, {height:?}]"));
+        remarks(&format!("[time]\nend = 0.01\nsample = 0.01\n{table}{REPULSION}{body}")).warnings
+    };
+    assert!(above(0.05 + 1e-9).iter().any(|told| told.contains("\"a\" and the support \"table\" begin 1.00")));
+    assert!(above(0.051).is_empty());
+}
+
+#[test]
+fn a_pair_too_far_from_the_origin_for_its_gap_is_warned_of() {
+    let told = |x: f64| {
+        let moving = |name: &str, x: f64, v: f64| ball(name, 0.05, &format!("{}velocity = [{v:?}, 0, 0]", at(x)));
+        let bodies = moving("a", x - 0.5, 1.0) + &moving("b", x + 0.5, -1.0);
+        remarks(&format!("{HEAD}{bodies}{}", between("a", "b", ""))).warnings
+    };
+    let [warning] = &told(1e6)[..] else { panic!("one warning") };
+    assert!(warning.contains("\"a\" and \"b\" are 1.00e6 m from the origin"), "{warning}");
+    assert!(told(1.0).is_empty());
+}
+
+/// Of two equal spheres and of one above a plane the exact ratios are known: 1.54 (Stimson, Jeffery), 134 (Brenner).
+#[test]
+fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {
+    let fluid = "[time]\nend = 0.01\nsample = 0.005\n[fluid]\nviscosity = 1.0\ndensity = 1000\n";
+    let sphere = |name: &str, z: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.005 }} }}\ndensity = 2500\n\
+             position = [0, 0, {z:?}]\ninclusion = {{ inertia = false }}\n"
+        )
+    };
+    let two = |distance: f64| format!("{fluid}{}{}", sphere("a", 1.0), sphere("b", 1.0 + distance));
+    let [near] = &remarks(&two(0.0105)).warnings[..] else { panic!("one warning") };
+    assert!(near.contains("the fluid between \"a\" and \"b\" is left out: 0.0105 m apart at the start"), "{near}");
+    assert!(near.ends_with("1.54 times as fast"), "{near}");
+    assert!(remarks(&two(0.06)).warnings.is_empty());
+    let floor = format!(
+        "[[support]]\nname = \"floor\"\nplane = {{}}\n[[contact]]\nsupport = \"floor\"\n{}",
+        "repulsion = { alpha = 1000.0, nu = 6, d0 = 1e-5 }\n"
+    );
+    let above = |height: f64| format!("{fluid}{floor}{}", sphere("a", height));
+    let [near] = &remarks(&above(0.005 * 1.0076)).warnings[..] else { panic!("one warning") };
+    assert!(near.contains("the fluid between \"a\" and the support \"floor\" is left out"), "{near}");
+    assert!(near.contains("134 times as large"), "{near}");
+    assert!(remarks(&above(0.06)).warnings.is_empty());
+    // The recording tells of the row in which they are nearest: the sphere sinks.
+    let [sunk] = &recorded(&above(0.02))[..] else { panic!("one warning") };
+    assert!(sunk.contains("at t = 0.01 s"), "{sunk}");
+    assert!(recorded(&above(0.06)).is_empty());
+}
