@@ -87,6 +87,7 @@ pub(super) fn stored(pair: &Pair, bodies: [&Body; 2], motions: &[BodyMotion; 2])
         Side {
             surface: bodies[end].solid.part(pair.parts[end]),
             placement,
+            from_first: placement.position - motions[0].placement.position,
             velocity: &motions[end].velocity,
             inverse: placement.gradient.try_inverse().unwrap_or_else(Mat3::identity),
             deformation: bodies[end].affine().and_then(|_| Deformation::of(&placement.gradient)),
