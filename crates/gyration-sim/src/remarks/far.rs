@@ -1,12 +1,14 @@
-//! Bodies so far from the origin that the digits of their places do not tell the gaps at which they meet.
+//! Bodies so far from the origin that the digits of their places do not tell the gaps at which they start.
+//!
+//! A run keeps the distance of two bodies in twice the digits, wherever the origin is. What a scene gives has the digits
+//! of one number, as have the places of pinned bodies at any time.
 
 use super::trial::TrialPair;
 use crate::format::significant;
 use gyration::model::Model;
 use gyration::state::State;
 
-/// What the gap of a pair is known to, in parts of the distance from the origin: places are numbers of sixteen digits.
-/// Gaps that are differences in twice the digits would have the square of it.
+/// What a place is known to, in parts of the distance from the origin.
 const DIGIT: f64 = f64::EPSILON;
 /// In so many tolerances an error of the energy is told: as of the ledger.
 const MARGIN: f64 = 100.0;
@@ -22,7 +24,9 @@ pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String>
     let mut pairs = model.pairs().iter().filter(|pair| pair.bodies.iter().any(|body| far(*body))).take(MOST_PAIRS);
     pairs.find_map(|pair| {
         let distance = place(pair.bodies[0]).max(place(pair.bodies[1]));
-        let gap = TrialPair::of(model, start, pair).turning_gap()?;
+        let trial = TrialPair::of(model, start, pair);
+        let is_pinned = pair.bodies.iter().any(|body| model.bodies[*body].pin.is_some());
+        let gap = if is_pinned { trial.turning_gap()? } else { trial.gap()? };
         // A repulsion d^−ν turns the rounding of a gap into so much of its energy.
         let error = pair.laws.repulsion.exponent * DIGIT * distance / gap;
         if error <= MARGIN * rtol {
@@ -32,7 +36,7 @@ pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String>
         let (distance, gap, digit) = (significant(distance, 3), significant(gap, 2), DIGIT * distance);
         Some(format!(
             "\"{one}\" and \"{other}\" are {distance} m from the origin, where places are known to {digit:.1e} m, and \
-             turn back at a gap of about {gap} m: move all bodies and supports nearer to the origin"
+             the gap that matters is about {gap} m: move all bodies and supports nearer to the origin"
         ))
     })
 }

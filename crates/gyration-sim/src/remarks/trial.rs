@@ -52,6 +52,12 @@ impl<'a> TrialPair<'a> {
         between.dot(normal) + above + below
     }
 
+    /// The width of the slab along the line of the centres at the start [m]; none where it is not open.
+    pub fn gap(&self) -> Option<f64> {
+        let between = self.motions[0].placement.position - self.motions[1].placement.position;
+        Some(self.width(&between.try_normalize(0.0)?)).filter(|width| *width > 0.0)
+    }
+
     /// What the repulsion stores where the slab has a width [J]; none where that cannot be told.
     fn stored_at(&self, gap: f64, normal: &Vec3) -> Option<f64> {
         let mut motions = self.motions;
