@@ -1,9 +1,9 @@
 //! What the fluid between inclusions, and between one and a support, would do: nothing of it is computed.
 //!
 //! Each inclusion moves as if it were alone in the fluid. For two equal rigid spheres and for one above a plane it is
-//! known how much that leaves out (`neighbor`); of other bodies, R being half the largest diameter, the
-//! first term tells its size: 1 + 3R/2r of the speed at a distance r of the centres, 1/(1 − 9R/8h) of the drag at a
-//! height h above a plane.
+//! known how much that leaves out (`neighbor`); of other bodies, R being half the largest diameter, the first term
+//! tells its size: 1 + 3R/2r of the speed at a distance r of the centres, 1/(1 − 9R/8h) of the drag at a height h above
+//! a plane.
 
 use super::nearby::{Ball, overlapping};
 use super::neighbor::{pair_speed_ratio, plane_drag_ratio};

@@ -22,8 +22,8 @@ pub(super) fn pair_speed_ratio(distance: f64) -> f64 {
     1.0 / sum((0.5 * distance).max(1.0 + LEAST_GAP), |numerator, denominator| 1.0 - numerator / denominator)
 }
 
-/// How many times the drag of a sphere alone that of one is which moves towards a plane; the distance of its centre from
-/// the plane in radii, more than 1.
+/// How many times the drag of a sphere alone that of one is which moves towards a plane; the distance of its centre
+/// from the plane in radii, more than 1.
 pub(super) fn plane_drag_ratio(height: f64) -> f64 {
     if height < 1.0 + LEAST_GAP {
         return 1.0 / (height - 1.0);

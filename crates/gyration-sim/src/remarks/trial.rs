@@ -1,5 +1,5 @@
-//! Two bodies that meet, moved along the way between them without turning: what their repulsion stores at a gap, and the
-//! gap at which they turn back.
+//! Two bodies that meet, moved along the way between them without turning: what their repulsion stores at a gap, and
+//! the gap at which they turn back.
 //!
 //! They turn back where it stores ½μv² + Wd/(ν−1): v is the relative velocity of their centres, μ their reduced mass, W
 //! the weight of the lighter one, which then rests at a gap d of about that size.

@@ -1,8 +1,8 @@
 //! Whether a law forbids a shape to touch: its exponent against that of the sharpest feature.
 //!
-//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p; at ν = 1 + p only
-//! as ln d, so that a body that is fast enough comes nearer than the digits of a number tell. The table of 1 + p is that
-//! of `gyration::shape::Feature`. Source: `docs/theory-rigid.md`.
+//! The work against d^−ν diverges at contact iff ν ≥ 1 + p, where the area nearer than d grows as d^p; at ν = 1 + p
+//! only as ln d, so that a body that is fast enough comes nearer than the digits of a number tell. The table of 1 + p
+//! is that of `gyration::shape::Feature`. Source: `docs/theory-rigid.md`.
 
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::shape::Shape;

@@ -1,7 +1,7 @@
 //! The shortest way apart of two convex bodies that overlap.
 //!
-//! With h(n) = max n·(B − A), the way n separates A from B after h(n), and the shortest is the face next to the origin of
-//! the convex body B − A. A polytope of its points is grown at the face next to the origin, with offset c:
+//! With h(n) = max n·(B − A), the way n separates A from B after h(n), and the shortest is the face next to the origin
+//! of the convex body B − A. A polytope of its points is grown at the face next to the origin, with offset c:
 //!
 //!   c ≤ least h ≤ h(n)
 //!
