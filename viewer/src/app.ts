@@ -83,17 +83,15 @@ export class App implements Listener {
     this.source = source;
     const { control } = source;
     if (control) {
-      const restart = (overrides: string[]) => control.restart(overrides);
-      const sliders = new Sliders(restart);
+      const sliders = new Sliders((overrides) => control.restart(overrides));
       this.sliders = sliders;
-      this.status = new RunStatus(control, () => restart(sliders.overrides()));
+      this.status = new RunStatus(control, () => sliders.ask());
       this.tabs.set("Sliders", h("div", {}, this.status.element, sliders.element));
     }
     await source.start(this);
   }
 
   begun(recording: Recording): void {
-    const fresh = this.recording === null;
     this.recording = recording;
     const { header } = recording;
     document.title = `${header.title ?? header.scene_name ?? "Recording"} – Gyration`;
@@ -101,9 +99,9 @@ export class App implements Listener {
     this.mode.textContent = { report: "report", recording: "recording", live: "live" }[header.mode];
     this.banner.clearError();
     this.picture.load(recording);
+    this.player.load(recording);
     this.transport.load(recording);
-    this.player.load(recording, fresh);
-    this.sliders?.load(header);
+    this.sliders?.begun(header);
     this.status?.begun();
     this.tell();
     this.fillPanels();
@@ -113,7 +111,8 @@ export class App implements Listener {
     requestAnimationFrame(() => {
       this.plots.load(recording);
       this.pointPlots();
-      if (fresh && header.mode === "live") this.player.play();
+      // A run that starts again is looked at from its start, unless the reader stays at an instant.
+      if (header.mode === "live" && !this.player.holds) this.player.play();
     });
   }
 
@@ -137,6 +136,8 @@ export class App implements Listener {
     const { recording } = this;
     if (!recording) return;
     recording.header.summary = { ...recording.header.summary, ...summary };
+    this.player.fit();
+    this.transport.offerSpeeds();
     this.transport.grew();
     this.plots.grew();
     this.status?.done(outcomeInWords(recording));
@@ -145,8 +146,9 @@ export class App implements Listener {
     this.moved(null);
   }
 
-  failed(message: string): void {
-    this.banner.fail(message);
+  failed(message: string, refused?: string[]): void {
+    // What a slider asked for is told beside it.
+    if (!(refused && this.sliders?.refuse(refused, message))) this.banner.fail(message);
   }
 
   lost(reason: string): void {
@@ -165,7 +167,8 @@ export class App implements Listener {
     const stopped = typeof recording.header.outcome === "object" && words.startsWith("Stopped");
     const open = openLedgerInWords(recording.header);
     const bad = [stopped ? "stopped early" : "", open ? "energy ledger open" : ""].filter(Boolean);
-    this.chip.textContent = bad.join(", ") || (recording.header.complete ? "" : "running");
+    const unfinished = recording.isOver ? "interrupted" : "running";
+    this.chip.textContent = bad.join(", ") || (recording.header.complete ? "" : unfinished);
     this.chip.className = `chip ${bad.length > 0 ? "bad" : ""}`;
     this.chip.title = open ? `${words} ${open}` : words;
     this.chip.hidden = this.chip.textContent === "";

@@ -6,27 +6,54 @@
 import type { Recording } from "./data/recording";
 import { lowerBound } from "./math/thin";
 
-export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
-
 /** How long the whole should take to look at [s]. */
 const SHORTEST = 3;
 const LONGEST = 20;
+/** What takes no longer to look at is played again and again [s]. */
+const LOOPED = 10;
+/** Speeds that can be chosen whatever is shown. */
+const USUAL: [number, number] = [0.01, 10];
+/** Decades of speeds. */
+const DECADES: [number, number] = [-15, 9];
 /** Samples a second below which playing goes on between samples. */
 const SMOOTH_BELOW = 30;
+
+/** 1, 2 and 5 of every decade. */
+const LADDER: number[] = [];
+for (let decade = DECADES[0]; decade <= DECADES[1]; decade++) {
+  for (const lead of [1, 2, 5]) LADDER.push(Number(`${lead}e${decade}`));
+}
 
 /** The speed nearest to one at which so much time takes a bearable while. */
 export function fittingSpeed(duration: number): number {
   if (!(duration > 0)) return 1;
-  const byDistance = [...SPEEDS].sort((a, b) => Math.abs(Math.log(a)) - Math.abs(Math.log(b)) || a - b);
+  const byDistance = [...LADDER].sort((a, b) => Math.abs(Math.log(a)) - Math.abs(Math.log(b)) || a - b);
   const lasts = (speed: number) => duration / speed;
   const fits = byDistance.find((speed) => lasts(speed) >= SHORTEST && lasts(speed) <= LONGEST);
-  return fits ?? (lasts(1) < SHORTEST ? SPEEDS[0] : SPEEDS[SPEEDS.length - 1]);
+  return fits ?? LADDER[lasts(1) < SHORTEST ? 0 : LADDER.length - 1];
+}
+
+/** The speeds to choose from: the usual ones, and those within ten times the fitting one. */
+export function speedsFor(duration: number): number[] {
+  const fitting = fittingSpeed(duration);
+  const low = Math.min(USUAL[0], fitting / 10) * (1 - 1e-9);
+  const high = Math.max(USUAL[1], 10 * fitting) * (1 + 1e-9);
+  return LADDER.filter((speed) => speed >= low && speed <= high);
+}
+
+/** Whether so much time is so short to look at that it is played again and again. */
+export function loops(duration: number): boolean {
+  return duration > 0 && duration / fittingSpeed(duration) <= LOOPED;
 }
 
 export class Player {
   playing = false;
   loop = false;
   speed = 1;
+  /** How long the whole takes, as far as that is known [s]. */
+  duration = 0;
+  /** Whether the reader stays at an instant within the recording. */
+  holds = false;
   /** The time that is wanted [s]. */
   wanted = 0;
   /** Called when what is to be shown has changed; while playing with the duration of the last frame [ms]. */
@@ -34,13 +61,38 @@ export class Player {
   private recording: Recording | null = null;
   private last = 0;
   private request = 0;
+  private choseSpeed = false;
+  private choseLoop = false;
 
-  /** Another recording; the time stays where it was if paused. */
-  load(recording: Recording, fresh: boolean): void {
+  /** Another recording, from its start; the time stays where it was if the reader stopped within the one before. */
+  load(recording: Recording): void {
+    const before = this.recording?.lastTime ?? 0;
+    this.holds = !this.playing && this.wanted > 0 && this.wanted < before;
     this.recording = recording;
-    if (fresh) this.speed = fittingSpeed(recording.header.end || recording.lastTime);
-    if (fresh || this.playing) this.wanted = 0;
+    if (!this.holds) this.wanted = 0;
+    this.fit();
     this.changed(null);
+  }
+
+  /** Fits speed and loop to how long the whole takes, unless the reader has chosen them. */
+  fit(): void {
+    const { recording } = this;
+    if (!recording) return;
+    const { end, rows } = recording.header;
+    this.duration =
+      recording.isOver && recording.rows >= rows ? recording.lastTime : end || recording.lastTime;
+    if (!this.choseSpeed) this.speed = fittingSpeed(this.duration);
+    if (!this.choseLoop) this.loop = loops(this.duration);
+  }
+
+  chooseSpeed(speed: number): void {
+    this.speed = speed;
+    this.choseSpeed = true;
+  }
+
+  toggleLoop(): void {
+    this.loop = !this.loop;
+    this.choseLoop = true;
   }
 
   /** The time that is shown [s]. */
@@ -59,7 +111,7 @@ export class Player {
   play(): void {
     const { recording } = this;
     if (this.playing || !recording) return;
-    if (this.time >= recording.lastTime && recording.header.complete) this.wanted = 0;
+    if (this.time >= recording.lastTime && recording.isOver) this.wanted = 0;
     this.wanted = this.time;
     this.playing = true;
     this.last = performance.now();
@@ -121,7 +173,7 @@ export class Player {
     // A page that slept does not leap.
     this.wanted += (this.speed * Math.min(took, 250)) / 1000;
     if (this.wanted >= recording.lastTime) {
-      if (!recording.header.complete) {
+      if (!recording.isOver) {
         this.wanted = recording.lastTime;
       } else if (this.loop) {
         this.wanted = 0;

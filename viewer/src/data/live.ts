@@ -16,7 +16,7 @@ type Message =
   | { type: "header"; header: Header }
   | ({ type: "progress" } & Progress)
   | { type: "done"; outcome: Outcome | null; summary?: Summary }
-  | { type: "error"; message: string };
+  | { type: "error"; message: string; set?: string[] };
 
 /** A binary message taken apart. */
 export function unpacked(message: ArrayBuffer): { announced: Announced; payload: ArrayBuffer } {
@@ -101,7 +101,7 @@ export class LiveRun implements Source {
         }
         break;
       case "error":
-        listener.failed(message.message);
+        listener.failed(message.message, message.set);
     }
   }
 

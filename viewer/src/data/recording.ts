@@ -53,6 +53,11 @@ export class Recording {
     return this.tracks.get(name);
   }
 
+  /** Whether no row will come: the run has ended, or what a report holds of it is all there is. */
+  get isOver(): boolean {
+    return this.header.complete || this.header.mode === "report";
+  }
+
   /** The last time that is there [s]. */
   get lastTime(): number {
     return this.rows > 0 ? this.time[this.rows - 1] : 0;

@@ -25,8 +25,8 @@ export interface Listener {
   progress(progress: Progress): void;
   /** It is over: all that will come has come. */
   done(outcome: Outcome | null, summary: Summary): void;
-  /** Words for the reader; the recording before stays. */
-  failed(message: string): void;
+  /** Words for the reader, and the overrides that were refused, if it is about them; the recording before stays. */
+  failed(message: string, refused?: string[]): void;
   /** The server is gone, with the reason; or it is back. */
   lost(reason: string): void;
   found(): void;

@@ -1,4 +1,5 @@
-// Sliders for the numbers of a live scene: drag one, and the run starts again with it.
+// Sliders for the numbers of a live scene: drag one, and the run starts again with it. A number that the program refuses
+// is marked with the reason and left out; nothing else waits for it.
 //
 // Thousands of numbers are no reason for thousands of sliders: a search narrows them down, and a list grows on demand.
 
@@ -7,6 +8,7 @@ import { plain } from "../math/format";
 import { h, iconButton } from "../ui/dom";
 import { groupOf, type Leaf, leaves, override, valueAt } from "./leaves";
 import { rangeFor, tidy } from "./range";
+import { type Change, culprits, reasonFor } from "./refusals";
 
 /** A run starts again this long after the last move of a slider [ms]. */
 const PATIENCE_MS = 150;
@@ -26,7 +28,17 @@ export class Sliders {
   private all: Leaf[] = [];
   private given: string[] = [];
   /** Changed numbers by key and path. */
-  private readonly changes = new Map<string, { leaf: Leaf; value: number }>();
+  private readonly changes = new Map<string, Change>();
+  /** Why some of them are refused; an empty reason: what is typed is no number. */
+  private readonly refused = new Map<string, string>();
+  /** The numbers of the run that is shown, of those that were changed. */
+  private running = new Map<string, number>();
+  /** What was asked for last. */
+  private asked: { overrides: string; changes: Change[] } = { overrides: "", changes: [] };
+  /** What was asked for since a run began. */
+  private readonly unanswered = new Set<string>();
+  /** The rows that are shown. */
+  private readonly rows = new Map<string, HTMLElement>();
   private shown = PORTION;
   private timer = 0;
 
@@ -49,8 +61,13 @@ export class Sliders {
     );
   }
 
-  /** The scene of a run; the first one gives the sliders. */
-  load(header: Header): void {
+  /** A run has begun: with what was asked for last, unless another page asked. */
+  begun(header: Header): void {
+    this.unanswered.clear();
+    if (this.asked.overrides === JSON.stringify(header.overrides ?? [])) {
+      this.running = new Map(this.asked.changes.map(({ leaf, value }) => [idOf(leaf), value]));
+    }
+    // The first scene gives the sliders.
     if (this.scene !== null || !header.resolved) return;
     this.scene = header.resolved;
     this.given = header.overrides ?? [];
@@ -58,20 +75,61 @@ export class Sliders {
     this.build();
   }
 
+  /** Starts the run again with all numbers but those that are refused. */
+  ask(): void {
+    const changes = [...this.changes].flatMap(([id, change]) => (this.refused.has(id) ? [] : [change]));
+    const overrides = this.overrides(changes);
+    this.asked = { overrides: JSON.stringify(overrides), changes };
+    this.unanswered.add(this.asked.overrides);
+    this.restart(overrides);
+  }
+
+  /** The program has refused overrides: marks the numbers that are to blame; whether that is told enough. */
+  refuse(overrides: string[], message: string): boolean {
+    const refused = JSON.stringify(overrides);
+    // What was asked for since is answered as well.
+    if (refused !== this.asked.overrides) return this.unanswered.has(refused);
+    const fresh = this.asked.changes.filter(({ leaf, value }) => this.running.get(idOf(leaf)) !== value);
+    const blamed = culprits(fresh, message);
+    for (const { leaf } of blamed) this.mark(leaf, reasonFor(leaf.key, message));
+    // What else was asked for at once is no worse for it.
+    if (blamed.length > 0 && blamed.length < fresh.length) this.ask();
+    return blamed.length > 0 && blamed.every(({ leaf }) => this.rows.has(idOf(leaf)));
+  }
+
   /** Everything that differs from the scene's text, as `--set` takes it. */
-  overrides(): string[] {
+  private overrides(changed: Change[]): string[] {
     const byKey = new Map<string, { path: number[]; value: number }[]>();
-    for (const { leaf, value } of this.changes.values()) {
+    for (const { leaf, value } of changed) {
       byKey.set(leaf.key, [...(byKey.get(leaf.key) ?? []), { path: leaf.path, value }]);
     }
     const kept = this.given.filter((given) => !byKey.has(given.split("=")[0].trim()));
     return [...kept, ...[...byKey].map(([key, changes]) => override(this.scene, key, changes))];
   }
 
+  /** Marks a number with why it is refused, or takes the mark away. */
+  private mark(leaf: Leaf, reason: string | null): void {
+    const id = idOf(leaf);
+    if (reason === null) this.refused.delete(id);
+    else this.refused.set(id, reason);
+    this.showMark(id);
+  }
+
+  private showMark(id: string): void {
+    const row = this.rows.get(id);
+    const reason = this.refused.get(id);
+    if (!row) return;
+    row.classList.toggle("refused", reason !== undefined);
+    row.querySelector(".exact")?.setAttribute("aria-invalid", String(reason !== undefined));
+    row.querySelector(".reason")?.remove();
+    if (reason !== undefined) row.append(h("p", { class: "reason", role: "alert" }, reason));
+  }
+
   private build(): void {
     const wanted = this.search.value.toLowerCase().split(/\s+/);
     const found = this.all.filter((leaf) => wanted.every((word) => named(leaf).toLowerCase().includes(word)));
     const groups = new Map<string, HTMLElement>();
+    this.rows.clear();
     for (const leaf of found.slice(0, this.shown)) {
       const name = groupOf(leaf.key);
       let group = groups.get(name);
@@ -119,8 +177,9 @@ export class Sliders {
       "aria-label": `${name}, exact`,
       onchange: () => {
         const number = Number(entry.value.replace("−", "-"));
-        if (entry.value.trim() !== "" && Number.isFinite(number)) take(number, true);
-        else entry.value = typed(value());
+        if (entry.value.trim() === "") take(leaf.value, true);
+        else if (Number.isFinite(number)) take(number, true);
+        else this.mark(leaf, `${entry.value} is not a number`);
       },
     });
     const back = iconButton("restart", `Back to ${plain(leaf.value)}`, () => take(leaf.value, true));
@@ -137,21 +196,25 @@ export class Sliders {
       row.classList.toggle("changed", number !== leaf.value);
     };
     row.classList.toggle("changed", value() !== leaf.value);
+    this.rows.set(idOf(leaf), row);
+    this.showMark(idOf(leaf));
     return row;
   }
 
   private change(leaf: Leaf, value: number): void {
+    this.mark(leaf, null);
     if (value === leaf.value) this.changes.delete(idOf(leaf));
     else this.changes.set(idOf(leaf), { leaf, value });
     this.reset.disabled = this.changes.size === 0;
     window.clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => this.restart(this.overrides()), PATIENCE_MS);
+    this.timer = window.setTimeout(() => this.ask(), PATIENCE_MS);
   }
 
   private resetAll(): void {
     this.changes.clear();
+    this.refused.clear();
     this.build();
-    this.restart(this.overrides());
+    this.ask();
   }
 }
 

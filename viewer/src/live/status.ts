@@ -1,7 +1,7 @@
 // The run behind a live page: how far it is, what limits its step, pause, restart.
 
 import type { Control, Progress } from "../data/source";
-import { plain, withUnit } from "../math/format";
+import { counted, withUnit } from "../math/format";
 import { h, iconButton, renamed } from "../ui/dom";
 
 export class RunStatus {
@@ -42,7 +42,7 @@ export class RunStatus {
     this.bar.value = time;
     const limit =
       limited_by && !paused ? `, steps of ${withUnit(step, "s", 2)} limited by ${limited_by}` : "";
-    this.text.textContent = `${paused ? "Paused" : "Computing"}: t = ${withUnit(time, "s", 3)} of ${withUnit(end, "s", 3)}, ${plain(steps, 9)} steps${limit}`;
+    this.text.textContent = `${paused ? "Paused" : "Computing"}: t = ${withUnit(time, "s", 3)} of ${withUnit(end, "s", 3)}, ${counted(steps, "step")}${limit}`;
   }
 
   done(words: string): void {

@@ -78,3 +78,13 @@ export function clock(time: number, spacing: number): string {
 export function words(name: string): string {
   return name.replaceAll("_", " ");
 }
+
+/** A number of things: `1 body`, `2 bodies`. */
+export function counted(count: number, noun: string): string {
+  return `${plain(count, 12)} ${count === 1 ? noun : plural(noun)}`;
+}
+
+function plural(noun: string): string {
+  if (/[^aeiou]y$/.test(noun)) return `${noun.slice(0, -1)}ies`;
+  return /(s|x|ch|sh)$/.test(noun) ? `${noun}es` : `${noun}s`;
+}

@@ -2,7 +2,7 @@
 
 import type { Body, Header } from "../data/header";
 import type { Recording } from "../data/recording";
-import { plain, withUnit, words } from "../math/format";
+import { counted, plain, withUnit, words } from "../math/format";
 import { h } from "./dom";
 import { type Books, books, openLedgerInWords, residualInWords } from "./ledger";
 
@@ -30,7 +30,7 @@ export function summaryPanel(recording: Recording): HTMLElement {
 }
 
 /** How the run ended, or how far it is, in a sentence. */
-export function outcomeInWords({ header, lastTime, rows }: Recording): string {
+export function outcomeInWords({ header, lastTime, rows, isOver }: Recording): string {
   const words = header.summary?.outcome_in_words;
   if (words === "completed") return `The run reached its end, t = ${withUnit(lastTime, "s")}.`;
   if (typeof words === "string") return sentence(words);
@@ -42,8 +42,8 @@ export function outcomeInWords({ header, lastTime, rows }: Recording): string {
     const { time, what, advice } = outcome.stopped;
     return `Stopped at t = ${withUnit(time, "s", 7)}: ${what}. ${advice}`;
   }
-  if (header.complete) return `Interrupted at t = ${withUnit(lastTime, "s")}; it can be resumed.`;
-  return `Running: ${rows} samples up to t = ${withUnit(lastTime, "s")} of ${withUnit(header.end, "s")}.`;
+  if (isOver) return `Interrupted at t = ${withUnit(lastTime, "s")}; it can be resumed.`;
+  return `Running: ${counted(rows, "sample")} up to t = ${withUnit(lastTime, "s")} of ${withUnit(header.end, "s")}.`;
 }
 
 function sentence(text: string): string {
@@ -75,7 +75,7 @@ function table(head: string[] | null, rows: (string | Node)[][]): HTMLElement {
 function notes({ notes, thinned }: Header): HTMLElement[] {
   const all = [...(notes ?? [])];
   if (thinned && !all.some((note) => note.includes("thinned") || note.includes(String(thinned.kept)))) {
-    all.push(`This report shows ${thinned.kept} of the recording's ${thinned.of} samples.`);
+    all.push(`This report shows ${thinned.kept} of the recording's ${counted(thinned.of, "sample")}.`);
   }
   return all.map((note) => h("p", { class: "note", role: "note" }, note));
 }
@@ -97,7 +97,7 @@ function events(header: Header): HTMLElement | null {
   return h(
     "p",
     { class: "quiet" },
-    `Events: ${counts.map(([kind, count]) => `${count} ${words(kind)}`).join(", ")}.`,
+    `Events: ${counts.map(([kind, count]) => counted(count, words(kind))).join(", ")}.`,
   );
 }
 

@@ -1,6 +1,7 @@
 // What of the scene is shown: colouring, arrows, trails, skins, planes, the body that is followed.
 
 import type { Recording } from "../data/recording";
+import { counted } from "../math/format";
 import type { Coloring, Colors } from "../view/coloring";
 import type { Shown } from "../view/scene";
 import { h, type Icon, iconButton, pressed } from "./dom";
@@ -80,7 +81,7 @@ export class Toolbar {
       if (reason && this.shown.coloring === coloring) this.shown.coloring = "body";
     });
     this.body.replaceChildren(
-      h("option", { value: "" }, `${bodies.length} bodies`),
+      h("option", { value: "" }, counted(bodies.length, "body")),
       ...bodies.map((body, index) => h("option", { value: index }, body.name)),
     );
     this.body.hidden = bodies.length < 2;

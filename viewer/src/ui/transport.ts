@@ -2,7 +2,7 @@
 
 import type { Recording } from "../data/recording";
 import { clock, plain, words } from "../math/format";
-import { type Player, SPEEDS } from "../player";
+import { type Player, speedsFor } from "../player";
 import { h, iconButton, pressed, renamed } from "./dom";
 
 const TICKS = 400;
@@ -19,6 +19,7 @@ export class Transport {
   private readonly speed: HTMLSelectElement;
   private recording: Recording | null = null;
   private shownTicks = "";
+  private speeds: number[] = [1];
 
   constructor(private readonly player: Player) {
     this.play = iconButton("play", "Play (space)", () => player.toggle(), { class: "icon big" });
@@ -33,15 +34,11 @@ export class Transport {
       "aria-label": "time",
       oninput: () => player.seek(Number(this.slider.value)),
     });
-    this.speed = h(
-      "select",
-      {
-        "aria-label": "speed",
-        title: "Speed ([ and ])",
-        onchange: () => this.chooseSpeed(Number(this.speed.value)),
-      },
-      ...SPEEDS.map((speed) => h("option", { value: speed }, speedInWords(speed))),
-    );
+    this.speed = h("select", {
+      "aria-label": "speed",
+      title: "Speed ([ and ])",
+      onchange: () => this.chooseSpeed(Number(this.speed.value)),
+    });
     this.element = h(
       "div",
       { class: "transport", role: "group", "aria-label": "playback" },
@@ -62,7 +59,19 @@ export class Transport {
   load(recording: Recording): void {
     this.recording = recording;
     this.shownTicks = "";
+    this.offerSpeeds();
     this.grew();
+    this.moved();
+  }
+
+  /** The speeds that go with how long the whole takes. */
+  offerSpeeds(): void {
+    this.speeds = speedsFor(this.player.duration);
+    const { speed } = this.player;
+    if (!this.speeds.includes(speed)) this.speeds = [...this.speeds, speed].sort((a, b) => a - b);
+    this.speed.replaceChildren(
+      ...this.speeds.map((speed) => h("option", { value: speed }, speedInWords(speed))),
+    );
     this.moved();
   }
 
@@ -70,8 +79,8 @@ export class Transport {
   grew(): void {
     const { recording } = this;
     if (!recording) return;
-    const { header, lastTime } = recording;
-    const end = header.complete ? lastTime : Math.max(header.end, lastTime);
+    const { header, lastTime, isOver } = recording;
+    const end = isOver ? lastTime : Math.max(header.end, lastTime);
     this.slider.max = String(end || 1);
     this.pending.style.left = `${end > 0 ? (100 * lastTime) / end : 100}%`;
     this.total.textContent = ` / ${plain(end, 5)} s`;
@@ -91,18 +100,18 @@ export class Transport {
   }
 
   toggleLoop(): void {
-    this.player.loop = !this.player.loop;
+    this.player.toggleLoop();
     this.moved();
   }
 
   /** The next faster or slower speed. */
   changeSpeed(by: 1 | -1): void {
-    const at = SPEEDS.indexOf(this.player.speed) + by;
-    this.chooseSpeed(SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at))]);
+    const at = this.speeds.indexOf(this.player.speed) + by;
+    this.chooseSpeed(this.speeds[Math.min(this.speeds.length - 1, Math.max(0, at))]);
   }
 
   private chooseSpeed(speed: number): void {
-    this.player.speed = speed;
+    this.player.chooseSpeed(speed);
     this.moved();
   }
 
@@ -123,5 +132,5 @@ export class Transport {
 }
 
 function speedInWords(speed: number): string {
-  return speed >= 1 ? `× ${speed}` : `× 1/${Math.round(1 / speed)}`;
+  return speed >= 1 ? `× ${plain(speed, 1)}` : `× 1/${plain(1 / speed, 1)}`;
 }

@@ -41,22 +41,112 @@ describe("a live view", () => {
     await server.stop();
   });
 
-  it("shows_the_programs_error_for_a_bad_number_and_keeps_the_run_before", async () => {
-    const server = await served("dice", "--set", "time.end=0.2");
+  it("replays_from_the_start_when_a_number_changes_after_the_run_has_ended", async () => {
+    const server = await served("dice", "--set", "time.end=0.1");
     const { page, problems, close } = await opened(server.url);
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(21);
     await page.getByRole("tab", { name: "Sliders" }).click();
+    await expect.poll(() => page.locator(".run-text").textContent()).toContain("reached its end");
+    // Played to its end, which is the end of the playback too.
+    await page.keyboard.press("l");
+    await page.getByRole("button", { name: "Play (space)" }).waitFor({ timeout: 60_000 });
+    expect(await page.evaluate(() => window.gyration.time)).toBeCloseTo(0.1, 9);
     const entry = page.getByRole("textbox", { name: "body.die.density, exact" });
-    await entry.fill("-5");
-    await entry.press("Enter");
-    const banner = page.locator(".banner.error");
-    await banner.waitFor();
-    expect(await banner.textContent()).toContain("body.die.density");
-    expect(await page.evaluate(() => window.gyration.rows)).toBe(41);
     await entry.fill("2000");
     await entry.press("Enter");
-    await banner.waitFor({ state: "detached" });
+    await page.getByRole("button", { name: "Pause (space)" }).waitFor();
+    expect(await page.evaluate(() => window.gyration.time)).toBeLessThan(0.08);
     expect(problems).toEqual([]);
+    await close();
+    await server.stop();
+  });
+
+  it("marks_a_number_that_is_refused_and_goes_on_with_all_others", async () => {
+    const server = await served("shaker", "--set", "time.end=600");
+    const { page, problems, close } = await opened(server.url);
+    await expect
+      .poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 })
+      .toBeGreaterThan(5);
+    await page.getByRole("tab", { name: "Sliders" }).click();
+    const search = page.getByRole("searchbox");
+    await search.fill("density");
+    const density = page.getByRole("textbox", { name: /density, exact/ });
+    const row = page.locator(".slider", { has: density });
+    await density.fill("-5");
+    await density.press("Enter");
+    await row.locator(".reason").waitFor();
+    expect(await row.locator(".reason").textContent()).toContain("must be greater than 0");
+    expect(await density.getAttribute("aria-invalid")).toBe("true");
+    // Nothing lies over the page, and the run goes on.
+    expect(await page.locator(".banner.error").count()).toBe(0);
+    const rows = await page.evaluate(() => window.gyration.rows);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBeGreaterThan(rows);
+    // Another number starts it again without the refused one, which stays marked.
+    await search.fill("time.end");
+    const end = page.getByRole("textbox", { name: "time.end, exact" });
+    await end.fill("0.1");
+    await end.press("Enter");
+    await expect
+      .poll(() => page.locator(".run-text").textContent(), { timeout: 60_000 })
+      .toContain("reached its end");
+    await search.fill("density");
+    expect(await row.locator(".reason").count()).toBe(1);
+    await density.fill("2000");
+    await density.press("Enter");
+    await row.locator(".reason").waitFor({ state: "detached" });
+    // What is no number is marked as well.
+    await density.fill("heavy");
+    await density.press("Enter");
+    expect(await row.locator(".reason").textContent()).toContain("is not a number");
+    expect(problems).toEqual([]);
+    await close();
+    await server.stop();
+  });
+
+  it("takes_home_and_end_on_a_slider_for_the_slider", async () => {
+    const server = await served("dice", "--set", "time.end=0.1");
+    const { page, close } = await opened(server.url);
+    await page.getByRole("tab", { name: "Sliders" }).click();
+    await page.getByRole("searchbox").fill("density");
+    const slider = page.getByRole("slider", { name: "body.die.density", exact: true });
+    await slider.focus();
+    const time = await page.evaluate(() => window.gyration.time);
+    for (const [key, value] of [
+      ["End", "1000"],
+      ["Home", "0"],
+    ]) {
+      await page.keyboard.press(key);
+      expect(await slider.inputValue(), key).toBe(value);
+    }
+    expect(await page.evaluate(() => window.gyration.time)).toBeLessThanOrEqual(Math.max(time, 0.1));
+    await close();
+    await server.stop();
+  });
+
+  it("slows_a_short_motion_down_and_loops_it", async () => {
+    const server = await served("dice", "--set", "time.end=1e-4", "--set", "time.sample=1e-5");
+    const { page, close } = await opened(server.url);
+    const speed = Number(await page.getByRole("combobox", { name: "speed" }).inputValue());
+    expect(1e-4 / speed).toBeGreaterThanOrEqual(3);
+    const loop = page.getByRole("button", { name: "Loop (L)" });
+    expect(await loop.getAttribute("aria-pressed")).toBe("true");
+    await close();
+    await server.stop();
+  });
+
+  it("fits_the_speed_to_how_long_a_run_that_rests_early_lasts", async () => {
+    const server = await served("dice", "--set", "time.end=1000");
+    const { page, close } = await opened(server.url);
+    await page.getByRole("tab", { name: "Sliders" }).click();
+    await expect
+      .poll(() => page.locator(".run-text").textContent(), { timeout: 60_000 })
+      .toMatch(/came to rest/i);
+    const speed = Number(await page.getByRole("combobox", { name: "speed" }).inputValue());
+    const { lasts } = await page.evaluate(() => ({
+      lasts: Number(document.querySelector<HTMLInputElement>(".scrubber")!.max),
+    }));
+    expect(lasts / speed).toBeGreaterThanOrEqual(3);
+    expect(lasts / speed).toBeLessThanOrEqual(20);
     await close();
     await server.stop();
   });

@@ -45,6 +45,18 @@ export function recorded(scene: string, ...set: string[]): string {
   return path;
 }
 
+/** Runs a scene and interrupts it on the way; the folder of its recording. */
+export async function interrupted(scene: string, ...set: string[]): Promise<string> {
+  const path = join(folder, `${made++}.gyr`);
+  const parts = ["run", scene, "-o", path, "--quiet", ...set.flatMap((one) => ["--set", one])];
+  const child = spawn(PROGRAM, parts, { cwd: folder, stdio: "ignore" });
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  while (!existsSync(join(path, "time"))) await new Promise((resolve) => setTimeout(resolve, 50));
+  child.kill("SIGINT");
+  await ended;
+  return path;
+}
+
 /** The report of a recording, as a file. */
 export function reported(recording: string): string {
   const path = recording.replace(".gyr", ".html");

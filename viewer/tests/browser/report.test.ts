@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { beforeAll, describe, expect, it } from "vitest";
 import { browser, DESK, differing, lastTime, opened, PHONE, pixelsAt } from "./browser";
-import { folder, recorded, reported } from "./program";
+import { folder, interrupted, recorded, reported } from "./program";
 
 let dice = "";
 let ball = "";
@@ -51,6 +51,25 @@ describe("a report", () => {
       expect(problems).toEqual([]);
       await close();
     }
+  });
+
+  it("of_a_run_that_was_stopped_says_interrupted", async () => {
+    const file = reported(await interrupted("shaker", "time.end=600"));
+    const { page, problems, close } = await opened(file);
+    expect(await page.locator(".chip").textContent()).toBe("interrupted");
+    await page.getByRole("tab", { name: "Summary" }).click();
+    const told = (await page.locator("#panel-summary .outcome").textContent())!;
+    expect(told).toContain("Interrupted at t = ");
+    expect(told).not.toContain("Running");
+    expect(problems).toEqual([]);
+    await close();
+  });
+
+  it("counts_one_body_as_one", async () => {
+    const { page, close } = await opened(dice);
+    const words = await page.evaluate(() => document.body.textContent ?? "");
+    expect(words).not.toMatch(/\b1 (bodies|samples|steps)\b/);
+    await close();
   });
 
   it("moves_the_cursor_of_the_plots_with_the_scrubber", async () => {

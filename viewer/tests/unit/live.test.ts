@@ -3,7 +3,8 @@
 import { describe, expect, it } from "vitest";
 import { groupOf, leaves, override, valueAt } from "../../src/live/leaves";
 import { rangeFor, tidy } from "../../src/live/range";
-import { fittingSpeed, SPEEDS } from "../../src/player";
+import { culprits, reasonFor } from "../../src/live/refusals";
+import { fittingSpeed, loops, speedsFor } from "../../src/player";
 
 const SCENE = {
   world: { gravity: [0, 0, -9.81] },
@@ -86,15 +87,45 @@ describe("the range of a slider", () => {
   });
 });
 
+describe("a refused number", () => {
+  const asked = leaves(SCENE)
+    .filter(({ key }) => key === "body.die.density" || key === "contact.0.friction.nu")
+    .map((leaf) => ({ leaf, value: -5 }));
+  const message = `--set:1:18: body.die.density: must be greater than 0 kg/m^3, found -5 kg/m^3
+  1 | body.die.density=-5
+    |                  ^^
+  fix: write a number that is greater than 0 kg/m^3`;
+
+  it("is_the_one_that_the_message_names", () => {
+    expect(culprits(asked, message).map(({ leaf }) => leaf.key)).toEqual(["body.die.density"]);
+    expect(reasonFor("body.die.density", message)).toBe("must be greater than 0 kg/m^3, found -5 kg/m^3");
+  });
+
+  it("is_any_of_those_asked_for_where_the_message_names_none", () => {
+    const words = "a and b overlap at the start by 1 mm\n  fix: move b";
+    expect(culprits(asked, words)).toHaveLength(2);
+    expect(reasonFor("body.die.density", words)).toBe("a and b overlap at the start by 1 mm");
+    // A message about a part of what stands at a key is about the key.
+    expect(reasonFor("body.die", message)).toBe("must be greater than 0 kg/m^3, found -5 kg/m^3");
+    expect(culprits(asked, "body.die.density_of_water: unknown")).toHaveLength(2);
+  });
+});
+
 describe("speed", () => {
-  it("lets_the_whole_take_three_to_twenty_seconds_where_it_can", () => {
+  it("lets_the_whole_take_three_to_twenty_seconds", () => {
     expect(fittingSpeed(5)).toBe(1);
-    for (const duration of [0.05, 0.5, 1.5, 30, 150]) {
+    for (const duration of [1e-6, 1e-4, 0.05, 0.5, 1.5, 30, 150, 1e4, 3e6]) {
       const lasts = duration / fittingSpeed(duration);
       expect(lasts).toBeGreaterThanOrEqual(3);
       expect(lasts).toBeLessThanOrEqual(20);
+      expect(speedsFor(duration)).toContain(fittingSpeed(duration));
     }
-    expect(fittingSpeed(1e-4)).toBe(SPEEDS[0]);
-    expect(fittingSpeed(1e4)).toBe(10);
+    expect(speedsFor(5)).toEqual([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10]);
+    expect(fittingSpeed(0)).toBe(1);
+  });
+
+  it("goes_in_a_loop_where_the_whole_is_short_to_look_at", () => {
+    expect([1e-4, 0.05, 1.5, 5].map(loops)).toEqual([true, true, true, true]);
+    expect([15, 0].map(loops)).toEqual([false, false]);
   });
 });
