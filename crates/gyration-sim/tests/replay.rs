@@ -92,6 +92,30 @@ fn replayed_stress_is_that_which_the_run_recorded() {
 }
 
 #[test]
+fn the_force_between_bodies_without_friction_is_normal_and_is_had_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = "record.quantities=[\"normal_force\", \"tangential_force\", \"pair_force\"]";
+    let recording = gallery("collide", &["time.end=0.8", asked], folder.path());
+    let mut replay = Replay::open(&recording).unwrap();
+    let read = |name: &str| recording.read(name).unwrap().data;
+    let [normal, tangential, pair, contact] =
+        ["normal_force", "tangential_force", "pair_force", "contact_force"].map(read);
+    assert_eq!(pair, contact);
+    let most = normal.iter().copied().fold(0.0, f64::max);
+    assert!(most > 1.0, "the two have met: {most}");
+    for row in 0..recording.rows() {
+        for (body, parts) in replay.contact_parts(row).unwrap().iter().enumerate() {
+            let at = 2 * row + body;
+            let force = Vec3::from_column_slice(&contact[3 * at..][..3]);
+            // Along the normal to rounding, and of one sign.
+            assert!((normal[at] - force.norm()).abs() <= 1e-14 * most && tangential[at] <= 1e-14 * most);
+            // A recording has the state to a digit less than the run had it, and forces are steep.
+            assert!((parts.normal - normal[at]).abs() <= 1e-9 * most, "{row}: {parts:?}, {}", normal[at]);
+        }
+    }
+}
+
+#[test]
 fn a_rigid_body_has_no_stress() {
     let folder = tempfile::tempdir().unwrap();
     let recording = gallery("dice", &["time.end=0.02"], folder.path());

@@ -38,4 +38,10 @@ pub enum Recorded {
     CauchyStress,
     /// The first Piola stress S (Pa).
     Stress,
+    /// Σ f·n over the contacts, n the normal of each (N).
+    NormalForce,
+    /// Σ |f − (f·n) n| over the contacts (N).
+    TangentialForce,
+    /// The force of all other bodies that it meets (N).
+    PairForce,
 }

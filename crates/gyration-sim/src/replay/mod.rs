@@ -17,7 +17,7 @@ pub use error::ReplayError;
 pub use snapshot::{BodySnapshot, Snapshot};
 
 use gyration::body::{Body, BodyKind};
-use gyration::dynamics::{Workspace, acting};
+use gyration::dynamics::{ContactParts, Workspace, acting, contact_parts};
 use gyration::homogeneous::observe_homogeneous;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::model::Model;
@@ -94,6 +94,19 @@ impl Replay {
             Ok(Some(seen.cauchy_stress))
         };
         model.bodies.iter().enumerate().map(&mut stress).collect()
+    }
+
+    /// The contact force on each body at a sample, along and across the normals of its contacts.
+    ///
+    /// # Errors
+    /// Those of [`cauchy_stress`](Replay::cauchy_stress).
+    pub fn contact_parts(&mut self, row: usize) -> Result<Vec<ContactParts>, ReplayError> {
+        let state = self.state(row)?;
+        let Self { model, workspace, .. } = self;
+        let outside = |source| ReplayError::Inadmissible { row, source };
+        let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
+        let parts = |index| contact_parts(&instant.at(model, index), scratch).map_err(outside);
+        (0..model.bodies.len()).map(parts).collect()
     }
 }
 

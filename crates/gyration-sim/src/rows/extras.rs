@@ -1,6 +1,6 @@
 //! Quantities that are recorded on request.
 
-use super::fields::{BodyField, EXTRA_FIELDS};
+use super::fields::{BodyField, EXTRA_FIELDS, OF_CONTACTS};
 use gyration::tensor::Vec3;
 use gyration_scene::Recorded;
 
@@ -29,9 +29,14 @@ impl Extras {
         self
     }
 
-    /// Whether nothing is asked for.
-    pub fn is_empty(&self) -> bool {
-        !self.asked.contains(&true)
+    /// Whether what is asked for needs the observation of homogeneous strain.
+    pub(super) fn are_homogeneous(&self) -> bool {
+        self.asked[..EXTRA_FIELDS.len() - OF_CONTACTS].contains(&true)
+    }
+
+    /// Whether what is asked for needs the contact force by its parts.
+    pub(super) fn are_of_contacts(&self) -> bool {
+        self.asked[EXTRA_FIELDS.len() - OF_CONTACTS..].contains(&true)
     }
 
     pub(super) fn fields(&self) -> impl Iterator<Item = &'static BodyField> + use<> {

@@ -3,6 +3,7 @@
 //! One list serves the layout and the filling of a row, so that the two cannot disagree. The order is that of the CSV.
 
 use gyration::balance::BodyObservation;
+use gyration::dynamics::ContactParts;
 use gyration::homogeneous::HomogeneousObservation;
 use gyration::immersion::ImmersionObservation;
 use gyration::tensor::{Mat3, Vec3};
@@ -31,6 +32,8 @@ pub(super) struct BodyContext<'a> {
     pub body: &'a BodyObservation,
     /// Where it was asked for.
     pub homogeneous: Option<&'a HomogeneousObservation>,
+    /// Where they were asked for.
+    pub contacts: Option<&'a ContactParts>,
     /// If it is immersed in a fluid.
     pub immersed: Option<&'a ImmersionObservation>,
 }
@@ -161,34 +164,40 @@ pub(super) const PRESSURE: &str = "pressure";
 pub(super) const GAP: &str = "gap";
 pub(super) const CONTACT_FORCE: &str = "contact_force";
 
-/// A field that is recorded on request: NaN where it was not observed.
+/// A field that is recorded on request, of what is observed: NaN where it was not.
 macro_rules! extra {
-    ($name:literal, $units:literal, $description:literal, $rank:ident, $field:ident, $nothing:expr) => {
+    ($of:ident, $name:literal, $units:literal, $description:literal, $rank:ident, $field:ident, $nothing:expr) => {
         BodyField {
             name: $name,
             units: $units,
             description: $description,
             rank: Rank::$rank,
             suffixes: &[],
-            value: |context| FieldValue::$rank(context.homogeneous.map_or($nothing, |found| found.$field)),
+            value: |context| FieldValue::$rank(context.$of.map_or($nothing, |found| found.$field)),
         }
     };
 }
 
 /// The fields that are recorded on request, in the order of `gyration_scene::Recorded`.
 #[rustfmt::skip]
-pub(super) static EXTRA_FIELDS: [BodyField; 10] = [
-    extra!("velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),
-    extra!("affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, total_affine_momentum, NO_MATRIX),
-    extra!("affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, affine_moment, NO_MATRIX),
-    extra!("moment_power", "W", "power tr(N L) of the affine moment", Scalar, moment_power, f64::NAN),
-    extra!("comoving_momentum", "kg m2/s", "co-moving affine momentum P^-1 K P^-T", Matrix, comoving_affine_momentum, NO_MATRIX),
-    extra!("momentum_residual", "N m", "residual of the balance of affine momentum", Matrix, momentum_residual, NO_MATRIX),
-    extra!("principal_stretches", "1", "principal stretches, descending", Vector, principal_stretches, NO_VECTOR),
-    extra!("rotation", "1", "rotation R of P = R U", Matrix, rotation, NO_MATRIX),
-    extra!("cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
-    extra!("stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
+pub(super) static EXTRA_FIELDS: [BodyField; 13] = [
+    extra!(homogeneous, "velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),
+    extra!(homogeneous, "affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, total_affine_momentum, NO_MATRIX),
+    extra!(homogeneous, "affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, affine_moment, NO_MATRIX),
+    extra!(homogeneous, "moment_power", "W", "power tr(N L) of the affine moment", Scalar, moment_power, f64::NAN),
+    extra!(homogeneous, "comoving_momentum", "kg m2/s", "co-moving affine momentum P^-1 K P^-T", Matrix, comoving_affine_momentum, NO_MATRIX),
+    extra!(homogeneous, "momentum_residual", "N m", "residual of the balance of affine momentum", Matrix, momentum_residual, NO_MATRIX),
+    extra!(homogeneous, "principal_stretches", "1", "principal stretches, descending", Vector, principal_stretches, NO_VECTOR),
+    extra!(homogeneous, "rotation", "1", "rotation R of P = R U", Matrix, rotation, NO_MATRIX),
+    extra!(homogeneous, "cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
+    extra!(homogeneous, "stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
+    extra!(contacts, "normal_force", "N", "contact forces along the normals of their contacts, summed", Scalar, normal, f64::NAN),
+    extra!(contacts, "tangential_force", "N", "magnitudes of the contact forces across the normals, summed", Scalar, tangential, f64::NAN),
+    extra!(contacts, "pair_force", "N", "force of all other bodies that it meets", Vector, of_bodies, NO_VECTOR),
 ];
+
+/// How many of them, the last, are of contacts; those before are of homogeneous strain.
+pub(super) const OF_CONTACTS: usize = 3;
 
 /// A field of bodies in a fluid: NaN for any other.
 macro_rules! immersed {

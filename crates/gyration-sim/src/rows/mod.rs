@@ -15,7 +15,7 @@ use fields::{
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
 use gyration::body::Body;
-use gyration::dynamics::{Workspace, acting};
+use gyration::dynamics::{ContactParts, Workspace, acting, contact_parts};
 use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
 use gyration::immersion::{ImmersionObservation, observe_immersion};
 use gyration::model::Model;
@@ -27,8 +27,10 @@ use gyration_record::{ArraySpec, Dimension};
 #[derive(Clone)]
 pub struct Fields {
     fields: Vec<&'static BodyField>,
-    /// The origin of total affine momentum, where quantities are recorded on request.
+    /// The origin of total affine momentum, where quantities of homogeneous strain are asked for.
     origin: Option<Vec3>,
+    /// Whether contact forces are asked for by their parts.
+    by_parts: bool,
     /// Whether a body is immersed in a fluid.
     immersed: bool,
 }
@@ -38,6 +40,7 @@ pub struct Fields {
 pub struct RowScratch {
     bodies: Vec<BodyObservation>,
     homogeneous: Vec<HomogeneousObservation>,
+    contacts: Vec<ContactParts>,
     immersed: Vec<Option<ImmersionObservation>>,
     /// The row last filled, flattened in the order of [`Fields::arrays`].
     pub row: Vec<f64>,
@@ -51,7 +54,8 @@ impl Fields {
         let immersed = model.fluid.is_some() && model.bodies.iter().any(|body| body.inclusion.is_some());
         let in_fluid = IMMERSED_FIELDS.iter().filter(|_| immersed);
         let fields = usual.chain(in_fluid).chain(extras.fields()).collect();
-        Self { fields, origin: (!extras.is_empty()).then_some(extras.origin), immersed }
+        let origin = extras.are_homogeneous().then_some(extras.origin);
+        Self { fields, origin, by_parts: extras.are_of_contacts(), immersed }
     }
 
     /// The arrays of a recording of this model, and the order of its CSV columns.
@@ -82,9 +86,10 @@ impl Fields {
         initial: Option<f64>,
         scratch: &mut RowScratch,
     ) -> Result<Audit, Inadmissible> {
-        let RowScratch { bodies, homogeneous, immersed, row } = scratch;
+        let RowScratch { bodies, homogeneous, contacts, immersed, row } = scratch;
         bodies.clear();
         homogeneous.clear();
+        contacts.clear();
         immersed.clear();
         row.clear();
         let (instant, scratch) = workspace.read(model, state)?;
@@ -95,6 +100,9 @@ impl Fields {
             if let Some(origin) = &self.origin {
                 homogeneous.push(observe_homogeneous(&at, &acting, scratch, origin)?);
             }
+            if self.by_parts {
+                contacts.push(contact_parts(&at, scratch)?);
+            }
             if self.immersed {
                 immersed.push(observe_immersion(&at, scratch)?);
             }
@@ -104,6 +112,7 @@ impl Fields {
                 match (field.value)(&BodyContext {
                     body,
                     homogeneous: homogeneous.get(index),
+                    contacts: contacts.get(index),
                     immersed: immersed.get(index).and_then(Option::as_ref),
                 }) {
                     FieldValue::Scalar(value) => row.push(value),

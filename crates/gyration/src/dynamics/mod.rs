@@ -6,6 +6,7 @@
 
 mod affine;
 mod body_rates;
+mod contact_parts;
 mod contacts;
 mod contractile;
 mod history;
@@ -19,6 +20,7 @@ mod pushes;
 mod rates;
 mod rigid;
 
+pub use contact_parts::{ContactParts, contact_parts};
 pub use contacts::{gap_at, nearest};
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
