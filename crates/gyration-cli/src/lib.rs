@@ -18,6 +18,7 @@ mod input;
 mod output;
 mod progress;
 mod provenance;
+mod waiting;
 
 use arguments::Arguments;
 use clap::Parser;

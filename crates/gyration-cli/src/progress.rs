@@ -5,6 +5,7 @@
 
 use crate::error::{CliError, code};
 use crate::output;
+use crate::waiting::Waiting;
 use gyration_sim::format::{duration, significant};
 use gyration_sim::{Monitor, Progress, Reason, limit_in_words};
 use gyration_threads::Interruption;
@@ -89,6 +90,8 @@ fn interruption() -> Result<Arc<AtomicBool>, CliError> {
 /// Watches a run: its bar says what limits the step.
 pub struct RunProgress {
     terminal: Terminal,
+    /// The line before the first step, which may take long.
+    first: Option<Waiting>,
     /// Wall and simulated time [s] at the beginning of the present average.
     since: (Instant, f64),
 }
@@ -99,7 +102,13 @@ impl RunProgress {
     /// # Errors
     /// [`CliError::Signal`].
     pub fn new(with_bar: bool) -> Result<Self, CliError> {
-        Ok(Self { terminal: Terminal::new(with_bar)?, since: (Instant::now(), f64::NAN) })
+        let terminal = Terminal::new(with_bar)?;
+        Ok(Self { terminal, first: None, since: (Instant::now(), f64::NAN) })
+    }
+
+    /// Says on the terminal that the first step is waited for, until it comes.
+    pub fn await_first_step(&mut self) {
+        self.first = Some(Waiting::for_what("the first step".to_owned(), self.terminal.bar.is_some()));
     }
 
     /// The interruption by Ctrl-C.
@@ -108,14 +117,16 @@ impl RunProgress {
     }
 
     /// Removes the bar.
-    pub fn finish(&self) {
+    pub fn finish(&mut self) {
+        self.first = None;
         self.terminal.finish();
     }
 }
 
 impl Monitor for RunProgress {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
-        let Self { terminal, since } = self;
+        let Self { terminal, first, since } = self;
+        *first = None;
         if since.1.is_nan() {
             since.1 = progress.step.start;
         }

@@ -5,7 +5,7 @@ use crate::layout::ArraySpec;
 use gyration_files::check;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How the numbers of an array are stored, by Zarr's names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -77,6 +77,11 @@ impl ArrayInfo {
         let rest = self.shape.iter().skip(1).map(|_| ".0");
         let first = if self.shape.is_empty() { String::new() } else { format!(".{index}") };
         format!("c{first}{}", rest.collect::<String>())
+    }
+
+    /// Where that file is, in the folder of a recording.
+    pub(crate) fn chunk_path(&self, folder: &Path, index: usize) -> PathBuf {
+        folder.join(&self.name).join(self.chunk_key(index))
     }
 
     /// Whether the array grows along this dimension.

@@ -2,9 +2,10 @@
 //!
 //! Whoever goes through a recording row by row would otherwise read each chunk as often as it has rows.
 
-use crate::array::ArrayInfo;
+use crate::array::{ArrayInfo, DataType};
 use crate::disk;
 use crate::error::RecordError;
+use crate::zarr;
 use gyration_files::check;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -33,6 +34,36 @@ pub(crate) fn read_chunk(array: &ArrayInfo, path: &Path) -> Result<Vec<u8>, Reco
     array.decode(bytes, path)
 }
 
+/// The labels of a dimension.
+///
+/// # Errors
+/// `Corrupt`, `Io`.
+pub(crate) fn read_labels(array: &ArrayInfo, folder: &Path) -> Result<Vec<String>, RecordError> {
+    let path = array.chunk_path(folder, 0);
+    let bytes = array.decode(disk::read(&path)?, &path)?;
+    let labels = zarr::decode_labels(&bytes).filter(|labels| labels.len() == array.shape[0]);
+    labels.ok_or_else(|| RecordError::corrupt(&path, "the labels cannot be read"))
+}
+
+/// Holds all that a recording of so many rows along each growing dimension consists of against its checksums.
+///
+/// # Errors
+/// `Truncated`, `Corrupt`, `Io`: the first chunk that is not what was written.
+pub(crate) fn verify(arrays: &[ArrayInfo], folder: &Path, rows: &[(&str, usize)]) -> Result<(), RecordError> {
+    for array in arrays {
+        if array.data_type == DataType::String {
+            read_labels(array, folder)?;
+            continue;
+        }
+        let growing = rows.iter().find(|(dim, _)| array.grows_with(dim));
+        let count = growing.zip(array.chunk.first()).map_or(1, |((_, rows), chunk_rows)| rows.div_ceil(*chunk_rows));
+        for index in 0..count {
+            read_chunk(array, &array.chunk_path(folder, index))?;
+        }
+    }
+    Ok(())
+}
+
 impl fmt::Debug for LastChunks {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str("LastChunks")
@@ -49,8 +80,7 @@ impl LastChunks {
         if let Some((_, elements)) = last().get(&array.name).filter(|(held, _)| *held == index) {
             return Ok(Arc::clone(elements));
         }
-        let path = folder.join(&array.name).join(array.chunk_key(index));
-        let elements = Arc::new(read_chunk(array, &path)?);
+        let elements = Arc::new(read_chunk(array, &array.chunk_path(folder, index))?);
         last().insert(array.name.clone(), (index, Arc::clone(&elements)));
         Ok(elements)
     }

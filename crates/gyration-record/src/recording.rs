@@ -6,12 +6,11 @@
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
 use crate::checkpoint::Checkpoint;
-use crate::chunks::LastChunks;
+use crate::chunks::{LastChunks, read_labels};
 use crate::disk;
 use crate::error::RecordError;
 use crate::metadata::Group;
 use crate::writer::Event;
-use crate::zarr;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -171,10 +170,7 @@ impl Recording {
         let Some(array) = self.arrays().iter().find(labelled) else {
             return Ok(None);
         };
-        let file = self.path.join(dim).join(array.chunk_key(0));
-        let bytes = array.decode(disk::read(&file)?, &file)?;
-        let labels = zarr::decode_labels(&bytes).filter(|labels| labels.len() == array.shape[0]);
-        labels.map(Some).ok_or_else(|| RecordError::corrupt(&file, "the labels cannot be read"))
+        read_labels(array, &self.path).map(Some)
     }
 
     /// Names of the kinds of events, by code.

@@ -38,7 +38,7 @@ impl GrowingArray {
     }
 
     fn path(&self, directory: &Path, index: usize) -> PathBuf {
-        directory.join(&self.info.name).join(self.info.chunk_key(index))
+        self.info.chunk_path(directory, index)
     }
 }
 

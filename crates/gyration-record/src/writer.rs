@@ -12,6 +12,7 @@
 use crate::Attributes;
 use crate::array::ArrayInfo;
 use crate::checkpoint::Checkpoint;
+use crate::chunks;
 use crate::disk::{self, CHECKPOINT, Disk, METADATA, STATE};
 use crate::error::RecordError;
 use crate::layout::Layout;
@@ -99,7 +100,8 @@ impl Writer {
         Self::over(disk, path, directory, group, lock)
     }
 
-    /// Opens a recording to go on from its last checkpoint; rows beyond it are cut off.
+    /// Opens a recording to go on from its last checkpoint; rows beyond it are cut off. All that stays is read once, and
+    /// held against its checksums.
     ///
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Locked`, `Corrupt`, `Truncated`, `Io`.
@@ -131,6 +133,8 @@ impl Writer {
         if checkpoint.rows > counted.0 || checkpoint.events > counted.1 {
             return Err(RecordError::corrupt(&file, "the checkpoint belongs to more rows than there are"));
         }
+        // What is gone on with ends up in a recording that looks whole: nothing damaged may be in it.
+        chunks::verify(&group.arrays, path, &[("time", checkpoint.rows), ("event", checkpoint.events)])?;
         let mut writer = Self::over(disk, path, path.to_path_buf(), group, lock)?;
         writer.cut(&checkpoint)?;
         Ok(Resumed { writer, checkpoint: checkpoint.state, attributes })

@@ -136,6 +136,30 @@ fn a_flip_before_a_resumption_is_refused_or_ends_in_the_same_bytes() {
     }
 }
 
+/// What is gone on with ends up in a recording that looks whole: fixed arrays, labels and chunks long full included.
+#[test]
+fn a_flip_in_any_chunk_is_refused_before_a_recording_is_gone_on_with() {
+    let folder = scratch();
+    let path = folder.path().join("run.gyr");
+    finished(&path, 10, 4);
+    let files = tree(&path);
+    let chunks = files.iter().filter(|(name, _)| name.file_name().unwrap().to_string_lossy().starts_with("c."));
+    let mut count = 0;
+    for (name, bytes) in chunks {
+        let mut flipped = bytes.clone();
+        flipped[bytes.len() / 2] ^= 4;
+        fs::write(path.join(name), &flipped).unwrap();
+        let words = Writer::resume(&path).unwrap_err().to_string();
+        assert!(words.contains(&name.display().to_string()) && words.contains("checksum"), "{words}");
+        fs::write(path.join(name), bytes).unwrap();
+        count += 1;
+    }
+    // Ten rows in chunks of four, of three arrays and the time; a fixed array, two lists of labels, the events.
+    assert!(count >= 3 * 4 + 3, "{count}");
+    assert!(tree(&path) == files, "what is refused is left as it is");
+    Writer::resume(&path).unwrap();
+}
+
 /// Recordings of earlier versions have no checksums; they are read and gone on with as they are.
 #[test]
 fn a_recording_without_checksums_is_read_and_resumed() {

@@ -6,7 +6,7 @@
 //! step may spend a tenth of either.
 
 use crate::resistance::check_resistances;
-use crate::scales::{energy_scale, speed_scales, spring_frequency};
+use crate::scales::{energy_scale, mode_scales, speed_scales, spring_frequency};
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
@@ -159,6 +159,12 @@ impl ModelSystem {
         found.inspect_err(|left| self.interrupted |= left.quantity == Quantity::Interruption)
     }
 
+    /// Whether what was observed since the last step may have been given up, which is then noted.
+    pub(crate) fn may_be_given_up(&mut self) -> bool {
+        self.interrupted |= self.model.is_given_up();
+        self.interrupted
+    }
+
     /// The speed scale of a body [m/s].
     pub fn speed_scale(&self, body: usize) -> f64 {
         self.speeds[body]
@@ -270,9 +276,7 @@ impl System for ModelSystem {
             y_scale[slots.velocity()].fill(velocity);
             y_scale[slots.rate()].fill(velocity / body.size);
             if let Some(history) = body.history() {
-                let (trailing, turning) = y_scale[slots.extra()].split_at_mut(3 * history.translation.rates.len());
-                trailing.fill(velocity);
-                turning.fill(velocity / body.size);
+                mode_scales(body, history, velocity, &mut y_scale[slots.extra()]);
             } else {
                 // G is a number of order one, on which forces depend as they do on P.
                 let size = y[slots.extra()].iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));

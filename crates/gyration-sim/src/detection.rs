@@ -6,6 +6,7 @@
 
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
 use crate::island::Island;
+use crate::outcome::Stop;
 use crate::step_end::StepEnd;
 use gyration::balance::observe;
 use gyration::dynamics::acting;
@@ -54,6 +55,17 @@ impl Island {
         if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
             gaps.clear();
         }
+    }
+
+    /// The stop of an island in which two bodies touch, as far as digits tell: what would follow is made of rounding.
+    pub fn touch(&self) -> Option<Stop> {
+        let model = self.model();
+        let mut pairs = model.pairs().iter().zip(&self.gaps);
+        pairs.find_map(|(pair, slab)| {
+            let size = pair.bodies.map(|body| model.bodies[body].size).into_iter().fold(f64::INFINITY, f64::min);
+            let gap = pair.touch(slab, size)?;
+            Some(Stop::by_touch(model, self.time(), pair.bodies, gap, size))
+        })
     }
 
     /// Finds the events of the last step, in order of time behind those found before.

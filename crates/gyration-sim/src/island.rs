@@ -118,6 +118,9 @@ impl Island {
             anchor: None,
         };
         this.read_step_end();
+        if this.system.may_be_given_up() {
+            return Err(Stop::by_interruption(start.time));
+        }
         this.note_in_play();
         if !(is_whole && stays) {
             this.anchor = Some(Anchor::new(this.memory()));
@@ -170,12 +173,16 @@ impl Island {
     /// # Errors
     /// [`MemoryError`] if it is not one of this island.
     pub fn resume(&mut self, memory: &IslandMemory, plan: &RunPlan, time: f64) -> Result<(), MemoryError> {
-        self.restore(memory, plan)?;
         // What has been done once is not given up.
-        Interruption::default()
-            .within(|| while self.time() < time && !self.state.is_parting && self.step(plan).is_ok() {});
-        self.events.retain(|event| event.time > time);
-        Ok(())
+        Interruption::default().within(|| {
+            self.restore(memory, plan)?;
+            if self.anchor.is_none() && self.time() < time {
+                self.anchor = Some(Anchor::new(memory.clone()));
+            }
+            while self.time() < time && !self.state.is_parting && self.step(plan).is_ok() {}
+            self.events.retain(|event| event.time > time);
+            Ok(())
+        })
     }
 
     /// Is again what a memory holds.
@@ -200,14 +207,6 @@ impl Island {
         self.stop = None;
         self.read_step_end();
         Ok(())
-    }
-
-    /// Forgets what was done since the run was at a time.
-    pub fn go_back(&mut self, plan: &RunPlan, time: f64) {
-        let Some(anchor) = &self.anchor else { return };
-        let kept = anchor.kept().clone();
-        let resumed = self.resume(&kept, plan, time);
-        debug_assert!(resumed.is_ok(), "an island remembers itself");
     }
 
     /// Steps until a time is reached, or so many steps are made; the reason is in `stop` if it cannot go on. An
@@ -251,6 +250,7 @@ impl Island {
 
     /// The same no farther than to a time.
     pub fn step_towards(&mut self, target: f64, plan: &RunPlan) -> Result<StepReport, Stop> {
+        self.touch().map_or(Ok(()), Err)?;
         let (before, time) = (self.dissipation(), self.time());
         let made = self.integrator.step(&mut self.system, target);
         if self.system.was_interrupted() {
@@ -266,6 +266,10 @@ impl Island {
         self.note_ways(&report);
         self.note_parting();
         self.note_rest(plan, report.end);
+        if self.system.may_be_given_up() {
+            // Gaps and forces at its end are not all known.
+            return Err(Stop::by_interruption(time));
+        }
         Ok(report)
     }
 

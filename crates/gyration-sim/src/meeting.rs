@@ -11,6 +11,7 @@ use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::way::{NODES, Way};
+use gyration::pair::EDGE;
 use gyration::tensor::Vec3;
 use gyration_ode::{Components, Integrator, Options, Pattern, StepReport};
 use gyration_threads::Interruption;
@@ -41,12 +42,13 @@ impl Island {
         self.state.is_parting = self.ways.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
     }
 
-    /// The sets of its bodies, by their places, that are within reach of one another or will be soon.
+    /// The sets of its bodies, by their places, that are within reach of one another or will be soon. They part a little
+    /// farther out than they meet: two that stay at one distance do not do both in turns.
     pub fn parts(&self) -> Components {
         let (model, ahead) = (self.model(), AHEAD * self.integrator.next_size());
         let near = |bodies: [usize; 2], reach: f64| {
             let [one, other] = bodies.map(|body| &self.step_ends[body]);
-            Approach::of(one, other).least(ahead) <= reach
+            Approach::of(one, other).least(ahead) <= (1.0 + EDGE) * reach
         };
         let joined = model.reaches().filter(|(bodies, reach)| reach.is_none_or(|reach| near(*bodies, reach)));
         Components::of(&Pattern::new(model.bodies.len(), joined.map(|(bodies, _)| bodies.into())), model.bodies.len())
@@ -60,11 +62,11 @@ impl Island {
         // The last step that begins no later is cut there, the others are repeated.
         let begins = self.ways.iter().flatten().next().into_iter().flatten().map(|way| way.start);
         let cut = begins.filter(|begin| *begin <= time).fold(f64::NEG_INFINITY, f64::max);
-        if let Some(kept) = self.anchor.as_ref().map(|anchor| anchor.kept().clone()) {
-            let restored = self.restore(&kept, plan);
-            debug_assert!(restored.is_ok(), "an island remembers itself");
-        }
         let come = Interruption::default().within(|| {
+            if let Some(kept) = self.anchor.as_ref().map(|anchor| anchor.kept().clone()) {
+                let restored = self.restore(&kept, plan);
+                debug_assert!(restored.is_ok(), "an island remembers itself");
+            }
             while self.time() < cut {
                 self.step(plan)?;
             }
@@ -83,7 +85,8 @@ impl Island {
     /// [`Stop`] if together they have no rates.
     pub fn successor(setting: Setting, members: Vec<usize>, before: &[&Island], in_play: InPlay) -> Result<Self, Stop> {
         let Setting { model, plan, .. } = setting;
-        let mut this = Self::new(setting, members, false)?;
+        // Where it begins has been come to: that is not given up.
+        let mut this = Interruption::default().within(|| Self::new(setting, members, false))?;
         let time = before.iter().map(|island| island.time()).fold(f64::NEG_INFINITY, f64::max);
         let step = before.iter().map(|island| island.integrator.next_size()).filter(|size| *size > 0.0);
         let step = step.reduce(f64::min);
@@ -103,8 +106,10 @@ impl Island {
         this.take_over(before);
         this.state.in_play = in_play;
         // The planes of the rates there are looked for from where they are.
-        this.find_gaps();
-        this.restart()?;
+        Interruption::default().within(|| {
+            this.find_gaps();
+            this.restart()
+        })?;
         this.note_in_play();
         if let Some(anchor) = &mut this.anchor {
             anchor.drop_at(&this.state, &this.integrator);

@@ -43,6 +43,8 @@ pub struct Stop {
 pub enum Reason {
     /// A surface reached a support.
     GapClosed,
+    /// The gap between two bodies is smaller than the digits of a number tell: they touch.
+    Touching,
     /// A body that deforms was flattened: its volume vanished.
     Inverted,
     /// Nothing resists the motion of a body without inertia.
@@ -106,6 +108,26 @@ impl Stop {
             _ => ("the run was interrupted", "Go on with --resume."),
         };
         Self { time, reason, body: None, what: what.into(), advice: advice.into() }
+    }
+
+    /// A stop because two bodies touch, as far as digits tell: the gap [m] between one of them and their plane, and the
+    /// size [m] with which it is compared.
+    pub fn by_touch(model: &Model, time: f64, bodies: [usize; 2], gap: f64, size: f64) -> Self {
+        let [one, other] = bodies.map(|body| &model.bodies[body].name);
+        Self {
+            time,
+            reason: Reason::Touching,
+            body: Some(one.clone()),
+            what: format!(
+                "bodies {one:?} and {other:?} touch: the plane between them is {gap:.1e} m off one, {:.1e} of the size of \
+                 the smaller one, below what the digits of a number tell",
+                gap / size
+            ),
+            advice:
+                "Their law hardly forbids it: give its repulsion a larger exponent nu, d0 or alpha, so that they turn \
+                     back before, or reduce the speed."
+                    .into(),
+        }
     }
 
     /// A stop because the energies are beyond the range of numbers.

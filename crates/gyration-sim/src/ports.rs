@@ -130,7 +130,10 @@ impl RunError {
 /// What to do about a run that was given up before it had anything to resume.
 fn fix_of(stop: &Stop) -> &'static str {
     match stop.reason {
-        Reason::WallTime => "\n  fix: raise solver.max_wall_time, or give inclusion.triangles a smaller number",
+        Reason::WallTime => {
+            "\n  fix: raise solver.max_wall_time, or give very many bodies that meet a `reach`, or inclusion.triangles a \
+             smaller number"
+        }
         _ => "",
     }
 }

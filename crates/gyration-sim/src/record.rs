@@ -32,6 +32,9 @@ use std::time::{Duration, Instant};
 /// Wall time between flushes; the contract asks for one a second at least. A flush of 8 MiB of chunks takes 0.03 s.
 const FLUSH_EVERY: Duration = Duration::from_millis(800);
 
+/// Wall time for the summary of a run that was given up, beyond which some of it is left out.
+const TO_TELL: Duration = Duration::from_millis(500);
+
 /// A model ready to run, with what its recording says of it.
 #[derive(Debug, Clone)]
 pub struct Job<'a> {
@@ -157,7 +160,10 @@ impl<'a> Job<'a> {
     ) -> Result<RecordingEnd, RunError> {
         let began = Instant::now();
         let outcome = simulation.run(&mut sink, watch)?;
-        let mut summary = RunSummary::of(self.model, &mut simulation, outcome, Some(began.elapsed()));
+        let elapsed = Some(began.elapsed());
+        // What has been done is told though no time is left, unless that takes long.
+        let told = Interruption::default().after(Some(TO_TELL));
+        let mut summary = told.within(|| RunSummary::of(self.model, &mut simulation, outcome, elapsed));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
             summary.warnings = Remarks::without_fluid(self.model, self.start, self.plan.tolerance.rtol).warnings;

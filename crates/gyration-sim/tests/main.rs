@@ -4,6 +4,7 @@
 
 mod deforming;
 mod dissipation;
+mod interruptions;
 mod islands;
 mod joined;
 mod meetings;
@@ -20,3 +21,4 @@ mod sensitivities;
 mod short_range;
 mod stepping;
 mod surfaces;
+mod touching;

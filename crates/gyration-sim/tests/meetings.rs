@@ -207,6 +207,29 @@ fn balls_that_pass_one_another_never_know_of_each_other() {
     assert_eq!(found.statistics, alone.statistics);
 }
 
+/// A row that moves as a whole, each ball at the end of the reach of the next: to the last digit, and within the part of
+/// it that is left out.
+#[test]
+fn balls_that_stay_at_the_end_of_their_reach_do_not_meet_and_part_in_turns() {
+    let row = |spacing: f64| -> Vec<_> {
+        (0..5).map(|k| ([0.07 + spacing * f64::from(k), 0.0, 0.0], [-1.0, 0.0, 0.0])).collect()
+    };
+    let (model, start, plan) = balls(&row(REACH), &["time.end=2"]);
+    let found = run(&(model.clone(), start.clone(), plan));
+    let apart = model.paired(Vec::new());
+    let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
+    assert_eq!(found.state.bodies, alone.state.bodies);
+    assert_eq!(found.statistics, alone.statistics);
+    let evaluations = |spacing| run(&balls(&row(spacing), &["time.end=2"])).statistics.rate_evaluations;
+    // Some of them are one island, and stay so.
+    let most = evaluations(REACH - 1e-3) + alone.statistics.rate_evaluations;
+    for spacing in [REACH - 1e-10, REACH - 1e-10 + 4e-17, REACH - 1e-10 - 4e-17] {
+        let count = evaluations(spacing);
+        println!("{count} evaluations, {most} expected at most");
+        assert!(count <= most, "{count}");
+    }
+}
+
 #[test]
 fn springs_stay_while_neighbours_come_and_go() {
     // A pair on a spring is hit by a ball, and goes on as a pair.

@@ -67,6 +67,37 @@ fn resumed_runs_in_a_fluid_leave_the_same_bytes() {
     assert_resumes(&gallery("tank-tread", &[]), &[2, 10]);
 }
 
+/// Two bodies that are thrown up, each in a few steps with thousands of samples, an apex among them.
+#[test]
+fn rows_of_a_long_step_come_in_portions_from_each_of_which_a_run_goes_on() {
+    let body = |k: usize| {
+        format!(
+            "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1\n\
+             position = [{k}, 0, 0]\nvelocity = [0, 0, {}]\n",
+            0.6 + 0.1 * k as f64
+        )
+    };
+    for count in [1, 2] {
+        let bodies: String = (0..count).map(body).collect();
+        let text = format!("time = {{ end = 0.12, sample = 1e-5 }}\n{bodies}");
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+        let job = Job::of(&scene, &provenance());
+        let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+        let (mut sink, mut portions) = (MemorySink::default(), vec![]);
+        simulation.begin(&mut sink).unwrap();
+        while let Outcome::Stopped(_) = simulation.run(&mut sink, &mut StopAfter(1)).unwrap() {
+            portions.push(sink.rows.len());
+        }
+        assert_eq!((sink.rows.len(), sink.events.len()), (12_001, count));
+        let most = portions.windows(2).map(|two| two[1] - two[0]).max().unwrap();
+        println!("{} portions, of {most} rows at most", portions.len());
+        assert!(most <= 5000, "{most}");
+        let mut interruptions = vec![1, portions.len() / 2, portions.len()];
+        interruptions.dedup();
+        assert_resumes(&scene, &interruptions);
+    }
+}
+
 fn assert_resumes(scene: &Scene, interruptions: &[usize]) {
     let folder = tempfile::tempdir().unwrap();
     let job = Job::of(scene, &provenance());

@@ -111,6 +111,33 @@ fn more_connections_than_allowed_are_outlived() {
     drop(crowd);
 }
 
+/// Nobody waits out the strangers' silence here: they would be left after an hour.
+#[test]
+fn those_without_the_token_do_not_keep_out_one_who_has_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = Limits { connections: 2, strangers: 4, request: 3600 * SOON, unread: 3600 * SOON };
+    let served = recording(&folder, limits);
+    let crowd: Vec<_> = (0..12).map(|_| served.send("GET / HTTP/1.1\r\n")).collect();
+    assert_eq!(served.get("/api/header").0, 200);
+    // The oldest have given way, the newest stay.
+    let mut crowd = crowd.into_iter();
+    crowd.by_ref().take(8).for_each(|old| assert_eq!(left(old), ""));
+    let mut newest = crowd.last().unwrap();
+    newest.set_nonblocking(true).unwrap();
+    assert_eq!(newest.read(&mut [0]).unwrap_err().kind(), ErrorKind::WouldBlock);
+}
+
+#[test]
+fn who_has_shown_the_token_gives_way_to_nobody() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = Limits { connections: 1, strangers: 1, request: 3600 * SOON, unread: 3600 * SOON };
+    let served = Served::with_limits(running(&folder, FALL), limits);
+    let mut page = Page::open(&served);
+    let crowd: Vec<_> = (0..8).map(|_| served.send("GET / HTTP/1.1\r\n")).collect();
+    assert_eq!(page.read_all().times.len(), 31);
+    drop(crowd);
+}
+
 #[test]
 fn who_does_not_read_loses_the_place() {
     let folder = tempfile::tempdir().unwrap();

@@ -39,7 +39,8 @@ pub enum Quantity {
     /// The relative error of the resistance of such a body between the forms for which it was computed, which must be
     /// below the tolerance.
     Interpolation,
-    /// The resistance of such a body was given up before it was known: no property of the state, and no value.
+    /// The resistance of such a body, or what very many pairs of bodies do, was given up before it was known: no
+    /// property of the state, and no value.
     Interruption,
 }
 

@@ -36,7 +36,12 @@ pub struct Model {
     has_potential: bool,
     /// What a controller applies to each body; empty without one.
     applied: Vec<Applied>,
+    /// Tells whether nobody waits any longer; the mechanics itself has no clock.
+    given_up: Option<fn() -> bool>,
 }
+
+/// So many pairs of bodies are looked at, at most, before one asks whether to go on.
+pub(crate) const PATIENCE: usize = 1000;
 
 impl Model {
     /// Freezes a model: lays out the state and decides which entries the ledger has.
@@ -65,6 +70,7 @@ impl Model {
             energies,
             has_potential,
             applied,
+            given_up: None,
         };
         model.with_ledger()
     }
@@ -113,6 +119,18 @@ impl Model {
         self.with_ledger()
     }
 
+    /// The model that asks now and then, where an evaluation takes long, whether it is to be given up.
+    #[must_use]
+    pub fn asking(mut self, given_up: fn() -> bool) -> Self {
+        self.given_up = Some(given_up);
+        self
+    }
+
+    /// Whether an evaluation would be given up now: of few pairs none is, since it ends soon.
+    pub fn is_given_up(&self) -> bool {
+        self.pairs().len() >= PATIENCE && self.given_up.is_some_and(|given_up| given_up())
+    }
+
     /// The model of some of its bodies, whose indices ascend: as if there were no others, but with the ledger of all,
     /// as far as it concerns them.
     #[must_use]
@@ -132,6 +150,7 @@ impl Model {
             energies: Vec::new(),
             has_potential: self.has_potential,
             applied: members.iter().filter_map(|body| self.applied.get(*body)).copied().collect(),
+            given_up: self.given_up,
         };
         part.enter_ledger();
         part

@@ -5,6 +5,7 @@ use crate::arguments::Calibrate;
 use crate::error::CliError;
 use crate::input::stem;
 use crate::output;
+use crate::waiting::waiting;
 use gyration_plot::calibration;
 use gyration_study::calibration::Calibration;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,8 @@ use std::path::{Path, PathBuf};
 pub fn execute(arguments: &Calibrate) -> Result<u8, CliError> {
     let path = &arguments.data;
     let format = format(arguments.output.as_deref())?;
-    let calibration = Calibration::load(path)?;
+    let shown = path.display();
+    let calibration = waiting(format!("opening {shown}"), true, || Calibration::load(path))?;
     if let Some(folder) =
         arguments.output.as_deref().and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty())
         && !folder.is_dir()
@@ -23,7 +25,7 @@ pub fn execute(arguments: &Calibrate) -> Result<u8, CliError> {
             "make it, or write elsewhere",
         ));
     }
-    let fitted = calibration.fit()?;
+    let fitted = waiting(format!("fitting {shown}"), true, || calibration.fit())?;
     if arguments.json {
         let mut json = serde_json::to_value(&fitted).unwrap_or_default();
         json["set"] = fitted.overrides().into();

@@ -4,14 +4,16 @@ use crate::arguments::Check;
 use crate::error::{CliError, code};
 use crate::input::open;
 use crate::output;
+use crate::waiting::waiting;
 use gyration_scene::LoadError;
 use gyration_sim::survey::Survey;
 use serde_json::json;
 
 /// Prints what can be said of the scene.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
-    let scene = open(&arguments.scene)?;
-    let survey = Survey::of(&scene).map_err(LoadError::from)?;
+    let name = &arguments.scene.scene;
+    let scene = waiting(format!("opening {name}"), true, || open(&arguments.scene))?;
+    let survey = waiting(format!("surveying {name}"), true, || Survey::of(&scene)).map_err(LoadError::from)?;
     let text = if arguments.json {
         let mut value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": survey.bodies });
         if !survey.springs.is_empty() {

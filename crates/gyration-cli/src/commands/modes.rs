@@ -4,6 +4,7 @@ use crate::arguments::Check;
 use crate::error::{CliError, code};
 use crate::input::ready;
 use crate::output;
+use crate::waiting::waiting;
 use gyration::body::Body;
 use gyration_scene::Scene;
 use gyration_sim::format::significant;
@@ -17,8 +18,12 @@ const LEAST_SEEN: f64 = 5e-4;
 
 /// Prints the modes of every body.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
-    let scene = ready(&arguments.scene)?;
-    let text = if arguments.json { format!("{:#}\n", survey::modes_in_json(&scene)) } else { in_words(&scene) };
+    let name = &arguments.scene.scene;
+    let scene = waiting(format!("opening {name}"), true, || ready(&arguments.scene))?;
+    let text = waiting(format!("looking for the rest states of {name}"), true, || match arguments.json {
+        true => format!("{:#}\n", survey::modes_in_json(&scene)),
+        false => in_words(&scene),
+    });
     output::print(&text)?;
     Ok(code::DONE)
 }

@@ -6,6 +6,7 @@ use crate::input::{quoted, ready, shown};
 use crate::output;
 use crate::progress::RunProgress;
 use crate::provenance::provenance;
+use crate::waiting::waiting;
 use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, RecordError, Recording, remove};
 use gyration_scene::Scene;
@@ -21,7 +22,8 @@ const MOST_NAMES: usize = 10_000;
 
 /// Runs the scene; the exit code tells whether it reached its end.
 pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
-    let scene = ready(&arguments.scene)?;
+    let opening = format!("opening {}", arguments.scene.scene);
+    let scene = waiting(opening, !arguments.quiet, || ready(&arguments.scene))?;
     let path = directory(arguments, &scene)?;
     let mut job = Job::of(&scene, &provenance());
     if let Some(threads) = arguments.threads {
@@ -32,9 +34,12 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     let mut watch = RunProgress::new(!arguments.quiet)?;
     let ended = watch.interruption().within(|| {
         if arguments.resume {
+            watch.await_first_step();
             return job.resume(&path, &mut watch).map_err(CliError::from);
         }
-        job.interruption().within(|| make_room(arguments, &job, &path))?;
+        let looking = "looking at the start".to_owned();
+        waiting(looking, !arguments.quiet, || job.interruption().within(|| make_room(arguments, &job, &path)))?;
+        watch.await_first_step();
         Ok(job.record(&path, &mut watch)?)
     });
     watch.finish();

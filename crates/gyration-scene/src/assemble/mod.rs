@@ -37,6 +37,7 @@ use body::AssembledBody;
 use gyration::model::Model;
 use gyration::state::{Start, State};
 use gyration::tensor::Vec3;
+use gyration_threads::Interruption;
 use solids::Solids;
 use std::num::NonZeroUsize;
 use std::time::Duration;
@@ -159,7 +160,7 @@ pub(crate) fn assemble(
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }
-    model = model.bonded(bonds).paired(pairs);
+    model = model.bonded(bonds).paired(pairs).asking(|| Interruption::due().is_some());
     let state = State::start(&model, &starts);
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let forms = partial.bodies.iter().zip(&model.bodies).enumerate();

@@ -107,9 +107,10 @@ impl Simulation {
     }
 
     /// To where a window has come that went until a time [s]: where the island is that has come least far, but not
-    /// beyond what it was to see, since islands may change there.
+    /// beyond what it was to see, since islands may change there, nor beyond its portion of rows.
     pub(super) fn window_reached(&self, until: f64) -> f64 {
-        let least = self.least_time();
+        let only_steps = matches!(&self.islands[..], [only] if only.anchor.is_none());
+        let least = self.least_time().min(if only_steps { f64::INFINITY } else { self.portion });
         match (self.meetings.is_empty(), self.is_step(until)) {
             (true, _) => least,
             (false, true) => least.min(self.change_time()),

@@ -65,6 +65,8 @@ pub struct Simulation {
     shared: SharedScratch,
     /// The time of the last row [s].
     recorded: f64,
+    /// Up to where a window goes at most [s], lest its rows take long.
+    portion: f64,
     /// Scratch: the events of a window.
     found: Vec<Event>,
     /// Whether an interruption came within a step.
@@ -117,6 +119,7 @@ impl Simulation {
             workspace: Workspace::default(),
             shared: SharedScratch::default(),
             recorded: f64::NEG_INFINITY,
+            portion: f64::INFINITY,
             found: Vec::new(),
             is_broken: false,
             model: model.clone(),
@@ -237,7 +240,10 @@ impl Simulation {
         }
         self.state.next_sample = 1;
         self.shared.lend(self.islands.iter_mut(), |island| island.begin(&self.plan));
-        Ok(())
+        match self.islands.iter_mut().any(|island| island.system.may_be_given_up()) {
+            true => Err(RunError::at_start(Stop::by_interruption(self.state.time))),
+            false => Ok(()),
+        }
     }
 
     /// Steps until the end, rest, or a stop, and records the last row.
@@ -246,6 +252,10 @@ impl Simulation {
     /// [`RunError::Record`] if the recording fails.
     pub fn run(&mut self, sink: &mut dyn Sink, monitor: &mut dyn Monitor) -> Result<Outcome, RunError> {
         loop {
+            // Whoever counts steps is asked behind whole ones.
+            if !monitor.counts_steps() {
+                self.portion();
+            }
             if let Some(outcome) = self.advance(sink, monitor)? {
                 return Ok(outcome);
             }

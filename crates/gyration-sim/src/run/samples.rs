@@ -7,11 +7,30 @@ use crate::ports::{RunError, Sink};
 use crate::rows::{Audit, Fields, Ledger};
 use gyration::{Inadmissible, Quantity};
 
+/// Bodies and pairs of bodies in the rows of a window at most: some tens of milliseconds.
+const MOST_LOOKS: u64 = 4096;
+/// A step may be by so much longer than it was to be: the last one before the end is.
+const LONGER: f64 = 2.0;
+
 impl Simulation {
     /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
     pub(super) fn sample_time(&self, k: u64) -> f64 {
         let time = k as f64 * self.plan.sample;
         if (time - self.plan.end).abs() <= 1e-9 * self.plan.sample { self.plan.end } else { time }
+    }
+
+    /// Ends the next window before its rows take long, though the steps behind it go farther; an island that is the
+    /// whole run then needs an anchor, from which the rest of its step can be had again.
+    pub(super) fn portion(&mut self) {
+        let looks = self.model.bodies.len() + self.model.pairs().len();
+        let rows = (MOST_LOOKS / looks.max(1) as u64).max(1);
+        let end = self.sample_time(self.state.next_sample + rows);
+        self.portion = end;
+        if let ([only], true) = (&mut self.islands[..], self.meetings.is_empty()) {
+            let size = only.integrator.next_size();
+            let is_long = size == 0.0 || only.time() + LONGER * size > end;
+            only.anchored(only.time() > self.state.time || is_long);
+        }
     }
 
     /// Records the samples up to the time of the run, and the end; a sample outside the model is a stop.

@@ -4,6 +4,7 @@ use super::{Simulation, is_asked};
 use crate::island::Island;
 use crate::outcome::{Reason, Stop};
 use crate::ports::{Monitor, Progress, RunError, Sink};
+use gyration::Quantity;
 use gyration_threads::{Interruption, in_order};
 use std::num::NonZeroUsize;
 
@@ -218,10 +219,11 @@ impl Simulation {
         for event in &found {
             self.state.events[event.kind] += 1;
             sink.event(event)?;
-            if sink.wants_event_rows()
-                && let Ok(row) = self.row_at(event.time)
-            {
-                sink.event_row(event, row)?;
+            if sink.wants_event_rows() {
+                match self.row_at(event.time) {
+                    Ok(row) => sink.event_row(event, row)?,
+                    Err(left) => self.is_broken |= left.quantity == Quantity::Interruption,
+                }
             }
         }
         self.found = found;

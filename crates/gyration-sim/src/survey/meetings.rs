@@ -13,6 +13,12 @@ use std::fmt::Write as _;
 
 /// Meetings that are told one by one.
 const MOST: usize = 12;
+/// Pairs without a reach at which a step costs little.
+const FEW_ENDLESS: usize = 1000;
+/// Evaluations of an explicit step.
+const EVALUATIONS: usize = 16;
+/// To find the plane of a pair takes about so long [s].
+const PLANE: f64 = 5e-6;
 
 /// What can be said of two bodies that meet.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,9 +39,10 @@ impl MeetingSurvey {
     /// The meetings of a model, in order.
     pub fn all(model: &Model, start: &State) -> Vec<Self> {
         let mut gaps = Vec::new();
-        // A scene whose bodies reach each other at the start has been refused.
-        let known = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps).is_ok();
-        let gap = |number: usize| gaps.get(number).map(|slab| slab.gap).filter(|gap| known && gap.is_finite());
+        // A scene whose bodies reach each other at the start has been refused; of very many pairs the last ones may
+        // not have been looked at in time.
+        let _ = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps);
+        let gap = |number: usize| gaps.get(number).map(|slab| slab.gap).filter(|gap| gap.is_finite());
         model.pairs().iter().enumerate().map(|(number, pair)| Self::of(model, pair, gap(number))).collect()
     }
 
@@ -61,7 +68,7 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
     let mut told: Option<&MeetingSurvey> = None;
     for meeting in meetings.iter().take(MOST) {
         let [one, other] = &meeting.between;
-        let unknown = if meeting.reach.is_some() { "out of reach at the start" } else { "no plane found at the start" };
+        let unknown = if meeting.reach.is_some() { "out of reach at the start" } else { "gap not known at the start" };
         let gap =
             meeting.initial_gap.map_or_else(|| unknown.to_owned(), |gap| format!("gap {} m at the start", short(gap)));
         let reach = meeting.reach.map(|reach| format!(", felt within {} m", short(reach))).unwrap_or_default();
@@ -82,6 +89,16 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
     }
     if meetings.len() > MOST {
         let _ = writeln!(text, "           and {} meetings more: all with --json", meetings.len() - MOST);
+    }
+    let endless = meetings.iter().filter(|meeting| meeting.reach.is_none()).count();
+    if endless > FEW_ENDLESS {
+        let step = short((EVALUATIONS * endless) as f64 * PLANE);
+        let _ = writeln!(
+            text,
+            "           warning: {endless} of them have no reach: an evaluation looks at all, a step makes {EVALUATIONS} \
+             or more,\n             which takes some {step} s; give the contact a `reach`, beyond which bodies do not \
+             feel each other"
+        );
     }
 }
 

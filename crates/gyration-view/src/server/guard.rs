@@ -4,11 +4,13 @@
 //! be our page; the path must begin with the token. Answers forbid the page to load or call anything but this server.
 
 use super::address::Address;
+use super::connections::Visitor;
 use crate::page;
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use std::sync::Arc;
 
 /// What a request is told that comes from elsewhere, or without the token.
 const REFUSED: &str =
@@ -19,6 +21,9 @@ pub(super) async fn guard(State(address): State<Address>, request: Request, next
     if !address.is_called(request.headers()) || !address.has(request.uri().path()) {
         // Who may not ask does not keep a connection either.
         return (StatusCode::FORBIDDEN, [(header::CONNECTION, "close")], REFUSED).into_response();
+    }
+    if let Some(visitor) = request.extensions().get::<Arc<Visitor>>().cloned() {
+        visitor.show_token().await;
     }
     let mut response = next.run(request).await;
     if let Ok(policy) = HeaderValue::from_str(&policy()) {

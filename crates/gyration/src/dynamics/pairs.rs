@@ -5,7 +5,7 @@ use super::{Scratch, Workspace};
 use crate::extended::Numbers;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, Instant, KindAt};
-use crate::model::Model;
+use crate::model::{Model, PATIENCE};
 use crate::pair::{Guess, Pair, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::surface::GapClosed;
 use crate::tensor::Vec3;
@@ -40,6 +40,9 @@ fn for_each(
     for (number, pair) in model.pairs().iter().enumerate() {
         let guess = met.guess(number, instant.time());
         let bodies = pair.bodies.map(|body| instant.at(model, body));
+        if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
+            return Err(bodies[0].outside(Quantity::Interruption, f64::NAN));
+        }
         let outside = |closed: GapClosed| bodies[0].outside(Quantity::PairGap { pair: number }, closed.gap);
         each(met, pair, &bodies, guess.as_ref()).map_err(outside)?;
     }

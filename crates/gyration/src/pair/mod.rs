@@ -57,6 +57,18 @@ pub(crate) type Mat34 = Matrix3x4<f64>;
 type Mat4 = Matrix4<f64>;
 type Vec4 = Vector4<f64>;
 
+/// The part of a reach at whose end a pair is out of it already, lest the last digit of a distance decides: χ, of fifth
+/// order there, is below any digit of U.
+pub const EDGE: f64 = 1e-9;
+
+/// The least slab, of what is not two balls, that digits tell, and the least part of one that is on one side of the
+/// plane, as parts of the size of the smaller body. A difference of places is known to some 1e-16 of it; forces, which
+/// go with a power of the gap, then to 1e-8 or worse.
+const LEAST_SLAB: f64 = 1e-7;
+const LEAST_PART: f64 = 1e-9;
+/// The same of two balls, whose gap comes from two places alone.
+const LEAST_BALLS: f64 = 1e-12;
+
 /// Two bodies of a model that meet, or convex parts of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
@@ -107,14 +119,25 @@ impl Pair {
         self.are_balls.then(|| PairLoads { gap, normal, point, ..PairLoads::default() })
     }
 
+    /// How near the plane has come to one of two bodies [m], the smaller of which has this size, if that is so near that
+    /// digits do not tell it from touch.
+    pub fn touch(&self, slab: &PairGap, size: f64) -> Option<f64> {
+        let part = slab.gap * slab.share.min(1.0 - slab.share);
+        let touches = match self.are_balls {
+            true => slab.gap < LEAST_BALLS * size,
+            false => slab.gap < LEAST_SLAB * size || part < LEAST_PART * size,
+        };
+        touches.then_some(part)
+    }
+
     /// The distance of the centres at which two rigid bodies are as far apart as the half of their reach at least [m].
     pub fn half_span(&self) -> Option<f64> {
-        self.span().zip(self.reach).map(|(span, reach)| span - 0.5 * reach)
+        self.reach.map(|reach| reach + self.radii[0] + self.radii[1] - 0.5 * reach)
     }
 
     /// The distance of the centres from which on two rigid bodies do nothing to each other [m]; none if there is none.
     pub fn span(&self) -> Option<f64> {
-        self.reach.map(|reach| reach + self.radii[0] + self.radii[1])
+        self.reach.map(|reach| reach * (1.0 - EDGE) + self.radii[0] + self.radii[1])
     }
 }
 
