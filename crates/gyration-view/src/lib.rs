@@ -14,6 +14,7 @@
 
 mod binary;
 pub mod blob;
+mod computed;
 mod error;
 pub mod header;
 mod live;

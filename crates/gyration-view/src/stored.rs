@@ -1,28 +1,21 @@
 //! A recording on disk as the page sees it: its header, and its arrays by name.
-//!
-//! The page colours bodies that deform by their stress, which few recordings hold: it is computed from the model and
-//! the states of the recording, as if it had been recorded.
 
 use crate::blob;
+use crate::computed::Computed;
 use crate::error::ViewError;
-use crate::header::{ArrayEntry, Header};
+use crate::header::Header;
 use gyration_record::{RecordError, Recording};
-use gyration_sim::replay::Replay;
 use serde_json::Value;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
-
-/// The array that is computed where it was not recorded.
-const STRESS: &str = "cauchy_stress";
 
 /// A recording to be shown, finished or still growing.
 #[derive(Debug, Clone)]
 pub struct Stored {
     recording: Recording,
     header: Header,
-    /// Where the stress comes from, if it is not recorded.
-    replay: Option<Arc<Mutex<Replay>>>,
+    /// Arrays that are not recorded.
+    computed: Option<Computed>,
 }
 
 impl Stored {
@@ -41,8 +34,8 @@ impl Stored {
         if header.surfaces.is_empty() && header.rows > 0 {
             header.notes.push("The recording holds no surfaces: bodies are drawn by their outlines.".to_owned());
         }
-        let replay = if lacks_stress(&header) { offer_stress(&recording, &mut header) } else { None };
-        Ok(Self { recording, header, replay })
+        let computed = if may_lack(&header) { Computed::offer(&recording, &mut header) } else { None };
+        Ok(Self { recording, header, computed })
     }
 
     /// What the page is told first.
@@ -76,14 +69,11 @@ impl Stored {
         if !grows {
             return Err(RecordError::NoSuchArray { name: name.to_owned() }.into());
         }
-        let mut bytes = Vec::new();
-        if let Some(replay) = self.replay.as_ref().filter(|_| name == STRESS) {
-            let mut replay = replay.lock().unwrap_or_else(PoisonError::into_inner);
-            for row in kept_rows(rows, every) {
-                bytes.extend(blob::singles(&stress(&mut replay, row)?));
-            }
-            return Ok(bytes);
+        let kept = || kept_rows(rows.clone(), every);
+        if let Some(bytes) = self.computed.as_ref().and_then(|computed| computed.blob(name, kept())) {
+            return bytes;
         }
+        let mut bytes = Vec::new();
         self.each_row(name, rows, every, |row| {
             bytes.extend(if name == "time" { blob::doubles(row.iter().copied()) } else { blob::singles(row) });
         })?;
@@ -121,45 +111,11 @@ impl Stored {
     }
 }
 
-/// Whether there are bodies that deform, and their stress was not recorded.
-fn lacks_stress(header: &Header) -> bool {
-    let deforms = |body: &Value| body["kind"] != "rigid";
-    let bodies = header.attributes.get("bodies").and_then(Value::as_array);
-    bodies.is_some_and(|bodies| bodies.iter().any(deforms)) && header.arrays.iter().all(|array| array.name != STRESS)
-}
-
-/// Adds the stress to the arrays of the header, or a note why it cannot be had.
-fn offer_stress(recording: &Recording, header: &mut Header) -> Option<Arc<Mutex<Replay>>> {
-    match Replay::open(recording) {
-        Ok(replay) => {
-            header.arrays.push(ArrayEntry {
-                name: STRESS.to_owned(),
-                units: "Pa".to_owned(),
-                description: "Cauchy stress S P^T/det P, computed from the recording; NaN for a rigid body".to_owned(),
-                dims: vec![
-                    ("body".to_owned(), replay.model().bodies.len()),
-                    ("row".to_owned(), 3),
-                    ("col".to_owned(), 3),
-                ],
-            });
-            Some(Arc::new(Mutex::new(replay)))
-        }
-        Err(problem) => {
-            header.notes.push(format!("Stresses are not shown: {problem}"));
-            None
-        }
-    }
-}
-
-/// The stress of all bodies at a row, matrix by matrix, row by row.
-fn stress(replay: &mut Replay, row: usize) -> Result<Vec<f64>, ViewError> {
-    let bodies = replay.cauchy_stress(row)?;
-    let numbers = |stress: &Option<gyration::tensor::Mat3>| match stress {
-        // nalgebra stores columns; rows are recorded.
-        Some(stress) => stress.transpose().as_slice().to_vec(),
-        None => vec![f64::NAN; 9],
-    };
-    Ok(bodies.iter().flat_map(numbers).collect())
+/// Whether the page may want more than was recorded: of bodies that deform, of several bodies, or of several supports.
+fn may_lack(header: &Header) -> bool {
+    let described = |name: &str| header.attributes.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+    let bodies = described("bodies");
+    bodies.iter().any(|body| body["kind"] != "rigid") || bodies.len() > 1 || described("supports").len() > 1
 }
 
 /// The rows that are kept of a range: one in `every`, and the last.

@@ -149,6 +149,21 @@ fn a_restart_begins_anew_with_other_numbers_and_a_bad_one_is_refused_in_words() 
 }
 
 #[test]
+fn a_number_that_is_refused_stops_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    // Long enough not to be over before the wish comes.
+    let served = live(&folder, &FALL.replace("end = 0.3", "end = 300"));
+    let mut page = Page::open(&served);
+    let mut watched = Watched::default();
+    page.read(&mut watched, |watched| !watched.times.is_empty());
+    page.wish(&json!({ "type": "restart", "set": ["body.ball.mass=-1"] }));
+    assert!(page.read(&mut watched, |_| false).unwrap().contains("body.ball.mass"));
+    let seen = watched.times.len();
+    page.read(&mut watched, |watched| watched.times.len() > seen + 100);
+    assert_eq!((&watched.header["run"], &watched.done), (&json!(1), &Value::Null));
+}
+
+#[test]
 fn a_paused_run_waits_and_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     // Long enough not to be over before the wish comes.

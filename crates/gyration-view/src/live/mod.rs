@@ -1,6 +1,7 @@
-//! A scene that runs as it is watched: a thread that steps it, and what it publishes for any number of pages.
+//! A scene that runs as it is watched: a thread that looks at the numbers asked for, one that steps the run, and what it
+//! publishes for any number of pages.
 //!
-//! The thread never waits for a page: it appends to a store, and each page takes from the store what it has not had
+//! The run never waits for a page: it appends to a store, and each page takes from the store what it has not had
 //! yet, in its own time. It waits only where it is told to: for the first page, and while it is paused.
 
 mod runner;
@@ -17,6 +18,9 @@ use runner::Subject;
 use std::io;
 use std::sync::Arc;
 
+/// What one of the threads does, for ever.
+type Work = fn(&LiveState, &Subject);
+
 /// A scene that runs as it is watched.
 #[derive(Clone)]
 pub struct Live {
@@ -31,8 +35,10 @@ impl Live {
     pub fn start(scene: &str, overrides: &[String], provenance: Provenance) -> Result<Self, io::Error> {
         let shared = Arc::new(LiveState::new(overrides.to_vec()));
         let subject = Subject { scene: scene.to_owned(), provenance };
-        let of_thread = Arc::clone(&shared);
-        std::thread::Builder::new().name("run".into()).spawn(move || runner::run(&of_thread, &subject))?;
+        for (name, work) in [("look", runner::look as Work), ("run", runner::run)] {
+            let (shared, subject) = (Arc::clone(&shared), subject.clone());
+            std::thread::Builder::new().name(name.into()).spawn(move || work(&shared, &subject))?;
+        }
         Ok(Self { shared })
     }
 

@@ -1,11 +1,12 @@
-//! The thread that runs a scene again and again, as pages ask for it.
+//! The threads that run a scene again and again, as pages ask for it: one looks whether a run can begin with the numbers
+//! asked for, the other runs. A number that is refused stops nothing.
 
 use super::shared::LiveState;
 use crate::blob;
+use crate::computed::recorded_besides;
 use crate::header::Header;
-use gyration::body::BodyKind;
 use gyration_record::{Layout, RecordError};
-use gyration_scene::Recorded;
+use gyration_scene::Scene;
 use gyration_sim::events::Event;
 use gyration_sim::{
     Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunSummary, Simulation, Sink, WindowEnd,
@@ -28,35 +29,77 @@ pub(super) struct Subject {
     pub(super) provenance: Provenance,
 }
 
+/// Looks at what is asked for, for ever: what the scene takes is run, the rest refused in words.
+pub(super) fn look(shared: &LiveState, subject: &Subject) {
+    let mut given_up = None;
+    loop {
+        let overrides = shared.next_asked();
+        let interruption = shared.until_overtaken();
+        match interruption.within(|| accepted(subject, &overrides)) {
+            Ok(scene) => {
+                given_up = None;
+                shared.supersede(scene);
+            }
+            // What was given up for other numbers is asked for again if those are refused.
+            Err(_) if interruption.is_due().is_some() => given_up = Some(overrides),
+            Err(problem) => {
+                shared.store().problem(json!({ "message": problem, "set": overrides }));
+                shared.announce();
+                if let Some(before) = given_up.take() {
+                    shared.ask_again(before);
+                }
+            }
+        }
+    }
+}
+
+/// The scene with these overrides, if a run of it can begin.
+fn accepted(subject: &Subject, overrides: &[String]) -> Result<Scene, String> {
+    let scene = gyration_sim::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
+    begun(&prepared(&scene, subject), &mut FirstRow::default())?;
+    Ok(scene)
+}
+
 /// Runs what is wanted, for ever.
 pub(super) fn run(shared: &LiveState, subject: &Subject) {
     loop {
-        let overrides = shared.next();
-        let interruption = shared.interruption();
-        let ran = interruption.within(|| run_once(shared, subject, &overrides));
+        let scene = shared.next_wanted();
+        let interruption = shared.until_superseded();
+        let ran = interruption.within(|| run_once(shared, subject, &scene));
         // What was given up for another run is nobody's problem.
         if let Err(problem) = ran
             && interruption.is_due().is_none()
         {
-            shared.store().problem(problem);
+            shared.store().problem(json!({ "message": problem }));
         }
         shared.announce();
     }
 }
 
-/// Runs the scene once, or says in words why not.
-fn run_once(shared: &LiveState, subject: &Subject, overrides: &[String]) -> Result<(), String> {
-    let scene = gyration_sim::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
-    let mut job = Job::of(&scene, &subject.provenance);
-    // Bodies that deform are coloured by their stress, which is recorded on request only.
-    if job.model.bodies.iter().any(|body| !matches!(body.kind, BodyKind::Rigid(_))) {
-        job.plan.extras = job.plan.extras.and(Recorded::CauchyStress);
+/// What is to be run of a scene, with what the page shows beside what the scene records.
+fn prepared<'a>(scene: &'a Scene, subject: &Subject) -> Job<'a> {
+    let mut job = Job::of(scene, &subject.provenance);
+    for quantity in recorded_besides(job.model) {
+        job.plan.extras = job.plan.extras.and(quantity);
     }
+    job
+}
+
+/// The simulation of a job after its first row, or in words why there is none.
+fn begun(job: &Job, first: &mut FirstRow) -> Result<Simulation, String> {
+    let start = Simulation::new(job.model, job.start, job.plan);
+    let mut simulation = start.map_err(|error| error.to_string())?;
+    simulation.begin(first).map_err(|error| error.to_string())?;
+    Ok(simulation)
+}
+
+/// Runs the scene once, or says in words why not.
+fn run_once(shared: &LiveState, subject: &Subject, scene: &Scene) -> Result<(), String> {
+    let mut job = prepared(scene, subject);
     let layout = job.layout();
     let thinned = thin(&mut job, &layout);
-    let mut simulation = Simulation::new(job.model, job.start, job.plan).map_err(|error| error.to_string())?;
     let mut first = FirstRow::default();
-    simulation.begin(&mut first).map_err(|error| error.to_string())?;
+    let mut simulation = begun(&job, &mut first)?;
     let strides = publish(shared, &job, &layout, thinned);
     let mut sink = Publisher { shared, told: Instant::now(), stride: strides };
     let told = first.0.map_or(Ok(()), |(time, row)| sink.row(time, &row));

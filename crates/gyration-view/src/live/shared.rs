@@ -1,6 +1,7 @@
 //! What the thread of a live run and its pages share: the store, and what the pages want of the thread.
 
 use super::store::Store;
+use gyration_scene::Scene;
 use gyration_threads::Interruption;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,15 +14,19 @@ pub(crate) struct LiveState {
     told: Condvar,
     /// Raised while another run is wanted than the one under way.
     superseded: Arc<AtomicBool>,
+    /// Raised while other numbers are asked for than those that are looked at.
+    overtaken: Arc<AtomicBool>,
     /// Changes whenever there is something new to take.
     pub(crate) news: tokio::sync::watch::Sender<u64>,
 }
 
 /// What pages want of the thread.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct PageRequests {
-    /// A run to begin, with these overrides.
-    wanted: Option<Vec<String>>,
+    /// Overrides of a run to begin, if the scene takes them.
+    asked: Option<Vec<String>>,
+    /// A run to begin: of a scene that took its overrides.
+    wanted: Option<Box<Scene>>,
     paused: bool,
     /// Whether a page has come yet.
     watched: bool,
@@ -32,9 +37,10 @@ impl LiveState {
     pub(super) fn new(overrides: Vec<String>) -> Self {
         Self {
             store: Mutex::new(Store::default()),
-            control: Mutex::new(PageRequests { wanted: Some(overrides), ..PageRequests::default() }),
+            control: Mutex::new(PageRequests { asked: Some(overrides), ..PageRequests::default() }),
             told: Condvar::new(),
             superseded: Arc::default(),
+            overtaken: Arc::default(),
             news: tokio::sync::watch::Sender::new(0),
         }
     }
@@ -44,17 +50,37 @@ impl LiveState {
         self.tell(|control| control.watched = true);
     }
 
-    /// Lets the run begin anew with these overrides.
+    /// Asks for a run with these overrides; the one under way goes on until the scene has taken them.
     pub(crate) fn restart(&self, overrides: Vec<String>) {
         self.tell(|control| {
-            control.wanted = Some(overrides);
+            control.asked = Some(overrides);
+            self.overtaken.store(true, Ordering::Relaxed);
+        });
+    }
+
+    /// Asks for overrides again that were given up for others, unless there are still others.
+    pub(super) fn ask_again(&self, overrides: Vec<String>) {
+        self.tell(|control| {
+            control.asked.get_or_insert(overrides);
+        });
+    }
+
+    /// Lets the run of a scene begin in the place of the one under way.
+    pub(super) fn supersede(&self, scene: Scene) {
+        self.tell(|control| {
+            control.wanted = Some(Box::new(scene));
             control.paused = false;
             self.superseded.store(true, Ordering::Relaxed);
         });
     }
 
+    /// Gives up looking at overrides, once others are asked for.
+    pub(super) fn until_overtaken(&self) -> Interruption {
+        Interruption::in_force().raised_by(self.overtaken.clone())
+    }
+
     /// Gives up what a run computes for long, once another is wanted.
-    pub(super) fn interruption(&self) -> Interruption {
+    pub(super) fn until_superseded(&self) -> Interruption {
         Interruption::in_force().raised_by(self.superseded.clone())
     }
 
@@ -84,15 +110,30 @@ impl LiveState {
         self.control.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until a run is wanted and watched; its overrides.
-    pub(super) fn next(&self) -> Vec<String> {
+    /// Waits until a run is asked for and watched; its overrides.
+    pub(super) fn next_asked(&self) -> Vec<String> {
+        self.wait_for(|control| {
+            let asked = control.asked.take_if(|_| control.watched)?;
+            self.overtaken.store(false, Ordering::Relaxed);
+            Some(asked)
+        })
+    }
+
+    /// Waits until a run is wanted; its scene.
+    pub(super) fn next_wanted(&self) -> Box<Scene> {
+        self.wait_for(|control| {
+            let wanted = control.wanted.take()?;
+            self.superseded.store(false, Ordering::Relaxed);
+            Some(wanted)
+        })
+    }
+
+    /// Waits until there is something to take.
+    fn wait_for<T>(&self, take: impl Fn(&mut PageRequests) -> Option<T>) -> T {
         let mut control = self.control();
         loop {
-            if control.watched
-                && let Some(overrides) = control.wanted.take()
-            {
-                self.superseded.store(false, Ordering::Relaxed);
-                return overrides;
+            if let Some(taken) = take(&mut control) {
+                return taken;
             }
             control = self.told.wait(control).unwrap_or_else(PoisonError::into_inner);
         }

@@ -26,8 +26,8 @@ pub(crate) struct Store {
     progress: (u64, Value),
     done: Option<Value>,
     paused: bool,
-    /// Why the run last wanted could not begin, counted; empty once another one has begun.
-    problem: (u64, String),
+    /// Why the run last asked for could not begin, counted, with its overrides; null once another one has begun.
+    problem: (u64, Value),
 }
 
 /// How far a page has taken a store.
@@ -61,7 +61,7 @@ impl Store {
             fixed,
             strides,
             progress: (self.progress.0 + 1, start),
-            problem: (self.problem.0, String::new()),
+            problem: (self.problem.0, Value::Null),
             ..Self::default()
         };
     }
@@ -92,7 +92,8 @@ impl Store {
         self.paused = paused;
     }
 
-    pub(super) fn problem(&mut self, problem: String) {
+    /// Keeps a message, and beside it the overrides that it is of.
+    pub(super) fn problem(&mut self, problem: Value) {
         self.problem = (self.problem.0 + 1, problem);
     }
 
@@ -123,8 +124,10 @@ impl Store {
         }
         if cursor.problem != self.problem.0 {
             cursor.problem = self.problem.0;
-            if !self.problem.1.is_empty() {
-                messages.push(Message::Text(json!({ "type": "error", "message": self.problem.1 }).to_string()));
+            if let Some(problem) = self.problem.1.as_object() {
+                let mut error = problem.clone();
+                error.insert("type".to_owned(), "error".into());
+                messages.push(Message::Text(Value::Object(error).to_string()));
             }
         }
         // The end is told once every row is there.
