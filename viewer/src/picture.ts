@@ -1,9 +1,11 @@
 // The picture: canvas, what is laid over it, and the scene of the recording on its stage. Without WebGL it says so, and
 // the rest of the page goes on.
 
+import { classesOf } from "./data/classes";
 import type { Recording } from "./data/recording";
 import type { Player } from "./player";
 import { h } from "./ui/dom";
+import { EdgeMarks } from "./ui/edge";
 import { Scales } from "./ui/scales";
 import { themeColor } from "./ui/theme";
 import { Toolbar } from "./ui/toolbar";
@@ -28,6 +30,7 @@ export class Picture {
   };
   private readonly canvas = h("canvas", { "aria-label": "the bodies in space", tabindex: 0 });
   private readonly scales = new Scales();
+  private readonly edge = new EdgeMarks();
   private readonly stage: Stage | null;
   private view: SceneView | null = null;
   private playing = false;
@@ -53,6 +56,7 @@ export class Picture {
       { class: "picture" },
       this.stage ? this.canvas : missing,
       this.stage && this.toolbar.element,
+      this.stage && this.edge.element,
       this.stage && this.scales.element,
     );
     if (!this.stage) return;
@@ -75,6 +79,7 @@ export class Picture {
     this.view = new SceneView(stage, recording, this.shown, again ? before.framing : null);
     if (!again) stage.look();
     this.toolbar.load(recording, this.view.colors);
+    this.scales.load(classesOf(recording.header));
     this.restyle();
   }
 
@@ -119,6 +124,7 @@ export class Picture {
     const { view, player } = this;
     if (!view) return;
     view.place(player.time, player.smooth);
+    this.edge.show(view.edgeMarks());
     const grid =
       this.shown.supports && view.recording.header.supports.length > 0 ? view.supports.spacing : null;
     this.scales.show(view.colors.scale(this.shown.coloring), grid);

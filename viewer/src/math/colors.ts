@@ -1,7 +1,13 @@
-// Colours: a body's own, and a map from numbers that is perceptually uniform and told apart by the colour-blind.
+// Colours: those of bodies and series, and a map from numbers that is perceptually uniform and told apart by the colour-blind.
 
-/** Muted, distinct in hue and in lightness; after Okabe and Ito, calmed down. */
-const BODIES = ["#4f86c6", "#e0a13c", "#4aa583", "#c8695a", "#8f7fc7", "#5fb3cf", "#b58a5f", "#d08ab5"];
+/** The palette of Okabe and Ito without its yellow and its black: that of plots on paper. */
+export const SERIES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6239"];
+/** Of further rounds through the palette: the part of the colour in white or in black. */
+const ROUNDS = [
+  { share: 1, rest: 0 },
+  { share: 0.55, rest: 255 },
+  { share: 0.6, rest: 0 },
+];
 
 /** Viridis by every ninth of its range; straight lines between them stay close enough to be uniform to the eye. */
 const VIRIDIS = [
@@ -17,12 +23,14 @@ const VIRIDIS = [
   "#fde725",
 ].map(rgb);
 
-/** Of series in a plot; the same as the bodies'. */
+/** Of series in a plot, and of classes of bodies. */
 export function seriesColor(index: number): string {
-  return BODIES[index % BODIES.length];
+  const { share, rest } = ROUNDS[Math.floor(index / SERIES.length) % ROUNDS.length];
+  const parts = rgb(SERIES[index % SERIES.length]).map((part) =>
+    Math.round(share * 255 * part + (1 - share) * rest),
+  );
+  return `#${parts.map((part) => part.toString(16).padStart(2, "0")).join("")}`;
 }
-
-export const bodyColor = seriesColor;
 
 /** Red, green, blue from 0 to 1, as on the screen (sRGB). */
 export type Rgb = [number, number, number];

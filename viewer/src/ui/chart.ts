@@ -9,7 +9,7 @@ import { seriesColor } from "../math/colors";
 import { plain, scaleFor } from "../math/format";
 import { lowerBound, thinned } from "../math/thin";
 import { h } from "./dom";
-import type { Chart } from "./quantities";
+import type { Chart, LegendKey } from "./quantities";
 
 const HEIGHT = 150;
 
@@ -22,6 +22,7 @@ export interface ChartPorts {
 export class ChartView {
   readonly element: HTMLElement;
   private readonly cursor = h("div", { class: "time-cursor" });
+  private readonly keys: LegendKey[];
   private readonly values: HTMLElement[];
   private readonly body = h("div", { class: "chart-body" });
   private plot: uPlot | null = null;
@@ -39,13 +40,14 @@ export class ChartView {
     title: HTMLElement,
   ) {
     this.units = chart.units;
-    this.values = chart.lines.map(() => h("b"));
-    const legend = chart.lines.map((line, index) =>
+    this.keys = chart.keys ?? chart.lines.map(({ label }, index) => ({ label, lines: [index] }));
+    this.values = this.keys.map(() => h("b"));
+    const legend = this.keys.map(({ label, lines }, index) =>
       h(
         "button",
         { type: "button", class: "key", "aria-pressed": "true", onclick: () => this.toggle(index) },
-        h("i", { style: `background:${this.color(index)}` }),
-        line.label,
+        h("i", { style: `background:${this.color(lines[0])}` }),
+        label,
         this.values[index],
       ),
     );
@@ -54,7 +56,7 @@ export class ChartView {
       { class: "chart", "data-chart": chart.id },
       h("header", {}, title, this.caption),
       this.body,
-      h("div", { class: "legend" }, ...legend),
+      h("div", { class: "legend" }, ...legend, chart.note && h("span", { class: "quiet" }, chart.note)),
     );
   }
 
@@ -95,8 +97,9 @@ export class ChartView {
     const within = left >= -0.5 && left <= this.plot.over.clientWidth + 0.5;
     this.cursor.style.display = within ? "" : "none";
     this.cursor.style.transform = `translateX(${left.toFixed(1)}px)`;
-    this.chart.lines.forEach((line, index) => {
-      this.values[index].textContent = plain(line.at(row) / this.factor, 4);
+    this.keys.forEach(({ lines }, index) => {
+      const values = lines.map((line) => this.chart.lines[line].at(row) / this.factor);
+      this.values[index].textContent = spanInWords(values);
     });
   }
 
@@ -106,15 +109,15 @@ export class ChartView {
   }
 
   private color(index: number): string {
-    const { lines } = this.chart;
-    return lines[index].label === "sum" ? "var(--text)" : seriesColor(index);
+    const line = this.chart.lines[index];
+    return line.label === "sum" ? "var(--text)" : seriesColor(line.hue ?? index);
   }
 
   private toggle(index: number): void {
     if (!this.hidden.delete(index)) this.hidden.add(index);
-    const keys = this.element.querySelectorAll(".key");
-    keys[index].setAttribute("aria-pressed", String(!this.hidden.has(index)));
-    this.plot?.setSeries(index + 1, { show: !this.hidden.has(index) });
+    const shown = !this.hidden.has(index);
+    this.element.querySelectorAll(".key")[index].setAttribute("aria-pressed", String(shown));
+    for (const line of this.keys[index].lines) this.plot?.setSeries(line + 1, { show: shown });
   }
 
   private clicked(event: MouseEvent): void {
@@ -171,6 +174,7 @@ export class ChartView {
     const ink = style.getPropertyValue("--muted").trim();
     const grid = { stroke: style.getPropertyValue("--hair").trim(), width: 1 };
     const text = style.getPropertyValue("--text").trim();
+    const hidden = new Set([...this.hidden].flatMap((key) => this.keys[key].lines));
     const axis = {
       stroke: ink,
       grid,
@@ -198,9 +202,9 @@ export class ChartView {
         {},
         ...this.chart.lines.map((line, index) => ({
           label: line.label,
-          show: !this.hidden.has(index),
-          stroke: line.label === "sum" ? text : seriesColor(index),
-          width: 1.4,
+          show: !hidden.has(index),
+          stroke: line.label === "sum" ? text : seriesColor(line.hue ?? index),
+          width: this.chart.keys ? 0.9 : 1.4,
           pxAlign: 0,
           points: { show: false },
         })),
@@ -223,6 +227,14 @@ export class ChartView {
   private scaled(_plot: uPlot, key: string): void {
     if (key === "x" && !this.setting && this.span) queueMicrotask(() => this.ports.zoomed(null));
   }
+}
+
+/** A number, or the least and the largest of several. */
+function spanInWords(values: number[]): string {
+  const finite = values.filter(Number.isFinite);
+  const [least, most] = [Math.min(...finite), Math.max(...finite)];
+  if (values.length === 1 || finite.length === 0) return plain(values[0], 4);
+  return least === most ? plain(least, 4) : `${plain(least, 3)} … ${plain(most, 3)}`;
 }
 
 /** The last tick tells the unit. */

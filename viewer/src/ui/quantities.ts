@@ -1,5 +1,6 @@
 // What can be plotted: groups of series of a recording, found by the names and dimensions of its arrays.
 
+import { classesOf, classLabel, MOST_ALONE } from "../data/classes";
 import type { Recording, Track } from "../data/recording";
 import { words } from "../math/format";
 import { principalStretches, vonMises } from "../math/mat3";
@@ -8,6 +9,14 @@ import { derived } from "./derived";
 export interface Line {
   label: string;
   at: (row: number) => number;
+  /** Which colour it has; its place in the chart if none is given. */
+  hue?: number;
+}
+
+/** An entry of the legend, for one line or several of one colour. */
+export interface LegendKey {
+  label: string;
+  lines: number[];
 }
 
 /** Lines of one unit for one chart. */
@@ -17,15 +26,18 @@ export interface Chart {
   units: string;
   log: boolean;
   lines: Line[];
+  /** Where lines share an entry of the legend. */
+  keys?: LegendKey[];
+  /** What the legend does not tell. */
+  note?: string;
 }
 
-/** Bodies in one chart; more would be a tangle. */
-const MOST_BODIES = 8;
+/** Bodies with a line in one chart; more would be a tangle. */
+const MOST_LINES = 40;
 
 /** The charts of a recording; those of single bodies are of `body`, or of all where that is one line each. */
 export function charts(recording: Recording, body: number | null): Chart[] {
-  const shown =
-    body === null ? recording.header.bodies.map((_, index) => index).slice(0, MOST_BODIES) : [body];
+  const shown = body === null ? drawnBodies(recording) : [body];
   const one = body ?? 0;
   return [
     energies(recording),
@@ -37,6 +49,7 @@ export function charts(recording: Recording, body: number | null): Chart[] {
     vector(recording, "position", "Position", one),
     vector(recording, "velocity", "Velocity", one),
     vector(recording, "contact_force", "Contact force", one),
+    forceParts(recording, one),
     stretches(recording, one),
     stress(recording, shown),
     pressure(recording, shown),
@@ -95,28 +108,51 @@ function residual(recording: Recording): Chart | null {
     : null;
 }
 
-function scalarPerBody(recording: Recording, array: string, bodies: number[]): Line[] {
+/** Bodies with lines of their own: of many an even choice, with one of each class at least. */
+export function drawnBodies({ header }: Recording): number[] {
+  const count = header.bodies.length;
+  if (count <= MOST_LINES) return header.bodies.map((_, index) => index);
+  const even = Array.from({ length: MOST_LINES }, (_, k) => Math.floor((k * (count - 1)) / (MOST_LINES - 1)));
+  const { members, ofBody } = classesOf(header);
+  const seen = new Set(even.map((body) => ofBody[body]));
+  const missing = members.flatMap(([first], index) => (seen.has(index) ? [] : [first]));
+  return [...even, ...missing].sort((a, b) => a - b);
+}
+
+/** A chart of a number of each body: lines in the colours of their classes, which are what the legend names. */
+function ofBodies(recording: Recording, chart: Omit<Chart, "lines">, at: [number, Line["at"]][]): Chart {
+  const { bodies } = recording.header;
+  const classes = classesOf(recording.header);
+  const lines = at.map(([body, of]) => ({ label: bodies[body].name, at: of, hue: classes.ofBody[body] }));
+  if (lines.length <= MOST_ALONE) return { ...chart, lines };
+  const keys = classes.names.flatMap((_, index) => {
+    const own = at.flatMap(([body], line) => (classes.ofBody[body] === index ? [line] : []));
+    return own.length > 0 ? [{ label: classLabel(classes, index), lines: own }] : [];
+  });
+  if (bodies.length <= MOST_LINES) return { ...chart, lines, keys };
+  return { ...chart, lines, keys, note: `lines of ${lines.length} of ${bodies.length} bodies` };
+}
+
+function scalarPerBody(recording: Recording, array: string, bodies: number[]): [number, Line["at"]][] {
   const track = recording.track(array);
   if (!track) return [];
-  const names = recording.header.bodies;
   const has = (body: number) => {
     for (let row = 0; row < recording.rows; row += Math.max(1, recording.rows >> 4)) {
       if (Number.isFinite(track.values[row * track.stride + body])) return true;
     }
     return false;
   };
-  return bodies
-    .filter(has)
-    .map((body) => ({ label: names[body].name, at: (row) => track.values[row * track.stride + body] }));
+  return bodies.filter(has).map((body) => [body, (row) => track.values[row * track.stride + body]]);
 }
 
 function gap(recording: Recording, bodies: number[]): Chart {
-  return { id: "gap", title: "Gap", units: "m", log: true, lines: scalarPerBody(recording, "gap", bodies) };
+  const chart = { id: "gap", title: "Gap", units: "m", log: true };
+  return ofBodies(recording, chart, scalarPerBody(recording, "gap", bodies));
 }
 
 function pressure(recording: Recording, bodies: number[]): Chart {
-  const lines = scalarPerBody(recording, "pressure", bodies);
-  return { id: "pressure", title: "Pressure", units: "Pa", log: false, lines };
+  const chart = { id: "pressure", title: "Pressure", units: "Pa", log: false };
+  return ofBodies(recording, chart, scalarPerBody(recording, "pressure", bodies));
 }
 
 function vector(recording: Recording, array: string, title: string, body: number): Chart | null {
@@ -127,6 +163,16 @@ function vector(recording: Recording, array: string, title: string, body: number
     at: (row: number) => track.values[row * track.stride + 3 * body + k],
   }));
   return { id: array, title: ofBody(recording, title, body), units: track.spec.units, log: false, lines };
+}
+
+/** The contact force along and across the normals of its contacts, where that is more than what the sum tells. */
+function forceParts(recording: Recording, body: number): Chart | null {
+  const parts = ["normal", "tangential"].flatMap((label) => {
+    const track = recording.track(`${label}_force`);
+    return track ? [{ label, at: (row: number) => track.values[row * track.stride + body] }] : [];
+  });
+  const title = ofBody(recording, "Contact force by direction", body);
+  return { id: "contact_force_parts", title, units: "N", log: false, lines: parts };
 }
 
 function stretches(recording: Recording, body: number): Chart | null {
@@ -157,8 +203,8 @@ function stress(recording: Recording, bodies: number[]): Chart | null {
     });
   const lines = bodies
     .filter((body) => recording.header.bodies[body].kind !== "rigid")
-    .map((body) => ({ label: recording.header.bodies[body].name, at: (row: number) => values(body)[row] }));
-  return { id: "stress", title: "Von Mises stress", units: "Pa", log: false, lines };
+    .map((body): [number, Line["at"]] => [body, (row) => values(body)[row]]);
+  return ofBodies(recording, { id: "stress", title: "Von Mises stress", units: "Pa", log: false }, lines);
 }
 
 function ofBody(recording: Recording, title: string, body: number): string {

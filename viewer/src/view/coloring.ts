@@ -1,9 +1,10 @@
 // Colour by a number of each body: greatest stretch, von Mises stress. Deformations are homogeneous, so that one
 // colour a body is all there is to show. The range is that of the whole recording, so that colours keep their meaning.
 
+import { classesOf } from "../data/classes";
 import type { Frame } from "../data/frame";
 import type { Recording } from "../data/recording";
-import { bodyColor, mapped, NO_VALUE, type Rgb, rgb } from "../math/colors";
+import { mapped, NO_VALUE, type Rgb, rgb, seriesColor } from "../math/colors";
 import { greatestStretch, vonMises } from "../math/mat3";
 
 export type Coloring = "body" | "stretch" | "stress";
@@ -63,7 +64,10 @@ export class Colors {
   /** The colour of each body at an instant. */
   at(coloring: Coloring, frame: Frame): (body: number) => Rgb {
     const scale = this.scale(coloring);
-    if (coloring === "body" || !scale) return (body) => rgb(bodyColor(body));
+    if (coloring === "body" || !scale) {
+      const hues = classesOf(this.recording.header).ofBody;
+      return (body) => rgb(seriesColor(hues[body]));
+    }
     const { low, high } = scale;
     return (body) => {
       const value = this.value(MEASURES[coloring], frame.row, body, frame);

@@ -1,7 +1,9 @@
 // What a camera should see: a ball around the bodies' paths and the ground under them, from millimetres to kilometres.
+// The path of a body that flies off counts as far as the others reach.
 
 import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
+import { straysOf } from "../data/strays";
 import { dot, norm, unit } from "../math/mat3";
 
 /** Instants looked at; a path has no room to hide between them. */
@@ -54,12 +56,15 @@ function box(recording: Recording, last: number): Box {
   const { bodies, supports } = recording.header;
   const centers = recording.track("position")?.values ?? new Float32Array(0);
   const around = nowhere();
+  const strays = straysOf(recording);
   const instants = Math.min(last, INSTANTS, Math.ceil(100_000 / Math.max(1, bodies.length)));
   for (let k = 0; k <= instants; k++) {
     const row = instants > 0 ? Math.round((last * k) / instants) : 0;
     bodies.forEach((body, index) => {
       const at = 3 * (row * bodies.length + index);
       const p = Array.from(centers.subarray(at, at + 3)) as Vec3;
+      const away = norm(p.map((value, axis) => value - strays.middle[axis]));
+      if (strays.bodies.has(index) && away > strays.radius) return;
       grow(around, p, 0.55 * body.size);
       for (const { normal, origin } of supports) {
         const height = dot(p, normal) - dot(origin, normal);

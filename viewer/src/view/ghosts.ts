@@ -1,9 +1,10 @@
 // Onion skins: the bodies at equal times of the whole recording, clear enough to be seen through.
 
 import { Color, Group, type InstancedMesh, SRGBColorSpace } from "three";
+import { classesOf } from "../data/classes";
 import { Frame } from "../data/frame";
 import type { Recording } from "../data/recording";
-import { bodyColor, rgb } from "../math/colors";
+import { rgb, seriesColor } from "../math/colors";
 import { geometries, writePlacement } from "./bodies";
 import { instancesOf, matricesOf, moved } from "./instances";
 import { ghostMaterial } from "./material";
@@ -38,13 +39,14 @@ export class GhostLayer {
     });
     const { triangles } = this.quality;
     const color = new Color();
+    const hues = classesOf(this.recording.header).ofBody;
     for (const [bodies, geometry] of geometries(this.recording, triangles / frames.length)) {
       const skins = instancesOf(geometry, this.material, bodies.length * frames.length);
       for (const [f, frame] of frames.entries()) {
         for (const [b, body] of bodies.entries()) {
           const copy = f * bodies.length + b;
           writePlacement(matricesOf(skins), 16 * copy, frame, body);
-          skins.setColorAt(copy, color.setRGB(...rgb(bodyColor(body)), SRGBColorSpace));
+          skins.setColorAt(copy, color.setRGB(...rgb(seriesColor(hues[body])), SRGBColorSpace));
         }
       }
       moved(skins);

@@ -4,6 +4,8 @@ import { Raycaster, Vector2, Vector3 } from "three";
 import { Frame } from "../data/frame";
 import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
+import { type Strays, straysOf } from "../data/strays";
+import type { EdgeMark } from "../ui/edge";
 import { BodyLayer } from "./bodies";
 import { type Coloring, Colors } from "./coloring";
 import { type Framing, framed } from "./framing";
@@ -43,7 +45,10 @@ export class SceneView {
   private followed: { body: number; at: Vector3 } | null = null;
   /** Rows that the framing has seen. */
   private framedRows = 0;
+  /** Rows by which bodies that fly off were found. */
+  private strayRows = 0;
   framing!: Framing;
+  private strays!: Strays;
   private center: Vec3 = [0, 0, 0];
 
   constructor(
@@ -78,6 +83,7 @@ export class SceneView {
   /** After new rows: fits again once the recording has doubled, unless the reader has chosen a view. */
   grew(): void {
     if (!this.stage.touched && this.recording.rows >= 2 * this.framedRows) this.refit();
+    if (this.recording.rows >= 1.2 * this.strayRows) this.findStrays();
   }
 
   /** After a surface has come. */
@@ -92,6 +98,7 @@ export class SceneView {
   private fit(framing: Framing): void {
     this.framing = framing;
     this.framedRows = this.recording.rows;
+    this.findStrays();
     this.center = framing.center;
     if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = 0;
     this.supports.fit(framing.radius);
@@ -125,6 +132,19 @@ export class SceneView {
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2(x, y), this.stage.camera);
     return this.bodies.hitBy(ray);
+  }
+
+  /** The bodies that have flown out of the picture, and where. */
+  edgeMarks(): EdgeMark[] {
+    return [...this.strays.bodies].flatMap((body) => {
+      const at = this.stage.beyond(this.centerOf(body));
+      return at ? [{ name: this.recording.header.bodies[body].name, at }] : [];
+    });
+  }
+
+  private findStrays(): void {
+    this.strayRows = this.recording.rows;
+    this.strays = straysOf(this.recording);
   }
 
   dispose(): void {

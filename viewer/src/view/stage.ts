@@ -149,6 +149,17 @@ export class Stage {
     return Math.max(...needed);
   }
 
+  /** Where a point of the scene [m] lies beyond the edge of the picture, from −1 to 1; `null` if it is within. */
+  beyond(at: Vec3): [number, number] | null {
+    const seen = this.root.localToWorld(new Vector3(...at)).applyMatrix4(this.camera.matrixWorldInverse);
+    const tall = Math.tan((0.5 * FIELD_OF_VIEW * Math.PI) / 180);
+    const depth = -seen.z;
+    const [x, y] = [seen.x / (tall * this.camera.aspect), seen.y / tall];
+    const most = Math.max(Math.abs(x), Math.abs(y));
+    // What is behind the camera has left by the side on which it is.
+    return most <= Math.max(0, depth) || most === 0 ? null : [x / most, y / most];
+  }
+
   /** Moves camera and target by a distance of the scene [m]. */
   shift(by: Vector3): void {
     const moved = by.divideScalar(this.framing.radius);

@@ -10,8 +10,9 @@ import {
   LineSegments,
   SRGBColorSpace,
 } from "three";
+import { classesOf } from "../data/classes";
 import type { Recording } from "../data/recording";
-import { bodyColor, rgb } from "../math/colors";
+import { rgb, seriesColor } from "../math/colors";
 
 /** Segments of all bodies together. */
 const MOST_SEGMENTS = 200_000;
@@ -54,8 +55,9 @@ export class TrailLayer {
     const steps = Math.max(0, Math.floor((rows - 1) / this.every));
     const position = new Float32Array(6 * bodies * steps);
     const color = new Float32Array(6 * bodies * steps);
+    const hues = classesOf(header).ofBody;
     const colors = header.bodies.map((_, body) => {
-      const { r, g, b } = new Color().setRGB(...rgb(bodyColor(body)), SRGBColorSpace);
+      const { r, g, b } = new Color().setRGB(...rgb(seriesColor(hues[body])), SRGBColorSpace);
       return [r, g, b, r, g, b];
     });
     for (let step = 0; step < steps; step++) {

@@ -1,6 +1,6 @@
 // What acts and how bodies move: contact forces, velocities, principal axes of strain.
 //
-// A contact force stands where the body is lowest. In an impact it is a thousand times the weight, at rest once, so that
+// The force of supports stands where the body is lowest, that of other bodies where it is pushed from. In an impact it is a thousand times the weight, at rest once, so that
 // its arrow is asinh(f/mg) half sizes long: proportional below the weight, logarithmic above. Without gravity the
 // unit is the largest force of the recording. A velocity is proportional, the fastest a third of the scene.
 
@@ -8,7 +8,7 @@ import { Group, Vector3 } from "three";
 import type { Frame } from "../data/frame";
 import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
-import { dot, leftCauchyGreen, norm, symmetricAxes } from "../math/mat3";
+import { dot, leftCauchyGreen, norm, symmetricAxes, unit } from "../math/mat3";
 import { Arrows, overlay } from "./arrows";
 import { displacement } from "./supports";
 
@@ -38,7 +38,7 @@ export class VectorLayer {
   constructor(private readonly recording: Recording) {
     const bodies = recording.header.bodies;
     const count = bodies.length;
-    this.force = new Arrows(count, overlay(FORCE));
+    this.force = new Arrows(2 * count, overlay(FORCE));
     this.velocity = new Arrows(count, overlay(VELOCITY));
     this.extension = new Arrows(6 * count, overlay(EXTENDED));
     this.shortening = new Arrows(6 * count, overlay(SHORTENED));
@@ -57,7 +57,7 @@ export class VectorLayer {
   place(frame: Frame): void {
     for (const arrows of this.all()) arrows.clear();
     for (let body = 0; body < this.recording.header.bodies.length; body++) {
-      if (this.shown.forces) this.addForce(frame, body);
+      if (this.shown.forces) this.addForces(frame, body);
       if (this.shown.velocity) this.addVelocity(frame, body);
       if (this.shown.axes) this.addAxes(frame, body);
     }
@@ -72,15 +72,32 @@ export class VectorLayer {
     return [this.force, this.velocity, this.extension, this.shortening];
   }
 
-  private addForce(frame: Frame, body: number): void {
-    const force = rowOf(this.recording, "contact_force", frame.row, body);
+  private addForces(frame: Frame, body: number): void {
+    const whole = rowOf(this.recording, "contact_force", frame.row, body);
+    if (!whole) return;
+    const ofBodies = rowOf(this.recording, "pair_force", frame.row, body);
+    if (ofBodies) {
+      this.addForce(body, ofBodies, () => pushedPoint(this.recording, frame, body, ofBodies));
+      const ofSupports = whole.map((value, axis) => value - ofBodies[axis]) as Vec3;
+      // What is left of a difference of equal numbers is rounding.
+      if (norm(ofSupports) > 1e-6 * norm(ofBodies)) {
+        this.addForce(body, ofSupports, () => lowestPoint(this.recording, frame, body));
+      }
+    } else if (this.recording.header.supports.length > 0) {
+      this.addForce(body, whole, () => lowestPoint(this.recording, frame, body));
+    } else {
+      this.addForce(body, whole, () => pushedPoint(this.recording, frame, body, whole));
+    }
+  }
+
+  private addForce(body: number, force: Vec3, at: () => Vec3): void {
     const unit = this.units[body];
-    if (!force || !(unit > 0)) return;
+    if (!(unit > 0)) return;
     const weights = norm(force) / unit;
     if (!(weights > LEAST_FORCE)) return;
     const { size } = this.recording.header.bodies[body];
     const along = new Vector3(...force).setLength(0.5 * size * Math.asinh(weights));
-    this.force.add(lowestPoint(this.recording, frame, body), along, SHAFT * size);
+    this.force.add(at(), along, SHAFT * size);
   }
 
   private addVelocity(frame: Frame, body: number): void {
@@ -152,6 +169,17 @@ function lowestPoint(recording: Recording, frame: Frame, body: number): Vec3 {
     best = { gap, at };
   }
   return best?.at ?? [x, y, z];
+}
+
+/** Where a force pushes a body from: the middle of the points that lie farthest against it. */
+function pushedPoint(recording: Recording, frame: Frame, body: number, force: Vec3): Vec3 {
+  const P = frame.gradient.subarray(9 * body, 9 * body + 9);
+  const n = unit(force, [0, 0, 1]);
+  const m = [0, 1, 2].map((k) => n[0] * P[k] + n[1] * P[3 + k] + n[2] * P[6 + k]) as Vec3;
+  const { size } = recording.header.bodies[body];
+  const [, [X, Y, Z]] = lowestReference(pointsOf(recording, body), m, LOWEST_BAND * size);
+  const p = frame.position.subarray(3 * body, 3 * body + 3);
+  return [0, 3, 6].map((row, k) => p[k] + P[row] * X + P[row + 1] * Y + P[row + 2] * Z) as Vec3;
 }
 
 /** The least m·X over points X, and the mean of the points within a band above it. */

@@ -1,6 +1,8 @@
 //! Colours that readers who do not see all colours can tell apart: the palette of Okabe and Ito.
 //!
-//! Source: M. Okabe and K. Ito, *Color Universal Design* (2008). Its yellow is left out: it is not legible on white.
+//! Source: M. Okabe and K. Ito, *Color Universal Design* (2008). Its yellow is left out: it is not legible on white; so
+//! is its black, in whose place stands a brown: the viewer's page, which has the same palette
+//! (`viewer/src/math/colors.ts`), is dark at times.
 
 /// A colour with an opacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,10 +48,15 @@ pub const SERIES: [Color; 7] = [
     Color::new(0xCC, 0x79, 0xA7),
     Color::new(0xE6, 0x9F, 0x00),
     Color::new(0x56, 0xB4, 0xE9),
-    Color::new(0x00, 0x00, 0x00),
+    Color::new(0x8C, 0x62, 0x39),
 ];
 
-/// The colour of the series of this index; they repeat after seven.
+/// The colour of the series of this index: after seven the palette comes again in pale colours, then in dark ones.
 pub fn series(index: usize) -> Color {
-    SERIES[index % SERIES.len()]
+    let color = SERIES[index % SERIES.len()];
+    match index / SERIES.len() % 3 {
+        0 => color,
+        1 => color.tint(0.55),
+        _ => Color { rgb: color.rgb.map(|part| (0.6 * f64::from(part)).round() as u8), ..color },
+    }
 }
