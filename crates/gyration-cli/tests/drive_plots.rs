@@ -1,6 +1,6 @@
 //! `gyration plot` and the summary of `run` for bodies that drive themselves.
 
-use crate::common::{BALL, Sandbox, soft_ball};
+use crate::common::{BALL, Sandbox, soft_ball, words};
 use serde_json::Value;
 
 /// A box that stretches and shears itself out of phase: it gets somewhere.
@@ -40,11 +40,6 @@ fn recorded(scene: &str) -> Sandbox {
     sandbox.write("crawler.toml", scene);
     sandbox.done(&["run", "crawler.toml", "--quiet"]);
     sandbox
-}
-
-/// The words of a picture: what stands between its tags.
-fn words(svg: &str) -> String {
-    svg.split('<').filter_map(|part| part.split_once('>')).map(|(_, words)| words).collect()
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod common;
 mod drive_plots;
 mod export;
 mod full_disk;
+mod meeting_plots;
 mod python;
 mod remarks;
 mod resistance;

@@ -13,6 +13,7 @@
 
 #[cfg(feature = "study")]
 pub mod calibration;
+mod classes;
 // Without studies nobody fills areas or names places of an axis.
 #[cfg_attr(not(feature = "study"), allow(dead_code, unused_imports))]
 mod chart;

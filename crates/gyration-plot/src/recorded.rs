@@ -1,6 +1,7 @@
 //! What pictures need of a recording: bodies and supports as they were described, and samples thinned to what can be
 //! seen.
 
+use crate::classes::BodyClasses;
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::thin::Thinner;
@@ -19,6 +20,8 @@ pub struct RecordedScene<'a> {
     pub recording: &'a Recording,
     /// The bodies, in order.
     pub bodies: Vec<BodyPicture>,
+    /// The classes by which they are coloured.
+    pub classes: BodyClasses,
     /// The supports, in order.
     pub supports: Vec<Support>,
     /// Acceleration of gravity [m/s²].
@@ -121,9 +124,13 @@ impl<'a> RecordedScene<'a> {
     /// [`PlotError::Attribute`] if one is missing or is not what it should be.
     pub fn new(recording: &'a Recording) -> Result<Self, PlotError> {
         let supports: Vec<SupportPicture> = attribute(recording, "supports")?;
+        let bodies: Vec<BodyPicture> = described(recording, "bodies", &bodies_with_outlines(recording.attributes()))?;
+        let named = bodies.iter().map(|body| (body.name.as_str(), body.kind.as_str()));
+        let classes = BodyClasses::of(named, recording.attributes().get("resolved").unwrap_or(&Value::Null));
         Ok(Self {
             recording,
-            bodies: described(recording, "bodies", &bodies_with_outlines(recording.attributes()))?,
+            bodies,
+            classes,
             supports: supports.into_iter().map(Support::from).collect(),
             gravity: attribute::<[f64; 3]>(recording, "gravity")?.into(),
         })

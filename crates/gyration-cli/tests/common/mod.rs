@@ -170,3 +170,8 @@ pub fn assert_same_bytes(a: &Path, b: &Path) {
         assert!(*bytes == b[path], "{} differs", path.display());
     }
 }
+
+/// The words of a picture: what stands between its tags.
+pub fn words(svg: &str) -> String {
+    svg.split('<').filter_map(|part| part.split_once('>')).map(|(_, words)| words).collect()
+}

@@ -4,6 +4,7 @@ use crate::chart::{Axis, Chart, Series};
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::recorded::RecordedScene;
+use std::collections::BTreeSet;
 
 /// Bodies with a line of their own in a chart.
 pub const MOST_LINES: usize = 40;
@@ -24,19 +25,33 @@ pub fn contracting_bodies(recorded: &RecordedScene, what: &'static str) -> Resul
     Ok(bodies)
 }
 
-/// A series for each body, named in the legend if they are few.
+/// A series for each body in the colour of its class, each class named once, and how many bodies have no line.
 pub fn body_series(recorded: &RecordedScene, indices: &[usize], lines: Vec<Vec<Point>>) -> (Vec<Series>, Vec<String>) {
-    let names = |k: usize| if k < MOST_NAMES { recorded.bodies[indices[k]].name.clone() } else { String::new() };
-    let lines = lines.into_iter().enumerate();
-    let mut series: Vec<Series> = lines.map(|(k, points)| Series::solid(names(k), points, indices[k])).collect();
+    let classes = &recorded.classes;
+    let mut named = vec![false; classes.names.len()];
+    let series = indices.iter().zip(lines).map(|(body, points)| {
+        let class = classes.of_body[*body];
+        let is_named = std::mem::replace(&mut named[class], true);
+        let name = if is_named { String::new() } else { classes.label(class) };
+        Series::solid(name, points, class)
+    });
+    let mut series: Vec<Series> = series.collect();
     if series.len() > MOST_NAMES {
         series.iter_mut().for_each(|line| line.stroke.width = THIN);
     }
-    let unnamed = series.len().saturating_sub(MOST_NAMES);
-    let undrawn = recorded.bodies.len().saturating_sub(MOST_LINES);
-    let remark = |count: usize, words: &str| (count > 0).then(|| format!("{count} {words}"));
-    let remarks = remark(unnamed, "more").into_iter().chain(remark(undrawn, "not drawn"));
-    (series, remarks.collect())
+    let all = recorded.bodies.len();
+    let remarks = (all > MOST_LINES).then(|| format!("lines of {} of {all} bodies", indices.len()));
+    (series, remarks.into_iter().collect())
+}
+
+/// So many bodies.
+pub fn bodies_in_words(count: usize) -> String {
+    if count == 1 { "1 body".to_owned() } else { format!("{count} bodies") }
+}
+
+/// The colour of a body's lines, by its index.
+pub fn hue(recorded: &RecordedScene, body: usize) -> usize {
+    recorded.classes.of_body[body]
 }
 
 /// The chart's finite values upwards.
@@ -44,9 +59,20 @@ pub fn values(series: &[Series]) -> impl Iterator<Item = f64> + '_ {
     series.iter().flat_map(|series| &series.points).map(|point| point[1]).filter(|y| y.is_finite())
 }
 
-/// Indices of the bodies that have lines of their own.
+/// Indices of the bodies that have lines of their own: of many an even choice, with one of each class at least.
 pub fn drawn_bodies(recorded: &RecordedScene) -> Vec<usize> {
-    (0..recorded.bodies.len().min(MOST_LINES)).collect()
+    let all = recorded.bodies.len();
+    if all <= MOST_LINES {
+        return (0..all).collect();
+    }
+    let of_body = &recorded.classes.of_body;
+    let mut drawn: BTreeSet<usize> = (0..MOST_LINES).map(|k| k * (all - 1) / (MOST_LINES - 1)).collect();
+    for class in 0..recorded.classes.names.len() {
+        if !drawn.iter().any(|body| of_body[*body] == class) {
+            drawn.extend(of_body.iter().position(|of| *of == class));
+        }
+    }
+    drawn.into_iter().collect()
 }
 
 /// The level axis of charts over time.

@@ -7,7 +7,7 @@
 //! (2005). The net work in its place is drawn dashed. Both grow without bound where d vanishes: they begin where the
 //! body has got some way.
 
-use super::bodies::{MOST_LINES, MOST_NAMES, body_series, time_axis, values};
+use super::bodies::{MOST_LINES, MOST_NAMES, body_series, hue, time_axis, values};
 use super::distance::{LevelAxes, NOWHERE};
 use super::effort::{self, ARRAYS, Driven, Works};
 use crate::chart::{Axis, Chart, DASHED, Series, extremes};
@@ -150,7 +150,7 @@ impl Spent {
                 _ => "",
             };
             // Beside the line that it may coincide with: another colour, unless colours tell bodies.
-            let hue = if alone { bodies[k] + 1 } else { bodies[k] };
+            let hue = hue(recorded, bodies[k]) + usize::from(alone);
             series.push(Series::solid(name, points, hue).dashed(DASHED));
         }
         for (body, cost) in bodies.iter().zip(&self.by_cycle).take(MOST_NAMES) {

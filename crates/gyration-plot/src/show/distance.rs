@@ -5,7 +5,7 @@
 //! u is the direction against gravity. The axis along which bodies get farthest comes first; the other one is drawn
 //! where anything happens along it.
 
-use super::bodies::{MOST_NAMES, body_series, drawn_bodies, time_axis, values};
+use super::bodies::{MOST_NAMES, body_series, drawn_bodies, hue, time_axis, values};
 use crate::chart::ticks::length_in_words;
 use crate::chart::{Axis, Chart, DASHED, DOTTED, Series, extremes};
 use crate::cycle::{AtTime, Cycle, rounded};
@@ -134,7 +134,7 @@ pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
                 (false, 0) => format!("{}: {name}", if dash == DASHED { "dashed" } else { "dotted" }),
                 _ => String::new(),
             };
-            series.push(Series::solid(name, points.clone(), *body).dashed(dash));
+            series.push(Series::solid(name, points.clone(), hue(recorded, *body)).dashed(dash));
         }
     }
     remarks.extend(cycles_in_words(recorded, &travels, &names));

@@ -52,7 +52,7 @@ pub fn of_recording(
 /// # Errors
 /// [`PlotError::Nothing`] without contacts.
 pub fn laws(scene: &Scene) -> Result<Figure, PlotError> {
-    let panels = laws::law_panels(&scene.built().model, &scene.built().state)?;
+    let panels = laws::law_panels(&scene.built().model, &scene.built().state, &scene.resolved())?;
     Ok(Figure { title: scene.title().to_owned(), subtitle: "contact laws".to_owned(), panels })
 }
 
@@ -91,7 +91,8 @@ fn panels(recorded: &RecordedScene, quantity: PlotQuantity, measures: &[String])
 fn laws_of(recording: &Recording) -> Result<Vec<Panel>, PlotError> {
     let mut replay = Replay::open(recording).map_err(no_replay)?;
     let start = replay.state(0).map_err(no_replay)?;
-    laws::law_panels(replay.model(), &start)
+    let resolved = recording.attributes().get("resolved").unwrap_or(&serde_json::Value::Null);
+    laws::law_panels(replay.model(), &start, resolved)
 }
 
 fn no_replay(problem: ReplayError) -> PlotError {

@@ -3,7 +3,7 @@
 //! They are the singular values of P: the lengths, in units of those of the reference shape, of the axes of the
 //! ellipsoid that a sphere becomes. Their product is the ratio of the volumes, drawn where it changes.
 
-use super::bodies::{MOST_CHARTS, time_axis, values};
+use super::bodies::{MOST_CHARTS, bodies_in_words, time_axis, values};
 use crate::chart::{Axis, Chart, DOTTED, LINE, Series};
 use crate::draw::{Point, Stroke, color};
 use crate::error::PlotError;
@@ -38,7 +38,7 @@ pub fn charts(recorded: &RecordedScene) -> Result<Vec<Chart>, PlotError> {
         .collect();
     let left_out = bodies.len() - drawn.len();
     if let Some(last) = charts.last_mut().filter(|_| left_out > 0) {
-        last.remarks.push(format!("{left_out} bodies not drawn"));
+        last.remarks.push(format!("{} not drawn", bodies_in_words(left_out)));
     }
     Ok(charts)
 }

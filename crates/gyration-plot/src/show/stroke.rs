@@ -4,7 +4,7 @@
 //! encloses none. The last whole cycle of the drive is drawn with arrows and its signed area told, cycles before it lie
 //! behind. Without a period the whole recording is one curve, closed by its chord.
 
-use super::bodies::{MOST_CHARTS, contracting_bodies};
+use super::bodies::{MOST_CHARTS, bodies_in_words, contracting_bodies};
 use super::component::BodyNumber;
 use super::trace::Trace;
 use crate::chart::{Axis, Chart, DASHED, LINE, Series, extremes};
@@ -35,7 +35,7 @@ pub fn charts(recorded: &RecordedScene, names: &[String]) -> Result<Vec<Chart>, 
     }
     let left_out = bodies.len().saturating_sub(MOST_CHARTS);
     if let Some(last) = charts.last_mut().filter(|_| left_out > 0) {
-        last.remarks.push(format!("{left_out} bodies not drawn"));
+        last.remarks.push(format!("{} not drawn", bodies_in_words(left_out)));
     }
     Ok(charts)
 }

@@ -2,6 +2,7 @@
 
 use super::ground::{Ground, Site};
 use super::silhouette::Silhouette;
+use super::strays::{Strays, strays};
 use super::view::{self, View, ViewCriteria};
 use crate::draw::Point;
 use crate::error::PlotError;
@@ -44,6 +45,14 @@ pub struct Strip {
     pub paths: Vec<Vec<Point>>,
     /// Bodies that are not drawn.
     pub left_out: usize,
+    /// Bodies that fly off, by index and name: the picture does not reach as far.
+    pub strays: Vec<(usize, String)>,
+    /// A point of the picture, and how far from it strays are shown [m].
+    pub room: (Point, f64),
+    /// The colour of each body.
+    pub hues: Vec<usize>,
+    /// Names of the colours, where they do not stand for single bodies.
+    pub classes: Vec<String>,
 }
 
 /// A body that is sampled, at one time.
@@ -60,13 +69,15 @@ impl Strip {
     pub fn of(recorded: &RecordedScene) -> Result<Self, PlotError> {
         recorded.span()?;
         let probes = probes(recorded)?;
-        let view = View::of(&motion(recorded, &probes), recorded.up());
+        let drawn = recorded.bodies.len().min(MOST_BODIES);
+        let ways: Vec<Vec<Vec3>> = (0..drawn).map(|body| way(body, &probes)).collect();
+        let strays = strays(&ways, &recorded.bodies[..drawn].iter().map(|body| body.size).collect::<Vec<_>>());
+        let view = View::of(&motion(recorded, &probes, &strays), recorded.up());
         let moving = until_rest(recorded, &probes);
         let frames = |count: usize| -> Vec<Outlines> {
             evenly(count, moving + 1).map(|index| frame(recorded, &probes[index], &view)).collect()
         };
         let path = |body: usize| probes.iter().map(|probe| view.project(&probe.poses[body].position)).collect();
-        let bodies = recorded.bodies.len().min(MOST_BODIES);
         let still = !supports_move(recorded, &probes);
         let strobe = STROBE_TIMES.into_iter().filter(|_| still).find_map(|count| {
             let kept = without_overlaps(frames(count));
@@ -76,8 +87,16 @@ impl Strip {
         Ok(Self {
             shared: strobe.is_some(),
             frames: strobe.unwrap_or_else(|| frames(FRAMES)),
-            paths: (0..bodies).map(path).collect(),
-            left_out: recorded.bodies.len() - bodies,
+            paths: (0..drawn).map(path).collect(),
+            left_out: recorded.bodies.len() - drawn,
+            room: (view.project(&strays.middle), strays.radius),
+            strays: strays.bodies.into_iter().map(|body| (body, recorded.bodies[body].name.clone())).collect(),
+            hues: recorded.classes.of_body.clone(),
+            classes: if recorded.classes.are_bodies() {
+                Vec::new()
+            } else {
+                (0..recorded.classes.names.len()).map(|class| recorded.classes.label(class)).collect()
+            },
         })
     }
 }
@@ -95,9 +114,14 @@ fn probes(recorded: &RecordedScene) -> Result<Vec<Probe>, PlotError> {
     evenly(PROBES, rows).map(probe).collect()
 }
 
-fn motion(recorded: &RecordedScene, probes: &[Probe]) -> ViewCriteria {
-    let bodies = 0..recorded.bodies.len().min(MOST_BODIES);
-    let path = |body: usize| probes.iter().map(|probe| probe.poses[body].position).collect::<Vec<Vec3>>();
+/// Where the centre of a body is.
+fn way(body: usize, probes: &[Probe]) -> Vec<Vec3> {
+    probes.iter().map(|probe| probe.poses[body].position).collect()
+}
+
+fn motion(recorded: &RecordedScene, probes: &[Probe], strays: &Strays) -> ViewCriteria {
+    let bodies = (0..recorded.bodies.len().min(MOST_BODIES)).filter(|body| !strays.bodies.contains(body));
+    let path = |body: usize| way(body, probes);
     let turns = probes.windows(2).flat_map(|pair| {
         let turn = |body: usize| view::turn(&pair[0].poses[body].gradient, &pair[1].poses[body].gradient);
         bodies.clone().map(turn).collect::<Vec<Vec3>>()

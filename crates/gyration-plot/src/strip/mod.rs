@@ -5,8 +5,10 @@
 
 mod frames;
 mod ground;
+mod marks;
 mod paint;
 mod silhouette;
+mod strays;
 mod view;
 
 pub use frames::Strip;

@@ -7,7 +7,7 @@ use crate::chart::ticks::{decimals, length_in_words, round_step};
 use crate::draw::{Anchor, Color, Label, Page, Point, Rect, Stroke, Text, color};
 
 /// Height of times [pt].
-const TIME_SIZE: f64 = 7.5;
+pub(super) const TIME_SIZE: f64 = 7.5;
 /// The highest a picture for all times may be [pt].
 const MOST_HEIGHT: f64 = 260.0;
 /// The height aimed at for pictures of one time each, all rows together [pt].
@@ -28,7 +28,7 @@ const HEADROOM: f64 = 12.0;
 
 /// From metres to points of the page.
 #[derive(Clone, Copy)]
-struct PageMap {
+pub(super) struct PageMap {
     scale: f64,
     /// Where the lower left corner of the bounds is on the page.
     corner: Point,
@@ -36,7 +36,7 @@ struct PageMap {
 }
 
 impl PageMap {
-    fn place(&self, point: Point) -> Point {
+    pub fn place(&self, point: Point) -> Point {
         [self.corner[0] + self.scale * (point[0] - self.low[0]), self.corner[1] - self.scale * (point[1] - self.low[1])]
     }
 
@@ -56,9 +56,9 @@ impl PageMap {
 
 /// The rectangle of the picture's plane that is shown [m].
 #[derive(Clone, Copy)]
-struct Viewport {
-    low: Point,
-    high: Point,
+pub(super) struct Viewport {
+    pub low: Point,
+    pub high: Point,
 }
 
 impl Viewport {
@@ -70,13 +70,15 @@ impl Viewport {
         self.high[1] - self.low[1]
     }
 
-    /// All bodies, and the grounds next to them where they are not far off.
+    /// All bodies, strays as far as the others reach, and the grounds next to them where they are not far off.
     fn of(strip: &Strip) -> Self {
         let frames = || strip.frames.iter();
-        let bodies = || frames().flat_map(|frame| frame.bodies.iter().flat_map(Silhouette::points));
         let mut bounds = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-        let paths = strip.paths.iter().flatten().filter(|_| strip.shared);
-        bodies().chain(paths).for_each(|point| bounds.include(*point));
+        let silhouettes = frames().flat_map(|frame| &frame.bodies);
+        let bodies = silhouettes.filter(|body| strip.shows(body.body, body.center)).flat_map(Silhouette::points);
+        let paths = strip.paths.iter().enumerate().filter(|_| strip.shared);
+        let paths = paths.flat_map(|(body, path)| path.iter().filter(move |point| strip.shows(body, **point)));
+        bodies.chain(paths).for_each(|point| bounds.include(*point));
         if !bounds.width().is_finite() {
             return Self { low: [-1.0, -1.0], high: [1.0, 1.0] };
         }
@@ -118,8 +120,12 @@ impl Strip {
             true => draw_shared(self, &bounds, drawing, area),
             false => draw_frames(self, &bounds, drawing, area),
         };
+        let bottom = self.draw_classes(drawing, area, bottom);
         if self.left_out > 0 {
-            let words = format!("{} more bodies are not drawn", self.left_out);
+            let words = match self.left_out {
+                1 => "1 more body is not drawn".to_owned(),
+                more => format!("{more} more bodies are not drawn"),
+            };
             drawing.text(caption(&words, [area.x, bottom + 10.0], Anchor::Start));
             return bottom + 14.0;
         }
@@ -134,7 +140,7 @@ impl Strip {
     }
 }
 
-fn caption(words: &str, at: Point, anchor: Anchor) -> Text {
+pub(super) fn caption(words: &str, at: Point, anchor: Anchor) -> Text {
     Text { label: Label::new(words), at, anchor, size: TIME_SIZE, color: color::GREY, bold: false, upright: false }
 }
 
@@ -148,11 +154,13 @@ fn draw_shared(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
     let last = strip.frames.len() - 1;
     draw_grounds(&strip.frames[last].grounds, &map, drawing, frame);
     draw_paths(strip, &map, drawing, frame);
+    let hue = |body: &Silhouette| color::series(strip.hues[body.body]);
     let mut written: Vec<Rect> = Vec::new();
     for (index, moment) in strip.frames.iter().enumerate() {
         let age = if last == 0 { 1.0 } else { index as f64 / last as f64 };
-        moment.bodies.iter().for_each(|body| draw_body(body, 0.12 + 0.3 * age, &map, drawing, frame));
+        moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.12 + 0.3 * age, &map, drawing, frame));
     }
+    strip.mark_strays(&strip.frames[last], (bounds, &map), drawing);
     for moment in &strip.frames {
         let words = time_in_words(moment.time, strip.decimals());
         write_time(moment, &words, &map, drawing, &mut written);
@@ -201,7 +209,9 @@ fn draw_frames(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
         let cell = Rect { x, y, width: size[0], height: size[1] + HATCH };
         let map = PageMap { scale, corner: [x, y + size[1]], low: bounds.low };
         draw_grounds(&moment.grounds, &map, drawing, cell);
-        moment.bodies.iter().for_each(|body| draw_body(body, 0.3, &map, drawing, cell));
+        let hue = |body: &Silhouette| color::series(strip.hues[body.body]);
+        moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.3, &map, drawing, cell));
+        strip.mark_strays(moment, (bounds, &map), drawing);
         let at = [x + 0.5 * size[0], cell.bottom() + 1.1 * TIME_SIZE];
         drawing.text(caption(&time_in_words(moment.time, strip.decimals()), at, Anchor::Middle));
     }
@@ -216,13 +226,12 @@ fn time_in_words(time: f64, decimals: usize) -> String {
 
 fn draw_paths(strip: &Strip, map: &PageMap, drawing: &mut Page, frame: Rect) {
     for (body, path) in strip.paths.iter().enumerate() {
-        let stroke = Stroke { color: color::series(body).faded(0.55), width: 0.6, dash: &[2.0, 2.0] };
+        let stroke = Stroke { color: color::series(strip.hues[body]).faded(0.55), width: 0.6, dash: &[2.0, 2.0] };
         drawing.line(map.place_line(path), stroke, Some(frame));
     }
 }
 
-fn draw_body(body: &Silhouette, strength: f64, map: &PageMap, drawing: &mut Page, frame: Rect) {
-    let hue: Color = color::series(body.body);
+fn draw_body((body, hue): (&Silhouette, Color), strength: f64, map: &PageMap, drawing: &mut Page, frame: Rect) {
     let placed = |lines: &[Vec<Point>]| lines.iter().map(|line| map.place_line(line)).collect::<Vec<_>>();
     let hull = map.place_line(&body.hull);
     if hull.len() < 3 {

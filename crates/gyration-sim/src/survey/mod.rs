@@ -11,6 +11,7 @@ pub(crate) mod balance;
 mod bodies;
 mod contraction;
 mod crowd;
+mod encounter;
 mod kind;
 mod laws;
 mod mass;
@@ -22,6 +23,7 @@ mod text;
 mod words;
 
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, Survey, modes, modes_in_json};
+pub use encounter::Encounter;
 pub use kind::KindSurvey;
 pub use laws::LawSurvey;
 pub use mass::MassSurvey;

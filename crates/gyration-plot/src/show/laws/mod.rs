@@ -1,18 +1,27 @@
 //! The contact laws of a scene: force per area against distance for every law, and the force on each body.
 //!
 //! Both over logarithmic axes, where a power of the gap is a straight line, as in the slides. Central laws are
-//! tractions [Pa], viscous ones resistances per speed [Pa s/m]. Attraction is drawn dashed, with its sign reversed.
+//! tractions [Pa], viscous ones resistances per speed [Pa s/m]. Attraction is drawn dashed, with its sign reversed. The
+//! distance of a law between bodies is that to the plane between them; the force of two is drawn over the width of the
+//! slab.
+//!
+//! | file      | what                                                       |
+//! |-----------|------------------------------------------------------------|
+//! | `sources` | the different laws of a model, and the names of who has them |
+//! | `forces`  | the force on each body, its weight, and where they balance |
 
-use super::bodies::{MOST_LINES, MOST_NAMES};
-use crate::chart::ticks::length_in_words;
-use crate::chart::{Axis, Chart, DASHED, DOTTED, Series, extremes};
-use crate::draw::color;
+mod forces;
+mod sources;
+
+use crate::chart::{Axis, Chart, DASHED, Series, extremes};
 use crate::error::PlotError;
 use crate::figure::Panel;
-use gyration::contact::{Action, Contact, ContactLaw, LawKind};
+use forces::{ForceCurve, force_chart};
+use gyration::contact::{Action, ContactLaw, LawKind};
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_sim::survey::{Approach, RestGap};
+use serde_json::Value;
+use sources::LawSource;
 
 const HEIGHT: f64 = 170.0;
 /// Points along the curve of a law.
@@ -24,46 +33,31 @@ const AROUND_VALUES: (f64, f64) = (1e-5, 1e7);
 /// Without a gap of rest, so many decades below the largest value are drawn.
 const MOST_DECADES: f64 = 14.0;
 
-/// Charts of the laws and of the forces that they make.
+/// Charts of the laws and of the forces that they make; the resolved scene names groups of bodies.
 ///
 /// # Errors
 /// [`PlotError::Nothing`] without contacts.
-pub fn law_panels(model: &Model, start: &State) -> Result<Vec<Panel>, PlotError> {
-    let pairs = pairs(model, start);
-    if pairs.is_empty() {
-        return Err(PlotError::Nothing { what: "laws", reason: "no contact is given between a body and a support" });
+pub fn law_panels(model: &Model, start: &State, resolved: &Value) -> Result<Vec<Panel>, PlotError> {
+    let (curves, left_out) = ForceCurve::all(model, start, resolved);
+    if curves.is_empty() {
+        let reason = "no contact is given between a body and a support, or between two bodies";
+        return Err(PlotError::Nothing { what: "laws", reason });
     }
-    let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap).collect();
-    let gaps = GapRange { axis: gap_axis(&pairs), rests };
-    let charts =
-        [law_chart(model, &gaps, &CENTRAL), law_chart(model, &gaps, &VISCOUS), force_chart(model, &pairs, &gaps)];
+    let rests = curves.iter().flat_map(ForceCurve::rests).map(|rest| rest.gap).collect();
+    let gaps = GapRange { axis: gap_axis(&curves), rests };
+    let sources = LawSource::all(model, resolved);
+    let charts = [
+        law_chart(&sources, &gaps, &CENTRAL),
+        law_chart(&sources, &gaps, &VISCOUS),
+        force_chart(&curves, left_out, &gaps),
+    ];
     Ok(charts.into_iter().flatten().map(Panel::Chart).collect())
 }
 
-/// A body and a support that act on each other.
-struct ContactPair<'a> {
-    body: usize,
-    support: usize,
-    approach: Approach<'a>,
-    rests: Vec<RestGap>,
-}
-
-fn pairs<'a>(model: &'a Model, start: &State) -> Vec<ContactPair<'a>> {
-    let mut pairs = Vec::new();
-    for body in 0..model.bodies.len().min(MOST_LINES) {
-        for support in 0..model.supports.len() {
-            if let Some(approach) = Approach::new(model, start, body, support).filter(Approach::acts) {
-                pairs.push(ContactPair { body, support, rests: approach.rests(), approach });
-            }
-        }
-    }
-    pairs
-}
-
 /// From well below the nearest gap of rest to well above the farthest; without any, by the sizes of the bodies.
-fn gap_axis(pairs: &[ContactPair]) -> Axis {
-    let rests = pairs.iter().flat_map(|pair| &pair.rests).map(|rest| rest.gap);
-    let sizes = pairs.iter().map(|pair| pair.approach.size()).flat_map(|size| [1e-3 * size, size]);
+fn gap_axis(curves: &[ForceCurve]) -> Axis {
+    let rests = curves.iter().flat_map(ForceCurve::rests).map(|rest| rest.gap);
+    let sizes = curves.iter().map(ForceCurve::size).flat_map(|size| [1e-3 * size, size]);
     let (low, high) = extremes(rests)
         .map_or_else(|| extremes(sizes).unwrap_or((1e-3, 1.0)), |(low, high)| (low / AROUND_REST, high * AROUND_REST));
     let axis = Axis::logarithmic("distance", "m", [low, high]);
@@ -83,17 +77,6 @@ impl GapRange {
     }
 }
 
-/// The different contacts of the model with the name of their support.
-fn contacts(model: &Model) -> Vec<&Contact> {
-    let mut contacts: Vec<&Contact> = Vec::new();
-    for contact in model.bodies.iter().flat_map(|body| &body.contacts) {
-        if !contacts.contains(&contact) {
-            contacts.push(contact);
-        }
-    }
-    contacts
-}
-
 /// One of the two charts of laws.
 struct Laws {
     title: &'static str,
@@ -106,20 +89,25 @@ const CENTRAL: Laws = Laws { title: "Tractions of the central laws", name: "trac
 const VISCOUS: Laws =
     Laws { title: "Resistances of the viscous laws", name: "traction per speed", unit: "Pa s/m", central: false };
 
-fn law_chart(model: &Model, gaps: &GapRange, laws: &Laws) -> Option<Chart> {
-    let contacts = contacts(model);
-    let several = contacts.len() > 1;
+fn law_chart(sources: &[LawSource], gaps: &GapRange, laws: &Laws) -> Option<Chart> {
+    let several = sources.len() > 1;
     let acting =
         |law: &&ContactLaw| law.terms().iter().flatten().any(|term| (term.action == Action::Central) == laws.central);
     let mut series = Vec::new();
-    for (index, contact) in contacts.iter().enumerate() {
-        for law in contact.law_set.laws().iter().filter(acting) {
-            let of = if several { format!(" ({})", model.supports[contact.support()].name) } else { String::new() };
+    let mut between = false;
+    for (index, source) in sources.iter().enumerate() {
+        for law in source.laws.iter().filter(acting) {
+            let of = if several || source.is_between_bodies { format!(" ({})", source.name) } else { String::new() };
             let hue = hue(law.kind()) + if several { index } else { 0 };
             series.extend(law_series(law, &of, hue, gaps));
+            between |= source.is_between_bodies;
         }
     }
-    chart([laws.title, laws.name, laws.unit], gaps, series)
+    let mut chart = chart([laws.title, laws.name, laws.unit], gaps, series)?;
+    if between {
+        chart.remarks.extend(["between bodies: distance".to_owned(), "to the plane between them".to_owned()]);
+    }
+    Some(chart)
 }
 
 /// The colour of a kind of law.
@@ -166,48 +154,6 @@ fn by_sign(name: String, points: Vec<[f64; 2]>, hue: usize) -> Vec<Series> {
         series.insert(0, Series::solid(name, pushing, hue));
     }
     series
-}
-
-/// The force of the central laws on each body, its weight, and the gaps at which they balance.
-fn force_chart(model: &Model, pairs: &[ContactPair], gaps: &GapRange) -> Option<Chart> {
-    let several_supports = model.supports.len() > 1;
-    let mut series = Vec::new();
-    for (index, pair) in pairs.iter().enumerate() {
-        let force = |gap: f64| [gap, pair.approach.force(gap).unwrap_or(f64::NAN)];
-        let of = if several_supports { format!(" on {}", model.supports[pair.support].name) } else { String::new() };
-        let named = series.len() < MOST_NAMES;
-        let name = if named { format!("{}{of}", model.bodies[pair.body].name) } else { String::new() };
-        series.extend(by_sign(name, gaps.sampled().map(force).collect(), index));
-    }
-    let title = "Force of the central laws on a body at its first orientation";
-    let mut chart = chart([title, "force", "N"], gaps, series)?;
-    if pairs.len() <= MOST_NAMES {
-        // Marks do not decide the range; weights outside of it are not drawn.
-        let (low, high) = (chart.y.low, chart.y.high);
-        let marks = pairs.iter().enumerate().flat_map(|(index, pair)| balance_marks(pair, index, gaps));
-        chart.series.extend(marks.filter(|mark| (low..=high).contains(&mark.points[1][1])));
-    }
-    Some(chart)
-}
-
-/// The weight as a level line, named once, and each gap of rest as an upright one below it.
-fn balance_marks(pair: &ContactPair, hue: usize, gaps: &GapRange) -> Vec<Series> {
-    let weight = pair.approach.weight;
-    let mut marks = Vec::new();
-    if weight > 0.0 {
-        marks.push(Series::level(if hue == 0 { "weight" } else { "" }, weight, &gaps.axis));
-    }
-    for rest in &pair.rests {
-        let points = vec![[rest.gap, f64::MIN_POSITIVE], [rest.gap, weight.abs()]];
-        let kind = if rest.stable { "" } else { " (unstable)" };
-        let mut mark = Series::solid(format!("rest gap {}{kind}", length_in_words(rest.gap)), points, hue);
-        mark.stroke.width = 0.9;
-        if !rest.stable {
-            mark.stroke.color = color::GREY;
-        }
-        marks.push(mark.dashed(DOTTED));
-    }
-    marks
 }
 
 /// A chart with title, name and unit of its upward axis; none without anything to draw.

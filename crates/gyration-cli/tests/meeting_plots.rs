@@ -1,0 +1,118 @@
+//! `gyration plot` for bodies that meet, and for many.
+
+use crate::common::{Sandbox, words};
+use std::fmt::Write as _;
+
+/// A ball flies at one that rests, head on, without support or gravity; others are far aside.
+fn balls(more: &str) -> String {
+    format!(
+        r#"
+title = "Two balls meet"
+[world]
+gravity = [0, 0, 0]
+[time]
+end = 0.4
+sample = 0.01
+[[contact]]
+between = ["a", "b"]
+repulsion = {{ alpha = 100.0, nu = 6, d0 = 0.001 }}
+[[body]]
+name = "a"
+shape = {{ sphere = {{ radius = 0.05 }} }}
+mass = 1.0
+position = [0, 0.02, 0]
+velocity = [0.3, 0, 0]
+[[body]]
+name = "b"
+shape = {{ sphere = {{ radius = 0.05 }} }}
+mass = 1.0
+position = [0.15, 0, 0]
+{more}"#
+    )
+}
+
+fn recorded(scene: &str) -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.toml", scene);
+    sandbox.done(&["run", "scene.toml", "--quiet"]);
+    sandbox
+}
+
+fn drawn(sandbox: &Sandbox, arguments: &[&str]) -> String {
+    words(&sandbox.done(&[&["plot"], arguments, &["-o", "-"]].concat()).stdout)
+}
+
+#[test]
+fn laws_between_bodies_are_drawn_and_named_by_their_bodies() {
+    let sandbox = recorded(&balls(""));
+    for source in ["scene.toml", "scene.gyr"] {
+        let told = drawn(&sandbox, &[source, "laws"]);
+        for expected in
+            ["Tractions of the central laws", "repulsion (a – b): ν = 6", "Force of the central laws", "slab"]
+        {
+            assert!(told.contains(expected), "{source}: no {expected:?} in {told}");
+        }
+    }
+}
+
+#[test]
+fn laws_between_many_bodies_are_named_by_their_groups() {
+    let ball = |name: &str, x: f64, group: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\ngroup = \"{group}\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1.0\n\
+             position = [{x}, 1, 0]\n"
+        )
+    };
+    let mut more = String::new();
+    for k in 0..3 {
+        more += &ball(&format!("grain-{k}"), 0.3 * f64::from(k), "grains");
+        more += &ball(&format!("steel-{k}"), 0.3 * f64::from(k) + 0.15, "steel");
+    }
+    more += "[[contact]]\nbetween = [\"grains\", \"steel\"]\nrepulsion = { alpha = 10.0, nu = 5, d0 = 0.001 }\n";
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.toml", &balls(&more));
+    let told = drawn(&sandbox, &["scene.toml", "laws"]);
+    assert!(told.contains("(grains – steel): ν = 5") && told.contains("(a – b): ν = 6"), "{told}");
+}
+
+#[test]
+fn a_push_without_friction_is_a_normal_force_whatever_its_direction() {
+    let sandbox = recorded(&balls(""));
+    let told = drawn(&sandbox, &["scene.gyr", "forces"]);
+    assert!(told.contains("Force of contact") && !told.contains("tangential"), "{told}");
+}
+
+#[test]
+fn a_legend_names_the_classes_of_many_bodies_and_leaves_none_out() {
+    let mut more = String::new();
+    for k in 0..10 {
+        let group = if k % 3 == 0 { "steel" } else { "grains" };
+        let _ = writeln!(
+            more,
+            "[[body]]\nname = \"c{k}\"\ngroup = \"{group}\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1.0\n\
+             position = [{}, 1, 0]\nvelocity = [0, 0, 0.{k}]",
+            0.2 * f64::from(k)
+        );
+    }
+    let sandbox = recorded(&balls(&more));
+    for what in ["height", "strip"] {
+        let told = drawn(&sandbox, &["scene.gyr", what]);
+        for expected in ["steel (4)", "grains (6)", "without a group (2)"] {
+            assert!(told.contains(expected), "{what}: no {expected:?} in {told}");
+        }
+        assert!(!told.contains(" more"), "{told}");
+    }
+}
+
+#[test]
+fn a_body_that_flies_off_is_named_at_the_edge_and_makes_no_other_small() {
+    let far = "[[body]]\nname = \"runaway\"\nshape = { sphere = { radius = 0.05 } }\nmass = 1.0\nposition = [0, 0.5, 0]\n\
+               velocity = [500, 0, 0]\n";
+    let near = far.replace("500", "0.5");
+    let bar = |scene: &str| {
+        let told = drawn(&recorded(&balls(scene)), &["scene.gyr", "strip"]);
+        (told.contains("runaway"), told.contains("200 m") || told.contains("50 m"))
+    };
+    assert_eq!(bar(far), (true, false));
+    assert_eq!(bar(&near), (false, false));
+}

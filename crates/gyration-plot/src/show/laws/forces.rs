@@ -1,0 +1,158 @@
+//! The force of the central laws on each body, its weight, and the gaps at which they balance.
+//!
+//! Of bodies and supports, or pairs of bodies, that are alike the first is drawn, with how many there are of them.
+
+use super::sources::{Groups, alike};
+use super::{GapRange, by_sign, chart};
+use crate::chart::ticks::length_in_words;
+use crate::chart::{Chart, DOTTED, Series};
+use crate::draw::{Point, color};
+use gyration::model::Model;
+use gyration::pair::Pair;
+use gyration::state::State;
+use gyration_sim::survey::{Approach, Encounter, RestGap};
+use serde_json::Value;
+use std::sync::Arc;
+
+/// Curves with marks for their weights and gaps of rest.
+const MOST_MARKED: usize = 7;
+/// Curves that are drawn.
+const MOST_CURVES: usize = 40;
+
+/// A force over a distance.
+pub struct ForceCurve<'a> {
+    name: String,
+    of: Meeting<'a>,
+}
+
+/// Who approaches whom.
+enum Meeting<'a> {
+    /// A body its support.
+    Support { approach: Approach<'a>, rests: Vec<RestGap> },
+    /// A body another one.
+    Bodies(Encounter<'a>),
+}
+
+impl<'a> ForceCurve<'a> {
+    /// Of all bodies that a model lets meet something, and how many have no curve.
+    pub fn all(model: &'a Model, start: &State, resolved: &Value) -> (Vec<Self>, usize) {
+        let (mut curves, mut left_out) = (Vec::new(), 0);
+        let several = model.supports.len() > 1;
+        for (body, support) in
+            (0..model.bodies.len()).flat_map(|body| (0..model.supports.len()).map(move |k| (body, k)))
+        {
+            if curves.len() == MOST_CURVES {
+                let has = model.bodies[body].contacts.iter().any(|contact| contact.support() == support);
+                left_out += usize::from(has);
+                continue;
+            }
+            if let Some(approach) = Approach::new(model, start, body, support).filter(Approach::acts) {
+                let on = if several { format!(" on {}", model.supports[support].name) } else { String::new() };
+                let rests = approach.rests();
+                let name = format!("{}{on}", model.bodies[body].name);
+                curves.push(Self { name, of: Meeting::Support { approach, rests } });
+            }
+        }
+        let groups = Groups::of(model, resolved);
+        let solid = |body: usize| &model.bodies[body].solid;
+        let are_alike = |one: &Pair, other: &Pair| {
+            let same =
+                |k: usize| Arc::ptr_eq(solid(one.bodies[k]), solid(other.bodies[k])) && one.parts[k] == other.parts[k];
+            Arc::ptr_eq(&one.laws, &other.laws) && same(0) && same(1)
+        };
+        let sorts = alike(model.pairs(), are_alike);
+        left_out += sorts.len().saturating_sub(MOST_CURVES);
+        for pairs in sorts.into_iter().take(MOST_CURVES) {
+            let number = model.pairs().iter().position(|pair| std::ptr::eq(pair, pairs[0]));
+            if let Some(encounter) = number.and_then(|number| Encounter::new(model, start, number)) {
+                curves.push(Self { name: groups.name(model, &pairs), of: Meeting::Bodies(encounter) });
+            }
+        }
+        (curves, left_out)
+    }
+
+    /// The gaps at which a support carries the weight.
+    pub fn rests(&self) -> &[RestGap] {
+        match &self.of {
+            Meeting::Support { rests, .. } => rests,
+            Meeting::Bodies(_) => &[],
+        }
+    }
+
+    /// The largest side of the bodies [m].
+    pub fn size(&self) -> f64 {
+        match &self.of {
+            Meeting::Support { approach, .. } => approach.size(),
+            Meeting::Bodies(encounter) => encounter.size,
+        }
+    }
+
+    /// Distance [m] and force [N].
+    fn at(&self, gap: f64) -> Point {
+        match &self.of {
+            Meeting::Support { approach, .. } => [gap, approach.force(gap).unwrap_or(f64::NAN)],
+            Meeting::Bodies(encounter) => encounter.at(gap).unwrap_or([gap, f64::NAN]),
+        }
+    }
+
+    /// The weight as a level line, named once, and each gap of rest as an upright one below it.
+    fn marks(&self, hue: usize, gaps: &GapRange) -> Vec<Series> {
+        let Meeting::Support { approach, rests } = &self.of else { return Vec::new() };
+        let weight = approach.weight;
+        let mut marks = Vec::new();
+        if weight > 0.0 {
+            marks.push(Series::level(if hue == 0 { "weight" } else { "" }, weight, &gaps.axis));
+        }
+        for rest in rests {
+            let points = vec![[rest.gap, f64::MIN_POSITIVE], [rest.gap, weight.abs()]];
+            let kind = if rest.stable { "" } else { " (unstable)" };
+            let mut mark = Series::solid(format!("rest gap {}{kind}", length_in_words(rest.gap)), points, hue);
+            mark.stroke.width = 0.9;
+            if !rest.stable {
+                mark.stroke.color = color::GREY;
+            }
+            marks.push(mark.dashed(DOTTED));
+        }
+        marks
+    }
+}
+
+/// The forces of all curves; each is named, those of bodies with one force under one name.
+pub fn force_chart(curves: &[ForceCurve], left_out: usize, gaps: &GapRange) -> Option<Chart> {
+    let mut sorts: Vec<(Vec<Point>, Vec<&ForceCurve>)> = Vec::new();
+    for curve in curves {
+        let points: Vec<Point> = gaps.sampled().map(|gap| curve.at(gap)).collect();
+        match sorts.iter_mut().find(|(known, _)| curves.len() > MOST_MARKED && agree(known, &points)) {
+            Some((_, sort)) => sort.push(curve),
+            None => sorts.push((points, vec![curve])),
+        }
+    }
+    let mut series = Vec::new();
+    for (index, (points, sort)) in sorts.into_iter().enumerate() {
+        let more = sort.len() - 1;
+        let name = if more > 0 { format!("{} and {more} alike", sort[0].name) } else { sort[0].name.clone() };
+        series.extend(by_sign(name, points, index));
+    }
+    let title = "Force of the central laws on a body at its first orientation";
+    let mut chart = chart([title, "force", "N"], gaps, series)?;
+    if curves.iter().any(|curve| matches!(curve.of, Meeting::Bodies(_))) {
+        chart.remarks.extend(["between bodies: distance".to_owned(), "is the slab between them".to_owned()]);
+    }
+    if left_out > 0 {
+        chart.remarks.push(format!("{} of {} forces drawn", curves.len(), curves.len() + left_out));
+    }
+    if curves.len() <= MOST_MARKED {
+        // Marks do not decide the range; weights outside of it are not drawn.
+        let (low, high) = (chart.y.low, chart.y.high);
+        let marks = curves.iter().enumerate().flat_map(|(index, curve)| curve.marks(index, gaps));
+        chart.series.extend(marks.filter(|mark| (low..=high).contains(&mark.points[1][1])));
+    }
+    Some(chart)
+}
+
+/// Whether two forces are the same to the eye.
+fn agree(one: &[Point], other: &[Point]) -> bool {
+    one.iter()
+        .zip(other)
+        .all(|(a, b)| a[1] == b[1] || (a[1] - b[1]).abs() <= 1e-3 * a[1].abs() || (a[1].is_nan() && b[1].is_nan()))
+}

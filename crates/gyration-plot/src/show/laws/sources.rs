@@ -1,0 +1,111 @@
+//! The different laws of a model, and the names of who has them: a support, two bodies, or two groups of bodies.
+
+use gyration::contact::ContactLaw;
+use gyration::model::Model;
+use gyration::pair::Pair;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Pairs by which two groups are recognized.
+const MOST_PAIRS: usize = 2000;
+/// Words of groups that are tried.
+const MOST_WORDS: usize = 24;
+
+/// Laws that act between somebody.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawSource<'a> {
+    /// Who has them.
+    pub name: String,
+    /// The laws.
+    pub laws: &'a [ContactLaw],
+    /// Whether no support is among those that have them.
+    pub is_between_bodies: bool,
+}
+
+impl<'a> LawSource<'a> {
+    /// The different laws of a model, each once.
+    pub fn all(model: &'a Model, resolved: &Value) -> Vec<Self> {
+        let mut contacts = Vec::new();
+        for contact in model.bodies.iter().flat_map(|body| &body.contacts) {
+            if !contacts.contains(&contact) {
+                contacts.push(contact);
+            }
+        }
+        let of_support = contacts.into_iter().map(|contact| Self {
+            name: model.supports[contact.support()].name.clone(),
+            laws: contact.law_set.laws(),
+            is_between_bodies: false,
+        });
+        let groups = Groups::of(model, resolved);
+        let of_pairs = alike(model.pairs(), |one, other| Arc::ptr_eq(&one.laws, &other.laws)).into_iter();
+        let of_pairs = of_pairs.map(|pairs| Self {
+            name: groups.name(model, &pairs),
+            laws: pairs[0].laws.laws(),
+            is_between_bodies: true,
+        });
+        of_support.chain(of_pairs).collect()
+    }
+}
+
+/// Pairs that are alike, in the order of the first ones.
+pub fn alike(pairs: &[Pair], are_alike: impl Fn(&Pair, &Pair) -> bool) -> Vec<Vec<&Pair>> {
+    let mut sorts: Vec<Vec<&Pair>> = Vec::new();
+    for pair in pairs {
+        match sorts.iter_mut().find(|sort| are_alike(sort[0], pair)) {
+            Some(sort) => sort.push(pair),
+            None => sorts.push(vec![pair]),
+        }
+    }
+    sorts
+}
+
+/// The bodies of each word by which contacts name many.
+#[derive(Debug, Clone, Default)]
+pub struct Groups(BTreeMap<String, Vec<bool>>);
+
+impl Groups {
+    /// Of the bodies of a model, by the resolved scene.
+    pub fn of(model: &Model, resolved: &Value) -> Self {
+        let mut groups: BTreeMap<String, Vec<bool>> = BTreeMap::new();
+        let count = model.bodies.len();
+        for described in resolved["body"].as_array().into_iter().flatten() {
+            let Some(index) = model.bodies.iter().position(|body| described["name"] == body.name.as_str()) else {
+                continue;
+            };
+            let group = &described["group"];
+            let words = group.as_array().map_or(std::slice::from_ref(group), Vec::as_slice);
+            for word in words.iter().filter_map(Value::as_str) {
+                groups.entry(word.to_owned()).or_insert_with(|| vec![false; count])[index] = true;
+            }
+        }
+        Self(groups)
+    }
+
+    /// Who is in these pairs: the two of a single one, two groups that hold all of them, or the first two and how many
+    /// pairs besides.
+    pub fn name(&self, model: &Model, pairs: &[&Pair]) -> String {
+        let [one, other] = pairs[0].bodies.map(|body| model.bodies[body].name.as_str());
+        let more = pairs.iter().filter(|pair| pair.bodies != pairs[0].bodies).count();
+        match self.holding(pairs).filter(|_| more > 0) {
+            _ if more == 0 => format!("{one} – {other}"),
+            Some((first, second)) => format!("{first} – {second}"),
+            None => format!("{one} – {other}, {more} more {}", if more == 1 { "pair" } else { "pairs" }),
+        }
+    }
+
+    /// Two groups of which each pair has a body each.
+    fn holding(&self, pairs: &[&Pair]) -> Option<(&str, &str)> {
+        let words: Vec<_> = self.0.iter().take(MOST_WORDS).collect();
+        let holds = |first: &[bool], second: &[bool]| {
+            pairs.iter().take(MOST_PAIRS).all(|pair| {
+                let [one, other] = pair.bodies;
+                (first[one] && second[other]) || (first[other] && second[one])
+            })
+        };
+        let mut all =
+            words.iter().enumerate().flat_map(|(k, first)| words[k..].iter().map(move |second| (first, second)));
+        let (first, second) = all.find(|((_, first), (_, second))| holds(first, second))?;
+        Some((first.0.as_str(), second.0.as_str()))
+    }
+}
