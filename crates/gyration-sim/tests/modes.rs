@@ -442,3 +442,31 @@ fn brick_that_falls_on_its_edge_is_not_turned_about_the_vertical() {
     // It lies on its largest face; noise of the search does not grow.
     assert!(aside < 1e-6 && gradient.m13.abs() < 1e-9 && rest.stretches[2] > 0.95);
 }
+
+/// A damping with d₀ = 1000 km is 10²⁹ times that of the scene at the same gap.
+#[test]
+fn motions_whose_rates_are_thirty_orders_apart_have_a_direction() {
+    for d0 in ["5e-3", "1e3", "1e6"] {
+        let overrides = [format!("contact.0.damping.d0={d0}")];
+        let scene = gyration_scene::Scene::open("elastic-bounce-spinning", &overrides).unwrap();
+        let (_, modes) = survey(&(scene.built().model.clone(), scene.built().state.clone()));
+        for mode in &modes {
+            let shape = &mode.shape;
+            let entries = shape.translation.iter().chain(shape.gradient.iter());
+            assert!(entries.clone().all(|entry| entry.is_finite()), "{d0}: {mode:?}");
+            assert!(entries.map(|entry| entry * entry).sum::<f64>() > 0.0, "{d0}: {mode:?}");
+        }
+    }
+}
+
+/// The law of contraction is no part of the modes yet, which is said with them.
+#[test]
+fn modes_of_a_body_that_drives_itself_say_what_they_leave_out() {
+    let left_out = |name: &str| {
+        let scene = gyration_scene::Scene::open(name, &[]).unwrap();
+        let modes = gyration_sim::survey::modes(&scene);
+        modes.iter().filter_map(|body| body.rest_state.as_ref()?.left_out).collect::<Vec<_>>()
+    };
+    assert!(left_out("contract-1").iter().all(|told| told.starts_with("contraction held")));
+    assert!(!left_out("contract-1").is_empty() && left_out("elastic-bounce").is_empty());
+}

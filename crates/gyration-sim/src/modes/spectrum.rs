@@ -148,12 +148,18 @@ impl Oscillator {
         let neutral = part.len() - bound.len();
         let snap = |value: f64| if value.abs() <= ROUNDING * fastest && neutral > 0 { 0.0 } else { value };
         let shape = |value: C64, vector: &DVector<C64>| {
-            let mut moved = part.iter().enumerate().map(|(at, i)| match bound.iter().position(|j| j == i) {
-                // ξ̇ = λ ξ, and ξ is what is known best of a slow motion.
-                Some(x) => vector[x] / self.scale(*i) * value,
-                None => vector[bound.len() + at],
-            });
-            DVector::from_fn(part.len(), |_, _| moved.next().unwrap_or_default()).normalize()
+            let moved = |times: C64| {
+                let mut moved = part.iter().enumerate().map(|(at, i)| match bound.iter().position(|j| j == i) {
+                    // ξ̇ = λ ξ, and ξ is what is known best of a slow motion.
+                    Some(x) => vector[x] / self.scale(*i) * times,
+                    None => vector[bound.len() + at],
+                });
+                DVector::from_fn(part.len(), |_, _| moved.next().unwrap_or_default())
+            };
+            let speeds = moved(value);
+            // Where rates are some 30 orders apart the speeds of the slow motions vanish; their displacements do not.
+            let moved = if speeds.norm().is_normal() { speeds } else { moved(C64::new(1.0, 0.0)) };
+            moved.normalize()
         };
         let mut pairs = Vec::new();
         let mut reals = Vec::new();

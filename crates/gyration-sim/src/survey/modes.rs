@@ -1,6 +1,7 @@
 //! Rest states and the small motions about them, in a form to print.
 
 use crate::modes::{Mode, ModeBehaviour, ModeShape, modes, rest};
+use gyration::contractile::ContractionSource;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Mat3;
@@ -21,6 +22,9 @@ pub struct RestState {
     pub pressure: Option<f64>,
     /// Smallest distance to a support that acts on it [m].
     pub gap: Option<f64>,
+    /// What the small motions leave out, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<&'static str>,
     /// The small motions: unstable, free, creeping, oscillating ones, each by frequency.
     pub modes: Vec<ModeSurvey>,
 }
@@ -55,6 +59,16 @@ pub struct ShapeSurvey {
     pub gradient: [[f64; 3]; 3],
 }
 
+/// What the small motions of a body leave out: of one that a drive contracts, its law of contraction.
+fn left_out(model: &Model, body: usize) -> Option<&'static str> {
+    match model.bodies[body].contraction()?.source {
+        ContractionSource::Driven { .. } => Some(
+            "contraction held as it is at the start: what its law and feedback do to decay and stability is not known",
+        ),
+        ContractionSource::Prescribed(_) => None,
+    }
+}
+
 /// Parts of an eigenvalue below this part of it are rounding.
 const ROUNDING: f64 = 1e-10;
 
@@ -71,6 +85,7 @@ impl RestState {
             gradient: rows(&rest.placement.gradient),
             stretches: rest.stretches.into(),
             pressure: rest.pressure,
+            left_out: left_out(model, body),
             gap: rest.gap.is_finite().then_some(rest.gap),
             modes: found.iter().map(|mode| ModeSurvey::of(mode, fastest(&found))).collect(),
         })

@@ -131,6 +131,9 @@ pub fn write_rest(text: &mut String, rest: &RestState) -> fmt::Result {
         let pressure = rest.pressure.map(|pressure| format!(", pressure {} Pa", short(pressure))).unwrap_or_default();
         writeln!(text, "  stretches {}{pressure}", rest.stretches.map(|stretch| format!("{stretch:.6}")).join(", "))?;
     }
+    if let Some(left_out) = rest.left_out {
+        writeln!(text, "  {left_out}")?;
+    }
     Ok(())
 }
 
