@@ -75,6 +75,7 @@ impl Meeting {
         [0, 1].map(|i| Side {
             surface: &self.surface,
             placement: &self.placements[i],
+            from_first: self.placements[i].position - self.placements[0].position,
             velocity: &self.velocities[i],
             inverse: self.placements[i].gradient.transpose(),
             deformation: None,

@@ -44,13 +44,11 @@ const TURNING: f64 = 1e-9;
 pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Result<Vec<f64>, Inadmissible> {
     let bodies = model.bodies.len();
     let mut scales: Vec<f64> = (0..bodies).map(|index| own_scale(model, start, slopes, index)).collect();
-    if (0..bodies).any(|index| scales[index] == 0.0) {
+    if scales.contains(&0.0) {
         let mut workspace = Workspace::default();
         let (instant, scratch) = workspace.read(model, start)?;
-        for index in 0..bodies {
-            if scales[index] == 0.0 {
-                scales[index] = pushed(&instant.at(model, index), slopes, scratch)?;
-            }
+        for (index, scale) in scales.iter_mut().enumerate().filter(|(_, scale)| **scale == 0.0) {
+            *scale = pushed(&instant.at(model, index), slopes, scratch)?;
         }
     }
     let joined = Pattern::new(bodies, model.reaches().map(|(bodies, _)| bodies.into()));
@@ -131,8 +129,8 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
     (stiffness / model.bodies[index].solid.mass.mass).sqrt()
 }
 
-/// The errors allowed of the modes of a history force, given that of the velocity [m/s]: a mode is to be as exact as the
-/// velocity that it moves while it lives. So fast ones, which sum up to a smooth force, do not hold the steps up.
+/// The errors allowed of the modes of a history force, given that of the velocity [m/s]: a mode is to be as exact as
+/// the velocity that it moves while it lives. So fast ones, which sum up to a smooth force, do not hold the steps up.
 pub(crate) fn mode_scales(body: &Body, history: &History, velocity: f64, scales: &mut [f64]) {
     // The moment of inertia of a sphere is twice its Euler tensor.
     let (mass, inertia) = (body.solid.mass.mass, 2.0 / 3.0 * body.solid.mass.euler_tensor.trace());

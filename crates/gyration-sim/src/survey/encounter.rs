@@ -1,7 +1,7 @@
 //! Two bodies that approach each other along the normal of the plane between them, in the orientations of the start.
 //!
-//! F(s) is the force of the repulsion along the normal n [N] at a slab of width s between them, without velocity:
-//! F = −dU/ds as long as the plane keeps its normal, as between balls and between faces that lie opposite.
+//! F(s) is the force of the repulsion along the normal n [N] at a slab of width s between them, without velocity: F =
+//! −dU/ds as long as the plane keeps its normal, as between balls and between faces that lie opposite.
 
 use gyration::contact::Deformation;
 use gyration::kinematics::{Placement, Velocity};
@@ -73,6 +73,7 @@ fn loads(pair: &Pair, ends: &[End; 2], size: f64) -> Option<PairLoads> {
     let [one, other] = ends.each_ref().map(|end| Side {
         surface: end.surface,
         placement: &end.placement,
+        from_first: end.placement.position - ends[0].placement.position,
         velocity: &still,
         inverse: end.inverse,
         deformation: end.deformation,

@@ -28,9 +28,9 @@ pub struct ForceCurve<'a> {
 /// Who approaches whom.
 enum Meeting<'a> {
     /// A body its support.
-    Support { approach: Approach<'a>, rests: Vec<RestGap> },
+    Support { approach: Box<Approach<'a>>, rests: Vec<RestGap> },
     /// A body another one.
-    Bodies(Encounter<'a>),
+    Bodies(Box<Encounter<'a>>),
 }
 
 impl<'a> ForceCurve<'a> {
@@ -50,7 +50,7 @@ impl<'a> ForceCurve<'a> {
                 let on = if several { format!(" on {}", model.supports[support].name) } else { String::new() };
                 let rests = approach.rests();
                 let name = format!("{}{on}", model.bodies[body].name);
-                curves.push(Self { name, of: Meeting::Support { approach, rests } });
+                curves.push(Self { name, of: Meeting::Support { approach: Box::new(approach), rests } });
             }
         }
         let groups = Groups::of(model, resolved);
@@ -65,7 +65,7 @@ impl<'a> ForceCurve<'a> {
         for pairs in sorts.into_iter().take(MOST_CURVES) {
             let number = model.pairs().iter().position(|pair| std::ptr::eq(pair, pairs[0]));
             if let Some(encounter) = number.and_then(|number| Encounter::new(model, start, number)) {
-                curves.push(Self { name: groups.name(model, &pairs), of: Meeting::Bodies(encounter) });
+                curves.push(Self { name: groups.name(model, &pairs), of: Meeting::Bodies(Box::new(encounter)) });
             }
         }
         (curves, left_out)
