@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
+mod corpus;
 mod deforming;
 mod dissipation;
 mod interruptions;
@@ -15,6 +16,7 @@ mod random;
 mod random_scenes;
 mod remarks;
 mod replay;
+mod resumption;
 mod run_loop;
 mod runs;
 mod sensitivities;

@@ -207,8 +207,8 @@ fn balls_that_pass_one_another_never_know_of_each_other() {
     assert_eq!(found.statistics, alone.statistics);
 }
 
-/// A row that moves as a whole, each ball at the end of the reach of the next: to the last digit, and within the part of
-/// it that is left out.
+/// A row that moves as a whole, each ball at the end of the reach of the next: to the last digit, and within the part
+/// of it that is left out.
 #[test]
 fn balls_that_stay_at_the_end_of_their_reach_do_not_meet_and_part_in_turns() {
     let row = |spacing: f64| -> Vec<_> {
