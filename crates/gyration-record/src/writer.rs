@@ -100,8 +100,8 @@ impl Writer {
         Self::over(disk, path, directory, group, lock)
     }
 
-    /// Opens a recording to go on from its last checkpoint; rows beyond it are cut off. All that stays is read once, and
-    /// held against its checksums.
+    /// Opens a recording to go on from its last checkpoint; rows beyond it are cut off. All that stays is read once,
+    /// and held against its checksums.
     ///
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Locked`, `Corrupt`, `Truncated`, `Io`.

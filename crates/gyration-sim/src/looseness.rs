@@ -2,9 +2,9 @@
 //!
 //!   Σ |f| (atol·size + rtol·min(g, size)) + Σ (8(ν−1) + ν size/g) ε U
 //!
-//! The first sum is over the contacts, springs and pairs of all bodies: the step control allows each length the error in
-//! brackets, and the energy of what is loaded at rest feels it at first order, however small the motion about it is. The
-//! second is over the pairs of bodies, whose gaps are differences: the rounding of their energies.
+//! The first sum is over the contacts, springs and pairs of all bodies: the step control allows each length the error
+//! in brackets, and the energy of what is loaded at rest feels it at first order, however small the motion about it is.
+//! The second is over the pairs of bodies, whose gaps are differences: the rounding of their energies.
 
 use crate::adapter::Tolerance;
 use gyration::Inadmissible;

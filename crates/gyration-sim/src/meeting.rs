@@ -42,8 +42,8 @@ impl Island {
         self.state.is_parting = self.ways.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
     }
 
-    /// The sets of its bodies, by their places, that are within reach of one another or will be soon. They part a little
-    /// farther out than they meet: two that stay at one distance do not do both in turns.
+    /// The sets of its bodies, by their places, that are within reach of one another or will be soon. They part a
+    /// little farther out than they meet: two that stay at one distance do not do both in turns.
     pub fn parts(&self) -> Components {
         let (model, ahead) = (self.model(), AHEAD * self.integrator.next_size());
         let near = |bodies: [usize; 2], reach: f64| {

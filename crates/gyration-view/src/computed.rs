@@ -1,8 +1,8 @@
-//! Arrays that the page shows and few recordings hold: computed from the model and the states of a recording, as if they
-//! had been recorded.
+//! Arrays that the page shows and few recordings hold: computed from the model and the states of a recording, as if
+//! they had been recorded.
 //!
-//! Bodies that deform are coloured by their stress. Where bodies meet, or stand against supports of several normals, the
-//! sum of the contact forces does not tell what of it is normal and what tangential: the parts are had contact by
+//! Bodies that deform are coloured by their stress. Where bodies meet, or stand against supports of several normals,
+//! the sum of the contact forces does not tell what of it is normal and what tangential: the parts are had contact by
 //! contact.
 
 use crate::blob;

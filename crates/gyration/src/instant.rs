@@ -230,8 +230,8 @@ impl<'a> BodyAt<'a> {
         self.instant.at(self.model, index)
     }
 
-    /// The place of its centre of mass from that of another body [m], to all the digits of the state: p₀ − p₀′ has those
-    /// of the difference, wherever the origin is. A pinned body has those of one number.
+    /// The place of its centre of mass from that of another body [m], to all the digits of the state: p₀ − p₀′ has
+    /// those of the difference, wherever the origin is. A pinned body has those of one number.
     #[inline]
     pub(crate) fn from(&self, other: &Self) -> Vec3 {
         if self.numbers.low.is_empty() || self.body.pin.is_some() || other.body.pin.is_some() {

@@ -1,7 +1,7 @@
 //! Bodies so far from the origin that the digits of their places do not tell the gaps at which they start.
 //!
-//! A run keeps the distance of two bodies in twice the digits, wherever the origin is. What a scene gives has the digits
-//! of one number, as have the places of pinned bodies at any time.
+//! A run keeps the distance of two bodies in twice the digits, wherever the origin is. What a scene gives has the
+//! digits of one number, as have the places of pinned bodies at any time.
 
 use super::trial::TrialPair;
 use crate::format::significant;

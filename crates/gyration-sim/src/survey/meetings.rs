@@ -39,8 +39,8 @@ impl MeetingSurvey {
     /// The meetings of a model, in order.
     pub fn all(model: &Model, start: &State) -> Vec<Self> {
         let mut gaps = Vec::new();
-        // A scene whose bodies reach each other at the start has been refused; of very many pairs the last ones may
-        // not have been looked at in time.
+        // A scene whose bodies reach each other at the start has been refused; of very many pairs the last ones may not
+        // have been looked at in time.
         let _ = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps);
         let gap = |number: usize| gaps.get(number).map(|slab| slab.gap).filter(|gap| gap.is_finite());
         model.pairs().iter().enumerate().map(|(number, pair)| Self::of(model, pair, gap(number))).collect()

@@ -1,8 +1,8 @@
-//! A scene that runs as it is watched: a thread that looks at the numbers asked for, one that steps the run, and what it
-//! publishes for any number of pages.
+//! A scene that runs as it is watched: a thread that looks at the numbers asked for, one that steps the run, and what
+//! it publishes for any number of pages.
 //!
-//! The run never waits for a page: it appends to a store, and each page takes from the store what it has not had
-//! yet, in its own time. It waits only where it is told to: for the first page, and while it is paused.
+//! The run never waits for a page: it appends to a store, and each page takes from the store what it has not had yet,
+//! in its own time. It waits only where it is told to: for the first page, and while it is paused.
 
 mod runner;
 mod shared;

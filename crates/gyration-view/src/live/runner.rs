@@ -1,5 +1,5 @@
-//! The threads that run a scene again and again, as pages ask for it: one looks whether a run can begin with the numbers
-//! asked for, the other runs. A number that is refused stops nothing.
+//! The threads that run a scene again and again, as pages ask for it: one looks whether a run can begin with the
+//! numbers asked for, the other runs. A number that is refused stops nothing.
 
 use super::shared::LiveState;
 use crate::blob;

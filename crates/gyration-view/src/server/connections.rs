@@ -1,8 +1,8 @@
 //! The connections: how many there may be, and how long one is waited for.
 //!
 //! A connection begins as a stranger's. With the first request that has the token it takes a place among the known
-//! ones, or waits for one. Strangers have room of their own, in which the oldest gives way to the newest: those who have
-//! no token, however many and however slow, do not keep out those who have. A request that does not come whole, a
+//! ones, or waits for one. Strangers have room of their own, in which the oldest gives way to the newest: those who
+//! have no token, however many and however slow, do not keep out those who have. A request that does not come whole, a
 //! websocket whose handshake does not, and a peer that does not read are left after a while. What is kept for all of
 //! them has a bound.
 

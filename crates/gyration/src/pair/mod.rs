@@ -109,8 +109,8 @@ impl Pair {
         self.reach.is_none() || self.threshold.is_normal()
     }
 
-    /// What two rigid balls do out of reach, nothing, with the gap between them, given the place of A from B and that of
-    /// B [m]; none of other shapes.
+    /// What two rigid balls do out of reach, nothing, with the gap between them, given the place of A from B and that
+    /// of B [m]; none of other shapes.
     pub fn apart(&self, between: &Vec3, place: &Vec3) -> Option<PairLoads> {
         let distance = between.norm();
         let normal = between / distance;
@@ -119,8 +119,8 @@ impl Pair {
         self.are_balls.then(|| PairLoads { gap, normal, point, ..PairLoads::default() })
     }
 
-    /// How near the plane has come to one of two bodies [m], the smaller of which has this size, if that is so near that
-    /// digits do not tell it from touch.
+    /// How near the plane has come to one of two bodies [m], the smaller of which has this size, if that is so near
+    /// that digits do not tell it from touch.
     pub fn touch(&self, slab: &PairGap, size: f64) -> Option<f64> {
         let part = slab.gap * slab.share.min(1.0 - slab.share);
         let touches = match self.are_balls {
