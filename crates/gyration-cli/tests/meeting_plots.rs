@@ -106,8 +106,8 @@ fn a_legend_names_the_classes_of_many_bodies_and_leaves_none_out() {
 
 #[test]
 fn a_body_that_flies_off_is_named_at_the_edge_and_makes_no_other_small() {
-    let far = "[[body]]\nname = \"runaway\"\nshape = { sphere = { radius = 0.05 } }\nmass = 1.0\nposition = [0, 0.5, 0]\n\
-               velocity = [500, 0, 0]\n";
+    let far = "[[body]]\nname = \"runaway\"\nshape = { sphere = { radius = 0.05 } }\nmass = 1.0\n\
+               position = [0, 0.5, 0]\nvelocity = [500, 0, 0]\n";
     let near = far.replace("500", "0.5");
     let bar = |scene: &str| {
         let told = drawn(&recorded(&balls(scene)), &["scene.gyr", "strip"]);

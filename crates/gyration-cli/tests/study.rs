@@ -198,14 +198,15 @@ fn an_open_ledger_of_a_run_is_told_always() {
     let told = "gyration: warning: the energy balance of run 1 is open. Do not trust it: ";
     let command = ["study", "tips.toml", "--quiet", "-o", "a.study"];
     for more in [&[][..], &["--resume"], &["--force"]] {
-        let said = sandbox.done(&[&command[..], more].concat());
-        assert!(said.stderr.contains(told), "{more:?}: {}", said.stderr);
+        let said = sandbox.run(&[&command[..], more].concat());
+        assert!(said.code == Some(4) && said.stderr.contains(told), "{more:?}: {}", said.stderr);
     }
-    for shard in ["1/2", "2/2"] {
-        let said = sandbox.done(&["study", "tips.toml", "--quiet", "-o", "b.study", "--shard", shard]);
-        assert_eq!(said.stderr.contains(told), shard == "2/2", "{}", said.stderr);
+    for (shard, code) in [("1/2", 0), ("2/2", 4)] {
+        let said = sandbox.run(&["study", "tips.toml", "--quiet", "-o", "b.study", "--shard", shard]);
+        assert_eq!((said.code, said.stderr.contains(told)), (Some(code), code == 4), "{}", said.stderr);
     }
-    assert!(sandbox.done(&["study", "tips.toml", "merge", "--quiet", "-o", "b.study"]).stderr.contains(told));
+    let merged = sandbox.run(&["study", "tips.toml", "merge", "--quiet", "-o", "b.study"]);
+    assert!(merged.code == Some(4) && merged.stderr.contains(told), "{}", merged.stderr);
     sandbox.write("low.toml", STUDY);
     let said = sandbox.done(&["study", "low.toml"]);
     assert!(!said.stderr.contains("warning"), "{}", said.stderr);

@@ -6,7 +6,7 @@
 //! step may spend a tenth of either.
 
 use crate::resistance::check_resistances;
-use crate::scales::{energy_scale, mode_scales, speed_scales, spring_frequency};
+use crate::scales::{energy_scale, speed_scales, spring_frequency};
 use gyration::affine::AffineBody;
 use gyration::balance::{fastest_speed, smallest_gap};
 use gyration::body::{Body, BodyKind, Contractile, NEAR, Slots, matrix};
@@ -276,7 +276,9 @@ impl System for ModelSystem {
             y_scale[slots.velocity()].fill(velocity);
             y_scale[slots.rate()].fill(velocity / body.size);
             if let Some(history) = body.history() {
-                mode_scales(body, history, velocity, &mut y_scale[slots.extra()]);
+                let (trailing, turning) = y_scale[slots.extra()].split_at_mut(3 * history.translation.rates.len());
+                trailing.fill(velocity);
+                turning.fill(velocity / body.size);
             } else {
                 // G is a number of order one, on which forces depend as they do on P.
                 let size = y[slots.extra()].iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));

@@ -53,9 +53,10 @@ impl Looseness {
         Ok(sum)
     }
 
-    /// The larger of each.
+    /// What a run leaves open, given that of its start and of its end: the forces that load it at both, not those of an
+    /// impact in which it ends, and the larger rounding.
     #[must_use]
-    pub fn max(self, other: Self) -> Self {
-        Self { of_lengths: self.of_lengths.max(other.of_lengths), of_pairs: self.of_pairs.max(other.of_pairs) }
+    pub fn over(self, end: Self) -> Self {
+        Self { of_lengths: self.of_lengths.min(end.of_lengths), of_pairs: self.of_pairs.max(end.of_pairs) }
     }
 }

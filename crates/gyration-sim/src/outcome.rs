@@ -119,8 +119,8 @@ impl Stop {
             reason: Reason::Touching,
             body: Some(one.clone()),
             what: format!(
-                "bodies {one:?} and {other:?} touch: the plane between them is {gap:.1e} m off one, {:.1e} of the size of \
-                 the smaller one, below what the digits of a number tell",
+                "bodies {one:?} and {other:?} touch: the plane between them is {gap:.1e} m off one, {:.1e} of the size \
+                 of the smaller one, below what the digits of a number tell",
                 gap / size
             ),
             advice:

@@ -131,8 +131,8 @@ impl RunError {
 fn fix_of(stop: &Stop) -> &'static str {
     match stop.reason {
         Reason::WallTime => {
-            "\n  fix: raise solver.max_wall_time, or give very many bodies that meet a `reach`, or inclusion.triangles a \
-             smaller number"
+            "\n  fix: raise solver.max_wall_time, or give very many bodies that meet a `reach`, or inclusion.triangles \
+             a smaller number"
         }
         _ => "",
     }

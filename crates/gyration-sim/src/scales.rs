@@ -7,7 +7,6 @@ use gyration::balance::fastest_speed;
 use gyration::body::Body;
 use gyration::contractile::Contraction;
 use gyration::dynamics::{Scratch, Workspace, each_push};
-use gyration::fluid::History;
 use gyration::instant::BodyAt;
 use gyration::model::Model;
 use gyration::signal::Signal;
@@ -127,17 +126,4 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
     });
     let Ok(()) = listed;
     (stiffness / model.bodies[index].solid.mass.mass).sqrt()
-}
-
-/// The errors allowed of the modes of a history force, given that of the velocity [m/s]: a mode is to be as exact as
-/// the velocity that it moves while it lives. So fast ones, which sum up to a smooth force, do not hold the steps up.
-pub(crate) fn mode_scales(body: &Body, history: &History, velocity: f64, scales: &mut [f64]) {
-    // The moment of inertia of a sphere is twice its Euler tensor.
-    let (mass, inertia) = (body.solid.mass.mass, 2.0 / 3.0 * body.solid.mass.euler_tensor.trace());
-    let (trailing, spin) = (history.translation.rates.len(), velocity / body.size);
-    let influences = history.influences(mass, inertia);
-    for ((mode, scale), influence) in scales.chunks_exact_mut(3).enumerate().zip(influences) {
-        let rate = if mode < trailing { velocity } else { spin };
-        scale.fill(rate / influence);
-    }
 }

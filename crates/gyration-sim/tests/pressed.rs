@@ -110,7 +110,8 @@ fn a_body_between_planes_that_close_in_does_not_stall() {
 fn a_pair_that_is_let_go_for_a_moment_has_a_closed_ledger() {
     let ball = |name: &str, x: f64| {
         format!(
-            "[[body]]\nname = \"{name}\"\ngroup = \"g\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1\nposition = [{x}, 0, 0]\n"
+            "[[body]]\nname = \"{name}\"\ngroup = \"g\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1\n\
+             position = [{x}, 0, 0]\n"
         )
     };
     let law = "[[contact]]\nbetween = [\"g\", \"g\"]\nrepulsion = { alpha = 1e3, nu = 6, d0 = 1e-3 }\n";

@@ -119,7 +119,8 @@ fn symmetric_bodies_resume_after_every_window() {
     resumes_after_every_window(&parsed(&text, &[]), 200);
 }
 
-/// Planes are searched from where they were at the beginning of a step: a guess, on which nothing may depend but digits.
+/// Planes are searched from where they were at the beginning of a step: a guess, on which nothing but digits may
+/// depend.
 #[test]
 fn runs_of_random_meetings_end_alike_whether_they_were_resumed_or_not() {
     let mut worst = 0.0_f64;

@@ -120,8 +120,8 @@ impl Computed {
             if model.bodies.len() * header.rows <= MOST_PARTS {
                 shown.extend(PARTS);
             } else {
-                let words = "The recording is long: what of contact forces is normal and what tangential is shown where \
-                             it is recorded, by record = { quantities = [\"normal_force\", \"tangential_force\", \
+                let words = "The recording is long: what of contact forces is normal and what tangential is shown \
+                             where it is recorded, by record = { quantities = [\"normal_force\", \"tangential_force\", \
                              \"pair_force\"] } in the scene.";
                 header.notes.push(words.to_owned());
             }

@@ -5,8 +5,8 @@ use super::scene::RandomScene;
 use super::table::Table;
 use super::trial::{SCENE, Trial};
 
-/// Bodies in another order are summed in another order: what differs is rounding, and what grows out of it. Two runs may
-/// be apart by so many times what the tolerance leaves open, as a run with a tenth of it shows.
+/// Bodies in another order are summed in another order: what differs is rounding, and what grows out of it. Two runs
+/// may be apart by so many times what the tolerance leaves open, as a run with a tenth of it shows.
 const TIMES: f64 = 30.0;
 /// Apart by less than so many times rtol, two runs agree whatever the tolerance leaves open.
 const TOLERANCES: f64 = 1000.0;

@@ -143,8 +143,8 @@ impl LeftOut {
                 pairs => format!("; so of {pairs} pairs of inclusions within {NEAR} radii"),
             };
             told.push(format!(
-                "the fluid between \"{}\" and \"{}\" is left out: {distance} m apart{}, they would move along their line \
-                 {}{ratio} times as fast{more}",
+                "the fluid between \"{}\" and \"{}\" is left out: {distance} m apart{}, they would move along their \
+                 line {}{ratio} times as fast{more}",
                 name(near.body),
                 name(near.other),
                 when(near),
@@ -158,8 +158,8 @@ impl LeftOut {
                 planes => format!("; so of {planes} inclusions within {NEAR} radii of a support"),
             };
             told.push(format!(
-                "the fluid between \"{}\" and the support \"{}\" is left out: with the centre {height} m above it{}, the \
-                 drag towards it would be {}{ratio} times as large{more}",
+                "the fluid between \"{}\" and the support \"{}\" is left out: with the centre {height} m above it{}, \
+                 the drag towards it would be {}{ratio} times as large{more}",
                 name(near.body),
                 model.supports[near.other].name,
                 when(near),

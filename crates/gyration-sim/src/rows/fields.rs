@@ -191,8 +191,8 @@ pub(super) static EXTRA_FIELDS: [BodyField; 13] = [
     extra!(homogeneous, "rotation", "1", "rotation R of P = R U", Matrix, rotation, NO_MATRIX),
     extra!(homogeneous, "cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
     extra!(homogeneous, "stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
-    extra!(contacts, "normal_force", "N", "contact forces along the normals of their contacts, summed", Scalar, normal, f64::NAN),
-    extra!(contacts, "tangential_force", "N", "magnitudes of the contact forces across the normals, summed", Scalar, tangential, f64::NAN),
+    extra!(contacts, "normal_force", "N", "contact forces along their normals, summed", Scalar, normal, f64::NAN),
+    extra!(contacts, "tangential_force", "N", "contact forces across their normals, summed", Scalar, tangential, f64::NAN),
     extra!(contacts, "pair_force", "N", "force of all other bodies that it meets", Vector, of_bodies, NO_VECTOR),
 ];
 

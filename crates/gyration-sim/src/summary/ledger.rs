@@ -99,7 +99,7 @@ impl Verdict {
 /// The residual of a run and what it is compared with; `energies` and looseness are those at the end.
 fn balance(simulation: &Simulation, energies: &[f64], looseness: Looseness) -> Balance {
     let run_state = simulation.run_state();
-    let looseness = looseness.max(run_state.looseness);
+    let looseness = run_state.looseness.over(looseness);
     let end: f64 = energies.iter().map(|value| value.abs()).sum();
     let total = run_state.initial_energy.abs().max(end);
     Balance {

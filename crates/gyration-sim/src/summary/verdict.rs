@@ -2,7 +2,7 @@
 //!
 //!   |Σ energies − Σ energies at 0 − Σ works| ≤ MARGIN [(rtol + atol) E + Σ|f| δ] + ROUNDING Σ|energies| + ε
 //!
-//! E is the energy in play (`in_play`), f the forces of what is loaded at the start or the end, δ the lengths that the
+//! E is the energy in play (`in_play`), f the forces of what is loaded at the start and the end, δ the lengths that the
 //! step control allows, ε the rounding of the energies of pairs (`looseness`). Over a run the residual stays below
 //! rtol·E where the steps are what they claim to be; one that is a hundred times the tolerances has lost or made energy
 //! that no law accounts for. However loose the tolerances are, more than 1 % of E is never taken for closed.

@@ -56,8 +56,8 @@ impl LawSurvey {
         match self.forbids_touching {
             _ if !self.acts => format!("{name:<10} has no strength: does nothing"),
             Some(true) if self.only_just => format!(
-                "{name:<10} ν = {exponent} = {critical} ({feature}): forbids touching only just, by a logarithm of the gap; \
-                 a larger exponent forbids it"
+                "{name:<10} ν = {exponent} = {critical} ({feature}): forbids touching only just, by a logarithm of the \
+                 gap; a larger exponent forbids it"
             ),
             Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
             Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),

@@ -95,8 +95,8 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
         let step = short((EVALUATIONS * endless) as f64 * PLANE);
         let _ = writeln!(
             text,
-            "           warning: {endless} of them have no reach: an evaluation looks at all, a step makes {EVALUATIONS} \
-             or more,\n             which takes some {step} s; give the contact a `reach`, beyond which bodies do not \
+            "           warning: {endless} of them have no reach: an evaluation looks at all, a step makes \
+             {EVALUATIONS} or more,\n             which takes some {step} s; give the contact a `reach`, beyond which bodies do not \
              feel each other"
         );
     }

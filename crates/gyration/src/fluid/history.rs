@@ -128,15 +128,6 @@ impl History {
         }
     }
 
-    /// What an error of a mode, while it lives, does to the velocity or to the spin of a sphere of a mass \[kg\] and an
-    /// inertia \[kg m²\], as a part of it: 6πηR c_k/(s_k (m + m_a)) and 8πηR³ C_k/(S_k (I + I_a)), at most 1.
-    pub fn influences(&self, mass: f64, inertia: f64) -> impl Iterator<Item = f64> + '_ {
-        let trailing = self.translation.rates.len();
-        let [mass, inertia] = [mass + self.added_mass, inertia + self.added_inertia];
-        let by = move |mode: usize| if mode < trailing { mass } else { inertia };
-        self.modes().enumerate().map(move |(mode, (drag, rate))| (drag / (rate * by(mode))).min(1.0))
-    }
-
     /// What a mode of y or Y does to the force or the torque, 6πηR c_k and 8πηR³ C_k, with its rate; y first.
     pub fn modes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         fn each(history: &Exponentials, drag: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
