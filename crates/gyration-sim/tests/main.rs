@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
-mod corpus;
 mod deforming;
 mod dissipation;
 mod interruptions;
