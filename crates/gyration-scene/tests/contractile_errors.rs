@@ -113,7 +113,7 @@ fn errors_of_drives_stand_at_their_place() {
         (
             "drive = §{ constant = { value = [[1e200, 0, 0], [0, 0, 0], [0, 0, 1]] } }",
             "drive",
-            "at t = 0.0 s it leaves the range of numbers",
+            "at t = 0 s it leaves the range of numbers",
             "smaller",
         ),
         ("drive = { sine = §{ amplitude = ZERO } }", "drive.sine.frequency", "missing", "Hz"),
@@ -209,7 +209,7 @@ fn errors_of_feedback_stand_at_their_place() {
         (
             "feedback = { measure = { stretch = [1, 0, 0] }, gain = ONE, limits = §[1, 1] }",
             "feedback.limits",
-            "1.0 and 1.0, do not increase",
+            "1 and 1, do not increase",
             "[least, most]",
         ),
         (
@@ -230,7 +230,7 @@ fn errors_of_a_prescribed_contraction_stand_at_their_place() {
         (
             "prescribed = §{ sine = { amplitude = ONE, frequency = 1 } }",
             "prescribed",
-            "at t = 0.0 s its determinant is 0.0: the body would be pressed flat",
+            "at t = 0 s its determinant is 0.0: the body would be pressed flat",
             "{ sum = [{ constant = { value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } }, …] }",
         ),
         // 1 + 1.5 sin(2πt) falls below zero at t = 0.616.

@@ -455,14 +455,14 @@ fn what_numpy_printed_is_one_error_that_says_so() {
     let vector = "velocity = [§np.float64(0.1), np.float64(0.2), # np.float64(1)\n numpy.float64(-0.3)]\n";
     assert_error(&ball(vector), "", message, help);
     let array = "velocity = §array([1., 2.,\n       3.], dtype=float32)\n";
-    assert_error(&ball(array), "", "array([1., 2.,\n       3.], dtype=float32) is how NumPy prints", help);
+    assert_error(&ball(array), "", "dtype=float32 … is how NumPy prints a number", help);
     // Whatever else is wrong with the syntax comes beside, at its place.
     let found = errors("scene.toml", &ball("velocity = [np.int64(1), 0, 0]\nmass = 3\n"), &[]);
     let places: Vec<_> = found.as_slice().iter().map(|error| (error.line, error.column)).collect();
     assert_eq!(places, [(9, 13), (10, 1)], "{found}");
     let json = r#"{ "title": "np.float64(1)", "time": { "end": np.float64(1.5), "sample": np.True_ } }"#;
     let found = errors("scene.json", json, &[]);
-    assert_eq!((found.count(), found.as_slice()[0].column), (1, 47), "{found}");
+    assert_eq!((found.count(), found.as_slice()[0].column), (1, 46), "{found}");
     assert!(found.to_string().contains("np.float64(1.5) is how NumPy prints"), "{found}");
     for (set, column) in [("time.end=np.float64(2)", 10), ("body.ball.velocity=[np.float64(2), 0, 0]", 21)] {
         let found = errors("scene.toml", &ball(""), &[set.to_owned()]);

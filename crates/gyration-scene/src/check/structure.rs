@@ -147,8 +147,9 @@ impl Walker<'_> {
         };
         if let Some(condition) = broken {
             // Beyond a limit by rounding, a number is told with all its digits.
-            let found = Some(shown(number)).filter(|found| !condition.contains(found.as_str()));
-            let found = found.unwrap_or_else(|| format!("{number:?}"));
+            let mut limits = [least, most, above].into_iter().flatten();
+            let is_at_limit = limits.any(|limit| limit != number && shown(limit) == shown(number));
+            let found = if is_at_limit { format!("{number:?}") } else { shown(number) };
             let message = format!("must be {condition}, found {found}{unit}");
             let range = match (least, most) {
                 (Some(least), Some(most)) if whole => format!("write a whole number from {least} to {most}"),

@@ -57,7 +57,11 @@ impl Printed {
             }
         }
         let first = first?;
-        let shown = text[first.clone()].chars().take(SHOWN).collect();
+        let print = &text[first.clone()];
+        let mut shown: String = print.chars().take(SHOWN).collect();
+        if shown.len() < print.len() {
+            shown.push_str(" …");
+        }
         Some(Self { first, plain, count, shown })
     }
 

@@ -58,7 +58,7 @@ fn numbers_are_shown_without_the_rounding_that_they_carry() {
     assert_eq!(sums.map(shown), words);
     // Further off than rounding is another number.
     assert_eq!(shown(1249.999999999), "1249.999999999");
-    assert_eq!(shown(1250.000000000001), "1250.000000000001");
+    assert_eq!(shown(1250.000000000002), "1250.000000000002");
 }
 
 #[test]
