@@ -145,11 +145,11 @@ fn check_shows_a_resolved_scene_that_resolves_to_itself() {
         let words = sandbox.done(arguments).stdout;
         let (_, resolved) = words.split_once("# The resolved scene").unwrap();
         sandbox.write("resolved.toml", &format!("#{resolved}"));
-        let json = |arguments: &[&str]| -> Value {
-            serde_json::from_str(&sandbox.done(&[arguments, &["--json"]].concat()).stdout).unwrap()
-        };
-        let (before, after) = (json(arguments), json(&["check", "resolved.toml"]));
-        assert_eq!((&before["resolved"], &before["bodies"]), (&after["resolved"], &after["bodies"]));
+        // Numbers are shown without the rounding of a unit, with which the scene itself has them.
+        let again = sandbox.done(&["check", "resolved.toml"]).stdout;
+        assert_eq!(again.split_once("# The resolved scene").unwrap().1, resolved);
+        let json = sandbox.done(&[arguments, &["--json"]].concat()).stdout;
+        let before: Value = serde_json::from_str(&json).unwrap();
         assert!(before["resolved"]["solver"]["atol"].is_number(), "defaults stand in it");
     }
 }

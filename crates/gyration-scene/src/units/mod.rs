@@ -100,7 +100,7 @@ impl Unit {
 pub fn without_rounding(value: f64) -> f64 {
     /// What few operations leave, in parts of the value.
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
-    let rounded = (11..13).find_map(|decimals| {
+    let rounded = (11..15).find_map(|decimals| {
         let rounded: f64 = format!("{value:.decimals$e}").parse().ok()?;
         ((rounded - value).abs() <= ROUNDING * value.abs()).then_some(rounded)
     });
