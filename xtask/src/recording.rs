@@ -63,16 +63,6 @@ pub fn sum(recording: &Path) -> Result<u64, String> {
     Ok(sum)
 }
 
-/// The numbers of an array of floats, those that pad the last chunk among them.
-pub fn floats(recording: &Path, name: &str) -> Result<Vec<f64>, String> {
-    let group = group(recording)?;
-    let path = ["consolidated_metadata", "metadata", name];
-    let metadata = path.iter().try_fold(&group, |value, key| value.get(key));
-    let metadata = metadata.ok_or_else(|| format!("{}: no {name}", recording.display()))?;
-    let bytes = contents(&recording.join(name), is_checked(metadata))?;
-    Ok(bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
-}
-
 fn group(folder: &Path) -> Result<Json, String> {
     let path = folder.join("zarr.json");
     let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -3,8 +3,6 @@
 //! From there it goes on to the same bytes: after a kill, or when all that was done since must be forgotten because
 //! another island cannot go on.
 
-use crate::island::Island;
-use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
 use gyration_ode::Integrator;
 
@@ -54,24 +52,5 @@ impl Anchor {
     pub fn drop_at(&mut self, state: &IslandState, integrator: &Integrator) {
         self.kept.remember(state, integrator);
         self.is_newer = false;
-    }
-}
-
-impl Island {
-    /// Keeps an anchor where it stands, or the one that it has; or none.
-    pub fn anchored(&mut self, is_anchored: bool) {
-        match (is_anchored, self.anchor.is_some()) {
-            (true, false) => self.anchor = Some(Anchor::new(self.memory())),
-            (false, true) => self.anchor = None,
-            (true, true) | (false, false) => {}
-        }
-    }
-
-    /// Forgets what was done since the run was at a time.
-    pub fn go_back(&mut self, plan: &RunPlan, time: f64) {
-        let Some(anchor) = &self.anchor else { return };
-        let kept = anchor.kept().clone();
-        let resumed = self.resume(&kept, plan, time);
-        debug_assert!(resumed.is_ok(), "an island remembers itself");
     }
 }

@@ -2,8 +2,8 @@
 
 use super::draft::Draft;
 use super::materials::{affine, contractile};
-use super::shapes::{ShapeKind, any, closed, convex, shape};
-use super::toml::{Matrix, UNIT, Vector, determinant, deviator, list, product, rotation, rows, scaled, scaled_rows};
+use super::shapes::{ShapeKind, any, closed, shape};
+use super::toml::{Matrix, UNIT, determinant, deviator, list, product, rotation, rows, scaled, scaled_rows};
 use std::fmt::Write as _;
 
 /// A body of a scene.
@@ -51,7 +51,6 @@ pub fn body(draft: &mut Draft, name: &str, height: f64, fluid: Option<f64>) -> R
         is_incompressible: flesh.as_ref().is_some_and(|flesh| flesh.is_incompressible),
         has_inertia: immersion.as_ref().is_none_or(|immersion| immersion.has_inertia),
         is_pinned: immersion.is_none() && draft.stream.chance(0.1),
-        velocity: None,
     };
     start(draft, &mut text, may_have);
     if draft.stream.chance(0.15) {
@@ -59,59 +58,6 @@ pub fn body(draft: &mut Draft, name: &str, height: f64, fluid: Option<f64>) -> R
     }
     let flesh = flesh.map_or(String::new(), |flesh| flesh.text);
     RandomBody { text: format!("{text}{table}\n{flesh}\n"), has_surface: of != ShapeKind::Points }
-}
-
-/// What a body that meets others is made of, before it has a place.
-#[derive(Debug, Clone, Copy)]
-pub struct Member {
-    kind: Kind,
-    shape: ShapeKind,
-    /// No point of it is farther from its centre of mass [m], deformed or not.
-    pub radius: f64,
-}
-
-impl Member {
-    /// Any kind and convex shape, unions among them; of many bodies, rigid ones that cost little.
-    pub fn of(draft: &mut Draft, is_crowd: bool) -> Self {
-        const CHEAP: [ShapeKind; 3] = [ShapeKind::Sphere, ShapeKind::Sphere, ShapeKind::Box];
-        let kind = match is_crowd {
-            true => Kind::Rigid,
-            false => draft.stream.pick(&[Kind::Rigid, Kind::Rigid, Kind::Rigid, Kind::Affine, Kind::Contractile]),
-        };
-        let (shape, extent) = match is_crowd || kind != Kind::Rigid && draft.stream.chance(0.8) {
-            true => (draft.stream.pick(&CHEAP), 1.0),
-            false => convex(draft),
-        };
-        // A start has stretches of a fifth at most, and a driven body swells by as much.
-        let radius = draft.size * extent * if kind == Kind::Rigid { 1.0 } else { 1.4 };
-        Self { kind, shape, radius }
-    }
-
-    /// Its table, with the words by which contacts name it.
-    pub fn body(self, draft: &mut Draft, name: &str, groups: &[&str], place: Vector, velocity: Vector) -> String {
-        let size = draft.size;
-        let shape = shape(draft, self.shape, size);
-        let mass = draft.mass * if draft.stream.chance(0.3) { draft.stream.decade(-1.0, 1.0) } else { 1.0 };
-        let mut text = format!(
-            "[[body]]\nname = \"{name}\"\ngroup = {groups:?}\nshape = {shape}\nmass = {mass:?}\nposition = {}\n",
-            list(&place)
-        );
-        let (table, flesh) = match self.kind {
-            Kind::Rigid => ("rigid = {}", None),
-            Kind::Affine => ("[body.affine]", Some(affine(draft, true))),
-            Kind::Contractile => ("[body.contractile]", Some(contractile(draft))),
-        };
-        let may_have = Start {
-            deformed: self.kind == Kind::Affine,
-            is_incompressible: flesh.as_ref().is_some_and(|flesh| flesh.is_incompressible),
-            has_inertia: true,
-            is_pinned: false,
-            velocity: Some(velocity),
-        };
-        start(draft, &mut text, may_have);
-        let flesh = flesh.map_or(String::new(), |flesh| flesh.text);
-        format!("{text}{table}\n{flesh}\n")
-    }
 }
 
 /// Points have masses of their own, parts of a union weights.
@@ -155,8 +101,6 @@ struct Start {
     is_incompressible: bool,
     has_inertia: bool,
     is_pinned: bool,
-    /// Drawn if it is not given [m/s].
-    velocity: Option<Vector>,
 }
 
 fn start(draft: &mut Draft, text: &mut String, start: Start) {
@@ -180,12 +124,9 @@ fn start(draft: &mut Draft, text: &mut String, start: Start) {
         let pin = scaled(draft.stream.direction(), draft.size * draft.stream.unit());
         let _ = writeln!(text, "pin = {}", list(&pin));
     } else if start.has_inertia {
-        let velocity = start.velocity.unwrap_or_else(|| {
-            let mut velocity = scaled(draft.stream.direction(), draft.speed() * draft.stream.decade(-1.0, 0.3));
-            // Towards the supports, or without gravity it may never come there.
-            velocity[2] = -velocity[2].abs();
-            velocity
-        });
+        let mut velocity = scaled(draft.stream.direction(), draft.speed() * draft.stream.decade(-1.0, 0.3));
+        // Towards the supports, or without gravity it may never come there.
+        velocity[2] = -velocity[2].abs();
         let _ = writeln!(text, "velocity = {}", list(&velocity));
     }
 }

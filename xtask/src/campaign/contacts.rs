@@ -62,11 +62,10 @@ fn length(vector: &Vector) -> f64 {
     vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The contact of a body, or of all, with a support; some laws are absent.
-pub fn contact(draft: &mut Draft, support: usize, body: Option<&str>, rest_gap: f64) -> String {
+/// The contact of a body with a support; some laws are absent.
+pub fn contact(draft: &mut Draft, support: usize, body: &str, rest_gap: f64) -> String {
     let measure = draft.stream.pick(&["deformed_area", "reference_area", "deformed_area_potential"]);
-    let body = body.map_or(String::new(), |body| format!("body = \"{body}\"\n"));
-    let mut text = format!("[[contact]]\nsupport = \"s{support}\"\n{body}measure = \"{measure}\"\n");
+    let mut text = format!("[[contact]]\nsupport = \"s{support}\"\nbody = \"{body}\"\nmeasure = \"{measure}\"\n");
     let pressure = draft.pressure();
     let repels = draft.stream.chance(0.95);
     if repels {
@@ -92,30 +91,6 @@ pub fn contact(draft: &mut Draft, support: usize, body: Option<&str>, rest_gap: 
             "adhesion = {{ beta = {beta:?}, nu_attractive = {attractive:?}, nu_repulsive = {repulsive:?}, \
              d0 = {d0:?} }}"
         );
-    }
-    text + "\n"
-}
-
-/// The contact of any two of these bodies or groups: repulsion always, no adhesion.
-pub fn meeting(draft: &mut Draft, between: [&str; 2], rest_gap: f64) -> String {
-    let [one, other] = between;
-    let measure = draft.stream.pick(&["deformed_area", "reference_area"]);
-    let mut text = format!("[[contact]]\nbetween = [\"{one}\", \"{other}\"]\nmeasure = \"{measure}\"\n");
-    let pressure = draft.pressure();
-    for (name, strength, probability) in
-        [("repulsion", "alpha", 1.0), ("damping", "beta", 0.5), ("friction", "beta", 0.4)]
-    {
-        if draft.stream.chance(probability) {
-            // Some hardly keep bodies apart: a corner takes ν ≥ 3.
-            let steep = draft.stream.chance(0.8);
-            let (nu, d0) = (if steep { exponent(draft).max(3.0) } else { 2.2 }, reference(draft, rest_gap));
-            let number = if strength == "alpha" { 1.0 } else { draft.stream.decade(-2.0, 1.0) / draft.speed() };
-            let coefficient = number * pressure * (rest_gap / d0).powf(nu);
-            let _ = writeln!(text, "{name} = {{ {strength} = {coefficient:?}, nu = {nu:?}, d0 = {d0:?} }}");
-        }
-    }
-    if draft.stream.chance(0.45) {
-        let _ = writeln!(text, "reach = {:?}", rest_gap * draft.stream.decade(0.5, 2.0));
     }
     text + "\n"
 }

@@ -17,8 +17,6 @@ pub struct Draft {
     pub mass: f64,
     /// Acceleration that the rest is measured by [m/s²].
     pub pull: f64,
-    /// Whether bodies meet each other: shapes are convex then, or unions of such.
-    pub meets: bool,
     /// Files beside the scene: name and text.
     pub files: Vec<(String, String)>,
 }
@@ -31,7 +29,7 @@ impl Draft {
         let pull = if stream.chance(0.85) { 9.81 } else { size * stream.decade(-1.0, 1.0) };
         let mass =
             stream.decade(1.5, 4.3) * size.powi(3) * if stream.chance(0.2) { stream.decade(-3.0, 3.0) } else { 1.0 };
-        Self { stream, size, mass, pull, meets: false, files: Vec::new() }
+        Self { stream, size, mass, pull, files: Vec::new() }
     }
 
     /// The unit of time [s].

@@ -1,31 +1,25 @@
 //! A campaign: random scenes, each checked, run, killed and resumed, and audited.
 //!
 //! Of every scene is asked that `check` and `run` agree, that the ledger has the verdict that its rows give and a run
-//! with an open one says so, that gaps stay positive, times grow, volumes are kept and works of damping and friction
-//! never rise, that the bytes of a run that was killed and interrupted at random moments and resumed on one thread to
-//! seven are those of a run on one thread, that exit codes are those documented, and that nothing panics or runs beyond
-//! its wall time. Half of the scenes are of bodies that meet: alone in space they keep their momenta; written in
-//! another order they move alike, under other names to the same bytes. A scene depends on the seed and its number
-//! alone. Those that fail stay in a folder each, with the cause.
+//! with an open one says so, that gaps stay positive, times grow and volumes are kept, that the bytes of a run that was
+//! killed at a random moment and resumed on two threads are those of a run on one thread, that exit codes are those
+//! documented, and that nothing panics or runs beyond its wall time. A scene depends on the seed and its number alone.
+//! Those that fail stay in a folder each, with the cause.
 
 mod bodies;
 mod contacts;
 mod draft;
 mod materials;
-mod meeting;
-mod momenta;
 mod options;
 mod process;
 mod report;
 mod scene;
 mod shapes;
-mod stops;
 mod stream;
 mod table;
 mod tally;
 mod toml;
 mod trial;
-mod twins;
 
 use crate::cargo::cargo;
 use crate::steps::Steps;

@@ -30,15 +30,6 @@ pub enum Ending {
     Overran,
 }
 
-/// How a program ended that was asked to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Interrupted {
-    /// With this exit code; none if by the signal itself, before it could heed it.
-    Ended(Option<i32>),
-    /// It was killed, since it did not heed it in time.
-    Overran,
-}
-
 /// What a program said.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Said {
@@ -60,11 +51,8 @@ impl Place<'_> {
         let started = Instant::now();
         // Into files: a full pipe would hold the program up.
         let mut child = command.stdout(File::create(&out)?).stderr(File::create(&err)?).spawn()?;
-        if !waited(&mut child, self.limit)? {
-            kill(&mut child)?;
-            return Ok(Ending::Overran);
-        }
-        let (wall, code) = (started.elapsed(), child.wait()?.code());
+        let Some(code) = waited(&mut child, started, self.limit)? else { return Ok(Ending::Overran) };
+        let wall = started.elapsed();
         let [stdout, stderr] = [out, err].map(|path| {
             let text = fs::read(&path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
             fs::remove_file(&path).and(text)
@@ -74,29 +62,10 @@ impl Place<'_> {
 
     /// Starts the program and kills it after this time; whether it was still running.
     pub fn kill_after(&self, time: Duration, arguments: &[&str], threads: usize) -> Result<bool> {
-        let mut child = self.silent(arguments, threads)?;
-        Ok(!waited(&mut child, time)? && {
-            kill(&mut child)?;
-            true
-        })
-    }
-
-    /// Starts the program and asks it to end after this time, as ^C does; how it ended, and whether it was running.
-    pub fn interrupt_after(&self, time: Duration, arguments: &[&str], threads: usize) -> Result<(Interrupted, bool)> {
-        let mut child = self.silent(arguments, threads)?;
-        let was_running = !waited(&mut child, time)?;
-        if was_running {
-            interrupt(&mut child)?;
-        }
-        if waited(&mut child, self.limit)? {
-            return Ok((Interrupted::Ended(child.wait()?.code()), was_running));
-        }
-        kill(&mut child)?;
-        Ok((Interrupted::Overran, was_running))
-    }
-
-    fn silent(&self, arguments: &[&str], threads: usize) -> Result<Child> {
-        self.command(arguments, threads).stdout(Stdio::null()).stderr(Stdio::null()).spawn()
+        let mut command = self.command(arguments, threads);
+        let started = Instant::now();
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
+        Ok(waited(&mut child, started, time)?.is_none())
     }
 
     fn command(&self, arguments: &[&str], threads: usize) -> Command {
@@ -107,34 +76,20 @@ impl Place<'_> {
     }
 }
 
-/// Waits for a child, so long at most; whether it has ended.
-fn waited(child: &mut Child, limit: Duration) -> Result<bool> {
-    let started = Instant::now();
+/// The exit code of a child; none if it is killed because this time has passed.
+fn waited(child: &mut Child, started: Instant, limit: Duration) -> Result<Option<Option<i32>>> {
     loop {
-        if child.try_wait()?.is_some() {
-            return Ok(true);
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status.code()));
         }
         let left = limit.saturating_sub(started.elapsed());
         if left.is_zero() {
-            return Ok(false);
+            child.kill()?;
+            child.wait()?;
+            return Ok(None);
         }
         sleep(LOOK.min(left));
     }
-}
-
-fn kill(child: &mut Child) -> Result<()> {
-    child.kill()?;
-    child.wait().map(drop)
-}
-
-/// Sends SIGINT: the standard library has SIGKILL alone. Where there is no such signal, a kill stands for it.
-fn interrupt(child: &mut Child) -> Result<()> {
-    if cfg!(unix) {
-        // Not waited for before: the number is still the child's.
-        let line = format!("kill -INT {}", child.id());
-        return Command::new("sh").args(["-c", &line]).stderr(Stdio::null()).status().map(drop);
-    }
-    child.kill()
 }
 
 #[cfg(all(test, unix))]
@@ -150,15 +105,5 @@ mod tests {
         assert_eq!(place(30).run(&["-c", "sleep 60"], 1).unwrap(), Ending::Overran);
         assert!(place(30).kill_after(Duration::from_millis(20), &["-c", "sleep 60"], 1).unwrap());
         assert!(!place(30).kill_after(Duration::from_secs(60), &["-c", "exit 3"], 1).unwrap());
-    }
-
-    #[test]
-    fn a_program_that_is_asked_to_end_says_how_it_did() {
-        let soon = Duration::from_millis(200);
-        let interrupted = |script: &str, limit| place(limit).interrupt_after(soon, &["-c", script], 1).unwrap();
-        let heeding = "trap 'exit 130' INT; while :; do sleep 0.01; done";
-        assert_eq!(interrupted(heeding, 5000), (Interrupted::Ended(Some(130)), true));
-        assert_eq!(interrupted("trap '' INT; while :; do sleep 0.01; done", 50), (Interrupted::Overran, true));
-        assert_eq!(interrupted("exit 3", 5000), (Interrupted::Ended(Some(3)), false));
     }
 }

@@ -60,6 +60,7 @@ impl Report {
 
     /// What does not hold between the report, the rows and the attributes of the recording.
     pub fn audit(&self, said: &Said, table: &Table, recording: &Path, end: f64) -> Result<(), String> {
+        table.audit()?;
         let report = Json::parse(&said.stdout).ok_or("no JSON")?;
         let told = |key: &str| report.get("ledger").and_then(|ledger| ledger.get(key)).and_then(number);
         let largest = table.largest_residual();
@@ -129,7 +130,7 @@ mod tests {
         let outcome = |said: &Said| Report::of(said).unwrap().outcome;
         assert_eq!(outcome(&said("\"completed\"", 1e-4, "closed", 0, false)), "completed");
         assert_eq!(outcome(&said(r#"{"at_rest": {"time": 1.0}}"#, 0.005, "open", 4, true)), "at_rest");
-        assert_eq!(outcome(&said("\"completed\"", 0.02, "open", 1, true)), "completed");
+        assert_eq!(outcome(&said("\"completed\"", 0.02, "open", 4, true)), "completed");
         assert_eq!(outcome(&said(STOPPED, 1e-4, "closed", 1, false)), "gap_closed");
     }
 

@@ -33,24 +33,6 @@ const CLOSED: [ShapeKind; 9] = [
     ShapeKind::Mesh,
 ];
 
-/// Those that another body may meet, and how far from its centre of mass a shape reaches at most, in its radii.
-const CONVEX: [(ShapeKind, f64); 9] = [
-    (ShapeKind::Sphere, 1.0),
-    (ShapeKind::Ellipsoid, 1.0),
-    (ShapeKind::Box, 1.0),
-    (ShapeKind::Cylinder, 1.0),
-    (ShapeKind::Capsule, 1.0),
-    (ShapeKind::Cone, 1.0),
-    (ShapeKind::Polyhedron, 1.5),
-    (ShapeKind::Mesh, 1.5),
-    (ShapeKind::Union, 2.0),
-];
-
-/// A shape that may meet others, and how far it reaches in its radii.
-pub fn convex(draft: &mut Draft) -> (ShapeKind, f64) {
-    draft.stream.pick(&CONVEX)
-}
-
 /// One closed surface; of a body that deforms more often one whose moments are cheap.
 pub fn closed(draft: &mut Draft, deforms: bool) -> ShapeKind {
     match deforms && draft.stream.chance(0.6) {
@@ -117,10 +99,7 @@ fn union(draft: &mut Draft, radius: f64) -> String {
     let count = 2 + draft.stream.index(2);
     let parts: Vec<String> = (0..count)
         .map(|_| {
-            let kind = match draft.meets {
-                true => draft.stream.pick(&CONVEX[..8]).0,
-                false => draft.stream.pick(&CLOSED),
-            };
+            let kind = draft.stream.pick(&CLOSED);
             let offset = list(&scaled(draft.stream.direction(), 0.5 * radius));
             let (turn, density) = (list(&draft.stream.turn()), draft.stream.decade(-0.5, 0.5));
             let shape = shape(draft, kind, 0.5 * radius);
@@ -145,7 +124,7 @@ fn points(draft: &mut Draft, radius: f64) -> String {
 /// A cube with a dent or a spike on one side, in a file of its own.
 fn mesh(draft: &mut Draft, radius: f64) -> String {
     let half = 1.0 / 3_f64.sqrt();
-    let apex = half * draft.stream.between(if draft.meets { 1.1 } else { -0.5 }, 1.5);
+    let apex = half * draft.stream.between(-0.5, 1.5);
     let mut text = String::new();
     for k in 0..8 {
         let sign = |bit: usize| if k >> bit & 1 == 1 { half } else { -half };

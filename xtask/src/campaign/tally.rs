@@ -1,7 +1,6 @@
 //! Counts of a campaign.
 
-use super::stops::{Moment, Stopped};
-use super::trial::Verdict;
+use super::trial::{Killed, Verdict};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -12,9 +11,7 @@ const FEW: usize = 12;
 #[derive(Debug, Default)]
 pub struct CampaignTally {
     outcomes: BTreeMap<String, Vec<u64>>,
-    stops: BTreeMap<(Stopped, Moment), usize>,
-    /// Scenes that were run once more in another order of bodies, or under other names.
-    twins: usize,
+    kills: BTreeMap<Killed, usize>,
     /// Runs that ended well with an open ledger, and said so: their numbers.
     open: Vec<u64>,
     /// The largest residual over what the tolerances let pass, among closed ledgers, and whose it is.
@@ -33,10 +30,9 @@ impl CampaignTally {
                 } else if verdict.residual > self.worst.0 {
                     self.worst = (verdict.residual, case);
                 }
-                for stop in verdict.stops {
-                    *self.stops.entry(stop).or_default() += 1;
+                if let Some(killed) = verdict.killed {
+                    *self.kills.entry(killed).or_default() += 1;
                 }
-                self.twins += usize::from(verdict.has_twin);
                 self.outcomes.entry(verdict.outcome).or_default().push(case);
             }
             Err(cause) => drop(self.failures.insert(case, cause)),
@@ -57,17 +53,14 @@ impl CampaignTally {
                 let _ = write!(text, "  {:?}", in_order(cases));
             }
         }
-        for (how, word) in [(Stopped::Killed, "killed"), (Stopped::Interrupted, "interrupted")] {
-            let count = |moment| self.stops.get(&(how, moment)).copied().unwrap_or(0);
-            let _ = write!(
-                text,
-                "\n{word} and resumed: {} times on the way, {} before there was a recording, {} had ended",
-                count(Moment::OnItsWay),
-                count(Moment::BeforeItBegan),
-                count(Moment::TooLate)
-            );
-        }
-        let _ = write!(text, "\nwritten once more in another order or under other names: {}", self.twins);
+        let kills = |killed| self.kills.get(&killed).copied().unwrap_or(0);
+        let _ = write!(
+            text,
+            "\nkilled and resumed: {} on their way, {} before there was a recording, {} had ended",
+            kills(Killed::OnItsWay),
+            kills(Killed::BeforeItBegan),
+            kills(Killed::TooLate)
+        );
         let (worst, case) = self.worst;
         let _ = write!(text, "\nworst residual of a closed ledger: {worst:.2e} of what is allowed (scene {case})");
         if !self.open.is_empty() {
@@ -92,8 +85,7 @@ mod tests {
         let mut tally = CampaignTally::default();
         let verdict = |residual, is_open| Verdict {
             outcome: "completed".into(),
-            stops: vec![(Stopped::Interrupted, Moment::OnItsWay); 2],
-            has_twin: true,
+            killed: Some(Killed::OnItsWay),
             residual,
             is_open,
         };
@@ -102,7 +94,7 @@ mod tests {
         tally.take(3, Err("panicked".into()));
         let text = tally.text();
         for told in
-            ["2 scenes passed, 1 failed", "completed               2  [1, 2]", "4 times on the way", "2.50e-1", "[2]"]
+            ["2 scenes passed, 1 failed", "completed               2  [1, 2]", "2 on their way", "2.50e-1", "[2]"]
         {
             assert!(text.contains(told), "{told}: {text}");
         }

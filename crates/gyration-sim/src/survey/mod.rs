@@ -17,6 +17,7 @@ mod laws;
 mod mass;
 mod meetings;
 mod modes;
+pub(crate) mod remarks;
 mod rest;
 mod springs;
 mod text;
