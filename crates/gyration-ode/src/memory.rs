@@ -97,7 +97,8 @@ const VECTORS: usize = 7;
 /// Writes a checkpoint, in the place of what stands in the memory.
 pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point, collocation: &[f64]) {
     let Point { t, u, low, rate, scale } = point;
-    let StepperState { control, switch, statistics: s, .. } = progress;
+    let StepperState { control, switch, .. } = progress;
+    let (counters, [smallest_step, largest_step]) = progress.statistics.numbers();
     let Memory { reals, integers } = memory;
     reals.clear();
     integers.clear();
@@ -111,16 +112,8 @@ pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point
         switch.stay,
         switch.bar,
         switch.patience,
-        s.explicit_steps,
-        s.implicit_steps,
-        s.rejected_error,
-        s.rejected_domain,
-        s.newton_failures,
-        s.rate_evaluations,
-        s.jacobians,
-        s.factorizations,
-        s.switches,
     ]);
+    integers.extend_from_slice(&counters);
     reals.reserve(REALS + VECTORS * u.len());
     reals.push(*t);
     reals.extend_from_slice(u);
@@ -136,8 +129,8 @@ pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point
         control.implicit_step,
         progress.contraction,
         progress.collocation_step,
-        s.smallest_step,
-        s.largest_step,
+        smallest_step,
+        largest_step,
         control.refused,
         control.heeded,
     ]);
@@ -162,6 +155,7 @@ pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors
     if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + VECTORS * width {
         return Err(wrong);
     }
+    let counters = ints[INTEGERS - 9..].try_into().map_err(|_| wrong)?;
     let (vectors, rest) = reals[1..].split_at(VECTORS * width);
     let vectors = CheckpointVectors {
         t: reals[0],
@@ -187,23 +181,7 @@ pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors
         contraction: rest[5],
         collocation_step: rest[6],
         switch: Switch { votes: ints[5], stay: ints[6], bar: ints[7], patience: ints[8] },
-        statistics: statistics(ints, rest),
+        statistics: Statistics::of_numbers(counters, [rest[7], rest[8]]),
     };
     Ok((progress, vectors))
-}
-
-fn statistics(ints: &[u64], rest: &[f64]) -> Statistics {
-    Statistics {
-        explicit_steps: ints[9],
-        implicit_steps: ints[10],
-        rejected_error: ints[11],
-        rejected_domain: ints[12],
-        newton_failures: ints[13],
-        rate_evaluations: ints[14],
-        jacobians: ints[15],
-        factorizations: ints[16],
-        switches: ints[17],
-        smallest_step: rest[7],
-        largest_step: rest[8],
-    }
 }

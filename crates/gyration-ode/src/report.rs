@@ -110,6 +110,50 @@ impl Statistics {
         self.explicit_steps + self.implicit_steps
     }
 
+    /// The numbers of a checkpoint: counters, and the smallest and the largest step.
+    pub fn numbers(&self) -> ([u64; 9], [f64; 2]) {
+        let counters = [
+            self.explicit_steps,
+            self.implicit_steps,
+            self.rejected_error,
+            self.rejected_domain,
+            self.newton_failures,
+            self.rate_evaluations,
+            self.jacobians,
+            self.factorizations,
+            self.switches,
+        ];
+        (counters, [self.smallest_step, self.largest_step])
+    }
+
+    /// From the numbers of a checkpoint.
+    pub fn of_numbers(counters: [u64; 9], [smallest_step, largest_step]: [f64; 2]) -> Self {
+        let [
+            explicit_steps,
+            implicit_steps,
+            rejected_error,
+            rejected_domain,
+            newton_failures,
+            rate_evaluations,
+            jacobians,
+            factorizations,
+            switches,
+        ] = counters;
+        Self {
+            explicit_steps,
+            implicit_steps,
+            rejected_error,
+            rejected_domain,
+            newton_failures,
+            rate_evaluations,
+            jacobians,
+            factorizations,
+            switches,
+            smallest_step,
+            largest_step,
+        }
+    }
+
     /// The counters of two integrations together: sums, and the smallest and the largest step of both.
     #[must_use]
     pub fn and(&self, other: &Self) -> Self {

@@ -141,60 +141,22 @@ impl RunState {
     }
 }
 
-/// How many integers of the counters a checkpoint has.
-const COUNTERS: usize = 9;
-
 impl Settled {
     fn write(&self, list: &mut impl FnMut(&mut dyn ExactSizeIterator<Item = u64>)) {
         let sums: Vec<[u64; 3]> = self.works.iter().map(|work| work.bits()).collect();
         list(&mut sums.as_flattened().iter().copied());
-        let s = &self.statistics;
-        let counters: [u64; COUNTERS] = [
-            s.explicit_steps,
-            s.implicit_steps,
-            s.rejected_error,
-            s.rejected_domain,
-            s.newton_failures,
-            s.rate_evaluations,
-            s.jacobians,
-            s.factorizations,
-            s.switches,
-        ];
+        let (counters, steps) = self.statistics.numbers();
         list(&mut counters.into_iter());
-        list(&mut [s.smallest_step, s.largest_step].into_iter().map(f64::to_bits));
+        list(&mut steps.into_iter().map(f64::to_bits));
     }
 
     fn read(rest: &mut &[u8]) -> Option<Self> {
         let sums = list(rest)?;
         let (sums, rest_of_sums) = sums.as_chunks::<3>();
         let works = sums.iter().map(|bits| Sum::of_bits(*bits)).collect();
-        let counters: [u64; COUNTERS] = list(rest)?.try_into().ok()?;
-        let [
-            explicit_steps,
-            implicit_steps,
-            rejected_error,
-            rejected_domain,
-            newton_failures,
-            rate_evaluations,
-            jacobians,
-            factorizations,
-            switches,
-        ] = counters;
-        let reals: [u64; 2] = list(rest)?.try_into().ok()?;
-        let [smallest_step, largest_step] = reals.map(f64::from_bits);
-        let statistics = Statistics {
-            explicit_steps,
-            implicit_steps,
-            rejected_error,
-            rejected_domain,
-            newton_failures,
-            rate_evaluations,
-            jacobians,
-            factorizations,
-            switches,
-            smallest_step,
-            largest_step,
-        };
+        let counters = list(rest)?.try_into().ok()?;
+        let steps: [u64; 2] = list(rest)?.try_into().ok()?;
+        let statistics = Statistics::of_numbers(counters, steps.map(f64::from_bits));
         rest_of_sums.is_empty().then_some(Self { works, statistics })
     }
 }
