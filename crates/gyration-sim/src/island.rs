@@ -11,10 +11,9 @@ use crate::events::Event;
 use crate::horizon::horizon;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
-use crate::run_state::{DISSIPATION, IslandMemory, IslandState};
+use crate::run_state::{IslandMemory, IslandState};
 use crate::step_end::{self, StepEnd};
 use crate::way::Way;
-use gyration::balance::{fastest_speed, kinetic_energy};
 use gyration::model::Model;
 use gyration::pair::PairGap;
 use gyration::state::State;
@@ -326,42 +325,6 @@ impl Island {
         let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
         self.find_gaps();
-    }
-
-    /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
-    fn dissipation(&self) -> [f64; 2] {
-        let entries = self.model().works().iter().zip(self.integrator.quadratures());
-        DISSIPATION.map(|work| entries.clone().find(|(entry, _)| **entry == work).map_or(0.0, |(_, value)| *value))
-    }
-
-    /// The kinetic energy of some of its bodies, by their places, at the end of the last step [J].
-    pub fn kinetic_energy(&self, places: impl Iterator<Item = usize>) -> f64 {
-        places.map(|place| kinetic_energy(&self.model().bodies[place], &self.step_ends[place].motion)).sum()
-    }
-
-    /// Notes the energy in play.
-    pub fn note_in_play(&mut self) {
-        let kinetic = self.kinetic_energy(0..self.members.len());
-        self.state.in_play.note(kinetic, self.integrator.quadratures());
-    }
-
-    /// Whether every body's fastest material point is slower than the speed of rest.
-    pub fn is_slow(&self, plan: &RunPlan) -> bool {
-        let Some(rest) = plan.stop_at_rest else { return false };
-        // The centre is never the fastest: looked at first, it spares the search in a body that moves.
-        let speed = |end: &StepEnd| end.motion.velocity.velocity.norm();
-        let bodies = self.model().bodies.iter().zip(&self.step_ends);
-        self.step_ends.iter().all(|end| speed(end) < rest.speed)
-            && bodies.into_iter().all(|(body, end)| fastest_speed(body, &end.motion) < rest.speed)
-    }
-
-    /// Notes since when all bodies have been slow.
-    fn note_rest(&mut self, plan: &RunPlan, time: f64) {
-        if !self.is_slow(plan) {
-            self.state.slow_since = f64::NAN;
-        } else if self.state.slow_since.is_nan() {
-            self.state.slow_since = time;
-        }
     }
 
     /// Where the numbers of each of its bodies stand among its own, and among those of the run.

@@ -1,7 +1,7 @@
 //! States of an island within its last step, by its interpolant.
 
-use crate::adapter::project;
 use crate::island::Island;
+use crate::projection::project;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ExtendedMut, Integrator};

@@ -1,6 +1,6 @@
 //! A frozen body: one body alone, with supports, loads and contraction as they are at the start.
 
-use crate::adapter::normalize;
+use crate::projection::normalize;
 use gyration::Inadmissible;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, Slots, matrix};
