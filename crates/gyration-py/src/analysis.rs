@@ -44,7 +44,13 @@ fn describe_rest(py: Python<'_>, into: &Bound<'_, PyDict>, rest: &Map<String, Va
     for name in ["frequency", "frequency_hz", "damping_ratio"] {
         into.set_item(name, array(py, gathered(&|mode| vec![mode[name].as_f64().unwrap_or(f64::NAN)]), &[count])?)?;
     }
-    into.set_item("decay_rates", array(py, gathered(&|mode| numbers(&mode["decay_rates"])), &[count, 2])?)?;
+    // A motion that the contraction adds has one rate.
+    let rates = |mode: &Value| {
+        let mut rates = numbers(&mode["decay_rates"]);
+        rates.resize(2, f64::NAN);
+        rates
+    };
+    into.set_item("decay_rates", array(py, gathered(&rates), &[count, 2])?)?;
     for part in ["shape", "quadrature"] {
         // A shape that a mode does not have is zero.
         let of = |mode: &Value, name: &str, size: usize| {

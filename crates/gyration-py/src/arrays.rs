@@ -4,7 +4,7 @@
 //! ignored.
 
 use gyration::tensor::{Mat3, Vec3};
-use gyration_sim::SteppedRun;
+use gyration_sim::{SteppedRun, Stop};
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,7 +40,10 @@ impl Arrays {
     }
 
     /// Writes the state into the arrays.
-    pub fn refresh(&self, py: Python<'_>, stepper: &SteppedRun) {
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not; gaps are then what they were.
+    pub fn refresh(&self, py: Python<'_>, stepper: &SteppedRun) -> Result<(), Stop> {
         let state = stepper.state();
         let model = stepper.model();
         let bodies = 0..model.bodies.len();
@@ -57,7 +60,8 @@ impl Arrays {
         write(py, &self.velocity, &vectors(&|body| stepper.motion(body).velocity.velocity));
         write(py, &self.gradient_rate, &matrices(&|body| stepper.motion(body).velocity.gradient_rate));
         write(py, &self.contraction, &matrices(&|body| state.contraction(model, body).unwrap_or(no_matrix)));
-        write(py, &self.gap, &bodies.clone().map(|body| stepper.gap(body)).collect::<Vec<_>>());
+        write(py, &self.gap, &stepper.gaps()?);
+        Ok(())
     }
 }
 

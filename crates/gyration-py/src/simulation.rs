@@ -57,8 +57,8 @@ impl Simulation {
             Some(until) => stepper.advance(until, monitor),
             None => stepper.step(),
         });
-        self.arrays.refresh(py, &self.stepper);
-        match stepped {
+        let refreshed = self.arrays.refresh(py, &self.stepper);
+        match stepped.and(refreshed) {
             Ok(()) => Ok(!monitor.is_over()),
             Err(stop) if stop.reason == Reason::Interrupted => Ok(false),
             Err(stop) => Err(errors::stopped(&stop)),
@@ -74,7 +74,7 @@ impl Simulation {
         let stepper = py.detach(|| SteppedRun::new(scene.built())).map_err(errors::run)?;
         let bodies = stepper.model().bodies.len();
         let arrays = Arrays::new(py, bodies)?;
-        arrays.refresh(py, &stepper);
+        arrays.refresh(py, &stepper).map_err(|stop| errors::stopped(&stop))?;
         Ok(Self { scene, columns: stepper.columns(), stepper, applied: vec![Applied::default(); bodies], arrays })
     }
 
@@ -129,7 +129,7 @@ impl Simulation {
         self.arrays.contraction.bind(py).clone()
     }
 
-    /// Smallest distances to a support [m], (bodies,); infinite without supports. Refreshed in place by each step.
+    /// Smallest gaps to anything that a body has a contact with [m], (bodies,); infinite without contact. Refreshed in place by each step.
     #[getter]
     fn gap<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         self.arrays.gap.bind(py).clone()

@@ -8,9 +8,9 @@
 use crate::projection::project;
 use crate::resistance::check_resistances;
 use crate::scales::{energy_scale, speed_scales, spring_frequency};
-use gyration::balance::{fastest_speed, smallest_gap};
+use gyration::balance::fastest_speed;
 use gyration::body::{Body, NEAR};
-use gyration::dynamics::{Blocks, Workspace, jacobian, rates};
+use gyration::dynamics::{Blocks, Workspace, gap_to_supports, jacobian, rates};
 use gyration::extended::Numbers;
 use gyration::model::Model;
 use gyration::pair::PairGap;
@@ -251,7 +251,7 @@ impl System for ModelSystem {
             let motion = BodyMotion::read(body, slots, y);
             let pairs = self.model.pairs_of(index).map(|end| if known { self.gaps[end.number].gap } else { 0.0 });
             let apart = pairs.fold(f64::INFINITY, f64::min);
-            let gap = smallest_gap(&self.model, t, index, &motion).min(apart).max(0.0);
+            let gap = gap_to_supports(&self.model, t, index, &motion).min(apart).max(0.0);
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);

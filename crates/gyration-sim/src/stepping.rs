@@ -14,7 +14,7 @@ use crate::ports::{Monitor, RunError, Sink};
 use crate::record::{MemorySink, Unwatched};
 use crate::rows::Ledger;
 use crate::run::Simulation;
-use gyration::balance::smallest_gap;
+use gyration::balance::gaps;
 use gyration::body::BodyKind;
 use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, acting};
@@ -112,9 +112,15 @@ impl SteppedRun {
         self.simulation.motion(body)
     }
 
-    /// The smallest distance of a body to a support [m]; infinite without supports or surface.
-    pub fn gap(&self, body: usize) -> f64 {
-        smallest_gap(self.model(), self.time(), body, self.motion(body))
+    /// The smallest gap of each body to anything that it has a contact with [m], as rows have it; infinite without
+    /// contact or surface.
+    ///
+    /// # Errors
+    /// [`Stop`] if the state is outside the model, which an accepted one is not.
+    pub fn gaps(&self) -> Result<Vec<f64>, Stop> {
+        let model = self.model();
+        gaps(model, &mut Workspace::default(), &self.state())
+            .map_err(|left| Stop::by_inadmissible(model, self.time(), &left))
     }
 
     /// f and M of the contacts of a body.

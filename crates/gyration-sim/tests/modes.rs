@@ -82,8 +82,8 @@ fn survey((model, state): &(Model, State)) -> (Rest, Vec<Mode>) {
     let rest = rest(model, state, 0).unwrap_or_else(|error| panic!("{error}"));
     let found = modes(model, state, 0, &rest).unwrap();
     for mode in &found {
-        let [slow, fast] = mode.eigenvalues;
-        println!("  {slow:.6} {fast:.6} {:?} {}", mode.motion, mode.in_words);
+        let values: Vec<String> = mode.eigenvalues.iter().map(|value| format!("{value:.6}")).collect();
+        println!("  {} {:?} {}", values.join(" "), mode.motion, mode.in_words);
     }
     (rest, found)
 }
@@ -459,14 +459,130 @@ fn motions_whose_rates_are_thirty_orders_apart_have_a_direction() {
     }
 }
 
-/// The law of contraction is no part of the modes yet, which is said with them.
+/// A free body under a constant drive contracts for ever.
 #[test]
-fn modes_of_a_body_that_drives_itself_say_what_they_leave_out() {
-    let left_out = |name: &str| {
-        let scene = gyration_scene::Scene::open(name, &[]).unwrap();
-        let modes = gyration_sim::survey::modes(&scene);
-        modes.iter().filter_map(|body| body.rest_state.as_ref()?.left_out).collect::<Vec<_>>()
+fn modes_of_a_body_whose_contraction_goes_on_say_that_it_is_held() {
+    let told = |drive: f64| {
+        let text = format!(
+            r#"
+            world = {{ gravity = [0, 0, 0] }}
+            time = {{ end = 1, sample = 1 }}
+            [[body]]
+            name = "g"
+            shape = {{ sphere = {{ radius = 0.1 }} }}
+            density = 900
+            [body.contractile]
+            material = {{ neo_hookean_log = {{ mu = 500, lambda = 1000 }} }}
+            contraction_viscosity = 20
+            drive = {{ constant = [[{drive}, 0, 0], [0, 0, 0], [0, 0, 0]] }}
+            "#
+        );
+        let scene = gyration_scene::Scene::parse("scene.toml", &text, std::path::Path::new(""), &[]).unwrap();
+        gyration_sim::survey::modes(&scene)[0].rest_state.as_ref().unwrap().left_out.clone()
     };
-    assert!(left_out("contract-1").iter().all(|told| told.starts_with("contraction held")));
-    assert!(!left_out("contract-1").is_empty() && left_out("elastic-bounce").is_empty());
+    let said = told(-100.0).unwrap();
+    assert!(said.starts_with("contraction held") && said.contains(" 5.00 1/s "), "{said}");
+    assert_eq!(told(0.0), None);
+}
+
+fn of_scene(text: &str) -> (Rest, Vec<Mode>) {
+    let scene = gyration_scene::Scene::parse("scene.toml", text, std::path::Path::new(""), &[]).unwrap();
+    survey(&(scene.built().model.clone(), scene.built().state.clone()))
+}
+
+/// With λ = 0 the stretches along the axes do not act on each other: J p̈ = −2μV (p − g), μ_γ ġ = 2μ(p − g) + k (p − 1).
+#[test]
+fn feedback_on_a_stretch_makes_a_motion_of_third_order() {
+    for (gain, drag) in [(-2000.0, 20.0), (150.0, 20.0), (-30.0, 0.5), (-500.0, 1e4)] {
+        let (_, found) = of_scene(&format!(
+            r#"
+            world = {{ gravity = [0, 0, 0] }}
+            time = {{ end = 1, sample = 1 }}
+            [[body]]
+            name = "g"
+            shape = {{ box = {{ size = [0.3, 0.1, 0.2] }} }}
+            density = 900
+            [body.contractile]
+            material = {{ st_venant_kirchhoff = {{ lambda = 0, mu = 500 }} }}
+            contraction_viscosity = {drag}
+            feedback = {{ measure = {{ stretch = [2, 0, 0] }}, gain = [[{gain}, 0, 0], [0, 0, 0], [0, 0, 0]], bias = [[{bias}, 0, 0], [0, 0, 0], [0, 0, 0]] }}
+            "#,
+            bias = -gain
+        ));
+        assert_eq!(found.len(), 18);
+        let (volume, euler) = (0.3 * 0.1 * 0.2, 900.0 * 0.3 * 0.1 * 0.2 * 0.09 / 12.0);
+        let square = 2.0 * 500.0 * volume / euler;
+        // λ³ + (2μ/μ_γ) λ² + a λ − a k/μ_γ = 0.
+        let residual = |value: nalgebra::Complex<f64>| {
+            let terms =
+                [value.powi(3), value * value * (1000.0 / drag), value * square, (-square * gain / drag).into()];
+            terms.iter().sum::<nalgebra::Complex<f64>>().norm() / terms.iter().map(|term| term.norm()).sum::<f64>()
+        };
+        let roots: Vec<_> = found
+            .iter()
+            .flat_map(|mode| &mode.eigenvalues)
+            .filter(|value| value.norm() > 1e-6 && residual(**value) < 1e-9)
+            .collect();
+        println!("gain {gain}, drag {drag}: {roots:?}");
+        assert_eq!(roots.len(), 3);
+        // The sum of the roots, and the sign of gain: what is fed back the wrong way runs away.
+        let sum: f64 = roots.iter().map(|value| value.re).sum();
+        assert_close("sum", sum, -1000.0 / drag, 1e-9);
+        let grows = found.iter().any(|mode| mode.motion == ModeBehaviour::Grows);
+        // Routh: all decay where 0 < −a k/μ_γ < (2μ/μ_γ) a.
+        assert_eq!(grows, !(0.0 < -gain && -gain < 1000.0), "{gain} {drag}");
+    }
+}
+
+/// A block that feels three of its stretches and keeps its volume, or does not, finds the state where its drive is
+/// nothing; its eigenvalues are those of the whole Jacobian there.
+#[test]
+fn eigenvalues_with_contraction_are_those_of_the_whole_jacobian() {
+    let part = |along: [u8; 3], length: f64| {
+        let diagonal = |value: f64| {
+            let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j && along[i] == 1 { value } else { 0.0 }));
+            format!("{rows:?}")
+        };
+        let (gain, bias) = (diagonal(-900.0), diagonal(900.0 * length));
+        format!("{{ measure = {{ stretch = {along:?} }}, gain = {gain}, bias = {bias} }}")
+    };
+    let parts = [part([1, 0, 0], 1.1), part([0, 1, 0], 0.95), part([0, 0, 1], 1.02)].join(", ");
+    let material = r#"{ neo_hookean_log = { mu = 4000, lambda = 9000 } }"#;
+    let text = format!(
+        r#"
+        world = {{ gravity = [0, 0, 0] }}
+        time = {{ end = 1, sample = 1 }}
+        [[body]]
+        name = "g"
+        shape = {{ box = {{ size = [0.3, 0.1, 0.2] }} }}
+        density = 900
+        [body.contractile]
+        material = {material}
+        viscosity = 3
+        contraction_viscosity = 40
+        feedback = [{parts}]
+        "#
+    );
+    let scene = gyration_scene::Scene::parse("scene.toml", &text, std::path::Path::new(""), &[]).unwrap();
+    let (model, start) = (&scene.built().model, &scene.built().state);
+    let (rest, found) = survey(&(model.clone(), start.clone()));
+    for (stretch, expected) in rest.stretches.iter().zip([1.1, 1.02, 0.95]) {
+        assert_close("stretch", *stretch, expected, 1e-9);
+    }
+    let block = rest.block().to_vec();
+    let mut blocks = [nalgebra::DMatrix::zeros(block.len(), block.len())];
+    let mut workspace = gyration::dynamics::Workspace::default();
+    gyration::dynamics::jacobian(model, &mut workspace, 0.0, block.as_slice().into(), &mut blocks[..]).unwrap();
+    let all = blocks[0].complex_eigenvalues();
+    let fastest = all.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    for value in found.iter().flat_map(|mode| &mode.eigenvalues) {
+        let off = all.iter().map(|other| (other - value).norm()).fold(f64::INFINITY, f64::min);
+        // Zeros of the whole matrix are double: known to the square root of rounding.
+        assert!(off < 1e-6 * fastest, "{value} is off by {off:e}");
+    }
+    let count: usize = found.iter().map(|mode| mode.eigenvalues.len()).sum();
+    // Turns of the relaxed shape that nothing feels are no motions.
+    let contractions = found.iter().filter(|mode| mode.eigenvalues.len() == 1).count();
+    assert_eq!(count, 24 + contractions);
+    assert!(contractions >= 6 && found.len() == 12 + contractions);
 }

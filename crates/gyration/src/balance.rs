@@ -8,9 +8,7 @@
 
 use crate::body::Body;
 use crate::contractile;
-use crate::dynamics::{
-    Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, nearest, stored_energy,
-};
+use crate::dynamics::{Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, stored_energy};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, Instant, KindAt};
 use crate::kinematics::Velocity;
@@ -25,8 +23,7 @@ use crate::tensor::{Mat3, Vec3};
 pub struct BodyObservation {
     /// Placement, velocity, spin.
     pub motion: BodyMotion,
-    /// Smallest distance to a support, or width of the slab to a body that it meets [m]; infinite without either, or
-    /// without surface.
+    /// The smallest gap to anything that it has a contact with [m]: see [`gap_at`].
     pub gap: f64,
     /// Contact force [N].
     pub contact_force: Vec3,
@@ -65,11 +62,12 @@ pub fn observe(
 ) -> Result<BodyObservation, Inadmissible> {
     let (instant, scratch) = workspace.read(model, state)?;
     let at = instant.at(model, index);
-    Ok(observe_at(&at, &acting(&at, scratch)?))
+    let acting = acting(&at, scratch)?;
+    Ok(observe_at(&at, &acting, scratch))
 }
 
 /// What is recorded of one body at an instant, given what acts on it.
-pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
+pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &Scratch) -> BodyObservation {
     let (pressure, effort) = match at.kind() {
         KindAt::Rigid(..) => (None, None),
         KindAt::Affine(affine, gyration) => (affine_balance(at, affine, gyration, &acting.total).pressure, None),
@@ -90,7 +88,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
     BodyObservation {
         motion: *motion,
-        gap: acting.nearest_body.map_or_else(|| gap_at(at), |gap| gap.min(gap_at(at))),
+        gap: gap_at(at, scratch),
         contact_force: acting.contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.
@@ -101,9 +99,13 @@ pub fn observe_at(at: &BodyAt, acting: &Acting) -> BodyObservation {
     }
 }
 
-/// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
-pub fn smallest_gap(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> f64 {
-    nearest(model, time, index, motion).map_or(f64::INFINITY, |nearest| nearest.gap)
+/// The smallest gap of each body to anything that it has a contact with [m], in a state: see [`gap_at`].
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub fn gaps(model: &Model, workspace: &mut Workspace, state: &State) -> Result<Vec<f64>, Inadmissible> {
+    let (instant, scratch) = workspace.read(model, state)?;
+    Ok((0..model.bodies.len()).map(|index| gap_at(&instant.at(model, index), scratch)).collect())
 }
 
 /// The speed of a body's fastest material point [m/s].

@@ -31,7 +31,7 @@ fn driven() -> ContractionSource {
     let feedback = |measure, seed| Feedback { measure, gain: tensor(seed), bias: tensor(2.0 * seed), limits: None };
     let along = Vec3::new(0.6, 0.0, 0.8);
     let feedback = vec![
-        feedback(FeedbackMeasure::Gap, 0.4),
+        feedback(FeedbackMeasure::SupportGap, 0.4),
         feedback(FeedbackMeasure::Stretch(along), 0.7),
         feedback(FeedbackMeasure::Rate(along), 1.1),
         Feedback { limits: Some([0.0, 0.1]), ..feedback(FeedbackMeasure::Stretch(along), 1.9) },

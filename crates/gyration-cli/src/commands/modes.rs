@@ -71,12 +71,9 @@ fn write_table(text: &mut String, modes: &[ModeSurvey]) -> std::fmt::Result {
     writeln!(text, "\n{heading}motion")?;
     for (index, mode) in modes.iter().enumerate() {
         let number = (index + 1).to_string();
-        let oscillates = mode.motion == "oscillates";
-        let (hertz, omega) = if oscillates {
-            (significant(mode.frequency_hz, 6), significant(mode.frequency, 6))
-        } else {
-            (mode.motion.to_owned(), String::new())
-        };
+        let hertz =
+            if mode.motion == "oscillates" { significant(mode.frequency_hz, 6) } else { mode.motion.to_owned() };
+        let omega = if mode.frequency > 0.0 { significant(mode.frequency, 6) } else { String::new() };
         let ratio = mode.damping_ratio.map(|ratio| significant(ratio, 4)).unwrap_or_default();
         let start = line([&number, &hertz, &omega, &decay(mode), &ratio]);
         let room = WIDTH - heading.chars().count();
@@ -89,14 +86,16 @@ fn write_table(text: &mut String, modes: &[ModeSurvey]) -> std::fmt::Result {
     Ok(())
 }
 
-/// One rate of a motion that oscillates, or what is not zero of the two.
+/// One rate of a motion that oscillates, or what is not zero of them.
 fn decay(mode: &ModeSurvey) -> String {
-    let [slow, fast] = mode.decay_rates;
-    match mode.motion {
-        "oscillates" => significant(slow, 5),
-        "free" if fast == 0.0 => String::new(),
-        "free" => significant(fast, 5),
-        _ => format!("{}, {}", significant(slow, 5), significant(fast, 5)),
+    let rates: Vec<String> = mode.decay_rates.iter().map(|rate| significant(*rate, 5)).collect();
+    match (mode.motion, &mode.decay_rates[..]) {
+        ("oscillates", _) => rates[0].clone(),
+        ("free", [.., fast]) if *fast == 0.0 => String::new(),
+        ("free", _) => rates[rates.len() - 1].clone(),
+        // A pair of eigenvalues has one growth.
+        ("unstable", _) if mode.frequency > 0.0 => rates[0].clone(),
+        _ => rates.join(", "),
     }
 }
 

@@ -71,8 +71,9 @@ pub struct Feedback {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FeltMeasure {
-    /// The smallest distance to a support (m).
-    Gap,
+    /// The smallest distance to a support (m); `gap` in older files.
+    #[serde(alias = "gap")]
+    SupportGap,
     /// The stretch of the body along a direction of its reference shape, which need not be of unit length.
     Stretch([f64; 3]),
     /// The rate of that stretch (1/s).

@@ -7,6 +7,7 @@
 //! quaternion, δq = ½ q ∘ (0, δθ): what is left out is its length, a gauge. An incompressible body moves within tr(P⁻¹
 //! δP) = 0: V is multiplied by a basis of that plane.
 
+use super::contraction::takes_up_volume;
 use super::shape::ModeShape;
 use gyration::body::{Body, BodyKind, Slots};
 use gyration::kinematics::Quaternion;
@@ -31,7 +32,7 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// At a configuration of the body.
+    /// At a configuration of the body; an incompressible one whose contraction takes up what volume it has moves freely.
     pub fn at(body: &Body, block: &[f64]) -> Self {
         let mass = mass(body);
         let eigen = mass.symmetric_eigen();
@@ -41,7 +42,8 @@ impl Coordinates {
         };
         let (mut rates, mut weights) = (power(-0.5), power(0.5));
         let gradient = BodyMotion::read(body, &Slots::of(body, 0), block).placement.gradient;
-        if body.affine().is_some_and(|affine| affine.interior.is_incompressible()) {
+        let keeps_volume = body.affine().is_some_and(|affine| affine.interior.is_incompressible());
+        if keeps_volume && !body.contraction().is_some_and(takes_up_volume) {
             let plane = plane_across(&(rates.transpose() * volume_slope(&gradient, rates.nrows())));
             (rates, weights) = (rates * &plane, plane.transpose() * weights);
         }
@@ -61,6 +63,21 @@ impl Coordinates {
     pub fn stiffness(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let (rows, columns) = (self.rates.nrows(), self.places.nrows());
         -(&self.weights * slopes.view((columns, 0), (rows, columns)) * &self.places)
+    }
+
+    /// S.
+    pub fn places(&self) -> &DMatrix<f64> {
+        &self.places
+    }
+
+    /// V.
+    pub fn rates(&self) -> &DMatrix<f64> {
+        &self.rates
+    }
+
+    /// V†.
+    pub fn weights(&self) -> &DMatrix<f64> {
+        &self.weights
     }
 
     /// C [1/s] from the Jacobian of the rates.
@@ -100,7 +117,9 @@ impl Coordinates {
     ) -> (ModeShape, Option<ModeShape>) {
         let radius = 0.5 * body.size;
         let shape = self.shape(body, real);
-        let factor = shape.leading(radius).signum() / shape.largest_displacement(radius);
+        let most = shape.largest_displacement(radius);
+        // A contraction that moves no point has no shape.
+        let factor = if most > 0.0 { shape.leading(radius).signum() / most } else { 0.0 };
         let out_of_step = imaginary.norm() > IN_STEP * real.norm();
         let quadrature = out_of_step.then(|| self.shape(body, imaginary).times(factor));
         (shape.times(factor), quadrature)

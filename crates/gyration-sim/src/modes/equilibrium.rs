@@ -101,7 +101,7 @@ fn gone(frozen: &FrozenBody, block: &[f64]) -> Result<(), NoRest> {
     Ok(())
 }
 
-fn rest_at(frozen: &mut FrozenBody, block: Vec<f64>) -> Rest {
+pub(super) fn rest_at(frozen: &mut FrozenBody, block: Vec<f64>) -> Rest {
     let placement = frozen.motion(&block).placement;
     let stretches = match frozen.body().kind {
         BodyKind::Rigid(_) => Vec3::repeat(1.0),
@@ -112,7 +112,7 @@ fn rest_at(frozen: &mut FrozenBody, block: Vec<f64>) -> Rest {
         }
     };
     let gap = frozen.gaps(&block).into_iter().fold(f64::INFINITY, f64::min);
-    Rest { placement, stretches, pressure: frozen.pressure(&block), gap, block }
+    Rest { placement, stretches, pressure: frozen.pressure(&block), gap, contraction: None, block }
 }
 
 /// The balance at a configuration.

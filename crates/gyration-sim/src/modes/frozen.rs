@@ -1,4 +1,5 @@
-//! A frozen body: one body alone, with supports, loads and contraction as they are at the start.
+//! A frozen body: one body alone, with supports, loads and drive as they are at the start; its contraction is held, or
+//! moves by its law.
 
 use crate::projection::normalize;
 use gyration::Inadmissible;
@@ -14,6 +15,7 @@ use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// A body and what acts on it at one instant.
 #[derive(Debug)]
@@ -28,8 +30,17 @@ pub(super) struct FrozenBody {
     evaluations: usize,
 }
 
+/// What the contraction of a frozen body does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FrozenContraction {
+    /// It stays what it is at the start.
+    Held,
+    /// It follows its law under the drive of the start, and what feedback adds.
+    Driven,
+}
+
 impl FrozenBody {
-    pub fn new(model: &Model, start: &State, index: usize) -> Self {
+    pub fn new(model: &Model, start: &State, index: usize, contraction: FrozenContraction) -> Self {
         let mut supports = model.supports.to_vec();
         for support in &mut supports {
             support.origin += support.motion.displacement(start.time);
@@ -39,13 +50,21 @@ impl FrozenBody {
         let slots = model.slots(index);
         let mut still = start.bodies.clone();
         still[slots.velocities()].fill(0.0);
-        still[slots.extra()].fill(0.0);
-        let mut block = still[slots.block()].to_vec();
-        if let (BodyKind::Contractile(contractile), Some(contraction)) =
-            (&mut body.kind, start.contraction(model, index))
-        {
-            contractile.contraction.source = ContractionSource::Prescribed(Signal::Constant(contraction));
+        if let BodyKind::Contractile(contractile) = &mut body.kind {
+            match (&mut contractile.contraction.source, contraction) {
+                (ContractionSource::Driven { drive, .. }, FrozenContraction::Driven) => {
+                    *drive = Signal::Constant(drive.at(start.time));
+                }
+                (source, _) => {
+                    if let Some(held) = start.contraction(model, index) {
+                        *source = ContractionSource::Prescribed(Signal::Constant(held));
+                    }
+                }
+            }
+        } else {
+            still[slots.extra()].fill(0.0);
         }
+        let mut block = still[slots.block()].to_vec();
         block.truncate(body.dimension());
         let mut frozen = Model::new(model.gravity, supports, vec![body]);
         if let Some(fluid) = &model.fluid {
@@ -71,12 +90,18 @@ impl FrozenBody {
 
     /// The velocities' rates.
     pub fn accelerations(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
+        let rates = self.rates(block)?;
+        Ok(rates[self.slots().velocities()].to_vec())
+    }
+
+    /// The rates of the block.
+    pub fn rates(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
         self.evaluations += 1;
         let mut slopes = vec![0.0; block.len()];
         let mut powers = vec![0.0; self.model.works().len()];
         let done = rates(&self.model, &mut self.workspace, self.time, block.into(), &mut slopes, &mut powers);
         done.map_err(|left| Inadmissible { body: self.index, ..left })?;
-        Ok(slopes[self.slots().velocities().start..].to_vec())
+        Ok(slopes)
     }
 
     /// The exact Jacobian.
@@ -129,8 +154,10 @@ impl FrozenBody {
         self.holding().map(gap).collect()
     }
 
-    /// Puts quaternion or P back to where they belong.
+    /// Puts quaternion, P and G back to where they belong.
     pub fn project(&self, block: &mut [f64]) {
+        let own = matches!(&self.body().kind, BodyKind::Contractile(it) if it.contraction.is_driven())
+            .then(|| matrix(&block[self.contraction()]));
         let attitude = &mut block[self.slots().attitude()];
         let still = Mat3::zeros();
         match &self.body().kind {
@@ -142,10 +169,36 @@ impl FrozenBody {
                 attitude.copy_from_slice(corrected.gradient.as_slice());
             }
             BodyKind::Contractile(contractile) => {
-                let restored = contractile.restore(self.time, (&matrix(attitude), &still, &Mat3::identity()));
+                let held = own.unwrap_or_else(Mat3::identity);
+                let restored = contractile.restore(self.time, (&matrix(attitude), &still, &held));
                 attitude.copy_from_slice(restored.gradient.as_slice());
+                if own.is_some() {
+                    block[self.contraction()].copy_from_slice(restored.contraction.as_slice());
+                }
             }
         }
+    }
+
+    /// Where P stands in the block.
+    pub fn attitude(&self) -> Range<usize> {
+        self.slots().attitude()
+    }
+
+    /// Where G stands in the block, if the contraction moves.
+    pub fn contraction(&self) -> Range<usize> {
+        self.slots().extra()
+    }
+
+    /// G, if the contraction moves.
+    pub fn contraction_at(&self, block: &[f64]) -> Mat3 {
+        matrix(&block[self.contraction()])
+    }
+
+    /// V_G [1/s], if the contraction moves.
+    pub fn contraction_velocity(&mut self, block: &[f64]) -> Result<Mat3, Inadmissible> {
+        let rate = matrix(&self.rates(block)?[self.contraction()]);
+        let inverse = self.contraction_at(block).try_inverse();
+        Ok(inverse.map_or(rate, |inverse| rate * inverse))
     }
 
     /// Where the numbers of the block stand.

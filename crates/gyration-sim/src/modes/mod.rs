@@ -8,10 +8,14 @@
 //! deformed area, couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the
 //! start of a run, `spectrum` solves for λ, `words` says what a mode is.
 //!
-//! Everything is about t = 0: supports and couples are frozen as they are then, and what the bodies' velocities would
-//! be does not matter. Nothing here steps in time.
+//! The contraction G of a body that drives itself is a state of first order (`contraction`): at rest it stands still
+//! too, in the state next to the one that the body gets to while G is held. Where there is none G stays held.
+//!
+//! Everything is about t = 0: supports, couples and drives are frozen as they are then, and what the bodies' velocities
+//! would be does not matter. Nothing here steps in time.
 
 mod canonical;
+mod contraction;
 mod coordinates;
 mod equilibrium;
 mod frozen;
@@ -21,13 +25,14 @@ mod words;
 
 pub use shape::ModeShape;
 
+use contraction::{ContractionCoordinates, FirstOrder, settled};
 use coordinates::Coordinates;
-use frozen::FrozenBody;
+use frozen::{FrozenBody, FrozenContraction};
 use gyration::Inadmissible;
 use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField};
 
@@ -42,7 +47,9 @@ pub struct Rest {
     pub pressure: Option<f64>,
     /// Smallest distance to a support whose laws act on it [m]; infinite without one.
     pub gap: f64,
-    /// The body's block of the state, at rest.
+    /// What its contraction does there; none of a body without one, or whose contraction is prescribed.
+    pub contraction: Option<RestContraction>,
+    /// The body's block of the state, at rest; without G where that is held.
     pub(crate) block: Vec<f64>,
 }
 
@@ -51,6 +58,15 @@ impl Rest {
     pub fn block(&self) -> &[f64] {
         &self.block
     }
+}
+
+/// What the contraction of a body that drives itself does in its rest state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RestContraction {
+    /// It stands still, at this G, under the drive of the start.
+    Stands(Mat3),
+    /// It goes on with this |V_G| [1/s], and no state is near in which it would stand still: G is held.
+    GoesOn(f64),
 }
 
 /// Why a body has no rest state, or none was found.
@@ -123,8 +139,9 @@ pub enum ModeBehaviour {
 /// A small motion about rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// λ₁, λ₂ [1/s]: a conjugate pair, the positive frequency first, or two real numbers, the slower motion first.
-    pub eigenvalues: [Complex<f64>; 2],
+    /// λ₁, λ₂ [1/s]: a conjugate pair, the positive frequency first, or two real numbers, the slower motion first; one
+    /// real number of a motion that the contraction adds.
+    pub eigenvalues: Vec<Complex<f64>>,
     /// What it does in time.
     pub motion: ModeBehaviour,
     /// How the body moves.
@@ -146,15 +163,15 @@ impl Mode {
         self.eigenvalues[0].im.abs()
     }
 
-    /// δ = −Re λ of both eigenvalues [1/s]; negative where the motion grows.
-    pub fn decay_rates(&self) -> [f64; 2] {
+    /// δ = −Re λ of its eigenvalues [1/s]; negative where the motion grows.
+    pub fn decay_rates(&self) -> Vec<f64> {
         // Zero has no sign.
-        self.eigenvalues.map(|eigenvalue| 0.0 - eigenvalue.re)
+        self.eigenvalues.iter().map(|eigenvalue| 0.0 - eigenvalue.re).collect()
     }
 
-    /// ζ = −(λ₁ + λ₂)/(2√(λ₁λ₂)), below one where it oscillates; none of a free or unstable motion.
+    /// ζ = −(λ₁ + λ₂)/(2√(λ₁λ₂)), below one where it oscillates; none of a free or unstable motion, or of one λ.
     pub fn damping_ratio(&self) -> Option<f64> {
-        let [first, second] = self.eigenvalues;
+        let [first, second] = self.eigenvalues[..] else { return None };
         let product = (first * second).re;
         let bound = matches!(self.motion, ModeBehaviour::Oscillates | ModeBehaviour::Creeps) && product > 0.0;
         bound.then(|| 0.0 - (first + second).re / (2.0 * product.sqrt()))
@@ -172,10 +189,32 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
     if model.is_joined(body) {
         return Err(NoRest::Joined);
     }
-    let mut frozen = FrozenBody::new(model, start, body);
-    match equilibrium::find(&mut frozen) {
-        Err(_) if Interruption::due().is_some() => Err(NoRest::Interrupted),
-        found => found,
+    let mut frozen = FrozenBody::new(model, start, body, FrozenContraction::Held);
+    let held = match equilibrium::find(&mut frozen) {
+        Err(_) if Interruption::due().is_some() => return Err(NoRest::Interrupted),
+        found => found?,
+    };
+    if model.bodies[body].contraction().is_some_and(|contraction| contraction.is_driven()) {
+        contracting(model, start, body, held)
+    } else {
+        Ok(held)
+    }
+}
+
+/// The rest state of a body whose contraction moves, next to the one that it has while that is held.
+fn contracting(model: &Model, start: &State, body: usize, held: Rest) -> Result<Rest, NoRest> {
+    let mut frozen = FrozenBody::new(model, start, body, FrozenContraction::Driven);
+    let contraction = frozen.start[frozen.contraction()].to_vec();
+    let mut block = held.block.clone();
+    block.extend_from_slice(&contraction);
+    let velocity = frozen.contraction_velocity(&block)?;
+    match settled(&mut frozen, block)? {
+        Some(block) => {
+            let contraction = RestContraction::Stands(frozen.contraction_at(&block));
+            Ok(Rest { contraction: Some(contraction), ..equilibrium::rest_at(&mut frozen, block) })
+        }
+        None if Interruption::due().is_some() => Err(NoRest::Interrupted),
+        None => Ok(Rest { contraction: Some(RestContraction::GoesOn(velocity.norm())), ..held }),
     }
 }
 
@@ -184,22 +223,44 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
 /// # Errors
 /// [`NoSpectrum`]; none for bodies of moderate numbers.
 pub fn modes(model: &Model, start: &State, body: usize, rest: &Rest) -> Result<Vec<Mode>, NoSpectrum> {
-    let mut frozen = FrozenBody::new(model, start, body);
+    let follows = match rest.contraction {
+        Some(RestContraction::Stands(_)) => FrozenContraction::Driven,
+        _ => FrozenContraction::Held,
+    };
+    let mut frozen = FrozenBody::new(model, start, body, follows);
     let slopes = frozen.slopes(&rest.block).map_err(|_| NoSpectrum)?;
     let coordinates = Coordinates::at(frozen.body(), &rest.block);
-    let (stiffness, resistance) = (coordinates.stiffness(&slopes), coordinates.resistance(&slopes));
+    let resistance = coordinates.resistance(&slopes);
+    let contraction = ContractionCoordinates::at(&frozen, &rest.block);
+    let (stiffness, first) = match &contraction {
+        None => {
+            let stiffness = coordinates.stiffness(&slopes);
+            let none = FirstOrder::none(stiffness.nrows());
+            (stiffness, none)
+        }
+        Some(contraction) => {
+            let velocity = frozen.contraction_velocity(&rest.block).map_err(|_| NoSpectrum)?;
+            contraction.first_order((&coordinates, &velocity), &slopes)
+        }
+    };
     let basis = canonical::basis(&stiffness, &coordinates.patterns(frozen.body(), &rest.placement.gradient));
-    let found = spectrum::solve(&stiffness, &resistance, &basis)?;
+    let found = spectrum::solve((&stiffness, &resistance), &first, &basis)?;
     let mut modes: Vec<Mode> = found
         .iter()
-        .map(|pair| {
-            let (real, mut imaginary) = shape::in_step(&pair.shape);
-            if pair.eigenvalues[0].im == 0.0 {
+        .map(|found| {
+            let (real, mut imaginary) = shape::in_step(&found.shape);
+            if found.eigenvalues[0].im == 0.0 {
                 imaginary.fill(0.0);
             }
             let (shape, quadrature) = coordinates.scaled_shape(frozen.body(), &real, &imaginary);
-            let in_words = words::of(&shape, frozen.body(), &rest.placement);
-            Mode { eigenvalues: pair.eigenvalues, motion: pair.motion, shape, quadrature, in_words }
+            let in_words = match &contraction {
+                Some(contraction) if found.eigenvalues.len() == 1 => {
+                    let strain = contraction.strain(&found.contraction.map(|entry| entry.re));
+                    format!("contraction, {}", words::of_contraction(&strain, &rest.placement))
+                }
+                _ => words::of(&shape, frozen.body(), &rest.placement),
+            };
+            Mode { eigenvalues: found.eigenvalues.clone(), motion: found.motion, shape, quadrature, in_words }
         })
         .collect();
     modes.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
@@ -214,5 +275,6 @@ fn order(mode: &Mode) -> (u8, f64) {
         ModeBehaviour::Creeps => 2,
         ModeBehaviour::Oscillates => 3,
     };
-    (rank, mode.eigenvalues[0].modulus().max(if rank == 1 { mode.eigenvalues[1].modulus() } else { 0.0 }))
+    let counted = if rank == 1 { &mode.eigenvalues[..] } else { &mode.eigenvalues[..1] };
+    (rank, counted.iter().map(|value| value.modulus()).fold(0.0, f64::max))
 }

@@ -1,14 +1,15 @@
-//! The eigenvalues and vectors of ξ̈ + C ξ̇ + K ξ = 0.
+//! The eigenvalues and vectors of ξ̈ + C ξ̇ + K ξ = B γ, γ̇ = D ξ + E ξ̇ + H γ.
 //!
 //! In the basis of sym K, with x_i = ω_i ξ_i, ω_i = √|k_i|, and y = ξ̇:
 //!
-//!   ẋ_i = ω_i y_i,   ẏ_i = −Σ (K_ij/ω_j) x_j − Σ C_ij y_j
+//!   ẋ_i = ω_i y_i,   ẏ_i = −Σ (K_ij/ω_j) x_j − Σ C_ij y_j + Σ B_ij γ_j,   γ̇_i = Σ (D_ij/ω_j) x_j + Σ E_ij y_j + Σ H_ij γ_j
 //!
-//! Where nothing depends on a coordinate there is no x_i, and its eigenvalue 0 is taken out exactly (left in, it would
-//! be a double one, known to the square root of rounding alone). Coordinates that do not act on each other fall into
-//! parts; a part of one is λ² + cλ + k = 0.
+//! γ are the contraction's, none of other bodies. Where nothing depends on a coordinate there is no x_i, and its
+//! eigenvalue 0 is taken out exactly (left in, it would be a double one, known to the square root of rounding alone).
+//! What does not act on each other falls into parts; a part of one coordinate is λ² + cλ + k = 0.
 
 use super::canonical::Basis;
+use super::contraction::FirstOrder;
 use super::{ModeBehaviour, NoSpectrum};
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
@@ -25,46 +26,96 @@ const SAME: f64 = 1e-8;
 /// Sweeps of the Schur form at most; a few for each eigenvalue are the rule.
 const SWEEPS: usize = 10_000;
 
-/// A pair of eigenvalues and how the body moves, in the coordinates z.
+/// The eigenvalues of a motion and how the body moves, in the coordinates z and γ.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct EigenPair {
-    pub eigenvalues: [C64; 2],
+pub(super) struct EigenMotion {
+    /// Two, or one of a motion that the contraction adds.
+    pub eigenvalues: Vec<C64>,
     pub motion: ModeBehaviour,
+    /// Along z.
     pub shape: DVector<C64>,
+    /// Along γ.
+    pub contraction: DVector<C64>,
 }
 
 /// All of them, one a coordinate.
-pub(super) fn solve(k: &DMatrix<f64>, c: &DMatrix<f64>, basis: &Basis) -> Result<Vec<EigenPair>, NoSpectrum> {
-    let into = |matrix: &DMatrix<f64>| basis.vectors.transpose() * matrix * &basis.vectors;
-    let mut stiffness = into(k);
-    for mut column in stiffness.column_iter_mut() {
-        if column.norm() <= basis.zero {
-            column.fill(0.0);
-        }
-    }
-    let oscillator = Oscillator { stiffness, resistance: into(c) };
-    let mut pairs = Vec::new();
-    for part in oscillator.parts() {
+pub(super) fn solve(
+    (k, c): (&DMatrix<f64>, &DMatrix<f64>),
+    first: &FirstOrder,
+    basis: &Basis,
+) -> Result<Vec<EigenMotion>, NoSpectrum> {
+    let vectors = &basis.vectors;
+    let into = |matrix: &DMatrix<f64>| vectors.transpose() * matrix * vectors;
+    let (count, own) = (vectors.ncols(), first.own.nrows());
+    let system = System::new((into(k), basis.zero), into(c), (vectors, first));
+    let mut motions = Vec::new();
+    for part in system.parts() {
         let found = match part[..] {
-            [alone] => vec![oscillator.single(alone)],
-            _ => oscillator.coupled(&part)?,
+            [alone] if alone < count => vec![system.single(alone)],
+            _ => system.coupled(&part)?,
         };
-        pairs.extend(found.into_iter().map(|pair| {
-            let mut whole = DVector::zeros(basis.values.len());
-            part.iter().zip(pair.shape.iter()).for_each(|(at, value)| whole[*at] = *value);
-            let vectors = basis.vectors.map(|entry| C64::new(entry, 0.0));
-            EigenPair { shape: vectors * whole, ..pair }
+        motions.extend(found.into_iter().map(|motion| {
+            let mut whole = DVector::zeros(count + own);
+            let numbers = motion.shape.iter().chain(motion.contraction.iter());
+            part.iter().zip(numbers).for_each(|(at, value)| whole[*at] = *value);
+            let vectors = vectors.map(|entry| C64::new(entry, 0.0));
+            let contraction = whole.rows(count, own).into_owned();
+            EigenMotion { shape: vectors * whole.rows(0, count), contraction, ..motion }
         }));
     }
-    Ok(pairs)
+    Ok(motions)
 }
 
-struct Oscillator {
+/// The system in the basis of the stiffness: coordinates first, then γ in units of a velocity.
+struct System {
     stiffness: DMatrix<f64>,
     resistance: DMatrix<f64>,
+    first: FirstOrder,
 }
 
-impl Oscillator {
+impl System {
+    fn new(
+        (mut stiffness, zero): (DMatrix<f64>, f64),
+        resistance: DMatrix<f64>,
+        (vectors, first): (&DMatrix<f64>, &FirstOrder),
+    ) -> Self {
+        let mut first = FirstOrder {
+            forces: vectors.transpose() * &first.forces,
+            by_place: &first.by_place * vectors,
+            by_rate: &first.by_rate * vectors,
+            own: first.own.clone(),
+            turns: first.turns.clone(),
+        };
+        for mut column in stiffness.column_iter_mut() {
+            if column.norm() <= zero {
+                column.fill(0.0);
+            }
+        }
+        let least = NOISE * first.by_place.amax();
+        for mut column in first.by_place.column_iter_mut() {
+            if column.norm() <= least {
+                column.fill(0.0);
+            }
+        }
+        let mut system = Self { stiffness, resistance, first: FirstOrder::none(vectors.ncols()) };
+        // A unit of γ in which what it does to the body weighs as much as what the body does to it.
+        let answers = (0..vectors.ncols()).filter(|i| system.stiffness.column(*i).norm() > 0.0);
+        let answers = answers.map(|i| first.by_place.column(i).norm() / system.scale(i)).fold(0.0, f64::max);
+        let (pushed, answers) = (first.forces.norm(), answers.max(first.by_rate.norm()));
+        if pushed > 0.0 && answers > 0.0 {
+            let unit = (pushed / answers).sqrt();
+            first.forces /= unit;
+            first.by_place *= unit;
+            first.by_rate *= unit;
+        }
+        system.first = first;
+        system
+    }
+
+    fn count(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
     /// Whether any force depends on the coordinate.
     fn bound(&self, i: usize) -> bool {
         self.scale(i) > 0.0
@@ -72,20 +123,42 @@ impl Oscillator {
 
     /// ω_i; without potential also where k_i = 0.
     fn scale(&self, i: usize) -> f64 {
-        self.stiffness.column(i).norm().sqrt()
+        let scale = self.stiffness.column(i).norm().sqrt();
+        if scale > 0.0 { scale } else { self.first.by_place.column(i).norm() }
     }
 
-    /// The coordinates in groups that do not act on each other.
+    /// Coordinates and contractions in groups that do not act on each other.
     fn parts(&self) -> Vec<Vec<usize>> {
-        let count = self.stiffness.nrows();
-        let (most_stiff, most_resisted) = (self.stiffness.amax(), self.resistance.amax());
-        let rate = |i: usize| self.scale(i).max(self.resistance[(i, i)].abs());
+        let count = self.count();
+        let first = &self.first;
+        let largest = [&self.stiffness, &self.resistance, &first.forces, &first.by_place, &first.by_rate, &first.own]
+            .map(|matrix| NOISE * matrix.amax());
+        let rate = |i: usize| match i.checked_sub(count) {
+            None => self.scale(i).max(self.resistance[(i, i)].abs()),
+            Some(k) => first.own[(k, k)].abs(),
+        };
         let acts = |i: usize, j: usize| {
             let product = rate(i) * rate(j);
-            self.resistance[(i, j)].abs() > (UNCOUPLED * product.sqrt()).max(NOISE * most_resisted)
-                || self.stiffness[(i, j)].abs() > (UNCOUPLED * product).max(NOISE * most_stiff)
+            let more = |value: f64, power: f64, noise: f64| value.abs() > (UNCOUPLED * power).max(noise);
+            let [stiffness, resistance, forces, by_place, by_rate, own] = largest;
+            match (i.checked_sub(count), j.checked_sub(count)) {
+                (None, None) => {
+                    more(self.resistance[(i, j)], product.sqrt(), resistance)
+                        || more(self.stiffness[(i, j)], product, stiffness)
+                }
+                (None, Some(k)) => more(first.forces[(i, k)], product.sqrt(), forces),
+                (Some(k), None) => {
+                    more(first.by_rate[(k, j)], product.sqrt(), by_rate)
+                        || more(first.by_place[(k, j)], product, by_place)
+                }
+                (Some(k), Some(l)) => more(first.own[(k, l)], product.sqrt(), own),
+            }
         };
-        let mut left: Vec<usize> = (0..count).collect();
+        // What only turns the relaxed shape, and is not felt, is no motion.
+        let felt = |k: usize| (0..count + first.own.nrows()).any(|i| acts(i, count + k));
+        let mut left: Vec<usize> = (0..count)
+            .chain((0..first.own.nrows()).filter(|k| !first.turns[*k] || felt(*k)).map(|k| count + k))
+            .collect();
         let mut parts = Vec::new();
         while let Some(first) = left.first().copied() {
             left.remove(0);
@@ -104,7 +177,7 @@ impl Oscillator {
     }
 
     /// λ² + cλ + k = 0.
-    fn single(&self, i: usize) -> EigenPair {
+    fn single(&self, i: usize) -> EigenMotion {
         let (k, c) = (self.stiffness[(i, i)], self.resistance[(i, i)]);
         let square = 0.25 * c * c - k;
         let eigenvalues = if square < 0.0 {
@@ -117,100 +190,156 @@ impl Oscillator {
             [slow, fast].map(|value| C64::new(value + 0.0, 0.0))
         };
         let motion = judge(&eigenvalues, 0.0, !self.bound(i));
-        EigenPair { eigenvalues, motion, shape: DVector::from_element(1, C64::new(1.0, 0.0)) }
+        let shape = DVector::from_element(1, C64::new(1.0, 0.0));
+        EigenMotion { eigenvalues: eigenvalues.to_vec(), motion, shape, contraction: DVector::zeros(0) }
     }
 
-    /// The first-order system of a part: x of the bound coordinates, then y of all.
-    fn first_order(&self, part: &[usize], bound: &[usize]) -> DMatrix<f64> {
-        let size = bound.len() + part.len();
-        let mut matrix = DMatrix::zeros(size, size);
-        for (row, i) in part.iter().enumerate() {
+    /// The system of first order of a part: x of the bound coordinates, then y of all, then γ.
+    fn first_order(&self, part: &Part) -> DMatrix<f64> {
+        let Part { bound, coordinates, contractions } = part;
+        let (speeds, own) = (bound.len(), bound.len() + coordinates.len());
+        let mut matrix = DMatrix::zeros(own + contractions.len(), own + contractions.len());
+        for (row, i) in coordinates.iter().enumerate() {
             for (column, j) in bound.iter().enumerate() {
-                matrix[(bound.len() + row, column)] = -self.stiffness[(*i, *j)] / self.scale(*j);
+                matrix[(speeds + row, column)] = -self.stiffness[(*i, *j)] / self.scale(*j);
             }
-            for (column, j) in part.iter().enumerate() {
-                matrix[(bound.len() + row, bound.len() + column)] = -self.resistance[(*i, *j)];
+            for (column, j) in coordinates.iter().enumerate() {
+                matrix[(speeds + row, speeds + column)] = -self.resistance[(*i, *j)];
+            }
+            for (column, k) in contractions.iter().enumerate() {
+                matrix[(speeds + row, own + column)] = self.first.forces[(*i, *k)];
+            }
+        }
+        for (row, k) in contractions.iter().enumerate() {
+            for (column, j) in bound.iter().enumerate() {
+                matrix[(own + row, column)] = self.first.by_place[(*k, *j)] / self.scale(*j);
+            }
+            for (column, j) in coordinates.iter().enumerate() {
+                matrix[(own + row, speeds + column)] = self.first.by_rate[(*k, *j)];
+            }
+            for (column, l) in contractions.iter().enumerate() {
+                matrix[(own + row, own + column)] = self.first.own[(*k, *l)];
             }
         }
         for (row, i) in bound.iter().enumerate() {
-            let column = part.iter().position(|j| j == i).unwrap_or(0);
-            matrix[(row, bound.len() + column)] = self.scale(*i);
+            let column = coordinates.iter().position(|j| j == i).unwrap_or(0);
+            matrix[(row, speeds + column)] = self.scale(*i);
         }
         matrix
     }
 
-    fn coupled(&self, part: &[usize]) -> Result<Vec<EigenPair>, NoSpectrum> {
-        let bound: Vec<usize> = part.iter().copied().filter(|i| self.bound(*i)).collect();
-        let matrix = self.first_order(part, &bound);
+    fn coupled(&self, part: &[usize]) -> Result<Vec<EigenMotion>, NoSpectrum> {
+        let (coordinates, others): (Vec<usize>, Vec<usize>) = part.iter().partition(|i| **i < self.count());
+        let part = &Part {
+            bound: coordinates.iter().copied().filter(|i| self.bound(*i)).collect(),
+            coordinates,
+            contractions: others.into_iter().map(|i| i - self.count()).collect(),
+        };
+        let matrix = self.first_order(part);
         let schur = Schur::try_new(matrix.clone(), f64::EPSILON, SWEEPS).ok_or(NoSpectrum)?;
         let values: Vec<C64> = schur.complex_eigenvalues().iter().copied().collect();
         let fastest = values.iter().map(|value| value.modulus()).fold(0.0, f64::max);
-        let neutral = part.len() - bound.len();
-        let snap = |value: f64| if value.abs() <= ROUNDING * fastest && neutral > 0 { 0.0 } else { value };
-        let shape = |value: C64, vector: &DVector<C64>| {
-            let moved = |times: C64| {
-                let mut moved = part.iter().enumerate().map(|(at, i)| match bound.iter().position(|j| j == i) {
-                    // ξ̇ = λ ξ, and ξ is what is known best of a slow motion.
-                    Some(x) => vector[x] / self.scale(*i) * times,
-                    None => vector[bound.len() + at],
-                });
-                DVector::from_fn(part.len(), |_, _| moved.next().unwrap_or_default())
-            };
-            let speeds = moved(value);
-            // Where rates are some 30 orders apart the speeds of the slow motions vanish; their displacements do not.
-            let moved = if speeds.norm().is_normal() { speeds } else { moved(C64::new(1.0, 0.0)) };
-            moved.normalize()
-        };
-        let mut pairs = Vec::new();
+        let neutral = part.coordinates.len() - part.bound.len();
+        let rounding = ROUNDING * fastest;
+        // What a contraction follows, nothing brings back: another zero.
+        let has_zeros = neutral > 0 || !part.contractions.is_empty();
+        let snap = |value: f64| if value.abs() <= rounding && has_zeros { 0.0 } else { value };
+        let mut motions = Vec::new();
         let mut reals = Vec::new();
         for (value, vector) in eigenvectors(&matrix, &values, SAME * fastest) {
-            if value.im > ROUNDING * fastest {
+            if value.im > rounding {
                 let eigenvalues = [C64::new(snap(value.re), value.im), C64::new(snap(value.re), -value.im)];
-                let motion = judge(&eigenvalues, ROUNDING * fastest, false);
-                pairs.push(EigenPair { eigenvalues, motion, shape: shape(value, &vector) });
-            } else if value.im >= -ROUNDING * fastest {
-                reals.push((snap(value.re), shape(value, &vector)));
+                let motion = judge(&eigenvalues, rounding, false);
+                let Moved { shape, contraction } = self.moved(part, value, &vector);
+                motions.push(EigenMotion { eigenvalues: eigenvalues.to_vec(), motion, shape, contraction });
+            } else if value.im >= -rounding {
+                reals.push((snap(value.re), self.moved(part, value, &vector)));
             }
         }
-        pairs.extend(self.joined(part, reals, neutral, ROUNDING * fastest));
-        Ok(pairs)
+        let pairs = part.bound.len().saturating_sub(motions.len());
+        motions.extend(self.joined(part, reals, (neutral, pairs), rounding));
+        Ok(motions)
+    }
+
+    /// What an eigenvector moves.
+    fn moved(&self, part: &Part, value: C64, vector: &DVector<C64>) -> Moved {
+        let Part { bound, coordinates, contractions } = part;
+        let along = |times: C64| {
+            let mut along = coordinates.iter().enumerate().map(|(at, i)| match bound.iter().position(|j| j == i) {
+                // ξ̇ = λ ξ, and ξ is what is known best of a slow motion.
+                Some(x) => vector[x] / self.scale(*i) * times,
+                None => vector[bound.len() + at],
+            });
+            DVector::from_fn(coordinates.len(), |_, _| along.next().unwrap_or_default())
+        };
+        let speeds = along(value);
+        // Where rates are some 30 orders apart the speeds of the slow motions vanish; their displacements do not.
+        let along = if speeds.norm().is_normal() { speeds } else { along(C64::new(1.0, 0.0)) };
+        let contraction = vector.rows(bound.len() + coordinates.len(), contractions.len()).into_owned();
+        let size = along.norm();
+        match size > 0.0 {
+            true => Moved { shape: along / C64::new(size, 0.0), contraction },
+            false => Moved { shape: along, contraction },
+        }
     }
 
     /// Joins real eigenvalues to pairs: those that move along free coordinates most with the zeros of these, the others
-    /// by likeness.
+    /// by likeness; those that contract most stay alone.
     fn joined(
         &self,
-        part: &[usize],
-        mut reals: Vec<(f64, DVector<C64>)>,
-        neutral: usize,
+        part: &Part,
+        mut reals: Vec<(f64, Moved)>,
+        (neutral, pairs): (usize, usize),
         rounding: f64,
-    ) -> Vec<EigenPair> {
-        let freedom = |shape: &DVector<C64>| -> f64 {
-            part.iter().zip(shape.iter()).filter(|(i, _)| !self.bound(**i)).map(|(_, value)| value.norm_sqr()).sum()
+    ) -> Vec<EigenMotion> {
+        let freedom = |(_, moved): &(f64, Moved)| -> f64 {
+            let along = part.coordinates.iter().zip(moved.shape.iter());
+            along.filter(|(i, _)| !self.bound(**i)).map(|(_, value)| value.norm_sqr()).sum()
         };
-        reals.sort_by(|a, b| freedom(&b.1).total_cmp(&freedom(&a.1)));
-        let mut pairs = Vec::new();
-        let pair = |slow: f64, fast: f64, shape: DVector<C64>, free: bool| {
-            let eigenvalues = [slow, fast].map(|value| C64::new(value, 0.0));
-            EigenPair { eigenvalues, motion: judge(&eigenvalues, rounding, free), shape }
+        reals.sort_by(|a, b| freedom(b).total_cmp(&freedom(a)));
+        let mut motions = Vec::new();
+        let motion = |values: &[f64], Moved { shape, contraction }: Moved, free: bool| {
+            let eigenvalues: Vec<C64> = values.iter().map(|value| C64::new(*value, 0.0)).collect();
+            EigenMotion { motion: judge(&eigenvalues, rounding, free), eigenvalues, shape, contraction }
         };
-        for (value, shape) in reals.drain(..neutral.min(reals.len())) {
-            pairs.push(pair(0.0, value, shape, true));
+        for (value, moved) in reals.drain(..neutral.min(reals.len())) {
+            motions.push(motion(&[0.0, value], moved, true));
+        }
+        reals.sort_by(|a, b| b.1.contraction.norm().total_cmp(&a.1.contraction.norm()));
+        for (value, moved) in reals.drain(..reals.len().saturating_sub(2 * pairs)) {
+            motions.push(motion(&[value], moved, value.abs() <= rounding));
         }
         reals.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
         while !reals.is_empty() {
-            let (slow, shape) = reals.remove(0);
-            let likeness = |other: &DVector<C64>| shape.dotc(other).modulus();
-            let best = (0..reals.len()).max_by(|a, b| likeness(&reals[*a].1).total_cmp(&likeness(&reals[*b].1)));
+            let (slow, moved) = reals.remove(0);
+            let likeness = |other: &(f64, Moved)| moved.shape.dotc(&other.1.shape).modulus();
+            let best = (0..reals.len()).max_by(|a, b| likeness(&reals[*a]).total_cmp(&likeness(&reals[*b])));
             let fast = best.map_or(slow, |best| reals.remove(best).0);
-            pairs.push(pair(slow, fast, shape, false));
+            motions.push(motion(&[slow, fast], moved, slow == 0.0 && !part.contractions.is_empty()));
         }
-        pairs
+        motions
     }
 }
 
-/// What a pair does; `free` if one of its zeros is that of a free coordinate.
-fn judge(eigenvalues: &[C64; 2], rounding: f64, free: bool) -> ModeBehaviour {
+/// Coordinates and contractions that act on each other.
+#[derive(Debug)]
+struct Part {
+    /// The coordinates that a force depends on.
+    bound: Vec<usize>,
+    coordinates: Vec<usize>,
+    contractions: Vec<usize>,
+}
+
+/// What moves along an eigenvector.
+#[derive(Debug, Clone)]
+struct Moved {
+    /// Of length one, or nothing.
+    shape: DVector<C64>,
+    contraction: DVector<C64>,
+}
+
+/// What a motion does; `free` if one of its zeros is that of a free coordinate.
+fn judge(eigenvalues: &[C64], rounding: f64, free: bool) -> ModeBehaviour {
     if eigenvalues.iter().any(|value| value.re > rounding) {
         ModeBehaviour::Grows
     } else if free {
@@ -254,12 +383,12 @@ mod tests {
     use super::super::canonical;
     use super::*;
 
-    fn pairs(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<EigenPair> {
-        solve(k, c, &canonical::basis(k, &[])).unwrap_or_else(|error| panic!("{error}"))
+    fn pairs(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<EigenMotion> {
+        solve((k, c), &FirstOrder::none(k.nrows()), &canonical::basis(k, &[])).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// |λ² ξ + λ C ξ + K ξ| relative to the sizes of the three.
-    fn residual(pair: &EigenPair, k: &DMatrix<f64>, c: &DMatrix<f64>) -> f64 {
+    fn residual(pair: &EigenMotion, k: &DMatrix<f64>, c: &DMatrix<f64>) -> f64 {
         let complex = |matrix: &DMatrix<f64>| matrix.map(|entry| C64::new(entry, 0.0));
         let (value, shape) = (pair.eigenvalues[0], &pair.shape);
         let parts = [shape * (value * value), complex(c) * shape * value, complex(k) * shape];
@@ -291,9 +420,9 @@ mod tests {
         k[(2, 2)] = 1e8;
         let mut found = pairs(&k, &c);
         found.sort_by(|a, b| a.eigenvalues[1].re.total_cmp(&b.eigenvalues[1].re));
-        let free: Vec<&EigenPair> = found.iter().filter(|pair| pair.motion == ModeBehaviour::Free).collect();
+        let free: Vec<&EigenMotion> = found.iter().filter(|pair| pair.motion == ModeBehaviour::Free).collect();
         let [sliding, rolling] = free[..] else { panic!("{found:?}") };
-        assert_eq!(rolling.eigenvalues, [C64::new(0.0, 0.0); 2]);
+        assert_eq!(rolling.eigenvalues, [C64::new(0.0, 0.0); 2].to_vec());
         // Rounding beside a stiffness of 1e8.
         assert!((sliding.eigenvalues[1].re + 7.0 * 1.36).abs() < 1e-12, "{}", sliding.eigenvalues[1]);
         let ratio = rolling.shape[1] / rolling.shape[0];

@@ -49,6 +49,20 @@ pub(super) fn of(shape: &ModeShape, body: &Body, placement: &Placement) -> Strin
     if second_energy > NAMED * total { format!("{first}, {second}") } else { first }
 }
 
+/// A strain of the relaxed shape in words.
+pub(super) fn of_contraction(strain: &Mat3, placement: &Placement) -> String {
+    let round = Mat3::from_diagonal_element(strain.trace() / 3.0);
+    let (deviator, turn) = (0.5 * (strain + strain.transpose()) - round, 0.5 * (strain - strain.transpose()));
+    let axes = NamedAxes { own: Polar::of(&placement.gradient).rotation };
+    if round.norm() > deviator.norm().max(turn.norm()) {
+        "breathing".to_owned()
+    } else if turn.norm() > deviator.norm() {
+        format!("rotation about {}", axes.name(&axial(&turn)))
+    } else {
+        axes.strain(&deviator)
+    }
+}
+
 /// Directions with names: those of space, and the columns of R.
 struct NamedAxes {
     own: Mat3,

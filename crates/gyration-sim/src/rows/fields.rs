@@ -101,7 +101,7 @@ pub(super) static BODY_FIELDS: [BodyField; 13] = [
     BodyField {
         name: GAP,
         units: "m",
-        description: "smallest distance to a support",
+        description: "smallest gap to anything the body has a contact with",
         rank: Rank::Scalar,
         suffixes: &["gap"],
         value: |context| FieldValue::Scalar(context.body.gap),

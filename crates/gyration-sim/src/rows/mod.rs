@@ -96,7 +96,7 @@ impl Fields {
         for index in 0..model.bodies.len() {
             let at = instant.at(model, index);
             let acting = acting(&at, scratch)?;
-            bodies.push(observe_at(&at, &acting));
+            bodies.push(observe_at(&at, &acting, scratch));
             if let Some(origin) = &self.origin {
                 homogeneous.push(observe_homogeneous(&at, &acting, scratch, origin)?);
             }
@@ -167,7 +167,7 @@ fn body_array(model: &Model, field: &BodyField) -> ArraySpec {
 fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
     let body = &model.bodies[index];
     let applies = match field.name {
-        GAP => body.solid.surface.is_some() && (!model.supports.is_empty() || model.has_contact(index)),
+        GAP => body.solid.surface.is_some() && model.has_contact(index),
         CONTACT_FORCE => model.has_contact(index),
         name => applies(name, body),
     };

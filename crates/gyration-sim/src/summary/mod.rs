@@ -91,7 +91,8 @@ impl RunSummary {
             .filter_map(|index| {
                 let (instant, scratch) = read.as_mut()?;
                 let at = instant.at(model, index);
-                let seen = observe_at(&at, &acting(&at, scratch).ok()?);
+                let acting = acting(&at, scratch).ok()?;
+                let seen = observe_at(&at, &acting, scratch);
                 let k = seen.affine_momentum;
                 Some(BodySummary {
                     name: model.bodies[index].name.clone(),

@@ -60,7 +60,7 @@ fn words(signal: &Signal, unit: &str) -> String {
 fn answer(feedback: &Feedback) -> String {
     let along = |a: &Vec3| format!("[{}, {}, {}]", significant(a.x, 4), significant(a.y, 4), significant(a.z, 4));
     let (what, unit) = match &feedback.measure {
-        FeedbackMeasure::Gap => ("the gap".to_owned(), "Pa/m"),
+        FeedbackMeasure::SupportGap => ("the gap".to_owned(), "Pa/m"),
         FeedbackMeasure::Stretch(a) => (format!("the stretch along {}", along(a)), "Pa"),
         FeedbackMeasure::Rate(a) => (format!("the rate of stretch along {}", along(a)), "Pa s"),
     };
@@ -86,7 +86,7 @@ mod tests {
         let sine = Signal::Sine(Wave { amplitude: along_z(-100.0), frequency: 5.0, phase: 0.5 });
         let ramp = Signal::Ramp { from: Mat3::zeros(), to: along_z(2e7), duration: 0.25 };
         let gap = Feedback {
-            measure: FeedbackMeasure::Gap,
+            measure: FeedbackMeasure::SupportGap,
             gain: along_z(-3e4),
             bias: Mat3::zeros(),
             limits: Some([0.0, 0.01]),

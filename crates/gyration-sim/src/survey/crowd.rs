@@ -92,8 +92,10 @@ fn write_rests(text: &mut String, pairs: &[&PairSurvey], deforms: bool) {
     let stable = || pairs.iter().flat_map(|pair| &pair.rests).filter(|rest| rest.stable);
     let range = |of: OfRest| Some(stable().filter_map(of)).filter(|it| it.clone().count() > 0);
     let if_so = if deforms { "if they kept their shapes" } else { "in the orientations of the start" };
-    let _ = writeln!(text, "    rest at gaps of {} m {if_so}", between(stable().map(|rest| rest.gap)));
-    let lines: [(&str, OfRest, &str); 5] = [
+    let verb = if stable().any(|rest| rest.descent.is_some()) { "go down the slope" } else { "rest" };
+    let _ = writeln!(text, "    {verb} at gaps of {} m {if_so}", between(stable().map(|rest| rest.gap)));
+    let lines: [(&str, OfRest, &str); 6] = [
+        ("sliding in the end at", |rest| rest.descent?.speed(), " m/s"),
         ("stiffness", |rest| Some(rest.stiffness), " N/m"),
         ("period", |rest| rest.period, " s"),
         ("damping ratio", |rest| rest.damping_ratio, ""),

@@ -1,7 +1,7 @@
 //! Rest states and the small motions about them, in a form to print.
 
-use crate::modes::{Mode, ModeBehaviour, ModeShape, modes, rest};
-use gyration::contractile::ContractionSource;
+use crate::format::significant;
+use crate::modes::{Mode, ModeBehaviour, ModeShape, Rest, RestContraction, modes, rest};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Mat3;
@@ -22,9 +22,12 @@ pub struct RestState {
     pub pressure: Option<f64>,
     /// Smallest distance to a support that acts on it [m].
     pub gap: Option<f64>,
+    /// G, row by row, where the contraction stands still.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contraction: Option<[[f64; 3]; 3]>,
     /// What the small motions leave out, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_out: Option<&'static str>,
+    pub left_out: Option<String>,
     /// The small motions: unstable, free, creeping, oscillating ones, each by frequency.
     pub modes: Vec<ModeSurvey>,
 }
@@ -40,8 +43,9 @@ pub struct ModeSurvey {
     pub frequency_hz: f64,
     /// ω [rad/s].
     pub frequency: f64,
-    /// δ of the two eigenvalues −δ ± iω [1/s], the slower one first; negative where the motion grows.
-    pub decay_rates: [f64; 2],
+    /// δ of the two eigenvalues −δ ± iω [1/s], the slower one first, or of the only one of a motion that the contraction
+    /// adds; negative where the motion grows.
+    pub decay_rates: Vec<f64>,
     /// ζ; none of free and unstable motions.
     pub damping_ratio: Option<f64>,
     /// How the body moves.
@@ -59,13 +63,23 @@ pub struct ShapeSurvey {
     pub gradient: [[f64; 3]; 3],
 }
 
-/// What the small motions of a body leave out: of one that a drive contracts, its law of contraction.
-fn left_out(model: &Model, body: usize) -> Option<&'static str> {
-    match model.bodies[body].contraction()?.source {
-        ContractionSource::Driven { .. } => Some(
-            "contraction held as it is at the start: what its law and feedback do to decay and stability is not known",
-        ),
-        ContractionSource::Prescribed(_) => None,
+/// G of a rest state in which the contraction stands still.
+fn stands(rest: &Rest) -> Option<[[f64; 3]; 3]> {
+    match rest.contraction? {
+        RestContraction::Stands(contraction) => Some(rows(&contraction)),
+        RestContraction::GoesOn(_) => None,
+    }
+}
+
+/// What the small motions of a body leave out: of one whose contraction does not come to rest, the law of that.
+fn left_out(rest: &Rest) -> Option<String> {
+    match rest.contraction? {
+        RestContraction::Stands(_) => None,
+        RestContraction::GoesOn(speed) => Some(format!(
+            "contraction held as it is at the start: under its drive it goes on, with {} 1/s here, and no state is near in \
+             which it would stand still; what its law does to decay and stability is not known",
+            significant(speed, 3)
+        )),
     }
 }
 
@@ -85,7 +99,8 @@ impl RestState {
             gradient: rows(&rest.placement.gradient),
             stretches: rest.stretches.into(),
             pressure: rest.pressure,
-            left_out: left_out(model, body),
+            contraction: stands(&rest),
+            left_out: left_out(&rest),
             gap: rest.gap.is_finite().then_some(rest.gap),
             modes: found.iter().map(|mode| ModeSurvey::of(mode, fastest(&found))).collect(),
         })
@@ -102,7 +117,7 @@ impl ModeSurvey {
             _ => f64::EPSILON * fastest,
         };
         let clean = |rate: f64| if rate.abs() <= rounding { 0.0 } else { rate };
-        let decay_rates = mode.decay_rates().map(clean);
+        let decay_rates = mode.decay_rates().into_iter().map(clean).collect();
         Self {
             motion: match mode.motion {
                 ModeBehaviour::Oscillates => "oscillates",
@@ -129,7 +144,7 @@ impl ShapeSurvey {
 
 /// The largest eigenvalue of all motions.
 fn fastest(modes: &[Mode]) -> f64 {
-    modes.iter().flat_map(|mode| mode.eigenvalues).map(|value| value.modulus()).fold(0.0, f64::max)
+    modes.iter().flat_map(|mode| &mode.eigenvalues).map(|value| value.modulus()).fold(0.0, f64::max)
 }
 
 fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
@@ -145,7 +160,7 @@ mod tests {
     #[test]
     fn a_rate_below_the_rounding_of_the_fastest_one_is_no_rate() {
         let of = |motion, rates: [f64; 2]| Mode {
-            eigenvalues: rates.map(|rate| Complex::new(-rate, 0.0)),
+            eigenvalues: rates.map(|rate| Complex::new(-rate, 0.0)).to_vec(),
             motion,
             shape: ModeShape { translation: Vec3::x(), gradient: Mat3::zeros() },
             quadrature: None,
@@ -153,6 +168,6 @@ mod tests {
         };
         let modes = [of(ModeBehaviour::Free, [5.7e-31, 0.0]), of(ModeBehaviour::Creeps, [1e-9, 40.0])];
         let told = modes.each_ref().map(|mode| ModeSurvey::of(mode, fastest(&modes)).decay_rates);
-        assert_eq!(told, [[0.0, 0.0], [1e-9, 40.0]]);
+        assert_eq!(told, [vec![0.0, 0.0], vec![1e-9, 40.0]]);
     }
 }

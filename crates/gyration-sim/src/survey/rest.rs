@@ -8,7 +8,12 @@
 //!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
 //!
 //! F comes from the loads of the contacts without velocity, k, c and c_t from their derivatives. With adhesion there
-//! may be several such gaps, or none. A body that something else holds too, a pin, a spring, another support, rests
+//! may be several such gaps, or none. On a slope the body goes on: one whose face keeps it from turning slides at the speed
+//!
+//!   v = m |g_t|/c_t,   g_t = g − n (n·g),
+//!
+//! at which friction carries the weight's part along it; one that is round along the slope rolls.
+//! A body that something else holds too, a pin, a spring, another support, rests
 //! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
 //! where it really rests, deformed by its weight, is its rest state (`modes`).
 
@@ -20,7 +25,8 @@ use gyration::load::{LoadSlopes, Loads};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::surface::{GapField, Surface};
-use gyration::tensor::{Mat3, Vec3};
+use gyration::tensor::{Mat3, Vec3, cross_matrix};
+use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -28,6 +34,13 @@ use std::f64::consts::TAU;
 const SEARCHED: (f64, f64) = (1e-15, 1e3);
 /// The least such fraction elsewhere.
 const LEAST_ELSEWHERE: f64 = 1e-9;
+/// The part of gravity along a support that is rounding.
+const LEVEL: f64 = 1e-12;
+/// A couple against turning below this part of that of a flat body is none.
+const ROUND: f64 = 1e-6;
+
+type Vec9 = SVector<f64, 9>;
+type Mat12 = SMatrix<f64, 12, 12>;
 
 /// A gap at which the weight is carried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -46,6 +59,37 @@ pub struct RestGap {
     pub damping_time: Option<f64>,
     /// Time in which sliding falls to 1/e [s]; none without friction.
     pub friction_time: Option<f64>,
+    /// What the body does along the support; none of one that is level.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub descent: Option<Descent>,
+}
+
+/// How a body goes down a slope.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Descent {
+    /// It slides at this speed [m/s] in the end.
+    Slides {
+        /// v [m/s].
+        speed: f64,
+    },
+    /// It slides faster and faster [m/s²]: there is no friction.
+    Accelerates {
+        /// |g_t| [m/s²].
+        acceleration: f64,
+    },
+    /// It is round along the slope, and rolls.
+    Rolls,
+}
+
+impl Descent {
+    /// v [m/s] of a body that slides at a speed in the end.
+    pub fn speed(&self) -> Option<f64> {
+        match self {
+            Self::Slides { speed } => Some(*speed),
+            Self::Accelerates { .. } | Self::Rolls => None,
+        }
+    }
 }
 
 /// A body that approaches a support along its normal, in the orientation of the start.
@@ -57,9 +101,13 @@ pub struct Approach<'a> {
     normal: Vec3,
     /// Pᵀn.
     direction: Vec3,
+    /// P.
+    gradient: Mat3,
     /// How the surface is deformed, if the body may be.
     deformation: Option<Deformation>,
     mass: f64,
+    /// g_t.
+    along: Vec3,
     size: f64,
     /// Whether gaps far below the size are known.
     keeps_digits: bool,
@@ -85,8 +133,10 @@ impl<'a> Approach<'a> {
             contacts: body.contacts.iter().filter(|contact| contact.support() == support).collect(),
             normal: plane.normal,
             direction,
+            gradient: motion.placement.gradient,
             deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
             mass: body.solid.mass.mass,
+            along: along_plane(&model.gravity, &plane.normal),
             size: body.size,
             keeps_digits: body.keeps_digits(surface),
             weight: -body.solid.mass.mass * model.gravity.dot(&plane.normal),
@@ -125,16 +175,15 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// ∂f/∂p₀ [N/m] and ∂f/∂ṗ₀ [N s/m] of all laws; none where they are not numbers.
-    fn slopes(&self, gap: f64) -> Option<(Mat3, Mat3)> {
+    /// ∂(f | M)/∂(p₀ | P) and the same by the rates, of all laws; none where they are not numbers.
+    fn slopes(&self, gap: f64) -> Option<(Mat12, Mat12)> {
         let (mut scratch, contact_state) = (ContactScratch::default(), self.contact_state(gap));
         let mut slopes = LoadSlopes::default();
         for contact in &self.contacts {
             ContactSlopes::integrate(&contact.law_set, &contact_state, &mut scratch).ok()?.add_to(&mut slopes);
         }
-        let force = |by: &gyration::load::Mat12| -> Mat3 { by.fixed_view::<3, 3>(0, 0).into_owned() };
-        let (by_place, by_rate) = (force(&slopes.by_place), force(&slopes.by_rate));
-        (by_place.iter().chain(by_rate.iter()).all(|entry| entry.is_finite())).then_some((by_place, by_rate))
+        let all = slopes.by_place.iter().chain(slopes.by_rate.iter()).all(|entry| entry.is_finite());
+        all.then_some((slopes.by_place, slopes.by_rate))
     }
 
     /// All gaps at which the weight is carried, ascending; none for a body that is held otherwise as well.
@@ -156,11 +205,35 @@ impl<'a> Approach<'a> {
         central.all(|term| term.coefficient >= 0.0)
     }
 
+    /// What the body does along a slope at this gap.
+    fn descent(&self, by_place: &Mat12, by_rate: &Mat12) -> Option<Descent> {
+        let down = self.along.try_normalize(0.0)?;
+        // A turn about the axis across the slope, and the couple that it meets.
+        let axis = self.normal.cross(&down);
+        let turn = |by: &Mat12| {
+            let change = cross_matrix(&axis) * self.gradient;
+            let columns = Vec9::from_column_slice(change.as_slice());
+            let moment = by.fixed_view::<9, 9>(3, 3) * columns;
+            0.0 - change.dot(&Mat3::from_column_slice(moment.as_slice()))
+        };
+        let stiffness = 0.0 - self.normal.dot(&(by_place.fixed_view::<3, 3>(0, 0) * self.normal));
+        if turn(by_place) <= ROUND * stiffness * self.size * self.size {
+            return Some(Descent::Rolls);
+        }
+        let resistance = 0.0 - down.dot(&(by_rate.fixed_view::<3, 3>(0, 0) * down));
+        let acceleration = self.along.norm();
+        Some(match resistance > 0.0 {
+            true => Descent::Slides { speed: self.mass * acceleration / resistance },
+            false => Descent::Accelerates { acceleration },
+        })
+    }
+
     fn rest_at(&self, gap: f64) -> Option<RestGap> {
         let (by_place, by_rate) = self.slopes(gap)?;
         // Any direction across the normal.
         let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
-        let along = |matrix: &Mat3, direction: &Vec3| 0.0 - direction.dot(&(matrix * direction));
+        let along =
+            |matrix: &Mat12, direction: &Vec3| 0.0 - direction.dot(&(matrix.fixed_view::<3, 3>(0, 0) * direction));
         let stiffness = along(&by_place, &self.normal);
         let normal_resistance = along(&by_rate, &self.normal);
         let tangential_resistance = along(&by_rate, &across);
@@ -176,8 +249,15 @@ impl<'a> Approach<'a> {
             damping_ratio: ratio,
             damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
             friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
+            descent: self.descent(&by_place, &by_rate),
         })
     }
+}
+
+/// g_t; nothing where it is rounding.
+fn along_plane(gravity: &Vec3, normal: &Vec3) -> Vec3 {
+    let along = gravity - normal * normal.dot(gravity);
+    if along.norm() <= LEVEL * gravity.norm() { Vec3::zeros() } else { along }
 }
 
 /// What holds a body besides a single support, in words.

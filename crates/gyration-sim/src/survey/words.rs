@@ -3,7 +3,7 @@
 use super::bodies::{BodySurvey, PairSurvey};
 use super::kind::KindSurvey;
 use super::modes::{ModeSurvey, RestState};
-use super::rest::RestGap;
+use super::rest::{Descent, RestGap};
 use crate::format::{significant, vector};
 use std::fmt::{self, Write as _};
 
@@ -111,7 +111,18 @@ fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
         return;
     }
     let if_so = if deforms { "if it kept the shape of its start" } else { "in this orientation" };
-    let _ = writeln!(text, "    rests at a gap of {} m {if_so}", short(rest.gap));
+    let gap = short(rest.gap);
+    let _ = match rest.descent {
+        None => writeln!(text, "    rests at a gap of {gap} m {if_so}"),
+        Some(Descent::Slides { speed }) => {
+            writeln!(text, "    slides down the slope at {} m/s in the end, at a gap of {gap} m {if_so}", short(speed))
+        }
+        Some(Descent::Accelerates { acceleration }) => {
+            let along = short(acceleration);
+            writeln!(text, "    slides down the slope with {along} m/s², at a gap of {gap} m {if_so}")
+        }
+        Some(Descent::Rolls) => writeln!(text, "    rolls down the slope, at a gap of {gap} m {if_so}"),
+    };
     let period = rest.period.map_or_else(String::new, |period| format!(", period {} s", short(period)));
     let _ = writeln!(text, "      stiffness {} N/m{period}", short(rest.stiffness));
     if let (Some(ratio), Some(time)) = (rest.damping_ratio, rest.damping_time) {
@@ -131,7 +142,11 @@ pub fn write_rest(text: &mut String, rest: &RestState) -> fmt::Result {
         let pressure = rest.pressure.map(|pressure| format!(", pressure {} Pa", short(pressure))).unwrap_or_default();
         writeln!(text, "  stretches {}{pressure}", rest.stretches.map(|stretch| format!("{stretch:.6}")).join(", "))?;
     }
-    if let Some(left_out) = rest.left_out {
+    if let Some(contraction) = &rest.contraction {
+        let rows = contraction.map(|row| vector(&row));
+        writeln!(text, "  contraction stands still at {}", rows.join(", "))?;
+    }
+    if let Some(left_out) = &rest.left_out {
         writeln!(text, "  {left_out}")?;
     }
     Ok(())

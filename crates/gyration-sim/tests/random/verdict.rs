@@ -1,7 +1,7 @@
 //! Runs a scene and looks at the end of every step: gaps, ledger, outcome.
 
-use gyration::balance::{energies, smallest_gap};
-use gyration::dynamics::Workspace;
+use gyration::balance::energies;
+use gyration::dynamics::{Workspace, gap_to_supports};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_record::RecordError;
@@ -79,7 +79,7 @@ struct Auditor<'a> {
 impl Auditor<'_> {
     fn audit(&mut self, state: &State) {
         for index in 0..self.model.bodies.len() {
-            let gap = smallest_gap(self.model, state.time, index, &state.motion(self.model, index));
+            let gap = gap_to_supports(self.model, state.time, index, &state.motion(self.model, index));
             self.gap = self.gap.min(gap);
         }
         let ledger = Ledger::of(self.model, &mut Workspace::default(), state, Some(self.initial)).unwrap();
@@ -131,7 +131,7 @@ fn barrier(model: &Model, state: &State) -> f64 {
             let block = model.blocks()[index].clone();
             let mut moved =
                 State { time: state.time, bodies: state.bodies[block].to_vec(), low: Vec::new(), works: Vec::new() };
-            let gap = smallest_gap(&only, state.time, 0, &moved.motion(&only, 0));
+            let gap = gap_to_supports(&only, state.time, 0, &moved.motion(&only, 0));
             let normal = only.supports[0].normal;
             for axis in 0..3 {
                 moved.bodies[axis] -= (gap - NEAREST * body.size) * normal[axis];

@@ -14,8 +14,8 @@
 use super::rebound::Drop;
 use super::scene::{body, normal};
 use super::{Calibration, Experiment, ExperimentKind};
-use gyration::balance::{observe, smallest_gap};
-use gyration::dynamics::Workspace;
+use gyration::balance::observe;
+use gyration::dynamics::{Workspace, gap_to_supports};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
@@ -138,7 +138,7 @@ fn pull_off(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
     let start = model.blocks()[index].start;
     let mut state = built.state.clone();
     state.bodies[at..at + 3].fill(0.0);
-    let gap = smallest_gap(model, 0.0, index, &state.motion(model, index));
+    let gap = gap_to_supports(model, 0.0, index, &state.motion(model, index));
     let center = Vec3::from_column_slice(&state.bodies[start..start + 3]);
     let mut pull = |logarithm: f64| -> Result<f64, String> {
         let moved = center + normal * (libm::exp(logarithm) - gap);

@@ -3,7 +3,7 @@
 use super::scene::{body, normal};
 use super::{Calibration, Experiment, FreeNumber};
 use crate::extract::ColumnPlaces;
-use gyration::balance::smallest_gap;
+use gyration::dynamics::gap_to_supports;
 use gyration::tensor::Vec3;
 use gyration_record::RecordError;
 use gyration_scene::{Override, Scene};
@@ -49,7 +49,7 @@ impl Drop {
                 "it turns or deforms at its start, and is to be released at rest: set = {{ \"{key}\" = [0, 0, 0] }}"
             ));
         }
-        let gap = smallest_gap(model, 0.0, index, &motion);
+        let gap = gap_to_supports(model, 0.0, index, &motion);
         let start = motion.placement.position + normal * (height - gap);
         let fall = (2.0 * height / model.gravity.norm()).sqrt();
         let end = FALLS * fall + LONGER;

@@ -25,7 +25,7 @@ pub struct Feedback {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FeedbackMeasure {
     /// The smallest distance to a support \[m\].
-    Gap,
+    SupportGap,
     /// The stretch |P a| along a unit vector a of the reference shape.
     Stretch(Vec3),
     /// The rate d|P a|/dt of a stretch \[1/s\].
@@ -62,7 +62,7 @@ impl FeedbackMeasure {
     /// The measure in a motion; the nearest support is asked for where it counts, and none is infinitely far.
     pub fn of(&self, placement: &Placement, velocity: &Velocity, nearest: impl FnOnce() -> Option<Nearest>) -> Felt {
         match self {
-            Self::Gap => nearest().map_or(Felt { value: f64::INFINITY, ..Felt::default() }, |nearest| Felt {
+            Self::SupportGap => nearest().map_or(Felt { value: f64::INFINITY, ..Felt::default() }, |nearest| Felt {
                 value: nearest.gap,
                 by_position: nearest.normal,
                 by_gradient: nearest.normal * nearest.point.transpose(),

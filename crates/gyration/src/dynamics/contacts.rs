@@ -1,5 +1,6 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
+use super::Scratch;
 use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
 use crate::extended::{Extended, rotated_back};
@@ -84,14 +85,26 @@ pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
     Some(Deformation { inverse: gyration.inverse, cofactor: gyration.volume_ratio * gyration.inverse.transpose() })
 }
 
-/// The smallest distance of a body's surface to any support [m]; infinite without supports or surface.
-pub fn gap_at(at: &BodyAt) -> f64 {
-    let Some(surface) = &at.body.solid.surface else { return f64::INFINITY };
-    let gaps = at.model.supports.iter().map(|support| surface.smallest_gap(&gap_field(at, surface, support)).0);
+/// The smallest gap of a body to anything that it has a contact with [m]: its distance to a support, the width of the
+/// slab to another body; infinite without contact or surface.
+pub fn gap_at(at: &BodyAt, scratch: &Scratch) -> f64 {
+    let pairs = at.model.pairs_of(at.index).map(|end| scratch.met.loads[end.number].gap);
+    let Some(surface) = &at.body.solid.surface else { return pairs.fold(f64::INFINITY, f64::min) };
+    let supports = at.body.contacts.iter().map(|contact| &at.model.supports[contact.support()]);
+    let gaps = supports.map(|support| surface.smallest_gap(&gap_field(at, surface, support)).0);
+    gaps.chain(pairs).min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+}
+
+/// The smallest distance of a body's surface to a support that it has a contact with [m]; infinite without one.
+pub fn gap_to_supports(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> f64 {
+    let body = &model.bodies[index];
+    let Some(surface) = &body.solid.surface else { return f64::INFINITY };
+    let supports = body.contacts.iter().map(|contact| &model.supports[contact.support()]);
+    let gaps = supports.map(|support| surface.smallest_gap(&support.gap_field(&motion.placement, time)).0);
     gaps.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
 }
 
-/// The support next to a body's surface; none without supports or surface.
+/// The support next to a body's surface, whether or not the two have a contact; none without supports or surface.
 pub fn nearest(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Option<Nearest> {
     let surface = model.bodies[index].solid.surface.as_ref()?;
     let near = model.supports.iter().map(|support| {

@@ -22,8 +22,6 @@ pub struct Acting {
     pub contact: Loads,
     /// f and M of all loads.
     pub total: Loads,
-    /// The smallest gap to another body that it meets [m].
-    pub nearest_body: Option<f64>,
     /// The powers of their works.
     pub(crate) powers: Powers,
 }
@@ -76,7 +74,6 @@ impl Acting {
                         self.powers.add(law, pair.powers[law as usize]);
                     }
                 }
-                self.nearest_body = Some(self.nearest_body.map_or(pair.gap, |gap| gap.min(pair.gap)));
                 self.contact += pair.on[end.end];
                 self.total += pair.on[end.end];
             }

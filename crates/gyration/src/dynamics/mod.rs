@@ -21,7 +21,7 @@ mod rates;
 mod rigid;
 
 pub use contact_parts::{ContactParts, contact_parts};
-pub use contacts::{gap_at, nearest};
+pub use contacts::{gap_at, gap_to_supports, nearest};
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
 pub use pushes::{Push, each_push};

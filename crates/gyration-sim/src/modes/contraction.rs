@@ -1,0 +1,246 @@
+//! The contraction of a body as a state of first order beside its small motions.
+//!
+//!   z̈ = −K z − C ż + B γ,   γ̇ = D z + E ż + H γ,   δG = (Σ γ_k A_k + ⅓ tr(P⁻¹ δP) 1) G
+//!
+//! A_k are orthonormal strains and turns of the relaxed shape: six and three, less the breath where det G is kept or
+//! follows det P (then the second term stands), less the turns where V_G is symmetric.
+
+use super::coordinates::Coordinates;
+use super::frozen::FrozenBody;
+use gyration::Inadmissible;
+use gyration::body::matrix;
+use gyration::contractile::{Contraction, Spin};
+use gyration::tensor::{Mat3, Vec3};
+use nalgebra::{DMatrix, DVector};
+
+/// Newton's steps to a state in which the contraction stands still, at most.
+const MOST: usize = 60;
+/// The most that a step may strain body or relaxed shape.
+const LARGEST_STRAIN: f64 = 0.2;
+/// Halvings of a step that leaves the model, at most.
+const HALVINGS: usize = 40;
+/// Singular values below this part of the largest are those of directions that nothing feels.
+const NEUTRAL: f64 = 1e-10;
+/// Directions of singular values below this part of the largest are weak: of forces there, what is below the other part
+/// of the largest seen is rounding, which chooses no way.
+const WEAK: (f64, f64) = (1e-4, 1e-9);
+/// Steps smaller than this are the last, once they no longer halve.
+const SMALL: f64 = 1e-8;
+/// A contraction stands still if it would take this strain to stop it.
+const STILL: f64 = 1e-8;
+
+/// Whether det G follows det P of an incompressible material: the law of contraction gives the pressure.
+pub(super) fn takes_up_volume(contraction: &Contraction) -> bool {
+    contraction.is_driven() && contraction.kept_volume.is_none()
+}
+
+/// B, D, E and H.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FirstOrder {
+    /// B.
+    pub forces: DMatrix<f64>,
+    /// D.
+    pub by_place: DMatrix<f64>,
+    /// E.
+    pub by_rate: DMatrix<f64>,
+    /// H.
+    pub own: DMatrix<f64>,
+    /// Which of them only turn the relaxed shape.
+    pub turns: Vec<bool>,
+}
+
+impl FirstOrder {
+    /// Of a body without any.
+    pub fn none(size: usize) -> Self {
+        let (wide, high) = (DMatrix::zeros(size, 0), DMatrix::zeros(0, size));
+        Self { forces: wide, by_place: high.clone(), by_rate: high, own: DMatrix::zeros(0, 0), turns: Vec::new() }
+    }
+}
+
+/// The coordinates γ at a configuration.
+#[derive(Debug, Clone)]
+pub(super) struct ContractionCoordinates {
+    /// A_k.
+    strains: Vec<Mat3>,
+    turns: Vec<bool>,
+    /// ∂(numbers of G) by the numbers of the places: what follows det P.
+    follows: DMatrix<f64>,
+    contraction: Mat3,
+    inverse: Mat3,
+}
+
+impl ContractionCoordinates {
+    /// Of a body whose contraction moves.
+    pub fn at(frozen: &FrozenBody, block: &[f64]) -> Option<Self> {
+        let law = frozen.body().contraction().filter(|law| law.is_driven())?;
+        let contraction = matrix(&block[frozen.contraction()]);
+        let inverse = contraction.try_inverse()?;
+        let keeps_volume = law.kept_volume.is_some();
+        let incompressible = frozen.body().affine().is_some_and(|affine| affine.interior.is_incompressible());
+        let breath = (!keeps_volume && !incompressible).then(|| Mat3::identity() / 3.0_f64.sqrt());
+        let turns = if law.spin == Spin::Full { turns().to_vec() } else { Vec::new() };
+        let mut follows = DMatrix::zeros(9, frozen.attitude().end);
+        if incompressible && !keeps_volume {
+            let slope = matrix(&block[frozen.attitude()]).try_inverse()?.transpose() / 3.0;
+            let change = DVector::from_column_slice(contraction.as_slice())
+                * DVector::from_column_slice(slope.as_slice()).transpose();
+            follows.columns_mut(frozen.attitude().start, 9).copy_from(&change);
+        }
+        let kinds = [false; 5].into_iter().chain(breath.map(|_| false)).chain(turns.iter().map(|_| true)).collect();
+        let strains = shears_and_stretches().into_iter().chain(breath).chain(turns).collect();
+        Some(Self { strains, turns: kinds, follows, contraction, inverse })
+    }
+
+    /// ∂(numbers of G)/∂γ.
+    fn columns(&self) -> DMatrix<f64> {
+        let columns = self.strains.iter().map(|strain| (strain * self.contraction).as_slice().to_vec());
+        DMatrix::from_vec(9, self.strains.len(), columns.flatten().collect())
+    }
+
+    /// γ̇ by the numbers of Ġ: A_k·(Ġ G⁻¹).
+    fn rows(&self) -> DMatrix<f64> {
+        let rows = self.strains.iter().map(|strain| strain * self.inverse.transpose());
+        DMatrix::from_vec(9, self.strains.len(), rows.flat_map(|row| row.as_slice().to_vec()).collect()).transpose()
+    }
+
+    /// γ̇ of a Ġ [1/s].
+    fn velocity(&self, rate: &Mat3) -> DVector<f64> {
+        self.rows() * DVector::from_column_slice(rate.as_slice())
+    }
+
+    /// Σ γ_k A_k.
+    pub fn strain(&self, along: &DVector<f64>) -> Mat3 {
+        self.strains.iter().zip(along.iter()).map(|(strain, along)| strain * *along).sum()
+    }
+
+    /// The matrices, from the Jacobian and the rates of the block, and K with what follows det P.
+    pub fn first_order(
+        &self,
+        (places, velocity): (&Coordinates, &Mat3),
+        slopes: &DMatrix<f64>,
+    ) -> (DMatrix<f64>, FirstOrder) {
+        let (before, moving) = (places.places().nrows(), places.rates().nrows());
+        let of = |row: usize, rows: usize, column: usize, columns: usize| slopes.view((row, column), (rows, columns));
+        let (accelerations, contraction) = ((before, moving), (before + moving, 9));
+        let (columns, rows) = (self.columns(), self.rows());
+        let follows = &self.follows * places.places();
+        // δV_G = (δĠ − V_G δG) G⁻¹.
+        let carried = DMatrix::from_column_slice(3, 3, velocity.as_slice());
+        let carried = DMatrix::<f64>::identity(3, 3).kronecker(&carried);
+        let own = of(contraction.0, 9, contraction.0, 9) - carried;
+        let pushed = places.weights() * of(accelerations.0, moving, contraction.0, 9);
+        let stiffness =
+            -(places.weights() * of(accelerations.0, moving, 0, before) * places.places()) - &pushed * &follows;
+        let first_order = FirstOrder {
+            forces: pushed * &columns,
+            by_place: &rows * (of(contraction.0, 9, 0, before) * places.places() + &own * follows),
+            by_rate: &rows * of(contraction.0, 9, accelerations.0, moving) * places.rates(),
+            own: rows * own * columns,
+            turns: self.turns.clone(),
+        };
+        (stiffness, first_order)
+    }
+
+    /// Moves G of a block along z and γ.
+    fn advance(&self, block: &mut [f64], (places, z): (&Coordinates, &DVector<f64>), strains: &DVector<f64>) {
+        let change = self.columns() * strains + &self.follows * (places.places() * z);
+        let at = block.len() - 9;
+        block[at..].iter_mut().zip(change.iter()).for_each(|(number, change)| *number += change);
+    }
+}
+
+/// The state next to a block in which body and contraction stand still.
+///
+///   K z − B γ = r,   −D z − H γ = V_G
+///
+/// by Newton's method; directions that nothing feels are left alone. None where the contraction goes on.
+pub(super) fn settled(frozen: &mut FrozenBody, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
+    let (mut block, mut last, mut largest) = (start, f64::INFINITY, 0.0);
+    for _ in 0..MOST {
+        let Some(contraction) = ContractionCoordinates::at(frozen, &block) else { return Ok(None) };
+        let places = Coordinates::at(frozen.body(), &block);
+        let speed = frozen.contraction_velocity(&block)?;
+        let force = places.force(&frozen.accelerations(&block)?);
+        let velocity = contraction.velocity(&(speed * contraction.contraction));
+        let (stiffness, first) = contraction.first_order((&places, &speed), &frozen.slopes(&block)?);
+        let (size, own) = (force.len(), velocity.len());
+        let mut system = DMatrix::zeros(size + own, size + own);
+        system.view_mut((0, 0), (size, size)).copy_from(&stiffness);
+        system.view_mut((0, size), (size, own)).copy_from(&-first.forces);
+        system.view_mut((size, 0), (own, size)).copy_from(&-first.by_place);
+        system.view_mut((size, size), (own, own)).copy_from(&-&first.own);
+        let right = DVector::from_iterator(size + own, force.iter().chain(velocity.iter()).copied());
+        let Some(step) = least_squares(system, right, size, &mut largest) else { return Ok(None) };
+        let (mut z, mut strains) = (step.rows(0, size).into_owned(), step.rows(size, own).into_owned());
+        let shape = places.shape(frozen.body(), &z);
+        let inverse = frozen.motion(&block).placement.gradient.try_inverse().unwrap_or_else(Mat3::identity);
+        let length = frozen.gaps(&block).into_iter().fold(frozen.body().size, f64::min);
+        let strain = (shape.translation.norm() / length).max((shape.gradient * inverse).norm()).max(strains.norm());
+        if strain == 0.0 || (strain <= SMALL && strain > 0.5 * last) {
+            let stands = velocity.norm() <= STILL * first.own.norm().max(first.by_rate.norm());
+            return Ok(stands.then_some(block));
+        }
+        if !strain.is_finite() {
+            return Ok(None);
+        }
+        last = strain;
+        let cut = (LARGEST_STRAIN / strain).min(1.0);
+        (z, strains) = (z * cut, strains * cut);
+        let mut part = 1.0;
+        let ahead = (0..HALVINGS).find_map(|_| {
+            let mut ahead = block.clone();
+            contraction.advance(&mut ahead, (&places, &(part * &z)), &(part * &strains));
+            places.advance(&mut ahead, &(part * &z));
+            frozen.project(&mut ahead);
+            part *= 0.5;
+            frozen.rates(&ahead).is_ok().then_some(ahead)
+        });
+        let Some(ahead) = ahead else { return Ok(None) };
+        block = ahead;
+    }
+    Ok(None)
+}
+
+/// The shortest solution of A x = b, the first `size` equations and unknowns those of the body, in units in which body
+/// and contraction act on each other as strongly; `most` is the largest |b| of the search.
+fn least_squares(
+    mut matrix: DMatrix<f64>,
+    mut right: DVector<f64>,
+    size: usize,
+    most: &mut f64,
+) -> Option<DVector<f64>> {
+    let own = right.len() - size;
+    let ratio = |one: f64, other: f64| if one > 0.0 && other > 0.0 { one / other } else { 1.0 };
+    let stiffness = matrix.view((0, 0), (size, size)).norm();
+    let unit = ratio(stiffness, matrix.view((0, size), (size, own)).norm());
+    matrix.columns_mut(size, own).scale_mut(unit);
+    let weight = ratio(stiffness, matrix.rows(size, own).norm());
+    matrix.rows_mut(size, own).scale_mut(weight);
+    right.rows_mut(size, own).scale_mut(weight);
+    let svd = matrix.try_svd(true, true, f64::EPSILON, 10_000)?;
+    *most = right.norm().max(*most);
+    let stiffest = svd.singular_values.max();
+    let along = svd.u.as_ref()?.tr_mul(&right);
+    let parts = along.zip_map(&svd.singular_values, |along, value| {
+        let is_felt = value > WEAK.0 * stiffest || (value > NEUTRAL * stiffest && along.abs() > WEAK.1 * *most);
+        if is_felt { along / value } else { 0.0 }
+    });
+    let mut solved = svd.v_t.as_ref()?.tr_mul(&parts);
+    solved.rows_mut(size, own).scale_mut(unit);
+    Some(solved)
+}
+
+/// Orthonormal symmetric matrices without trace, in the order of the patterns of the body.
+fn shears_and_stretches() -> [Mat3; 5] {
+    let unit = |k: usize| Vec3::ith(k, 1.0);
+    let shear = |i: usize, j: usize| (unit(i) * unit(j).transpose() + unit(j) * unit(i).transpose()) / 2.0_f64.sqrt();
+    let along = |k: usize| unit(k) * unit(k).transpose();
+    let stretch = (3.0 * along(2) - Mat3::identity()) / 6.0_f64.sqrt();
+    let across = (along(0) - along(1)) / 2.0_f64.sqrt();
+    [shear(0, 1), shear(0, 2), shear(1, 2), stretch, across]
+}
+
+/// Orthonormal antisymmetric matrices.
+fn turns() -> [Mat3; 3] {
+    [0, 1, 2].map(|k| gyration::tensor::cross_matrix(&Vec3::ith(k, 1.0)) / 2.0_f64.sqrt())
+}
