@@ -30,7 +30,7 @@ export function keysOf(player: Player, transport: Transport, picture: Picture, p
     key(".", ".", "to the next event", () => player.stepEvent(1)),
     key(",", ",", "to the event before", () => player.stepEvent(-1)),
     key("Home", "Home", "to the start", () => player.seek(0)),
-    key("End", "End", "to the end", () => player.seek(Number.POSITIVE_INFINITY)),
+    key("End", "End", "to the end", () => player.toEnd()),
     key("]", "]", "faster", () => transport.changeSpeed(1)),
     key("[", "[", "slower", () => transport.changeSpeed(-1)),
     key("l L", "L", "loop", () => transport.toggleLoop()),

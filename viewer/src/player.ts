@@ -142,6 +142,12 @@ export class Player {
     this.changed(null);
   }
 
+  /** Goes to the end and stays there; of a run that goes on, to what has come last. */
+  toEnd(): void {
+    if (this.recording?.isOver) this.pause();
+    this.seek(Number.POSITIVE_INFINITY);
+  }
+
   /** So many samples forward. */
   step(samples: number): void {
     const { recording } = this;

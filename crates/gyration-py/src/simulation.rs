@@ -129,7 +129,8 @@ impl Simulation {
         self.arrays.contraction.bind(py).clone()
     }
 
-    /// Smallest gaps to anything that a body has a contact with [m], (bodies,); infinite without contact. Refreshed in place by each step.
+    /// Smallest gaps to anything that a body has a contact with [m], (bodies,); infinite without contact. Refreshed in
+    /// place by each step.
     #[getter]
     fn gap<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         self.arrays.gap.bind(py).clone()

@@ -119,7 +119,7 @@ fn tables_are_read_relative_to_the_scene_and_interpolated_as_they_say() {
 #[test]
 fn feedback_is_one_table_or_several() {
     let gain = format!("gain = {STRETCH}");
-    let gap = Feedback { measure: FeedbackMeasure::Gap, gain: along_z(100.0), bias: Mat3::zeros(), limits: None };
+    let gap = Feedback { measure: FeedbackMeasure::SupportGap, gain: along_z(100.0), bias: Mat3::zeros(), limits: None };
     let stretch = Feedback { measure: FeedbackMeasure::Stretch(Vec3::z()), bias: along_z(-3000.0), ..gap };
     let rate = Feedback { measure: FeedbackMeasure::Rate(Vec3::x()), limits: Some([-1.0, 2.0]), ..gap };
     let floor = "\n[[support]]\nname = \"floor\"\nplane = { origin = [0, 0, -5] }";

@@ -46,7 +46,7 @@ export class Transport {
       iconButton("back", "One sample back (←)", () => player.step(-1)),
       this.play,
       iconButton("forward", "One sample on (→)", () => player.step(1)),
-      iconButton("last", "To the end (End)", () => player.seek(Number.POSITIVE_INFINITY), {
+      iconButton("last", "To the end (End)", () => player.toEnd(), {
         class: "icon wide-only",
       }),
       h("div", { class: "track" }, this.ticks, this.slider, this.pending),

@@ -65,7 +65,8 @@ describe("large recordings", () => {
     writeFileSync(scene, crowd(10, 10));
     const file = reported(recorded(scene));
     const { page, problems, close } = await opened(file);
-    expect(colors(await pixelsAt(page, 0.02))).toBeGreaterThan(50);
+    // A blank page has a handful.
+    expect(colors(await pixelsAt(page, 0.02))).toBeGreaterThan(20);
     const [median, fastest] = await stepTimes(page);
     console.log(`1000 bodies: a step takes ${median.toFixed(0)} ms, at best ${fastest.toFixed(0)} ms`);
     await page.keyboard.press("c");

@@ -32,7 +32,8 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// At a configuration of the body; an incompressible one whose contraction takes up what volume it has moves freely.
+    /// At a configuration of the body; an incompressible one whose contraction takes up what volume it has moves
+    /// freely.
     pub fn at(body: &Body, block: &[f64]) -> Self {
         let mass = mass(body);
         let eigen = mass.symmetric_eigen();

@@ -2,7 +2,8 @@
 //!
 //! In the basis of sym K, with x_i = ω_i ξ_i, ω_i = √|k_i|, and y = ξ̇:
 //!
-//!   ẋ_i = ω_i y_i,   ẏ_i = −Σ (K_ij/ω_j) x_j − Σ C_ij y_j + Σ B_ij γ_j,   γ̇_i = Σ (D_ij/ω_j) x_j + Σ E_ij y_j + Σ H_ij γ_j
+//!   ẋ_i = ω_i y_i,   ẏ_i = −Σ (K_ij/ω_j) x_j − Σ C_ij y_j + Σ B_ij γ_j,
+//!   γ̇_i = Σ (D_ij/ω_j) x_j + Σ E_ij y_j + Σ H_ij γ_j
 //!
 //! γ are the contraction's, none of other bodies. Where nothing depends on a coordinate there is no x_i, and its
 //! eigenvalue 0 is taken out exactly (left in, it would be a double one, known to the square root of rounding alone).

@@ -192,7 +192,7 @@ pub(super) static EXTRA_FIELDS: [BodyField; 13] = [
     extra!(homogeneous, "cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
     extra!(homogeneous, "stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
     extra!(contacts, "normal_force", "N", "contact forces along their normals, summed", Scalar, normal, f64::NAN),
-    extra!(contacts, "tangential_force", "N", "contact forces across their normals, summed", Scalar, tangential, f64::NAN),
+    extra!(contacts, "tangential_force", "N", "contact forces across normals, summed", Scalar, tangential, f64::NAN),
     extra!(contacts, "pair_force", "N", "force of all other bodies that it meets", Vector, of_bodies, NO_VECTOR),
 ];
 

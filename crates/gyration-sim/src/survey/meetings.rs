@@ -96,8 +96,8 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
         let _ = writeln!(
             text,
             "           warning: {endless} of them have no reach: an evaluation looks at all, a step makes \
-             {EVALUATIONS} or more,\n             which takes some {step} s; give the contact a `reach`, beyond which bodies do not \
-             feel each other"
+             {EVALUATIONS} or more,\n             which takes some {step} s; give the contact a `reach`, beyond which \
+             bodies do not feel each other"
         );
     }
 }

@@ -43,8 +43,8 @@ pub struct ModeSurvey {
     pub frequency_hz: f64,
     /// ω [rad/s].
     pub frequency: f64,
-    /// δ of the two eigenvalues −δ ± iω [1/s], the slower one first, or of the only one of a motion that the contraction
-    /// adds; negative where the motion grows.
+    /// δ of the two eigenvalues −δ ± iω [1/s], the slower one first, or of the only one of a motion that the
+    /// contraction adds; negative where the motion grows.
     pub decay_rates: Vec<f64>,
     /// ζ; none of free and unstable motions.
     pub damping_ratio: Option<f64>,
@@ -76,8 +76,8 @@ fn left_out(rest: &Rest) -> Option<String> {
     match rest.contraction? {
         RestContraction::Stands(_) => None,
         RestContraction::GoesOn(speed) => Some(format!(
-            "contraction held as it is at the start: under its drive it goes on, with {} 1/s here, and no state is near in \
-             which it would stand still; what its law does to decay and stability is not known",
+            "contraction held as it is at the start: under its drive it goes on, with {} 1/s here, and no state is \
+             near in which it would stand still; what its law does to decay and stability is not known",
             significant(speed, 3)
         )),
     }

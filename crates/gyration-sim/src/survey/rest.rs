@@ -8,14 +8,15 @@
 //!   exponentials 1/(ω(ζ − √(ζ²−1))) else;   friction m/c_t
 //!
 //! F comes from the loads of the contacts without velocity, k, c and c_t from their derivatives. With adhesion there
-//! may be several such gaps, or none. On a slope the body goes on: one whose face keeps it from turning slides at the speed
+//! may be several such gaps, or none. On a slope the body goes on: one whose face keeps it from turning slides at the
+//! speed
 //!
 //!   v = m |g_t|/c_t,   g_t = g − n (n·g),
 //!
-//! at which friction carries the weight's part along it; one that is round along the slope rolls.
-//! A body that something else holds too, a pin, a spring, another support, rests
-//! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
-//! where it really rests, deformed by its weight, is its rest state (`modes`).
+//! at which friction carries the weight's part along it; one that is round along the slope rolls. A body that something
+//! else holds too, a pin, a spring, another support, rests elsewhere: no such gap is then given, but the reason why
+//! not. A body that deforms keeps the P of its start here; where it really rests, deformed by its weight, is its rest
+//! state (`modes`).
 
 use super::balance::TrialGaps;
 use gyration::contact::{
