@@ -1,7 +1,8 @@
 //! Pictures: of recordings, of contact laws, of the tables of studies, of fits to measurements.
 //!
 //! ```text
-//! recording, scene → show (which quantities) → figure: charts and strips (how they are laid out) → draw (marks on a page) → SVG, PNG, PDF
+//! recording, scene → show (which quantities) → figure: charts and strips (how they are laid out)
+//!   → draw (marks on a page) → SVG, PNG, PDF
 //! table of a study → study (how often, how on average, where) ↗
 //! ```
 //!

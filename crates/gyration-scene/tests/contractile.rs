@@ -119,13 +119,15 @@ fn tables_are_read_relative_to_the_scene_and_interpolated_as_they_say() {
 #[test]
 fn feedback_is_one_table_or_several() {
     let gain = format!("gain = {STRETCH}");
-    let gap = Feedback { measure: FeedbackMeasure::SupportGap, gain: along_z(100.0), bias: Mat3::zeros(), limits: None };
+    let gap =
+        Feedback { measure: FeedbackMeasure::SupportGap, gain: along_z(100.0), bias: Mat3::zeros(), limits: None };
     let stretch = Feedback { measure: FeedbackMeasure::Stretch(Vec3::z()), bias: along_z(-3000.0), ..gap };
     let rate = Feedback { measure: FeedbackMeasure::Rate(Vec3::x()), limits: Some([-1.0, 2.0]), ..gap };
     let floor = "\n[[support]]\nname = \"floor\"\nplane = { origin = [0, 0, -5] }";
     let stretch_words =
         format!("{{ measure = {{ stretch = [0, 0, 2] }}, {gain}, bias = [[0, 0, 0], [0, 0, 0], [0, 0, \"-3 kPa\"]] }}");
     let rows: &[(String, &str, Vec<Feedback>)] = &[
+        (format!("{{ measure = \"support_gap\", {gain} }}"), floor, vec![gap]),
         (format!("{{ measure = \"gap\", {gain} }}"), floor, vec![gap]),
         (stretch_words.clone(), "", vec![stretch]),
         (

@@ -474,7 +474,7 @@ fn modes_of_a_body_whose_contraction_goes_on_say_that_it_is_held() {
             [body.contractile]
             material = {{ neo_hookean_log = {{ mu = 500, lambda = 1000 }} }}
             contraction_viscosity = 20
-            drive = {{ constant = [[{drive}, 0, 0], [0, 0, 0], [0, 0, 0]] }}
+            drive = {{ constant = {{ value = [[{drive}, 0, 0], [0, 0, 0], [0, 0, 0]] }} }}
             "#
         );
         let scene = gyration_scene::Scene::parse("scene.toml", &text, std::path::Path::new(""), &[]).unwrap();

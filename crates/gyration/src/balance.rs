@@ -1,6 +1,7 @@
 //! What is conserved, exchanged and audited: energies, works, momenta.
 //!
-//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   elastic V φ (V det G φ of a contractile body),   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
+//!   kinetic ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   gravity −m g·p₀,   elastic V φ (V det G φ of a contractile body),
+//!   contact ∫U(d) dA,   load Σ ½k(l − l₀)²
 //!   K = P J Ṗᵀ (affine momentum; its antisymmetric part is angular momentum)
 //!
 //! U(d) = α d₀ (d/d₀)^(1−ν)/(ν−1); at ν = 1, −α d₀ ln(d/d₀). Works are done on the bodies since t = 0; the residual of

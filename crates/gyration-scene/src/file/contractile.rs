@@ -71,9 +71,10 @@ pub struct Feedback {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FeltMeasure {
-    /// The smallest distance to a support (m); `gap` in older files.
-    #[serde(alias = "gap")]
+    /// The smallest distance to a support (m).
     SupportGap,
+    /// The same, as older files say it.
+    Gap,
     /// The stretch of the body along a direction of its reference shape, which need not be of unit length.
     Stretch([f64; 3]),
     /// The rate of that stretch (1/s).

@@ -9,7 +9,7 @@ use super::coordinates::Coordinates;
 use super::frozen::FrozenBody;
 use gyration::Inadmissible;
 use gyration::body::matrix;
-use gyration::contractile::{Contraction, Spin};
+use gyration::contractile::Spin;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::{DMatrix, DVector};
 
@@ -28,11 +28,6 @@ const WEAK: (f64, f64) = (1e-4, 1e-9);
 const SMALL: f64 = 1e-8;
 /// A contraction stands still if it would take this strain to stop it.
 const STILL: f64 = 1e-8;
-
-/// Whether det G follows det P of an incompressible material: the law of contraction gives the pressure.
-pub(super) fn takes_up_volume(contraction: &Contraction) -> bool {
-    contraction.is_driven() && contraction.kept_volume.is_none()
-}
 
 /// B, D, E and H.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,9 +7,9 @@
 //! quaternion, δq = ½ q ∘ (0, δθ): what is left out is its length, a gauge. An incompressible body moves within tr(P⁻¹
 //! δP) = 0: V is multiplied by a basis of that plane.
 
-use super::contraction::takes_up_volume;
 use super::shape::ModeShape;
 use gyration::body::{Body, BodyKind, Slots};
+use gyration::contractile::Contraction;
 use gyration::kinematics::Quaternion;
 use gyration::state::BodyMotion;
 use gyration::tensor::{Mat3, Vec3, axial, cofactor, cross_matrix};
@@ -17,6 +17,11 @@ use nalgebra::{DMatrix, DVector};
 
 /// A part in quadrature below this is rounding.
 const IN_STEP: f64 = 1e-6;
+
+/// Whether det G follows det P of an incompressible material: the law of contraction gives the pressure.
+fn takes_up_volume(contraction: &Contraction) -> bool {
+    contraction.is_driven() && contraction.kept_volume.is_none()
+}
 
 /// The maps between z and the numbers of the state.
 #[derive(Debug, Clone)]

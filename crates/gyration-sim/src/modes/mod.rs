@@ -77,7 +77,8 @@ pub enum NoRest {
     Falls,
     /// Gravity has a part along the supports.
     #[error(
-        "no support pushes back along ({:.4}, {:.4}, {:.4}), where gravity pulls with {acceleration:.4} m/s²: the body slides on",
+        "no support pushes back along ({:.4}, {:.4}, {:.4}), where gravity pulls with {acceleration:.4} m/s²: \
+         the body slides on",
         along.x, along.y, along.z
     )]
     Slides {

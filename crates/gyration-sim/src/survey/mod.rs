@@ -1,7 +1,7 @@
 //! The survey of a scene: what can be said before it runs.
 //!
 //! ```text
-//! Model, State → Survey: mass properties, rest gaps and time scales over supports, rest states and modes, verdicts on laws
+//! Model, State → Survey: mass properties, rest gaps and time scales over supports, rest states and modes, verdicts
 //!                Survey → text (what `gyration check` prints), JSON
 //! ```
 //!

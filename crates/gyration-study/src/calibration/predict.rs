@@ -2,7 +2,7 @@
 //!
 //! | measured | computed |
 //! |---|---|
-//! | rebound | h + n·(p₀ − p₀(0)) at the first apex behind the first closest approach of a run that starts at rest at a gap h |
+//! | rebound | h + n·(p₀ − p₀(0)) at the first apex behind the first closest approach, from rest at a gap h |
 //! | gap | of the rest state, where the exact balance has no force left |
 //! | speed on a slope θ | m g sin θ/c: rest state under g cos θ, c the friction per speed there |
 //! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |

@@ -4,7 +4,7 @@
 //! ambient      the fluid and the flow that it has far from the bodies
 //! history      the history force as loads, and its relaxation modes
 //! moments      integrals of the ellipsoid's shape, without loss of digits from needle to disc
-//! ellipsoid    force and stress of the fluid on an ellipsoid that moves and deforms in a linear flow, and their derivatives
+//! ellipsoid    force and stress of the fluid on an ellipsoid that deforms in a linear flow, and their derivatives
 //! immersed     what the fluid does to a body that deforms, whatever its form
 //! inclusion    a body in the fluid, and the loads on one that deforms as an ellipsoid
 //! fixed        the loads on a body whose form does not change: one resistance matrix
