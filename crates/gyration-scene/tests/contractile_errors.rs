@@ -173,7 +173,7 @@ fn errors_of_feedback_stand_at_their_place() {
         (
             "feedback = { measure = §7, gain = ONE }",
             "feedback.measure",
-            "expected \"gap\" or a table with one key of rate, stretch",
+            "expected one of \"support_gap\", \"gap\" or a table with one key of rate, stretch",
             "",
         ),
         (

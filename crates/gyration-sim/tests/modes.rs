@@ -481,7 +481,7 @@ fn modes_of_a_body_whose_contraction_goes_on_say_that_it_is_held() {
         gyration_sim::survey::modes(&scene)[0].rest_state.as_ref().unwrap().left_out.clone()
     };
     let said = told(-100.0).unwrap();
-    assert!(said.starts_with("contraction held") && said.contains(" 5.00 1/s "), "{said}");
+    assert!(said.starts_with("contraction held") && said.contains(" 5 1/s "), "{said}");
     assert_eq!(told(0.0), None);
 }
 
