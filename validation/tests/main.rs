@@ -3,11 +3,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
 mod case_contracting_box;
+mod case_contraction_modes;
 mod case_deforming_inclusion;
 mod case_gallery_dissipates;
 mod case_kept_through_partings;
 mod case_pinned_audit;
 mod case_slender_inclusion;
+mod case_slopes;
 mod case_small_gaps;
 mod case_soft_audits;
 mod case_soft_tumbling_box;

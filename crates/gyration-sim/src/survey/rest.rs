@@ -37,11 +37,8 @@ const SEARCHED: (f64, f64) = (1e-15, 1e3);
 const LEAST_ELSEWHERE: f64 = 1e-9;
 /// The part of gravity along a support that is rounding.
 const LEVEL: f64 = 1e-12;
-/// A couple against turning below this part of that of a flat body is none.
+/// A stiffness against turning below this part of that along the normal times the square of the size is none.
 const ROUND: f64 = 1e-6;
-
-type Vec9 = SVector<f64, 9>;
-type Mat12 = SMatrix<f64, 12, 12>;
 
 /// A gap at which the weight is carried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -79,7 +76,7 @@ pub enum Descent {
         /// |g_t| [m/s²].
         acceleration: f64,
     },
-    /// It is round along the slope, and rolls.
+    /// Nothing keeps it from turning down the slope: it is round, or stands on an edge.
     Rolls,
 }
 
@@ -176,15 +173,15 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// ∂(f | M)/∂(p₀ | P) and the same by the rates, of all laws; none where they are not numbers.
-    fn slopes(&self, gap: f64) -> Option<(Mat12, Mat12)> {
+    /// (f | M) of all laws and their derivatives by (p₀ | P) and the rates; none where they are not numbers.
+    fn slopes(&self, gap: f64) -> Option<LoadSlopes> {
         let (mut scratch, contact_state) = (ContactScratch::default(), self.contact_state(gap));
         let mut slopes = LoadSlopes::default();
         for contact in &self.contacts {
             ContactSlopes::integrate(&contact.law_set, &contact_state, &mut scratch).ok()?.add_to(&mut slopes);
         }
-        let all = slopes.by_place.iter().chain(slopes.by_rate.iter()).all(|entry| entry.is_finite());
-        all.then_some((slopes.by_place, slopes.by_rate))
+        let mut entries = slopes.by_place.iter().chain(slopes.by_rate.iter());
+        entries.all(|entry| entry.is_finite()).then_some(slopes)
     }
 
     /// All gaps at which the weight is carried, ascending; none for a body that is held otherwise as well.
@@ -206,38 +203,35 @@ impl<'a> Approach<'a> {
         central.all(|term| term.coefficient >= 0.0)
     }
 
-    /// What the body does along a slope at this gap.
-    fn descent(&self, by_place: &Mat12, by_rate: &Mat12) -> Option<Descent> {
+    /// What the body does along a slope, where the laws have these slopes and this stiffness along n.
+    fn descent(&self, slopes: &LoadSlopes, stiffness: f64) -> Option<Descent> {
         let down = self.along.try_normalize(0.0)?;
-        // A turn about the axis across the slope, and the couple that it meets.
-        let axis = self.normal.cross(&down);
-        let turn = |by: &Mat12| {
-            let change = cross_matrix(&axis) * self.gradient;
-            let columns = Vec9::from_column_slice(change.as_slice());
-            let moment = by.fixed_view::<9, 9>(3, 3) * columns;
-            0.0 - change.dot(&Mat3::from_column_slice(moment.as_slice()))
-        };
-        let stiffness = 0.0 - self.normal.dot(&(by_place.fixed_view::<3, 3>(0, 0) * self.normal));
-        if turn(by_place) <= ROUND * stiffness * self.size * self.size {
-            return Some(Descent::Rolls);
+        let (acceleration, resistance) = (self.along.norm(), against(&slopes.by_rate, &down));
+        if resistance <= 0.0 {
+            return Some(Descent::Accelerates { acceleration });
         }
-        let resistance = 0.0 - down.dot(&(by_rate.fixed_view::<3, 3>(0, 0) * down));
-        let acceleration = self.along.norm();
-        Some(match resistance > 0.0 {
+        let keeps_flat =
+            self.turning_stiffness(slopes, &self.normal.cross(&down)) > ROUND * stiffness * self.size.powi(2);
+        Some(match keeps_flat {
             true => Descent::Slides { speed: self.mass * acceleration / resistance },
-            false => Descent::Accelerates { acceleration },
+            false => Descent::Rolls,
         })
     }
 
+    /// d²U/dθ² of a turn about an axis through the centre [N m]: P = exp(θ[a]×) P₀ has δP = [a]× P₀, δ²P = [a]×² P₀.
+    fn turning_stiffness(&self, slopes: &LoadSlopes, axis: &Vec3) -> f64 {
+        let (turn, bend) = (cross_matrix(axis) * self.gradient, cross_matrix(axis).pow(2) * self.gradient);
+        let change = slopes.by_place.fixed_view::<9, 9>(3, 3) * SVector::<f64, 9>::from_column_slice(turn.as_slice());
+        0.0 - turn.dot(&Mat3::from_column_slice(change.as_slice())) - bend.dot(&slopes.loads.moment)
+    }
+
     fn rest_at(&self, gap: f64) -> Option<RestGap> {
-        let (by_place, by_rate) = self.slopes(gap)?;
+        let slopes = self.slopes(gap)?;
         // Any direction across the normal.
         let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
-        let along =
-            |matrix: &Mat12, direction: &Vec3| 0.0 - direction.dot(&(matrix.fixed_view::<3, 3>(0, 0) * direction));
-        let stiffness = along(&by_place, &self.normal);
-        let normal_resistance = along(&by_rate, &self.normal);
-        let tangential_resistance = along(&by_rate, &across);
+        let stiffness = against(&slopes.by_place, &self.normal);
+        let normal_resistance = against(&slopes.by_rate, &self.normal);
+        let tangential_resistance = against(&slopes.by_rate, &across);
         let stable = stiffness > 0.0;
         let frequency = stable.then(|| (stiffness / self.mass).sqrt());
         let damped = frequency.filter(|_| normal_resistance > 0.0);
@@ -250,9 +244,14 @@ impl<'a> Approach<'a> {
             damping_ratio: ratio,
             damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
             friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
-            descent: self.descent(&by_place, &by_rate),
+            descent: self.descent(&slopes, stiffness),
         })
     }
+}
+
+/// −e·∂f e, by the centre's place [N/m] or velocity [N s/m].
+fn against(by: &SMatrix<f64, 12, 12>, direction: &Vec3) -> f64 {
+    0.0 - direction.dot(&(by.fixed_view::<3, 3>(0, 0) * direction))
 }
 
 /// g_t; nothing where it is rounding.

@@ -121,7 +121,7 @@ fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
             let along = short(acceleration);
             writeln!(text, "    slides down the slope with {along} m/s², at a gap of {gap} m {if_so}")
         }
-        Some(Descent::Rolls) => writeln!(text, "    rolls down the slope, at a gap of {gap} m {if_so}"),
+        Some(Descent::Rolls) => writeln!(text, "    rolls or tips down the slope, at a gap of {gap} m {if_so}"),
     };
     let period = rest.period.map_or_else(String::new, |period| format!(", period {} s", short(period)));
     let _ = writeln!(text, "      stiffness {} N/m{period}", short(rest.stiffness));
