@@ -7,10 +7,12 @@
 
 use super::coordinates::Coordinates;
 use super::frozen::FrozenBody;
+use super::spectrum::FirstOrder;
 use gyration::Inadmissible;
 use gyration::body::matrix;
 use gyration::contractile::Spin;
 use gyration::tensor::{Mat3, Vec3};
+use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
 
 /// Newton's steps to a state in which the contraction stands still, at most.
@@ -21,36 +23,14 @@ const LARGEST_STRAIN: f64 = 0.2;
 const HALVINGS: usize = 40;
 /// Singular values below this part of the largest are those of directions that nothing feels.
 const NEUTRAL: f64 = 1e-10;
-/// Directions of singular values below this part of the largest are weak: of forces there, what is below the other part
-/// of the largest seen is rounding, which chooses no way.
-const WEAK: (f64, f64) = (1e-4, 1e-9);
+/// Singular values below this part of the largest are those of weak directions.
+const WEAK: f64 = 1e-4;
+/// Along weak directions, forces below this part of the largest of the search are rounding, which chooses no way.
+const NO_FORCE: f64 = 1e-9;
 /// Steps smaller than this are the last, once they no longer halve.
 const SMALL: f64 = 1e-8;
 /// A contraction stands still if it would take this strain to stop it.
 const STILL: f64 = 1e-8;
-
-/// B, D, E and H.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct FirstOrder {
-    /// B.
-    pub forces: DMatrix<f64>,
-    /// D.
-    pub by_place: DMatrix<f64>,
-    /// E.
-    pub by_rate: DMatrix<f64>,
-    /// H.
-    pub own: DMatrix<f64>,
-    /// Which of them only turn the relaxed shape.
-    pub turns: Vec<bool>,
-}
-
-impl FirstOrder {
-    /// Of a body without any.
-    pub fn none(size: usize) -> Self {
-        let (wide, high) = (DMatrix::zeros(size, 0), DMatrix::zeros(0, size));
-        Self { forces: wide, by_place: high.clone(), by_rate: high, own: DMatrix::zeros(0, 0), turns: Vec::new() }
-    }
-}
 
 /// The coordinates γ at a configuration.
 #[derive(Debug, Clone)]
@@ -98,9 +78,9 @@ impl ContractionCoordinates {
         DMatrix::from_vec(9, self.strains.len(), rows.flat_map(|row| row.as_slice().to_vec()).collect()).transpose()
     }
 
-    /// γ̇ of a Ġ [1/s].
-    fn velocity(&self, rate: &Mat3) -> DVector<f64> {
-        self.rows() * DVector::from_column_slice(rate.as_slice())
+    /// γ̇ of a V_G [1/s].
+    fn along(&self, velocity: &Mat3) -> DVector<f64> {
+        DVector::from_iterator(self.strains.len(), self.strains.iter().map(|strain| strain.dot(velocity)))
     }
 
     /// Σ γ_k A_k.
@@ -148,15 +128,16 @@ impl ContractionCoordinates {
 ///
 ///   K z − B γ = r,   −D z − H γ = V_G
 ///
-/// by Newton's method; directions that nothing feels are left alone. None where the contraction goes on.
+/// by Newton's method; directions that nothing feels are left alone. None where the contraction goes on, or nobody
+/// waits any longer.
 pub(super) fn settled(frozen: &mut FrozenBody, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
     let (mut block, mut last, mut largest) = (start, f64::INFINITY, 0.0);
-    for _ in 0..MOST {
+    for _ in (0..MOST).take_while(|_| Interruption::due().is_none()) {
         let Some(contraction) = ContractionCoordinates::at(frozen, &block) else { return Ok(None) };
         let places = Coordinates::at(frozen.body(), &block);
         let speed = frozen.contraction_velocity(&block)?;
         let force = places.force(&frozen.accelerations(&block)?);
-        let velocity = contraction.velocity(&(speed * contraction.contraction));
+        let velocity = contraction.along(&speed);
         let (stiffness, first) = contraction.first_order((&places, &speed), &frozen.slopes(&block)?);
         let (size, own) = (force.len(), velocity.len());
         let mut system = DMatrix::zeros(size + own, size + own);
@@ -217,7 +198,7 @@ fn least_squares(
     let stiffest = svd.singular_values.max();
     let along = svd.u.as_ref()?.tr_mul(&right);
     let parts = along.zip_map(&svd.singular_values, |along, value| {
-        let is_felt = value > WEAK.0 * stiffest || (value > NEUTRAL * stiffest && along.abs() > WEAK.1 * *most);
+        let is_felt = value > WEAK * stiffest || (value > NEUTRAL * stiffest && along.abs() > NO_FORCE * *most);
         if is_felt { along / value } else { 0.0 }
     });
     let mut solved = svd.v_t.as_ref()?.tr_mul(&parts);

@@ -25,7 +25,7 @@ mod words;
 
 pub use shape::ModeShape;
 
-use contraction::{ContractionCoordinates, FirstOrder, settled};
+use contraction::{ContractionCoordinates, settled};
 use coordinates::Coordinates;
 use frozen::{FrozenBody, FrozenContraction};
 use gyration::Inadmissible;
@@ -35,6 +35,7 @@ use gyration::state::State;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField};
+use spectrum::FirstOrder;
 
 /// Where a body rests.
 #[derive(Debug, Clone, PartialEq)]

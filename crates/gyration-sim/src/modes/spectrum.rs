@@ -10,7 +10,6 @@
 //! What does not act on each other falls into parts; a part of one coordinate is λ² + cλ + k = 0.
 
 use super::canonical::Basis;
-use super::contraction::FirstOrder;
 use super::{ModeBehaviour, NoSpectrum};
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
@@ -26,6 +25,29 @@ const ROUNDING: f64 = 1e-10;
 const SAME: f64 = 1e-8;
 /// Sweeps of the Schur form at most; a few for each eigenvalue are the rule.
 const SWEEPS: usize = 10_000;
+
+/// B, D, E and H.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FirstOrder {
+    /// B.
+    pub forces: DMatrix<f64>,
+    /// D.
+    pub by_place: DMatrix<f64>,
+    /// E.
+    pub by_rate: DMatrix<f64>,
+    /// H.
+    pub own: DMatrix<f64>,
+    /// Which of them only turn the relaxed shape.
+    pub turns: Vec<bool>,
+}
+
+impl FirstOrder {
+    /// Of a body without any.
+    pub fn none(size: usize) -> Self {
+        let (wide, high) = (DMatrix::zeros(size, 0), DMatrix::zeros(0, size));
+        Self { forces: wide, by_place: high.clone(), by_rate: high, own: DMatrix::zeros(0, 0), turns: Vec::new() }
+    }
+}
 
 /// The eigenvalues of a motion and how the body moves, in the coordinates z and γ.
 #[derive(Debug, Clone, PartialEq)]
