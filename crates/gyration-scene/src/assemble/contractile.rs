@@ -75,7 +75,7 @@ impl WrittenContraction {
 /// Whether a body without a surface never answers to a gap; notes the first place where it does.
 pub(super) fn feels_no_gap(written: &file::Contractile, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let parts = written.feedback.as_ref().map(OneOrMany::as_slice).unwrap_or_default();
-    let felt = parts.iter().position(|part| matches!(part.measure, FeltMeasure::SupportGap | FeltMeasure::Gap));
+    let felt = parts.iter().position(|part| part.measure.is_support_gap());
     if let Some(index) = felt {
         let place = place(written.feedback.as_ref(), &key.key("feedback"), index).key("measure");
         let help = "give it a shape with a surface, or let it feel a `stretch` or a `rate`";
@@ -220,8 +220,10 @@ fn measure(
     match written {
         FeltMeasure::Stretch(vector) => along("stretch", vector).map(FeedbackMeasure::Stretch),
         FeltMeasure::Rate(vector) => along("rate", vector).map(FeedbackMeasure::Rate),
-        FeltMeasure::SupportGap | FeltMeasure::Gap if context.has_support => Some(FeedbackMeasure::SupportGap),
         FeltMeasure::SupportGap | FeltMeasure::Gap => {
+            if context.has_support {
+                return Some(FeedbackMeasure::SupportGap);
+            }
             let help = "add a [[support]], or let the body feel a `stretch` or a `rate`";
             reporter.note(key, "there is no support that the body could be near", help);
             None

@@ -81,6 +81,13 @@ pub enum FeltMeasure {
     Rate([f64; 3]),
 }
 
+impl FeltMeasure {
+    /// Whether it is the distance to a support, in either word.
+    pub fn is_support_gap(&self) -> bool {
+        matches!(self, Self::SupportGap | Self::Gap)
+    }
+}
+
 /// One, or an array of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "OneOrMany{T}")]

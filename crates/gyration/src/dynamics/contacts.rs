@@ -1,6 +1,7 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
 use super::Scratch;
+use crate::body::Body;
 use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
 use crate::extended::{Extended, rotated_back};
@@ -89,19 +90,20 @@ pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
 /// slab to another body; infinite without contact or surface.
 pub fn gap_at(at: &BodyAt, scratch: &Scratch) -> f64 {
     let pairs = at.model.pairs_of(at.index).map(|end| scratch.met.loads[end.number].gap);
-    let Some(surface) = &at.body.solid.surface else { return pairs.fold(f64::INFINITY, f64::min) };
-    let supports = at.body.contacts.iter().map(|contact| &at.model.supports[contact.support()]);
-    let gaps = supports.map(|support| surface.smallest_gap(&gap_field(at, surface, support)).0);
-    gaps.chain(pairs).min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+    let supports = least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support));
+    pairs.fold(supports, f64::min)
 }
 
 /// The smallest distance of a body's surface to a support that it has a contact with [m]; infinite without one.
 pub fn gap_to_supports(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> f64 {
-    let body = &model.bodies[index];
+    least_of_supports(model, &model.bodies[index], |_, support| support.gap_field(&motion.placement, time))
+}
+
+/// The least gap of the fields of those supports that a body has a contact with.
+fn least_of_supports(model: &Model, body: &Body, field: impl Fn(&Surface, &Support) -> GapField) -> f64 {
     let Some(surface) = &body.solid.surface else { return f64::INFINITY };
     let supports = body.contacts.iter().map(|contact| &model.supports[contact.support()]);
-    let gaps = supports.map(|support| surface.smallest_gap(&support.gap_field(&motion.placement, time)).0);
-    gaps.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+    supports.map(|support| surface.smallest_gap(&field(surface, support)).0).fold(f64::INFINITY, f64::min)
 }
 
 /// The support next to a body's surface, whether or not the two have a contact; none without supports or surface.
