@@ -43,6 +43,20 @@ fn a_corner_under_a_law_that_hardly_forbids_touch_ends_the_run_with_that() {
     }
 }
 
+/// A law that forbids it and is a tenth of a micrometre hard: the plane comes to 1e-9 of the size from one of the two,
+/// and they turn back without loss.
+#[test]
+fn corners_that_turn_back_near_the_last_digits_do_not_touch() {
+    for alpha in ["8e15", "8e14"] {
+        let law = format!("repulsion = {{ alpha = {alpha}, nu = 6, d0 = 1e-7 }}");
+        let blocks = BLOCKS
+            .map(|block| block.replace("position = [-0.14", "position = [-0.12").replace("[0.14, 0.01", "[0.12, 0.01"));
+        let (outcome, steps) = ended(&law, [&blocks[0], &blocks[1]], 0.3);
+        println!("alpha = {alpha}: {steps} steps");
+        assert_eq!((outcome, steps < 1000), (Outcome::Completed, true));
+    }
+}
+
 /// Balls have a gap of two places alone: a thousand millionth of their size is still told.
 #[test]
 fn balls_are_told_apart_where_other_bodies_are_not() {

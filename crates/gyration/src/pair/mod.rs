@@ -62,10 +62,10 @@ type Vec4 = Vector4<f64>;
 pub const EDGE: f64 = 1e-9;
 
 /// The least slab, of what is not two balls, that digits tell, and the least part of one that is on one side of the
-/// plane, as parts of the size of the smaller body. A difference of places is known to some 1e-16 of it; forces, which
-/// go with a power of the gap, then to 1e-8 or worse.
-const LEAST_SLAB: f64 = 1e-7;
-const LEAST_PART: f64 = 1e-9;
+/// plane, as parts of the size of the smaller body. Gaps are known to some 1e-16 of the size: so small a part to 1e-5,
+/// its traction, which goes with a power of it, to 1e-4. What that leaves of the energy is told by the ledger.
+const LEAST_SLAB: f64 = 1e-8;
+const LEAST_PART: f64 = 1e-11;
 /// The same of two balls, whose gap comes from two places alone.
 const LEAST_BALLS: f64 = 1e-12;
 
