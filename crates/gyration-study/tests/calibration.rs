@@ -409,11 +409,14 @@ fn measurement_in_another_unit_is_named() {
     }
 }
 
-/// The measurements of the book with one of them in metres instead of millimetres.
-fn misread(more: &str) -> CalibrationError {
+/// A gap of the book in metres instead of millimetres.
+const IN_METRES: [&str; 2] = ["\"0.3312 mm\"", "\"0.3312 m\""];
+
+/// The measurements of the book with one of them in another unit.
+fn misread([right, wrong]: [&str; 2], more: &str) -> CalibrationError {
     let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/examples/calibrate");
     let text = std::fs::read_to_string(book.join("measurements.toml")).unwrap();
-    let changed = text.replacen("\"0.3312 mm\"", "\"0.3312 m\"", 1);
+    let changed = text.replacen(right, wrong, 1);
     assert!(changed != text);
     let changed = changed.replacen("[fit.repulsion]", &format!("{more}\n[fit.repulsion]"), 1);
     Calibration::parse("data.toml", &changed, &book).unwrap().fit().unwrap_err()
@@ -422,16 +425,25 @@ fn misread(more: &str) -> CalibrationError {
 /// One so far off leads the search where nothing can be computed.
 #[test]
 fn measurement_that_leads_the_search_astray_is_named() {
-    let lost = misread("").to_string();
+    let lost = misread(IN_METRES, "").to_string();
     println!("{lost}");
     assert!(lost.contains("row 2 of gap.0 is at odds") && lost.contains("unit"), "{lost}");
+}
+
+/// A force of pull-off a thousand times too large leads the search along a valley that has hardly an end: the force agrees
+/// there, all else is off.
+#[test]
+fn measurement_that_keeps_the_search_from_its_end_is_named() {
+    let lost = misread(["\"0.409 N\"", "409"], "").to_string();
+    println!("{lost}");
+    assert!(lost.contains("30 evaluations; row 1 of pull_off.0 is at odds") && lost.contains("9.6579e2"), "{lost}");
 }
 
 /// On a slow machine a short time is over before anything is known: a longer one is then tried.
 #[test]
 fn search_ends_with_the_wall_time_of_its_scene_and_says_where_it_was() {
     for seconds in (0..).map(|attempt| 0.25 * f64::from(1 << attempt)) {
-        let early = misread(&format!("[set]\n\"solver.max_wall_time\" = {seconds:?}"));
+        let early = misread(IN_METRES, &format!("[set]\n\"solver.max_wall_time\" = {seconds:?}"));
         let CalibrationError::Interrupted { worst, .. } = &early else { panic!("{early:?}") };
         println!("after {seconds} s: {worst}");
         if worst.contains("row 2 of gap.0") {

@@ -4,7 +4,7 @@
 //! bad one: the search then tries a shorter step.
 
 use super::least_squares::{Minimum, Problem, SearchEnd, minimize};
-use super::{Calibration, CalibrationError, Experiment};
+use super::{Calibration, CalibrationError, Experiment, Suspect};
 use gyration_threads::{Interrupted, Interruption};
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -16,6 +16,9 @@ const BAD: f64 = 1e100;
 pub(super) const START: f64 = 1e3;
 /// Digits to which the search goes: those of the derivatives.
 const TOLERANCE: f64 = 1e-10;
+
+/// Evaluations after which a search looks whether one measurement leads it astray.
+const DOUBT: usize = 30;
 
 /// The least squares.
 pub(super) struct Found {
@@ -56,9 +59,8 @@ impl Calibration {
 
     /// Something of every row with its table, in this order; in parallel, under the interruption in force.
     pub(super) fn each_row<'a, T: Send>(&'a self, work: impl Fn((&'a Experiment, usize)) -> T + Sync) -> Vec<T> {
-        let rows = self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)));
         let interruption = Interruption::in_force();
-        rows.collect::<Vec<_>>().into_par_iter().map(|row| interruption.within(|| work(row))).collect()
+        self.rows().collect::<Vec<_>>().into_par_iter().map(|row| interruption.within(|| work(row))).collect()
     }
 
     /// Searches, with so many evaluations at most if that is given.
@@ -70,11 +72,20 @@ impl Calibration {
         if let Some(cause) = Interruption::due() {
             return Err(self.interrupted(cause, &[]));
         }
-        predicted?;
+        let first = self.squares(&predicted?);
         let u = self.numbers.iter().map(|number| number.scale.inward(number.start));
         let start = DVector::from_iterator(self.numbers.len(), u);
         let problem = Residuals { calibration: self, start: start.clone() };
-        let Minimum { u, residuals, ending, evaluations } = minimize(&problem, start, TOLERANCE, patience);
+        let mut found = minimize(&problem, start, TOLERANCE, Some(patience.unwrap_or(DOUBT)));
+        if patience.is_none() && found.ending == SearchEnd::Patience {
+            if let Some(suspect) = self.astray(&first, &found.residuals) {
+                let reason = format!("it had come to no end after {DOUBT} evaluations; {}", suspect.in_words());
+                return Err(CalibrationError::Search(reason));
+            }
+            let more = minimize(&problem, found.u, TOLERANCE, None);
+            found = Minimum { evaluations: found.evaluations + more.evaluations, ..more };
+        }
+        let Minimum { u, residuals, ending, evaluations } = found;
         if let Some(cause) = Interruption::due() {
             return Err(self.interrupted(cause, residuals.as_slice()));
         }
@@ -82,10 +93,14 @@ impl Calibration {
             SearchEnd::Converged => "converged",
             SearchEnd::Rounding => "as near as rounding lets one come",
             SearchEnd::Patience | SearchEnd::Interrupted => {
-                return Err(self.lost("it did not come to an end", &residuals, patience));
+                return Err(self.lost("it did not come to an end", (&first, &residuals), patience));
             }
             SearchEnd::Stranded => {
-                return Err(self.lost("where it arrived derivatives cannot be computed", &residuals, patience));
+                return Err(self.lost(
+                    "where it arrived derivatives cannot be computed",
+                    (&first, &residuals),
+                    patience,
+                ));
             }
         };
         let (values, residuals) = (self.values_at(u.as_slice()), residuals.as_slice().to_vec());
@@ -94,23 +109,51 @@ impl Calibration {
 }
 
 impl Calibration {
-    /// The end of a search that led nowhere; of one with all the patience there is, with the measurement that led it
-    /// there if one alone did.
-    fn lost(&self, reason: &str, residuals: &DVector<f64>, patience: Option<usize>) -> CalibrationError {
-        let rows = self.experiments.iter().map(|table| table.measured.len()).sum();
-        let gains: Vec<f64> = residuals.iter().take(rows).map(|residual| residual * residual).collect();
-        let suspect = match patience {
-            None => self.suspect_by(&gains, rows.saturating_sub(self.numbers.len())),
-            Some(_) => None,
+    /// r² of each row, from what would be measured.
+    fn squares(&self, predictions: &[f64]) -> Vec<f64> {
+        let squared = |((table, row), found): ((&Experiment, usize), &f64)| {
+            ((found - table.measured[row]) / table.deviations[row]).powi(2)
         };
-        let named = suspect.map_or_else(String::new, |suspect| format!("; {}", suspect.in_words()));
-        CalibrationError::Search(format!("{reason}{named}"))
+        self.rows().zip(predictions).map(squared).collect()
+    }
+
+    /// The measurement that leads a search astray, if one does, from r² at the start and r where the search has come:
+    /// on its way the search may have satisfied that one at the cost of the others.
+    fn astray(&self, first: &[f64], now: &DVector<f64>) -> Option<Suspect> {
+        let gains: Vec<f64> = first.iter().zip(now).map(|(first, now)| first.max(now * now)).collect();
+        self.row_at_odds(&gains, gains.len().saturating_sub(self.numbers.len()))
+    }
+
+    /// The end of a search that led nowhere; of one with all the patience there is, with the measurement that led it
+    /// there if one alone did, else with the one that was farthest off at the start.
+    fn lost(&self, reason: &str, (first, now): (&[f64], &DVector<f64>), patience: Option<usize>) -> CalibrationError {
+        if patience.is_some() {
+            return CalibrationError::Search(reason.to_owned());
+        }
+        let gains: Vec<f64> = now.iter().take(first.len()).map(|residual| residual * residual).collect();
+        let suspect = self.suspect_by(&gains, first.len().saturating_sub(self.numbers.len()));
+        let named = suspect.map_or_else(|| self.farthest_at_start(first), |suspect| suspect.in_words());
+        CalibrationError::Search(format!("{reason}; {named}"))
+    }
+
+    /// The row of the largest r² where the search began, in words.
+    fn farthest_at_start(&self, first: &[f64]) -> String {
+        let rows = self.rows().zip(first);
+        let farthest = rows.max_by(|(_, one), (_, other)| one.total_cmp(other));
+        farthest.map_or_else(String::new, |((table, row), square)| {
+            let off = square.sqrt();
+            format!("where it began, row {} of {} was farthest off, by {off:.3e} deviations", row + 1, table.place())
+        })
+    }
+
+    /// Every row with its table, in order.
+    fn rows(&self) -> impl Iterator<Item = (&Experiment, usize)> {
+        self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)))
     }
 
     /// The end of a search that was given up, with the residuals at the best point so far.
     pub(super) fn interrupted(&self, cause: Interrupted, known: &[f64]) -> CalibrationError {
-        let of_rows = self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)));
-        let farthest = of_rows.zip(known).max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        let farthest = self.rows().zip(known).max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
         let worst = match farthest {
             Some(((table, row), &residual)) if residual < BAD => {
                 format!(

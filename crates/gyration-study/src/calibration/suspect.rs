@@ -6,7 +6,7 @@
 //! residual may be the smallest of all. Those that promise most are therefore left out in turn, row by row and then
 //! table by table, and the numbers are searched anew from their start. The first without which the others agree is it.
 
-use super::fit::Found;
+use super::fit::{Found, START};
 use super::{Calibration, Experiment};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -17,6 +17,11 @@ const FAR: f64 = 5.0;
 const MOST: usize = 3;
 /// Evaluations of all measurements in a search without one of them.
 const PATIENCE: usize = 60;
+
+/// Of a search that is in doubt: how many rows are left out in turn, and evaluations in a search without one of them.
+const IN_DOUBT: (usize, usize) = (2, 30);
+/// A measurement is at odds with others if it is so many standard errors off what they tell of it.
+const AT_ODDS: f64 = 5.0;
 
 /// A measurement, or a table of them, without which all others agree.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -72,29 +77,64 @@ impl Calibration {
 
     /// The measurement that is wrong, if one alone is; `gains` are what χ² would lose without each row.
     pub(super) fn suspect_by(&self, gains: &[f64], degrees_of_freedom: usize) -> Option<Suspect> {
-        let places = self.experiments.iter().enumerate();
-        let rows: Vec<Left> = places
-            .flat_map(|(table, experiment)| {
-                (0..experiment.measured.len()).map(move |row| Left { table, row: Some(row) })
-            })
-            .collect();
-        let by_row: Vec<(f64, Left)> = gains.iter().copied().zip(rows.iter().copied()).collect();
+        let by_row: Vec<(f64, Left)> = gains.iter().copied().zip(self.rows_to_leave()).collect();
         let of_table = |table: usize| by_row.iter().filter(move |(_, left)| left.table == table).map(|(gain, _)| gain);
         let by_table = (0..self.experiments.len())
             .filter(|&table| self.experiments[table].measured.len() > 1)
             .map(|table| (of_table(table).sum(), Left { table, row: None }));
-        let mut candidates = largest(by_row.clone());
-        candidates.extend(largest(by_table.collect()));
-        candidates.into_iter().find_map(|left| self.agreement_without(left, degrees_of_freedom))
+        let mut candidates = largest(by_row.clone(), MOST);
+        candidates.extend(largest(by_table.collect(), MOST));
+        let agreement = |left| self.agreement_without(left, degrees_of_freedom, PATIENCE);
+        candidates.into_iter().find_map(agreement).map(|(suspect, _)| suspect)
     }
 
-    /// The others by themselves, if they agree.
-    fn agreement_without(&self, left: Left, degrees_of_freedom: usize) -> Option<Suspect> {
+    /// The row that is at odds with all others, which agree, if there is one among those of the largest `gains`. What
+    /// the others do not tell is at odds with nothing.
+    pub(super) fn row_at_odds(&self, gains: &[f64], degrees_of_freedom: usize) -> Option<Suspect> {
+        let (most, patience) = IN_DOUBT;
+        let candidates = largest(gains.iter().copied().zip(self.rows_to_leave()).collect(), most);
+        candidates.into_iter().find_map(|left| {
+            let (suspect, values) = self.agreement_without(left, degrees_of_freedom, patience)?;
+            self.is_at_odds(left, &suspect, &values).then_some(suspect)
+        })
+    }
+
+    /// Whether a row is farther off what the others tell than their numbers are known: r² > z²(1 + g C gᵀ), with C of
+    /// the others.
+    fn is_at_odds(&self, left: Left, suspect: &Suspect, values: &[f64]) -> bool {
+        let (Some(row), experiment) = (left.row, &self.experiments[left.table]) else { return false };
+        let deviation = experiment.deviations[row];
+        let Ok(predicted) = self.predicted(experiment, experiment.conditions[row], values) else { return false };
+        let Ok(slopes) = self.without(left).weighted_slopes(values) else { return false };
+        let count = values.len();
+        let jacobian = DMatrix::from_row_iterator(slopes.len(), count, slopes.into_iter().flatten());
+        // The start counts as a measurement.
+        let normal = jacobian.tr_mul(&jacobian) + DMatrix::identity(count, count) / (START * START);
+        let own = DVector::from_vec(self.inward(&predicted.slopes, values, deviation));
+        let Some(solved) = normal.cholesky().map(|normal| normal.solve(&own)) else { return false };
+        let off = (suspect.expected - suspect.measured) / deviation;
+        off * off > AT_ODDS * AT_ODDS * (1.0 + own.dot(&solved))
+    }
+
+    /// Every row by itself, in order.
+    fn rows_to_leave(&self) -> impl Iterator<Item = Left> {
+        self.experiments.iter().enumerate().flat_map(|(table, experiment)| {
+            (0..experiment.measured.len()).map(move |row| Left { table, row: Some(row) })
+        })
+    }
+
+    /// What is left out and the numbers that the others tell, if they agree.
+    fn agreement_without(
+        &self,
+        left: Left,
+        degrees_of_freedom: usize,
+        patience: usize,
+    ) -> Option<(Suspect, Vec<f64>)> {
         let experiment = &self.experiments[left.table];
         let count = left.row.map_or(experiment.measured.len(), |_| 1);
         let degrees_of_freedom = degrees_of_freedom.checked_sub(count).filter(|freedom| *freedom > 0)?;
         let others = self.without(left);
-        let Found { values, .. } = others.search(Some(PATIENCE)).ok()?;
+        let Found { values, .. } = others.search(Some(patience)).ok()?;
         let residuals = others.residuals(&values).ok()?;
         let chi_squared = residuals.iter().map(|residual| residual.weighted * residual.weighted).sum();
         if is_far(chi_squared, degrees_of_freedom) {
@@ -103,7 +143,9 @@ impl Calibration {
         let row = left.row.unwrap_or(0);
         let expected = self.value(experiment, experiment.conditions[row], &values).ok()?;
         let measured = experiment.measured[row];
-        Some(Suspect { table: experiment.place(), row: left.row, chi_squared, degrees_of_freedom, measured, expected })
+        let table = experiment.place();
+        let suspect = Suspect { table, row: left.row, chi_squared, degrees_of_freedom, measured, expected };
+        Some((suspect, values))
     }
 
     fn without(&self, left: Left) -> Self {
@@ -129,8 +171,8 @@ impl Leverage<'_> {
     }
 }
 
-/// Those that promise most, the largest first.
-fn largest(mut candidates: Vec<(f64, Left)>) -> Vec<Left> {
+/// So many of those that promise most, the largest first.
+fn largest(mut candidates: Vec<(f64, Left)>, most: usize) -> Vec<Left> {
     candidates.sort_by(|(one, _), (other, _)| other.total_cmp(one));
-    candidates.into_iter().take(MOST).map(|(_, left)| left).collect()
+    candidates.into_iter().take(most).map(|(_, left)| left).collect()
 }
