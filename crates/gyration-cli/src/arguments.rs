@@ -17,7 +17,8 @@ const STYLES: Styles =
 const AFTER: &str = "SCENE is a path or the name of a scene of the gallery (see `gyration scenes`).
 
 Exit codes: 0 done, also when it ended at rest; 1 the run ended early; 2 bad arguments or a bad scene;
-3 the scene file or the recording cannot be read or written; 130 interrupted.";
+3 the scene file or the recording cannot be read or written; 4 done, but the energy balance is open;
+130 interrupted.";
 
 /// The program's arguments.
 #[derive(Debug, Parser)]
@@ -37,7 +38,7 @@ pub enum Command {
     /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching, resolved form
     Check(Check),
     /// Print the rest state of each body, and frequencies, decay rates and shapes of the small motions about it
-    Modes(Check),
+    Modes(Modes),
     /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and
     /// moment
     Resistance(ResistanceArguments),
@@ -106,9 +107,24 @@ pub struct RunArguments {
     pub json: bool,
 }
 
-/// `gyration check`, `gyration modes`
+/// `gyration check`
 #[derive(Debug, Args)]
 pub struct Check {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Make the first N steps as well, and tell whether a run resumed after any of them is the same to the byte,
+    /// planes between bodies are found alike, and momenta are kept
+    #[arg(long, value_name = "N")]
+    pub steps: Option<NonZeroUsize>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gyration modes`
+#[derive(Debug, Args)]
+pub struct Modes {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,

@@ -250,3 +250,17 @@ fn another_scene_is_not_resumed() {
     sandbox.write("same.toml", &format!("# a remark\n{BALL}"));
     sandbox.done(&["run", "same.toml", "-o", "ball.gyr", "--resume"]);
 }
+
+#[test]
+fn first_steps_are_told_beside_the_survey() {
+    let sandbox = Sandbox::with_ball();
+    let words = sandbox.done(&["check", "collide", "--steps", "20"]).stdout;
+    assert!(words.contains("first steps: 20, each resumes to the same bytes"), "{words}");
+    let json = sandbox.done(&["check", "collide", "--steps", "20", "--json"]).stdout;
+    let steps = &serde_json::from_str::<Value>(&json).unwrap()["steps"];
+    assert!(steps["count"] == 20 && steps["difference"].is_null(), "{steps}");
+    assert!(steps["changes"]["momentum"].as_f64().unwrap() < 1e-14, "{steps}");
+    // On a table momentum is not kept.
+    let json = sandbox.done(&["check", "ball.toml", "--steps", "5", "--json"]).stdout;
+    assert!(serde_json::from_str::<Value>(&json).unwrap()["steps"]["changes"].is_null(), "{json}");
+}

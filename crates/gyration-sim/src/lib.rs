@@ -14,6 +14,7 @@ mod anchor;
 mod approach;
 mod detection;
 pub mod events;
+mod first_steps;
 pub mod format;
 mod horizon;
 mod in_play;
@@ -46,6 +47,7 @@ mod way;
 mod within;
 
 pub use adapter::Tolerance;
+pub use first_steps::FirstSteps;
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
 pub use ports::{Monitor, Progress, RunError, Sink, WindowEnd};

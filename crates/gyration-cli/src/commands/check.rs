@@ -2,18 +2,24 @@
 
 use crate::arguments::Check;
 use crate::error::{CliError, code};
-use crate::input::open;
+use crate::input::{open, ready};
 use crate::output;
+use crate::provenance::provenance;
 use crate::waiting::waiting;
-use gyration_scene::LoadError;
+use gyration_scene::{LoadError, Scene};
+use gyration_sim::format::significant;
 use gyration_sim::survey::Survey;
+use gyration_sim::{FirstSteps, Job};
 use serde_json::json;
 
 /// Prints what can be said of the scene.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
-    let scene = waiting(format!("opening {name}"), true, || open(&arguments.scene))?;
+    // Steps need the resistances that only a run needs.
+    let opened = || if arguments.steps.is_some() { ready(&arguments.scene) } else { open(&arguments.scene) };
+    let scene = waiting(format!("opening {name}"), true, opened)?;
     let survey = waiting(format!("surveying {name}"), true, || Survey::of(&scene)).map_err(LoadError::from)?;
+    let steps = first_steps(arguments, &scene)?;
     let text = if arguments.json {
         let mut value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": survey.bodies });
         if !survey.springs.is_empty() {
@@ -27,10 +33,41 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
                 value[name] = json!(told);
             }
         }
+        if let Some(FirstSteps { windows, difference, planes, momenta }) = &steps {
+            let moved = momenta.map(|[linear, angular]| json!({ "momentum": linear, "angular_momentum": angular }));
+            value["steps"] = json!({ "count": windows, "difference": difference, "planes": planes, "changes": moved });
+        }
         format!("{value:#}\n")
     } else {
-        survey.text(&scene)?
+        survey.text(&scene)? + &steps.as_ref().map(in_words).unwrap_or_default()
     };
     output::print(&text)?;
-    Ok(code::DONE)
+    let failed = steps.and_then(|steps| steps.difference);
+    if let Some(what) = &failed {
+        output::say(&format!("gyration: a resumed run is another one: {what}; this is a fault of the program"));
+    }
+    Ok(if failed.is_some() { code::ENDED_EARLY } else { code::DONE })
+}
+
+/// The first steps, where they are asked for.
+fn first_steps(arguments: &Check, scene: &Scene) -> Result<Option<FirstSteps>, CliError> {
+    let Some(most) = arguments.steps else { return Ok(None) };
+    let job = Job::of(scene, &provenance());
+    let steps = || job.interruption().within(|| FirstSteps::of(&job, most.get()));
+    Ok(Some(waiting(format!("stepping {}", scene.name()), true, steps)?))
+}
+
+/// A paragraph below the survey.
+fn in_words(steps: &FirstSteps) -> String {
+    let FirstSteps { windows, difference, planes, momenta } = steps;
+    let resumed = if difference.is_none() { "each resumes to the same bytes" } else { "not all resume the same" };
+    let mut text = format!("\nfirst steps: {windows}, {resumed}");
+    if *planes > 0.0 {
+        text += &format!("; planes found anew push alike to {}", significant(*planes, 2));
+    }
+    if let Some([linear, angular]) = momenta {
+        let [linear, angular] = [linear, angular].map(|change| significant(*change, 2));
+        text += &format!("; momentum kept to {linear}, angular momentum to {angular} of what moves");
+    }
+    text + "\n"
 }

@@ -1,6 +1,6 @@
 //! `gyration modes`: the rest state of each body, and the small motions about it.
 
-use crate::arguments::Check;
+use crate::arguments::Modes;
 use crate::error::{CliError, code};
 use crate::input::ready;
 use crate::output;
@@ -17,7 +17,7 @@ const WIDTH: usize = 100;
 const LEAST_SEEN: f64 = 5e-4;
 
 /// Prints the modes of every body.
-pub fn execute(arguments: &Check) -> Result<u8, CliError> {
+pub fn execute(arguments: &Modes) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
     let scene = waiting(format!("opening {name}"), true, || ready(&arguments.scene))?;
     let text = waiting(format!("looking for the rest states of {name}"), true, || match arguments.json {
