@@ -35,6 +35,11 @@ impl Json {
         if let Self::Map(entries) = self { Some(entries) } else { None }
     }
 
+    /// The number.
+    pub fn number(&self) -> Option<f64> {
+        if let Self::Word(word) = self { word.parse().ok() } else { None }
+    }
+
     /// The text.
     pub fn text(&self) -> Option<&str> {
         if let Self::Text(text) = self { Some(text) } else { None }

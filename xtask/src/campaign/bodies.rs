@@ -2,8 +2,8 @@
 
 use super::draft::Draft;
 use super::materials::{affine, contractile};
-use super::shapes::{ShapeKind, any, closed, shape};
-use super::toml::{Matrix, UNIT, determinant, deviator, list, product, rotation, rows, scaled, scaled_rows};
+use super::shapes::{ShapeKind, any, closed, meeting, shape};
+use super::toml::{Matrix, UNIT, Vector, determinant, deviator, list, product, rotation, rows, scaled, scaled_rows};
 use std::fmt::Write as _;
 
 /// A body of a scene.
@@ -22,21 +22,33 @@ enum Kind {
     Contractile,
 }
 
-/// A body at this height [m]; in a fluid of this density [kg/m³], most are immersed.
-pub fn body(draft: &mut Draft, name: &str, height: f64, fluid: Option<f64>) -> RandomBody {
+/// Where a body starts.
+#[derive(Debug, Clone, Copy)]
+pub struct Place {
+    /// Its centre of mass [m].
+    pub at: Vector,
+    /// Where it flies to, more or less.
+    pub towards: Vector,
+    /// The line that names its groups, if it has any.
+    pub groups: &'static str,
+}
+
+/// A body; in a fluid of this density [kg/m³], most are immersed.
+pub fn body(draft: &mut Draft, name: &str, place: Place, fluid: Option<f64>) -> RandomBody {
     let kind = draft.stream.pick(&[Kind::Rigid, Kind::Rigid, Kind::Affine, Kind::Affine, Kind::Contractile]);
     let fluid = fluid.filter(|_| draft.stream.chance(0.8));
     let of = match (fluid, kind) {
         (Some(_), _) if draft.stream.chance(if kind == Kind::Rigid { 0.7 } else { 0.9 }) => {
             draft.stream.pick(&[ShapeKind::Sphere, ShapeKind::Ellipsoid])
         }
+        _ if draft.meets => meeting(draft, kind != Kind::Rigid),
         (Some(_), _) | (None, Kind::Contractile) => closed(draft, kind != Kind::Rigid),
         (None, _) => any(draft, kind != Kind::Rigid),
     };
     let size = draft.size;
-    let mut text = format!("[[body]]\nname = \"{name}\"\nshape = {}\n", shape(draft, of, size));
+    let mut text = format!("[[body]]\nname = \"{name}\"\n{}shape = {}\n", place.groups, shape(draft, of, size));
     mass(draft, &mut text, of);
-    let _ = writeln!(text, "position = {}", list(&[0.0, 0.0, height]));
+    let _ = writeln!(text, "position = {}", list(&place.at));
     let immersion = fluid.map(|density| Immersion::of(draft, of, kind, density));
     if let Some(immersion) = &immersion {
         let _ = writeln!(text, "inclusion = {{ {} }}", immersion.text);
@@ -50,11 +62,11 @@ pub fn body(draft: &mut Draft, name: &str, height: f64, fluid: Option<f64>) -> R
         deformed: kind == Kind::Affine,
         is_incompressible: flesh.as_ref().is_some_and(|flesh| flesh.is_incompressible),
         has_inertia: immersion.as_ref().is_none_or(|immersion| immersion.has_inertia),
-        is_pinned: immersion.is_none() && draft.stream.chance(0.1),
+        is_pinned: immersion.is_none() && !draft.isolated && draft.stream.chance(0.1),
     };
-    start(draft, &mut text, may_have);
-    if draft.stream.chance(0.15) {
-        spring(draft, &mut text, height);
+    start(draft, &mut text, may_have, place);
+    if !draft.isolated && draft.stream.chance(0.15) {
+        spring(draft, &mut text, place.at);
     }
     let flesh = flesh.map_or(String::new(), |flesh| flesh.text);
     RandomBody { text: format!("{text}{table}\n{flesh}\n"), has_surface: of != ShapeKind::Points }
@@ -79,7 +91,7 @@ impl Immersion {
     fn of(draft: &mut Draft, of: ShapeKind, kind: Kind, density: f64) -> Self {
         let is_ellipsoid = matches!(of, ShapeKind::Sphere | ShapeKind::Ellipsoid);
         let history = of == ShapeKind::Sphere && kind == Kind::Rigid && density > 0.0 && draft.stream.chance(0.5);
-        let has_inertia = history || draft.stream.chance(0.6);
+        let has_inertia = history || draft.meets || draft.stream.chance(0.6);
         let mut text = format!("inertia = {has_inertia}, history = {history}");
         if !is_ellipsoid {
             // Few and rough: what is tested is not the resistance.
@@ -103,7 +115,7 @@ struct Start {
     is_pinned: bool,
 }
 
-fn start(draft: &mut Draft, text: &mut String, start: Start) {
+fn start(draft: &mut Draft, text: &mut String, start: Start, place: Place) {
     let turn = draft.stream.turn();
     let spin = draft.speed() / draft.size * draft.stream.decade(-2.0, 0.3);
     let placement = start.deformed.then(|| stretched(draft, &rotation(turn), start.is_incompressible));
@@ -124,11 +136,19 @@ fn start(draft: &mut Draft, text: &mut String, start: Start) {
         let pin = scaled(draft.stream.direction(), draft.size * draft.stream.unit());
         let _ = writeln!(text, "pin = {}", list(&pin));
     } else if start.has_inertia {
-        let mut velocity = scaled(draft.stream.direction(), draft.speed() * draft.stream.decade(-1.0, 0.3));
-        // Towards the supports, or without gravity it may never come there.
-        velocity[2] = -velocity[2].abs();
+        // Towards what it may meet, or without gravity it may never come there.
+        let speed = draft.speed() * draft.stream.decade(-1.0, 0.3);
+        let (way, beside) = (direction(place), draft.stream.direction());
+        let velocity = [0, 1, 2].map(|k| speed * (way[k] + 0.4 * beside[k]));
         let _ = writeln!(text, "velocity = {}", list(&velocity));
     }
+}
+
+/// The direction from a body to where it flies.
+fn direction(Place { at, towards, .. }: Place) -> Vector {
+    let way = [0, 1, 2].map(|k| towards[k] - at[k]);
+    let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+    scaled(way, 1.0 / length.max(f64::MIN_POSITIVE))
 }
 
 /// A placement R U with stretches of at most a fifth; det = 1 where the body keeps its volume.
@@ -144,11 +164,11 @@ fn stretched(draft: &mut Draft, turn: &Matrix, is_incompressible: bool) -> Matri
     scaled_rows(&placement, 1.0 / size)
 }
 
-fn spring(draft: &mut Draft, text: &mut String, height: f64) {
+fn spring(draft: &mut Draft, text: &mut String, at: Vector) {
     let (size, mass) = (draft.size, draft.mass);
     let stiffness = mass * draft.pull / size * draft.stream.decade(-1.0, 2.0);
     let point = list(&scaled(draft.stream.direction(), 0.5 * size));
-    let anchor = list(&[0.0, 0.0, height + 3.0 * size]);
+    let anchor = list(&[at[0], at[1], at[2] + 3.0 * size]);
     let mut keys = format!("point = {point}, anchor = {anchor}, stiffness = {stiffness:?}");
     if draft.stream.chance(0.5) {
         let damping = (stiffness * mass).sqrt() * draft.stream.decade(-2.0, 0.0);

@@ -25,6 +25,7 @@ pub fn supports(draft: &mut Draft) -> Supports {
     let (sin, cos) = draft.stream.between(0.0, TAU).sin_cos();
     let tilted = |slope: f64| [slope.sin() * cos, slope.sin() * sin, slope.cos()];
     let normals = match draft.stream.index(10) {
+        _ if draft.isolated => vec![],
         0 => vec![],
         1..=4 => vec![[0.0, 0.0, 1.0]],
         5 | 6 => vec![tilted(draft.stream.between(0.0, 1.05))],
@@ -66,8 +67,17 @@ fn length(vector: &Vector) -> f64 {
 pub fn contact(draft: &mut Draft, support: usize, body: &str, rest_gap: f64) -> String {
     let measure = draft.stream.pick(&["deformed_area", "reference_area", "deformed_area_potential"]);
     let mut text = format!("[[contact]]\nsupport = \"s{support}\"\nbody = \"{body}\"\nmeasure = \"{measure}\"\n");
-    let pressure = draft.pressure();
     let repels = draft.stream.chance(0.95);
+    laws(draft, &mut text, rest_gap, repels);
+    if !repels || draft.stream.chance(0.2) {
+        adhesion(draft, &mut text, rest_gap);
+    }
+    text + "\n"
+}
+
+/// Repulsion, damping and friction of a contact; some are absent.
+pub fn laws(draft: &mut Draft, text: &mut String, rest_gap: f64, repels: bool) {
+    let pressure = draft.pressure();
     if repels {
         let (nu, d0) = (exponent(draft), reference(draft, rest_gap));
         let alpha = pressure * (rest_gap / d0).powf(nu);
@@ -82,17 +92,17 @@ pub fn contact(draft: &mut Draft, support: usize, body: &str, rest_gap: f64) -> 
             let _ = writeln!(text, "{name} = {{ beta = {beta:?}, nu = {nu:?}, d0 = {d0:?} }}");
         }
     }
-    if !repels || draft.stream.chance(0.2) {
-        let attractive = draft.stream.between(1.5, 8.0);
-        let repulsive = attractive + draft.stream.between(0.5, 4.0);
-        let (beta, d0) = (pressure * draft.stream.decade(-2.0, 1.0), rest_gap * draft.stream.decade(-0.5, 0.5));
-        let _ = writeln!(
-            text,
-            "adhesion = {{ beta = {beta:?}, nu_attractive = {attractive:?}, nu_repulsive = {repulsive:?}, \
-             d0 = {d0:?} }}"
-        );
-    }
-    text + "\n"
+}
+
+fn adhesion(draft: &mut Draft, text: &mut String, rest_gap: f64) {
+    let attractive = draft.stream.between(1.5, 8.0);
+    let repulsive = attractive + draft.stream.between(0.5, 4.0);
+    let beta = draft.pressure() * draft.stream.decade(-2.0, 1.0);
+    let d0 = rest_gap * draft.stream.decade(-0.5, 0.5);
+    let _ = writeln!(
+        text,
+        "adhesion = {{ beta = {beta:?}, nu_attractive = {attractive:?}, nu_repulsive = {repulsive:?}, d0 = {d0:?} }}"
+    );
 }
 
 /// An exponent from 2.5 to 12, whole every other time.

@@ -19,6 +19,10 @@ pub struct Draft {
     pub pull: f64,
     /// Files beside the scene: name and text.
     pub files: Vec<(String, String)>,
+    /// Whether bodies meet one another.
+    pub meets: bool,
+    /// Whether nothing from outside acts on them.
+    pub isolated: bool,
 }
 
 impl Draft {
@@ -29,7 +33,9 @@ impl Draft {
         let pull = if stream.chance(0.85) { 9.81 } else { size * stream.decade(-1.0, 1.0) };
         let mass =
             stream.decade(1.5, 4.3) * size.powi(3) * if stream.chance(0.2) { stream.decade(-3.0, 3.0) } else { 1.0 };
-        Self { stream, size, mass, pull, files: Vec::new() }
+        let meets = stream.chance(0.6);
+        let isolated = meets && stream.chance(0.4);
+        Self { stream, size, mass, pull, files: Vec::new(), meets, isolated }
     }
 
     /// The unit of time [s].

@@ -25,7 +25,7 @@ pub fn affine(draft: &mut Draft, has_volume: bool) -> Flesh {
     if has_volume {
         friction(draft, modulus, &mut flesh.text);
     }
-    if draft.stream.chance(0.1) {
+    if !draft.isolated && draft.stream.chance(0.1) {
         let part = draft.mass * draft.pull * draft.size * draft.stream.decade(-2.0, -0.5);
         let value = rows(&scaled_rows(&draft.stream.matrix(), part));
         let _ = writeln!(flesh.text, "couple = {{ value = {value} }}");
@@ -111,7 +111,7 @@ fn friction(draft: &mut Draft, modulus: f64, text: &mut String) {
             let bulk = viscosity * draft.stream.unit();
             let _ = writeln!(text, "internal_friction = {{ shear = {viscosity:?}, bulk = {bulk:?} }}");
         }
-        4 => {
+        4 if !draft.isolated => {
             let about = draft.mass / draft.time() * draft.stream.decade(-2.0, 0.0);
             let turning = about * draft.size * draft.size;
             let matrix = diagonal_rows(&[&[about; 3][..], &[turning; 9]].concat());
@@ -163,7 +163,7 @@ fn signal(draft: &mut Draft, modulus: f64, frequency: f64) -> String {
 fn feedback(draft: &mut Draft, modulus: f64, frequency: f64) -> String {
     let direction = list(&draft.stream.direction());
     let (measure, unit) = match draft.stream.index(3) {
-        0 => ("\"gap\"".to_owned(), draft.size),
+        0 if !draft.isolated => ("\"gap\"".to_owned(), draft.size),
         1 => (format!("{{ stretch = {direction} }}"), 1.0),
         _ => (format!("{{ rate = {direction} }}"), frequency),
     };

@@ -2,14 +2,18 @@
 //!
 //! Of every scene is asked that `check` and `run` agree, that the ledger has the verdict that its rows give and a run
 //! with an open one says so, that gaps stay positive, times grow and volumes are kept, that the bytes of a run that was
-//! killed at a random moment and resumed on two threads are those of a run on one thread, that exit codes are those
-//! documented, and that nothing panics or runs beyond its wall time. A scene depends on the seed and its number alone.
-//! Those that fail stay in a folder each, with the cause.
+//! killed or interrupted at random moments and resumed on one to seven threads are those of a run on one thread, that
+//! each of the first steps resumes to the same bytes, that planes found anew push as those remembered, that bodies
+//! alone keep their momenta, that names and the order of bodies change nothing, that exit codes are those documented,
+//! and that nothing panics or runs beyond its wall time. A scene depends on the seed and its number alone. Those that
+//! fail stay in a folder each, with the cause.
 
 mod bodies;
 mod contacts;
 mod draft;
+mod first_steps;
 mod materials;
+mod meetings;
 mod options;
 mod process;
 mod report;

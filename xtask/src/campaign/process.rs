@@ -10,6 +10,31 @@ use std::time::{Duration, Instant};
 /// How often a running program is looked at.
 const LOOK: Duration = Duration::from_millis(1);
 
+/// An interrupted program ends within this time: a second, and more for a busy machine.
+const HEEDS: Duration = Duration::from_secs(5);
+
+/// How a run is stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// At once, wherever it is.
+    Kill,
+    /// As by Ctrl-C.
+    Interrupt,
+}
+
+/// What came of a stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stopped {
+    /// The program had ended before.
+    TooLate,
+    /// It was killed.
+    Killed,
+    /// It was interrupted, and ended with this code.
+    Interrupted(Option<i32>),
+    /// It ran on.
+    Heedless,
+}
+
 /// The program, and the folder in which it runs.
 #[derive(Debug, Clone)]
 pub struct Place<'a> {
@@ -60,12 +85,24 @@ impl Place<'_> {
         Ok(Ending::Ended(Said { code, stdout: stdout?, stderr: stderr?, wall }))
     }
 
-    /// Starts the program and kills it after this time; whether it was still running.
-    pub fn kill_after(&self, time: Duration, arguments: &[&str], threads: usize) -> Result<bool> {
+    /// Starts the program and stops it after this time; whether it was still running.
+    pub fn stop_after(&self, time: Duration, stop: Stop, arguments: &[&str], threads: usize) -> Result<Stopped> {
         let mut command = self.command(arguments, threads);
         let started = Instant::now();
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
-        Ok(waited(&mut child, started, time)?.is_none())
+        if ended(&mut child, started, time)?.is_some() {
+            return Ok(Stopped::TooLate);
+        }
+        if stop == Stop::Kill {
+            child.kill()?;
+            child.wait()?;
+            return Ok(Stopped::Killed);
+        }
+        Command::new("kill").args(["-INT", &child.id().to_string()]).status()?;
+        match waited(&mut child, Instant::now(), HEEDS)? {
+            Some(code) => Ok(Stopped::Interrupted(code)),
+            None => Ok(Stopped::Heedless),
+        }
     }
 
     fn command(&self, arguments: &[&str], threads: usize) -> Command {
@@ -78,14 +115,22 @@ impl Place<'_> {
 
 /// The exit code of a child; none if it is killed because this time has passed.
 fn waited(child: &mut Child, started: Instant, limit: Duration) -> Result<Option<Option<i32>>> {
+    let code = ended(child, started, limit)?;
+    if code.is_none() {
+        child.kill()?;
+        child.wait()?;
+    }
+    Ok(code)
+}
+
+/// The exit code of a child; none if it has not ended within this time.
+fn ended(child: &mut Child, started: Instant, limit: Duration) -> Result<Option<Option<i32>>> {
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status.code()));
         }
         let left = limit.saturating_sub(started.elapsed());
         if left.is_zero() {
-            child.kill()?;
-            child.wait()?;
             return Ok(None);
         }
         sleep(LOOK.min(left));
@@ -103,7 +148,12 @@ mod tests {
     #[test]
     fn a_program_beyond_its_limit_is_killed() {
         assert_eq!(place(30).run(&["-c", "sleep 60"], 1).unwrap(), Ending::Overran);
-        assert!(place(30).kill_after(Duration::from_millis(20), &["-c", "sleep 60"], 1).unwrap());
-        assert!(!place(30).kill_after(Duration::from_secs(60), &["-c", "exit 3"], 1).unwrap());
+        let stopped = |stop, what| place(30).stop_after(Duration::from_millis(200), stop, &["-c", what], 1).unwrap();
+        assert_eq!(stopped(Stop::Kill, "sleep 60"), Stopped::Killed);
+        assert_eq!(stopped(Stop::Kill, "exit 3"), Stopped::TooLate);
+        assert_eq!(
+            stopped(Stop::Interrupt, "trap 'exit 5' INT; while :; do sleep 0.01; done"),
+            Stopped::Interrupted(Some(5))
+        );
     }
 }

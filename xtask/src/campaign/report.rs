@@ -25,7 +25,8 @@ impl Report {
         let report = Json::parse(&said.stdout).ok_or("what --json prints is no JSON")?;
         let outcome = outcome(report.get("outcome").ok_or("--json has no outcome")?).ok_or("an outcome of no kind")?;
         let ledger = report.get("ledger").ok_or("--json has no ledger")?;
-        let number = |key: &str| ledger.get(key).and_then(number).ok_or_else(|| format!("the ledger has no {key}"));
+        let number =
+            |key: &str| ledger.get(key).and_then(Json::number).ok_or_else(|| format!("the ledger has no {key}"));
         let (largest, allowed) = (number("largest_residual")?, number("allowed_residual")?);
         let is_open = ledger.get("verdict").and_then(Json::text) == Some("open");
         if is_open != (largest > allowed) {
@@ -62,7 +63,7 @@ impl Report {
     pub fn audit(&self, said: &Said, table: &Table, recording: &Path, end: f64) -> Result<(), String> {
         table.audit()?;
         let report = Json::parse(&said.stdout).ok_or("no JSON")?;
-        let told = |key: &str| report.get("ledger").and_then(|ledger| ledger.get(key)).and_then(number);
+        let told = |key: &str| report.get("ledger").and_then(|ledger| ledger.get(key)).and_then(Json::number);
         let largest = table.largest_residual();
         // A run that is given up within a step knows samples that have not come to the disk.
         let agrees = |told: f64| told == largest || (told > largest && !self.is_final());
@@ -103,10 +104,6 @@ fn outcome(value: &Json) -> Option<String> {
         return Some("at_rest".into());
     }
     value.get("stopped")?.get("reason")?.text().map(str::to_owned)
-}
-
-fn number(value: &Json) -> Option<f64> {
-    if let Json::Word(word) = value { word.parse().ok() } else { None }
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! A random scene: a pure function of a seed and a number.
 
-use super::bodies::body;
+use super::bodies::{Place, body};
 use super::contacts::{contact, supports};
 use super::draft::Draft;
+use super::meetings::{meetings, places};
 use super::toml::{deviator, list, rows, scaled, scaled_rows};
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -19,38 +20,65 @@ pub struct RandomScene {
     pub files: Vec<(String, String)>,
     /// `time.end` [s].
     pub end: f64,
+    /// The same scene with other names for its bodies, and bodies, contacts and springs in the reverse order; none of
+    /// one body.
+    pub exchanged: Option<String>,
+    /// `solver.rtol`.
+    pub rtol: f64,
+    /// The radius of its bodies [m].
+    pub size: f64,
 }
+
+/// What stands before the name of a body in the exchanged scene.
+pub const EXCHANGED: &str = "x-";
 
 impl RandomScene {
     /// The scene of this number.
     pub fn of(seed: u64, case: u64) -> Self {
         let draft = &mut Draft::of(seed, case);
-        let has_fluid = draft.stream.chance(0.3);
+        let has_fluid = !draft.isolated && draft.stream.chance(0.3);
         let mut text = format!("title = \"campaign {seed}, scene {case}\"\n\n");
-        let end = clock(draft, &mut text);
-        let weightless = draft.pull != 9.81 || has_fluid && draft.stream.chance(0.5);
+        let (end, rtol) = clock(draft, &mut text);
+        let weightless = draft.isolated || draft.pull != 9.81 || has_fluid && draft.stream.chance(0.5);
         let _ = writeln!(text, "[world]\ngravity = {}\n", if weightless { "[0, 0, 0]" } else { "[0, 0, -9.81]" });
         let fluid_density = if has_fluid { fluid(draft, &mut text) } else { 0.0 };
         let supports = supports(draft);
         text.push_str(&supports.text);
-        let (mut bodies, mut contacts) = (String::new(), String::new());
-        for index in 0..draft.stream.pick(&[1, 1, 1, 1, 2, 3]) {
-            let rest_gap = draft.size * draft.stream.decade(-3.0, -1.0);
+        let count = draft.stream.pick(if draft.meets { &[2, 2, 2, 3, 3, 4, 6] } else { &[1, 1, 1, 1, 1, 2, 3] });
+        let rest_gap = draft.size * draft.stream.decade(-3.0, -1.0);
+        let height = supports.height + rest_gap;
+        let places = match draft.meets {
+            true => places(draft, count, height),
+            false => vec![Place { at: [0.0, 0.0, height], towards: [0.0; 3], groups: "" }; count],
+        };
+        let (mut bodies, mut contacts) = (Vec::new(), Vec::new());
+        for (index, place) in places.into_iter().enumerate() {
             let name = format!("b{index}");
-            let drawn = body(draft, &name, supports.height + rest_gap, has_fluid.then_some(fluid_density));
-            bodies.push_str(&drawn.text);
+            let drawn = body(draft, &name, place, has_fluid.then_some(fluid_density));
+            bodies.push(drawn.text);
             for support in 0..if drawn.has_surface { supports.count } else { 0 } {
-                contacts.push_str(&contact(draft, support, &name, rest_gap));
+                contacts.push(contact(draft, support, &name, rest_gap));
             }
         }
-        text.push_str(&contacts);
-        text.push_str(&bodies);
-        Self { text, files: std::mem::take(&mut draft.files), end }
+        if draft.meets {
+            contacts.extend(meetings(draft, count, rest_gap));
+        }
+        let exchanged = (count > 1).then(|| {
+            let reversed = contacts.iter().chain(&bodies).rev().cloned().collect::<String>();
+            let renamed = (0..count).fold(reversed, |text, index| {
+                text.replace(&format!("\"b{index}\""), &format!("\"{EXCHANGED}b{index}\""))
+            });
+            format!("{text}{renamed}")
+        });
+        text.extend(contacts);
+        text.extend(bodies);
+        let size = draft.size;
+        Self { text, files: std::mem::take(&mut draft.files), end, exchanged, rtol, size }
     }
 }
 
-/// How long, how precisely; the end [s].
-fn clock(draft: &mut Draft, text: &mut String) -> f64 {
+/// How long, how precisely; the end [s] and the tolerance.
+fn clock(draft: &mut Draft, text: &mut String) -> (f64, f64) {
     let time = draft.time();
     let end = time * draft.stream.between(2.0, 7.0);
     let _ = writeln!(text, "[time]\nend = {end:?}\nsample = {:?}", end / SAMPLES);
@@ -61,7 +89,7 @@ fn clock(draft: &mut Draft, text: &mut String) -> f64 {
     let rtol = draft.stream.decade(-8.0, -3.0);
     let method = draft.stream.pick(&["auto", "auto", "auto", "explicit", "implicit"]);
     let _ = writeln!(text, "\n[solver]\nrtol = {rtol:?}\natol = {:?}\nmethod = \"{method}\"\n", 1e-2 * rtol);
-    end
+    (end, rtol)
 }
 
 /// A fluid that stops a body within a tenth of the unit of time to ten of them; its density [kg/m³].
@@ -155,7 +183,11 @@ mod tests {
             "internal_friction",
             "gradient_rate",
             "density",
-            "name = \"b2\"",
+            "name = \"b5\"",
+            "between",
+            "reach",
+            "[[spring]]",
+            "group = [",
         ];
         for word in words {
             assert!(all.contains(word), "no scene has `{word}`");

@@ -33,6 +33,27 @@ const CLOSED: [ShapeKind; 9] = [
     ShapeKind::Mesh,
 ];
 
+/// Those with one convex surface, or closed ones made of such.
+const MEETING: [ShapeKind; 9] = [
+    ShapeKind::Sphere,
+    ShapeKind::Ellipsoid,
+    ShapeKind::Box,
+    ShapeKind::Cylinder,
+    ShapeKind::Cone,
+    ShapeKind::Capsule,
+    ShapeKind::Polyhedron,
+    ShapeKind::Mesh,
+    ShapeKind::Union,
+];
+
+/// A shape that meets others; of a body that deforms often one whose moments are cheap.
+pub fn meeting(draft: &mut Draft, deforms: bool) -> ShapeKind {
+    match deforms && draft.stream.chance(0.6) {
+        true => draft.stream.pick(&[ShapeKind::Sphere, ShapeKind::Ellipsoid, ShapeKind::Box, ShapeKind::Polyhedron]),
+        false => draft.stream.pick(&MEETING),
+    }
+}
+
 /// One closed surface; of a body that deforms more often one whose moments are cheap.
 pub fn closed(draft: &mut Draft, deforms: bool) -> ShapeKind {
     match deforms && draft.stream.chance(0.6) {
@@ -99,7 +120,7 @@ fn union(draft: &mut Draft, radius: f64) -> String {
     let count = 2 + draft.stream.index(2);
     let parts: Vec<String> = (0..count)
         .map(|_| {
-            let kind = draft.stream.pick(&CLOSED);
+            let kind = draft.stream.pick(if draft.meets { &MEETING[..8] } else { &CLOSED });
             let offset = list(&scaled(draft.stream.direction(), 0.5 * radius));
             let (turn, density) = (list(&draft.stream.turn()), draft.stream.decade(-0.5, 0.5));
             let shape = shape(draft, kind, 0.5 * radius);
@@ -121,10 +142,10 @@ fn points(draft: &mut Draft, radius: f64) -> String {
     format!("{{ points = [{}] }}", points.join(", "))
 }
 
-/// A cube with a dent or a spike on one side, in a file of its own.
+/// A cube with a spike on one side, or a dent where bodies do not meet, in a file of its own.
 fn mesh(draft: &mut Draft, radius: f64) -> String {
     let half = 1.0 / 3_f64.sqrt();
-    let apex = half * draft.stream.between(-0.5, 1.5);
+    let apex = half * draft.stream.between(if draft.meets { 1.05 } else { -0.5 }, 1.5);
     let mut text = String::new();
     for k in 0..8 {
         let sign = |bit: usize| if k >> bit & 1 == 1 { half } else { -half };

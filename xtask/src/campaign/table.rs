@@ -59,6 +59,26 @@ impl Table {
         self.rows.iter().map(in_row).fold(0.0, f64::max)
     }
 
+    /// How far bodies are at most from where another table has them at the same time, in which their names have a word
+    /// before them [m].
+    pub fn farthest(&self, other: &Self, before: &str) -> Result<f64, String> {
+        if self.rows.len() != other.rows.len() {
+            return Err(format!("{} rows as written, {} with bodies exchanged", self.rows.len(), other.rows.len()));
+        }
+        let mut farthest = 0.0_f64;
+        for body in self.names.iter().filter_map(|name| name.strip_suffix(".x")) {
+            for axis in ["x", "y", "z"] {
+                let one = self.column(&format!("{body}.{axis}"));
+                let (Some(one), Some(another)) = (one, other.column(&format!("{before}{body}.{axis}"))) else {
+                    return Err(format!("{body} has no place"));
+                };
+                let off = self.rows.iter().zip(&other.rows).map(|(a, b)| (a[one] - b[another]).abs());
+                farthest = off.fold(farthest, f64::max);
+            }
+        }
+        Ok(farthest)
+    }
+
     fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|column| column == name)
     }
@@ -158,6 +178,14 @@ mod tests {
         assert_eq!(audited("0,inf,1,0,0,0\n0.5,1e-9,0.5,0.25,-0.25,0\n1,1,0.5,0,-0.75,0.25\n"), Ok(()));
         let table = Table::parse(&format!("{HEAD}\n0,1,1,0,0,0\n1,1,0.5,0,-3,-0.25\n")).unwrap();
         assert_eq!((table.end(), table.largest_residual(), table.in_play()), (1.0, 0.25, 3.0));
+    }
+
+    #[test]
+    fn the_farthest_body_of_two_tables_is_found() {
+        let table = |name: &str, z: f64| Table::parse(&format!("t,{name}.x,{name}.y,{name}.z\n0,1,2,3\n1,2,3,{z}\n"));
+        let one = table("b", 4.0).unwrap();
+        assert_eq!(one.farthest(&table("x-b", 4.5).unwrap(), "x-"), Ok(0.5));
+        assert!(one.farthest(&table("b", 4.5).unwrap(), "x-").is_err());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Counts of a campaign.
 
-use super::trial::{Killed, Verdict};
+use super::trial::{Stops, Verdict};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -11,7 +11,17 @@ const FEW: usize = 12;
 #[derive(Debug, Default)]
 pub struct CampaignTally {
     outcomes: BTreeMap<String, Vec<u64>>,
-    kills: BTreeMap<Killed, usize>,
+    stops: Stops,
+    /// Steps after which a run was resumed and stepped on.
+    steps: f64,
+    /// The largest difference of a force by planes found anew, and whose it is.
+    planes: (f64, u64),
+    /// The largest change of a momentum and an angular momentum of what is alone, and whose they are.
+    changes: [(f64, u64); 2],
+    /// How many were alone.
+    alone: usize,
+    /// How far runs with bodies exchanged came, over rtol times the size.
+    exchanged: Vec<(f64, u64)>,
     /// Runs that ended well with an open ledger, and said so: their numbers.
     open: Vec<u64>,
     /// The largest residual over what the tolerances let pass, among closed ledgers, and whose it is.
@@ -30,9 +40,18 @@ impl CampaignTally {
                 } else if verdict.residual > self.worst.0 {
                     self.worst = (verdict.residual, case);
                 }
-                if let Some(killed) = verdict.killed {
-                    *self.kills.entry(killed).or_default() += 1;
+                let Stops { killed, interrupted, early, late } = verdict.stops;
+                self.stops.killed += killed;
+                self.stops.interrupted += interrupted;
+                self.stops.early += early;
+                self.stops.late += late;
+                self.steps += verdict.steps.count;
+                raise(&mut self.planes, verdict.steps.planes, case);
+                self.alone += usize::from(verdict.steps.changes.is_some());
+                for (most, change) in self.changes.iter_mut().zip(verdict.steps.changes.unwrap_or_default()) {
+                    raise(most, change, case);
                 }
+                self.exchanged.extend(verdict.exchanged.map(|off| (off, case)));
                 self.outcomes.entry(verdict.outcome).or_default().push(case);
             }
             Err(cause) => drop(self.failures.insert(case, cause)),
@@ -53,20 +72,45 @@ impl CampaignTally {
                 let _ = write!(text, "  {:?}", in_order(cases));
             }
         }
-        let kills = |killed| self.kills.get(&killed).copied().unwrap_or(0);
+        let Stops { killed, interrupted, early, late } = self.stops;
         let _ = write!(
             text,
-            "\nkilled and resumed: {} on their way, {} before there was a recording, {} had ended",
-            kills(Killed::OnItsWay),
-            kills(Killed::BeforeItBegan),
-            kills(Killed::TooLate)
+            "\nstopped and resumed: {killed} times killed, {interrupted} times interrupted; {early} times before there \
+             was a recording, {late} times when all was done\n{} steps resumed to the same bytes",
+            self.steps
         );
+        for (what, (most, case)) in [
+            ("difference of a force by planes found anew, over the largest force", self.planes),
+            ("change of the momentum of bodies alone", self.changes[0]),
+            ("change of their angular momentum", self.changes[1]),
+        ] {
+            let _ = write!(text, "\nlargest {what}: {most:.1e} (scene {case})");
+        }
+        let _ = write!(text, ", of {}", self.alone);
+        let mut exchanged = self.exchanged.clone();
+        exchanged.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((most, case)) = exchanged.last() {
+            let (median, _) = exchanged[exchanged.len() / 2];
+            let _ = write!(
+                text,
+                "\nwith bodies exchanged and renamed, over rtol times the size: median {median:.1e}, most {most:.1e} \
+                 (scene {case}), of {}",
+                exchanged.len()
+            );
+        }
         let (worst, case) = self.worst;
         let _ = write!(text, "\nworst residual of a closed ledger: {worst:.2e} of what is allowed (scene {case})");
         if !self.open.is_empty() {
             let _ = write!(text, "\nopen ledgers, told by warning and exit code: {:?}", in_order(&self.open));
         }
         text
+    }
+}
+
+/// Keeps the larger of two numbers, and whose it is.
+fn raise(most: &mut (f64, u64), number: f64, case: u64) {
+    if number > most.0 {
+        *most = (number, case);
     }
 }
 
@@ -78,6 +122,7 @@ fn in_order(cases: &[u64]) -> Vec<u64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::first_steps::Shown;
     use super::*;
 
     #[test]
@@ -85,17 +130,24 @@ mod tests {
         let mut tally = CampaignTally::default();
         let verdict = |residual, is_open| Verdict {
             outcome: "completed".into(),
-            killed: Some(Killed::OnItsWay),
+            stops: Stops { killed: 1, interrupted: 2, ..Stops::default() },
             residual,
             is_open,
+            steps: Shown { count: 25.0, planes: 1e-12, changes: Some([1e-16, 1e-9]) },
+            exchanged: Some(0.5),
         };
         tally.take(1, Ok(verdict(0.25, false)));
         tally.take(2, Ok(verdict(7.0, true)));
         tally.take(3, Err("panicked".into()));
         let text = tally.text();
-        for told in
-            ["2 scenes passed, 1 failed", "completed               2  [1, 2]", "2 on their way", "2.50e-1", "[2]"]
-        {
+        for told in [
+            "2 scenes passed, 1 failed",
+            "completed               2  [1, 2]",
+            "2 times killed, 4 times",
+            "50 steps",
+            "2.50e-1",
+            "[2]",
+        ] {
             assert!(text.contains(told), "{told}: {text}");
         }
     }
