@@ -264,3 +264,15 @@ fn first_steps_are_told_beside_the_survey() {
     let json = sandbox.done(&["check", "ball.toml", "--steps", "5", "--json"]).stdout;
     assert!(serde_json::from_str::<Value>(&json).unwrap()["steps"]["changes"].is_null(), "{json}");
 }
+
+/// A run that is killed between its outcome and its picture leaves the picture of the part before.
+#[test]
+fn a_finished_recording_gets_the_picture_of_the_whole_run() {
+    let sandbox = Sandbox::with_ball();
+    sandbox.done(&["run", "ball.toml"]);
+    let picture = sandbox.path("ball.gyr/overview.svg");
+    let whole = std::fs::read(&picture).unwrap();
+    std::fs::write(&picture, "<svg/>").unwrap();
+    sandbox.done(&["run", "ball.toml", "--resume"]);
+    assert!(std::fs::read(&picture).unwrap() == whole);
+}

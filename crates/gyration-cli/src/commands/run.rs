@@ -49,9 +49,7 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
             output::say(&format!("gyration: once that is mended, go on with `{}`", resume_command(arguments, &path)));
         }
     })?;
-    if !(matches!(ended, Ended::AlreadyFinished(_)) && path.join(OVERVIEW).exists())
-        && let Some(warning) = leave_overview(&path)
-    {
+    if let Some(warning) = leave_overview(&path) {
         output::say(&format!("gyration: {warning}"));
     }
     match ended {

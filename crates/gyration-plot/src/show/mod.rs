@@ -23,6 +23,7 @@ use crate::strip::Strip;
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
 use gyration_sim::replay::{Replay, ReplayError};
+use std::fs;
 use std::path::Path;
 
 pub use quantity::PlotQuantity;
@@ -57,10 +58,17 @@ pub fn laws(scene: &Scene) -> Result<Figure, PlotError> {
 }
 
 /// Draws the overview into the recording; a picture that fails does not make the run fail, it gives a warning.
+///
+/// The picture that is there may be of an earlier part of the run, which was stopped: one that is the same is left
+/// alone, be it where nothing can be written.
 pub fn leave_overview(path: &Path) -> Option<String> {
     let draw = || -> Result<(), PlotError> {
         let figure = of_recording(&Recording::open(path)?, &[PlotQuantity::Overview], &[])?;
-        Ok(write_file(&path.join(OVERVIEW), &figure.render(Format::Svg))?)
+        let (file, picture) = (path.join(OVERVIEW), figure.render(Format::Svg));
+        match fs::read(&file) {
+            Ok(there) if there == picture => Ok(()),
+            _ => Ok(write_file(&file, &picture)?),
+        }
     };
     match draw() {
         Ok(()) | Err(PlotError::Empty { .. }) => None,

@@ -124,12 +124,7 @@ impl Calibration {
     }
 
     /// What is left out and the numbers that the others tell, if they agree.
-    fn agreement_without(
-        &self,
-        left: Left,
-        degrees_of_freedom: usize,
-        patience: usize,
-    ) -> Option<(Suspect, Vec<f64>)> {
+    fn agreement_without(&self, left: Left, degrees_of_freedom: usize, patience: usize) -> Option<(Suspect, Vec<f64>)> {
         let experiment = &self.experiments[left.table];
         let count = left.row.map_or(experiment.measured.len(), |_| 1);
         let degrees_of_freedom = degrees_of_freedom.checked_sub(count).filter(|freedom| *freedom > 0)?;
