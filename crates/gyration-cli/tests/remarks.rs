@@ -36,3 +36,26 @@ fn a_note_is_told_and_a_warning_stands_in_the_recording() {
     assert!(summary["warnings"][0].as_str().unwrap().contains("the fluid between"), "{summary}");
     assert_same_bytes(&sandbox.path("fluid.gyr"), &sandbox.path("again.gyr"));
 }
+
+/// A box and a small cube aslant above it, with a law that hardly forbids touching: the plane between them is nearer to
+/// a corner of the box than digits tell.
+#[test]
+fn a_start_that_a_run_refuses_is_refused_by_check_unless_it_is_out_of_reach() {
+    let sandbox = Sandbox::new();
+    let scene = |place: [f64; 3]| {
+        format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}
+            [[contact]]\nbetween = [\"a\", \"b\"]\nreach = 0.2\nrepulsion = {{ alpha = 1, nu = 2, d0 = 0.1 }}
+            [[body]]\nname = \"a\"\nmass = 1\nshape = {{ box = {{ size = [0.2, 0.2, 0.5] }} }}
+            [[body]]\nname = \"b\"\nmass = 1\nshape = {{ box = {{ size = [0.0005, 0.0005, 0.0005] }} }}
+            position = {place:?}\nvelocity = [0, 0, -0.1]\n"
+        )
+    };
+    sandbox.write("near.toml", &scene([0.15, 0.14, 0.3]));
+    sandbox.write("far.toml", &scene([11.0, 9.0, 20.0]));
+    for command in ["check", "run"] {
+        let said = sandbox.refused(2, &[command, "near.toml"]);
+        assert!(said.stderr.contains("the plane between"), "{command}: {}", said.stderr);
+        sandbox.done(&[command, "far.toml"]);
+    }
+}

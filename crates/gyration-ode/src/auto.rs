@@ -45,6 +45,11 @@ pub(crate) struct Switch {
 }
 
 impl Switch {
+    /// Whether so many mistakes in a row are counted.
+    pub fn is_patient(&self) -> bool {
+        self.patience <= BAR.1
+    }
+
     /// After an explicit step: whether the implicit method should take over.
     pub fn leave_explicit(&mut self, stiffness: f64) -> bool {
         self.stay += 1;

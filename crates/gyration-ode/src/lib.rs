@@ -61,7 +61,7 @@ pub use block_matrix::BlockMatrix;
 pub use events::{CrossingDirection, find_crossing};
 pub use extended::{Extended, ExtendedMut};
 pub use integrator::Integrator;
-pub use memory::{Memory, MemoryError};
+pub use memory::{MOST_COUNTED, Memory, MemoryError};
 pub use pattern::{Components, Pattern};
 pub use report::{Cause, Failure, Limit, Method, Options, Statistics, StepReport, Stepper};
 pub use scratch::Scratch;

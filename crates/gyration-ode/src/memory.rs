@@ -55,7 +55,16 @@ pub enum MemoryError {
         /// The number of reals found.
         reals: usize,
     },
+    /// A number that no run comes to.
+    #[error("the checkpoint holds {what} that no run comes to")]
+    Number {
+        /// Which.
+        what: &'static str,
+    },
 }
+
+/// Counters of a run stay below this one.
+pub const MOST_COUNTED: u64 = 1 << 62;
 
 /// The state between two steps, in a form that can be computed with.
 #[derive(Debug, Clone, PartialEq)]
@@ -183,5 +192,26 @@ pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors
         switch: Switch { votes: ints[5], stay: ints[6], bar: ints[7], patience: ints[8] },
         statistics: Statistics::of_numbers(counters, [rest[7], rest[8]]),
     };
+    progress.checked(&vectors)?;
     Ok((progress, vectors))
+}
+
+impl StepperState {
+    /// Whether a run can come to these numbers.
+    fn checked(&self, vectors: &CheckpointVectors) -> Result<(), MemoryError> {
+        let StepperState { step, collocation_step, switch, statistics, .. } = self;
+        let (counters, steps) = statistics.numbers();
+        let votes = [switch.votes, switch.stay, switch.bar, switch.patience];
+        let is_length = |step: &f64| *step >= 0.0 && *step < f64::INFINITY;
+        let wrong = [
+            (!vectors.t.is_finite(), "a time"),
+            (![*step, *collocation_step].iter().chain(&steps).all(is_length), "a step"),
+            (counters.iter().chain(&votes).any(|count| *count >= MOST_COUNTED), "a counter"),
+            (!switch.is_patient(), "a choice of the stepper"),
+        ];
+        match wrong.into_iter().find(|(is_wrong, _)| *is_wrong) {
+            Some((_, what)) => Err(MemoryError::Number { what }),
+            None => Ok(()),
+        }
+    }
 }

@@ -117,7 +117,20 @@ fn numbers_that_are_no_checkpoint_are_refused() {
     let mut short = good.clone();
     short.reals.pop();
     assert!(matches!(Integrator::resume(&short, options), Err(MemoryError::Length { .. })));
-    let mut sizes = good;
+    let mut sizes = good.clone();
     sizes.integers[1] = u64::MAX;
     assert!(matches!(Integrator::resume(&sizes, options), Err(MemoryError::Length { .. })));
+    // A time, the next step, the mistakes of the choice of a stepper, the last counter.
+    let step = good.reals.len() - 11;
+    for (place, number) in [(0, f64::NAN), (step, -1.0), (step, f64::INFINITY)] {
+        let mut damaged = good.clone();
+        damaged.reals[place] = number;
+        let found = Integrator::resume(&damaged, options);
+        assert!(matches!(found, Err(MemoryError::Number { .. })), "{place}: {number}");
+    }
+    for place in [8, good.integers.len() - 1] {
+        let mut damaged = good.clone();
+        damaged.integers[place] = u64::MAX;
+        assert!(matches!(Integrator::resume(&damaged, options), Err(MemoryError::Number { .. })), "{place}");
+    }
 }

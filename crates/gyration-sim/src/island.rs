@@ -178,7 +178,10 @@ impl Island {
             if self.anchor.is_none() && self.time() < time {
                 self.anchor = Some(Anchor::new(memory.clone()));
             }
-            while self.time() < time && !self.state.is_parting && self.step(plan).is_ok() {}
+            // The step behind the memory reaches over the time.
+            if self.time() < time && !self.state.is_parting && self.step(plan).is_ok() && self.time() < time {
+                return Err(MemoryError::Number { what: "a time" });
+            }
             self.events.retain(|event| event.time > time);
             Ok(())
         })

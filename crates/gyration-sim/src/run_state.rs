@@ -8,7 +8,7 @@ use crate::in_play::InPlay;
 use crate::looseness::Looseness;
 use crate::sum::Sum;
 use gyration::ledger::Work;
-use gyration_ode::{Integrator, Memory, Statistics};
+use gyration_ode::{Integrator, MOST_COUNTED, Memory, Statistics};
 
 /// The works that only take: within a body each is a quadratic form of the velocities, with a minus sign.
 pub(crate) const DISSIPATION: [Work; 2] = [Work::Contraction, Work::Viscosity];
@@ -131,6 +131,9 @@ impl RunState {
         let looseness = Looseness { of_lengths, of_pairs };
         let [next_sample, events @ ..] = integers;
         let settled = Settled::read(&mut rest)?;
+        if !(time.is_finite() && integers.iter().all(|count| *count < MOST_COUNTED)) {
+            return None;
+        }
         let state =
             Self { time, next_sample, initial_energy, largest_residual, looseness, smallest_gap, events, settled };
         let mut islands = Vec::new();
@@ -154,7 +157,10 @@ impl Settled {
         let sums = list(rest)?;
         let (sums, rest_of_sums) = sums.as_chunks::<3>();
         let works = sums.iter().map(|bits| Sum::of_bits(*bits)).collect();
-        let counters = list(rest)?.try_into().ok()?;
+        let counters: [u64; 9] = list(rest)?.try_into().ok()?;
+        if counters.iter().any(|count| *count >= MOST_COUNTED) {
+            return None;
+        }
         let steps: [u64; 2] = list(rest)?.try_into().ok()?;
         let statistics = Statistics::of_numbers(counters, steps.map(f64::from_bits));
         rest_of_sums.is_empty().then_some(Self { works, statistics })

@@ -9,8 +9,11 @@ use crate::waiting::waiting;
 use gyration_scene::{LoadError, Scene};
 use gyration_sim::format::significant;
 use gyration_sim::survey::Survey;
-use gyration_sim::{FirstSteps, Job};
+use gyration_sim::{FirstSteps, Job, MemorySink, RunError, Simulation};
 use serde_json::json;
+
+/// Pairs of bodies that are looked at here as a run does.
+const MOST_PAIRS: usize = 1000;
 
 /// Prints what can be said of the scene.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
@@ -18,6 +21,7 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     // Steps need the resistances that only a run needs.
     let opened = || if arguments.steps.is_some() { ready(&arguments.scene) } else { open(&arguments.scene) };
     let scene = waiting(format!("opening {name}"), true, opened)?;
+    begins(&scene)?;
     let survey = waiting(format!("surveying {name}"), true, || Survey::of(&scene)).map_err(LoadError::from)?;
     let steps = first_steps(arguments, &scene)?;
     let text = if arguments.json {
@@ -47,6 +51,24 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
         output::say(&format!("gyration: a resumed run is another one: {what}; this is a fault of the program"));
     }
     Ok(if failed.is_some() { code::ENDED_EARLY } else { code::DONE })
+}
+
+/// Refuses a start from which a run would not begin. Resistances that only a run needs are not computed for that, and
+/// where very many pairs take long the run tells.
+fn begins(scene: &Scene) -> Result<(), CliError> {
+    let job = Job::of(scene, &provenance());
+    if !scene.unknown_forms().is_empty() || job.model.pairs().len() > MOST_PAIRS {
+        return Ok(());
+    }
+    let begun = job.interruption().within(|| {
+        let mut simulation = Simulation::new(job.model, job.start, job.plan)?;
+        simulation.begin(&mut MemorySink::default())
+    });
+    match begun {
+        // The survey is given up as well.
+        Ok(()) | Err(RunError::Interrupted(_)) => Ok(()),
+        Err(error) => Err(error.into()),
+    }
 }
 
 /// The first steps, where they are asked for.

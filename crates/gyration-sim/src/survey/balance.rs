@@ -3,6 +3,8 @@
 //! Trial gaps stand in a geometric row. Of a balance that only falls the trials beside its root are found by halving
 //! the row; it is then the root that a search through all of them finds, at a tenth of the cost.
 
+use gyration_threads::Interruption;
+
 /// Trial gaps in a decade; two balances nearer than that would be missed.
 const TRIALS_PER_DECADE: f64 = 25.0;
 /// Halvings of a bracket: a step of the search is halved to below rounding.
@@ -27,11 +29,15 @@ impl TrialGaps {
         self.least * libm::pow(self.ratio, k as f64 / self.steps as f64)
     }
 
-    /// All gaps at which a balance changes its sign, ascending; it is not known everywhere.
+    /// All gaps at which a balance changes its sign, ascending; it is not known everywhere. Those found so far, where
+    /// it is given up.
     pub fn roots(&self, balance: impl Fn(f64) -> Option<f64>) -> Vec<f64> {
         let mut roots = Vec::new();
         let mut previous = None;
         for k in 0..=self.steps {
+            if Interruption::due().is_some() {
+                break;
+            }
             let here = balance(self.gap(k)).map(|value| (self.gap(k), value));
             if let (Some(before), Some(here)) = (previous, here)
                 && crosses(before, here)

@@ -59,7 +59,8 @@ pub(super) fn meet(
 ) -> Result<(), Inadmissible> {
     scratch.met.loads.clear();
     for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
-        let nothing = match is_far(pair, bodies) {
+        let far = is_far(pair, bodies);
+        let nothing = match far {
             true if everywhere => {
                 let [one, other] = bodies;
                 pair.apart(&one.from(other), &other.motion.placement.position)
@@ -69,7 +70,10 @@ pub(super) fn meet(
         };
         met.loads.push(match nothing {
             Some(nothing) => nothing,
-            None => with_sides(pair, bodies, |sides| PairLoads::integrate(pair, sides, guess, &mut met.room))?,
+            None => with_sides(pair, bodies, |sides| {
+                let found = PairLoads::integrate(pair, sides, guess, &mut met.room);
+                found.or_else(|closed| if far { PairLoads::nothing(pair, sides) } else { Err(closed) })
+            })?,
         });
         Ok(())
     })

@@ -5,11 +5,12 @@
 //! The plane is in balance, so that the wrenches of the two are opposite; computed apart they differ by rounding, which
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
 
-use super::met::{Met, PairScratch, ViscousMoments};
+use super::met::{Met, PairScratch, ViscousMoments, halves};
 use super::plane::Guess;
+use super::separate::separate;
 use super::side::{Half, Side};
 use super::{Mat34, Pair};
-use crate::contact::LawKind;
+use crate::contact::{AreaMeasure, LawKind};
 use crate::load::Loads;
 use crate::surface::GapClosed;
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
@@ -50,6 +51,19 @@ impl Met<'_> {
 }
 
 impl PairLoads {
+    /// Nothing, and the slab along some plane between two bodies: what is told of a pair out of reach whose plane of
+    /// least potential is beyond the digits of a number.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if no plane separates them.
+    pub fn nothing(pair: &Pair, sides: [&Side; 2]) -> Result<Self, GapClosed> {
+        let halves = halves(sides, pair.laws.measure != AreaMeasure::ReferenceArea);
+        let plane = separate(halves.each_ref()).map_err(|gap| GapClosed { gap })?;
+        let [above, below] = halves.each_ref().map(|half| half.smallest_gap(&plane).0);
+        let point = sides[0].placement.position + plane.offset * plane.normal;
+        Ok(Self { gap: above + below, normal: plane.normal, point, ..Self::default() })
+    }
+
     /// Places the plane between two bodies, and integrates the laws over both.
     ///
     /// # Errors
