@@ -1,4 +1,4 @@
-//! The gallery's `collide`, `soft-collision`, `dice-pair`, `overhang` and `cradle`: bodies that meet.
+//! The gallery's `collide`, `soft-collision`, `dice-pair`, `overhang`, `cradle` and `dominoes`: bodies that meet.
 
 use gyration::model::Model;
 use gyration::state::State;
@@ -72,5 +72,30 @@ fn the_last_ball_of_a_cradle_takes_nearly_all_of_the_speed() {
     println!("{:.4} of the speed", last / first);
     // Balls that touch and act at no distance: all of it. Here the others tremble with the rest.
     assert!(last / first > 0.95 && last / first < 1.0, "{first} {last}");
+    assert!(run.relative_residual() < 1e-7);
+}
+
+#[test]
+fn a_row_of_dominoes_topples_and_quickens_towards_the_speed_of_a_long_row() {
+    let experiment = Experiment::of_gallery("dominoes", &[]).sampled(0.001);
+    let run = experiment.run();
+    // The time at which a domino has turned by 2°, on a line between samples.
+    let turned = 0.035;
+    let passed = |index: usize| {
+        let sine = run.column(&format!("domino-{index}.P_xz"));
+        let after = sine.iter().position(|it| *it > turned).unwrap_or_else(|| panic!("domino-{index} stands"));
+        let share = (turned - sine[after - 1]) / (sine[after] - sine[after - 1]);
+        run.times[after - 1] + share * (run.times[after] - run.times[after - 1])
+    };
+    let pitch = 0.0375;
+    let speeds: Vec<f64> = (1..7).map(|index| pitch / (passed(index + 1) - passed(index))).collect();
+    println!("{speeds:.4?} m/s");
+    assert!(speeds.windows(2).all(|pair| pair[1] > pair[0]), "{speeds:?}");
+    // Van Leeuwen (physics/0401018): 1.6448 √(g H) in a long row with d/H = 0.15, s/H = 0.6 and no slip at the foot.
+    let limit = 1.6448 * (9.81_f64 * 0.05).sqrt();
+    let share = speeds[5] / limit;
+    assert!((0.95..1.0).contains(&share), "the last step at {share} of the speed of a long row");
+    let last = run.end.motion(&experiment.model, 7).placement.gradient;
+    assert!(last[(0, 2)] > 0.999, "the last one does not lie: {last}");
     assert!(run.relative_residual() < 1e-7);
 }

@@ -46,6 +46,7 @@ static SCENES: &[(&str, &str)] = &[
     ("collide", include_str!("../../../scenes/collide.toml")),
     ("cradle", include_str!("../../../scenes/cradle.toml")),
     ("dice-pair", include_str!("../../../scenes/dice-pair.toml")),
+    ("dominoes", include_str!("../../../scenes/dominoes.toml")),
     ("overhang", include_str!("../../../scenes/overhang.toml")),
     ("soft-collision", include_str!("../../../scenes/soft-collision.toml")),
 ];
