@@ -113,8 +113,8 @@ pub struct Check {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Make the first N steps as well, and tell whether a run resumed after any of them is the same to the byte,
-    /// planes between bodies are found alike, and momenta are kept
+    /// Make the first N steps as well, and tell whether a run resumed after any of them is the same to the byte, planes
+    /// between bodies are found alike, and momenta are kept
     #[arg(long, value_name = "N")]
     pub steps: Option<NonZeroUsize>,
     /// Print JSON

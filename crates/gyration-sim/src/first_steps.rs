@@ -25,8 +25,8 @@ pub struct FirstSteps {
     pub windows: usize,
     /// After which of them a run that is resumed leaves something else, and what; none if it never does.
     pub difference: Option<String>,
-    /// The largest difference of a force between bodies by the planes remembered and those found from nothing, over
-    /// the largest force of the moment.
+    /// The largest difference of a force between bodies by the planes remembered and those found from nothing, over the
+    /// largest force of the moment.
     pub planes: f64,
     /// The largest change of the total momentum over Σ m |v|, and of the total angular momentum over Σ of the sizes of
     /// its terms, |v| that of the fastest material point; none where something from outside acts.

@@ -430,8 +430,8 @@ fn measurement_that_leads_the_search_astray_is_named() {
     assert!(lost.contains("row 2 of gap.0 is at odds") && lost.contains("unit"), "{lost}");
 }
 
-/// A force of pull-off a thousand times too large leads the search along a valley that has hardly an end: the force agrees
-/// there, all else is off.
+/// A force of pull-off a thousand times too large leads the search along a valley that has hardly an end: the force
+/// agrees there, all else is off.
 #[test]
 fn measurement_that_keeps_the_search_from_its_end_is_named() {
     let lost = misread(["\"0.409 N\"", "409"], "").to_string();

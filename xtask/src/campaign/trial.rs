@@ -84,7 +84,7 @@ impl Trial<'_> {
             return Err("check prints NaN".into());
         }
         let whole = self.run("whole.gyr", &[], 1)?;
-        if whole.code == Some(ENDED_EARLY) && whole.stderr.contains("before its first step") {
+        if is_not_begun(&whole) {
             return Ok(Verdict::without_run("given up before its first step"));
         }
         match (checked.code, whole.code) {
@@ -118,7 +118,7 @@ impl Trial<'_> {
     fn first_steps(&self, scene: &RandomScene) -> Result<first_steps::Shown, String> {
         let steps = first_steps::COUNT.to_string();
         let said = self.said(&["check", "scene.toml", "--steps", &steps, "--json", "--set", &self.wall_time()], 1)?;
-        if said.code == Some(ENDED_EARLY) && said.stderr.contains("before its first step") {
+        if is_not_begun(&said) {
             return Ok(first_steps::Shown::default());
         }
         first_steps::Shown::read(&said)?.judged(scene.rtol)
@@ -130,7 +130,11 @@ impl Trial<'_> {
         fs::write(self.path("exchanged.toml"), text).map_err(|error| error.to_string())?;
         let wall_time = self.wall_time();
         let arguments = ["run", "exchanged.toml", "-o", "exchanged.gyr", "--json", "--set", &wall_time];
-        let again = Report::of(&self.said(&arguments, 1)?)?;
+        let again = self.said(&arguments, 1)?;
+        if is_not_begun(&again) {
+            return Ok(None);
+        }
+        let again = Report::of(&again)?;
         if !again.is_final() {
             return Ok(None);
         }
@@ -192,10 +196,12 @@ impl Trial<'_> {
         let threads = 1 + self.stream.index(MOST_THREADS);
         let mut last = self.run("part.gyr", resume, threads)?;
         for _ in 0..MOST_PARTS {
-            if !last.stdout.contains("\"wall_time\"") || Report::of(&last)?.is_final() {
+            let goes_on = || Ok::<_, String>(last.stdout.contains("\"wall_time\"") && !Report::of(&last)?.is_final());
+            if !is_not_begun(&last) && !goes_on()? {
                 break;
             }
-            last = self.run("part.gyr", &["--resume"], threads)?;
+            let resume: &[&str] = if self.path("part.gyr").exists() { &["--resume"] } else { &[] };
+            last = self.run("part.gyr", resume, threads)?;
         }
         // What had ended before is not run again, and is done whatever its outcome.
         let expected = if last.stdout.contains("\"already_finished\"") { Some(0) } else { whole.code };
@@ -254,6 +260,11 @@ impl Trial<'_> {
 
 fn arguments<'a>(recording: &'a str, wall_time: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&["run", "scene.toml", "-o", recording, "--json", "--set", wall_time], more].concat()
+}
+
+/// Whether a run was given up before its first step: it has nothing to report then.
+fn is_not_begun(said: &Said) -> bool {
+    said.code == Some(ENDED_EARLY) && said.stderr.contains("before its first step")
 }
 
 /// The first file that two folders do not have alike.

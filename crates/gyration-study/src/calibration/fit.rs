@@ -4,7 +4,7 @@
 //! bad one: the search then tries a shorter step.
 
 use super::least_squares::{Minimum, Problem, SearchEnd, minimize};
-use super::{Calibration, CalibrationError, Experiment, Suspect};
+use super::{Calibration, CalibrationError, Experiment};
 use gyration_threads::{Interrupted, Interruption};
 use nalgebra::{DMatrix, DVector};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -78,7 +78,9 @@ impl Calibration {
         let problem = Residuals { calibration: self, start: start.clone() };
         let mut found = minimize(&problem, start, TOLERANCE, Some(patience.unwrap_or(DOUBT)));
         if patience.is_none() && found.ending == SearchEnd::Patience {
-            if let Some(suspect) = self.astray(&first, &found.residuals) {
+            // On its way the search may have satisfied the wrong measurement at the cost of the others.
+            let gains: Vec<f64> = first.iter().zip(&found.residuals).map(|(first, now)| first.max(now * now)).collect();
+            if let Some(suspect) = self.row_at_odds(&gains, gains.len().saturating_sub(self.numbers.len())) {
                 let reason = format!("it had come to no end after {DOUBT} evaluations; {}", suspect.in_words());
                 return Err(CalibrationError::Search(reason));
             }
@@ -115,13 +117,6 @@ impl Calibration {
             ((found - table.measured[row]) / table.deviations[row]).powi(2)
         };
         self.rows().zip(predictions).map(squared).collect()
-    }
-
-    /// The measurement that leads a search astray, if one does, from r² at the start and r where the search has come:
-    /// on its way the search may have satisfied that one at the cost of the others.
-    fn astray(&self, first: &[f64], now: &DVector<f64>) -> Option<Suspect> {
-        let gains: Vec<f64> = first.iter().zip(now).map(|(first, now)| first.max(now * now)).collect();
-        self.row_at_odds(&gains, gains.len().saturating_sub(self.numbers.len()))
     }
 
     /// The end of a search that led nowhere; of one with all the patience there is, with the measurement that led it
