@@ -101,3 +101,16 @@ fn a_body_at_rest_is_not_held_up_by_what_carries_it() {
     let (force, weight) = (last[27], 9.81);
     assert!((force / weight - 1.0).abs() < 1e-6, "{force}");
 }
+
+/// The fastest modes of a history trail the velocity by its last digits, with weights of a million: taken in the digits
+/// of one number, forces are rounding that Newton's method and the step control fight.
+#[test]
+fn a_sphere_with_memory_sinks_without_a_failure_of_newtons_method() {
+    let text = "time = { end = 2, sample = 0.1 }\nfluid = { viscosity = 1, density = 1000 }\n[[body]]\nname = \"a\"\n\
+                shape = { sphere = { radius = 0.005 } }\ndensity = 2500\ninclusion = { history = true }\n";
+    for (rtol, most) in [(1e-8, 650), (1e-9, 900)] {
+        let (_, statistics) = run(text, &[&format!("solver.rtol={rtol:?}")]);
+        println!("rtol {rtol:e}: {statistics:?}");
+        assert!(statistics.accepted() < most && statistics.newton_failures == 0, "{statistics:?}");
+    }
+}

@@ -9,7 +9,7 @@ use crate::acting::Load;
 use crate::affine::Gyration;
 use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
 use crate::contractile::Decomposition;
-use crate::extended::Numbers;
+use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::model::Model;
@@ -55,8 +55,6 @@ pub struct BodyAt<'a> {
     pub body: &'a Body,
     /// p₀, P, ṗ₀, Ṗ.
     pub motion: &'a BodyMotion,
-    /// What stands in its slot `extra`.
-    pub(crate) extra: &'a [f64],
     /// The state of all bodies.
     pub(crate) numbers: Numbers<'a>,
     attitude: &'a Attitude,
@@ -168,19 +166,8 @@ impl Instant {
     #[inline]
     pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> BodyAt<'a> {
         let BodyInstant { motion, attitude } = &self.bodies[index];
-        let extra = &self.state[model.slots(index).extra()];
         let numbers = Numbers { high: &self.state, low: &self.low };
-        BodyAt {
-            model,
-            time: self.time,
-            index,
-            body: &model.bodies[index],
-            motion,
-            extra,
-            numbers,
-            attitude,
-            instant: self,
-        }
+        BodyAt { model, time: self.time, index, body: &model.bodies[index], motion, numbers, attitude, instant: self }
     }
 }
 
@@ -239,6 +226,25 @@ impl<'a> BodyAt<'a> {
         }
         let [own, there] = [self, other].map(|at| at.model.slots(at.index).position().start);
         Vec3::from_fn(|i, _| (self.numbers.at(own + i) - self.numbers.at(there + i)).value())
+    }
+
+    /// ṗ₀, to all the digits of the state; of a pinned body to those of one number.
+    pub(crate) fn velocity(&self) -> ExtendedVec3 {
+        let given = self.motion.velocity.velocity;
+        match self.body.pin {
+            Some(_) => [0, 1, 2].map(|i| Extended::from(given[i])),
+            None => {
+                let start = self.model.slots(self.index).velocity().start;
+                [0, 1, 2].map(|i| self.numbers.at(start + i))
+            }
+        }
+    }
+
+    /// What stands in its slot `extra`, to all the digits of the state.
+    pub(crate) fn extra(&self) -> Numbers<'a> {
+        let slot = self.model.slots(self.index).extra();
+        let Numbers { high, low } = self.numbers;
+        Numbers { high: &high[slot.clone()], low: low.get(slot).unwrap_or_default() }
     }
 
     /// A state outside the model.

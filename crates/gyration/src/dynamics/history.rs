@@ -25,13 +25,13 @@ pub(crate) struct RigidHistory<'a> {
 impl<'a> RigidHistory<'a> {
     /// None if the fluid forgets how the body moved.
     pub fn of(at: &'a BodyAt<'a>, turn: &'a Turn) -> Option<Self> {
-        let BodyAt { model, time, body, motion, extra, .. } = *at;
+        let BodyAt { model, time, body, motion, .. } = *at;
         let fluid = model.fluid.as_deref()?;
         let history = body.history()?;
         let flow = fluid.flow(time);
         let spin = motion.placement.gradient * turn.spin;
-        let moving = (&motion.placement.position, &motion.velocity.velocity, &spin);
-        let loads = history.loads((fluid, &flow, time), moving, extra);
+        let moving = (&motion.placement.position, &at.velocity(), &spin);
+        let loads = history.loads((fluid, &flow, time), moving, at.extra());
         Some(Self { at, history, loads, turn, flow: flow.gradient })
     }
 
@@ -60,7 +60,7 @@ impl<'a> RigidHistory<'a> {
         rates[slots.attitude()].copy_from_slice(&turn.quaternion.rate(spin));
         rates[slots.velocity()].copy_from_slice(linear.as_slice());
         rates[slots.rate()].copy_from_slice(angular.as_slice());
-        self.history.rates(loads, self.at.extra, &mut rates[slots.extra()]);
+        self.history.rates(loads, self.at.extra(), &mut rates[slots.extra()]);
         let force = loads.force - self.history.added_mass * linear;
         let torque = rotation.tr_mul(&loads.torque) - self.history.added_inertia * angular;
         force.dot(&motion.velocity.velocity) + torque.dot(spin)

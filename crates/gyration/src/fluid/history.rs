@@ -6,10 +6,12 @@
 //!
 //! beside the steady drag. w = ṗ₀ − u∞ and ω_w = ω − ½ rot u∞ are taken along the path of the sphere, d/dt = ∂/∂t +
 //! ṗ₀·∇, and Du∞/Dt along that of the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a
-//! and I_a stand on the left of the balance. Source: `history`; Maxey and Riley (1983).
+//! and I_a stand on the left of the balance. The fastest modes trail w by some 1e-12 of it, with weights of 1e6: the
+//! differences w − y_k are taken in twice the digits, as the state has them. Source: `history`; Maxey and Riley (1983).
 
 use super::ambient::{Flow, Fluid};
 use super::unsteady::{Exponentials, UnresolvedHistory};
+use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::tensor::{Mat3, Vec3, axial};
 use std::f64::consts::PI;
 
@@ -48,9 +50,9 @@ pub struct HistoryLoads {
     /// ∂T/∂ω, a multiple of one.
     pub by_spin: f64,
     /// w.
-    pub slip: Vec3,
+    slip: ExtendedVec3,
     /// ω_w.
-    pub spin_slip: Vec3,
+    spin_slip: ExtendedVec3,
 }
 
 impl History {
@@ -86,28 +88,30 @@ impl History {
     }
 
     /// The loads, of a sphere at a place that moves and turns in the axes of space; `modes` are y_k, then Y_k.
-    pub fn loads(
+    pub(crate) fn loads(
         &self,
         (fluid, flow, time): (&Fluid, &Flow, f64),
-        (place, velocity, spin): (&Vec3, &Vec3, &Vec3),
-        modes: &[f64],
+        (place, velocity, spin): (&Vec3, &ExtendedVec3, &Vec3),
+        modes: Numbers,
     ) -> HistoryLoads {
         let ambient = flow.at(place);
-        let (slip, spin_slip) = (velocity - ambient, spin - 0.5 * axial(&flow.gradient));
+        let moving = Vec3::from(velocity.map(Extended::value));
+        let slip = [0, 1, 2].map(|i| velocity[i] - Extended::from(ambient[i]));
+        let turning: Vec3 = spin - 0.5 * axial(&flow.gradient);
+        let spin_slip = [0, 1, 2].map(|i| Extended::from(turning[i]));
         let (changing, spreading) = fluid.rate(time, place);
-        let (trailing, turning) = modes.split_at(3 * self.translation.rates.len());
-        let (weight, trail) = (sum(&self.translation.weights), weighed(&self.translation.weights, trailing));
-        let (spin_weight, spin_trail) = (sum(&self.rotation.weights), weighed(&self.rotation.weights, turning));
+        let behind = weighed(&self.translation, &slip, modes, 0);
+        let spun_behind = weighed(&self.rotation, &spin_slip, modes, 3 * self.translation.rates.len());
+        let (weight, spin_weight) = (sum(&self.translation.weights), sum(&self.rotation.weights));
         let l = &flow.gradient;
         let pressed = self.displaced * (changing + l * ambient);
-        let force = self.drag * (trail - weight * slip) + self.added_mass * (changing + l * velocity) + pressed;
-        let given =
-            self.spin_drag * (spin_trail + 0.5 * spin_weight * axial(l)) + self.added_inertia * 0.5 * axial(&spreading);
+        let force = self.added_mass * (changing + l * moving) + pressed - self.drag * behind;
+        let torque = self.added_inertia * 0.5 * axial(&spreading) - self.spin_drag * spun_behind;
         let by_spin = -self.spin_drag * spin_weight;
         HistoryLoads {
             force,
-            torque: given + by_spin * spin,
-            given,
+            torque,
+            given: torque - by_spin * spin,
             by_place: self.drag * weight * l + self.added_mass * spreading + self.displaced * (spreading + l * l),
             by_velocity: self.added_mass * l - Mat3::from_diagonal_element(self.drag * weight),
             by_spin,
@@ -117,13 +121,12 @@ impl History {
     }
 
     /// The rates of the modes.
-    pub fn rates(&self, history: &HistoryLoads, modes: &[f64], rates: &mut [f64]) {
+    pub(crate) fn rates(&self, history: &HistoryLoads, modes: Numbers, rates: &mut [f64]) {
         let slips = self.translation.rates.iter().map(|rate| (rate, &history.slip));
         let spins = self.rotation.rates.iter().map(|rate| (rate, &history.spin_slip));
-        let each = modes.chunks_exact(3).zip(rates.chunks_exact_mut(3));
-        for ((rate, slip), (mode, out)) in slips.chain(spins).zip(each) {
+        for (mode, ((rate, slip), out)) in slips.chain(spins).zip(rates.chunks_exact_mut(3)).enumerate() {
             for axis in 0..3 {
-                out[axis] = rate * (slip[axis] - mode[axis]);
+                out[axis] = rate * (slip[axis] - modes.at(3 * mode + axis)).value();
             }
         }
     }
@@ -141,7 +144,12 @@ fn sum(weights: &[f64]) -> f64 {
     weights.iter().sum()
 }
 
-/// Σ c_k y_k.
-fn weighed(weights: &[f64], modes: &[f64]) -> Vec3 {
-    weights.iter().zip(modes.chunks_exact(3)).map(|(weight, mode)| *weight * Vec3::new(mode[0], mode[1], mode[2])).sum()
+/// Σ c_k (w − y_k), of the modes from a place on.
+fn weighed(history: &Exponentials, slip: &ExtendedVec3, modes: Numbers, from: usize) -> Vec3 {
+    let each = history.weights.iter().enumerate();
+    each.map(|(mode, weight)| {
+        let at = from + 3 * mode;
+        *weight * Vec3::from_fn(|axis, _| (slip[axis] - modes.at(at + axis)).value())
+    })
+    .sum()
 }
