@@ -29,6 +29,14 @@ impl<'a> From<&'a Vec<f64>> for Numbers<'a> {
 }
 
 impl Numbers<'_> {
+    /// x less the three numbers from a place on, to the digits of one number: the difference of near numbers is exact.
+    #[inline]
+    pub(crate) fn behind(&self, x: &ExtendedVec3, place: usize) -> Vec3 {
+        let high = &self.high[place..place + 3];
+        let low = self.low.get(place..place + 3).unwrap_or(&[0.0; 3]);
+        Vec3::from_fn(|i, _| (x[i].high - high[i]) + (x[i].low - low[i]))
+    }
+
     /// The number at a place.
     pub(crate) fn at(&self, place: usize) -> Extended {
         Extended { high: self.high[place], low: self.low.get(place).copied().unwrap_or(0.0) }

@@ -7,7 +7,7 @@
 //! beside the steady drag. w = ṗ₀ − u∞ and ω_w = ω − ½ rot u∞ are taken along the path of the sphere, d/dt = ∂/∂t +
 //! ṗ₀·∇, and Du∞/Dt along that of the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a
 //! and I_a stand on the left of the balance. The fastest modes trail w by some 1e-12 of it, with weights of 1e6: the
-//! differences w − y_k are taken in twice the digits, as the state has them. Source: `history`; Maxey and Riley (1983).
+//! differences w − y_k are taken with the low halves of the state. Source: `history`; Maxey and Riley (1983).
 
 use super::ambient::{Flow, Fluid};
 use super::unsteady::{Exponentials, UnresolvedHistory};
@@ -125,9 +125,7 @@ impl History {
         let slips = self.translation.rates.iter().map(|rate| (rate, &history.slip));
         let spins = self.rotation.rates.iter().map(|rate| (rate, &history.spin_slip));
         for (mode, ((rate, slip), out)) in slips.chain(spins).zip(rates.chunks_exact_mut(3)).enumerate() {
-            for axis in 0..3 {
-                out[axis] = rate * (slip[axis] - modes.at(3 * mode + axis)).value();
-            }
+            out.copy_from_slice((*rate * modes.behind(slip, 3 * mode)).as_slice());
         }
     }
 
@@ -147,9 +145,5 @@ fn sum(weights: &[f64]) -> f64 {
 /// Σ c_k (w − y_k), of the modes from a place on.
 fn weighed(history: &Exponentials, slip: &ExtendedVec3, modes: Numbers, from: usize) -> Vec3 {
     let each = history.weights.iter().enumerate();
-    each.map(|(mode, weight)| {
-        let at = from + 3 * mode;
-        *weight * Vec3::from_fn(|axis, _| (slip[axis] - modes.at(at + axis)).value())
-    })
-    .sum()
+    each.map(|(mode, weight)| *weight * modes.behind(slip, from + 3 * mode)).sum()
 }
