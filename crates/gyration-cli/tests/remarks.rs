@@ -58,4 +58,10 @@ fn a_start_that_a_run_refuses_is_refused_by_check_unless_it_is_out_of_reach() {
         assert!(said.stderr.contains("the plane between"), "{command}: {}", said.stderr);
         sandbox.done(&[command, "far.toml"]);
     }
+    let rows = sandbox.done(&["export", "far.gyr", "--format", "csv", "-o", "-"]).stdout;
+    let cells: Vec<Vec<&str>> = rows.lines().take(2).map(|line| line.split(',').collect()).collect();
+    let column = cells[0].iter().position(|name| *name == "a.gap").unwrap();
+    let (gap, distance) = (cells[1][column].parse::<f64>().unwrap(), 10.9_f64.hypot(8.9).hypot(19.75));
+    // Some slab between them: half their distance at least, and never more than it.
+    assert!(gap > 0.5 * (distance - 0.01) && gap < distance, "{gap} of {distance}");
 }

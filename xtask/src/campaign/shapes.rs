@@ -46,20 +46,20 @@ const MEETING: [ShapeKind; 9] = [
     ShapeKind::Union,
 ];
 
-/// A shape that meets others; of a body that deforms often one whose moments are cheap.
+/// A shape that meets others; of a body that deforms more often one whose moments are cheap.
 pub fn meeting(draft: &mut Draft, deforms: bool) -> ShapeKind {
-    match deforms && draft.stream.chance(0.6) {
-        true => draft.stream.pick(&[ShapeKind::Sphere, ShapeKind::Ellipsoid, ShapeKind::Box, ShapeKind::Polyhedron]),
-        false => draft.stream.pick(&MEETING),
-    }
+    one_of(draft, deforms, &MEETING)
 }
 
 /// One closed surface; of a body that deforms more often one whose moments are cheap.
 pub fn closed(draft: &mut Draft, deforms: bool) -> ShapeKind {
-    match deforms && draft.stream.chance(0.6) {
-        true => draft.stream.pick(&[ShapeKind::Sphere, ShapeKind::Ellipsoid, ShapeKind::Box, ShapeKind::Polyhedron]),
-        false => draft.stream.pick(&CLOSED),
-    }
+    one_of(draft, deforms, &CLOSED)
+}
+
+fn one_of(draft: &mut Draft, deforms: bool, kinds: &[ShapeKind]) -> ShapeKind {
+    let cheap = [ShapeKind::Sphere, ShapeKind::Ellipsoid, ShapeKind::Box, ShapeKind::Polyhedron];
+    let is_cheap = deforms && draft.stream.chance(0.6);
+    draft.stream.pick(if is_cheap { &cheap } else { kinds })
 }
 
 /// Any kind: points seldom, unions often.

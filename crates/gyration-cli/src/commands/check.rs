@@ -11,6 +11,7 @@ use gyration_sim::format::significant;
 use gyration_sim::survey::Survey;
 use gyration_sim::{FirstSteps, Job, MemorySink, RunError, Simulation};
 use serde_json::json;
+use std::num::NonZeroUsize;
 
 /// Pairs of bodies that are looked at here as a run does.
 const MOST_PAIRS: usize = 1000;
@@ -21,9 +22,14 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     // Steps need the resistances that only a run needs.
     let opened = || if arguments.steps.is_some() { ready(&arguments.scene) } else { open(&arguments.scene) };
     let scene = waiting(format!("opening {name}"), true, opened)?;
-    begins(&scene)?;
+    let job = Job::of(&scene, &provenance());
+    begins(&scene, &job)?;
     let survey = waiting(format!("surveying {name}"), true, || Survey::of(&scene)).map_err(LoadError::from)?;
-    let steps = first_steps(arguments, &scene)?;
+    let first_steps = |most: NonZeroUsize| {
+        let steps = || job.interruption().within(|| FirstSteps::of(&job, most.get()));
+        waiting(format!("stepping {name}"), true, steps)
+    };
+    let steps = arguments.steps.map(first_steps).transpose()?;
     let text = if arguments.json {
         let mut value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": survey.bodies });
         if !survey.springs.is_empty() {
@@ -55,8 +61,7 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
 
 /// Refuses a start from which a run would not begin. Resistances that only a run needs are not computed for that, and
 /// where very many pairs take long the run tells.
-fn begins(scene: &Scene) -> Result<(), CliError> {
-    let job = Job::of(scene, &provenance());
+fn begins(scene: &Scene, job: &Job) -> Result<(), CliError> {
     if !scene.unknown_forms().is_empty() || job.model.pairs().len() > MOST_PAIRS {
         return Ok(());
     }
@@ -69,14 +74,6 @@ fn begins(scene: &Scene) -> Result<(), CliError> {
         Ok(()) | Err(RunError::Interrupted(_)) => Ok(()),
         Err(error) => Err(error.into()),
     }
-}
-
-/// The first steps, where they are asked for.
-fn first_steps(arguments: &Check, scene: &Scene) -> Result<Option<FirstSteps>, CliError> {
-    let Some(most) = arguments.steps else { return Ok(None) };
-    let job = Job::of(scene, &provenance());
-    let steps = || job.interruption().within(|| FirstSteps::of(&job, most.get()));
-    Ok(Some(waiting(format!("stepping {}", scene.name()), true, steps)?))
 }
 
 /// A paragraph below the survey.
