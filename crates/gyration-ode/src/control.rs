@@ -12,8 +12,8 @@
 
 use crate::context::{Context, Point};
 use crate::extended::Extended;
-use crate::newton::MAX_ITERATIONS;
 use crate::norm::norm;
+use crate::radau::Radau;
 use crate::report::{Cause, Stepper};
 use crate::system::System;
 
@@ -52,16 +52,28 @@ pub(crate) struct StepControl {
     pub heeded: f64,
 }
 
+/// An accepted step of the implicit stepper.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ImplicitStep {
+    /// The error relative to the error allowed.
+    pub error: f64,
+    pub h: f64,
+    /// Newton iterations it took.
+    pub iterations: u32,
+}
+
 impl StepControl {
     /// The factor on the step after an attempt that was rejected.
-    pub fn retreat<I>(stepper: Stepper, cause: &Cause<I>) -> f64 {
+    pub fn retreat<I>(stepper: Stepper, method: &Radau, cause: &Cause<I>) -> f64 {
         match (cause, stepper) {
             (Cause::Inadmissible(_) | Cause::NotFinite { .. }, _) => DOMAIN_FACTOR,
             (Cause::Newton, _) => NEWTON_FACTOR,
             (Cause::Error { norm, .. }, Stepper::Explicit) => {
                 at_least(SAFETY * libm::pow(*norm, -EXPLICIT_EXPONENT), EXPLICIT_FACTORS.0)
             }
-            (Cause::Error { norm, .. }, Stepper::Implicit) => at_least(SAFETY * libm::pow(*norm, -0.25), 1.0 / 8.0),
+            (Cause::Error { norm, .. }, Stepper::Implicit) => {
+                at_least(SAFETY * libm::pow(*norm, -1.0 / method.error_exponent()), 1.0 / 8.0)
+            }
         }
     }
 
@@ -96,14 +108,15 @@ impl StepControl {
         if self.refused > 0.0 { 1.0 / NEWTON_FACTOR } else { f64::INFINITY }
     }
 
-    /// The factor on the step after an accepted implicit one of size h with so many Newton iterations.
-    pub fn after_implicit(&mut self, error: f64, h: f64, iterations: u32, rejected: bool) -> f64 {
-        let most = f64::from(MAX_ITERATIONS);
+    /// The factor on the step after an accepted implicit one.
+    pub fn after_implicit(&mut self, method: &Radau, step: &ImplicitStep, rejected: bool) -> f64 {
+        let (most, exponent) = (f64::from(method.most_iterations()), 1.0 / method.error_exponent());
+        let ImplicitStep { error, h, iterations } = *step;
         let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + f64::from(iterations));
         let error = error.max(1e-10);
-        let mut factor = (safety * libm::pow(error, -0.25)).clamp(1.0 / 5.0, 8.0);
+        let mut factor = (safety * libm::pow(error, -exponent)).clamp(1.0 / 5.0, 8.0);
         if self.implicit_step > 0.0 {
-            let trend = libm::pow(self.implicit_error / (error * error), 0.25) * h / self.implicit_step;
+            let trend = libm::pow(self.implicit_error / (error * error), exponent) * h / self.implicit_step;
             factor = factor.min((SAFETY * trend).clamp(1.0 / 5.0, 8.0));
         }
         (self.implicit_error, self.implicit_step) = (error.max(1e-2), h);

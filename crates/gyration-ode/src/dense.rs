@@ -1,7 +1,7 @@
 //! The solution between the ends of the last step.
 //!
 //!   explicit:  u(θ) = u₀ + θ(u₁ − u₀) + θ(1 − θ) h Σ r_j(θ) k_j, of order 8
-//!   implicit:  u(θ) = u₀ + Σ ℓ_i(θ) z_i, the collocation polynomial, of order 3
+//!   implicit:  u(θ) = u₀ + Σ ℓ_i(θ) z_i, the collocation polynomial, of the order of its stages
 //!
 //! Neither needs an evaluation. Both take the exact values at the ends, the projected state at θ = 1. In between they
 //! do not lie on the manifold; project if it matters. Source: as of `prince`; Hairer, Wanner II, §IV.8.
@@ -9,7 +9,6 @@
 use crate::context::Point;
 use crate::extended::add;
 use crate::integrator::{Integrator, LastStep};
-use crate::radau::basis;
 
 impl Integrator {
     /// The solution at a time of the last step, y and w; outside of it, or without one, the nearest end.
@@ -56,10 +55,11 @@ impl Integrator {
             }
         };
         if self.last == LastStep::Collocation {
-            let width = start.u.len();
-            let (weights, z) = (basis(theta), &self.implicit.stages.collocation);
-            for i in 0..width {
-                put(i, weights[0] * z[i] + weights[1] * z[width + i] + weights[2] * z[2 * width + i]);
+            let stages = &self.implicit.stages;
+            let weights = stages.method.basis(theta);
+            let z = |k: usize| stages.collocation.stage(k);
+            for i in 0..start.u.len() {
+                put(i, (0..stages.method.stages()).map(|k| weights[k] * z(k)[i]).sum());
             }
         } else {
             self.explicit.interpolate(start, end, self.last_size, theta, put);

@@ -1,4 +1,4 @@
-//! The factors of γ/h I − J and (α + iβ)/h I − J, component by component.
+//! The factors of γ/h I − J and of each (α + iβ)/h I − J, component by component.
 //!
 //! A block that couples with no other is factorized by itself, in the form that its Jacobian has (`shifted`). Blocks
 //! that hang together are eliminated one after the other (`analysis`, `elimination`).
@@ -11,10 +11,10 @@ use crate::elimination::BlockLu;
 use crate::kernel::{Complex, Real};
 use crate::layout::SystemLayout;
 use crate::linear::Singular;
-use crate::radau::{COMPLEX, REAL};
+use crate::radau::Radau;
 use crate::shifted::{ComplexShifted, RealShifted};
 
-/// The pair of factorizations of every component.
+/// The factorizations of every component.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ComponentFactors {
     single: Vec<Single>,
@@ -28,7 +28,7 @@ struct Single {
     block: usize,
     unknowns: Range<usize>,
     real: RealShifted,
-    complex: ComplexShifted,
+    complex: Vec<ComplexShifted>,
 }
 
 /// Blocks that hang together.
@@ -36,42 +36,45 @@ struct Single {
 struct Coupled {
     analysis: Analysis,
     real: BlockLu<Real>,
-    complex: BlockLu<Complex>,
+    complex: Vec<BlockLu<Complex>>,
 }
 
 impl ComponentFactors {
     /// Analyses a pattern; room for its factors.
-    pub fn new(layout: &SystemLayout, matrix: &BlockMatrix) -> Self {
-        let mut factors = Self::default();
+    pub fn new(layout: &SystemLayout, matrix: &BlockMatrix, method: &Radau) -> Self {
+        let (mut factors, pairs) = (Self::default(), method.complex.len());
         for component in layout.components.iter() {
             if let [block] = *component {
                 let unknowns = layout.blocks()[block].clone();
-                let (real, complex) = (RealShifted::new(unknowns.len()), ComplexShifted::new(unknowns.len()));
+                let (real, complex) =
+                    (RealShifted::new(unknowns.len()), vec![ComplexShifted::new(unknowns.len()); pairs]);
                 factors.single.push(Single { block, unknowns, real, complex });
             } else {
                 let analysis = Analysis::of(component, layout.blocks(), matrix);
-                let (real, complex) = (BlockLu::new(&analysis), BlockLu::new(&analysis));
+                let (real, complex) = (BlockLu::new(&analysis), vec![BlockLu::new(&analysis); pairs]);
                 factors.coupled.push(Coupled { analysis, real, complex });
             }
         }
-        factors.relative_cost = factors.count_products();
+        factors.relative_cost = factors.count_products() * of_pairs(pairs);
         factors
     }
 
-    /// Factorizes both matrices for a step of size h.
+    /// Factorizes all matrices for a step of size h.
     ///
     /// # Errors
     /// `Singular` if one of them is singular or not finite.
-    pub fn factorize(&mut self, h: f64, jacobian: &BlockMatrix) -> Result<(), Singular> {
-        let (real_shift, complex_shift) = (REAL / h, (COMPLEX.0 / h, COMPLEX.1 / h));
+    pub fn factorize(&mut self, h: f64, jacobian: &BlockMatrix, method: &Radau) -> Result<(), Singular> {
+        let shift = method.real / h;
+        let shifts = || method.complex.iter().map(|(alpha, beta)| (alpha / h, beta / h));
         for Single { block, real, complex, .. } in &mut self.single {
             let jacobian = &jacobian.diagonal()[*block];
-            real.factorize(real_shift, jacobian)?;
-            complex.factorize(complex_shift, jacobian)?;
+            real.factorize(shift, jacobian)?;
+            complex.iter_mut().zip(shifts()).try_for_each(|(factors, shift)| factors.factorize(shift, jacobian))?;
         }
         for Coupled { analysis, real, complex } in &mut self.coupled {
-            real.factorize(analysis, real_shift, jacobian)?;
-            complex.factorize(analysis, complex_shift, jacobian)?;
+            real.factorize(analysis, shift, jacobian)?;
+            let mut pairs = complex.iter_mut().zip(shifts());
+            pairs.try_for_each(|(factors, shift)| factors.factorize(analysis, shift, jacobian))?;
         }
         Ok(())
     }
@@ -86,13 +89,13 @@ impl ComponentFactors {
         }
     }
 
-    /// Solves ((α + iβ)/h I − J) x = b in place, b = real + i imaginary.
-    pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+    /// Solves ((α + iβ)/h I − J) x = b of a pair in place, b = real + i imaginary.
+    pub fn solve_complex(&mut self, pair: usize, re: &mut [f64], im: &mut [f64]) {
         for Single { unknowns, complex, .. } in &self.single {
-            complex.solve(&mut re[unknowns.clone()], &mut im[unknowns.clone()]);
+            complex[pair].solve(&mut re[unknowns.clone()], &mut im[unknowns.clone()]);
         }
         for Coupled { analysis, complex, .. } in &mut self.coupled {
-            complex.solve(analysis, &mut [&mut *re, &mut *im]);
+            complex[pair].solve(analysis, &mut [&mut *re, &mut *im]);
         }
     }
 
@@ -112,16 +115,23 @@ impl ComponentFactors {
         sums.1 / sums.0
     }
 
-    /// How many numbers the factors of the coupled blocks are, real and complex together.
+    /// How many numbers the factors of the coupled blocks are, all matrices together.
     pub fn entries(&self) -> usize {
-        self.coupled.iter().map(|coupled| 3 * coupled.analysis.entries_of_factors()).sum()
+        let numbers = |coupled: &Coupled| (1 + 2 * coupled.complex.len()) * coupled.analysis.entries_of_factors();
+        self.coupled.iter().map(numbers).sum()
     }
+}
+
+/// The cost of a real factorization and those of so many pairs, beside that of one pair: a complex product is four.
+fn of_pairs(pairs: usize) -> f64 {
+    (1 + 4 * pairs) as f64 / 5.0
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::pattern::Pattern;
+    use crate::radau_tables::{FIVE, THIRTEEN};
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
@@ -169,20 +179,23 @@ mod tests {
         ) {
             let pairs: Vec<_> = pairs.into_iter().filter(|(i, j)| i != j).collect();
             let (jacobian, layout) = system(&[3, 1, 2, 0, 4, 2, 4], &pairs, &local, &entries);
-            let mut factors = ComponentFactors::new(&layout, &jacobian);
+            let mut factors = ComponentFactors::new(&layout, &jacobian, &THIRTEEN);
             // Small enough a step for shifts of 23 and more, beyond the sums of 16 numbers: no cancellation.
             let h = 0.1;
-            prop_assert!(factors.factorize(h, &jacobian).is_ok());
+            prop_assert!(factors.factorize(h, &jacobian, &THIRTEEN).is_ok());
             let (whole, n) = (dense(&jacobian, &layout), layout.dimension);
-            let (mut real, mut re, mut im) = (b[..n].to_vec(), b[..n].to_vec(), b[n..].to_vec());
+            let mut real = b[..n].to_vec();
             factors.solve_real(&mut real);
-            factors.solve_complex(&mut re, &mut im);
-            let [b0, b1, real, re, im] = [&b[..n], &b[n..], &real, &re, &im].map(DVector::from_column_slice);
-            let (alpha, beta) = (COMPLEX.0 / h, COMPLEX.1 / h);
+            let [b0, b1, real] = [&b[..n], &b[n..], &real].map(DVector::from_column_slice);
             // Some roundings of numbers of order one.
-            prop_assert!((REAL / h * &real - &whole * &real - &b0).amax() < 1e-13);
-            prop_assert!((alpha * &re - beta * &im - &whole * &re - &b0).amax() < 1e-13);
-            prop_assert!((alpha * &im + beta * &re - &whole * &im - &b1).amax() < 1e-13);
+            prop_assert!((THIRTEEN.real / h * &real - &whole * &real - &b0).amax() < 1e-13);
+            for (pair, (alpha, beta)) in THIRTEEN.complex.iter().enumerate() {
+                let (mut re, mut im) = (b[..n].to_vec(), b[n..].to_vec());
+                factors.solve_complex(pair, &mut re, &mut im);
+                let [re, im] = [&re, &im].map(|part| DVector::from_column_slice(part));
+                prop_assert!((alpha / h * &re - beta / h * &im - &whole * &re - &b0).amax() < 1e-13);
+                prop_assert!((alpha / h * &im + beta / h * &re - &whole * &im - &b1).amax() < 1e-13);
+            }
         }
     }
 
@@ -195,10 +208,10 @@ mod tests {
         let own = &mut jacobian.diagonal_mut()[1];
         own.rows_mut(0, 2).fill(0.0);
         (own[(0, 2)], own[(1, 3)]) = (1.0, 1.0);
-        let mut factors = ComponentFactors::new(&layout, &jacobian);
+        let mut factors = ComponentFactors::new(&layout, &jacobian, &FIVE);
         let (mut alone, h) = (RealShifted::new(4), 0.3);
-        factors.factorize(h, &jacobian).unwrap();
-        alone.factorize(REAL / h, &jacobian.diagonal()[1]).unwrap();
+        factors.factorize(h, &jacobian, &FIVE).unwrap();
+        alone.factorize(FIVE.real / h, &jacobian.diagonal()[1]).unwrap();
         let mut all: Vec<f64> = (0..layout.dimension).map(|k| (k as f64).cos()).collect();
         let mut one = all[2..6].to_vec();
         factors.solve_real(&mut all);
@@ -213,7 +226,7 @@ mod tests {
         for n in [40, 400] {
             let pairs: Vec<_> = (1..n).flat_map(|i| [(0, i), (i, 0)]).collect();
             let (jacobian, layout) = system(&vec![2; n], &pairs, &vec![0; n], &[0.5]);
-            let factors = ComponentFactors::new(&layout, &jacobian);
+            let factors = ComponentFactors::new(&layout, &jacobian, &FIVE);
             assert_eq!(factors.entries(), 3 * 4 * (3 * n - 2));
             // A third of eight products for each block, and twice eight more for all but the middle.
             assert!((factors.relative_cost() - (n as f64 + 6.0 * (n - 1) as f64) / n as f64).abs() < 1e-12);

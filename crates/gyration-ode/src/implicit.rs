@@ -1,6 +1,6 @@
-//! The implicit stepper: Radau IIA of order 5, for stiff stretches.
+//! The implicit stepper: Radau IIA with s stages, for stiff stretches.
 //!
-//!   y₁ = y₀ + z₃,   w₁ = w₀ + h Σ_j a_3j g(t₀ + c_j h, y₀ + z_j),   z from `newton`
+//!   y₁ = y₀ + z_s,   w₁ = w₀ + h Σ_j a_sj g(t₀ + c_j h, y₀ + z_j),   z from `newton`
 //!
 //! L-stable: a transient of any rate is gone after a step. Error of the state:
 //!
@@ -14,14 +14,15 @@ use crate::context::{Context, Point};
 use crate::explicit::Trial;
 use crate::extended::{Extended, add};
 use crate::layout::SystemLayout;
-use crate::newton::{NewtonPlan, NewtonStages, multiply, set_triple, triple};
+use crate::newton::{NewtonPlan, NewtonStages};
 use crate::norm::norm;
-use crate::radau::{ERROR, MATRIX, REAL};
+use crate::radau::Radau;
 use crate::report::Cause;
+use crate::stages::combine;
 use crate::system::System;
 
 /// Scratch of the implicit stepper and the polynomial of its last step.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Implicit {
     pub stages: NewtonStages,
     error: Vec<f64>,
@@ -34,8 +35,14 @@ pub(crate) struct Implicit {
 
 impl Implicit {
     /// Holds the polynomial of a step before, and no scratch yet.
-    pub fn holding(collocation: Vec<f64>) -> Self {
-        Self { stages: NewtonStages::holding(collocation), ..Self::default() }
+    pub fn holding(method: &'static Radau, collocation: Vec<f64>) -> Self {
+        Self {
+            stages: NewtonStages::holding(method, collocation),
+            error: Vec::new(),
+            beside: Vec::new(),
+            beside_rate: Vec::new(),
+            layout: SystemLayout::default(),
+        }
     }
 
     /// Sizes the scratch for a layout, unless it has that size; the polynomial stays.
@@ -51,9 +58,16 @@ impl Implicit {
         self.layout.clone_from(layout);
     }
 
-    /// Whether it is sized for so many numbers of state and quadratures.
-    pub fn is_sized_for(&self, dimension: usize, width: usize) -> bool {
-        self.layout.dimension == dimension && self.layout.width == width
+    /// The same method, and no scratch.
+    pub fn without_room(&self) -> Self {
+        Self::holding(self.stages.method, Vec::new())
+    }
+
+    /// Whether it has the room that another needs for so many numbers of state and quadratures.
+    pub fn has_the_size_of(&self, other: &Self, layout: &SystemLayout) -> bool {
+        let stages = |implicit: &Self| implicit.stages.method.stages();
+        let sizes = (self.layout.dimension, self.layout.width);
+        stages(self) == stages(other) && sizes == (layout.dimension, layout.width)
     }
 
     /// Attempts a step from one point, where the stages were linearized, to `to`, whose time is set.
@@ -75,8 +89,8 @@ impl Implicit {
         norm(layout, &self.error, &from.scale, &from.scale).allow()?;
         self.arrive(layout, from, to);
         if layout.width > layout.dimension {
-            // Afresh, where Newton's method left the stages; the rate at the third is that at the new state.
-            (0..2).try_for_each(|i| self.stages.evaluate_stage(context, from, plan, i))?;
+            // Afresh, where Newton's method left the stages; the rate at the last is that at the new state.
+            (0..self.last_stage()).try_for_each(|i| self.stages.evaluate_stage(context, from, plan, i))?;
         }
         let projection = context.land(to)?;
         self.integrate_quadratures(layout, from, plan.h, to);
@@ -88,20 +102,25 @@ impl Implicit {
 
     /// Keeps the collocation polynomial of an accepted step, so corrected that it ends in the projected state.
     pub fn accept(&mut self, from: &Point, to: &Point) {
-        let stages = &mut self.stages;
+        let (last_stage, stages) = (self.last_stage(), &mut self.stages);
         std::mem::swap(&mut stages.increments, &mut stages.collocation);
-        let last = &mut stages.collocation[2 * from.u.len()..];
+        let last = stages.collocation.stage_mut(last_stage);
         let ends = to.u.iter().zip(&to.low).zip(from.u.iter().zip(&from.low));
         for (z, (end, start)) in last.iter_mut().zip(ends) {
             *z = (end.0 - start.0) + (end.1 - start.1);
         }
     }
 
-    /// y₁ = y₀ + z₃; w is left for later.
+    /// The stage at the end of the step.
+    fn last_stage(&self) -> usize {
+        self.stages.method.stages() - 1
+    }
+
+    /// y₁ = y₀ + z_s; w is left for later.
     fn arrive(&self, layout: &SystemLayout, from: &Point, to: &mut Point) {
         to.u.copy_from_slice(&from.u);
         to.low.copy_from_slice(&from.low);
-        let last = &self.stages.increments[2 * layout.width..];
+        let last = self.stages.increments.stage(self.last_stage());
         for ((high, low), z) in to.u.iter_mut().zip(&mut to.low).zip(last).take(layout.dimension) {
             (*high, *low) = add(*high, *low, *z);
         }
@@ -121,12 +140,15 @@ impl Implicit {
 
     /// Increments and new values of the quadratures.
     fn integrate_quadratures(&mut self, layout: &SystemLayout, from: &Point, h: f64, to: &mut Point) {
-        let width = layout.width;
-        for j in layout.dimension..width {
-            let [g1, g2, _] = triple(&self.stages.rates, width, j);
-            let z = multiply(&MATRIX, [g1, g2, to.rate[j]]).map(|sum| h * sum);
-            set_triple(&mut self.stages.increments, width, j, z);
-            (to.u[j], to.low[j]) = add(from.u[j], from.low[j], z[2]);
+        let (last, quadratures) = (self.last_stage(), layout.dimension..layout.width);
+        let NewtonStages { method, increments, rates, .. } = &mut self.stages;
+        rates.stage_mut(last)[quadratures.clone()].copy_from_slice(&to.rate[quadratures.clone()]);
+        increments.set_product(method.matrix, rates, quadratures.clone());
+        for i in 0..=last {
+            increments.stage_mut(i)[quadratures.clone()].iter_mut().for_each(|z| *z *= h);
+        }
+        for j in quadratures {
+            (to.u[j], to.low[j]) = add(from.u[j], from.low[j], increments.stage(last)[j]);
         }
     }
 
@@ -152,21 +174,20 @@ impl Implicit {
 
 /// e = (γ/h I − J)⁻¹ (f + Σ e_i z_i/h) of y.
 fn state_error(layout: &SystemLayout, stages: &mut NewtonStages, rate: &[f64], h: f64, error: &mut [f64]) {
-    for (j, (value, f)) in error.iter_mut().zip(rate).enumerate().take(layout.dimension) {
-        *value = f + defect(stages, layout.width, j) / h;
+    let error = &mut error[..layout.dimension];
+    combine(stages.method.error, &stages.increments, 0..layout.dimension, error);
+    for (value, f) in error.iter_mut().zip(rate) {
+        *value = f + *value / h;
     }
-    stages.linear.solve_real(&mut error[..layout.dimension]);
+    stages.linear.solve_real(error);
 }
 
 /// e = (h/γ) (g + Σ e_i z_i/h) of w.
 fn quadrature_error(layout: &SystemLayout, stages: &NewtonStages, rate: &[f64], h: f64, error: &mut [f64]) {
-    for (j, (value, g)) in error.iter_mut().zip(rate).enumerate().skip(layout.dimension) {
-        *value = (h * g + defect(stages, layout.width, j)) / REAL;
+    let quadratures = layout.dimension..layout.width;
+    let error = &mut error[quadratures.clone()];
+    combine(stages.method.error, &stages.increments, quadratures.clone(), error);
+    for (value, g) in error.iter_mut().zip(&rate[quadratures]) {
+        *value = (h * g + *value) / stages.method.real;
     }
-}
-
-/// Σ e_i z_i of a component.
-fn defect(stages: &NewtonStages, width: usize, j: usize) -> f64 {
-    let z = triple(&stages.increments, width, j);
-    ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2]
 }

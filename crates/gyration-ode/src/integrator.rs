@@ -10,6 +10,7 @@ use crate::explicit::Explicit;
 use crate::implicit::Implicit;
 use crate::layout::SystemLayout;
 use crate::memory::{CheckpointVectors, Memory, MemoryError, StepperState, decode, encode};
+use crate::radau::Radau;
 use crate::report::{Method, Options, Statistics, Stepper};
 
 /// Integrates a system step by step from a first state.
@@ -52,13 +53,15 @@ impl Integrator {
     /// # Panics
     /// If the longest step is not positive.
     pub fn new(t: f64, y: &[f64], w: &[f64], options: Options) -> Self {
+        let stages = Radau::of(options.order).stages();
         let vectors = CheckpointVectors {
             t,
             u: [y, w].concat(),
             low: vec![0.0; y.len() + w.len()],
             rate: vec![0.0; y.len() + w.len()],
             scale: vec![0.0; y.len() + w.len()],
-            collocation: vec![0.0; 3 * (y.len() + w.len())],
+            collocation: vec![0.0; stages * (y.len() + w.len())],
+            stages,
         };
         let progress = StepperState {
             dimension: y.len(),
@@ -87,9 +90,12 @@ impl Integrator {
     /// Continues from a checkpoint, as if there had been none.
     ///
     /// # Errors
-    /// `MemoryError` if the numbers are not those of a checkpoint.
+    /// `MemoryError` if the numbers are not those of a checkpoint, or of one with another order of the implicit method.
     pub fn resume(memory: &Memory, options: Options) -> Result<Self, MemoryError> {
         let (progress, vectors) = decode(memory)?;
+        if vectors.stages != Radau::of(options.order).stages() {
+            return Err(MemoryError::Order { found: 2 * vectors.stages - 1 });
+        }
         Ok(Self::assemble(progress, vectors, options))
     }
 
@@ -112,7 +118,7 @@ impl Integrator {
             last: LastStep::None,
             last_size: 0.0,
             explicit: Explicit::default(),
-            implicit: Implicit::holding(vectors.collocation),
+            implicit: Implicit::holding(Radau::of(options.order), vectors.collocation),
             event_scratch: vec![0.0; width],
             open: false,
             fitted: false,

@@ -2,15 +2,16 @@
 //!
 //! A [`System`] says what dy/dt and dw/dt are, where its domain ends, what error it allows and how to return to its
 //! manifold. An [`Integrator`] makes accepted steps, one a call, by an explicit pair of order 9, by an implicit
-//! L-stable method of order 5 with the exact Jacobian, or by whichever of them advances further for its cost. Between
-//! the ends of a step it interpolates; [`find_crossing`] looks there for events. Its [`Memory`] is a checkpoint.
+//! L-stable method of order 5, 9 or 13 with the exact Jacobian, or by whichever of them advances further for its cost.
+//! Between the ends of a step it interpolates; [`find_crossing`] looks there for events. Its [`Memory`] is a
+//! checkpoint.
 //!
 //! | to read | file |
 //! |---|---|
 //! | what a system must say | `system` |
 //! | one accepted step | `integrator`, `step`, `scratch` |
 //! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
-//! | Radau IIA of order 5 | `implicit`, `newton`, `radau`, `linear_system` |
+//! | Radau IIA | `implicit`, `newton`, `radau`, `radau_tables`, `stages`, `linear_system` |
 //! | which blocks couple | `pattern`, `block_matrix`, `layout` |
 //! | factors of one block | `shifted`, `arrowhead`, `linear` |
 //! | factors of several | `factor`, `analysis`, `reduction`, `elimination`, `kernel` |
@@ -47,11 +48,13 @@ mod norm;
 mod pattern;
 mod prince;
 mod radau;
+mod radau_tables;
 mod reduction;
 mod report;
 mod scratch;
 mod shifted;
 mod spectrum;
+mod stages;
 mod step;
 mod system;
 #[cfg(test)]
@@ -63,6 +66,6 @@ pub use extended::{Extended, ExtendedMut};
 pub use integrator::Integrator;
 pub use memory::{MOST_COUNTED, Memory, MemoryError};
 pub use pattern::{Components, Pattern};
-pub use report::{Cause, Failure, Limit, Method, Options, Statistics, StepReport, Stepper};
+pub use report::{Cause, Failure, ImplicitOrder, Limit, Method, Options, Statistics, StepReport, Stepper};
 pub use scratch::Scratch;
 pub use system::System;

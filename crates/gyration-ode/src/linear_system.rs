@@ -4,14 +4,16 @@ use crate::block_matrix::BlockMatrix;
 use crate::factor::ComponentFactors;
 use crate::layout::SystemLayout;
 use crate::linear::Singular;
+use crate::radau::Radau;
 use crate::spectrum::{least_spectral_radius, spectral_radius};
 
 /// The Jacobian of a step with its factors.
 ///
 /// Where blocks couple, room is made when it is first needed: an explicit run whose pattern changes with every contact
 /// analyses none of them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct LinearSystem {
+    method: &'static Radau,
     jacobian: BlockMatrix,
     factors: ComponentFactors,
     /// Whether both have the layout of the system.
@@ -19,6 +21,11 @@ pub(crate) struct LinearSystem {
 }
 
 impl LinearSystem {
+    /// For the stages of a method; without room yet.
+    pub fn of(method: &'static Radau) -> Self {
+        Self { method, jacobian: BlockMatrix::default(), factors: ComponentFactors::default(), ready: false }
+    }
+
     /// Takes note of a new layout.
     pub fn set_layout(&mut self, layout: &SystemLayout) {
         self.ready = false;
@@ -29,7 +36,7 @@ impl LinearSystem {
 
     fn make_room(&mut self, layout: &SystemLayout) {
         self.jacobian = BlockMatrix::new(layout.blocks(), &layout.pattern);
-        self.factors = ComponentFactors::new(layout, &self.jacobian);
+        self.factors = ComponentFactors::new(layout, &self.jacobian, self.method);
         self.ready = true;
     }
 
@@ -43,12 +50,12 @@ impl LinearSystem {
         &mut self.jacobian
     }
 
-    /// Factorizes γ/h I − J and (α + iβ)/h I − J.
+    /// Factorizes γ/h I − J and (α + iβ)/h I − J of every pair.
     ///
     /// # Errors
     /// `Singular` if one of them is singular or not finite.
     pub fn factorize(&mut self, h: f64) -> Result<(), Singular> {
-        self.factors.factorize(h, &self.jacobian)
+        self.factors.factorize(h, &self.jacobian, self.method)
     }
 
     /// Solves (γ/h I − J) x = b in place.
@@ -56,9 +63,9 @@ impl LinearSystem {
         self.factors.solve_real(b);
     }
 
-    /// Solves ((α + iβ)/h I − J) x = b in place, b = real + i imaginary.
-    pub fn solve_complex(&mut self, real: &mut [f64], imaginary: &mut [f64]) {
-        self.factors.solve_complex(real, imaginary);
+    /// Solves ((α + iβ)/h I − J) x = b of a pair in place, b = real + i imaginary.
+    pub fn solve_complex(&mut self, pair: usize, real: &mut [f64], imaginary: &mut [f64]) {
+        self.factors.solve_complex(pair, real, imaginary);
     }
 
     /// What the linear algebra of a step costs beside that of the same blocks without coupling.

@@ -10,12 +10,14 @@
 use crate::auto::Switch;
 use crate::context::Point;
 use crate::control::StepControl;
+use crate::radau::MOST_STAGES;
 use crate::report::{Statistics, Stepper};
+use crate::stages::StageVectors;
 
 /// The version of the layout of the numbers.
-const VERSION: u64 = 5;
+const VERSION: u64 = 6;
 /// The integers before and besides the vectors.
-const INTEGERS: usize = 18;
+const INTEGERS: usize = 19;
 /// The reals besides the vectors.
 const REALS: usize = 12;
 
@@ -55,6 +57,12 @@ pub enum MemoryError {
         /// The number of reals found.
         reals: usize,
     },
+    /// Of an implicit method of another order than is asked for.
+    #[error("the checkpoint is of an implicit method of order {found}, not of the one asked for")]
+    Order {
+        /// The order found.
+        found: usize,
+    },
     /// A number that no run comes to.
     #[error("the checkpoint holds {what} that no run comes to")]
     Number {
@@ -90,7 +98,7 @@ pub(crate) struct StepperState {
 }
 
 /// The vectors of a checkpoint: u = (y, w), what it lacks, its rate, the error allowed, and the collocation polynomial
-/// (three times as long).
+/// (as often as long as there are stages).
 pub(crate) struct CheckpointVectors {
     pub t: f64,
     pub u: Vec<f64>,
@@ -98,13 +106,14 @@ pub(crate) struct CheckpointVectors {
     pub rate: Vec<f64>,
     pub scale: Vec<f64>,
     pub collocation: Vec<f64>,
+    pub stages: usize,
 }
 
-/// How many numbers the vectors hold for each of u.
-const VECTORS: usize = 7;
+/// How many vectors there are besides the polynomial.
+const VECTORS: usize = 4;
 
 /// Writes a checkpoint, in the place of what stands in the memory.
-pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point, collocation: &[f64]) {
+pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point, collocation: &StageVectors) {
     let Point { t, u, low, rate, scale } = point;
     let StepperState { control, switch, .. } = progress;
     let (counters, [smallest_step, largest_step]) = progress.statistics.numbers();
@@ -121,15 +130,16 @@ pub(crate) fn encode(memory: &mut Memory, progress: &StepperState, point: &Point
         switch.stay,
         switch.bar,
         switch.patience,
+        collocation.stages() as u64,
     ]);
     integers.extend_from_slice(&counters);
-    reals.reserve(REALS + VECTORS * u.len());
+    reals.reserve(REALS + (VECTORS + collocation.stages()) * u.len());
     reals.push(*t);
     reals.extend_from_slice(u);
     reals.extend_from_slice(low);
     reals.extend_from_slice(rate);
     reals.extend_from_slice(scale);
-    reals.extend_from_slice(collocation);
+    reals.extend_from_slice(collocation.numbers());
     reals.extend_from_slice(&[
         progress.step,
         control.explicit_error,
@@ -159,20 +169,26 @@ pub(crate) fn decode(memory: &Memory) -> Result<(StepperState, CheckpointVectors
     if ints.len() != INTEGERS || reals.len() < REALS {
         return Err(wrong);
     }
-    let width = (reals.len() - REALS) / VECTORS;
+    let stages = ints[9];
+    if !(1..=MOST_STAGES as u64).contains(&stages) {
+        return Err(MemoryError::Number { what: "a number of stages" });
+    }
+    let vectors = VECTORS + stages as usize;
+    let width = (reals.len() - REALS) / vectors;
     let (dimension, quadratures) = (ints[1], ints[2]);
-    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + VECTORS * width {
+    if dimension.checked_add(quadratures) != Some(width as u64) || reals.len() != REALS + vectors * width {
         return Err(wrong);
     }
     let counters = ints[INTEGERS - 9..].try_into().map_err(|_| wrong)?;
-    let (vectors, rest) = reals[1..].split_at(VECTORS * width);
+    let (vectors, rest) = reals[1..].split_at(vectors * width);
     let vectors = CheckpointVectors {
         t: reals[0],
         u: vectors[..width].to_vec(),
         low: vectors[width..2 * width].to_vec(),
         rate: vectors[2 * width..3 * width].to_vec(),
         scale: vectors[3 * width..4 * width].to_vec(),
-        collocation: vectors[4 * width..].to_vec(),
+        collocation: vectors[VECTORS * width..].to_vec(),
+        stages: stages as usize,
     };
     let progress = StepperState {
         dimension: dimension as usize,

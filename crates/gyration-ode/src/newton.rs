@@ -3,27 +3,24 @@
 //!   z_i = h Σ_j a_ij f(t₀ + c_j h, y₀ + z_j)
 //!
 //! With the exact Jacobian J in the middle of the step, as extrapolated, or at its start, and W = (T⁻¹ ⊗ I) z, the
-//! three stages separate into a real and a complex linear system,
+//! stages separate into a real and one or more complex linear systems,
 //!
-//!   (γ/h I − J) ΔW₁ = r₁,   ((α + iβ)/h I − J)(ΔW₂ + iΔW₃) = r₂ + i r₃,   r = (T⁻¹ ⊗ I) F(z) − (Λ ⊗ I) W/h.
+//!   (γ/h I − J) ΔW₁ = r₁,   ((α + iβ)/h I − J)(ΔW₂ + iΔW₃) = r₂ + i r₃, …   r = (T⁻¹ ⊗ I) F(z) − (Λ ⊗ I) W/h.
 //!
-//! The speed of convergence θ is measured; an iteration that would not arrive in time is broken off. Vectors of three
-//! stages lie one stage after the other. Source: Hairer, Wanner II, §IV.8.
+//! The speed of convergence θ is measured; an iteration that would not arrive in time is broken off. Source: Hairer,
+//! Wanner II, §IV.8.
 
 use crate::context::{Context, Point};
 use crate::extended::{Extended, add};
 use crate::layout::SystemLayout;
 use crate::linear_system::LinearSystem;
-use crate::radau::{COMPLEX, INVERSE, NODES, REAL, TRANSFORM, basis};
+use crate::radau::{MOST_STAGES, Radau};
 use crate::report::Cause;
+use crate::stages::StageVectors;
 use crate::system::System;
 
-/// Newton iterations after which a shorter step is cheaper. Source: radau5.f.
-pub(crate) const MAX_ITERATIONS: u32 = 7;
 /// Longest step, in steps before, for which the collocation polynomial is worth extrapolating.
 const EXTRAPOLATION_REACH: f64 = 4.0;
-/// The stage nearest to the middle of a step.
-const MIDDLE: usize = 1;
 /// The least error that one iteration is supposed to leave, as a part of its correction, before a second confirms it.
 const LEAST_CONTRACTION: f64 = 1e-2;
 /// Corrections of so many roundings of the state, no longer contracting, are noise.
@@ -59,19 +56,22 @@ pub(crate) struct Convergence {
     pub contraction: f64,
 }
 
-/// The unknowns of the three stages and the factors of their equations.
-#[derive(Debug, Clone, Default)]
+/// The unknowns of the stages and the factors of their equations.
+#[derive(Debug, Clone)]
 pub(crate) struct NewtonStages {
-    /// z₁, z₂, z₃ of u = (y, w); Newton's method is for y, the rest is filled in by the quadratures.
-    pub increments: Vec<f64>,
-    /// The rates at the three stages.
-    pub rates: Vec<f64>,
-    /// z₁, z₂, z₃ of the last accepted step.
-    pub collocation: Vec<f64>,
+    pub method: &'static Radau,
+    /// z_i of u = (y, w); Newton's method is for y, the rest is filled in by the quadratures.
+    pub increments: StageVectors,
+    /// The rates at the stages.
+    pub rates: StageVectors,
+    /// z_i of the last accepted step.
+    pub collocation: StageVectors,
     /// W, of y alone.
-    transformed: Vec<f64>,
-    /// ΔW, then Δz.
-    correction: Vec<f64>,
+    transformed: StageVectors,
+    /// ΔW.
+    correction: StageVectors,
+    /// Δz.
+    change: StageVectors,
     stage: Vec<f64>,
     /// What the stage lacks.
     low: Vec<f64>,
@@ -80,18 +80,30 @@ pub(crate) struct NewtonStages {
 
 impl NewtonStages {
     /// Holds the polynomial of a step before, and no scratch yet.
-    pub fn holding(collocation: Vec<f64>) -> Self {
-        Self { collocation, ..Self::default() }
+    pub fn holding(method: &'static Radau, collocation: Vec<f64>) -> Self {
+        let none = StageVectors::default;
+        Self {
+            method,
+            increments: none(),
+            rates: none(),
+            collocation: StageVectors::of(collocation, method.stages()),
+            transformed: none(),
+            correction: none(),
+            change: none(),
+            stage: Vec::new(),
+            low: Vec::new(),
+            linear: LinearSystem::of(method),
+        }
     }
 
     /// Sizes the scratch for a layout; the polynomial stays.
     pub fn resize(&mut self, layout: &SystemLayout) {
-        let (n, width) = (layout.dimension, layout.width);
-        for triple in [&mut self.increments, &mut self.rates, &mut self.collocation] {
-            triple.resize(3 * width, 0.0);
+        let (n, width, stages) = (layout.dimension, layout.width, self.method.stages());
+        for vectors in [&mut self.increments, &mut self.rates, &mut self.collocation] {
+            vectors.resize(stages, width);
         }
-        for triple in [&mut self.transformed, &mut self.correction] {
-            triple.resize(3 * n, 0.0);
+        for vectors in [&mut self.transformed, &mut self.correction, &mut self.change] {
+            vectors.resize(stages, n);
         }
         self.stage.resize(width, 0.0);
         self.low.resize(width, 0.0);
@@ -114,8 +126,9 @@ impl NewtonStages {
         if let Some(Ahead { h, collocation_step }) = ahead
             && self.predict(context.layout, h / collocation_step)
         {
-            self.set_stage(from, MIDDLE);
-            if self.evaluate_jacobian(context, from.t + NODES[MIDDLE] * h).is_ok() {
+            let middle = self.method.stages() / 2;
+            self.set_stage(from, middle);
+            if self.evaluate_jacobian(context, from.t + self.method.nodes[middle] * h).is_ok() {
                 return Ok(());
             }
         }
@@ -134,8 +147,7 @@ impl NewtonStages {
 
     /// Sets `stage` to the state of stage i.
     fn set_stage(&mut self, from: &Point, i: usize) {
-        let width = self.stage.len();
-        let increments = &self.increments[i * width..(i + 1) * width];
+        let increments = self.increments.stage(i);
         let stage = self.stage.iter_mut().zip(&mut self.low);
         for ((stage, start), z) in stage.zip(from.u.iter().zip(&from.low)).zip(increments) {
             (*stage.0, *stage.1) = add(*start.0, *start.1, *z);
@@ -144,7 +156,7 @@ impl NewtonStages {
 
     /// The spectral radius of the Jacobian of this step; spends the scratch of the corrections.
     pub fn spectral_radius(&mut self, layout: &SystemLayout, scale: &[f64]) -> f64 {
-        self.linear.spectral_radius(layout, scale, &mut self.correction)
+        self.linear.spectral_radius(layout, scale, self.correction.numbers_mut())
     }
 
     /// Factorizes the matrices of a step of size h.
@@ -168,11 +180,12 @@ impl NewtonStages {
     ) -> Result<Convergence, Cause<S::Inadmissible>> {
         let layout = context.layout;
         let (tolerance, noise) = tolerance(layout, from);
+        let most = self.method.most_iterations();
         let mut contraction = plan.contraction;
         let mut left = libm::pow(contraction.max(f64::EPSILON), 0.8).max(LEAST_CONTRACTION);
         let mut previous = f64::INFINITY;
         self.predict_and_evaluate(context, from, plan)?;
-        for iterations in 1..=MAX_ITERATIONS {
+        for iterations in 1..=most {
             if iterations > 1 {
                 self.evaluate(context, from, plan)?;
             }
@@ -185,7 +198,7 @@ impl NewtonStages {
                 contraction = theta / (1.0 - theta);
                 left = contraction;
                 // What the iterations still allowed would leave.
-                let predicted = left * size * theta.powi((MAX_ITERATIONS - iterations) as i32);
+                let predicted = left * size * theta.powi((most - iterations) as i32);
                 if !(theta < 0.99 && predicted <= tolerance) {
                     return Err(Cause::Newton);
                 }
@@ -208,8 +221,8 @@ impl NewtonStages {
         if self.predict(context.layout, plan.h / plan.collocation_step) && self.evaluate(context, from, plan).is_ok() {
             return Ok(());
         }
-        self.increments.fill(0.0);
-        self.transformed.fill(0.0);
+        self.increments.numbers_mut().fill(0.0);
+        self.transformed.numbers_mut().fill(0.0);
         self.evaluate(context, from, plan)
     }
 
@@ -219,16 +232,14 @@ impl NewtonStages {
         if ratio > EXTRAPOLATION_REACH {
             return false;
         }
-        let (n, width) = (layout.dimension, layout.width);
-        let weights = NODES.map(|node| {
-            let [a, b, c] = basis(1.0 + node * ratio);
-            [a, b, c - 1.0]
-        });
-        for j in 0..n {
-            let z = multiply(&weights, triple(&self.collocation, width, j));
-            set_triple(&mut self.increments, width, j, z);
-            set_triple(&mut self.transformed, n, j, multiply(&INVERSE, z));
+        let (n, stages) = (layout.dimension, self.method.stages());
+        let mut weights = [0.0; MOST_STAGES * MOST_STAGES];
+        for (row, node) in weights.chunks_exact_mut(stages).zip(self.method.nodes) {
+            row.copy_from_slice(&self.method.basis(1.0 + node * ratio)[..stages]);
+            row[stages - 1] -= 1.0;
         }
+        self.increments.set_product(&weights[..stages * stages], &self.collocation, 0..n);
+        self.transformed.set_product(self.method.inverse, &self.increments, 0..n);
         true
     }
 
@@ -238,7 +249,7 @@ impl NewtonStages {
         from: &Point,
         plan: &NewtonPlan,
     ) -> Result<(), Cause<S::Inadmissible>> {
-        (0..3).try_for_each(|i| self.evaluate_stage(context, from, plan, i))
+        (0..self.method.stages()).try_for_each(|i| self.evaluate_stage(context, from, plan, i))
     }
 
     /// The rates at a stage, from its increments.
@@ -252,37 +263,37 @@ impl NewtonStages {
         plan: &NewtonPlan,
         i: usize,
     ) -> Result<(), Cause<S::Inadmissible>> {
-        let width = self.stage.len();
-        let time = if i == 2 { plan.end } else { from.t + NODES[i] * plan.h };
+        let nodes = self.method.nodes;
+        let time = if i + 1 == nodes.len() { plan.end } else { from.t + nodes[i] * plan.h };
         self.set_stage(from, i);
         let stage = Extended { high: &self.stage, low: &self.low };
-        context.evaluate(time, stage, &mut self.rates[i * width..(i + 1) * width])
+        context.evaluate(time, stage, self.rates.stage_mut(i))
     }
 
     /// One correction of z and W; returns the size of Δz relative to the scales.
     fn correct(&mut self, layout: &SystemLayout, h: f64, scale: &[f64]) -> f64 {
-        let (n, width) = (layout.dimension, layout.width);
-        let (gamma, alpha, beta) = (REAL / h, COMPLEX.0 / h, COMPLEX.1 / h);
-        for j in 0..n {
-            let [f1, f2, f3] = multiply(&INVERSE, triple(&self.rates, width, j));
-            let [w1, w2, w3] = triple(&self.transformed, n, j);
-            let residual = [f1 - gamma * w1, f2 - (alpha * w2 - beta * w3), f3 - (beta * w2 + alpha * w3)];
-            set_triple(&mut self.correction, n, j, residual);
+        let Self { method, increments, rates, transformed, correction, change, linear, .. } = self;
+        let all = 0..layout.dimension;
+        correction.set_product(method.inverse, rates, all.clone());
+        let gamma = method.real / h;
+        for (residual, w) in correction.stage_mut(0).iter_mut().zip(transformed.stage(0)) {
+            *residual -= gamma * w;
         }
-        let (first, others) = self.correction.split_at_mut(n);
-        let (second, third) = others.split_at_mut(n);
-        self.linear.solve_real(first);
-        self.linear.solve_complex(second, third);
-        for j in 0..n {
-            let dw = triple(&self.correction, n, j);
-            let dz = multiply(&TRANSFORM, dw);
-            set_triple(&mut self.correction, n, j, dz);
-            for i in 0..3 {
-                self.transformed[i * n + j] += dw[i];
-                self.increments[i * width + j] += dz[i];
+        linear.solve_real(correction.stage_mut(0));
+        for (pair, (alpha, beta)) in method.complex.iter().enumerate() {
+            let (first, alpha, beta) = (1 + 2 * pair, alpha / h, beta / h);
+            let (real, imaginary) = correction.pair_mut(first);
+            let unknowns = transformed.stage(first).iter().zip(transformed.stage(first + 1));
+            for ((re, im), (w, v)) in real.iter_mut().zip(imaginary.iter_mut()).zip(unknowns) {
+                *re -= alpha * w - beta * v;
+                *im -= beta * w + alpha * v;
             }
+            linear.solve_complex(pair, real, imaginary);
         }
-        block_norm(layout, scale, |j| triple(&self.correction, n, j))
+        change.set_product(method.transform, correction, all.clone());
+        transformed.add(correction, all.clone());
+        increments.add(change, all);
+        block_norm(layout, scale, method.stages(), |i| change.stage(i))
     }
 }
 
@@ -294,36 +305,21 @@ impl NewtonStages {
 /// state, which rates may see, and never above a tenth of what is allowed, however small that is beside the state.
 /// Source: radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &SystemLayout, from: &Point) -> (f64, f64) {
-    let size = block_norm(layout, &from.scale, |j| [from.u[j]; 3]);
+    let size = block_norm(layout, &from.scale, 1, |_| &from.u);
     let wanted = (10.0 * libm::pow(size.max(1.0), -0.5)).clamp(1e-4, 1e-2);
     (wanted.max(10.0 * f64::EPSILON * size).min(0.1), (NOISE * size).min(1.0))
 }
 
-/// The largest root mean square over the blocks of y, of three vectors together; a NaN is the largest of all.
-fn block_norm(layout: &SystemLayout, scale: &[f64], vectors: impl Fn(usize) -> [f64; 3]) -> f64 {
+/// The largest root mean square over the blocks of y, of so many vectors together; a NaN is the largest of all.
+fn block_norm<'a>(layout: &SystemLayout, scale: &[f64], stages: usize, vector: impl Fn(usize) -> &'a [f64]) -> f64 {
     let mut largest = 0.0;
     for block in layout.blocks().iter().filter(|block| !block.is_empty()) {
-        let squares: f64 = block.clone().map(|j| vectors(j).map(|v| (v / scale[j]).powi(2)).iter().sum::<f64>()).sum();
-        let size = (squares / (3 * block.len()) as f64).sqrt();
+        let squares = |j: usize| (0..stages).map(|i| (vector(i)[j] / scale[j]).powi(2)).sum::<f64>();
+        let size = (block.clone().map(squares).sum::<f64>() / (stages * block.len()) as f64).sqrt();
         if size.is_nan() {
             return size;
         }
         largest = size.max(largest);
     }
     largest
-}
-
-/// Component j of the three stages.
-pub(crate) fn triple(stages: &[f64], stride: usize, j: usize) -> [f64; 3] {
-    [stages[j], stages[stride + j], stages[2 * stride + j]]
-}
-
-/// Sets component j of the three stages.
-pub(crate) fn set_triple(stages: &mut [f64], stride: usize, j: usize, values: [f64; 3]) {
-    (stages[j], stages[stride + j], stages[2 * stride + j]) = values.into();
-}
-
-/// Matrix times vector.
-pub(crate) fn multiply(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
-    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }

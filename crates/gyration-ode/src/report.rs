@@ -8,8 +8,35 @@ pub enum Method {
     Auto,
     /// The explicit pair of order 9 only.
     Explicit,
-    /// The implicit method of order 5 only.
+    /// The implicit method only.
     Implicit,
+}
+
+/// The order of the implicit method: 2s − 1 with s stages, and s that of its error estimate.
+///
+/// The higher, the longer a step at a small error allowed, and the more a step costs: s evaluations an iteration, one
+/// real and (s − 1)/2 complex factorizations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum ImplicitOrder {
+    /// Three stages.
+    #[default]
+    Five,
+    /// Five stages.
+    Nine,
+    /// Seven stages.
+    Thirteen,
+}
+
+impl ImplicitOrder {
+    /// The order that takes the least work at a relative error allowed, by curves of error against work:
+    /// `bench/2026-11-25-orders.md`.
+    pub fn at_tolerance(relative: f64) -> Self {
+        match relative {
+            _ if relative <= 3e-7 => Self::Thirteen,
+            _ if relative <= 3e-4 => Self::Nine,
+            _ => Self::Five,
+        }
+    }
 }
 
 /// The two steppers.
@@ -17,7 +44,7 @@ pub enum Method {
 pub enum Stepper {
     /// Prince's pair 9(7).
     Explicit,
-    /// Radau IIA of order 5.
+    /// Radau IIA.
     Implicit,
 }
 
@@ -26,6 +53,8 @@ pub enum Stepper {
 pub struct Options {
     /// Which stepper.
     pub method: Method,
+    /// The order of the implicit one.
+    pub order: ImplicitOrder,
     /// The longest step, in units of t; may be +∞.
     pub max_step: f64,
     /// The size of the first attempt; chosen from the first two rates if absent.
@@ -34,7 +63,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { method: Method::Auto, max_step: f64::INFINITY, initial_step: None }
+        Self { method: Method::Auto, order: ImplicitOrder::Five, max_step: f64::INFINITY, initial_step: None }
     }
 }
 
@@ -94,7 +123,7 @@ pub struct Statistics {
     pub rate_evaluations: u64,
     /// Evaluations of the Jacobian.
     pub jacobians: u64,
-    /// Factorizations of the pair of iteration matrices.
+    /// Factorizations of the iteration matrices of a step.
     pub factorizations: u64,
     /// Changes of stepper.
     pub switches: u64,

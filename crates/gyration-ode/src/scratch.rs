@@ -15,14 +15,14 @@ pub struct Scratch {
 impl Integrator {
     /// Takes the scratch of its size, if there is one: nothing is then allocated. It drops its own.
     pub fn take_scratch(&mut self, scratch: &mut Scratch) {
-        let fits = |room: &Implicit| room.is_sized_for(self.layout.dimension, self.layout.width);
+        let fits = |room: &Implicit| room.has_the_size_of(&self.implicit, &self.layout);
         let found = scratch.rooms.iter().position(fits).map(|place| scratch.rooms.swap_remove(place));
-        self.exchange(found.unwrap_or_default());
+        self.exchange(found.unwrap_or_else(|| self.implicit.without_room()));
     }
 
     /// Gives its scratch to others, and takes or makes another before it steps again.
     pub fn give_scratch(&mut self, scratch: &mut Scratch) {
-        let own = self.exchange(Implicit::default());
+        let own = self.exchange(self.implicit.without_room());
         scratch.rooms.push(own);
     }
 

@@ -6,7 +6,7 @@
 
 use crate::auto::{EXPLICIT_REACH, ImplicitEffort};
 use crate::context::Context;
-use crate::control::{StepControl, initial_step};
+use crate::control::{ImplicitStep, StepControl, initial_step};
 use crate::explicit::{Explicit, Trial};
 use crate::extended::Extended;
 use crate::integrator::{Integrator, LastStep};
@@ -66,7 +66,7 @@ impl Integrator {
                 // The next attempt is on safer ground.
                 self.linearize(system, None)?;
             }
-            h = attempt.h * StepControl::retreat(self.progress.stepper, &cause);
+            h = attempt.h * StepControl::retreat(self.progress.stepper, self.implicit.stages.method, &cause);
             if h < self.least_step() {
                 if self.options.method != Method::Auto || other_tried {
                     return Err(Failure::StepTooSmall { time: self.current.t, step: h, cause });
@@ -274,7 +274,8 @@ impl Integrator {
             None => progress.control.after_explicit(trial.error.value, attempt.h, rejected),
             Some(Convergence { iterations, contraction }) => {
                 progress.contraction = contraction;
-                progress.control.after_implicit(trial.error.value, attempt.h, iterations, rejected)
+                let step = ImplicitStep { error: trial.error.value, h: attempt.h, iterations };
+                progress.control.after_implicit(self.implicit.stages.method, &step, rejected)
             }
         };
         let next = attempt.h * factor;

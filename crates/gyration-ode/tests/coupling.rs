@@ -36,7 +36,7 @@ fn a_chain_of_blocks_steps_like_one_dense_block() {
         let mut chain = Chain::new(12, shown);
         chain.atol = 1e3;
         let start = chain.exact(0.0);
-        run_system(&mut chain, &start, &[0.0], (0.0, 0.01), fixed(Method::Implicit, 1e-4))
+        run_system(&mut chain, &start, &[0.0], (0.0, 0.01), fixed(with(Method::Implicit), 1e-4))
     });
     assert_eq!(coupled.statistics().accepted(), whole.statistics().accepted());
     let apart = [&coupled, &reduced].map(|integrator| distance(integrator.state(), whole.state()));
@@ -55,8 +55,13 @@ fn the_order_stays_with_coupling() {
             let mut chain = Chain::new(20, Shown::Reduced);
             (chain.stiffness, chain.damping, chain.atol) = (100.0, 1.0, 1e3);
             let start = chain.mode(1, 0.0);
-            let end =
-                run_system(&mut chain, &start, &[0.0], (0.0, 5.0), fixed(Method::Implicit, 5.0 / f64::from(*steps)));
+            let end = run_system(
+                &mut chain,
+                &start,
+                &[0.0],
+                (0.0, 5.0),
+                fixed(with(Method::Implicit), 5.0 / f64::from(*steps)),
+            );
             assert_eq!(end.statistics().accepted(), *steps as u64);
             distance(end.state(), &chain.mode(1, 5.0))
         })

@@ -1,9 +1,13 @@
 //! A run continued from its checkpoint, and a run that is sampled, make the steps of a plain run to the last bit.
 
 use crate::common::{self, Problem, barrier, kepler, perihelion, with};
-use gyration_ode::{Integrator, Memory, MemoryError, Method, Options, Stepper};
+use gyration_ode::{ImplicitOrder, Integrator, Memory, MemoryError, Method, Options, Stepper};
 
-const METHODS: [Method; 3] = [Method::Auto, Method::Explicit, Method::Implicit];
+/// Every stepper, and the choice.
+fn all() -> [Options; 5] {
+    let [five, nine, thirteen] = common::implicit();
+    [with(Method::Auto), with(Method::Explicit), five, nine, thirteen]
+}
 
 /// A damped drop that comes to rest, stiff at the end: both steppers are used, and quadratures.
 fn drop_to_rest() -> (Problem, [f64; 2], f64) {
@@ -31,20 +35,20 @@ fn bits(memory: &Memory) -> (Vec<u64>, Vec<u64>) {
 
 #[test]
 fn resuming_at_every_step_changes_no_bit() {
-    for method in METHODS {
+    for options in all() {
         let (mut problem, start, end) = drop_to_rest();
         // The explicit method alone would need a million steps to the end.
-        let end = if method == Method::Explicit { 4.0 } else { end };
-        let options = Options { max_step: 5.0, ..with(method) };
+        let end = if options.method == Method::Explicit { 4.0 } else { end };
+        let options = Options { max_step: 5.0, ..options };
         let fresh = || Integrator::new(0.0, &start, &[0.0, 0.0], options);
         let (plain, steppers) = follow(&mut problem, fresh(), end, |_, integrator| integrator);
         let (resumed, _) = follow(&mut problem, fresh(), end, |_, integrator| {
             Integrator::resume(&integrator.memory(), options).unwrap()
         });
-        println!("{method:?}: {:?}", plain.statistics());
-        assert_eq!(bits(&plain.memory()), bits(&resumed.memory()), "{method:?}");
+        println!("{options:?}: {:?}", plain.statistics());
+        assert_eq!(bits(&plain.memory()), bits(&resumed.memory()), "{options:?}");
         assert_eq!(plain.statistics(), resumed.statistics());
-        if method == Method::Auto {
+        if options.method == Method::Auto {
             assert!(steppers.contains(&Stepper::Explicit) && steppers.contains(&Stepper::Implicit));
         }
     }
@@ -64,10 +68,10 @@ fn resuming_before_the_first_step_changes_no_bit() {
 
 #[test]
 fn sampling_changes_no_bit() {
-    for method in METHODS {
+    for options in all() {
         let (mut problem, start, end) = drop_to_rest();
-        let end = if method == Method::Explicit { 4.0 } else { end };
-        let fresh = || Integrator::new(0.0, &start, &[0.0, 0.0], with(method));
+        let end = if options.method == Method::Explicit { 4.0 } else { end };
+        let fresh = || Integrator::new(0.0, &start, &[0.0, 0.0], options);
         let (plain, _) = follow(&mut problem, fresh(), end, |_, integrator| integrator);
         let (sampled, _) = follow(&mut problem, fresh(), end, |_, integrator| {
             let (a, b) = integrator.last_step().unwrap();
@@ -77,20 +81,20 @@ fn sampling_changes_no_bit() {
             assert_eq!(bits(&integrator.memory()), before);
             integrator
         });
-        assert_eq!(bits(&plain.memory()), bits(&sampled.memory()), "{method:?}");
+        assert_eq!(bits(&plain.memory()), bits(&sampled.memory()), "{options:?}");
     }
 }
 
 /// At both ends the interpolant is the state itself, projected as it is; between them it stays near.
 #[test]
 fn interpolation_meets_the_accepted_states() {
-    for method in METHODS {
+    for options in all() {
         let mut problem = kepler().tolerances(1e-6, 1e-6);
         problem.project = |y| {
             y[0] *= 1.0 + 1e-9;
             1e-9
         };
-        let mut integrator = Integrator::new(0.0, &perihelion(0.5), &[], with(method));
+        let mut integrator = Integrator::new(0.0, &perihelion(0.5), &[], options);
         for _ in 0..20 {
             let before = integrator.state().to_vec();
             let report = integrator.step(&mut problem, 100.0).unwrap();
@@ -120,6 +124,8 @@ fn numbers_that_are_no_checkpoint_are_refused() {
     let mut sizes = good.clone();
     sizes.integers[1] = u64::MAX;
     assert!(matches!(Integrator::resume(&sizes, options), Err(MemoryError::Length { .. })));
+    let of_another = Options { order: ImplicitOrder::Nine, ..options };
+    assert_eq!(Integrator::resume(&good, of_another).unwrap_err(), MemoryError::Order { found: 5 });
     // A time, the next step, the mistakes of the choice of a stepper, the last counter.
     let step = good.reals.len() - 11;
     for (place, number) in [(0, f64::NAN), (step, -1.0), (step, f64::INFINITY)] {
@@ -128,7 +134,7 @@ fn numbers_that_are_no_checkpoint_are_refused() {
         let found = Integrator::resume(&damaged, options);
         assert!(matches!(found, Err(MemoryError::Number { .. })), "{place}: {number}");
     }
-    for place in [8, good.integers.len() - 1] {
+    for place in [8, 9, good.integers.len() - 1] {
         let mut damaged = good.clone();
         damaged.integers[place] = u64::MAX;
         assert!(matches!(Integrator::resume(&damaged, options), Err(MemoryError::Number { .. })), "{place}");

@@ -2,7 +2,7 @@
 
 use crate::adapter::Tolerance;
 use crate::rows::Extras;
-use gyration_ode::{Method, Options};
+use gyration_ode::{ImplicitOrder, Method, Options};
 use gyration_scene::Built;
 use gyration_threads::Threads;
 use std::num::NonZeroUsize;
@@ -61,7 +61,7 @@ impl From<&Built> for RunPlan {
             sample: plan.sample,
             stop_at_rest: plan.stop_at_rest.map(|rest| RestCriterion { speed: rest.speed, hold: rest.hold }),
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
-            options: Options { method, max_step, initial_step: None },
+            options: Options { method, order: ImplicitOrder::at_tolerance(plan.rtol), max_step, initial_step: None },
             extras: Extras::new(built.record.quantities.iter().copied(), built.record.origin),
             threads: None,
         }

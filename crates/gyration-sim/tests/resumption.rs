@@ -48,8 +48,8 @@ fn bodies_that_meet_resume_after_every_window_and_keep_their_momenta() {
         let FirstSteps { difference, planes, momenta, .. } = first_steps(&scene, WINDOWS);
         let [linear, angular] = momenta.unwrap();
         println!("case {case}: forces by planes found anew {planes:.1e}, momentum {linear:.1e}, angular {angular:.1e}");
-        // Between push and pull a force is small beside what its gap is rounded to.
-        assert!(planes < 1e-6 && linear < 1e-14 && angular < 1e-8, "case {case}");
+        // A corner that strikes comes as near as 1e-11 of a size: to 2e-5 of that its gap is rounded, and its force.
+        assert!(planes < 1e-4 && linear < 1e-14 && angular < 1e-8, "case {case}");
         differing.extend(difference.map(|told| format!("case {case}, {told}")));
     }
     assert!(differing.is_empty(), "{} scenes:\n{}", differing.len(), differing.join("\n"));

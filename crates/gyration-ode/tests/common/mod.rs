@@ -6,7 +6,7 @@ pub mod chain;
 
 use std::ops::Range;
 
-use gyration_ode::{BlockMatrix, Integrator, Method, Options, Pattern, Statistics, System};
+use gyration_ode::{BlockMatrix, ImplicitOrder, Integrator, Method, Options, Pattern, Statistics, System};
 use nalgebra::DMatrix;
 
 type Rates = dyn Fn(f64, &[f64], &mut [f64], &mut [f64]) -> Result<(), &'static str>;
@@ -124,9 +124,21 @@ pub fn with(method: Method) -> Options {
     Options { method, ..Options::default() }
 }
 
+/// The implicit method of every order.
+pub fn implicit() -> [Options; 3] {
+    [ImplicitOrder::Five, ImplicitOrder::Nine, ImplicitOrder::Thirteen]
+        .map(|order| Options { order, ..with(Method::Implicit) })
+}
+
+/// The implicit method of every order, and the choice between the steppers.
+pub fn for_stiff() -> [Options; 4] {
+    let [five, nine, thirteen] = implicit();
+    [five, nine, thirteen, with(Method::Auto)]
+}
+
 /// Steps of fixed size: `Options` that hold the step at h. The error allowed has to be large enough for it.
-pub fn fixed(method: Method, h: f64) -> Options {
-    Options { method, max_step: h, initial_step: Some(h) }
+pub fn fixed(options: Options, h: f64) -> Options {
+    Options { max_step: h, initial_step: Some(h), ..options }
 }
 
 /// The largest difference.

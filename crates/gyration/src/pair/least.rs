@@ -92,7 +92,12 @@ pub(super) fn place(
             break;
         }
         let Some(next) = placed.descend(laws, halves, &step, decrement, room) else { break };
+        let stays = next.plane == placed.plane;
         placed = next;
+        // Digits tell no other plane.
+        if stays {
+            break;
+        }
     }
     // A plane that is not in balance would push without a potential.
     if left < LOST { Ok(placed) } else { Err(GapClosed { gap: f64::NAN }) }
