@@ -115,7 +115,7 @@ fn make_steps(method: Method, steps: u32) -> u64 {
     let h = 0.01;
     let start: Vec<f64> = (0..SIZE).map(|i| (1.7 * i as f64).sin()).collect();
     let mut ring = Linear::ring();
-    let options = Options { method, max_step: h, initial_step: Some(h) };
+    let options = Options { method, max_step: h, initial_step: Some(h), ..Options::default() };
     let mut integrator = Integrator::new(0.0, &start, &[0.0; WORKS], options);
     for _ in 0..steps {
         integrator.step(&mut ring, f64::INFINITY).expect("a linear system");

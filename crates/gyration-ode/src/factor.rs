@@ -131,7 +131,7 @@ fn of_pairs(pairs: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::pattern::Pattern;
-    use crate::radau_tables::{FIVE, THIRTEEN};
+    use crate::radau::{FIVE, THIRTEEN};
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 

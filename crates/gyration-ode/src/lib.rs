@@ -11,7 +11,7 @@
 //! | what a system must say | `system` |
 //! | one accepted step | `integrator`, `step`, `scratch` |
 //! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
-//! | Radau IIA | `implicit`, `newton`, `radau`, `radau_tables`, `stages`, `linear_system` |
+//! | Radau IIA | `implicit`, `newton`, `radau`, `stages`, `linear_system` |
 //! | which blocks couple | `pattern`, `block_matrix`, `layout` |
 //! | factors of one block | `shifted`, `arrowhead`, `linear` |
 //! | factors of several | `factor`, `analysis`, `reduction`, `elimination`, `kernel` |
@@ -48,7 +48,6 @@ mod norm;
 mod pattern;
 mod prince;
 mod radau;
-mod radau_tables;
 mod reduction;
 mod report;
 mod scratch;

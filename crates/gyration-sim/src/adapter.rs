@@ -266,7 +266,7 @@ impl System for ModelSystem {
             // Springs make velocities of the rounding of places.
             let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];
             // So do pairs, whose forces are off by some ν ε size/gap: velocities by that part of themselves.
-            let exponents = self.model.pairs_of(index).map(|end| end.joint.laws.repulsion.exponent);
+            let exponents = self.model.pairs_of(index).map(|end| end.interaction.laws.repulsion.exponent);
             let lost = if apart > 0.0 { exponents.fold(0.0, f64::max) * body.size / apart } else { 0.0 };
             let shaken = shaken + 4.0 * f64::EPSILON * lost * speed.max(self.speeds[index]);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;

@@ -10,19 +10,13 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod adapter;
-mod anchor;
-mod approach;
-mod detection;
 pub mod events;
 mod first_steps;
 pub mod format;
-mod horizon;
 mod in_play;
 mod island;
 mod looseness;
-mod meeting;
 pub mod modes;
-mod noting;
 mod outcome;
 mod period;
 mod plan;
@@ -31,20 +25,15 @@ mod projection;
 mod record;
 pub mod replay;
 pub mod resistance;
-mod rollback;
 pub mod rows;
 mod run;
 mod run_state;
 mod scales;
-mod scratch;
 pub mod sensitivity;
-mod step_end;
 mod stepping;
 mod sum;
 mod summary;
 pub mod survey;
-mod way;
-mod within;
 
 pub use adapter::Tolerance;
 pub use first_steps::FirstSteps;

@@ -191,7 +191,7 @@ impl Stop {
                  small for the digits of a number: raise an exponent, a coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
-            Quantity::PairGap { pair } if left.value.is_nan() => {
+            Quantity::PairPlane { pair } => {
                 let [one, other] = model.pairs()[pair].bodies.map(|body| &model.bodies[body].name);
                 (
                     Reason::GapClosed,

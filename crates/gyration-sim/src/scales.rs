@@ -50,7 +50,7 @@ pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Resu
             *scale = pushed(&instant.at(model, index), slopes, scratch)?;
         }
     }
-    let joined = Pattern::new(bodies, model.reaches().map(|(bodies, _)| bodies.into()));
+    let joined = Pattern::new(bodies, model.cutoffs().map(|(bodies, _)| bodies.into()));
     for members in Components::of(&joined, bodies).iter().filter(|members| members.len() > 1) {
         let mass = |body: usize| model.bodies[body].solid.mass.mass;
         let moving = || members.iter().filter(|body| model.bodies[**body].has_inertia());
@@ -119,8 +119,13 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
     let listed = model.try_each_load(index, |load| {
         stiffness += match load {
             Load::Spring(_, spring) => spring.law.stiffness,
-            Load::Bond(end) => end.joint.law.stiffness,
-            _ => 0.0,
+            Load::Bond(end) => end.interaction.law.stiffness,
+            Load::Contact(_)
+            | Load::Pair(_)
+            | Load::Couple(_)
+            | Load::Applied(_)
+            | Load::Resistance(_)
+            | Load::Fluid(..) => 0.0,
         };
         Ok::<(), Infallible>(())
     });

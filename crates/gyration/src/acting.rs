@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, BondEnd, Couple, JointEnd, LinearResistance, Spring};
+use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Spring};
 use crate::pair::Pair;
 use crate::support::{Support, SupportMotion};
 
@@ -21,7 +21,7 @@ pub enum Load<'a> {
     /// A spring to another body.
     Bond(BondEnd<'a>),
     /// Another body that it meets.
-    Pair(JointEnd<'a, Pair>),
+    Pair(InteractionEnd<'a, Pair>),
     /// An affine moment.
     Couple(&'a Couple),
     /// What a controller applies.
@@ -37,7 +37,7 @@ impl<'a> Load<'a> {
     #[inline]
     pub fn try_each<E>(
         body: &'a Body,
-        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = JointEnd<'a, Pair>>),
+        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = InteractionEnd<'a, Pair>>),
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
@@ -92,9 +92,9 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
-            Self::Pair(end) => end.joint.laws.laws().iter().map(|law| law.kind().work()).collect(),
+            Self::Pair(end) => end.interaction.laws.laws().iter().map(|law| law.kind().work()).collect(),
             Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
-            Self::Bond(end) if end.joint.law.damping > 0.0 => vec![Work::Load],
+            Self::Bond(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],

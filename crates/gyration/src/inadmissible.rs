@@ -23,6 +23,12 @@ pub enum Quantity {
         /// Index of the pair in the model.
         pair: usize,
     },
+    /// The squared Newton decrement with which the search for the plane of this pair ended, which must be rounding; NaN
+    /// where no plane has a potential, or a law no balance on it.
+    PairPlane {
+        /// Index of the pair in the model.
+        pair: usize,
+    },
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.

@@ -7,7 +7,7 @@ use crate::body::{Body, Slots};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, Joint, JointEnd, Joints};
+use crate::load::{Applied, Bond, Interaction, InteractionEnd, Interactions};
 use crate::pair::Pair;
 use crate::support::Support;
 use crate::tensor::Vec3;
@@ -26,8 +26,8 @@ pub struct Model {
     pub bodies: Vec<Arc<Body>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
-    bonds: Joints<Bond>,
-    pairs: Joints<Pair>,
+    bonds: Interactions<Bond>,
+    pairs: Interactions<Pair>,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -56,7 +56,7 @@ impl Model {
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
         let has_potential = has_potential(&bodies, &[]);
-        let (fluid, bonds, pairs) = (None, Joints::default(), Joints::default());
+        let (fluid, bonds, pairs) = (None, Interactions::default(), Interactions::default());
         let model = Self {
             gravity,
             supports,
@@ -91,7 +91,7 @@ impl Model {
     /// other body feels.
     #[must_use]
     pub fn bonded(mut self, bonds: Vec<Bond>) -> Self {
-        self.bonds = Joints::new(self.bodies.len(), bonds);
+        self.bonds = Interactions::new(self.bodies.len(), bonds);
         let moves = |bond: &Bond| bond.bodies.iter().all(|body| self.bodies[*body].has_inertia());
         assert!(self.bonds().iter().all(|bond| bond.law.damping == 0.0 || moves(bond)), "a dashpot without inertia");
         self.with_ledger()
@@ -107,7 +107,7 @@ impl Model {
     pub fn paired(mut self, pairs: Vec<Pair>) -> Self {
         let moves = |pair: &Pair| pair.bodies.iter().all(|body| self.bodies[*body].has_inertia());
         assert!(pairs.iter().all(moves), "bodies that meet have inertia");
-        self.pairs = Joints::new(self.bodies.len(), pairs);
+        self.pairs = Interactions::new(self.bodies.len(), pairs);
         self.has_potential = has_potential(&self.bodies, self.pairs.all());
         self.with_ledger()
     }
@@ -167,7 +167,7 @@ impl Model {
     }
 
     /// The pairs of a body, as it sees them.
-    pub fn pairs_of(&self, body: usize) -> impl Iterator<Item = JointEnd<'_, Pair>> {
+    pub fn pairs_of(&self, body: usize) -> impl Iterator<Item = InteractionEnd<'_, Pair>> {
         self.pairs.of(body)
     }
 
@@ -181,10 +181,10 @@ impl Model {
 
     /// The pairs of bodies that act on one another, with the distance of their centres from which on they do not; none
     /// if there is none.
-    pub fn reaches(&self) -> impl Iterator<Item = ([usize; 2], Option<f64>)> {
+    pub fn cutoffs(&self) -> impl Iterator<Item = ([usize; 2], Option<f64>)> {
         let rigid = |pair: &&Pair| pair.bodies.iter().all(|body| self.bodies[*body].affine().is_none());
         let bonds = self.bonds().iter().map(|bond| (bond.bodies, None));
-        bonds.chain(self.pairs().iter().map(move |pair| (pair.bodies, Some(pair).filter(rigid).and_then(Pair::span))))
+        bonds.chain(self.pairs().iter().map(move |pair| (pair.bodies, Some(pair).filter(rigid).and_then(Pair::cutoff))))
     }
 
     /// Whether a body has a contact, with a support or another body.
@@ -194,15 +194,15 @@ impl Model {
 
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
-        self.bonds.of(body).any(|end| end.joint.law.acts()) || self.pairs.of(body).next().is_some()
+        self.bonds.of(body).any(|end| end.interaction.law.acts()) || self.pairs.of(body).next().is_some()
     }
 
     /// Hands what acts on a body to `each`, in the order in which it is summed; stops at the first error.
     #[inline]
     pub fn try_each_load<'a, E>(&'a self, index: usize, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
-        let joints = (self.bonds.of(index), self.pairs.of(index));
-        Load::try_each(body, joints, fluid, self.applied(index), each)
+        let interactions = (self.bonds.of(index), self.pairs.of(index));
+        Load::try_each(body, interactions, fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.

@@ -9,12 +9,12 @@ use gyration::state::BodyMotion;
 impl Simulation {
     /// Restarts the stepper of the island of a body after a change of its loads or drive.
     pub(crate) fn restart(&mut self, body: usize) -> Result<(), Stop> {
-        self.islands[self.homes[body].0].restart()
+        self.islands[self.island_of[body].0].restart()
     }
 
     /// Changes loads or drive of a body, by its place in a model; what `change` says of it.
     pub(crate) fn change<T>(&mut self, body: usize, mut change: impl FnMut(&mut Model, usize) -> T) -> T {
-        let (island, place) = self.homes[body];
+        let (island, place) = self.island_of[body];
         change(self.islands[island].system.model_mut(), place);
         change(&mut self.model, body)
     }
@@ -29,12 +29,12 @@ impl Simulation {
         for island in self.islands.iter_mut().filter(|island| island.time() > time) {
             island.go_back(&self.plan, time);
         }
-        self.settle(self.least_time());
+        self.commit(self.least_time());
     }
 
     /// Placement and velocity of a body after the last step of its island.
     pub(crate) fn motion(&self, body: usize) -> &BodyMotion {
-        let (island, place) = self.homes[body];
+        let (island, place) = self.island_of[body];
         &self.islands[island].step_ends[place].motion
     }
 

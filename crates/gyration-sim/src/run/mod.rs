@@ -14,15 +14,16 @@
 //! come least far. It may come within a step, where a resistance takes long. What has come of that window is then none
 //! of the run ([`Simulation::is_whole`]).
 
+mod assembled;
 mod control;
-mod joined;
-mod meetings;
+mod merge_split;
 mod samples;
 mod window;
 
 use crate::adapter::first_rates;
 use crate::events::Event;
 use crate::in_play::InPlay;
+use crate::island::pool::ScratchPool;
 use crate::island::{Island, Setting};
 use crate::outcome::{Outcome, Reason, Stop};
 use crate::plan::RunPlan;
@@ -31,15 +32,14 @@ use crate::resistance::check_resistances;
 use crate::rows::{Fields, RowScratch};
 use crate::run_state::{IslandMemory, RunState};
 use crate::scales::speed_scales;
-use crate::scratch::SharedScratch;
+use assembled::Assembled;
 use gyration::Inadmissible;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::Statistics;
 use gyration_threads::Interruption;
-use joined::Joined;
-use meetings::{Meetings, homes};
+use merge_split::{Meetings, island_of};
 use window::WindowWidth;
 
 /// A run under way.
@@ -48,7 +48,7 @@ pub struct Simulation {
     pub(crate) plan: RunPlan,
     pub(crate) islands: Vec<Island>,
     /// The island of each body, and its place there.
-    homes: Vec<(usize, usize)>,
+    island_of: Vec<(usize, usize)>,
     /// From which the scales of islands come that are yet to be.
     start: State,
     /// The speed scales of all bodies [m/s].
@@ -56,13 +56,13 @@ pub struct Simulation {
     meetings: Meetings,
     state: RunState,
     width: WindowWidth,
-    joined: Joined,
+    assembled: Assembled,
     /// What the rows hold, and scratch for them.
     fields: Fields,
     rows: RowScratch,
     workspace: Workspace,
     /// Scratch of the islands, where there are several.
-    shared: SharedScratch,
+    shared: ScratchPool,
     /// The time of the last row [s].
     recorded: f64,
     /// Up to where a window goes at most [s], lest its rows take long.
@@ -106,18 +106,18 @@ impl Simulation {
         let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
         islands.shrink_to_fit();
         Ok(Self {
-            homes: homes(model.bodies.len(), &islands),
+            island_of: island_of(model.bodies.len(), &islands),
             islands,
             start: start.clone(),
             speeds,
             meetings,
             state: RunState::new(start.time),
             width: WindowWidth::new(plan.sample.min(plan.end)),
-            joined: Joined::new(model, start),
+            assembled: Assembled::new(model, start),
             fields: Fields::new(model, &plan.extras),
             rows: RowScratch::default(),
             workspace: Workspace::default(),
-            shared: SharedScratch::default(),
+            shared: ScratchPool::default(),
             recorded: f64::NEG_INFINITY,
             portion: f64::INFINITY,
             found: Vec::new(),
@@ -210,13 +210,13 @@ impl Simulation {
     /// one of several islands.
     pub fn state(&self) -> State {
         if self.is_scattered() {
-            return self.joined.state.clone();
+            return self.assembled.state.clone();
         }
-        let mut joined = self.joined.clone();
-        joined.begin(self.state.time, &self.state.settled);
-        self.islands.iter().for_each(|island| joined.add(island, &island.state_at(self.state.time)));
-        joined.end();
-        joined.state
+        let mut assembled = self.assembled.clone();
+        assembled.begin(self.state.time, &self.state.settled);
+        self.islands.iter().for_each(|island| assembled.add(island, &island.state_at(self.state.time)));
+        assembled.end();
+        assembled.state
     }
 
     /// Whether there are islands at different times that have no common one.
@@ -239,7 +239,7 @@ impl Simulation {
             return Err(RunError::at_start(stop));
         }
         self.state.next_sample = 1;
-        self.shared.lend(self.islands.iter_mut(), |island| island.begin(&self.plan));
+        self.shared.with_scratch(self.islands.iter_mut(), |island| island.begin(&self.plan));
         match self.islands.iter_mut().any(|island| island.system.may_be_given_up()) {
             true => Err(RunError::at_start(Stop::by_interruption(self.state.time))),
             false => Ok(()),

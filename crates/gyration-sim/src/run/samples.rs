@@ -20,7 +20,7 @@ impl Simulation {
     }
 
     /// Ends the next window before its rows take long, though the steps behind it go farther; an island that is the
-    /// whole run then needs an anchor, from which the rest of its step can be had again.
+    /// whole run then needs a restart point, from which the rest of its step can be had again.
     pub(super) fn portion(&mut self) {
         let looks = self.model.bodies.len() + self.model.pairs().len();
         let rows = (MOST_LOOKS / looks.max(1) as u64).max(1);
@@ -62,19 +62,19 @@ impl Simulation {
 
     /// Samples all bodies at a time within the last steps.
     pub(super) fn sample(&mut self, time: f64) {
-        let Self { islands, joined, state, .. } = self;
-        joined.begin(time, &state.settled);
+        let Self { islands, assembled, state, .. } = self;
+        assembled.begin(time, &state.settled);
         for island in islands {
             island.sample(time);
-            joined.add(island, &island.sampled);
+            assembled.add(island, &island.sampled);
         }
-        joined.end();
+        assembled.end();
     }
 
     /// Fills the row of the time that was sampled; `initial` is Σ energies at t = 0.
     fn fill(&mut self, initial: Option<f64>) -> Result<Audit, Inadmissible> {
-        let Self { model, fields, workspace, joined, rows, .. } = self;
-        fields.fill(model, workspace, &joined.state, initial, rows)
+        let Self { model, fields, workspace, assembled, rows, .. } = self;
+        fields.fill(model, workspace, &assembled.state, initial, rows)
     }
 
     /// The row of a time within the last steps; none where that state is outside the model.
@@ -91,7 +91,7 @@ impl Simulation {
     pub(crate) fn ledger(&mut self) -> Result<Ledger, Stop> {
         self.sample(self.state.time);
         let initial = Some(self.state.initial_energy);
-        let ledger = Ledger::of(&self.model, &mut self.workspace, &self.joined.state, initial);
+        let ledger = Ledger::of(&self.model, &mut self.workspace, &self.assembled.state, initial);
         ledger.map_err(|left| Stop::by_inadmissible(&self.model, self.state.time, &left))
     }
 
@@ -112,7 +112,7 @@ impl Simulation {
 
     /// Records the sampled state and audits it, unless it is outside the model.
     pub(super) fn record(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        let time = self.joined.state.time;
+        let time = self.assembled.state.time;
         let first = self.state.next_sample == 0;
         let initial = (!first).then_some(self.state.initial_energy);
         let audit = match self.fill(initial) {
@@ -128,7 +128,7 @@ impl Simulation {
         sink.row(time, &self.rows.row)?;
         self.recorded = time;
         if first {
-            let looseness = Looseness::of(&self.model, &mut self.workspace, &self.joined.state, self.plan.tolerance);
+            let looseness = Looseness::of(&self.model, &mut self.workspace, &self.assembled.state, self.plan.tolerance);
             self.state.looseness = looseness.unwrap_or_default();
             self.state.initial_energy = audit.energy;
         }

@@ -113,7 +113,7 @@ impl Simulation {
         if stop.is_some() || reached < until {
             self.go_back(reached);
         }
-        self.settle(self.window_reached(until));
+        self.commit(self.window_reached(until));
         self.width.last = self.state.time - before;
         self.hand_on_events(before, sink)?;
         Ok(stop.map_or(Ok(()), Err))
@@ -147,14 +147,14 @@ impl Simulation {
         let most = (most / count.max(1) as u64).max(1);
         let behind = self.islands.iter_mut().filter(|island| island.time() < until);
         if threads.get() == 1 || count == 1 || is_step {
-            return shared.lend(behind, |island| island.reach(until, most, plan));
+            return shared.with_scratch(behind, |island| island.reach(until, most, plan));
         }
         let interruption = Interruption::in_force();
         let mut behind: Vec<&mut Island> = behind.collect();
         let piece = count.div_ceil(PIECES * threads.get()).max(1);
         in_order(behind.chunks_mut(piece), threads, |islands| {
             let islands = islands.iter_mut().map(|island| &mut **island);
-            interruption.within(|| shared.lend(islands, |island| island.reach(until, most, plan)));
+            interruption.within(|| shared.with_scratch(islands, |island| island.reach(until, most, plan)));
         });
     }
 
@@ -197,10 +197,10 @@ impl Simulation {
     }
 
     /// A time that all islands have come to is that of the run.
-    pub(super) fn settle(&mut self, time: f64) {
+    pub(super) fn commit(&mut self, time: f64) {
         self.state.time = time;
         for island in &mut self.islands {
-            island.settle(self.state.time);
+            island.commit(self.state.time);
         }
     }
 

@@ -5,7 +5,7 @@
 //! taken on one side of a kink, so far from it that the neighbours' kinks do not lie between.
 
 use super::variation::{NoDerivative, SceneVariation};
-use crate::horizon::next_kink;
+use crate::island::horizon::next_kink;
 use gyration::model::Model;
 
 /// More kinks than that are not followed.

@@ -15,7 +15,7 @@
 use super::Scratch;
 use super::body_rates::body_rates;
 use super::contractile::ContractileMotion;
-use super::jacobian::{Blocks, add_joints, body_jacobian};
+use super::jacobian::{Blocks, add_interactions, body_jacobian};
 use super::powers::Powers;
 use crate::body::{Slots, matrix};
 use crate::contractile::ContractionCommand;
@@ -149,7 +149,7 @@ fn without_resistance(index: usize) -> Inadmissible {
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model, or where nothing resists the motion.
-pub(super) fn settle(
+pub(super) fn solve_balance(
     model: &Model,
     instant: &mut Instant,
     scratch: &mut Scratch,
@@ -185,7 +185,7 @@ pub(super) fn fill(
     index: usize,
     rates: &mut [f64],
 ) -> Result<Powers, Inadmissible> {
-    let Settled { slots: from, rates: found, done, .. } = settle(model, instant, scratch, index)?;
+    let Settled { slots: from, rates: found, done, .. } = solve_balance(model, instant, scratch, index)?;
     let slots = model.slots(index);
     rates[slots.places()].copy_from_slice(&found[from.places()]);
     rates[slots.extra()].copy_from_slice(&found[from.extra()]);
@@ -201,7 +201,7 @@ pub(super) fn fill_jacobian(
     index: usize,
     blocks: &mut (impl Blocks + ?Sized),
 ) -> Result<(), Inadmissible> {
-    let settled = settle(model, instant, scratch, index)?;
+    let settled = solve_balance(model, instant, scratch, index)?;
     let at = instant.at(model, index);
     let mut jacobian = scratch.take(settled.slots.block().len());
     let filled = body_jacobian(&at, scratch, &mut jacobian);
@@ -211,7 +211,7 @@ pub(super) fn fill_jacobian(
     let solved = filled.and_then(|()| {
         let own = blocks.block(index, index).map_or(Some(()), |matrix| columns.fill(&solver, matrix));
         own.ok_or_else(|| without_resistance(index))?;
-        columns.add_joints((&at, scratch), &solver, blocks)
+        columns.add_interactions((&at, scratch), &solver, blocks)
     });
     scratch.matrices.push(jacobian);
     solved
@@ -227,7 +227,7 @@ struct Columns<'a> {
 impl Columns<'_> {
     /// Adds those by the numbers of bodies to which springs join this one: their forces change its accelerations, and
     /// so the velocities of its balance.
-    fn add_joints(
+    fn add_interactions(
         &self,
         (at, scratch): (&BodyAt, &Scratch),
         solver: &Solver,
@@ -236,7 +236,7 @@ impl Columns<'_> {
         let slots = &self.settled.slots;
         let velocities = slots.velocities();
         let mut solved = Some(());
-        add_joints(at, scratch, |other, coupling, lower, lift| {
+        add_interactions(at, scratch, |other, coupling, lower, lift| {
             let Some(matrix) = blocks.block(at.index, other) else { return };
             // A dashpot would make velocities follow velocities; there is none, and places alone enter.
             let (by_place, _) = coupling.accelerations(lower, lift);

@@ -68,7 +68,7 @@ impl Acting {
                 self.total += loads.total();
             }
             Load::Pair(end) => {
-                let pair = &scratch.met.loads[end.number];
+                let pair = &scratch.pairs.loads[end.number];
                 if end.counts() {
                     for law in LawKind::ALL {
                         self.powers.add(law, pair.powers[law as usize]);
@@ -131,7 +131,7 @@ pub(super) fn add_slopes(
         Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
         Load::Bond(end) => slopes.add_spring(&bonded(at, end)?),
         Load::Pair(end) => {
-            if let Some(pair) = &scratch.met.slopes[end.number] {
+            if let Some(pair) = &scratch.pairs.slopes[end.number] {
                 slopes.loads += pair.on[end.end];
                 slopes.by_place += pair.by_place[end.end][end.end];
                 slopes.by_rate += pair.by_rate[end.end][end.end];
@@ -169,7 +169,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 }
                 Load::Spring(_, spring) => spring.energy(&at.motion.placement),
                 Load::Bond(end) => end.energy(&at.motion.placement, &at.other(end.other()).placement),
-                Load::Pair(end) if end.counts() => scratch.met.loads[end.number].energy,
+                Load::Pair(end) if end.counts() => scratch.pairs.loads[end.number].energy,
                 Load::Pair(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
             };
         }

@@ -51,7 +51,7 @@ pub struct Workspace {
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
     pub(crate) contact: ContactScratch,
-    pub(crate) met: pairs::Met,
+    pub(crate) pairs: pairs::PairStates,
     /// The Jacobians of bodies with inertia, by their number of rows.
     matrices: Vec<DMatrix<f64>>,
     numbers: Vec<f64>,
@@ -80,10 +80,10 @@ impl Workspace {
     pub fn read(&mut self, model: &Model, state: &State) -> Result<(&Instant, &mut Scratch), Inadmissible> {
         let Self { instant, scratch } = self;
         instant.read(model, state.time, state.numbers())?;
-        pairs::meet(model, instant, scratch, true)?;
+        pairs::find_planes(model, instant, scratch, true)?;
         for index in 0..model.bodies.len() {
             if !model.bodies[index].has_inertia() {
-                inertialess::settle(model, instant, scratch, index)?;
+                inertialess::solve_balance(model, instant, scratch, index)?;
             }
         }
         Ok((instant, scratch))

@@ -6,13 +6,12 @@ use crate::extended::Numbers;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, Instant, KindAt};
 use crate::model::{Model, PATIENCE};
-use crate::pair::{Guess, Pair, PairGap, PairLoads, PairScratch, PairSlopes, Side};
-use crate::surface::GapClosed;
+use crate::pair::{Guess, Pair, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::tensor::Vec3;
 
 /// What all pairs of a model do at an instant.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Met {
+pub(crate) struct PairStates {
     /// By the number of the pair.
     pub loads: Vec<PairLoads>,
     /// The same, where derivatives are wanted; none out of reach.
@@ -22,7 +21,7 @@ pub(crate) struct Met {
     room: PairScratch,
 }
 
-impl Met {
+impl PairStates {
     /// Where a plane is looked for first at a time.
     fn guess(&self, number: usize, time: f64) -> Option<Guess> {
         let (since, slabs) = &self.remembered;
@@ -34,31 +33,31 @@ impl Met {
 fn for_each(
     model: &Model,
     instant: &Instant,
-    met: &mut Met,
-    mut each: impl FnMut(&mut Met, &Pair, &[BodyAt; 2], Option<&Guess>) -> Result<(), GapClosed>,
+    states: &mut PairStates,
+    mut each: impl FnMut(&mut PairStates, &Pair, &[BodyAt; 2], Option<&Guess>) -> Result<(), PairFault>,
 ) -> Result<(), Inadmissible> {
     for (number, pair) in model.pairs().iter().enumerate() {
-        let guess = met.guess(number, instant.time());
+        let guess = states.guess(number, instant.time());
         let bodies = pair.bodies.map(|body| instant.at(model, body));
         if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
             return Err(bodies[0].outside(Quantity::Interruption, f64::NAN));
         }
-        let outside = |closed: GapClosed| bodies[0].outside(Quantity::PairGap { pair: number }, closed.gap);
-        each(met, pair, &bodies, guess.as_ref()).map_err(outside)?;
+        let outside = |fault| outside(&bodies[0], number, fault);
+        each(states, pair, &bodies, guess.as_ref()).map_err(outside)?;
     }
     Ok(())
 }
 
 /// Finds what all pairs do to their bodies; of those that are so far apart that it is nothing, the gaps only where
 /// `everywhere` asks for them.
-pub(super) fn meet(
+pub(super) fn find_planes(
     model: &Model,
     instant: &Instant,
     scratch: &mut Scratch,
     everywhere: bool,
 ) -> Result<(), Inadmissible> {
-    scratch.met.loads.clear();
-    for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
+    scratch.pairs.loads.clear();
+    for_each(model, instant, &mut scratch.pairs, |states, pair, bodies, guess| {
         let far = is_far(pair, bodies);
         let nothing = match far {
             true if everywhere => {
@@ -68,11 +67,11 @@ pub(super) fn meet(
             true => Some(PairLoads { gap: f64::INFINITY, ..PairLoads::default() }),
             false => None,
         };
-        met.loads.push(match nothing {
+        states.loads.push(match nothing {
             Some(nothing) => nothing,
             None => with_sides(pair, bodies, |sides| {
-                let found = PairLoads::integrate(pair, sides, guess, &mut met.room);
-                found.or_else(|closed| if far { PairLoads::nothing(pair, sides) } else { Err(closed) })
+                let found = PairLoads::integrate(pair, sides, guess, &mut states.room);
+                found.or_else(|fault| if far { PairLoads::nothing(pair, sides) } else { Err(fault) })
             })?,
         });
         Ok(())
@@ -81,10 +80,10 @@ pub(super) fn meet(
 
 /// The same with derivatives.
 pub(super) fn differentiate(model: &Model, instant: &Instant, scratch: &mut Scratch) -> Result<(), Inadmissible> {
-    scratch.met.slopes.clear();
-    for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
-        let integrate = |sides: [&Side; 2]| PairSlopes::integrate(pair, sides, guess, &mut met.room);
-        met.slopes.push(if is_far(pair, bodies) { None } else { Some(with_sides(pair, bodies, integrate)?) });
+    scratch.pairs.slopes.clear();
+    for_each(model, instant, &mut scratch.pairs, |states, pair, bodies, guess| {
+        let integrate = |sides: [&Side; 2]| PairSlopes::integrate(pair, sides, guess, &mut states.room);
+        states.slopes.push(if is_far(pair, bodies) { None } else { Some(with_sides(pair, bodies, integrate)?) });
         Ok(())
     })
 }
@@ -106,8 +105,8 @@ impl Workspace {
         }
         let Self { instant, scratch } = self;
         instant.read(model, time, state)?;
-        for_each(model, instant, &mut scratch.met, |met, pair, bodies, guess| {
-            let gap = |sides: [&Side; 2]| pair.gap(sides, guess, &mut met.room);
+        for_each(model, instant, &mut scratch.pairs, |states, pair, bodies, guess| {
+            let gap = |sides: [&Side; 2]| pair.gap(sides, guess, &mut states.room);
             gaps.push(if is_far(pair, bodies) { PairGap::FAR } else { with_sides(pair, bodies, gap)? });
             Ok(())
         })
@@ -124,20 +123,29 @@ impl Workspace {
         (time, state): (f64, Numbers),
         gaps: &mut Vec<PairGap>,
     ) -> Result<(), Inadmissible> {
-        self.scratch.met.remembered.1.clear();
+        self.scratch.pairs.remembered.1.clear();
         self.pair_gaps(model, (time, state), gaps)?;
-        let (since, slabs) = &mut self.scratch.met.remembered;
+        let (since, slabs) = &mut self.scratch.pairs.remembered;
         *since = time;
         slabs.extend_from_slice(gaps);
         Ok(())
     }
 }
 
+/// A state outside the model, for what became of a plane.
+fn outside(at: &BodyAt, pair: usize, fault: PairFault) -> Inadmissible {
+    match fault {
+        PairFault::Overlap { gap } => at.outside(Quantity::PairGap { pair }, gap),
+        PairFault::NotFound { decrement } => at.outside(Quantity::PairPlane { pair }, decrement),
+        PairFault::Singular(_) => at.outside(Quantity::PairPlane { pair }, f64::NAN),
+    }
+}
+
 /// Whether two rigid bodies are farther apart than their pair reaches.
 fn is_far(pair: &Pair, [one, other]: &[BodyAt; 2]) -> bool {
     let rigid = |at: &BodyAt| matches!(at.kind(), KindAt::Rigid(..));
-    let Some(span) = pair.span().filter(|_| rigid(one) && rigid(other)) else { return false };
-    one.from(other).norm() >= span
+    let Some(cutoff) = pair.cutoff().filter(|_| rigid(one) && rigid(other)) else { return false };
+    one.from(other).norm() >= cutoff
 }
 
 fn with_sides<T>(pair: &Pair, bodies: &[BodyAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {

@@ -11,7 +11,7 @@
 //! `physics.md` §2.
 
 use super::body_rates::body_rates;
-use super::jacobian::{Blocks, add_joints, body_jacobian};
+use super::jacobian::{Blocks, add_interactions, body_jacobian};
 use super::{Workspace, inertialess, pairs};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
@@ -33,7 +33,7 @@ pub fn rates(
 ) -> Result<(), Inadmissible> {
     let Workspace { instant, scratch } = workspace;
     instant.read(model, time, state)?;
-    pairs::meet(model, instant, scratch, false)?;
+    pairs::find_planes(model, instant, scratch, false)?;
     powers.fill(0.0);
     for index in 0..model.bodies.len() {
         let done = match model.bodies[index].has_inertia() {
@@ -70,7 +70,7 @@ pub fn jacobian(
             true => {
                 let at = instant.at(model, index);
                 body_jacobian(&at, scratch, matrix)?;
-                add_joints(&at, scratch, |other, coupling, lower, lift| {
+                add_interactions(&at, scratch, |other, coupling, lower, lift| {
                     if let Some(matrix) = blocks.block(index, other) {
                         coupling.add_to(matrix, lower, lift);
                     }

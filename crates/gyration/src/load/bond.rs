@@ -4,7 +4,7 @@
 //! sign, digit by digit, and so are the forces. Their sum is zero to the last digit. Energy and dissipation belong to
 //! the first end.
 
-use super::joints::{Joint, JointEnd};
+use super::interactions::{Interaction, InteractionEnd};
 use super::spring::{SpringLaw, SpringLoads};
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::Vec3;
@@ -21,9 +21,9 @@ pub struct Bond {
 }
 
 /// A bond as one of its bodies sees it.
-pub type BondEnd<'a> = JointEnd<'a, Bond>;
+pub type BondEnd<'a> = InteractionEnd<'a, Bond>;
 
-impl Joint for Bond {
+impl Interaction for Bond {
     fn bodies(&self) -> [usize; 2] {
         self.bodies
     }
@@ -44,25 +44,25 @@ impl Bond {
 impl BondEnd<'_> {
     /// The material point of the other body [m].
     pub fn other_point(&self) -> Vec3 {
-        self.joint.points[1 - self.end]
+        self.interaction.points[1 - self.end]
     }
 
     /// Its length l [m], given where the own body is and the other.
     pub fn length(&self, own: &Placement, other: &Placement) -> f64 {
-        self.joint.length(if self.end == 0 { [own, other] } else { [other, own] })
+        self.interaction.length(if self.end == 0 { [own, other] } else { [other, own] })
     }
 
     /// The stored energy [J], where it is counted.
     pub fn energy(&self, own: &Placement, other: &Placement) -> f64 {
-        if self.counts() { self.joint.law.energy(self.length(own, other)) } else { 0.0 }
+        if self.counts() { self.interaction.law.energy(self.length(own, other)) } else { 0.0 }
     }
 
     /// The force on the own body and its derivatives, or `None` where the direction is lost (l = 0 with l₀ > 0 or a
     /// dashpot).
     pub fn loads(&self, own: (&Placement, &Velocity), other: (&Placement, &Velocity)) -> Option<SpringLoads> {
-        let (here, there) = (self.joint.points[self.end], self.other_point());
+        let (here, there) = (self.interaction.points[self.end], self.other_point());
         let along = own.0.place(&here) - other.0.place(&there);
         let speed = own.1.at(&here) - other.1.at(&there);
-        self.joint.law.loads(along, speed, here)
+        self.interaction.law.loads(along, speed, here)
     }
 }

@@ -7,7 +7,7 @@
 mod applied;
 mod bond;
 mod couple;
-mod joints;
+mod interactions;
 mod resistance;
 mod slopes;
 mod spring;
@@ -16,7 +16,7 @@ mod wrench;
 pub use applied::Applied;
 pub use bond::{Bond, BondEnd};
 pub use couple::Couple;
-pub use joints::{Joint, JointEnd, Joints};
+pub use interactions::{Interaction, InteractionEnd, Interactions};
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;

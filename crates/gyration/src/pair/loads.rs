@@ -5,14 +5,14 @@
 //! The plane is in balance, so that the wrenches of the two are opposite; computed apart they differ by rounding, which
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
 
-use super::met::{Met, PairScratch, ViscousMoments, halves};
+use super::fault::PairFault;
+use super::gjk::separate;
 use super::plane::Guess;
-use super::separate::separate;
 use super::side::{Half, Side};
+use super::state::{PairScratch, PairState, ViscousMoments, halves};
 use super::{Mat34, Pair};
 use crate::contact::{AreaMeasure, LawKind};
 use crate::load::Loads;
-use crate::surface::GapClosed;
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 
 /// What a pair of bodies does to both.
@@ -32,7 +32,7 @@ pub struct PairLoads {
     pub point: Vec3,
 }
 
-impl Met<'_> {
+impl PairState<'_> {
     /// The loads that (f | M) of both sides are, B's opposite to A's.
     pub fn opposite(&self, on: [Mat34; 2]) -> [Loads; 2] {
         let [above, below] =
@@ -55,10 +55,10 @@ impl PairLoads {
     /// least potential is beyond the digits of a number.
     ///
     /// # Errors
-    /// [`GapClosed`] if no plane separates them.
-    pub fn nothing(pair: &Pair, sides: [&Side; 2]) -> Result<Self, GapClosed> {
+    /// [`PairFault`] if no plane separates them.
+    pub fn nothing(pair: &Pair, sides: [&Side; 2]) -> Result<Self, PairFault> {
         let halves = halves(sides, pair.laws.measure != AreaMeasure::ReferenceArea);
-        let plane = separate(halves.each_ref()).map_err(|gap| GapClosed { gap })?;
+        let plane = separate(halves.each_ref()).map_err(|gap| PairFault::Overlap { gap })?;
         let [above, below] = halves.each_ref().map(|half| half.smallest_gap(&plane).0);
         let point = sides[0].placement.position + plane.offset * plane.normal;
         Ok(Self { gap: above + below, normal: plane.normal, point, ..Self::default() })
@@ -67,31 +67,31 @@ impl PairLoads {
     /// Places the plane between two bodies, and integrates the laws over both.
     ///
     /// # Errors
-    /// [`GapClosed`] if no plane separates them.
+    /// [`PairFault`] if no plane separates them.
     pub fn integrate(
         pair: &Pair,
         sides: [&Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
-    ) -> Result<Self, GapClosed> {
-        let met = Met::new(pair, sides, guess, scratch)?;
-        let mut on = [met.repulsion(0), met.repulsion(1)];
+    ) -> Result<Self, PairFault> {
+        let state = PairState::new(pair, sides, guess, scratch)?;
+        let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = [0.0; LawKind::COUNT];
-        let rates = met.halves.each_ref().map(Half::rates);
+        let rates = state.halves.each_ref().map(Half::rates);
         powers[LawKind::Repulsion as usize] = on[0].dot(&rates[0]) + on[1].dot(&rates[1]);
-        met.each_mediator(ViscousMoments::Values, scratch, |_, _, mediator, _| {
+        state.each_mediator(ViscousMoments::Values, scratch, |_, _, mediator, _| {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
         })?;
-        let plane = &met.placed.plane;
+        let plane = &state.placed.plane;
         Ok(Self {
-            on: met.opposite(on),
-            energy: met.placed.energy,
+            on: state.opposite(on),
+            energy: state.placed.energy,
             powers,
-            gap: met.halves.iter().map(|half| half.smallest_gap(plane).0).sum(),
+            gap: state.halves.iter().map(|half| half.smallest_gap(plane).0).sum(),
             normal: plane.normal,
-            point: sides[0].placement.position + met.foot,
+            point: sides[0].placement.position + state.foot,
         })
     }
 }

@@ -14,12 +14,13 @@
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 
+use super::equilibrium::{Change, Placed};
+use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw};
-use super::least::{Change, Placed};
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::LawKind;
-use crate::surface::{GapClosed, Moments};
+use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 use nalgebra::{Cholesky, Const};
 
@@ -141,7 +142,7 @@ impl Mediator {
         (placed, shares): (&Placed, &Shares),
         foot: &Vec3,
         moments: [&Moments; 2],
-    ) -> Result<Self, GapClosed> {
+    ) -> Result<Self, PairFault> {
         let kind = law.kind;
         let feet = (kind == LawKind::Friction).then(|| halves.map(|half| feet(half, placed)));
         let moments = [0, 1].map(|side| {
@@ -162,7 +163,7 @@ impl Mediator {
                 }
             }
         }
-        let system = matrix.cholesky().ok_or(GapClosed { gap: f64::NAN })?;
+        let system = matrix.cholesky().ok_or(PairFault::Singular(law.kind))?;
         let motion = system.solve(&right);
         for (slip, fields) in slips.iter_mut().zip(&fields) {
             *slip -= combined(&motion, fields);

@@ -12,41 +12,44 @@
 //! analytically with them. Having no mass it is in balance: what one body exerts on it, the other takes. Source:
 //! `pairs.md`.
 //!
-//! | file       | what                                                            |
-//! |------------|-----------------------------------------------------------------|
-//! | `laws`     | what acts between two bodies, and the moments that it needs      |
-//! | `side`     | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
-//! | `overlap`  | two bodies that no plane separates                              |
-//! | `deepest`  | the shortest way apart of these                                 |
-//! | `separate` | a plane between them to begin with, guessed or found             |
-//! | `plane`    | a plane, and where it may be                                    |
-//! | `least`    | the plane of least potential, by Newton's method on log U        |
-//! | `met`      | a pair whose plane is found, and what both ends have of it       |
-//! | `mediator` | damping and friction against the velocities of the plane        |
-//! | `loads`    | forces, moments, energy and powers                               |
-//! | `slopes`   | their derivatives by the coordinates and velocities of both      |
+//! | file          | what                                                            |
+//! |---------------|-----------------------------------------------------------------|
+//! | `laws`        | what acts between two bodies, and the moments that it needs      |
+//! | `side`        | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
+//! | `fault`       | why there is no plane between two bodies                         |
+//! | `overlap`     | two bodies that no plane separates                              |
+//! | `deepest`     | the shortest way apart of these                                 |
+//! | `gjk`         | a plane between them to begin with, guessed or found             |
+//! | `plane`       | a plane, and where it may be                                    |
+//! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
+//! | `state`       | a pair whose plane is found, and what both ends have of it       |
+//! | `mediator`    | damping and friction against the velocities of the plane        |
+//! | `loads`       | forces, moments, energy and powers                               |
+//! | `slopes`      | their derivatives by the coordinates and velocities of both      |
 
 mod deepest;
+mod equilibrium;
+mod fault;
+mod gjk;
 mod laws;
-mod least;
 mod loads;
 mod mediator;
-mod met;
 mod overlap;
 mod plane;
-mod separate;
 mod side;
 mod slopes;
+mod state;
 
+pub use fault::PairFault;
 pub use laws::{PairLaws, PairLawsError};
 pub use loads::PairLoads;
-pub use met::{PairGap, PairScratch};
 pub use overlap::Overlap;
 pub use plane::Guess;
 pub use side::Side;
 pub use slopes::PairSlopes;
+pub use state::{PairGap, PairScratch};
 
-use crate::load::Joint;
+use crate::load::Interaction;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
@@ -131,17 +134,17 @@ impl Pair {
     }
 
     /// The distance of the centres at which two rigid bodies are as far apart as the half of their reach at least [m].
-    pub fn half_span(&self) -> Option<f64> {
+    pub fn half_cutoff(&self) -> Option<f64> {
         self.reach.map(|reach| reach + self.radii[0] + self.radii[1] - 0.5 * reach)
     }
 
     /// The distance of the centres from which on two rigid bodies do nothing to each other [m]; none if there is none.
-    pub fn span(&self) -> Option<f64> {
+    pub fn cutoff(&self) -> Option<f64> {
         self.reach.map(|reach| reach * (1.0 - EDGE) + self.radii[0] + self.radii[1])
     }
 }
 
-impl Joint for Pair {
+impl Interaction for Pair {
     fn bodies(&self) -> [usize; 2] {
         self.bodies
     }

@@ -1,9 +1,9 @@
 //! Two convex bodies that reach each other: how far, and which way apart.
 
 use super::deepest::shortest_way;
-use super::met::halves;
-use super::separate::separate;
+use super::gjk::separate;
 use super::side::Side;
+use super::state::halves;
 use crate::kinematics::{Placement, Velocity};
 use crate::surface::curved::Patch;
 use crate::surface::{GapField, Surface};

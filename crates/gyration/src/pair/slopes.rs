@@ -3,14 +3,14 @@
 //! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
 //! change by those of one more power of the gap, and everything else by the chain rule.
 
-use super::least::Change;
+use super::equilibrium::Change;
+use super::fault::PairFault;
 use super::mediator::Slope;
-use super::met::{Met, PairScratch, ViscousMoments};
 use super::plane::Guess;
 use super::side::Side;
+use super::state::{PairScratch, PairState, ViscousMoments};
 use super::{Mat34, Pair};
 use crate::load::{COORDINATES, Loads, Mat12};
-use crate::surface::GapClosed;
 
 /// What a pair of bodies does to both, and its derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,39 +29,40 @@ impl PairSlopes {
     /// The area factor of a body that deforms is held.
     ///
     /// # Errors
-    /// [`GapClosed`] if no plane separates them.
+    /// [`PairFault`] if no plane separates them.
     pub fn integrate(
         pair: &Pair,
         sides: [&Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
-    ) -> Result<Self, GapClosed> {
-        let met = Met::new(pair, sides, guess, scratch)?;
-        let halves = met.halves.each_ref();
-        let mut on = [met.repulsion(0), met.repulsion(1)];
+    ) -> Result<Self, PairFault> {
+        let state = PairState::new(pair, sides, guess, scratch)?;
+        let halves = state.halves.each_ref();
+        let mut on = [state.repulsion(0), state.repulsion(1)];
         let zeros = [[Mat12::zeros(); 2]; 2];
         let mut slopes = Self { on: [Loads::default(); 2], by_place: zeros, by_rate: zeros };
-        let changes: [Change; BOTH] = std::array::from_fn(|column| met.placed.along(halves, places(column).each_ref()));
+        let changes: [Change; BOTH] =
+            std::array::from_fn(|column| state.placed.along(halves, places(column).each_ref()));
         for (column, change) in changes.iter().enumerate() {
-            add(&mut slopes.by_place, column, [0, 1].map(|side| met.repulsion_along(side, change)));
+            add(&mut slopes.by_place, column, [0, 1].map(|side| state.repulsion_along(side, change)));
         }
-        if met.placed.is_out_of_reach() {
+        if state.placed.is_out_of_reach() {
             return Ok(slopes);
         }
-        let normal = &met.placed.plane.normal;
-        met.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
+        let normal = &state.placed.plane.normal;
+        state.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
             let bent = [0, 1].map(|side| Slope::new(law, shares, side, moments[side]));
             for (column, change) in changes.iter().enumerate() {
-                let (placed, places) = ((&met.placed, shares), places(column));
-                let (foot, places) = ((&met.foot, &bent), (places.each_ref(), change));
+                let (placed, places) = ((&state.placed, shares), places(column));
+                let (foot, places) = ((&state.foot, &bent), (places.each_ref(), change));
                 add(&mut slopes.by_place, column, mediator.along_places(law, halves, placed, foot, places));
                 let (body, moved) = (column / COORDINATES, unit(column % COORDINATES));
                 add(&mut slopes.by_rate, column, mediator.along_rates(normal, body, &moved));
             }
         })?;
-        slopes.on = met.opposite(on);
+        slopes.on = state.opposite(on);
         Ok(slopes)
     }
 }
@@ -91,7 +92,7 @@ fn add(slopes: &mut [[Mat12; 2]; 2], column: usize, change: [Mat34; 2]) {
     }
 }
 
-impl Met<'_> {
+impl PairState<'_> {
     /// The change of the repulsion on a side.
     fn repulsion_along(&self, side: usize, change: &Change) -> Mat34 {
         let (normal, first) = (&self.placed.plane.normal, &self.placed.potentials[side].first);

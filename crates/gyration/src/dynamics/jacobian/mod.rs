@@ -13,11 +13,11 @@ mod affine;
 mod contractile;
 mod coupling;
 mod history;
-mod joints;
+mod interactions;
 mod rigid;
 
 pub use coupling::{Coupling, Lift, Lower};
-pub(super) use joints::add_joints;
+pub(super) use interactions::add_interactions;
 
 use super::Scratch;
 use super::contractile::ContractileMotion;

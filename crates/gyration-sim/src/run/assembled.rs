@@ -8,12 +8,12 @@ use gyration::state::State;
 
 /// The state of a run, put together from those of its islands.
 #[derive(Debug, Clone)]
-pub(super) struct Joined {
+pub(super) struct Assembled {
     pub state: State,
     works: Vec<Sum>,
 }
 
-impl Joined {
+impl Assembled {
     /// At the start of a run.
     pub fn new(model: &Model, start: &State) -> Self {
         let state = State { low: vec![0.0; start.bodies.len()], ..start.clone() };

@@ -28,7 +28,7 @@ enum Change {
 impl Meetings {
     /// Those of a model.
     pub fn of(model: &Model) -> Self {
-        Self { pairs: model.reaches().filter_map(|(bodies, reach)| Some((bodies, reach?))).collect() }
+        Self { pairs: model.cutoffs().filter_map(|(bodies, reach)| Some((bodies, reach?))).collect() }
     }
 
     /// Whether no body meets another.
@@ -38,7 +38,7 @@ impl Meetings {
 
     /// The sets of bodies that act on one another however far they are.
     pub fn always_joined(&self, model: &Model) -> Vec<Vec<usize>> {
-        let always = model.reaches().filter(|(_, reach)| reach.is_none());
+        let always = model.cutoffs().filter(|(_, reach)| reach.is_none());
         let bodies = model.bodies.len();
         let joined = Components::of(&Pattern::new(bodies, always.map(|(bodies, _)| bodies.into())), bodies);
         joined.iter().map(<[usize]>::to_vec).collect()
@@ -50,28 +50,29 @@ impl Meetings {
         if self.is_empty() {
             return islands == always;
         }
-        let mut homes = vec![None; model.bodies.len()];
+        let mut island_of = vec![None; model.bodies.len()];
         for (island, members) in islands.iter().enumerate() {
             for body in members {
-                match homes.get_mut(*body) {
+                match island_of.get_mut(*body) {
                     Some(home @ None) => *home = Some(island),
                     _ => return false,
                 }
             }
         }
-        let whole =
-            |joined: &Vec<usize>| joined.iter().all(|body| homes[*body].is_some() && homes[*body] == homes[joined[0]]);
+        let whole = |joined: &Vec<usize>| {
+            joined.iter().all(|body| island_of[*body].is_some() && island_of[*body] == island_of[joined[0]])
+        };
         islands.iter().all(|members| members.is_sorted()) && always.iter().all(whole)
     }
 }
 
 /// The island of each body, and its place there.
-pub(super) fn homes(bodies: usize, islands: &[Island]) -> Vec<(usize, usize)> {
-    let mut homes = vec![(0, 0); bodies];
+pub(super) fn island_of(bodies: usize, islands: &[Island]) -> Vec<(usize, usize)> {
+    let mut island_of = vec![(0, 0); bodies];
     for (index, island) in islands.iter().enumerate() {
-        island.members().iter().enumerate().for_each(|(place, body)| homes[*body] = (index, place));
+        island.members().iter().enumerate().for_each(|(place, body)| island_of[*body] = (index, place));
     }
-    homes
+    island_of
 }
 
 impl Simulation {
@@ -109,7 +110,7 @@ impl Simulation {
     /// To where a window has come that went until a time [s]: where the island is that has come least far, but not
     /// beyond what it was to see, since islands may change there, nor beyond its portion of rows.
     pub(super) fn window_reached(&self, until: f64) -> f64 {
-        let only_steps = matches!(&self.islands[..], [only] if only.anchor.is_none());
+        let only_steps = matches!(&self.islands[..], [only] if only.restart_point.is_none());
         let least = self.least_time().min(if only_steps { f64::INFINITY } else { self.portion });
         match (self.meetings.is_empty(), self.is_step(until)) {
             (true, _) => least,
@@ -122,17 +123,18 @@ impl Simulation {
     fn first_meeting(&self) -> Option<(f64, Change)> {
         let mut first: Option<(f64, [usize; 2])> = None;
         for (bodies, reach) in &self.meetings.pairs {
-            let [one, other] = bodies.map(|body| self.homes[body]);
+            let [one, other] = bodies.map(|body| self.island_of[body]);
             if one.0 == other.0 {
                 continue;
             }
-            let ways =
-                |(island, place): (usize, usize)| self.islands[island].ways.iter().flat_map(move |ways| &ways[place]);
-            for way in ways(one) {
-                for beside in ways(other).filter(|beside| beside.start < way.end && way.start < beside.end) {
-                    let time = way.start.max(beside.start);
+            let path_bounds = |(island, place): (usize, usize)| {
+                self.islands[island].path_bounds.iter().flat_map(move |path_bounds| &path_bounds[place])
+            };
+            for bound in path_bounds(one) {
+                for beside in path_bounds(other).filter(|beside| beside.start < bound.end && bound.start < beside.end) {
+                    let time = bound.start.max(beside.start);
                     let earlier = first.is_none_or(|first| time < first.0);
-                    if earlier && way.may_meet(beside, *reach) {
+                    if earlier && bound.may_meet(beside, *reach) {
                         first = Some((time, [one.0.min(other.0), one.0.max(other.0)]));
                     }
                 }
@@ -208,7 +210,7 @@ impl Simulation {
     fn put(&mut self, islands: impl IntoIterator<Item = Island>) {
         self.islands.extend(islands);
         self.islands.sort_by_key(|island| island.members()[0]);
-        self.homes = homes(self.model.bodies.len(), &self.islands);
+        self.island_of = island_of(self.model.bodies.len(), &self.islands);
     }
 }
 

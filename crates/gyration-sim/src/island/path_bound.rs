@@ -1,4 +1,4 @@
-//! The way of a body over a step, and when two bodies may come within reach of each other.
+//! Where a body may be over a step, and when two bodies may come within reach of each other.
 //!
 //!   |p₀(t) − chord(t)| ≤ δ = max_j |b_j − chord(t_j)|
 //!
@@ -12,12 +12,12 @@ use std::sync::LazyLock;
 
 /// The degree of the interpolants.
 const DEGREE: usize = 8;
-/// Into how many equal parts a step is cut by the places through which a way is laid, and one more.
+/// Into how many equal parts a step is cut by the places through which a bound is laid, and one more.
 pub(crate) const NODES: usize = DEGREE + 1;
 
 /// Where the centre of a body is for all times of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Way {
+pub(crate) struct PathBound {
     /// The ends of the step [s].
     pub start: f64,
     pub end: f64,
@@ -40,7 +40,7 @@ fn bernstein(j: usize, t: f64) -> f64 {
     choose * t.powi(j as i32) * (1.0 - t).powi((DEGREE - j) as i32)
 }
 
-impl Way {
+impl PathBound {
     /// Through the centres at equal parts of a step.
     pub fn through((start, end): (f64, f64), centers: &[Vec3; NODES]) -> Self {
         let (from, to) = (centers[0], centers[DEGREE]);
@@ -52,7 +52,7 @@ impl Way {
         Self { start, end, from, to, deviation }
     }
 
-    /// The times of the places through which a way is laid [s].
+    /// The times of the places through which a bound is laid [s].
     pub fn nodes(start: f64, end: f64) -> [f64; NODES] {
         std::array::from_fn(|k| if k == DEGREE { end } else { start + (end - start) * (k as f64 / DEGREE as f64) })
     }
@@ -62,7 +62,7 @@ impl Way {
         self.from.lerp(&self.to, (time - self.start) / (self.end - self.start))
     }
 
-    /// Whether two bodies may be closer than `reach` [m] at a time that both ways have.
+    /// Whether two bodies may be closer than `reach` [m] at a time that both path_bounds have.
     pub fn may_meet(&self, other: &Self, reach: f64) -> bool {
         let (begin, end) = (self.start.max(other.start), self.end.min(other.end));
         if begin >= end {
@@ -85,33 +85,36 @@ fn nearest(from: &Vec3, to: &Vec3) -> f64 {
 mod tests {
     use super::*;
 
-    fn way((start, end): (f64, f64), place: impl Fn(f64) -> Vec3) -> Way {
-        Way::through((start, end), &std::array::from_fn(|k| place(start + (end - start) * k as f64 / DEGREE as f64)))
+    fn bound((start, end): (f64, f64), place: impl Fn(f64) -> Vec3) -> PathBound {
+        PathBound::through(
+            (start, end),
+            &std::array::from_fn(|k| place(start + (end - start) * k as f64 / DEGREE as f64)),
+        )
     }
 
     #[test]
-    fn a_way_holds_the_whole_of_a_polynomial() {
+    fn a_bound_holds_the_whole_of_a_polynomial() {
         // Two bends within one step, which its ends and its middle do not show.
         let place = |t: f64| Vec3::new(t, 40.0 * t * (1.0 - t) * (0.5 - t) * t.powi(4), 0.0);
-        let way = way((0.0, 1.0), place);
-        let off = (0..=1000).map(|k| f64::from(k) / 1000.0).map(|t| (place(t) - way.chord(t)).norm());
+        let bound = bound((0.0, 1.0), place);
+        let off = (0..=1000).map(|k| f64::from(k) / 1000.0).map(|t| (place(t) - bound.chord(t)).norm());
         let most = off.fold(0.0, f64::max);
-        println!("off by {most}, bound {}", way.deviation);
-        assert!(most > 0.1 && way.deviation >= most && way.deviation < 5.0 * most);
+        println!("off by {most}, bound {}", bound.deviation);
+        assert!(most > 0.1 && bound.deviation >= most && bound.deviation < 5.0 * most);
     }
 
     #[test]
     fn a_parabola_is_bounded_by_twice_what_it_deviates() {
-        let way = way((1.0, 3.0), |t| Vec3::new(0.0, 0.0, -4.9 * t * t));
+        let bound = bound((1.0, 3.0), |t| Vec3::new(0.0, 0.0, -4.9 * t * t));
         // ⅛ a h² in the middle; the coefficients are at (j/8)(1 − j/8)·a h²·4/7 at most.
-        assert!((way.deviation - 9.8 * 4.0 / 7.0).abs() < 1e-10, "{}", way.deviation);
+        assert!((bound.deviation - 9.8 * 4.0 / 7.0).abs() < 1e-10, "{}", bound.deviation);
     }
 
     #[test]
     fn bodies_meet_where_they_are_at_the_same_time() {
-        let straight = |span, from: Vec3, speed: Vec3| way(span, move |t| from + t * speed);
+        let straight = |span, from: Vec3, speed: Vec3| bound(span, move |t| from + t * speed);
         let one = straight((0.0, 4.0), Vec3::zeros(), Vec3::x());
-        // Crosses the way of the first at x = 2: at the same time, or two seconds later.
+        // Crosses the path of the first at x = 2: at the same time, or two seconds later.
         for (delay, meets) in [(0.0, true), (2.0, false)] {
             let other = straight((0.0, 4.0), Vec3::new(2.0, -2.0 - delay, 0.0), Vec3::y());
             assert_eq!(one.may_meet(&other, 0.1), meets, "{delay}");

@@ -1,13 +1,14 @@
 //! A pair whose plane is found.
 
+use super::equilibrium::{Placed, place};
+use super::fault::PairFault;
 use super::laws::{ViscousLaw, shares};
-use super::least::{Placed, place};
 use super::mediator::{Mediator, Shares};
 use super::plane::Guess;
 use super::side::{Half, Side, columns};
 use super::{Mat34, Pair, Vec4};
 use crate::contact::AreaMeasure;
-use crate::surface::{GapClosed, Moments};
+use crate::surface::Moments;
 use crate::tensor::Vec3;
 
 /// Room for the moments of a pair; made once, reused.
@@ -26,7 +27,7 @@ pub(super) enum ViscousMoments {
 }
 
 /// A pair whose plane is found.
-pub(super) struct Met<'a> {
+pub(super) struct PairState<'a> {
     pub pair: &'a Pair,
     pub halves: [Half<'a>; 2],
     pub placed: Placed,
@@ -64,19 +65,19 @@ pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2]
     })
 }
 
-impl<'a> Met<'a> {
+impl<'a> PairState<'a> {
     /// Places the plane.
     pub fn new(
         pair: &'a Pair,
         sides: [&Side<'a>; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
-    ) -> Result<Self, GapClosed> {
+    ) -> Result<Self, PairFault> {
         let laws = &pair.laws;
         let halves = halves(sides, laws.measure != AreaMeasure::ReferenceArea);
         let [room, _] = scratch.take(laws.placing.requests().len());
         let mut placed = place(laws, halves.each_ref(), guess, room)?;
-        placed.fade(pair.threshold);
+        placed.switch(pair.threshold);
         let first = &placed.potentials[0].first;
         let center = halves[0].columns * first / first[0];
         let plane = &placed.plane;
@@ -96,7 +97,7 @@ impl<'a> Met<'a> {
         moments: ViscousMoments,
         scratch: &mut PairScratch,
         mut each: impl FnMut(&ViscousLaw, &Shares, &Mediator, [&[Moments]; 2]),
-    ) -> Result<(), GapClosed> {
+    ) -> Result<(), PairFault> {
         let laws = &self.pair.laws;
         if laws.viscous.is_empty() || self.placed.is_out_of_reach() {
             return Ok(());
@@ -155,24 +156,24 @@ impl Pair {
     /// The slab between two bodies along the normal of their plane.
     ///
     /// # Errors
-    /// [`GapClosed`] if no plane separates them.
+    /// [`PairFault`] if no plane separates them.
     pub fn gap(
         &self,
         sides: [&Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
-    ) -> Result<PairGap, GapClosed> {
-        let met = Met::new(self, sides, guess, scratch)?;
-        let halves = met.halves.each_ref();
+    ) -> Result<PairGap, PairFault> {
+        let state = PairState::new(self, sides, guess, scratch)?;
+        let halves = state.halves.each_ref();
         let rates = halves.map(Half::rates);
-        let change = met.placed.along(halves, rates.each_ref());
+        let change = state.placed.along(halves, rates.each_ref());
         let (mut gaps, mut rate) = ([0.0; 2], 0.0);
         for ((half, heights), gap) in halves.into_iter().zip(&change.heights).zip(&mut gaps) {
-            let (own, point) = half.smallest_gap(&met.placed.plane);
+            let (own, point) = half.smallest_gap(&state.placed.plane);
             *gap = own;
             rate += heights.dot(&Vec4::new(1.0, point.x, point.y, point.z));
         }
         let gap = gaps[0] + gaps[1];
-        Ok(PairGap { gap, rate, normal: met.placed.plane.normal, turning: change.normal, share: gaps[0] / gap })
+        Ok(PairGap { gap, rate, normal: state.placed.plane.normal, turning: change.normal, share: gaps[0] / gap })
     }
 }

@@ -6,8 +6,8 @@
 
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
 use crate::island::Island;
+use crate::island::step_end::StepEnd;
 use crate::outcome::Stop;
-use crate::step_end::StepEnd;
 use gyration::balance::observe;
 use gyration::dynamics::acting;
 use gyration::pair::PairGap;

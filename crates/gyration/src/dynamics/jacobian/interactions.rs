@@ -15,7 +15,7 @@ use crate::tensor::Vec3;
 
 /// Hands to `each`, for every bond and pair of a body, the other body, ∂Q by its coordinates, B of the one and A of the
 /// other.
-pub(in super::super) fn add_joints(
+pub(in super::super) fn add_interactions(
     at: &BodyAt,
     scratch: &Scratch,
     mut each: impl FnMut(usize, &Coupling, &Lower, &Lift),
@@ -25,12 +25,18 @@ pub(in super::super) fn add_joints(
         let (other, coupling) = match load {
             Load::Bond(end) => (end.other(), Coupling::of_bond(&end, &bonded(at, &end)?)),
             Load::Pair(end) => {
-                let Some(slopes) = &scratch.met.slopes[end.number] else { return Ok(()) };
+                let Some(slopes) = &scratch.pairs.slopes[end.number] else { return Ok(()) };
                 let (own, other) = (end.end, 1 - end.end);
                 let (by_place, by_rate) = (slopes.by_place[own][other], slopes.by_rate[own][other]);
                 (end.other(), Coupling { by_place, by_rate })
             }
-            _ => return Ok(()),
+            // What acts on one body alone.
+            Load::Contact(_)
+            | Load::Spring(..)
+            | Load::Couple(_)
+            | Load::Applied(_)
+            | Load::Resistance(_)
+            | Load::Fluid(..) => return Ok(()),
         };
         let lower = lower.get_or_insert_with(|| Lower::of(at));
         each(other, &coupling, lower, &Lift::of_state(&at.beside(other)));

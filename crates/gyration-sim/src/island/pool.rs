@@ -1,41 +1,41 @@
 //! Scratch that the islands of one body share: what a step needs and does not leave.
 //!
 //! The matrices of an implicit step and the workspace of the mechanics would be two thirds of the memory of a body. On
-//! each thread one island steps at a time, and what it is lent leaves no trace in any number.
+//! each thread one island steps at a time, and what it is pooled leaves no trace in any number.
 
 use crate::island::Island;
 use gyration::dynamics::Workspace;
 use gyration_ode::Scratch;
 use std::sync::{Mutex, PoisonError};
 
-/// What an island is lent.
+/// What an island is pooled.
 #[derive(Default)]
-struct Lent {
+struct Pooled {
     stepper: Scratch,
     workspace: Workspace,
 }
 
 /// As much scratch as there are threads that have asked for it at once.
 #[derive(Default)]
-pub(crate) struct SharedScratch(Mutex<Vec<Lent>>);
+pub(crate) struct ScratchPool(Mutex<Vec<Pooled>>);
 
-impl SharedScratch {
+impl ScratchPool {
     /// Does something with each of these islands, which have scratch meanwhile. Those of several bodies keep their own:
     /// their factors are made for a pattern that few share.
-    pub fn lend<'a>(&self, islands: impl Iterator<Item = &'a mut Island>, mut act: impl FnMut(&mut Island)) {
+    pub fn with_scratch<'a>(&self, islands: impl Iterator<Item = &'a mut Island>, mut act: impl FnMut(&mut Island)) {
         let shared = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut lent = shared().pop().unwrap_or_default();
+        let mut pooled = shared().pop().unwrap_or_default();
         for island in islands {
             if island.members().len() > 1 {
                 act(island);
                 continue;
             }
-            island.integrator.take_scratch(&mut lent.stepper);
-            island.system.exchange_workspace(&mut lent.workspace);
+            island.integrator.take_scratch(&mut pooled.stepper);
+            island.system.exchange_workspace(&mut pooled.workspace);
             act(island);
-            island.system.exchange_workspace(&mut lent.workspace);
-            island.integrator.give_scratch(&mut lent.stepper);
+            island.system.exchange_workspace(&mut pooled.workspace);
+            island.integrator.give_scratch(&mut pooled.stepper);
         }
-        shared().push(lent);
+        shared().push(pooled);
     }
 }

@@ -1,6 +1,6 @@
 //! The numbers of three, five and seven stages, computed with 60 digits and rounded.
 
-use crate::radau::Radau;
+use super::Radau;
 
 /// √6.
 const ROOT: f64 = 2.449489742783178;

@@ -9,12 +9,13 @@
 //!
 //! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
 
+use super::fault::PairFault;
+use super::gjk::{guessed, separate};
 use super::laws::PairLaws;
 use super::plane::{Guess, Plane};
-use super::separate::{guessed, separate};
 use super::side::{Half, Potential};
 use super::{Mat34, Vec4};
-use crate::surface::{GapClosed, Moments};
+use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::{Cholesky, Const, Matrix4x3};
 
@@ -38,7 +39,7 @@ pub(super) struct Placed {
     /// r.
     gradient: Vec3,
     /// δ log χ′ by δ log U.
-    fading: f64,
+    switching: f64,
     /// K.
     curvature: Cholesky<f64, Const<3>>,
     /// q.
@@ -70,17 +71,17 @@ fn tangents(n: &Vec3) -> [Vec3; 2] {
 /// The plane of least potential.
 ///
 /// # Errors
-/// The gap that is closed, if nothing separates the bodies.
+/// [`PairFault`] if nothing separates the bodies, or the plane is beyond the digits of a number.
 pub(super) fn place(
     laws: &PairLaws,
     halves: [&Half; 2],
     guess: Option<&Guess>,
     room: &mut [Moments],
-) -> Result<Placed, GapClosed> {
+) -> Result<Placed, PairFault> {
     let guessed = guess.and_then(|guess| Placed::at(laws, halves, guessed(halves, guess)?, room).ok());
     let mut placed = match guessed {
         Some(placed) => placed,
-        None => Placed::at(laws, halves, separate(halves).map_err(|gap| GapClosed { gap })?, room)?,
+        None => Placed::at(laws, halves, separate(halves).map_err(|gap| PairFault::Overlap { gap })?, room)?,
     };
     let mut left = f64::INFINITY;
     for _ in 0..MOST_STEPS {
@@ -100,11 +101,11 @@ pub(super) fn place(
         }
     }
     // A plane that is not in balance would push without a potential.
-    if left < LOST { Ok(placed) } else { Err(GapClosed { gap: f64::NAN }) }
+    if left < LOST { Ok(placed) } else { Err(PairFault::NotFound { decrement: left }) }
 }
 
 impl Placed {
-    fn at(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, GapClosed> {
+    fn at(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, PairFault> {
         let power = 0.5 / (laws.repulsion.exponent - 1.0);
         let tangents = tangents(&plane.normal);
         let [above, below] = halves;
@@ -127,8 +128,8 @@ impl Placed {
             let own = heights[i].tr_mul(&(potentials[i].second * heights[i])) / potentials[i].value;
             curvature += parts[i] * (own - (1.0 + power) * slopes[i] * slopes[i].transpose());
         }
-        let curvature = curvature.cholesky().ok_or(GapClosed { gap: f64::NAN })?;
-        let fading = 0.0;
+        let curvature = curvature.cholesky().ok_or(PairFault::NotFound { decrement: f64::NAN })?;
+        let switching = 0.0;
         Ok(Self {
             plane,
             potentials,
@@ -139,7 +140,7 @@ impl Placed {
             heights,
             slopes,
             gradient,
-            fading,
+            switching,
             curvature,
             power,
         })
@@ -148,13 +149,13 @@ impl Placed {
     /// Lets the pair begin at an energy U_c [J], four times differentiable: χ(U) = U (1 − U_c/U)₊⁵ in the place of U.
     ///
     ///   χ′ = (1 − x)⁴ (1 + 4x),   χ″ = 20 x² (1 − x)³/U,   x = U_c/U
-    pub fn fade(&mut self, threshold: f64) {
+    pub fn switch(&mut self, threshold: f64) {
         let part = (threshold / self.energy).min(1.0);
         let left = 1.0 - part;
         self.energy *= left.powi(5);
         let slope = left.powi(4) * (1.0 + 4.0 * part);
         self.weights = self.weights.map(|weight| slope * weight);
-        self.fading = if left > 0.0 { 20.0 * part * part / (left * (1.0 + 4.0 * part)) } else { 0.0 };
+        self.switching = if left > 0.0 { 20.0 * part * part / (left * (1.0 + 4.0 * part)) } else { 0.0 };
     }
 
     /// Whether they do nothing to each other.
@@ -205,7 +206,7 @@ impl Placed {
         Change {
             normal: self.tangents[0] * moved.x + self.tangents[1] * moved.y,
             first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
-            weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + self.fading * growth),
+            weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + self.switching * growth),
             heights,
         }
     }

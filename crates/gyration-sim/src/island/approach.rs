@@ -2,7 +2,7 @@
 //!
 //!   |Δp(t)| ≥ |Δp + Δṗ t| − ½ |Δp̈| t²
 
-use crate::step_end::StepEnd;
+use crate::island::step_end::StepEnd;
 use gyration::tensor::Vec3;
 
 /// The motion of one centre as seen from another, if both go on as they do.

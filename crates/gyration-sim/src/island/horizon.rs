@@ -13,8 +13,8 @@
 //! leaves, is not held up. Two bodies that meet approach a plane between them, with the normal of their own; those that
 //! are out of reach of each other come halfway into it. Steps are cut by this and never lengthened.
 
-use crate::approach::Approach;
-use crate::step_end::StepEnd;
+use crate::island::approach::Approach;
+use crate::island::step_end::StepEnd;
 use gyration::contact::RelativeMotion;
 use gyration::kinematics::Placement;
 use gyration::model::Model;
@@ -80,7 +80,7 @@ pub(crate) fn horizon(
     }
     for (pair, slab) in model.pairs().iter().zip(gaps) {
         let both = pair.bodies.map(|body| &ends[body]);
-        step = step.min(match (slab.gap < f64::INFINITY, pair.span().zip(pair.half_span())) {
+        step = step.min(match (slab.gap < f64::INFINITY, pair.cutoff().zip(pair.half_cutoff())) {
             (false, Some(spans)) => before_meeting(both, spans, step),
             _ => BodyApproach::of(model, pair, both, radii, &slab.normal).time(step),
         });

@@ -5,12 +5,12 @@
 //! if there were no others, and its steps say so. An island falls apart at the end of a step behind which some of its
 //! bodies are out of reach of the others, and stay so for a few steps if they go on as they do.
 
-use crate::approach::Approach;
 use crate::in_play::InPlay;
+use crate::island::approach::Approach;
+use crate::island::path_bound::{NODES, PathBound};
 use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
-use crate::way::{NODES, Way};
 use gyration::pair::EDGE;
 use gyration::tensor::Vec3;
 use gyration_ode::{Components, Integrator, Options, Pattern, StepReport};
@@ -20,26 +20,27 @@ use gyration_threads::Interruption;
 const AHEAD: f64 = 2.0;
 
 impl Island {
-    /// Notes the ways of its bodies over the last step.
-    pub fn note_ways(&mut self, report: &StepReport) {
-        let Self { integrator, system, sampled, ways, .. } = self;
-        let Some(ways) = ways else { return };
+    /// Notes bounds of the paths of its bodies over the last step.
+    pub fn note_path_bounds(&mut self, report: &StepReport) {
+        let Self { integrator, system, sampled, path_bounds, .. } = self;
+        let Some(path_bounds) = path_bounds else { return };
         let model = system.model();
         let mut centers = vec![[Vec3::zeros(); NODES]; model.bodies.len()];
-        for (k, time) in Way::nodes(report.start, report.end).into_iter().enumerate() {
+        for (k, time) in PathBound::nodes(report.start, report.end).into_iter().enumerate() {
             integrator.interpolate(time, &mut sampled.bodies, &mut sampled.works);
             for (body, centers) in centers.iter_mut().enumerate() {
                 centers[k] = sampled.motion(model, body).placement.position;
             }
         }
-        for (ways, centers) in ways.iter_mut().zip(&centers) {
-            ways.push(Way::through((report.start, report.end), centers));
+        for (path_bounds, centers) in path_bounds.iter_mut().zip(&centers) {
+            path_bounds.push(PathBound::through((report.start, report.end), centers));
         }
     }
 
     /// Notes whether some of its bodies are out of reach of the others, and stay so.
     pub fn note_parting(&mut self) {
-        self.state.is_parting = self.ways.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
+        self.state.is_parting =
+            self.path_bounds.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
     }
 
     /// The sets of its bodies, by their places, that are within reach of one another or will be soon. They part a
@@ -50,20 +51,20 @@ impl Island {
             let [one, other] = bodies.map(|body| &self.step_ends[body]);
             Approach::of(one, other).least(ahead) <= (1.0 + EDGE) * reach
         };
-        let joined = model.reaches().filter(|(bodies, reach)| reach.is_none_or(|reach| near(*bodies, reach)));
+        let joined = model.cutoffs().filter(|(bodies, reach)| reach.is_none_or(|reach| near(*bodies, reach)));
         Components::of(&Pattern::new(model.bodies.len(), joined.map(|(bodies, _)| bodies.into())), model.bodies.len())
     }
 
-    /// Comes to a time within its ways, by a step that ends there; what it has done since is forgotten.
+    /// Comes to a time within its path_bounds, by a step that ends there; what it has done since is forgotten.
     ///
     /// # Errors
     /// [`Stop`] if that step cannot be made.
     pub fn come_to(&mut self, time: f64, plan: &RunPlan, since: f64) -> Result<(), Stop> {
         // The last step that begins no later is cut there, the others are repeated.
-        let begins = self.ways.iter().flatten().next().into_iter().flatten().map(|way| way.start);
+        let begins = self.path_bounds.iter().flatten().next().into_iter().flatten().map(|bound| bound.start);
         let cut = begins.filter(|begin| *begin <= time).fold(f64::NEG_INFINITY, f64::max);
         let come = Interruption::default().within(|| {
-            if let Some(kept) = self.anchor.as_ref().map(|anchor| anchor.kept().clone()) {
+            if let Some(kept) = self.restart_point.as_ref().map(|restart_point| restart_point.kept().clone()) {
                 let restored = self.restore(&kept, plan);
                 debug_assert!(restored.is_ok(), "an island remembers itself");
             }
@@ -111,8 +112,8 @@ impl Island {
             this.restart()
         })?;
         this.note_in_play();
-        if let Some(anchor) = &mut this.anchor {
-            anchor.drop_at(&this.state, &this.integrator);
+        if let Some(restart_point) = &mut this.restart_point {
+            restart_point.drop_at(&this.state, &this.integrator);
         }
         Ok(this)
     }

@@ -1,7 +1,7 @@
 //! What acts between two bodies, found by body.
 
 /// Something between two bodies of a model.
-pub trait Joint {
+pub trait Interaction {
     /// The indices of the two bodies, which differ.
     fn bodies(&self) -> [usize; 2];
 
@@ -10,42 +10,42 @@ pub trait Joint {
     fn renumbered(&self, bodies: [usize; 2]) -> Self;
 }
 
-/// A joint as one of its bodies sees it.
+/// An interaction as one of its bodies sees it.
 #[derive(Debug)]
-pub struct JointEnd<'a, J> {
+pub struct InteractionEnd<'a, J> {
     /// Its number in the model.
     pub number: usize,
-    /// The joint.
-    pub joint: &'a J,
+    /// The interaction.
+    pub interaction: &'a J,
     /// Which of its ends is the body's own, 0 or 1.
     pub end: usize,
 }
 
-/// The joints of a model.
+/// The interactions of a model.
 #[derive(Debug, Clone)]
-pub struct Joints<J> {
+pub struct Interactions<J> {
     all: Vec<J>,
-    /// Where the ends of each body begin, and where the last end; empty without joints.
+    /// Where the ends of each body begin, and where the last end; empty without interactions.
     starts: Vec<usize>,
-    /// The number of a joint and which of its ends it is, body by body.
+    /// The number of an interaction and which of its ends it is, body by body.
     ends: Vec<(usize, usize)>,
 }
 
-impl<J> Clone for JointEnd<'_, J> {
+impl<J> Clone for InteractionEnd<'_, J> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<J> Copy for JointEnd<'_, J> {}
+impl<J> Copy for InteractionEnd<'_, J> {}
 
-impl<J> Default for Joints<J> {
+impl<J> Default for Interactions<J> {
     fn default() -> Self {
         Self { all: Vec::new(), starts: Vec::new(), ends: Vec::new() }
     }
 }
 
-impl<J: Joint> JointEnd<'_, J> {
+impl<J: Interaction> InteractionEnd<'_, J> {
     /// Whether energy and dissipation are counted here.
     pub fn counts(&self) -> bool {
         self.end == 0
@@ -53,12 +53,12 @@ impl<J: Joint> JointEnd<'_, J> {
 
     /// The other body.
     pub fn other(&self) -> usize {
-        self.joint.bodies()[1 - self.end]
+        self.interaction.bodies()[1 - self.end]
     }
 }
 
-impl<J: Joint> Joints<J> {
-    /// The joints between so many bodies.
+impl<J: Interaction> Interactions<J> {
+    /// The interactions between so many bodies.
     ///
     /// # Panics
     /// If one joins a body to itself, or names one that does not exist.
@@ -67,7 +67,10 @@ impl<J: Joint> Joints<J> {
             return Self::default();
         }
         let joins = |[one, other]: [usize; 2]| one != other && one.max(other) < bodies;
-        assert!(all.iter().all(|joint| joins(joint.bodies())), "a joint is between two of the {bodies} bodies");
+        assert!(
+            all.iter().all(|interaction| joins(interaction.bodies())),
+            "an interaction is between two of the {bodies} bodies"
+        );
         let mut ends: Vec<(usize, usize)> = (0..all.len()).flat_map(|number| [(number, 0), (number, 1)]).collect();
         let body = |(number, end): &(usize, usize)| all[*number].bodies()[*end];
         ends.sort_by_key(body);
@@ -81,22 +84,26 @@ impl<J: Joint> Joints<J> {
     }
 
     /// Those of a body, in order.
-    pub fn of(&self, body: usize) -> impl Iterator<Item = JointEnd<'_, J>> {
+    pub fn of(&self, body: usize) -> impl Iterator<Item = InteractionEnd<'_, J>> {
         let ends = if body + 1 < self.starts.len() { self.starts[body]..self.starts[body + 1] } else { 0..0 };
-        self.ends[ends].iter().map(|(number, end)| JointEnd { number: *number, joint: &self.all[*number], end: *end })
+        self.ends[ends].iter().map(|(number, end)| InteractionEnd {
+            number: *number,
+            interaction: &self.all[*number],
+            end: *end,
+        })
     }
 
     /// Those between some bodies, which ascend, numbered among these.
     #[must_use]
     pub fn among(&self, members: &[usize]) -> Self {
         let place = |body: usize| members.binary_search(&body).ok();
-        let within = |end: JointEnd<J>| {
-            let [Some(one), Some(other)] = end.joint.bodies().map(place) else { return None };
-            Some((end.number, end.joint.renumbered([one, other])))
+        let within = |end: InteractionEnd<J>| {
+            let [Some(one), Some(other)] = end.interaction.bodies().map(place) else { return None };
+            Some((end.number, end.interaction.renumbered([one, other])))
         };
-        let counted = members.iter().flat_map(|body| self.of(*body)).filter(JointEnd::counts);
+        let counted = members.iter().flat_map(|body| self.of(*body)).filter(InteractionEnd::counts);
         let mut numbered: Vec<(usize, J)> = counted.filter_map(within).collect();
         numbered.sort_by_key(|(number, _)| *number);
-        Self::new(members.len(), numbered.into_iter().map(|(_, joint)| joint).collect())
+        Self::new(members.len(), numbered.into_iter().map(|(_, interaction)| interaction).collect())
     }
 }

@@ -11,7 +11,7 @@ use gyration_ode::Integrator;
 const MAY_PASS: f64 = 0.5;
 
 /// Memories of an island.
-pub(crate) struct Anchor {
+pub(crate) struct RestartPoint {
     /// That from which it would be begun again.
     kept: IslandMemory,
     /// Before the last step that went past what was asked for last, or may have; none yet if it is not newer.
@@ -19,7 +19,7 @@ pub(crate) struct Anchor {
     is_newer: bool,
 }
 
-impl Anchor {
+impl RestartPoint {
     /// At the start.
     pub fn new(start: IslandMemory) -> Self {
         Self { latest: start.clone(), kept: start, is_newer: false }
@@ -39,7 +39,7 @@ impl Anchor {
     }
 
     /// Once all islands have come to a time, behind which none will go back.
-    pub fn settle(&mut self, state: &IslandState, integrator: &Integrator, time: f64) {
+    pub fn commit(&mut self, state: &IslandState, integrator: &Integrator, time: f64) {
         if integrator.time() == time {
             return self.drop_at(state, integrator);
         }

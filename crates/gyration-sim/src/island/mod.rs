@@ -5,21 +5,33 @@
 //! steps: the last one ends there or beyond, and its interpolant says what lies between. How often it is asked leaves
 //! no trace in any number.
 
+mod approach;
+mod detection;
+pub(crate) mod horizon;
+mod merging;
+mod noting;
+mod path_bound;
+pub(crate) mod pool;
+mod restart_point;
+mod rollback;
+pub(crate) mod step_end;
+mod within;
+
 use crate::adapter::ModelSystem;
-use crate::anchor::Anchor;
 use crate::events::Event;
-use crate::horizon::horizon;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
-use crate::step_end::{self, StepEnd};
-use crate::way::Way;
 use gyration::model::Model;
 use gyration::pair::PairGap;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
+use horizon::horizon;
+use path_bound::PathBound;
+use restart_point::RestartPoint;
 use std::ops::Range;
+use step_end::StepEnd;
 
 /// What islands of a run begin from.
 #[derive(Clone, Copy)]
@@ -65,14 +77,14 @@ pub(crate) struct Island {
     pub window_steps: u64,
     /// Why it came no further.
     pub stop: Option<Stop>,
-    /// The ways of its bodies since the run was at its time, where bodies may meet others.
-    pub ways: Option<Vec<Vec<Way>>>,
+    /// Bounds of the paths of its bodies since the time of the run, where bodies may meet others.
+    pub path_bounds: Option<Vec<Vec<PathBound>>>,
     /// From where it can be begun again; none where nobody will ask for that.
-    pub anchor: Option<Anchor>,
+    pub restart_point: Option<RestartPoint>,
 }
 
 impl Island {
-    /// Bodies of a run before its first step. One island that is the whole run and stays so needs no anchor.
+    /// Bodies of a run before its first step. One island that is the whole run and stays so needs no restart point.
     ///
     /// # Errors
     /// [`Stop`] if the start is outside the model.
@@ -95,7 +107,7 @@ impl Island {
         let system = system.map_err(|left| Stop::by_inadmissible(&part, start.time, &left))?;
         let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
         let state = IslandState::new(members.len());
-        let ways = (!stays).then(|| vec![Vec::new(); members.len()]);
+        let path_bounds = (!stays).then(|| vec![Vec::new(); members.len()]);
         let mut this = Self {
             members,
             places,
@@ -113,8 +125,8 @@ impl Island {
             report: None,
             window_steps: 0,
             stop: None,
-            ways,
-            anchor: None,
+            path_bounds,
+            restart_point: None,
         };
         this.read_step_end();
         if this.system.may_be_given_up() {
@@ -122,7 +134,7 @@ impl Island {
         }
         this.note_in_play();
         if !(is_whole && stays) {
-            this.anchor = Some(Anchor::new(this.memory()));
+            this.restart_point = Some(RestartPoint::new(this.memory()));
         }
         Ok(this)
     }
@@ -136,8 +148,8 @@ impl Island {
         if self.is_slow(plan) {
             self.state.slow_since = self.time();
         }
-        if let Some(anchor) = &mut self.anchor {
-            anchor.drop_at(&self.state, &self.integrator);
+        if let Some(restart_point) = &mut self.restart_point {
+            restart_point.drop_at(&self.state, &self.integrator);
         }
     }
 
@@ -158,8 +170,8 @@ impl Island {
 
     /// What it goes on from after a checkpoint: the same bytes follow.
     pub fn memory(&self) -> IslandMemory {
-        match &self.anchor {
-            Some(anchor) => anchor.kept().clone(),
+        match &self.restart_point {
+            Some(restart_point) => restart_point.kept().clone(),
             None => {
                 let (members, state) = (self.members.clone(), self.state.clone());
                 IslandMemory { members, state, stepper: self.integrator.memory() }
@@ -175,8 +187,8 @@ impl Island {
         // What has been done once is not given up.
         Interruption::default().within(|| {
             self.restore(memory, plan)?;
-            if self.anchor.is_none() && self.time() < time {
-                self.anchor = Some(Anchor::new(memory.clone()));
+            if self.restart_point.is_none() && self.time() < time {
+                self.restart_point = Some(RestartPoint::new(memory.clone()));
             }
             // The step behind the memory reaches over the time.
             if self.time() < time && !self.state.is_parting && self.step(plan).is_ok() && self.time() < time {
@@ -201,11 +213,11 @@ impl Island {
         }
         self.integrator = integrator;
         self.state.clone_from(&memory.state);
-        if let Some(anchor) = &mut self.anchor {
-            anchor.drop_at(&self.state, &self.integrator);
+        if let Some(restart_point) = &mut self.restart_point {
+            restart_point.drop_at(&self.state, &self.integrator);
         }
         self.events.retain(|event| event.time <= memory.stepper.time());
-        self.ways.iter_mut().flatten().for_each(Vec::clear);
+        self.path_bounds.iter_mut().flatten().for_each(Vec::clear);
         self.stop = None;
         self.read_step_end();
         Ok(())
@@ -223,8 +235,8 @@ impl Island {
                 self.stop = Some(Stop::by_interruption(self.time()));
                 return;
             }
-            if let Some(anchor) = &mut self.anchor {
-                anchor.before_step(&self.state, &self.integrator, until);
+            if let Some(restart_point) = &mut self.restart_point {
+                restart_point.before_step(&self.state, &self.integrator, until);
             }
             match self.step(plan) {
                 Ok(report) => self.report = Some(report),
@@ -238,11 +250,11 @@ impl Island {
     }
 
     /// Keeps what was done until a time that all islands have come to: none will go back behind it.
-    pub fn settle(&mut self, time: f64) {
-        if let Some(anchor) = &mut self.anchor {
-            anchor.settle(&self.state, &self.integrator, time);
+    pub fn commit(&mut self, time: f64) {
+        if let Some(restart_point) = &mut self.restart_point {
+            restart_point.commit(&self.state, &self.integrator, time);
         }
-        self.ways.iter_mut().flatten().for_each(|ways| ways.retain(|way| way.end > time));
+        self.path_bounds.iter_mut().flatten().for_each(|path_bounds| path_bounds.retain(|bound| bound.end > time));
     }
 
     /// Makes one step and finds its events.
@@ -265,7 +277,7 @@ impl Island {
         self.state.note_dissipation(before, self.dissipation());
         self.note_in_play();
         self.find_events(&report);
-        self.note_ways(&report);
+        self.note_path_bounds(&report);
         self.note_parting();
         self.note_rest(plan, report.end);
         if self.system.may_be_given_up() {
@@ -286,8 +298,8 @@ impl Island {
         let (rates, _) = self.integrator.rates();
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
         self.find_gaps();
-        if let Some(anchor) = &mut self.anchor {
-            anchor.drop_at(&self.state, &self.integrator);
+        if let Some(restart_point) = &mut self.restart_point {
+            restart_point.drop_at(&self.state, &self.integrator);
         }
         Ok(())
     }

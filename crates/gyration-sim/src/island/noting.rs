@@ -1,9 +1,9 @@
 //! What an island notes at the end of each step: what dissipates, the energy in play, since when its bodies are slow.
 
 use crate::island::Island;
+use crate::island::step_end::StepEnd;
 use crate::plan::RunPlan;
 use crate::run_state::DISSIPATION;
-use crate::step_end::StepEnd;
 use gyration::balance::{fastest_speed, kinetic_energy};
 
 impl Island {

@@ -15,8 +15,10 @@
 //! Comput. Appl. Math.* 111 (1999) 93, for more stages. The tests check orders, eigenvalues and transformation rather
 //! than trust the digits.
 
-use crate::radau_tables::{FIVE, NINE, THIRTEEN};
+mod tables;
+
 use crate::report::ImplicitOrder;
+pub(crate) use tables::{FIVE, NINE, THIRTEEN};
 
 /// The most stages.
 pub(crate) const MOST_STAGES: usize = 7;
