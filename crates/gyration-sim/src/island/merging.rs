@@ -8,6 +8,7 @@
 use crate::in_play::InPlay;
 use crate::island::approach::Approach;
 use crate::island::path_bound::{NODES, PathBound};
+use crate::island::paths::Paths;
 use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
@@ -22,8 +23,8 @@ const AHEAD: f64 = 2.0;
 impl Island {
     /// Notes bounds of the paths of its bodies over the last step.
     pub fn note_path_bounds(&mut self, report: &StepReport) {
-        let Self { integrator, system, sampled, path_bounds, .. } = self;
-        let Some(path_bounds) = path_bounds else { return };
+        let Self { integrator, system, sampled, paths, .. } = self;
+        let Some(paths) = paths else { return };
         let model = system.model();
         let mut centers = vec![[Vec3::zeros(); NODES]; model.bodies.len()];
         for (k, time) in PathBound::nodes(report.start, report.end).into_iter().enumerate() {
@@ -32,15 +33,13 @@ impl Island {
                 centers[k] = sampled.motion(model, body).placement.position;
             }
         }
-        for (path_bounds, centers) in path_bounds.iter_mut().zip(&centers) {
-            path_bounds.push(PathBound::through((report.start, report.end), centers));
-        }
+        paths.push(centers.iter().map(|centers| PathBound::through((report.start, report.end), centers)));
     }
 
     /// Notes whether some of its bodies are out of reach of the others, and stay so.
     pub fn note_parting(&mut self) {
         self.state.is_parting =
-            self.path_bounds.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
+            self.paths.is_some() && self.members().len() > 1 && self.parts().iter().nth(1).is_some();
     }
 
     /// The sets of its bodies, by their places, that are within reach of one another or will be soon. They part a
@@ -55,13 +54,13 @@ impl Island {
         Components::of(&Pattern::new(model.bodies.len(), joined.map(|(bodies, _)| bodies.into())), model.bodies.len())
     }
 
-    /// Comes to a time within its path_bounds, by a step that ends there; what it has done since is forgotten.
+    /// Comes to a time within its paths, by a step that ends there; what it has done since is forgotten.
     ///
     /// # Errors
     /// [`Stop`] if that step cannot be made.
     pub fn come_to(&mut self, time: f64, plan: &RunPlan, since: f64) -> Result<(), Stop> {
         // The last step that begins no later is cut there, the others are repeated.
-        let begins = self.path_bounds.iter().flatten().next().into_iter().flatten().map(|bound| bound.start);
+        let begins = self.paths.iter().flat_map(Paths::beginnings);
         let cut = begins.filter(|begin| *begin <= time).fold(f64::NEG_INFINITY, f64::max);
         let come = Interruption::default().within(|| {
             if let Some(kept) = self.restart_point.as_ref().map(|restart_point| restart_point.kept().clone()) {

@@ -11,6 +11,7 @@ pub(crate) mod horizon;
 mod merging;
 mod noting;
 mod path_bound;
+mod paths;
 pub(crate) mod pool;
 mod restart_point;
 mod rollback;
@@ -28,7 +29,8 @@ use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
 use horizon::horizon;
-use path_bound::PathBound;
+pub(crate) use path_bound::PathBound;
+pub(crate) use paths::Paths;
 use restart_point::RestartPoint;
 use std::ops::Range;
 use step_end::StepEnd;
@@ -77,8 +79,8 @@ pub(crate) struct Island {
     pub window_steps: u64,
     /// Why it came no further.
     pub stop: Option<Stop>,
-    /// Bounds of the paths of its bodies since the time of the run, where bodies may meet others.
-    pub path_bounds: Option<Vec<Vec<PathBound>>>,
+    /// Those of its bodies since the time of the run, where bodies may meet others.
+    pub paths: Option<Paths>,
     /// From where it can be begun again; none where nobody will ask for that.
     pub restart_point: Option<RestartPoint>,
 }
@@ -107,7 +109,7 @@ impl Island {
         let system = system.map_err(|left| Stop::by_inadmissible(&part, start.time, &left))?;
         let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
         let state = IslandState::new(members.len());
-        let path_bounds = (!stays).then(|| vec![Vec::new(); members.len()]);
+        let paths = (!stays).then(|| Paths::of(members.len()));
         let mut this = Self {
             members,
             places,
@@ -125,7 +127,7 @@ impl Island {
             report: None,
             window_steps: 0,
             stop: None,
-            path_bounds,
+            paths,
             restart_point: None,
         };
         this.read_step_end();
@@ -217,7 +219,7 @@ impl Island {
             restart_point.drop_at(&self.state, &self.integrator);
         }
         self.events.retain(|event| event.time <= memory.stepper.time());
-        self.path_bounds.iter_mut().flatten().for_each(Vec::clear);
+        self.paths.iter_mut().for_each(Paths::clear);
         self.stop = None;
         self.read_step_end();
         Ok(())
@@ -254,7 +256,7 @@ impl Island {
         if let Some(restart_point) = &mut self.restart_point {
             restart_point.commit(&self.state, &self.integrator, time);
         }
-        self.path_bounds.iter_mut().flatten().for_each(|path_bounds| path_bounds.retain(|bound| bound.end > time));
+        self.paths.iter_mut().for_each(|paths| paths.forget(time));
     }
 
     /// Makes one step and finds its events.

@@ -62,14 +62,14 @@ impl PathBound {
         self.from.lerp(&self.to, (time - self.start) / (self.end - self.start))
     }
 
-    /// Whether two bodies may be closer than `reach` [m] at a time that both path_bounds have.
+    /// Whether two bodies may be closer than `reach` [m] at a time that both steps have.
     pub fn may_meet(&self, other: &Self, reach: f64) -> bool {
         let (begin, end) = (self.start.max(other.start), self.end.min(other.end));
         if begin >= end {
             return false;
         }
         let apart = |time: f64| self.chord(time) - other.chord(time);
-        nearest(&apart(begin), &apart(end)) <= reach + self.deviation + other.deviation
+        nearest(&apart(begin), &apart(end)) <= reach + (self.deviation + other.deviation)
     }
 }
 

@@ -9,24 +9,25 @@ use gyration::state::BodyMotion;
 impl Simulation {
     /// Restarts the stepper of the island of a body after a change of its loads or drive.
     pub(crate) fn restart(&mut self, body: usize) -> Result<(), Stop> {
-        self.islands[self.island_of[body].0].restart()
+        let (island, _) = self.partition.island_of(body);
+        self.partition.islands[island].restart()
     }
 
     /// Changes loads or drive of a body, by its place in a model; what `change` says of it.
     pub(crate) fn change<T>(&mut self, body: usize, mut change: impl FnMut(&mut Model, usize) -> T) -> T {
-        let (island, place) = self.island_of[body];
-        change(self.islands[island].system.model_mut(), place);
+        let (island, place) = self.partition.island_of(body);
+        change(self.partition.islands[island].system.model_mut(), place);
         change(&mut self.model, body)
     }
 
     /// Lets all islands that are beyond the time of the run end a step there.
     pub(crate) fn land(&mut self) {
-        if self.islands.len() == 1 {
+        if self.partition.islands.len() == 1 {
             return;
         }
         let time = self.state.time;
         self.plan.end = time;
-        for island in self.islands.iter_mut().filter(|island| island.time() > time) {
+        for island in self.partition.islands.iter_mut().filter(|island| island.time() > time) {
             island.go_back(&self.plan, time);
         }
         self.commit(self.least_time());
@@ -34,8 +35,8 @@ impl Simulation {
 
     /// Placement and velocity of a body after the last step of its island.
     pub(crate) fn motion(&self, body: usize) -> &BodyMotion {
-        let (island, place) = self.island_of[body];
-        &self.islands[island].step_ends[place].motion
+        let (island, place) = self.partition.island_of(body);
+        &self.partition.islands[island].step_ends[place].motion
     }
 
     /// The shortest step that one of several islands would make [s]; none of one island, which makes it by itself.
@@ -43,10 +44,10 @@ impl Simulation {
     /// # Errors
     /// [`Stop`] if one of them has no rates.
     pub(crate) fn shortest_step(&mut self) -> Result<Option<f64>, Stop> {
-        if self.islands.len() == 1 {
+        if self.partition.islands.len() == 1 {
             return Ok(None);
         }
-        let steps = self.islands.iter_mut().map(Island::next_size);
+        let steps = self.partition.islands.iter_mut().map(Island::next_size);
         steps.collect::<Result<Vec<_>, _>>().map(|steps| steps.into_iter().reduce(f64::min))
     }
 }

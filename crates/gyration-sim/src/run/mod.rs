@@ -16,7 +16,7 @@
 
 mod assembled;
 mod control;
-mod merge_split;
+mod partition;
 mod samples;
 mod window;
 
@@ -39,21 +39,18 @@ use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::Statistics;
 use gyration_threads::Interruption;
-use merge_split::{Meetings, island_of};
+use partition::{Neighbours, Partition, always_coupled};
 use window::WindowWidth;
 
 /// A run under way.
 pub struct Simulation {
     model: Model,
     pub(crate) plan: RunPlan,
-    pub(crate) islands: Vec<Island>,
-    /// The island of each body, and its place there.
-    island_of: Vec<(usize, usize)>,
+    pub(crate) partition: Partition,
     /// From which the scales of islands come that are yet to be.
     start: State,
     /// The speed scales of all bodies [m/s].
     speeds: Vec<f64>,
-    meetings: Meetings,
     state: RunState,
     width: WindowWidth,
     assembled: Assembled,
@@ -80,13 +77,12 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Start`] if the start is outside the model.
     pub fn new(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        let meetings = Meetings::of(model);
-        Self::of_islands(model, start, plan, meetings.always_joined(model), meetings)
+        Self::of_islands(model, start, plan, always_coupled(model), Neighbours::of(model))
     }
 
     /// The same with all bodies in one island: one step serves all.
     pub fn together(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        Self::of_islands(model, start, plan, vec![(0..model.bodies.len()).collect()], Meetings::default())
+        Self::of_islands(model, start, plan, vec![(0..model.bodies.len()).collect()], Neighbours::default())
     }
 
     fn of_islands(
@@ -94,9 +90,9 @@ impl Simulation {
         start: &State,
         plan: RunPlan,
         members: Vec<Vec<usize>>,
-        meetings: Meetings,
+        neighbours: Neighbours,
     ) -> Result<Self, RunError> {
-        let stays = meetings.is_empty();
+        let stays = neighbours.is_empty();
         let outside = |left: Inadmissible| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
         check_resistances(model).map_err(outside)?;
         let speeds = first_rates(model, start).and_then(|slopes| speed_scales(model, start, &slopes));
@@ -106,11 +102,9 @@ impl Simulation {
         let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
         islands.shrink_to_fit();
         Ok(Self {
-            island_of: island_of(model.bodies.len(), &islands),
-            islands,
+            partition: Partition::new(model.bodies.len(), islands, neighbours),
             start: start.clone(),
             speeds,
-            meetings,
             state: RunState::new(start.time),
             width: WindowWidth::new(plan.sample.min(plan.end)),
             assembled: Assembled::new(model, start),
@@ -127,11 +121,6 @@ impl Simulation {
         })
     }
 
-    /// What islands begin from.
-    fn setting(&self) -> Setting<'_> {
-        Setting { model: &self.model, start: &self.start, speeds: &self.speeds, plan: &self.plan }
-    }
-
     /// Goes on from a checkpoint of the same scene; `start` is the scene's start, from which the scales come.
     ///
     /// # Errors
@@ -140,17 +129,17 @@ impl Simulation {
         let unfit =
             || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
-        let meetings = Meetings::of(model);
+        let neighbours = Neighbours::of(model);
         let members: Vec<Vec<usize>> = memories.iter().map(|memory| memory.members.clone()).collect();
-        if !meetings.may_be(model, &members) {
+        if !neighbours.may_be(model, &members) {
             return Err(unfit());
         }
-        let mut this = Self::of_islands(model, start, plan, members, meetings)?;
+        let mut this = Self::of_islands(model, start, plan, members, neighbours)?;
         let is_before = |memory: &IslandMemory| memory.stepper.time() <= state.time;
         if !(state.time <= plan.end && memories.iter().all(is_before)) {
             return Err(unfit());
         }
-        for (island, memory) in this.islands.iter_mut().zip(&memories) {
+        for (island, memory) in this.partition.islands.iter_mut().zip(&memories) {
             island.resume(memory, &plan, state.time)?;
         }
         this.state = state;
@@ -181,23 +170,23 @@ impl Simulation {
     /// The counters of all islands so far.
     pub fn statistics(&self) -> Statistics {
         let settled = self.state.settled.statistics;
-        self.islands.iter().fold(settled, |sum, island| sum.and(island.integrator.statistics()))
+        self.partition.islands.iter().fold(settled, |sum, island| sum.and(island.integrator.statistics()))
     }
 
     /// The energy in play at the ends of all steps [J].
     pub fn energy_in_play(&self) -> f64 {
-        let viscous = self.islands.iter().map(|island| island.system.viscous_energy()).sum();
-        InPlay::of_all(self.islands.iter().map(|island| island.state.in_play)).max(viscous)
+        let viscous = self.partition.islands.iter().map(|island| island.system.viscous_energy()).sum();
+        InPlay::of_all(self.partition.islands.iter().map(|island| island.state.in_play)).max(viscous)
     }
 
     /// Largest correction by projection after a step.
     pub(crate) fn largest_projection(&self) -> f64 {
-        self.islands.iter().map(|island| island.state.largest_projection).fold(0.0, f64::max)
+        self.partition.islands.iter().map(|island| island.state.largest_projection).fold(0.0, f64::max)
     }
 
     /// Largest increment over a step of an island of each work that only takes [J]; −∞ before the first.
     pub(crate) fn largest_gains(&self) -> [f64; 2] {
-        let gains = self.islands.iter().map(|island| island.state.largest_gains);
+        let gains = self.partition.islands.iter().map(|island| island.state.largest_gains);
         gains.fold([f64::NEG_INFINITY; 2], |most, gains| [most[0].max(gains[0]), most[1].max(gains[1])])
     }
 
@@ -214,19 +203,19 @@ impl Simulation {
         }
         let mut assembled = self.assembled.clone();
         assembled.begin(self.state.time, &self.state.settled);
-        self.islands.iter().for_each(|island| assembled.add(island, &island.state_at(self.state.time)));
+        self.partition.islands.iter().for_each(|island| assembled.add(island, &island.state_at(self.state.time)));
         assembled.end();
         assembled.state
     }
 
     /// Whether there are islands at different times that have no common one.
     fn is_scattered(&self) -> bool {
-        self.is_broken && self.islands.len() > 1
+        self.is_broken && self.partition.islands.len() > 1
     }
 
     /// A checkpoint at [`Simulation::time`].
     pub fn checkpoint(&self) -> Vec<u8> {
-        self.state.checkpoint(self.islands.iter().map(Island::memory))
+        self.state.checkpoint(self.partition.islands.iter().map(Island::memory))
     }
 
     /// Records the row t = 0.
@@ -239,8 +228,8 @@ impl Simulation {
             return Err(RunError::at_start(stop));
         }
         self.state.next_sample = 1;
-        self.shared.with_scratch(self.islands.iter_mut(), |island| island.begin(&self.plan));
-        match self.islands.iter_mut().any(|island| island.system.may_be_given_up()) {
+        self.shared.with_scratch(self.partition.islands.iter_mut(), |island| island.begin(&self.plan));
+        match self.partition.islands.iter_mut().any(|island| island.system.may_be_given_up()) {
             true => Err(RunError::at_start(Stop::by_interruption(self.state.time))),
             false => Ok(()),
         }
@@ -298,7 +287,7 @@ impl Simulation {
     /// When all bodies will have been slow for long enough [s], as far as is known; none while one of them is not slow.
     fn rest(&self) -> Option<f64> {
         let hold = self.plan.stop_at_rest?.hold;
-        let since = self.islands.iter().map(|island| island.state.slow_since);
+        let since = self.partition.islands.iter().map(|island| island.state.slow_since);
         // A maximum that is not a number where one of them is none.
         let all = since.reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })?;
         all.is_finite().then_some(all + hold)

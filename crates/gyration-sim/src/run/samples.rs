@@ -26,7 +26,8 @@ impl Simulation {
         let rows = (MOST_LOOKS / looks.max(1) as u64).max(1);
         let end = self.sample_time(self.state.next_sample + rows);
         self.portion = end;
-        if let ([only], true) = (&mut self.islands[..], self.meetings.is_empty()) {
+        let is_fixed = self.partition.is_fixed();
+        if let ([only], true) = (&mut self.partition.islands[..], is_fixed) {
             let size = only.integrator.next_size();
             let is_long = size == 0.0 || only.time() + LONGER * size > end;
             only.anchored(only.time() > self.state.time || is_long);
@@ -62,9 +63,9 @@ impl Simulation {
 
     /// Samples all bodies at a time within the last steps.
     pub(super) fn sample(&mut self, time: f64) {
-        let Self { islands, assembled, state, .. } = self;
+        let Self { partition, assembled, state, .. } = self;
         assembled.begin(time, &state.settled);
-        for island in islands {
+        for island in &mut partition.islands {
             island.sample(time);
             assembled.add(island, &island.sampled);
         }

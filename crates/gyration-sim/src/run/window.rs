@@ -1,7 +1,8 @@
 //! A window: every island comes to one time or beyond, and what is known of all is handed on.
 
+use super::partition::Changing;
 use super::{Simulation, is_asked};
-use crate::island::Island;
+use crate::island::{Island, Setting};
 use crate::outcome::{Reason, Stop};
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use gyration::Quantity;
@@ -53,7 +54,7 @@ impl Simulation {
     /// Tells the monitor how far the run is, and which island holds it up: the one whose last step was the shortest.
     pub(crate) fn ask(&self, monitor: &mut dyn Monitor) -> Option<Reason> {
         let length = |island: &&Island| island.report.as_ref().map_or(f64::INFINITY, |step| step.end - step.start);
-        let slowest = self.islands.iter().min_by(|a, b| length(a).total_cmp(&length(b)))?;
+        let slowest = self.partition.islands.iter().min_by(|a, b| length(a).total_cmp(&length(b)))?;
         let step = slowest.report.as_ref()?;
         let statistics = &self.statistics();
         let model = slowest.model();
@@ -72,7 +73,7 @@ impl Simulation {
         let (mut stop, mut rounds) = (None, 0);
         loop {
             self.reach(until, MOST_STEPS);
-            if self.islands.iter().any(|island| island.system.was_interrupted()) {
+            if self.partition.islands.iter().any(|island| island.system.was_interrupted()) {
                 self.is_broken = true;
                 return Ok(Err(Stop::by_interruption(before)));
             }
@@ -113,7 +114,8 @@ impl Simulation {
         if stop.is_some() || reached < until {
             self.go_back(reached);
         }
-        self.commit(self.window_reached(until));
+        let reached = self.window_reached(until);
+        self.commit(reached);
         self.width.last = self.state.time - before;
         self.hand_on_events(before, sink)?;
         Ok(stop.map_or(Ok(()), Err))
@@ -124,10 +126,10 @@ impl Simulation {
     /// there: then only the islands that are behind all others make a step.
     fn window_end(&mut self, at_events: bool) -> f64 {
         let time = self.state.time;
-        if self.islands.len() == 1 || at_events {
+        if self.partition.islands.len() == 1 || at_events {
             return time.next_up();
         }
-        let steps = self.islands.iter_mut().map(|island| std::mem::take(&mut island.window_steps));
+        let steps = self.partition.islands.iter_mut().map(|island| std::mem::take(&mut island.window_steps));
         let width = self.width.next(steps.sum());
         let mut until = (time + width).min(self.plan.end).min(self.sample_time(self.state.next_sample));
         if let Some(criterion) = self.plan.stop_at_rest {
@@ -139,13 +141,13 @@ impl Simulation {
     /// Lets all islands come to a time, or make so many steps towards it, all together.
     fn reach(&mut self, until: f64, most: u64) {
         let is_step = self.is_step(until);
-        if let [only] = &mut self.islands[..] {
+        if let [only] = &mut self.partition.islands[..] {
             return only.reach(until, most, &self.plan);
         }
         let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
-        let count = self.islands.iter().filter(|island| island.time() < until).count();
+        let count = self.partition.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
-        let behind = self.islands.iter_mut().filter(|island| island.time() < until);
+        let behind = self.partition.islands.iter_mut().filter(|island| island.time() < until);
         if threads.get() == 1 || count == 1 || is_step {
             return shared.with_scratch(behind, |island| island.reach(until, most, plan));
         }
@@ -158,12 +160,34 @@ impl Simulation {
         });
     }
 
+    /// Carries out the earliest change of the islands, if it comes before a time; whether there was one.
+    ///
+    /// # Errors
+    /// [`Stop`] where the islands cannot go on as they are to.
+    fn change_islands(&mut self, until: f64) -> Result<bool, Stop> {
+        let Self { model, start, speeds, plan, partition, state, .. } = self;
+        let setting = Setting { model, start, speeds, plan };
+        partition.change(until, Changing { setting, since: state.time, settled: &mut state.settled })
+    }
+
+    /// To where a window has come that went until a time [s]: where the island is that has come least far, but not
+    /// beyond what it was to see, since islands may change there, nor beyond its portion of rows.
+    fn window_reached(&mut self, until: f64) -> f64 {
+        let only_steps = matches!(&self.partition.islands[..], [only] if only.restart_point.is_none());
+        let least = self.least_time().min(if only_steps { f64::INFINITY } else { self.portion });
+        match (self.partition.is_fixed(), self.is_step(until)) {
+            (true, _) => least,
+            (false, true) => least.min(self.partition.change_time()),
+            (false, false) => least.min(until),
+        }
+    }
+
     /// The stop that comes first, if any; of several at one time that of the first body. An interruption is where the
     /// island is that has come least far, unless that one cannot go on.
     fn first_stop(&mut self) -> Option<Stop> {
         let least = self.least_time();
         let (mut first, mut asked): (Option<Stop>, Option<Stop>) = (None, None);
-        for stop in self.islands.iter_mut().filter_map(|island| island.stop.take()) {
+        for stop in self.partition.islands.iter_mut().filter_map(|island| island.stop.take()) {
             if is_asked(&stop) {
                 asked = asked.or(Some(stop));
             } else if first.as_ref().is_none_or(|first| stop.time < first.time) {
@@ -179,12 +203,12 @@ impl Simulation {
 
     /// The time of the island that has come least far [s]; the end if nothing moves.
     pub(super) fn least_time(&self) -> f64 {
-        self.islands.iter().map(Island::time).reduce(f64::min).unwrap_or(self.plan.end)
+        self.partition.least_time().unwrap_or(self.plan.end)
     }
 
     /// Undoes what islands have done in this window beyond the step that reaches a time to which all have come.
     fn go_back(&mut self, time: f64) {
-        for island in self.islands.iter_mut().filter(|island| island.time() > time) {
+        for island in self.partition.islands.iter_mut().filter(|island| island.time() > time) {
             island.go_back(&self.plan, self.state.time);
         }
         // They have been there once.
@@ -199,7 +223,7 @@ impl Simulation {
     /// A time that all islands have come to is that of the run.
     pub(super) fn commit(&mut self, time: f64) {
         self.state.time = time;
-        for island in &mut self.islands {
+        for island in &mut self.partition.islands {
             island.commit(self.state.time);
         }
     }
@@ -209,7 +233,7 @@ impl Simulation {
         let mut found = std::mem::take(&mut self.found);
         found.clear();
         let time = self.state.time;
-        for island in &mut self.islands {
+        for island in &mut self.partition.islands {
             let known = island.events.partition_point(|event| event.time <= time);
             found.extend(island.events.drain(..known));
         }

@@ -158,11 +158,11 @@ impl Sensitivities {
         let mut sink = MemorySink::default();
         simulation.begin(&mut sink)?;
         loop {
-            let before = simulation.islands[0].integrator.time();
+            let before = simulation.partition.islands[0].integrator.time();
             let ended = simulation.advance(&mut sink, &mut Unwatched)?;
-            let after = simulation.islands[0].integrator.time();
+            let after = simulation.partition.islands[0].integrator.time();
             if after > before {
-                tangent.record(&simulation.islands[0].integrator);
+                tangent.record(&simulation.partition.islands[0].integrator);
             }
             for (time, row) in sink.rows.drain(..) {
                 let is_last = ended.is_some() || time >= plan.end;
@@ -171,11 +171,11 @@ impl Sensitivities {
                 }
                 tangent.reach(time);
                 this.note(time, quantities.of_row(&row));
-                this.differentiate(&mut tangent, &mut quantities, &simulation.islands[0].integrator);
+                this.differentiate(&mut tangent, &mut quantities, &simulation.partition.islands[0].integrator);
             }
             if after > before {
                 tangent.go_on();
-                tangent.cross(&simulation.islands[0].integrator, before);
+                tangent.cross(&simulation.partition.islands[0].integrator, before);
             }
             if let Some(outcome) = ended {
                 this.finish(outcome, &tangent, at);

@@ -1,0 +1,405 @@
+//! The partition of the bodies into islands, and how it changes: which islands become one, and which fall apart, in
+//! order of time.
+//!
+//! Islands go on as if there were no others; what they do is right up to the first time at which two of them may have
+//! met. The earliest change of all is carried out, the islands that it concerns begin anew there, and all is looked at
+//! again. A change that is carried out stands: a new island has no path before its time, and every other meeting that
+//! is known is later. Meetings wait in a queue of times; only the steps that an island has made since are looked at
+//! again.
+
+use crate::island::{Island, PathBound, Paths, Setting};
+use crate::outcome::Stop;
+use crate::run_state::Settled;
+use gyration::model::Model;
+use gyration_ode::{Components, Pattern};
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+/// The bodies of a run in islands.
+pub(crate) struct Partition {
+    /// In order of their first bodies.
+    pub islands: Vec<Island>,
+    /// The island of each body, and its place there.
+    island_of: Vec<(usize, usize)>,
+    neighbours: Neighbours,
+    /// Meetings of islands that may be, some of them of islands that are no more.
+    queue: BinaryHeap<Reverse<Meeting>>,
+    /// How many paths have been given a number.
+    revisions: u64,
+    /// The time of the last change [s].
+    changed: f64,
+}
+
+/// The bodies that act on a body within a cutoff distance, for each body.
+#[derive(Debug, Default)]
+pub(crate) struct Neighbours {
+    of: Vec<Vec<Neighbour>>,
+}
+
+/// A body that acts on another within a cutoff distance.
+#[derive(Debug, Clone, Copy)]
+struct Neighbour {
+    body: usize,
+    cutoff: f64,
+    /// The number of the pair.
+    pair: usize,
+}
+
+/// Two islands may meet within steps of which the later one begins at this time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Meeting {
+    time: f64,
+    /// The number of the pair of bodies.
+    pair: usize,
+    bodies: [usize; 2],
+    /// By which the paths of their islands were known.
+    revisions: [u64; 2],
+}
+
+impl Eq for Meeting {}
+
+impl PartialOrd for Meeting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Meeting {
+    /// By time, then by the number of the pair.
+    fn cmp(&self, other: &Self) -> Ordering {
+        let rest = |meeting: &Self| (meeting.pair, meeting.revisions);
+        self.time.total_cmp(&other.time).then(rest(self).cmp(&rest(other)))
+    }
+}
+
+/// A change of the partition.
+#[derive(Debug, Clone, PartialEq)]
+enum Change {
+    /// Two islands become one.
+    Merge([usize; 2]),
+    /// An island falls apart.
+    Split(usize),
+}
+
+/// What a change needs of the run beside the islands.
+pub(crate) struct Changing<'a> {
+    pub setting: Setting<'a>,
+    /// The time of the run [s].
+    pub since: f64,
+    /// What islands have done that are no more.
+    pub settled: &'a mut Settled,
+}
+
+impl Neighbours {
+    /// Those of a model.
+    pub fn of(model: &Model) -> Self {
+        let mut of = vec![Vec::new(); model.bodies.len()];
+        let within = model.cutoffs().filter_map(|(bodies, cutoff)| Some((bodies, cutoff?)));
+        let mut any = false;
+        for (pair, ([one, other], cutoff)) in within.enumerate() {
+            of[one].push(Neighbour { body: other, cutoff, pair });
+            of[other].push(Neighbour { body: one, cutoff, pair });
+            any = true;
+        }
+        if any { Self { of } } else { Self::default() }
+    }
+
+    /// Whether no body meets another.
+    pub fn is_empty(&self) -> bool {
+        self.of.is_empty()
+    }
+
+    /// Whether these could be the islands of a model: each body in one of them, with all to which it is coupled always.
+    pub fn may_be(&self, model: &Model, islands: &[Vec<usize>]) -> bool {
+        let always = always_coupled(model);
+        if self.is_empty() {
+            return islands == always;
+        }
+        let mut island_of = vec![None; model.bodies.len()];
+        for (island, members) in islands.iter().enumerate() {
+            for body in members {
+                match island_of.get_mut(*body) {
+                    Some(home @ None) => *home = Some(island),
+                    _ => return false,
+                }
+            }
+        }
+        let whole = |coupled: &Vec<usize>| {
+            coupled.iter().all(|body| island_of[*body].is_some() && island_of[*body] == island_of[coupled[0]])
+        };
+        islands.iter().all(|members| members.is_sorted()) && always.iter().all(whole)
+    }
+}
+
+/// The sets of bodies that act on one another however far they are.
+pub(super) fn always_coupled(model: &Model) -> Vec<Vec<usize>> {
+    let always = model.cutoffs().filter(|(_, cutoff)| cutoff.is_none());
+    let bodies = model.bodies.len();
+    let coupled = Components::of(&Pattern::new(bodies, always.map(|(bodies, _)| bodies.into())), bodies);
+    coupled.iter().map(<[usize]>::to_vec).collect()
+}
+
+impl Partition {
+    /// Of islands in order of their first bodies.
+    pub fn new(bodies: usize, islands: Vec<Island>, neighbours: Neighbours) -> Self {
+        let mut this = Self {
+            islands,
+            island_of: vec![(0, 0); bodies],
+            neighbours,
+            queue: BinaryHeap::new(),
+            revisions: 0,
+            changed: f64::NEG_INFINITY,
+        };
+        this.number();
+        this
+    }
+
+    /// The island of a body, and its place there.
+    pub fn island_of(&self, body: usize) -> (usize, usize) {
+        self.island_of[body]
+    }
+
+    /// Whether the islands stay what they are.
+    pub fn is_fixed(&self) -> bool {
+        self.neighbours.is_empty()
+    }
+
+    /// The time of the island that has come least far [s]; none if nothing moves.
+    pub fn least_time(&self) -> Option<f64> {
+        self.islands.iter().map(Island::time).reduce(f64::min)
+    }
+
+    /// Carries out the earliest change, if it comes before a time; whether there was one. One at that time is left to
+    /// the next window.
+    ///
+    /// # Errors
+    /// [`Stop`] where the islands cannot go on as they are to.
+    pub fn change(&mut self, until: f64, changing: Changing) -> Result<bool, Stop> {
+        let Some((time, change)) = self.first_change().filter(|(time, _)| *time < until) else { return Ok(false) };
+        debug_assert!(time >= self.changed, "changes come in order of time: {time} after {}", self.changed);
+        self.changed = time;
+        match change {
+            Change::Merge(islands) => self.merge(islands, time, changing)?,
+            Change::Split(island) => self.split(island, changing)?,
+        }
+        Ok(true)
+    }
+
+    /// The time of the first change [s]; infinite if none is known.
+    pub fn change_time(&mut self) -> f64 {
+        self.first_change().map_or(f64::INFINITY, |(time, _)| time)
+    }
+
+    /// The earliest change within what is known of all islands.
+    fn first_change(&mut self) -> Option<(f64, Change)> {
+        if self.is_fixed() {
+            return None;
+        }
+        let known = self.least_time()?;
+        self.look();
+        let first = match (self.first_merge(), self.first_split()) {
+            (Some(merge), Some(split)) if split.0 < merge.0 => Some(split),
+            (merge, split) => merge.or(split),
+        };
+        first.filter(|(time, _)| *time <= known)
+    }
+
+    /// Queues the meetings within steps that nobody has looked at.
+    fn look(&mut self) {
+        for index in 0..self.islands.len() {
+            let Some(paths) = &mut self.islands[index].paths else { continue };
+            let unseen = paths.unseen();
+            if unseen > 0 {
+                let number = self.revisions;
+                self.revisions += u64::from(paths.revision().is_none());
+                paths.saw(number);
+                self.look_at(index, unseen);
+            }
+        }
+    }
+
+    /// Queues the meetings within the last steps of an island, of which so many are new, with steps of other islands
+    /// that were looked at: those that were not look at these.
+    fn look_at(&mut self, index: usize, unseen: usize) {
+        let Self { islands, island_of, neighbours, queue, .. } = self;
+        let island = &islands[index];
+        let Some((own, revision)) = known(island) else { return };
+        for (place, body) in island.members().iter().enumerate() {
+            let steps = own.body(place);
+            let new = &steps[steps.len() - unseen..];
+            for neighbour in &neighbours.of[*body] {
+                let (home, there) = island_of[neighbour.body];
+                if home == index {
+                    continue;
+                }
+                let Some((other, beside)) = known(&islands[home]) else { continue };
+                let steps = other.body(there);
+                let seen = &steps[..steps.len() - other.unseen()];
+                // Later steps would meet later.
+                if let Some(time) = new.iter().find_map(|bound| first_meeting(bound, seen, neighbour.cutoff)) {
+                    let (pair, bodies) = (neighbour.pair, [*body, neighbour.body]);
+                    queue.push(Reverse(Meeting { time, pair, bodies, revisions: [revision, beside] }));
+                }
+            }
+        }
+    }
+
+    /// The first time from which on two islands may not be followed apart. Meetings of islands that are no more, or
+    /// have gone back, leave the queue.
+    fn first_merge(&mut self) -> Option<(f64, Change)> {
+        while let Some(Reverse(meeting)) = self.queue.peek() {
+            let islands = meeting.bodies.map(|body| self.island_of[body].0);
+            let revision = |island: usize| known(&self.islands[island]).map(|(_, revision)| revision);
+            if islands.map(revision) == meeting.revisions.map(Some) {
+                let [one, other] = islands;
+                return Some((meeting.time, Change::Merge([one.min(other), one.max(other)])));
+            }
+            self.queue.pop();
+        }
+        None
+    }
+
+    /// The first island that waits to fall apart.
+    fn first_split(&self) -> Option<(f64, Change)> {
+        let waiting = self.islands.iter().enumerate().filter(|(_, island)| island.state.is_parting);
+        let first = waiting.min_by(|(_, a), (_, b)| a.time().total_cmp(&b.time()));
+        first.map(|(index, island)| (island.time(), Change::Split(index)))
+    }
+
+    /// Makes one island of two at a time.
+    fn merge(&mut self, [one, other]: [usize; 2], time: f64, changing: Changing) -> Result<(), Stop> {
+        assert!(one < other, "islands ascend");
+        let Changing { setting, since, settled } = changing;
+        for island in [one, other] {
+            self.islands[island].come_to(time, setting.plan, since)?;
+        }
+        let second = self.islands.remove(other);
+        let first = self.islands.remove(one);
+        let mut members = [first.members(), second.members()].concat();
+        members.sort_unstable();
+        let works = [&first, &second].map(|island| island.integrator.quadratures());
+        let in_play = first.state.in_play.merged(works[0], second.state.in_play, works[1]);
+        let merged = Island::successor(setting, members, &[&first, &second], in_play);
+        match merged {
+            Ok(mut merged) => {
+                merged.take_events([&first, &second]);
+                settle_works(settled, setting.model, [&first, &second]);
+                self.put([merged]);
+            }
+            Err(stop) => {
+                self.put([first, second]);
+                return Err(stop);
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets an island fall apart where it stands.
+    fn split(&mut self, index: usize, changing: Changing) -> Result<(), Stop> {
+        let Changing { setting, settled, .. } = changing;
+        let island = &self.islands[index];
+        let whole = island.kinetic_energy(0..island.members().len());
+        let components = island.parts();
+        let count = components.iter().count() as f64;
+        let pieces = components.iter().map(|places| {
+            let members = places.iter().map(|place| island.members()[*place]).collect();
+            let kinetic = island.kinetic_energy(places.iter().copied());
+            let share = if whole > 0.0 { kinetic / whole } else { 1.0 / count };
+            let in_play = island.state.in_play.share(island.integrator.quadratures(), share);
+            Island::successor(setting, members, &[island], in_play)
+        });
+        let mut pieces = pieces.collect::<Result<Vec<Island>, Stop>>()?;
+        let island = self.islands.remove(index);
+        // Its events are handed on by any of the pieces.
+        pieces[0].take_events([&island]);
+        settle_works(settled, setting.model, [&island]);
+        self.put(pieces);
+        Ok(())
+    }
+
+    /// Puts islands to the others, all in order of their first bodies.
+    fn put(&mut self, islands: impl IntoIterator<Item = Island>) {
+        self.islands.extend(islands);
+        self.islands.sort_by_key(|island| island.members()[0]);
+        self.number();
+    }
+
+    /// Notes the island of each body.
+    fn number(&mut self) {
+        for (index, island) in self.islands.iter().enumerate() {
+            island.members().iter().enumerate().for_each(|(place, body)| self.island_of[*body] = (index, place));
+        }
+        debug_assert!(self.is_valid(), "islands ascend, and each body is in one of them");
+    }
+
+    /// Whether the islands ascend by their first bodies, and each body is where it is said to be.
+    fn is_valid(&self) -> bool {
+        let is_home = |(body, (island, place)): (usize, &(usize, usize))| {
+            self.islands.get(*island).and_then(|island| island.members().get(*place)) == Some(&body)
+        };
+        let count: usize = self.islands.iter().map(|island| island.members().len()).sum();
+        self.islands.is_sorted_by_key(|island| island.members()[0])
+            && count == self.island_of.len()
+            && self.island_of.iter().enumerate().all(is_home)
+    }
+}
+
+/// When a step of one body and the first of the steps of another begin within which they may be closer than a distance.
+fn first_meeting(bound: &PathBound, others: &[PathBound], cutoff: f64) -> Option<f64> {
+    let from = others.partition_point(|other| other.end <= bound.start);
+    let beside = others[from..].iter().take_while(|other| other.start < bound.end);
+    let mut near = beside.filter(|other| bound.may_meet(other, cutoff));
+    near.next().map(|other| bound.start.max(other.start))
+}
+
+/// The paths of an island that somebody has looked at, and what they are known by.
+fn known(island: &Island) -> Option<(&Paths, u64)> {
+    let paths = island.paths.as_ref()?;
+    Some((paths, paths.revision()?))
+}
+
+/// Keeps what islands have done that end here.
+fn settle_works<'a>(settled: &mut Settled, model: &Model, ended: impl IntoIterator<Item = &'a Island>) {
+    for island in ended {
+        settled.take(model.works().len(), island.works(), &island.integrator);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration::load::{Bond, SpringLaw};
+    use gyration::tensor::Vec3;
+    use std::path::Path;
+
+    #[test]
+    fn islands_of_a_checkpoint_hold_each_body_once_with_all_to_which_it_is_joined() {
+        let body = |k: usize| {
+            format!(
+                "[[body]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\n\
+                 position = [{k}, 0, 0]\n"
+            )
+        };
+        let head = "time = { end = 1, sample = 1 }\n[[contact]]\nbetween = [\"b0\", \"b1\"]\nreach = 0.1\n\
+                    repulsion = { alpha = 1, nu = 6, d0 = 0.1 }\n";
+        let text: String = [head.to_owned()].into_iter().chain((0..4).map(body)).collect();
+        let scene = gyration_scene::Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+        let spring = SpringLaw { stiffness: 1.0, rest_length: 0.0, damping: 0.0 };
+        let bond = Bond { bodies: [3, 1], points: [Vec3::zeros(); 2], law: spring };
+        let model = scene.built().model.clone().bonded(vec![bond]);
+        let neighbours = Neighbours::of(&model);
+        let may_be =
+            |islands: &[&[usize]]| neighbours.may_be(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());
+        assert!(may_be(&[&[0], &[1, 3], &[2]]) && may_be(&[&[0, 1, 3], &[2]]) && may_be(&[&[0, 1, 2, 3]]));
+        // One parted, one missing, one twice, one too many, one that does not ascend.
+        for wrong in [
+            &[&[0][..], &[1], &[2], &[3]][..],
+            &[&[0], &[1, 3]],
+            &[&[0], &[1, 3], &[2], &[2]],
+            &[&[0], &[1, 3], &[2, 4]],
+            &[&[0], &[3, 1], &[2]],
+        ] {
+            assert!(!may_be(wrong), "{wrong:?}");
+        }
+    }
+}
