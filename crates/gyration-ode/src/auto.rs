@@ -7,8 +7,9 @@
 //! accuracy asked for; that is seen from the last two stages at no cost. An implicit one of high order reaches farther
 //! than an explicit one that is still well within: a quarter of the way is worth a trial of six steps. Back, the
 //! spectral radius ρ of the known Jacobian says how far the explicit method could step. A short, violent bounce is no
-//! stiff problem: its steps are short for accuracy, and h|λ| stays small. A change that is taken back soon was a mistake: each such doubles the
-//! number of explicit steps to be made before the next. Counts, not clocks, decide: a run repeats itself.
+//! stiff problem: its steps are short for accuracy, and h|λ| stays small. A change that is taken back soon was a
+//! mistake: each such doubles the number of explicit steps to be made before the next. Counts, not clocks, decide: a
+//! run repeats itself.
 
 use crate::report::{Statistics, Stepper};
 

@@ -46,6 +46,32 @@ pub(super) struct Placed {
     power: f64,
 }
 
+/// The switching function, four times differentiable: χ(U) = U (1 − U_c/U)₊⁵ in the place of U.
+///
+///   χ′ = (1 − x)⁴ (1 + 4x),   χ″ = 20 x² (1 − x)³/U,   x = U_c/U
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Switch {
+    /// χ/U.
+    pub value: f64,
+    /// χ′.
+    pub slope: f64,
+    /// δ log χ′ by δ log U.
+    pub bend: f64,
+}
+
+impl Switch {
+    /// At an energy, given that at which the pair begins [J].
+    pub fn at(threshold: f64, energy: f64) -> Self {
+        let part = (threshold / energy).min(1.0);
+        let left = 1.0 - part;
+        Self {
+            value: left.powi(5),
+            slope: left.powi(4) * (1.0 + 4.0 * part),
+            bend: if left > 0.0 { 20.0 * part * part / (left * (1.0 + 4.0 * part)) } else { 0.0 },
+        }
+    }
+}
+
 /// A squared Newton decrement that is rounding: the plane is known to fifteen digits of what its forces feel.
 const CONVERGED: f64 = 1e-29;
 
@@ -105,7 +131,11 @@ pub(super) fn place(
 }
 
 impl Placed {
-    fn at(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, PairFault> {
+    /// At a plane, of least potential or not.
+    ///
+    /// # Errors
+    /// [`PairFault`] if it does not separate the bodies, or a potential is no number.
+    pub fn at(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, PairFault> {
         let power = 0.5 / (laws.repulsion.exponent - 1.0);
         let tangents = tangents(&plane.normal);
         let [above, below] = halves;
@@ -146,16 +176,12 @@ impl Placed {
         })
     }
 
-    /// Lets the pair begin at an energy U_c [J], four times differentiable: χ(U) = U (1 − U_c/U)₊⁵ in the place of U.
-    ///
-    ///   χ′ = (1 − x)⁴ (1 + 4x),   χ″ = 20 x² (1 − x)³/U,   x = U_c/U
+    /// Lets the pair begin at an energy U_c [J].
     pub fn switch(&mut self, threshold: f64) {
-        let part = (threshold / self.energy).min(1.0);
-        let left = 1.0 - part;
-        self.energy *= left.powi(5);
-        let slope = left.powi(4) * (1.0 + 4.0 * part);
-        self.weights = self.weights.map(|weight| slope * weight);
-        self.switching = if left > 0.0 { 20.0 * part * part / (left * (1.0 + 4.0 * part)) } else { 0.0 };
+        let switch = Switch::at(threshold, self.energy);
+        self.energy *= switch.value;
+        self.weights = self.weights.map(|weight| switch.slope * weight);
+        self.switching = switch.bend;
     }
 
     /// Whether they do nothing to each other.

@@ -117,7 +117,7 @@ impl PairLaws {
     ///   U_m = φ(D) (w_A S_A^−p + w_B S_B^−p)^(−1/p),   φ(D) = α d₀ (D/d₀)^(1−ν)/(ν−1),   p = 1/(ν−1)
     ///
     /// Whatever their shapes, a plane across the shortest way between them has U_i ≤ φ(g_i) S_i with g_A + g_B = D, and
-    /// the best g_A : g_B is that of w_i S_i^−p. (`pairs.md` has the bound with D for each of the two gaps.)
+    /// the best g_A : g_B is that of w_i S_i^−p.
     pub(super) fn most(&self, distance: f64, areas: [f64; 2]) -> f64 {
         let Repulsion { alpha, exponent, reference_gap } = self.repulsion;
         let density = alpha * reference_gap * libm::pow(distance / reference_gap, 1.0 - exponent) / (exponent - 1.0);

@@ -74,6 +74,11 @@ impl PairLoads {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
+        if pair.laws.viscous.is_empty()
+            && let Some(balls) = pair.balls(sides)
+        {
+            return balls?.loads(sides, pair.threshold);
+        }
         let state = PairState::new(pair, sides, guess, scratch)?;
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = [0.0; LawKind::COUNT];

@@ -7,10 +7,10 @@
 //!   friction   Π = 1 − n⊗n,   b_k = t₁, t₂, n×x,          velocities and tractions at the plane
 //!   κ_i = β (d₀ μ_i)^ν′ d_i^−ν′/ŵ_i,   μ_i = λ_i^(1/ν),   ŵ_i = μ_i/(μ_A + μ_B)
 //!
-//! At ν′ = ν a translation w is resisted by (β/α) N w, whatever the shapes: `pairs.md` has ŵ_i in the place of μ_i too,
-//! which is the same where μ_A + μ_B = 1, as of balls and equal faces, and misses that else. On the numbers X̃ of a
-//! side b_k is a 3×4 matrix B_k, the motion V = (ṗ₀ | Ṗ), and M = ∫κ X̃⊗X̃ dA, of friction ∫κ X̃_Π⊗X̃_Π dA, X̃_Π = G X̃
-//! the material point that stands at the foot of X̃ on the plane. With ⟨A, B⟩ = tr(A M Bᵀ), summed over both sides,
+//! At ν′ = ν a translation w is resisted by (β/α) N w, whatever the shapes. ŵ_i in the place of μ_i too would be the
+//! same where μ_A + μ_B = 1, as of balls and equal faces, and would miss that else. On the numbers X̃ of a side b_k is
+//! a 3×4 matrix B_k, the motion V = (ṗ₀ | Ṗ), and M = ∫κ X̃⊗X̃ dA, of friction ∫κ X̃_Π⊗X̃_Π dA, X̃_Π = G X̃ the
+//! material point that stands at the foot of X̃ on the plane. With ⟨A, B⟩ = tr(A M Bᵀ), summed over both sides,
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 

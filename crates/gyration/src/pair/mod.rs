@@ -10,7 +10,7 @@
 //!
 //! Φ is concave, so that there is one such plane, if the convex hulls of the two can be separated, and it moves
 //! analytically with them. Having no mass it is in balance: what one body exerts on it, the other takes. Source:
-//! `pairs.md`.
+//! `docs/theory-meetings.md`.
 //!
 //! | file          | what                                                            |
 //! |---------------|-----------------------------------------------------------------|
@@ -21,12 +21,14 @@
 //! | `deepest`     | the shortest way apart of these                                 |
 //! | `gjk`         | a plane between them to begin with, guessed or found             |
 //! | `plane`       | a plane, and where it may be                                    |
+//! | `balls`       | the same of two balls, in closed form                            |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `loads`       | forces, moments, energy and powers                               |
 //! | `slopes`      | their derivatives by the coordinates and velocities of both      |
 
+mod balls;
 mod deepest;
 mod equilibrium;
 mod fault;
@@ -52,6 +54,7 @@ pub use state::{PairGap, PairScratch};
 use crate::load::Interaction;
 use crate::surface::Surface;
 use crate::tensor::{Mat3, Vec3};
+use balls::{Balls, PlacedBalls};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 use std::sync::Arc;
 
@@ -87,8 +90,8 @@ pub struct Pair {
     threshold: f64,
     /// The radius of each about its centre of mass, in the reference shape [m].
     radii: [f64; 2],
-    /// Whether both are balls about their centres of mass.
-    are_balls: bool,
+    /// What both are, if they are balls about their centres of mass.
+    balls: Option<Balls>,
 }
 
 impl Pair {
@@ -103,8 +106,11 @@ impl Pair {
         let threshold = reach.map_or(0.0, |reach| laws.most(reach, surfaces.map(Surface::area)));
         // |X| is the speed of X under the unit gradient rate.
         let radii = surfaces.map(|surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity()));
-        let are_balls = surfaces.iter().all(|surface| surface.ball().is_some());
-        Self { bodies, parts, laws, reach, threshold, radii, are_balls }
+        let balls = match surfaces.map(Surface::ball) {
+            [Some(one), Some(other)] => Some(Balls::new(&laws, [one, other])),
+            _ => None,
+        };
+        Self { bodies, parts, laws, reach, threshold, radii, balls }
     }
 
     /// Whether the energy at which it begins is a number; zero without a reach.
@@ -119,18 +125,23 @@ impl Pair {
         let normal = between / distance;
         let gap = distance - self.radii[0] - self.radii[1];
         let point = place + (self.radii[1] + 0.5 * gap) * normal;
-        self.are_balls.then(|| PairLoads { gap, normal, point, ..PairLoads::default() })
+        self.balls.is_some().then(|| PairLoads { gap, normal, point, ..PairLoads::default() })
     }
 
     /// How near the plane has come to one of two bodies [m], the smaller of which has this size, if that is so near
     /// that digits do not tell it from touch.
     pub fn touch(&self, slab: &PairGap, size: f64) -> Option<f64> {
         let part = slab.gap * slab.share.min(1.0 - slab.share);
-        let touches = match self.are_balls {
+        let touches = match self.balls.is_some() {
             true => slab.gap < LEAST_BALLS * size,
             false => slab.gap < LEAST_SLAB * size || part < LEAST_PART * size,
         };
         touches.then_some(part)
+    }
+
+    /// The plane between two rigid balls; none of other bodies.
+    fn balls(&self, sides: [&Side; 2]) -> Option<Result<PlacedBalls<'_>, PairFault>> {
+        self.balls.as_ref()?.place(sides)
     }
 
     /// The distance of the centres at which two rigid bodies are as far apart as the half of their reach at least [m].

@@ -76,7 +76,10 @@ impl<'a> PairState<'a> {
         let laws = &pair.laws;
         let halves = halves(sides, laws.measure != AreaMeasure::ReferenceArea);
         let [room, _] = scratch.take(laws.placing.requests().len());
-        let mut placed = place(laws, halves.each_ref(), guess, room)?;
+        let mut placed = match pair.balls(sides) {
+            Some(balls) => Placed::at(laws, halves.each_ref(), balls?.plane(), room)?,
+            None => place(laws, halves.each_ref(), guess, room)?,
+        };
         placed.switch(pair.threshold);
         let first = &placed.potentials[0].first;
         let center = halves[0].columns * first / first[0];
@@ -163,6 +166,9 @@ impl Pair {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<PairGap, PairFault> {
+        if let Some(balls) = self.balls(sides) {
+            return balls.map(|balls| balls.gap(sides));
+        }
         let state = PairState::new(self, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let rates = halves.map(Half::rates);
