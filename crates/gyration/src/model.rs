@@ -263,7 +263,16 @@ impl Model {
         let mut loads: Vec<Load> = Vec::new();
         for index in 0..self.bodies.len() {
             let listed = self.try_each_load(index, |load| {
-                loads.push(load);
+                // Pairs of the same laws bring the same entries.
+                let is_known = match (&load, loads.last()) {
+                    (Load::Pair(own), Some(Load::Pair(last))) => {
+                        Arc::ptr_eq(&own.interaction.laws, &last.interaction.laws)
+                    }
+                    _ => false,
+                };
+                if !is_known {
+                    loads.push(load);
+                }
                 Ok::<(), Infallible>(())
             });
             let Ok(()) = listed;

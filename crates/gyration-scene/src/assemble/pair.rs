@@ -6,6 +6,7 @@ use super::start::placement;
 use crate::check::Reporter;
 use crate::key::Key;
 use gyration::contact::{AreaMeasure, ContactLaw};
+use gyration::kinematics::Placement;
 use gyration::pair::{Overlap, Pair, PairLaws, PairLawsError};
 use std::sync::Arc;
 
@@ -63,10 +64,13 @@ pub(super) fn meet<'a>(
         }
         let counts = [one, other].map(|assembled| assembled.body.solid.count_parts());
         for parts in (0..counts[0]).flat_map(|first| (0..counts[1]).map(move |second| [first, second])) {
-            let surfaces = [one.body.solid.part(parts[0]), other.body.solid.part(parts[1])];
-            let pair = Pair::new(indices, parts, Arc::clone(laws), reach, surfaces);
+            let solids = [&one.body.solid, &other.body.solid];
+            let surfaces = [0, 1].map(|i| solids[i].part(parts[i]));
+            let radii = [0, 1].map(|i| solids[i].part_radius(parts[i]));
+            let pair = Pair::of_radii(indices, parts, Arc::clone(laws), reach, surfaces, radii);
             let placements = [one, other].map(|assembled| placement(&assembled.start));
-            if let Err(overlap) = Overlap::check(surfaces, placements.each_ref()) {
+            let apart = are_far(&placements, radii);
+            if !apart && let Err(overlap) = Overlap::check(surfaces, placements.each_ref()) {
                 overlapping([one, other], &overlap, &between, reporter);
                 break;
             }
@@ -84,6 +88,20 @@ pub(super) fn meet<'a>(
         }
     }
 }
+
+/// Whether two bodies are farther apart than balls about them that hold them reach: |P X| ≤ √‖PᵀP‖_∞ |X|.
+fn are_far(placements: &[Placement; 2], radii: [f64; 2]) -> bool {
+    let reach = |i: usize| {
+        let square = placements[i].gradient.tr_mul(&placements[i].gradient);
+        let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
+        sums.fold(0.0, f64::max).sqrt() * radii[i]
+    };
+    let apart = placements[0].position - placements[1].position;
+    apart.norm() > FARTHER * (reach(0) + reach(1))
+}
+
+/// What rounding leaves of a comparison of distances.
+const FARTHER: f64 = 1.0 + 1e-12;
 
 /// Whether a body can meet others; notes why not.
 pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) -> bool {

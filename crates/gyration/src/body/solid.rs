@@ -15,6 +15,8 @@ pub struct Solid {
     pub surface: Option<Surface>,
     /// The surfaces of the parts of a union, likewise.
     parts: Vec<Surface>,
+    /// The radius of each part that meets other bodies about the centre of mass [m].
+    radii: Vec<f64>,
 }
 
 impl Solid {
@@ -22,17 +24,31 @@ impl Solid {
     pub fn new(shape: Shape, mass: MassProperties) -> Self {
         let surface = shape.surface().map(|surface| surface.translated(&-mass.center));
         let parts = shape.part_surfaces().iter().map(|part| part.translated(&-mass.center)).collect();
-        Self { shape, mass, surface, parts }
+        Self::of(shape, mass, surface, parts)
     }
 
     /// A shape whose surface is another than its own, in one piece and relative to the centre of mass.
     pub fn with_surface(shape: Shape, mass: MassProperties, surface: Surface) -> Self {
-        Self { shape, mass, surface: Some(surface), parts: Vec::new() }
+        Self::of(shape, mass, Some(surface), Vec::new())
+    }
+
+    fn of(shape: Shape, mass: MassProperties, surface: Option<Surface>, parts: Vec<Surface>) -> Self {
+        let mut this = Self { shape, mass, surface, parts, radii: Vec::new() };
+        this.radii = (0..this.count_parts()).map(|part| this.part(part).radius()).collect();
+        this
     }
 
     /// How many parts meet other bodies.
     pub fn count_parts(&self) -> usize {
         if self.surface.is_some() { self.parts.len().max(1) } else { 0 }
+    }
+
+    /// The radius of a part about the centre of mass [m].
+    ///
+    /// # Panics
+    /// If there is no such part.
+    pub fn part_radius(&self, index: usize) -> f64 {
+        self.radii[index]
     }
 
     /// The surface of a part.

@@ -50,7 +50,7 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
                 }
             }
             Load::Pair(end) => {
-                let pair = &scratch.pairs.loads[end.number];
+                let pair = scratch.pairs.loads(end.number);
                 let force = pair.on[end.end].force;
                 // n points from the second body to the first.
                 parts.add(&force, &if end.end == 0 { pair.normal } else { -pair.normal });

@@ -89,7 +89,7 @@ pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
 /// The smallest gap of a body to anything that it has a contact with [m]: its distance to a support, the width of the
 /// slab to another body; infinite without contact or surface.
 pub fn gap_at(at: &BodyAt, scratch: &Scratch) -> f64 {
-    let pairs = at.model.pairs_of(at.index).map(|end| scratch.pairs.loads[end.number].gap);
+    let pairs = at.model.pairs_of(at.index).map(|end| scratch.pairs.gap(end.number));
     let supports = least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support));
     pairs.fold(supports, f64::min)
 }

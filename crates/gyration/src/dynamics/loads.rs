@@ -68,7 +68,7 @@ impl Acting {
                 self.total += loads.total();
             }
             Load::Pair(end) => {
-                let pair = &scratch.pairs.loads[end.number];
+                let pair = scratch.pairs.loads(end.number);
                 if end.counts() {
                     for law in LawKind::ALL {
                         self.powers.add(law, pair.powers[law as usize]);
@@ -169,7 +169,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 }
                 Load::Spring(_, spring) => spring.energy(&at.motion.placement),
                 Load::Bond(end) => end.energy(&at.motion.placement, &at.other(end.other()).placement),
-                Load::Pair(end) if end.counts() => scratch.pairs.loads[end.number].energy,
+                Load::Pair(end) if end.counts() => scratch.pairs.loads(end.number).energy,
                 Load::Pair(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
             };
         }

@@ -8,13 +8,19 @@ use crate::instant::{BodyAt, Instant, KindAt};
 use crate::model::{Model, PATIENCE};
 use crate::pair::{Guess, Pair, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::tensor::Vec3;
+use std::num::NonZeroU32;
 
 /// What all pairs of a model do at an instant.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PairStates {
-    /// By the number of the pair.
-    pub loads: Vec<PairLoads>,
-    /// The same, where derivatives are wanted; none out of reach.
+    /// What those do that act, and those of which more than the gap is known.
+    acting: Vec<PairLoads>,
+    /// By the number of the pair: its place among these, or none, and its gap [m], infinite where that is not known.
+    places: Vec<Option<NonZeroU32>>,
+    gaps: Vec<f64>,
+    /// What a pair does that does nothing.
+    nothing: PairLoads,
+    /// By the number of the pair, where derivatives are wanted; none out of reach.
     pub slopes: Vec<Option<PairSlopes>>,
     /// Where the planes were at a time, from which they are looked for; empty if that is not remembered.
     remembered: (f64, Vec<PairGap>),
@@ -22,6 +28,36 @@ pub(crate) struct PairStates {
 }
 
 impl PairStates {
+    /// What a pair does.
+    pub fn loads(&self, number: usize) -> &PairLoads {
+        match self.places[number] {
+            Some(place) => &self.acting[place.get() as usize - 1],
+            None => &self.nothing,
+        }
+    }
+
+    /// The gap of a pair [m]; infinite where it is out of reach, unless gaps were asked for.
+    pub fn gap(&self, number: usize) -> f64 {
+        self.gaps[number]
+    }
+
+    fn clear_loads(&mut self) {
+        self.nothing.gap = f64::INFINITY;
+        self.acting.clear();
+        self.places.clear();
+        self.gaps.clear();
+    }
+
+    /// Notes what the next pair does; of one that does nothing the gap.
+    fn push(&mut self, loads: PairLoads, acts: bool) {
+        self.gaps.push(loads.gap);
+        if acts {
+            self.acting.push(loads);
+        }
+        let place = u32::try_from(self.acting.len()).ok().filter(|_| acts);
+        self.places.push(place.and_then(NonZeroU32::new));
+    }
+
     /// Where a plane is looked for first at a time.
     fn guess(&self, number: usize, time: f64) -> Option<Guess> {
         let (since, slabs) = &self.remembered;
@@ -56,7 +92,7 @@ pub(super) fn find_planes(
     scratch: &mut Scratch,
     everywhere: bool,
 ) -> Result<(), Inadmissible> {
-    scratch.pairs.loads.clear();
+    scratch.pairs.clear_loads();
     for_each(model, instant, &mut scratch.pairs, |states, pair, bodies, guess| {
         let far = is_far(pair, bodies);
         let nothing = match far {
@@ -67,13 +103,14 @@ pub(super) fn find_planes(
             true => Some(PairLoads { gap: f64::INFINITY, ..PairLoads::default() }),
             false => None,
         };
-        states.loads.push(match nothing {
+        let loads = match nothing {
             Some(nothing) => nothing,
             None => with_sides(pair, bodies, |sides| {
                 let found = PairLoads::integrate(pair, sides, guess, &mut states.room);
                 found.or_else(|fault| if far { PairLoads::nothing(pair, sides) } else { Err(fault) })
             })?,
-        });
+        };
+        states.push(loads, !far);
         Ok(())
     })
 }

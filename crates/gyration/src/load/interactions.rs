@@ -1,5 +1,7 @@
 //! What acts between two bodies, found by body.
 
+use std::sync::Arc;
+
 /// Something between two bodies of a model.
 pub trait Interaction {
     /// The indices of the two bodies, which differ.
@@ -21,14 +23,14 @@ pub struct InteractionEnd<'a, J> {
     pub end: usize,
 }
 
-/// The interactions of a model.
+/// The interactions of a model, which copies of it share.
 #[derive(Debug, Clone)]
 pub struct Interactions<J> {
-    all: Vec<J>,
+    all: Arc<[J]>,
     /// Where the ends of each body begin, and where the last end; empty without interactions.
-    starts: Vec<usize>,
+    starts: Arc<[usize]>,
     /// The number of an interaction and which of its ends it is, body by body.
-    ends: Vec<(usize, usize)>,
+    ends: Arc<[(usize, usize)]>,
 }
 
 impl<J> Clone for InteractionEnd<'_, J> {
@@ -41,7 +43,7 @@ impl<J> Copy for InteractionEnd<'_, J> {}
 
 impl<J> Default for Interactions<J> {
     fn default() -> Self {
-        Self { all: Vec::new(), starts: Vec::new(), ends: Vec::new() }
+        Self { all: Arc::from([]), starts: Arc::from([]), ends: Arc::from([]) }
     }
 }
 
@@ -75,7 +77,7 @@ impl<J: Interaction> Interactions<J> {
         let body = |(number, end): &(usize, usize)| all[*number].bodies()[*end];
         ends.sort_by_key(body);
         let starts = (0..=bodies).map(|index| ends.partition_point(|end| body(end) < index)).collect();
-        Self { all, starts, ends }
+        Self { all: all.into(), starts, ends: ends.into() }
     }
 
     /// All of them.

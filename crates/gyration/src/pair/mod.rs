@@ -21,8 +21,8 @@
 //! | `deepest`     | the shortest way apart of these                                 |
 //! | `gjk`         | a plane between them to begin with, guessed or found             |
 //! | `plane`       | a plane, and where it may be                                    |
-//! | `balls`       | the same of two balls, in closed form                            |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
+//! | `balls`       | the plane of least potential and its loads of two balls          |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `loads`       | forces, moments, energy and powers                               |
@@ -53,7 +53,7 @@ pub use state::{PairGap, PairScratch};
 
 use crate::load::Interaction;
 use crate::surface::Surface;
-use crate::tensor::{Mat3, Vec3};
+use crate::tensor::Vec3;
 use balls::{Balls, PlacedBalls};
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 use std::sync::Arc;
@@ -103,9 +103,19 @@ impl Pair {
         reach: Option<f64>,
         surfaces: [&Surface; 2],
     ) -> Self {
+        Self::of_radii(bodies, parts, laws, reach, surfaces, surfaces.map(Surface::radius))
+    }
+
+    /// The same, given the radii of both about their centres of mass [m], which are those of their surfaces.
+    pub fn of_radii(
+        bodies: [usize; 2],
+        parts: [usize; 2],
+        laws: Arc<PairLaws>,
+        reach: Option<f64>,
+        surfaces: [&Surface; 2],
+        radii: [f64; 2],
+    ) -> Self {
         let threshold = reach.map_or(0.0, |reach| laws.most(reach, surfaces.map(Surface::area)));
-        // |X| is the speed of X under the unit gradient rate.
-        let radii = surfaces.map(|surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity()));
         let balls = match surfaces.map(Surface::ball) {
             [Some(one), Some(other)] => Some(Balls::new(&laws, [one, other])),
             _ => None,

@@ -108,6 +108,12 @@ impl Surface {
         }
     }
 
+    /// The distance of its farthest point from the origin of X [m].
+    pub fn radius(&self) -> f64 {
+        // |X| is the speed of X under the unit gradient rate.
+        self.fastest_point(&Vec3::zeros(), &Mat3::identity())
+    }
+
     /// Area [m²].
     pub fn area(&self) -> f64 {
         self.facets.area() + self.patches.iter().map(Patch::area).sum::<f64>()
