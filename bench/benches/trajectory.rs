@@ -12,7 +12,7 @@ use gyration::model::Model;
 use gyration::state::State;
 use gyration_bench::near_table;
 use gyration_bench::soft::{cube_over_table, material};
-use gyration_ode::{Integrator, Method, Options};
+use gyration_ode::{ImplicitOrder, Integrator, Method, Options};
 use gyration_sim::adapter::ModelSystem;
 use gyration_sim::rows::Extras;
 use gyration_sim::{RunPlan, Simulation, Sink, Tolerance, Unwatched};
@@ -34,7 +34,7 @@ fn tolerance(rtol: f64) -> Tolerance {
 /// By the steppers alone, works included.
 fn by_integrator(model: &Model, start: &State, method: Method, rtol: f64) -> Reached {
     let mut system = ModelSystem::new(model.clone(), start, tolerance(rtol)).expect("the start is admissible");
-    let options = Options { method, ..Options::default() };
+    let options = Options { method, order: ImplicitOrder::at_tolerance(rtol), ..Options::default() };
     let mut integrator = Integrator::new(0.0, &start.bodies, &start.works, options);
     while integrator.time() < END {
         integrator.step(&mut system, END).expect("the cube never touches");
@@ -49,7 +49,7 @@ impl Sink for Nowhere {}
 
 /// By a whole run: horizon, events, ledger, a row at the end.
 fn by_simulation(model: &Model, start: &State, method: Method, rtol: f64) -> Reached {
-    let options = Options { method, ..Options::default() };
+    let options = Options { method, order: ImplicitOrder::at_tolerance(rtol), ..Options::default() };
     let plan = RunPlan {
         end: END,
         sample: END,

@@ -1,14 +1,14 @@
 //! The next step size, from the errors and sizes of the last two steps.
 //!
 //!   explicit, predictive:              h' = h · 0.9 ‖e‖^−⅛ · (h/h_old) (‖e_old‖/‖e‖)^⅛
-//!   implicit, predictive (Gustafsson): h' = h · min( φ ‖e‖^−¼, φ (h/h_old) (‖e_old‖/‖e‖²)^¼ )
+//!   implicit, predictive (Gustafsson): h' = h · min( φ ‖e‖^−p, φ (h/h_old) (‖e_old‖/‖e‖²)^p )
 //!
-//! with φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations, and not beyond a size for which these have just
-//! failed. Both go on with the trend: towards a contact the steps that the error allows shrink by a nearly constant
-//! factor from one to the next, and a law that looks at the last error only would be rejected every other time. Both
-//! are bounded, and a step that follows a rejection does not grow. Leaving the domain says nothing on accuracy and
-//! leaves the memory of errors alone. Source: Gustafsson, *ACM Trans. Math. Softw.* 20 (1994) 496; Hairer, Wanner II,
-//! §IV.2, IV.8; code radau5.f.
+//! with p = 1/(s + 1) for s stages and φ = 0.9 (2m + 1)/(2m + n) for n of at most m Newton iterations, and not beyond a
+//! size for which these have just failed. Both go on with the trend: towards a contact the steps that the error allows
+//! shrink by a nearly constant factor from one to the next, and a law that looks at the last error only would be
+//! rejected every other time. Both are bounded, and a step that follows a rejection does not grow. Leaving the domain
+//! says nothing on accuracy and leaves the memory of errors alone. Source: Gustafsson, *ACM Trans. Math. Softw.* 20
+//! (1994) 496; Hairer, Wanner II, §IV.2, IV.8; code radau5.f.
 
 use crate::context::{Context, Point};
 use crate::extended::Extended;

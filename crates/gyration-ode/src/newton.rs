@@ -299,11 +299,12 @@ impl NewtonStages {
 
 /// How accurately to solve the stages, and the size of rounding noise, both relative to the error allowed.
 ///
-/// κ = 10 ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of the method is of order 6 where its estimate is of order 4, so that
-/// its solution is better than asked by about the root of the relative tolerance, and so must be that of its equations.
-/// Ten: the scales s are relative to gaps, which are a hundredth of what y measures. Never below ten roundings of the
-/// state, which rates may see, and never above a tenth of what is allowed, however small that is beside the state.
-/// Source: radau5.f, which knows the relative tolerance itself.
+/// κ = 10 ‖y/s‖^(−½) within 10⁻⁴…10⁻²: the error of a step is of order 2s where its estimate is of order s + 1, so that
+/// the solution is better than asked by the root of the relative tolerance or more, and so must be that of the
+/// equations. Other powers were tried for five and seven stages, without gain (`bench/2026-11-25-orders.md`). Ten: the
+/// scales s are relative to gaps, which are a hundredth of what y measures. Never below ten roundings of the state,
+/// which rates may see, and never above a tenth of what is allowed, however small that is beside the state. Source:
+/// radau5.f, which knows the relative tolerance itself.
 fn tolerance(layout: &SystemLayout, from: &Point) -> (f64, f64) {
     let size = block_norm(layout, &from.scale, 1, |_| &from.u);
     let wanted = (10.0 * libm::pow(size.max(1.0), -0.5)).clamp(1e-4, 1e-2);

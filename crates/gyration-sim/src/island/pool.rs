@@ -1,14 +1,14 @@
 //! Scratch that the islands of one body share: what a step needs and does not leave.
 //!
 //! The matrices of an implicit step and the workspace of the mechanics would be two thirds of the memory of a body. On
-//! each thread one island steps at a time, and what it is pooled leaves no trace in any number.
+//! each thread one island steps at a time, and what it is lent leaves no trace in any number.
 
 use crate::island::Island;
 use gyration::dynamics::Workspace;
 use gyration_ode::Scratch;
 use std::sync::{Mutex, PoisonError};
 
-/// What an island is pooled.
+/// Scratch of one thread.
 #[derive(Default)]
 struct Pooled {
     stepper: Scratch,

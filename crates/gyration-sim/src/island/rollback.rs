@@ -6,8 +6,8 @@ use crate::plan::RunPlan;
 
 impl Island {
     /// Keeps a restart point where it stands, or the one that it has; or none.
-    pub fn anchored(&mut self, is_anchored: bool) {
-        match (is_anchored, self.restart_point.is_some()) {
+    pub fn keep_restart_point(&mut self, keeps: bool) {
+        match (keeps, self.restart_point.is_some()) {
             (true, false) => self.restart_point = Some(RestartPoint::new(self.memory())),
             (false, true) => self.restart_point = None,
             (true, true) | (false, false) => {}

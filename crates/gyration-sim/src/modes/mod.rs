@@ -105,7 +105,7 @@ pub enum NoRest {
     WithoutInertia,
     /// Other bodies act on it.
     #[error("other bodies act on the body: the rest of several bodies together is not looked for")]
-    Assembled,
+    ActedOn,
     /// The search came to no end.
     #[error(
         "no rest state was found in {steps} steps from the start: accelerations of up to {acceleration:.2e} (m/s², 1/s²) are \
@@ -189,7 +189,7 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
         return Err(NoRest::WithoutInertia);
     }
     if model.is_joined(body) {
-        return Err(NoRest::Assembled);
+        return Err(NoRest::ActedOn);
     }
     let mut frozen = FrozenBody::new(model, start, body, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {

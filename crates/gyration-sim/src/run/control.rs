@@ -22,13 +22,12 @@ impl Simulation {
 
     /// Lets all islands that are beyond the time of the run end a step there.
     pub(crate) fn land(&mut self) {
-        if self.partition.islands.len() == 1 {
-            return;
-        }
         let time = self.state.time;
         self.plan.end = time;
-        for island in self.partition.islands.iter_mut().filter(|island| island.time() > time) {
-            island.go_back(&self.plan, time);
+        let beyond = |island: &&mut Island| island.time() > time && island.restart_point.is_some();
+        for island in self.partition.islands.iter_mut().filter(beyond) {
+            let landed = island.come_to(time, &self.plan, time);
+            debug_assert!(landed.is_ok(), "a step that was made can be cut");
         }
         self.commit(self.least_time());
     }

@@ -127,7 +127,8 @@ impl Neighbours {
         let whole = |coupled: &Vec<usize>| {
             coupled.iter().all(|body| island_of[*body].is_some() && island_of[*body] == island_of[coupled[0]])
         };
-        islands.iter().all(|members| members.is_sorted()) && always.iter().all(whole)
+        let ascend = islands.iter().all(|members| !members.is_empty() && members.is_sorted());
+        ascend && islands.is_sorted_by_key(|members| members[0]) && always.iter().all(whole)
     }
 }
 
@@ -391,13 +392,15 @@ mod tests {
         let may_be =
             |islands: &[&[usize]]| neighbours.may_be(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());
         assert!(may_be(&[&[0], &[1, 3], &[2]]) && may_be(&[&[0, 1, 3], &[2]]) && may_be(&[&[0, 1, 2, 3]]));
-        // One parted, one missing, one twice, one too many, one that does not ascend.
+        // One parted, one missing, one twice, one too many, one that does not ascend, two exchanged, an empty one.
         for wrong in [
             &[&[0][..], &[1], &[2], &[3]][..],
             &[&[0], &[1, 3]],
             &[&[0], &[1, 3], &[2], &[2]],
             &[&[0], &[1, 3], &[2, 4]],
             &[&[0], &[3, 1], &[2]],
+            &[&[1, 3], &[0], &[2]],
+            &[&[0], &[], &[1, 3], &[2]],
         ] {
             assert!(!may_be(wrong), "{wrong:?}");
         }

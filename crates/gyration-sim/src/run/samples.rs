@@ -30,7 +30,7 @@ impl Simulation {
         if let ([only], true) = (&mut self.partition.islands[..], is_fixed) {
             let size = only.integrator.next_size();
             let is_long = size == 0.0 || only.time() + LONGER * size > end;
-            only.anchored(only.time() > self.state.time || is_long);
+            only.keep_restart_point(only.time() > self.state.time || is_long);
         }
     }
 

@@ -46,7 +46,7 @@ struct Ball {
     radius: f64,
     gap: f64,
     /// t.
-    time: f64,
+    logarithm: f64,
     /// E_{ν−2} and E_{ν−1}.
     decays: [f64; 2],
 }
@@ -87,7 +87,7 @@ impl Balls {
         self.radii[0] == self.radii[1]
     }
 
-    /// The plane between both; none of bodies that deform, or are deformed.
+    /// The plane between both; none of bodies that deform, or of a placement that is no rotation.
     ///
     /// # Errors
     /// [`PairFault`] if they touch, or a number of theirs is none.
@@ -101,8 +101,9 @@ impl Balls {
         let apart = above.from_first - below.from_first;
         let distance = apart.norm();
         let gap = distance - self.radii[0] - self.radii[1];
-        if gap <= above.least_gap + below.least_gap {
-            return Err(PairFault::Overlap { gap });
+        let is_open = gap > above.least_gap + below.least_gap;
+        if !is_open {
+            return Err(PairFault::of_gap(gap));
         }
         let gaps = self.balance(gap)?;
         Ok(PlacedBalls { balls: self, normal: apart / distance, distance, gaps })
@@ -142,8 +143,9 @@ impl Balls {
     /// A ball at a gap from a plane.
     fn ball(&self, i: usize, gap: f64) -> Ball {
         let radius = self.radii[i];
-        let time = libm::log1p(2.0 * radius / gap);
-        Ball { radius, gap, time, decays: [2.0, 1.0].map(|less| decay(self.exponent - less, time)) }
+        let logarithm = libm::log1p(2.0 * radius / gap);
+        let decays = [2.0, 1.0].map(|less| decay(self.exponent - less, logarithm));
+        Ball { radius, gap, logarithm, decays }
     }
 
     /// v over (a/d₀)^(2−ν).
@@ -168,7 +170,7 @@ impl Balls {
 
     /// v″/v [1/m²].
     fn bend(&self, ball: &Ball) -> f64 {
-        let last = decay(self.exponent, ball.time);
+        let last = decay(self.exponent, ball.logarithm);
         self.exponent * (self.exponent - 1.0) * last / (ball.gap * ball.gap * ball.decays[0])
     }
 }
@@ -181,8 +183,8 @@ impl Ball {
 }
 
 /// E_m.
-fn decay(rate: f64, time: f64) -> f64 {
-    if rate == 0.0 { time } else { -libm::expm1(-rate * time) / rate }
+fn decay(m: f64, logarithm: f64) -> f64 {
+    if m == 0.0 { logarithm } else { -libm::expm1(-m * logarithm) / m }
 }
 
 impl PlacedBalls<'_> {
@@ -362,14 +364,27 @@ mod tests {
         }
     }
 
+    /// Derjaguin's limit: that of balls of one radius R_A R_B/(R_A + R_B) at the whole gap of one of them from a plane,
+    /// a sphere beside which is a half-space.
     #[test]
-    fn balls_of_very_different_size_have_a_plane() {
-        for radii in [[1.0, 1e-4], [1e-6, 1.0]] {
-            let [closed, _] = [Meeting::new(radii, 6.0, 1e-8, None), Meeting::new(radii, 6.0, 1e-8, None)].map(|it| {
-                let sides = it.sides();
-                PairLoads::integrate(&it.pairs[0], sides.each_ref(), None, &mut PairScratch::default()).unwrap()
-            });
-            assert!(closed.energy > 0.0 && closed.gap > 0.0);
+    fn a_ball_feels_one_that_is_a_million_times_larger_as_a_plane() {
+        for (radii, small) in [([1.0, 1e-6], 1), ([1e-6, 1.0], 0)] {
+            let gap = 1e-8;
+            let meeting = Meeting::new(radii, 6.0, gap, None);
+            // By hand: far smaller than the places are large, the gap has no digits in them.
+            let balls = meeting.pairs[0].balls.as_ref().unwrap();
+            let gaps = balls.balance(gap).unwrap();
+            let own = balls.ball(small, gap);
+            let plane = balls.scale * balls.value(&own);
+            let placed = super::PlacedBalls { balls, normal: Vec3::z(), distance: 1.0, gaps };
+            let energy = placed.loads(meeting.sides().each_ref(), 0.0).unwrap().energy;
+            let balance = |i: usize| {
+                let ball = balls.ball(i, gaps[i]);
+                balls.shares[i].sqrt() * libm::pow(balls.value(&ball), -0.1) * balls.fall(&ball)
+            };
+            println!("{radii:?}: energy over that at a plane {:.9}", energy / plane);
+            assert!((energy / plane - 1.0).abs() < 1e-5);
+            assert!((balance(0) / balance(1) - 1.0).abs() < 1e-12);
         }
     }
 

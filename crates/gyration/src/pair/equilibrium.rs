@@ -107,7 +107,7 @@ pub(super) fn place(
     let guessed = guess.and_then(|guess| Placed::at(laws, halves, guessed(halves, guess)?, room).ok());
     let mut placed = match guessed {
         Some(placed) => placed,
-        None => Placed::at(laws, halves, separate(halves).map_err(|gap| PairFault::Overlap { gap })?, room)?,
+        None => Placed::at(laws, halves, separate(halves).map_err(PairFault::of_gap)?, room)?,
     };
     let mut left = f64::INFINITY;
     for _ in 0..MOST_STEPS {

@@ -9,7 +9,7 @@ pub enum PairFault {
     /// None separates them: they touch or overlap.
     #[error("no plane separates the bodies: smallest gap {gap:e} m")]
     Overlap {
-        /// The smallest gap found [m], ≤ 0.
+        /// The smallest gap found [m], not above what digits tell.
         gap: f64,
     },
     /// That of least potential is beyond the digits of a number.
@@ -23,8 +23,15 @@ pub enum PairFault {
     Singular(LawKind),
 }
 
+impl PairFault {
+    /// Of a gap [m] that is not open, or no number.
+    pub(super) fn of_gap(gap: f64) -> Self {
+        if gap.is_nan() { Self::NotFound { decrement: f64::NAN } } else { Self::Overlap { gap } }
+    }
+}
+
 impl From<GapClosed> for PairFault {
     fn from(closed: GapClosed) -> Self {
-        if closed.gap.is_nan() { Self::NotFound { decrement: f64::NAN } } else { Self::Overlap { gap: closed.gap } }
+        Self::of_gap(closed.gap)
     }
 }

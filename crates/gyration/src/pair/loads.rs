@@ -58,7 +58,7 @@ impl PairLoads {
     /// [`PairFault`] if no plane separates them.
     pub fn nothing(pair: &Pair, sides: [&Side; 2]) -> Result<Self, PairFault> {
         let halves = halves(sides, pair.laws.measure != AreaMeasure::ReferenceArea);
-        let plane = separate(halves.each_ref()).map_err(|gap| PairFault::Overlap { gap })?;
+        let plane = separate(halves.each_ref()).map_err(PairFault::of_gap)?;
         let [above, below] = halves.each_ref().map(|half| half.smallest_gap(&plane).0);
         let point = sides[0].placement.position + plane.offset * plane.normal;
         Ok(Self { gap: above + below, normal: plane.normal, point, ..Self::default() })
