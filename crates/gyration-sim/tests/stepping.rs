@@ -3,7 +3,7 @@
 use gyration::load::Applied;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
-use gyration_sim::{MemorySink, Refusal, Simulation, SteppedRun, Unwatched};
+use gyration_sim::{MemorySink, Monitor, Progress, Reason, Refusal, Simulation, SteppedRun, Unwatched};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -224,6 +224,74 @@ const GAUSS: [(f64, f64); 4] = [
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
+/// Asks to stop after so many steps.
+struct StopAfter(u32);
+
+impl Monitor for StopAfter {
+    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
+        self.0 = self.0.saturating_sub(1);
+        (self.0 == 0).then_some(Reason::Interrupted)
+    }
+
+    fn counts_steps(&self) -> bool {
+        true
+    }
+}
+
+/// A box that spins high above a floor, whose horizon is shorter than its steps, and a ball with steps of its own; both
+/// within reach of each other at first, or never.
+#[test]
+fn whenever_a_run_by_hand_is_stopped_all_bodies_are_at_its_time() {
+    let bodies = |apart: f64| {
+        format!(
+            r#"
+            time = {{ end = 4, sample = 1 }}
+            [[support]]
+            name = "floor"
+            plane = {{}}
+            [[contact]]
+            support = "floor"
+            repulsion = {{ alpha = 1, nu = 6, d0 = 1e-3 }}
+            [[contact]]
+            between = ["box", "ball"]
+            repulsion = {{ alpha = 1e-3, nu = 6, d0 = 1e-4 }}
+            reach = 0.02
+            [[body]]
+            name = "box"
+            shape = {{ box = {{ size = [0.1, 0.2, 0.3] }} }}
+            mass = 2.0
+            position = [0, 0, 300]
+            angular_velocity = [0.5, 25, 1]
+            [[body]]
+            name = "ball"
+            shape = {{ sphere = {{ radius = 0.1 }} }}
+            mass = 1.0
+            position = [{apart}, 0, 300]
+            velocity = [0.5, 0, 1]
+            "#
+        )
+    };
+    let fallen = |place: Vec3, speed: Vec3, time: f64| place + time * speed - Vec3::z() * (0.5 * 9.81 * time * time);
+    for apart in [0.3, 5.0] {
+        for steps in 1..40 {
+            let mut run = stepper(&bodies(apart));
+            let stopped = run.advance(3.0, &mut StopAfter(steps));
+            let time = run.time();
+            let exact = [
+                fallen(Vec3::new(0.0, 0.0, 300.0), Vec3::zeros(), time),
+                fallen(Vec3::new(apart, 0.0, 300.0), Vec3::new(0.5, 0.0, 1.0), time),
+            ];
+            for (body, exact) in exact.iter().enumerate() {
+                let off = (run.motion(body).placement.position - exact).norm();
+                assert!(
+                    off < 1e-6,
+                    "{apart} m apart, stopped after {steps} steps at {time} s: body {body} is {off:e} m off"
+                );
+            }
+            assert!(stopped.is_err() || time == 3.0);
+        }
+    }
+}
 
 /// A block that drives itself, free in space; `kind` says what of its volume is given.
 fn contracting(kind: &str) -> String {

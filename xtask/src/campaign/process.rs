@@ -148,9 +148,7 @@ mod tests {
     #[test]
     fn a_program_beyond_its_limit_is_killed() {
         assert_eq!(place(30).run(&["-c", "sleep 60"], 1).unwrap(), Ending::Overran);
-        // What is left to a program that is asked to end; one that heeds it needs no part of it.
-        let stopped =
-            |stop, what| place(60_000).stop_after(Duration::from_millis(200), stop, &["-c", what], 1).unwrap();
+        let stopped = |stop, what| place(30).stop_after(Duration::from_millis(200), stop, &["-c", what], 1).unwrap();
         assert_eq!(stopped(Stop::Kill, "sleep 60"), Stopped::Killed);
         assert_eq!(stopped(Stop::Kill, "exit 3"), Stopped::TooLate);
         assert_eq!(
