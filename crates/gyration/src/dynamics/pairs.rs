@@ -48,14 +48,17 @@ impl PairStates {
         self.gaps.clear();
     }
 
-    /// Notes what the next pair does; of one that does nothing the gap.
-    fn push(&mut self, loads: PairLoads, acts: bool) {
+    /// Notes what the next pair does.
+    fn push(&mut self, loads: PairLoads) {
         self.gaps.push(loads.gap);
-        if acts {
-            self.acting.push(loads);
-        }
-        let place = u32::try_from(self.acting.len()).ok().filter(|_| acts);
-        self.places.push(place.and_then(NonZeroU32::new));
+        self.acting.push(loads);
+        self.places.push(u32::try_from(self.acting.len()).ok().and_then(NonZeroU32::new));
+    }
+
+    /// Notes that the next pair does nothing, at this gap [m].
+    fn push_nothing(&mut self, gap: f64) {
+        self.gaps.push(gap);
+        self.places.push(None);
     }
 
     /// Where a plane is looked for first at a time.
@@ -95,22 +98,25 @@ pub(super) fn find_planes(
     scratch.pairs.clear_loads();
     for_each(model, instant, &mut scratch.pairs, |states, pair, bodies, guess| {
         let far = is_far(pair, bodies);
-        let nothing = match far {
-            true if everywhere => {
-                let [one, other] = bodies;
-                pair.apart(&one.from(other), &other.motion.placement.position)
-            }
-            true => Some(PairLoads { gap: f64::INFINITY, ..PairLoads::default() }),
-            false => None,
-        };
-        let loads = match nothing {
-            Some(nothing) => nothing,
-            None => with_sides(pair, bodies, |sides| {
-                let found = PairLoads::integrate(pair, sides, guess, &mut states.room);
-                found.or_else(|fault| if far { PairLoads::nothing(pair, sides) } else { Err(fault) })
-            })?,
-        };
-        states.push(loads, !far);
+        if far && !everywhere {
+            states.push_nothing(f64::INFINITY);
+            return Ok(());
+        }
+        let [one, other] = bodies;
+        let balls = || pair.apart(&one.from(other), &other.motion.placement.position);
+        if let Some(apart) = far.then(balls).flatten() {
+            states.push_nothing(apart.gap);
+            return Ok(());
+        }
+        let loads = with_sides(pair, bodies, |sides| {
+            let found = PairLoads::integrate(pair, sides, guess, &mut states.room);
+            found.or_else(|fault| if far { PairLoads::nothing(pair, sides) } else { Err(fault) })
+        })?;
+        if far {
+            states.push_nothing(loads.gap);
+        } else {
+            states.push(loads);
+        }
         Ok(())
     })
 }
