@@ -4,7 +4,7 @@
 use divan::Bencher;
 use gyration::contact::{AreaMeasure, ContactLaw, Damping, Friction, Repulsion};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
-use gyration::pair::{Pair, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
+use gyration::pair::{PairForm, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3, cross_matrix};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ struct Meeting {
     surface: Surface,
     placements: [Placement; 2],
     velocities: [Velocity; 2],
-    pair: Pair,
+    pair: PairForm,
 }
 
 impl Meeting {
@@ -37,7 +37,7 @@ impl Meeting {
             laws.push(ContactLaw::Friction(Friction { beta: 100.0, exponent: 6.0, reference_gap: 0.01 }));
         }
         let laws = Arc::new(PairLaws::new(AreaMeasure::DeformedArea, laws).expect("the laws place a plane"));
-        let pair = Pair::new([0, 1], [0, 0], laws, None, [&surface, &surface]);
+        let pair = PairForm::new(laws, None, [&surface, &surface]);
         let spin = cross_matrix(&Vec3::new(1.0, -2.0, 0.5));
         let turned = |angle: f64| Quaternion::from_axis_angle(&Vec3::new(1.0, 2.0, 3.0), angle).rotation();
         let velocity = |speed: f64, rotation: Mat3| Velocity {

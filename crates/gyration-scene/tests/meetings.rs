@@ -35,7 +35,7 @@ fn groups_and_names_say_who_meets_whom() {
     let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
     assert_resolves_to_itself(&scene);
     let model = &scene.built().model;
-    let found: Vec<_> = model.pairs().iter().map(|pair| (pair.bodies, pair.reach)).collect();
+    let found: Vec<_> = model.pairs().map(|pair| (pair.bodies, pair.form.reach)).collect();
     let near = Some(0.05);
     let wanted = [([1, 2], None), ([1, 3], None), ([2, 3], None), ([0, 1], near), ([0, 2], near), ([0, 3], near)];
     assert_eq!(found, wanted);
@@ -54,7 +54,7 @@ fn parts_of_unions_meet_one_by_one() {
     );
     let text = [TIME, BALL, &dumbbell, &contact(&format!("between = [\"ball\", \"dumbbell\"]\n{REPULSION}"))].concat();
     let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
-    let parts: Vec<_> = scene.built().model.pairs().iter().map(|pair| pair.parts).collect();
+    let parts: Vec<_> = scene.built().model.pairs().map(|pair| pair.parts).collect();
     assert_eq!(parts, [[0, 0], [0, 1]]);
 }
 

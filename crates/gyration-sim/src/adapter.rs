@@ -10,10 +10,9 @@ use crate::resistance::check_resistances;
 use crate::scales::{energy_scale, speed_scales, spring_frequency};
 use gyration::balance::fastest_speed;
 use gyration::body::{Body, NEAR};
-use gyration::dynamics::{Blocks, Workspace, gap_to_supports, jacobian, rates};
+use gyration::dynamics::{Blocks, PairGaps, Workspace, gap_to_supports, jacobian, rates};
 use gyration::extended::Numbers;
 use gyration::model::Model;
-use gyration::pair::PairGap;
 use gyration::state::{BodyMotion, State};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
@@ -50,7 +49,7 @@ pub struct ModelSystem {
     energy: f64,
     radii: Vec<f64>,
     /// The gaps of the pairs of bodies when they were last looked at.
-    gaps: Vec<PairGap>,
+    gaps: PairGaps,
     /// What the fluid turns into heat while bodies without inertia move by their size [J].
     viscous: f64,
     /// The rates of the bodies at the start.
@@ -106,7 +105,7 @@ impl ModelSystem {
             frequencies,
             energy,
             radii,
-            gaps: Vec::new(),
+            gaps: PairGaps::default(),
             viscous,
             first_rates,
             interrupted: false,
@@ -249,8 +248,10 @@ impl System for ModelSystem {
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
-            let pairs = self.model.pairs_of(index).map(|end| if known { self.gaps[end.number].gap } else { 0.0 });
-            let apart = pairs.fold(f64::INFINITY, f64::min);
+            let apart = match known || !self.model.meets_bodies(index) {
+                true => self.gaps.of(index).map(|slab| slab.gap).fold(f64::INFINITY, f64::min),
+                false => 0.0,
+            };
             let gap = gap_to_supports(&self.model, t, index, &motion).min(apart).max(0.0);
             let speed = fastest_speed(body, &motion);
             energy += 0.5 * body.solid.mass.mass * speed * speed;
@@ -266,7 +267,8 @@ impl System for ModelSystem {
             // Springs make velocities of the rounding of places.
             let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];
             // So do pairs, whose forces are off by some ν ε size/gap: velocities by that part of themselves.
-            let exponents = self.model.pairs_of(index).map(|end| end.interaction.laws.repulsion.exponent);
+            let rules = self.model.rules();
+            let exponents = rules.of(index).iter().map(|rule| rules.all()[*rule].laws.repulsion.exponent);
             let lost = if apart > 0.0 { exponents.fold(0.0, f64::max) * body.size / apart } else { 0.0 };
             let shaken = shaken + 4.0 * f64::EPSILON * lost * speed.max(self.speeds[index]);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;

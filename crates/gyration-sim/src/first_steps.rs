@@ -12,7 +12,7 @@ use crate::run::Simulation;
 use gyration::Inadmissible;
 use gyration::acting::Load;
 use gyration::balance::{fastest_speed, observe};
-use gyration::dynamics::{Workspace, each_push};
+use gyration::dynamics::{PairGaps, Workspace, each_push};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
@@ -119,11 +119,11 @@ fn difference(
 /// The largest difference of a force at a state by the planes remembered from an earlier one and by those found from
 /// nothing, over the largest force.
 fn planes(model: &Model, before: &State, after: &State) -> Result<f64, Inadmissible> {
-    if model.pairs().is_empty() {
+    if model.rules().is_empty() {
         return Ok(0.0);
     }
     let mut remembering = Workspace::default();
-    remembering.remember_pairs(model, (before.time, before.numbers()), &mut Vec::new())?;
+    remembering.remember_pairs(model, (before.time, before.numbers()), &mut PairGaps::default())?;
     let found = [pushes(model, remembering, after)?, pushes(model, Workspace::default(), after)?];
     let off = found[0].iter().zip(&found[1]).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
     let largest = found[1].iter().copied().fold(0.0, f64::max);
@@ -177,7 +177,7 @@ impl Momenta {
 
 /// Whether nothing but other bodies acts on a body, and it is held nowhere.
 fn is_alone(model: &Model, index: usize) -> bool {
-    let between = |load: Load| if matches!(load, Load::Bond(_) | Load::Pair(_)) { Ok(()) } else { Err(()) };
+    let between = |load: Load| if matches!(load, Load::Bond(_)) { Ok(()) } else { Err(()) };
     let body = &model.bodies[index];
     body.pin.is_none() && body.has_inertia() && model.try_each_load(index, between).is_ok()
 }

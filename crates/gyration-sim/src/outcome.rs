@@ -191,24 +191,26 @@ impl Stop {
                  small for the digits of a number: raise an exponent, a coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
-            Quantity::PairPlane { pair } => {
-                let [one, other] = model.pairs()[pair].bodies.map(|body| &model.bodies[body].name);
+            Quantity::PairPlane { other, rule } => {
+                let bodies = [left.body, other];
+                let [one, other] = bodies.map(|body| &model.bodies[body].name);
                 (
                     Reason::GapClosed,
                     format!("the plane between bodies {one:?} and {other:?} cannot be found"),
-                    hardly_forbidden(model, pair).unwrap_or_else(|| {
+                    hardly_forbidden(model, bodies, rule).unwrap_or_else(|| {
                         "Their potential leaves the range of numbers, or the digits of their gap do not suffice: \
                          choose a d0 nearer to the gaps, a smaller exponent, or give the contact a `reach`."
                             .to_string()
                     }),
                 )
             }
-            Quantity::PairGap { pair } => {
-                let [one, other] = model.pairs()[pair].bodies.map(|body| &model.bodies[body].name);
+            Quantity::PairGap { other, rule } => {
+                let bodies = [left.body, other];
+                let [one, other] = bodies.map(|body| &model.bodies[body].name);
                 (
                     Reason::GapClosed,
                     format!("bodies {one:?} and {other:?} reach each other{}", in_brackets(left.value)),
-                    hardly_forbidden(model, pair).unwrap_or_else(|| {
+                    hardly_forbidden(model, bodies, rule).unwrap_or_else(|| {
                         "The gap is too small for the digits of a number: raise an exponent, a coefficient or d0, or \
                          reduce the speed."
                             .to_string()
@@ -287,10 +289,9 @@ impl Stop {
 }
 
 /// What to do about a pair whose repulsion does not forbid its sharper feature to touch, or only just does.
-fn hardly_forbidden(model: &Model, pair: usize) -> Option<String> {
-    let pair = &model.pairs()[pair];
-    let feature = pair.bodies.iter().filter_map(|body| model.bodies[*body].solid.shape.sharpest_feature()).max()?;
-    let (exponent, critical) = (pair.laws.repulsion.exponent, feature.critical_exponent());
+fn hardly_forbidden(model: &Model, bodies: [usize; 2], rule: usize) -> Option<String> {
+    let feature = bodies.iter().filter_map(|body| model.bodies[*body].solid.shape.sharpest_feature()).max()?;
+    let (exponent, critical) = (model.rules().all()[rule].laws.repulsion.exponent, feature.critical_exponent());
     let forbids = match exponent.partial_cmp(&critical)? {
         Ordering::Less => "does not forbid",
         Ordering::Equal => "only just forbids",

@@ -50,7 +50,7 @@ pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Resu
             *scale = pushed(&instant.at(model, index), slopes, scratch)?;
         }
     }
-    let joined = Pattern::new(bodies, model.cutoffs().map(|(bodies, _)| bodies.into()));
+    let joined = Pattern::new(bodies, model.chain().map(Into::into));
     for members in Components::of(&joined, bodies).iter().filter(|members| members.len() > 1) {
         let mass = |body: usize| model.bodies[body].solid.mass.mass;
         let moving = || members.iter().filter(|body| model.bodies[**body].has_inertia());

@@ -11,6 +11,7 @@ mod islands;
 mod joined;
 mod meetings;
 mod modes;
+mod neighbours;
 mod partings;
 mod pressed;
 mod random;

@@ -201,7 +201,7 @@ fn balls_that_pass_one_another_never_know_of_each_other() {
     let starts = [([-0.5, 0.0, 0.0], [1.0, 0.0, 0.0]), ([0.5, 0.21, 0.0], [-1.0, 0.0, 0.0])];
     let (model, start, plan) = balls(&starts, &["time.end=1"]);
     let found = run(&(model.clone(), start.clone(), plan));
-    let apart = model.paired(Vec::new());
+    let apart = model.meeting(Vec::new());
     let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
     assert_eq!(found.state.bodies, alone.state.bodies);
     assert_eq!(found.statistics, alone.statistics);
@@ -216,7 +216,7 @@ fn balls_that_stay_at_the_end_of_their_reach_do_not_meet_and_part_in_turns() {
     };
     let (model, start, plan) = balls(&row(REACH), &["time.end=2"]);
     let found = run(&(model.clone(), start.clone(), plan));
-    let apart = model.paired(Vec::new());
+    let apart = model.meeting(Vec::new());
     let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
     assert_eq!(found.state.bodies, alone.state.bodies);
     assert_eq!(found.statistics, alone.statistics);

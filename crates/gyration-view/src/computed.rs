@@ -78,7 +78,7 @@ fn has_parts(model: &Model) -> bool {
         let first = normals.next();
         normals.any(|normal| Some(normal) != first)
     };
-    !model.pairs().is_empty() || model.bodies.iter().any(|body| normals_differ(body))
+    !model.rules().is_empty() || model.bodies.iter().any(|body| normals_differ(body))
 }
 
 /// Arrays of a recording that are computed.

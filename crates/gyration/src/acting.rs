@@ -8,8 +8,12 @@ use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
 use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Spring};
-use crate::pair::Pair;
+use crate::neighbours::Pair;
+use crate::pair::PairLaws;
 use crate::support::{Support, SupportMotion};
+
+/// A pair as one of its bodies sees it.
+pub type PairEnd<'a> = InteractionEnd<'a, Pair>;
 
 /// A load on a body.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +25,7 @@ pub enum Load<'a> {
     /// A spring to another body.
     Bond(BondEnd<'a>),
     /// Another body that it meets.
-    Pair(InteractionEnd<'a, Pair>),
+    Pair(PairEnd<'a>),
     /// An affine moment.
     Couple(&'a Couple),
     /// What a controller applies.
@@ -37,7 +41,7 @@ impl<'a> Load<'a> {
     #[inline]
     pub fn try_each<E>(
         body: &'a Body,
-        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = InteractionEnd<'a, Pair>>),
+        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = PairEnd<'a>>),
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
@@ -92,7 +96,7 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
-            Self::Pair(end) => end.interaction.laws.laws().iter().map(|law| law.kind().work()).collect(),
+            Self::Pair(end) => pair_works(&end.interaction.form.laws).collect(),
             Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
@@ -109,12 +113,20 @@ impl<'a> Load<'a> {
                 let central = contact.law_set.laws().iter().any(|law| law.kind().is_central());
                 central.then_some(Energy::Contact)
             }
-            Self::Pair(_) => Some(Energy::Contact),
+            Self::Pair(_) => Some(PAIR_ENERGY),
             Self::Spring(..) | Self::Bond(_) => Some(Energy::Load),
             Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
         }
     }
 }
+
+/// The works that laws between two bodies may do.
+pub(crate) fn pair_works(laws: &PairLaws) -> impl Iterator<Item = Work> {
+    laws.laws().iter().map(|law| law.kind().work())
+}
+
+/// Where the energy of a pair is stored.
+pub(crate) const PAIR_ENERGY: Energy = Energy::Contact;
 
 impl LawKind {
     /// The work that a law of this kind does.

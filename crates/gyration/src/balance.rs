@@ -64,11 +64,14 @@ pub fn observe(
     let (instant, scratch) = workspace.read(model, state)?;
     let at = instant.at(model, index);
     let acting = acting(&at, scratch)?;
-    Ok(observe_at(&at, &acting, scratch))
+    observe_at(&at, &acting, scratch)
 }
 
 /// What is recorded of one body at an instant, given what acts on it.
-pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &Scratch) -> BodyObservation {
+///
+/// # Errors
+/// [`Inadmissible`] if no plane separates it from another body.
+pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result<BodyObservation, Inadmissible> {
     let (pressure, effort) = match at.kind() {
         KindAt::Rigid(..) => (None, None),
         KindAt::Affine(affine, gyration) => (affine_balance(at, affine, gyration, &acting.total).pressure, None),
@@ -87,9 +90,9 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &Scratch) -> BodyObserv
     let BodyMotion { placement, velocity } = motion;
     let affine_momentum = placement.gradient * body.solid.mass.euler_tensor * velocity.gradient_rate.transpose();
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
-    BodyObservation {
+    Ok(BodyObservation {
         motion: *motion,
-        gap: gap_at(at, scratch),
+        gap: gap_at(at, scratch)?,
         contact_force: acting.contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.
@@ -97,7 +100,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &Scratch) -> BodyObserv
         affine_momentum,
         pressure,
         effort,
-    }
+    })
 }
 
 /// The smallest gap of each body to anything that it has a contact with [m], in a state: see [`gap_at`].
@@ -106,7 +109,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &Scratch) -> BodyObserv
 /// [`Inadmissible`] where the state is outside the model.
 pub fn gaps(model: &Model, workspace: &mut Workspace, state: &State) -> Result<Vec<f64>, Inadmissible> {
     let (instant, scratch) = workspace.read(model, state)?;
-    Ok((0..model.bodies.len()).map(|index| gap_at(&instant.at(model, index), scratch)).collect())
+    (0..model.bodies.len()).map(|index| gap_at(&instant.at(model, index), scratch)).collect()
 }
 
 /// The speed of a body's fastest material point [m/s].

@@ -18,16 +18,20 @@ pub enum Quantity {
         /// Index of the bond in the model.
         bond: usize,
     },
-    /// The width of the slab between the bodies of the pair of this index, which must be > 0 [m].
+    /// The width of the slab between this body and another, which must be > 0 [m].
     PairGap {
-        /// Index of the pair in the model.
-        pair: usize,
+        /// Index of the other body.
+        other: usize,
+        /// Number of the rule by which they meet.
+        rule: usize,
     },
-    /// The squared Newton decrement with which the search for the plane of this pair ended, which must be rounding; NaN
-    /// where no plane has a potential, or a law no balance on it.
+    /// The squared Newton decrement with which the search for the plane between this body and another ended, which must
+    /// be rounding; NaN where no plane has a potential, or a law no balance on it.
     PairPlane {
-        /// Index of the pair in the model.
-        pair: usize,
+        /// Index of the other body.
+        other: usize,
+        /// Number of the rule by which they meet.
+        rule: usize,
     },
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,

@@ -5,7 +5,7 @@
 //! a rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time.
 //! A body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
 
-use crate::acting::Load;
+use crate::acting::{Load, PairEnd};
 use crate::affine::Gyration;
 use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
 use crate::contractile::Decomposition;
@@ -13,6 +13,7 @@ use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::model::Model;
+use crate::neighbours::NeighbourList;
 use crate::state::{BodyMotion, Turn, contraction_at};
 use crate::tensor::{Mat3, Vec3};
 
@@ -24,6 +25,9 @@ pub struct Instant {
     /// What the state lacks of twice its digits; empty where that is not known.
     low: Vec<f64>,
     bodies: Vec<BodyInstant>,
+    near: NeighbourList,
+    /// Whether the bodies of each listed pair are within reach of each other.
+    within: Vec<bool>,
 }
 
 /// The motion of one body.
@@ -133,7 +137,28 @@ impl Instant {
         for (index, (body, instant)) in model.bodies.iter().zip(&mut self.bodies).enumerate() {
             instant.read(body, index, model.slots(index), (time, state))?;
         }
+        let Self { bodies, near, .. } = self;
+        near.update(model.rules(), &model.bodies, |index| bodies[index].motion.placement.position);
+        self.find_reached(model);
         Ok(())
+    }
+
+    /// Finds which listed pairs are within reach: the others do nothing.
+    fn find_reached(&mut self, model: &Model) {
+        let mut within = std::mem::take(&mut self.within);
+        within.clear();
+        within.extend(self.near.pairs().all().iter().map(|pair| {
+            let [one, other] = pair.bodies.map(|body| self.at(model, body));
+            let is_rigid = |at: &BodyAt| matches!(at.attitude, Attitude::Rigid(_));
+            let cutoff = pair.form.cutoff().filter(|_| is_rigid(&one) && is_rigid(&other));
+            cutoff.is_none_or(|cutoff| one.from(&other).norm() < cutoff)
+        }));
+        self.within = within;
+    }
+
+    /// Whether the bodies of a listed pair are within reach of each other.
+    pub(crate) fn is_within_reach(&self, number: usize) -> bool {
+        self.within[number]
     }
 
     /// Reads one body again from numbers of its own.
@@ -153,6 +178,11 @@ impl Instant {
     /// The numbers that were read.
     pub(crate) fn state(&self) -> &[f64] {
         &self.state
+    }
+
+    /// The pairs of bodies that may act on one another.
+    pub(crate) fn near(&self) -> &NeighbourList {
+        &self.near
     }
 
     /// t [s].
@@ -203,13 +233,24 @@ impl<'a> BodyAt<'a> {
     /// Hands what acts on it to `each`.
     #[inline]
     pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
-        self.model.try_each_load(self.index, each)
+        let pairs = self.instant.near.pairs().of(self.index).filter(|end| self.is_within_reach(end));
+        self.model.try_each_load_with(self.index, pairs, each)
     }
 
     /// The motion of another body; of one without inertia the places alone are known.
     #[inline]
     pub(crate) fn other(&self, index: usize) -> &'a BodyMotion {
         &self.instant.bodies[index].motion
+    }
+
+    /// The pairs of bodies that may act on one another.
+    pub(crate) fn near(&self) -> &'a NeighbourList {
+        &self.instant.near
+    }
+
+    /// Whether the other body of a listed pair is within reach.
+    pub(crate) fn is_within_reach(&self, end: &PairEnd) -> bool {
+        self.instant.is_within_reach(end.number)
     }
 
     /// Another body at the same instant.

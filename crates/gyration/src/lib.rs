@@ -26,6 +26,7 @@ pub mod load;
 pub mod mass;
 pub mod material;
 pub mod model;
+pub mod neighbours;
 pub mod pair;
 pub mod shape;
 pub mod signal;

@@ -2,13 +2,14 @@
 //!
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
-use crate::acting::Load;
+use crate::acting::{Load, PAIR_ENERGY, PairEnd, pair_works};
 use crate::body::{Body, Slots};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, Interaction, InteractionEnd, Interactions};
-use crate::pair::Pair;
+use crate::load::{Applied, Bond, Interactions};
+use crate::neighbours::{BodyPair, Pair, PairRule, PairRules};
+use crate::pair::cutoff;
 use crate::support::Support;
 use crate::tensor::Vec3;
 use std::convert::Infallible;
@@ -27,7 +28,7 @@ pub struct Model {
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
     bonds: Interactions<Bond>,
-    pairs: Interactions<Pair>,
+    rules: PairRules,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -56,14 +57,14 @@ impl Model {
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
         let has_potential = has_potential(&bodies, &[]);
-        let (fluid, bonds, pairs) = (None, Interactions::default(), Interactions::default());
+        let (fluid, bonds, rules) = (None, Interactions::default(), PairRules::default());
         let model = Self {
             gravity,
             supports,
             bodies,
             fluid,
             bonds,
-            pairs,
+            rules,
             slots,
             blocks,
             works,
@@ -102,13 +103,13 @@ impl Model {
     /// To be called when all bodies are what they are to be.
     ///
     /// # Panics
-    /// If a pair is not of two bodies of the model, or of a body without inertia, whose velocity no other body feels.
+    /// If a rule is not of bodies of the model, or of one without inertia, whose velocity no other body feels.
     #[must_use]
-    pub fn paired(mut self, pairs: Vec<Pair>) -> Self {
-        let moves = |pair: &Pair| pair.bodies.iter().all(|body| self.bodies[*body].has_inertia());
-        assert!(pairs.iter().all(moves), "bodies that meet have inertia");
-        self.pairs = Interactions::new(self.bodies.len(), pairs);
-        self.has_potential = has_potential(&self.bodies, self.pairs.all());
+    pub fn meeting(mut self, rules: Vec<PairRule>) -> Self {
+        let mut bodies = rules.iter().flat_map(|rule| rule.bodies.iter().flat_map(|set| set.iter()));
+        assert!(bodies.all(|body| self.bodies[*body].has_inertia()), "bodies that meet have inertia");
+        self.rules = PairRules::new(self.bodies.len(), rules);
+        self.has_potential = has_potential(&self.bodies, self.rules.all());
         self.with_ledger()
     }
 
@@ -128,7 +129,7 @@ impl Model {
 
     /// Whether an evaluation would be given up now: of few pairs none is, since it ends soon.
     pub fn is_given_up(&self) -> bool {
-        self.pairs().len() >= PATIENCE && self.given_up.is_some_and(|given_up| given_up())
+        self.count_pairs() >= PATIENCE && self.given_up.is_some_and(|given_up| given_up())
     }
 
     /// The model of some of its bodies, whose indices ascend: as if there were no others, but with the ledger of all,
@@ -144,8 +145,8 @@ impl Model {
             slots,
             bodies,
             fluid: self.fluid.clone(),
-            bonds: self.bonds.among(members),
-            pairs: self.pairs.among(members),
+            bonds: self.bonds.among(members, |bond, bodies| Bond { bodies, ..*bond }),
+            rules: self.rules.among(members),
             works: Vec::new(),
             energies: Vec::new(),
             has_potential: self.has_potential,
@@ -161,48 +162,113 @@ impl Model {
         self.bonds.all()
     }
 
-    /// Its bodies that meet.
-    pub fn pairs(&self) -> &[Pair] {
-        self.pairs.all()
+    /// Who of its bodies meets whom.
+    pub fn rules(&self) -> &PairRules {
+        &self.rules
     }
 
-    /// The pairs of a body, as it sees them.
-    pub fn pairs_of(&self, body: usize) -> impl Iterator<Item = InteractionEnd<'_, Pair>> {
-        self.pairs.of(body)
+    /// All pairs that there are, in order: of N bodies some N².
+    pub fn pairs(&self) -> impl Iterator<Item = Pair> {
+        let rules = self.rules.all().iter().enumerate();
+        rules.flat_map(move |(number, rule)| rule.pairs().flat_map(move |bodies| self.pairs_between(number, bodies)))
     }
 
-    /// The pairs (i, j) of bodies of which j acts on i, in order of i; some may come twice.
+    /// The pairs of the parts of two bodies that a rule joins, as it orders them.
+    pub fn pairs_between(&self, rule: usize, bodies: [usize; 2]) -> impl Iterator<Item = Pair> {
+        Pair::all_of(&self.rules, rule, bodies, bodies.map(|body| &self.bodies[body].solid))
+    }
+
+    /// How many pairs of bodies meet.
+    pub fn count_pairs(&self) -> usize {
+        self.rules.all().iter().map(PairRule::count).sum()
+    }
+
+    /// How many of these do so by rules without a reach.
+    pub fn count_endless(&self) -> usize {
+        self.rules.all().iter().filter(|rule| rule.reach.is_none()).map(PairRule::count).sum()
+    }
+
+    /// The pairs (i, j) of bodies of which j may act on i; some may come twice.
     pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.bodies.len()).flat_map(|body| {
-            let bonds = self.bonds.of(body).map(move |end| (body, end.other()));
-            bonds.chain(self.pairs.of(body).map(move |end| (body, end.other())))
+        let bonds = self.bonds().iter().map(|bond| bond.bodies);
+        let pairs = bonds.chain(self.rules.all().iter().flat_map(PairRule::pairs));
+        pairs.flat_map(|[one, other]| [(one, other), (other, one)])
+    }
+
+    /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.
+    pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.bonds().iter().map(|bond| bond.bodies).chain(self.rules.all().iter().flat_map(PairRule::chain))
+    }
+
+    /// The same of those that act on one another however far they are: through springs, rules without a reach, and
+    /// bodies that deform.
+    pub fn endless_chain(&self) -> impl Iterator<Item = [usize; 2]> {
+        let deforms = |body: usize| self.bodies[body].affine().is_some();
+        let rules = self.rules.all().iter().flat_map(move |rule| {
+            let is_endless = move |pair: &[usize; 2]| rule.reach.is_none() || pair.iter().any(|body| deforms(*body));
+            // Beside one that deforms each other one of its set needs a single partner.
+            let of_set = move |own: usize| {
+                let deforming = rule.bodies[own].iter().copied().filter(move |body| deforms(*body));
+                deforming.enumerate().flat_map(move |(k, body)| {
+                    let partners = rule.bodies[1 - own].iter().map(move |other| [body, *other]);
+                    partners.filter(|[one, other]| one != other).take(if k == 0 { usize::MAX } else { 1 })
+                })
+            };
+            rule.chain().filter(is_endless).chain(of_set(0)).chain(of_set(1))
+        });
+        self.bonds().iter().map(|bond| bond.bodies).chain(rules)
+    }
+
+    /// Whether there are bodies that act on one another within a distance only.
+    pub fn has_cutoffs(&self) -> bool {
+        let is_rigid = |body: &&usize| self.bodies[**body].affine().is_none();
+        self.rules.all().iter().filter(|rule| rule.reach.is_some()).any(|rule| {
+            let [one, other] = [0, 1].map(|set| rule.bodies[set].iter().filter(is_rigid).take(2));
+            one.flat_map(|one| other.clone().map(move |other| (one, other))).any(|(one, other)| one != other)
         })
     }
 
-    /// The pairs of bodies that act on one another, with the distance of their centres from which on they do not; none
-    /// if there is none.
-    pub fn cutoffs(&self) -> impl Iterator<Item = ([usize; 2], Option<f64>)> {
-        let rigid = |pair: &&Pair| pair.bodies.iter().all(|body| self.bodies[*body].affine().is_none());
-        let bonds = self.bonds().iter().map(|bond| (bond.bodies, None));
-        bonds.chain(self.pairs().iter().map(move |pair| (pair.bodies, Some(pair).filter(rigid).and_then(Pair::cutoff))))
+    /// The distance of the centres from which on two bodies do nothing to each other by a rule [m]; none if there is
+    /// none, as where one of them deforms.
+    pub fn cutoff(&self, pair: &BodyPair) -> Option<f64> {
+        let bodies = pair.bodies.map(|body| &self.bodies[body]);
+        let reach = self.rules.all()[pair.rule].reach.filter(|_| bodies.iter().all(|body| body.affine().is_none()))?;
+        let [Some(one), Some(other)] = bodies.map(|body| body.solid.radius()) else { return None };
+        Some(cutoff(reach, [one, other]))
     }
 
     /// Whether a body has a contact, with a support or another body.
     pub fn has_contact(&self, body: usize) -> bool {
-        !self.bodies[body].contacts.is_empty() || self.pairs.of(body).next().is_some()
+        !self.bodies[body].contacts.is_empty() || self.meets_bodies(body)
+    }
+
+    /// Whether a body meets others.
+    pub fn meets_bodies(&self, body: usize) -> bool {
+        !self.rules.of(body).is_empty()
     }
 
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
-        self.bonds.of(body).any(|end| end.interaction.law.acts()) || self.pairs.of(body).next().is_some()
+        self.bonds.of(body).any(|end| end.interaction.law.acts()) || self.meets_bodies(body)
     }
 
-    /// Hands what acts on a body to `each`, in the order in which it is summed; stops at the first error.
+    /// Hands what acts on a body beside those that it meets to `each`, in the order in which it is summed; stops at the
+    /// first error.
     #[inline]
     pub fn try_each_load<'a, E>(&'a self, index: usize, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
+        self.try_each_load_with(index, std::iter::empty(), each)
+    }
+
+    /// The same with the pairs of the body at an instant.
+    #[inline]
+    pub(crate) fn try_each_load_with<'a, E>(
+        &'a self,
+        index: usize,
+        pairs: impl Iterator<Item = PairEnd<'a>>,
+        each: impl FnMut(Load<'a>) -> Result<(), E>,
+    ) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
-        let interactions = (self.bonds.of(index), self.pairs.of(index));
-        Load::try_each(body, interactions, fluid, self.applied(index), each)
+        Load::try_each(body, (self.bonds.of(index), pairs), fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.
@@ -262,25 +328,18 @@ impl Model {
         let potential = self.has_potential;
         let mut loads: Vec<Load> = Vec::new();
         for index in 0..self.bodies.len() {
-            let listed = self.try_each_load(index, |load| {
-                // Pairs of the same laws bring the same entries.
-                let is_known = match (&load, loads.last()) {
-                    (Load::Pair(own), Some(Load::Pair(last))) => {
-                        Arc::ptr_eq(&own.interaction.laws, &last.interaction.laws)
-                    }
-                    _ => false,
-                };
-                if !is_known {
-                    loads.push(load);
-                }
+            let Ok(()) = self.try_each_load(index, |load| {
+                loads.push(load);
                 Ok::<(), Infallible>(())
             });
-            let Ok(()) = listed;
         }
-        let works = loads.iter().flat_map(|load| load.works(&self.supports));
+        let of_rules = self.rules.all().iter().flat_map(|rule| pair_works(&rule.laws));
+        let works = loads.iter().flat_map(|load| load.works(&self.supports)).chain(of_rules);
         let works = works.filter(|work| !(potential && matches!(work, Work::Repulsion | Work::Adhesion)));
         let works: Vec<Work> = works.chain(self.bodies.iter().flat_map(|body| body.kind.works())).collect();
-        let energies = loads.iter().filter_map(Load::energy).filter(|energy| potential || *energy != Energy::Contact);
+        let of_rules = (!self.rules.is_empty()).then_some(PAIR_ENERGY);
+        let energies = loads.iter().filter_map(Load::energy).chain(of_rules);
+        let energies = energies.filter(|energy| potential || *energy != Energy::Contact);
         let elastic = self.bodies.iter().filter_map(|body| body.kind.energy());
         let energies: Vec<Energy> =
             [Energy::Kinetic, Energy::Gravity].into_iter().chain(energies).chain(elastic).collect();
@@ -300,13 +359,13 @@ fn layout(bodies: &[Arc<Body>]) -> Vec<Slots> {
 }
 
 /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
-fn has_potential(bodies: &[Arc<Body>], pairs: &[Pair]) -> bool {
+fn has_potential(bodies: &[Arc<Body>], rules: &[PairRule]) -> bool {
     let deforms = |body: &Arc<Body>| body.affine().is_some();
     let mut contacts = bodies.iter().filter(|body| deforms(body)).flat_map(|body| &body.contacts);
     let contacts = contacts.all(|contact| {
         let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
         contact.law_set.measure != AreaMeasure::DeformedArea || !acts
     });
-    let rigid = |pair: &Pair| !pair.bodies().iter().any(|body| deforms(&bodies[*body]));
-    contacts && pairs.iter().all(|pair| pair.laws.measure != AreaMeasure::DeformedArea || rigid(pair))
+    let rigid = |rule: &PairRule| !rule.chain().flatten().any(|body| deforms(&bodies[body]));
+    contacts && rules.iter().all(|rule| rule.laws.measure != AreaMeasure::DeformedArea || rigid(rule))
 }

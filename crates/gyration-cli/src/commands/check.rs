@@ -62,7 +62,7 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
 /// Refuses a start from which a run would not begin. Resistances that only a run needs are not computed for that, and
 /// where very many pairs take long the run tells.
 fn begins(scene: &Scene, job: &Job) -> Result<(), CliError> {
-    if !scene.unknown_forms().is_empty() || job.model.pairs().len() > MOST_PAIRS {
+    if !scene.unknown_forms().is_empty() || job.model.count_endless() > MOST_PAIRS {
         return Ok(());
     }
     let begun = job.interruption().within(|| {

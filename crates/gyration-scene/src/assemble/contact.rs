@@ -2,31 +2,33 @@
 
 use super::body::AssembledBody;
 use super::pair;
-use super::partners::{self, MOST_PAIRS, Names, Partners, without_surface};
+use super::partners::{Names, Partners, without_surface};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure};
 use crate::key::Key;
 use crate::units::shown;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
-use gyration::pair::Pair;
+use gyration::neighbours::PairRule;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Gives the bodies their contacts with supports, and returns the pairs of bodies that meet; notes a contact with what
+/// The most contacts of bodies with supports in a scene.
+const MOST_CONTACTS: usize = 1_000_000;
+
+/// Gives the bodies their contacts with supports, and returns the rules by which bodies meet; notes a contact with what
 /// has no surface, and laws out of range.
 pub(super) fn attach(
     partial: &PartialScene,
     assembled: &mut [Option<AssembledBody>],
     reporter: &mut Reporter<'_>,
-) -> Vec<Pair> {
+) -> Vec<PairRule> {
     let names = Names::of(partial);
     let mut count = 0;
-    let mut pairs = Vec::new();
+    let mut rules = Vec::new();
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
         let Some(partners) = names.partners(value, assembled) else { continue };
-        let before = count;
         match partners {
             Partners::Support { support, bodies, named } => {
                 count += bodies.len();
@@ -37,7 +39,7 @@ pub(super) fn attach(
                 }
                 let law_set = Arc::new(LawSet::new(measure, laws));
                 let between = key.key(if value.between.is_some() { "between" } else { "body" });
-                for body in bodies.into_iter().take(most(before)) {
+                for body in bodies {
                     let Some(assembled_body) = &mut assembled[body] else { continue };
                     match &assembled_body.body.solid.surface {
                         Some(_) => {
@@ -54,34 +56,30 @@ pub(super) fn attach(
                 let named: BTreeSet<usize> = groups.iter().flatten().copied().collect();
                 let named = named.into_iter().filter_map(|body| assembled[body].as_ref());
                 let unable = named.filter(|body| !pair::can_meet(body, &key.key("between"), reporter)).count();
-                let found = partners::pairs(&groups).take(most(before)).inspect(|_| count += 1);
-                let met = found.map(|bodies| (bodies, bodies.map(|body| assembled[body].as_ref())));
                 let reach = value.reach.as_ref().map(|reach| reach.value());
+                let rule = PairRule { bodies: groups.map(Arc::from), laws, reach };
                 if unable == 0 {
-                    pair::meet(met, (&laws, reach), key, &mut pairs, reporter);
+                    pair::check_range(&rule, assembled, key, reporter);
+                    pair::check_overlaps(&rule, assembled, key, reporter);
                 }
-                if unable == 0 && count == before && names.are_known() {
+                if unable == 0 && rule.pairs().next().is_none() && names.are_known() {
                     let message = "it is between no two different bodies";
                     reporter.note(&key.key("between"), message, "name two bodies, or groups that have two");
                 }
+                rules.push(rule);
             }
             Partners::Supports => {
                 let help = "name a body or a group of bodies: supports move as prescribed";
                 reporter.note(&key.key("between"), "it is between two supports", help);
             }
         }
-        if count > MOST_PAIRS {
-            let message = format!("with this contact there are more than {MOST_PAIRS} pairs of what meets");
+        if count > MOST_CONTACTS {
+            let message = format!("with this contact there are more than {MOST_CONTACTS} contacts with supports");
             reporter.note(key, message, "give each contact the bodies that it is for");
             break;
         }
     }
-    pairs
-}
-
-/// How many more pairs are looked at: one too many tells that there are too many.
-fn most(count: usize) -> usize {
-    (MOST_PAIRS + 1).saturating_sub(count)
+    rules
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

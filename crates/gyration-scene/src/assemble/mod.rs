@@ -143,7 +143,7 @@ pub(crate) fn assemble(
     }
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    let pairs = contact::attach(partial, &mut assembled, reporter);
+    let rules = contact::attach(partial, &mut assembled, reporter);
     let bonds = bond::bonds(partial, &assembled, reporter);
     for body in &mut partial.bodies {
         if let Some(assembled_body) = &assembled[body.number] {
@@ -160,7 +160,7 @@ pub(crate) fn assemble(
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }
-    model = model.bonded(bonds).paired(pairs).asking(|| Interruption::due().is_some());
+    model = model.bonded(bonds).meeting(rules).asking(|| Interruption::due().is_some());
     let state = State::start(&model, &starts);
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let forms = partial.bodies.iter().zip(&model.bodies).enumerate();

@@ -1,13 +1,16 @@
-//! Bodies that meet: what acts between each two, and whether they are apart at the start.
+//! Bodies that meet: what acts between any two, and whether they are apart at the start.
 
 use super::body::AssembledBody;
-use super::partners::{MOST_PAIRS, without_surface};
+use super::partners::without_surface;
 use super::start::placement;
 use crate::check::Reporter;
 use crate::key::Key;
+use gyration::body::Solid;
 use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::kinematics::Placement;
-use gyration::pair::{Overlap, Pair, PairLaws, PairLawsError};
+use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, near};
+use gyration::pair::{Overlap, PairForm, PairLaws, PairLawsError};
+use gyration::surface::Surface;
 use std::sync::Arc;
 
 /// The laws of a contact between bodies; notes what cannot act there.
@@ -47,61 +50,70 @@ pub(super) fn laws(
     None
 }
 
-/// Adds a pair of each part of one body and of the other, which can meet; notes those that reach each other at the
-/// start.
-pub(super) fn meet<'a>(
-    bodies: impl Iterator<Item = ([usize; 2], [Option<&'a AssembledBody>; 2])>,
-    (laws, reach): (&Arc<PairLaws>, Option<f64>),
+/// Notes a reach at which the energy of a pair is no number.
+pub(super) fn check_range(
+    rule: &PairRule,
+    assembled: &[Option<AssembledBody>],
     key: &Key,
-    pairs: &mut Vec<Pair>,
     reporter: &mut Reporter<'_>,
 ) {
-    let between = key.key("between");
-    for (indices, both) in bodies {
-        let [Some(one), Some(other)] = both else { continue };
-        if reporter.diagnostics.is_full() {
+    let solids = rule.bodies.each_ref().map(|set| {
+        let known = set.iter().filter_map(|body| Some(&assembled[*body].as_ref()?.body.solid));
+        let mut solids: Vec<&Arc<Solid>> = known.collect();
+        solids.dedup_by(|one, other| Arc::ptr_eq(one, other));
+        let surfaces = solids.into_iter().flat_map(|solid| (0..solid.count_parts()).map(|part| solid.part(part)));
+        let surfaces: Vec<&Surface> = surfaces.collect();
+        // U_c is between those of two smallest and of two largest surfaces.
+        let smaller = |one: &&Surface, other: &&Surface| one.area().total_cmp(&other.area());
+        let extreme = [surfaces.iter().copied().min_by(smaller), surfaces.iter().copied().max_by(smaller)];
+        extreme[0].zip(extreme[1])
+    });
+    let [Some((least, most)), Some((other_least, other_most))] = solids else { return };
+    for surfaces in [[least, other_least], [most, other_most]] {
+        if !PairForm::new(Arc::clone(&rule.laws), rule.reach, surfaces).has_range() {
+            let help = "write a distance nearer to the gaps at which bodies turn back";
+            reporter.note(&key.key("reach"), "the energy at this distance leaves the range of numbers", help);
             return;
-        }
-        let counts = [one, other].map(|assembled| assembled.body.solid.count_parts());
-        for parts in (0..counts[0]).flat_map(|first| (0..counts[1]).map(move |second| [first, second])) {
-            let solids = [&one.body.solid, &other.body.solid];
-            let surfaces = [0, 1].map(|i| solids[i].part(parts[i]));
-            let radii = [0, 1].map(|i| solids[i].part_radius(parts[i]));
-            let pair = Pair::of_radii(indices, parts, Arc::clone(laws), reach, surfaces, radii);
-            let placements = [one, other].map(|assembled| placement(&assembled.start));
-            let apart = are_far(&placements, radii);
-            if !apart && let Err(overlap) = Overlap::check(surfaces, placements.each_ref()) {
-                overlapping([one, other], &overlap, &between, reporter);
-                break;
-            }
-            if !pair.has_range() {
-                let help = "write a distance nearer to the gaps at which bodies turn back";
-                reporter.note(&key.key("reach"), "the energy at this distance leaves the range of numbers", help);
-                return;
-            }
-            pairs.push(pair);
-            if pairs.len() > MOST_PAIRS {
-                let message = format!("with this contact there are more than {MOST_PAIRS} pairs of parts of unions");
-                reporter.note(&between, message, "give each contact the bodies that it is for, or unions fewer parts");
-                return;
-            }
         }
     }
 }
 
-/// Whether two bodies are farther apart than balls about them that hold them reach: |P X| ≤ √‖PᵀP‖_∞ |X|.
-fn are_far(placements: &[Placement; 2], radii: [f64; 2]) -> bool {
-    let reach = |i: usize| {
-        let square = placements[i].gradient.tr_mul(&placements[i].gradient);
-        let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
-        sums.fold(0.0, f64::max).sqrt() * radii[i]
+/// Notes bodies that meet and reach each other at the start.
+pub(super) fn check_overlaps(
+    rule: &PairRule,
+    assembled: &[Option<AssembledBody>],
+    key: &Key,
+    reporter: &mut Reporter<'_>,
+) {
+    let placements: Vec<Option<Placement>> =
+        assembled.iter().map(|body| body.as_ref().map(|body| placement(&body.start))).collect();
+    let sphere = |(body, placement): (&Option<AssembledBody>, &Option<Placement>)| match (body, placement) {
+        (Some(body), Some(placement)) => sphere(body, placement),
+        _ => Sphere::NOWHERE,
     };
-    let apart = placements[0].position - placements[1].position;
-    apart.norm() > FARTHER * (reach(0) + reach(1))
+    let spheres: Vec<Sphere> = assembled.iter().zip(&placements).map(sphere).collect();
+    for BodyPair { bodies, .. } in near(&PairRules::new(assembled.len(), vec![rule.clone()]), &spheres, |_| Some(0.0)) {
+        let both = bodies.map(|body| assembled[body].as_ref().zip(placements[body].as_ref()));
+        let [Some((one, first)), Some((other, second))] = both else { continue };
+        if reporter.diagnostics.is_full() {
+            return;
+        }
+        let solids = [&one.body.solid, &other.body.solid];
+        let parts = (0..solids[0].count_parts()).flat_map(|i| (0..solids[1].count_parts()).map(move |j| [i, j]));
+        let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [first, second]));
+        if let Some(overlap) = overlap.filter_map(Result::err).next() {
+            overlapping([one, other], &overlap, &key.key("between"), reporter);
+        }
+    }
 }
 
-/// What rounding leaves of a comparison of distances.
-const FARTHER: f64 = 1.0 + 1e-12;
+/// A sphere that holds a body: |P X| ≤ √‖PᵀP‖_∞ |X|.
+fn sphere(assembled: &AssembledBody, placement: &Placement) -> Sphere {
+    let Some(radius) = assembled.body.solid.radius() else { return Sphere::NOWHERE };
+    let square = placement.gradient.tr_mul(&placement.gradient);
+    let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
+    Sphere::new(placement.position, sums.fold(0.0, f64::max).sqrt() * radius)
+}
 
 /// Whether a body can meet others; notes why not.
 pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) -> bool {

@@ -6,9 +6,6 @@ use crate::file::Contact;
 use crate::key::Key;
 use std::collections::HashMap;
 
-/// The most pairs of a body and a support, or of parts of two bodies, in a scene.
-pub(super) const MOST_PAIRS: usize = 1_000_000;
-
 /// Supports and groups by name.
 pub(super) struct Names<'a> {
     supports: HashMap<&'a str, usize>,
@@ -72,34 +69,8 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The pairs of two different bodies of two sets, each pair once, in order of the first set.
-pub(super) fn pairs<'a>([one, other]: &'a [Vec<usize>; 2]) -> impl Iterator<Item = [usize; 2]> + 'a {
-    let of_first = move |first: &'a usize| {
-        // Where both are in both sets, the pair comes once.
-        let again = move |second: &usize| {
-            second < first && one.binary_search(second).is_ok() && other.binary_search(first).is_ok()
-        };
-        other.iter().filter(move |second| *second != first && !again(second)).map(|second| [*first, *second])
-    };
-    one.iter().flat_map(of_first)
-}
-
 /// Notes a body that cannot meet anything.
 pub(super) fn without_surface(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) {
     let message = format!("\"{}\" has no surface", assembled.body.name);
     reporter.note(key, message, "name a body whose shape has a surface");
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pairs_are_of_two_different_bodies_and_come_once() {
-        let of = |one: &[usize], other: &[usize]| pairs(&[one.to_vec(), other.to_vec()]).collect::<Vec<_>>();
-        assert_eq!(of(&[0, 1, 2], &[0, 1, 2]), [[0, 1], [0, 2], [1, 2]]);
-        assert_eq!(of(&[0], &[1]), [[0, 1]]);
-        assert_eq!(of(&[2], &[0, 1, 2]), [[2, 0], [2, 1]]);
-        assert_eq!(of(&[0, 1], &[1, 2]), [[0, 1], [0, 2], [1, 2]]);
-    }
 }

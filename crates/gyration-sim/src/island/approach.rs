@@ -3,6 +3,9 @@
 //!   |Δp(t)| ≥ |Δp + Δṗ t| − ½ |Δp̈| t²
 
 use crate::island::step_end::StepEnd;
+use gyration::model::Model;
+use gyration::neighbours::{BodyPair, Sphere, near};
+use gyration::pair::EDGE;
 use gyration::tensor::Vec3;
 
 /// The motion of one centre as seen from another, if both go on as they do.
@@ -48,4 +51,20 @@ impl Approach {
     pub fn least(&self, within: f64) -> f64 {
         self.straight(self.nearest(within)) - 0.5 * self.acceleration * within * within
     }
+}
+
+/// The rigid bodies that may come within reach of one another in a time [s], and some others, ascending.
+///
+/// A centre is then within |ṗ₀| t + ½ |p̈₀| t² of where it is.
+pub(crate) fn may_meet(model: &Model, ends: &[StepEnd], within: f64) -> Vec<BodyPair> {
+    // Bodies part a little farther out than they meet.
+    let wider = 1.0 + 4.0 * EDGE;
+    let sphere = |(index, end): (usize, &StepEnd)| {
+        let body = &model.bodies[index];
+        let Some(radius) = body.solid.radius().filter(|_| body.affine().is_none()) else { return Sphere::NOWHERE };
+        let way = end.motion.velocity.velocity.norm() * within + 0.5 * end.acceleration.norm() * within * within;
+        Sphere::new(end.motion.placement.position, wider * radius + way)
+    };
+    let spheres: Vec<Sphere> = ends.iter().enumerate().map(sphere).collect();
+    near(model.rules(), &spheres, |rule| rule.reach.map(|reach| wider * reach))
 }

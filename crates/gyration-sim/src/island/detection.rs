@@ -9,8 +9,7 @@ use crate::island::Island;
 use crate::island::step_end::StepEnd;
 use crate::outcome::Stop;
 use gyration::balance::observe;
-use gyration::dynamics::acting;
-use gyration::pair::PairGap;
+use gyration::dynamics::{PairGaps, acting};
 use gyration::state::{BodyMotion, State};
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
@@ -60,10 +59,9 @@ impl Island {
     /// The stop of an island in which two bodies touch, as far as digits tell: what would follow is made of rounding.
     pub fn touch(&self) -> Option<Stop> {
         let model = self.model();
-        let mut pairs = model.pairs().iter().zip(&self.gaps);
-        pairs.find_map(|(pair, slab)| {
+        self.gaps.iter().find_map(|(pair, slab)| {
             let size = pair.bodies.map(|body| model.bodies[body].size).into_iter().fold(f64::INFINITY, f64::min);
-            let gap = pair.touch(slab, size)?;
+            let gap = pair.form.touch(slab, size)?;
             Some(Stop::by_touch(model, self.time(), pair.bodies, gap, size))
         })
     }
@@ -143,7 +141,7 @@ impl Island {
         find_crossing(integrator, (since, until), signal, direction, 1).unwrap_or(until)
     }
 
-    fn motion_signals(&self, body: usize, time: f64, (motion, gaps): (&BodyMotion, &[PairGap])) -> [f64; 2] {
+    fn motion_signals(&self, body: usize, time: f64, (motion, gaps): (&BodyMotion, &PairGaps)) -> [f64; 2] {
         let (model, speed) = (self.model(), self.system.speed_scale(body));
         [events::apex(model, body, motion, speed), events::approach(model, time, body, (motion, gaps), speed)]
     }

@@ -13,12 +13,14 @@
 //! leaves, is not held up. Two bodies that meet approach a plane between them, with the normal of their own; those that
 //! are out of reach of each other come halfway into it. Steps are cut by this and never lengthened.
 
-use crate::island::approach::Approach;
+use crate::island::approach::{Approach, may_meet};
 use crate::island::step_end::StepEnd;
 use gyration::contact::RelativeMotion;
+use gyration::dynamics::PairGaps;
 use gyration::kinematics::Placement;
 use gyration::model::Model;
-use gyration::pair::{Pair, PairGap};
+use gyration::neighbours::{BodyPair, Pair};
+use gyration::pair::{cutoff, half_cutoff};
 use gyration::signal::Signal;
 use gyration::support::{Support, SupportMotion};
 use gyration::surface::{GapField, Surface};
@@ -55,7 +57,7 @@ struct PlaneApproach<'a> {
 pub(crate) fn horizon(
     model: &Model,
     time: f64,
-    (ends, gaps): (&[StepEnd], &[PairGap]),
+    (ends, gaps): (&[StepEnd], &PairGaps),
     radii: &[f64],
     longest: f64,
 ) -> f64 {
@@ -78,21 +80,43 @@ pub(crate) fn horizon(
             });
         }
     }
-    for (pair, slab) in model.pairs().iter().zip(gaps) {
+    for (pair, slab) in gaps.iter() {
         let both = pair.bodies.map(|body| &ends[body]);
-        step = step.min(match (slab.gap < f64::INFINITY, pair.cutoff().zip(pair.half_cutoff())) {
-            (false, Some(spans)) => before_meeting(both, spans, step),
-            _ => BodyApproach::of(model, pair, both, radii, &slab.normal).time(step),
-        });
+        match (slab.gap < f64::INFINITY, pair.form.reach) {
+            (false, Some(reach)) if gaps.is_whole() => {
+                step = step.min(before_meeting(both, (reach, pair.form.radii()), step));
+            }
+            (false, Some(_)) => {}
+            _ => step = step.min(BodyApproach::of(model, pair, both, radii, &slab.normal).time(step)),
+        }
+    }
+    if !gaps.is_whole() {
+        step = step.min(before_any_meeting(model, ends, step));
     }
     step
 }
 
-/// The longest step [s] after which two bodies that are out of a reach may be at another distance within it, at most
-/// `longest`.
-fn before_meeting([one, other]: [&StepEnd; 2], (reach, within): (f64, f64), longest: f64) -> f64 {
+/// The longest step [s] after which any two bodies that are out of reach may be at another distance within it, at most
+/// `longest`: of all pairs, since which of them are listed must leave no trace.
+fn before_any_meeting(model: &Model, ends: &[StepEnd], longest: f64) -> f64 {
+    let mut step = longest;
+    for BodyPair { rule, bodies } in may_meet(model, ends, longest) {
+        let Some(reach) = model.rules().all()[rule].reach else { continue };
+        let [one, other] = bodies.map(|body| &model.bodies[body].solid);
+        for parts in (0..one.count_parts()).flat_map(|i| (0..other.count_parts()).map(move |j| [i, j])) {
+            let radii = [one.part_radius(parts[0]), other.part_radius(parts[1])];
+            step = step.min(before_meeting(bodies.map(|body| &ends[body]), (reach, radii), step));
+        }
+    }
+    step
+}
+
+/// The longest step [s] after which two bodies of these radii that are out of a reach may be at another distance within
+/// it, at most `longest`.
+fn before_meeting([one, other]: [&StepEnd; 2], (reach, radii): (f64, [f64; 2]), longest: f64) -> f64 {
     let approach = Approach::of(one, other);
-    if approach.distance(0.0) <= reach {
+    let within = half_cutoff(reach, radii);
+    if approach.distance(0.0) <= cutoff(reach, radii) {
         return longest;
     }
     let nearest = approach.nearest(longest);

@@ -6,12 +6,13 @@
 //! bodies are out of reach of the others, and stay so for a few steps if they go on as they do.
 
 use crate::in_play::InPlay;
-use crate::island::approach::Approach;
+use crate::island::approach::{Approach, may_meet};
 use crate::island::path_bound::{NODES, PathBound};
 use crate::island::paths::Paths;
 use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
+use gyration::neighbours::BodyPair;
 use gyration::pair::EDGE;
 use gyration::tensor::Vec3;
 use gyration_ode::{Components, Integrator, Options, Pattern, StepReport};
@@ -46,12 +47,13 @@ impl Island {
     /// little farther out than they meet: two that stay at one distance do not do both in turns.
     pub fn parts(&self) -> Components {
         let (model, ahead) = (self.model(), AHEAD * self.integrator.next_size());
-        let near = |bodies: [usize; 2], reach: f64| {
-            let [one, other] = bodies.map(|body| &self.step_ends[body]);
-            Approach::of(one, other).least(ahead) <= (1.0 + EDGE) * reach
+        let stays = |pair: &BodyPair| {
+            let [one, other] = pair.bodies.map(|body| &self.step_ends[body]);
+            model.cutoff(pair).is_some_and(|cutoff| Approach::of(one, other).least(ahead) <= (1.0 + EDGE) * cutoff)
         };
-        let joined = model.cutoffs().filter(|(bodies, reach)| reach.is_none_or(|reach| near(*bodies, reach)));
-        Components::of(&Pattern::new(model.bodies.len(), joined.map(|(bodies, _)| bodies.into())), model.bodies.len())
+        let near = may_meet(model, &self.step_ends, ahead);
+        let joined = near.iter().filter(|pair| stays(pair)).map(|pair| pair.bodies).chain(model.endless_chain());
+        Components::of(&Pattern::new(model.bodies.len(), joined.map(Into::into)), model.bodies.len())
     }
 
     /// Comes to a time within its paths, by a step that ends there; what it has done since is forgotten.

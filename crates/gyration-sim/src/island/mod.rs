@@ -23,8 +23,8 @@ use crate::events::Event;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
+use gyration::dynamics::PairGaps;
 use gyration::model::Model;
-use gyration::pair::PairGap;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::Interruption;
@@ -61,10 +61,10 @@ pub(crate) struct Island {
     pub state: IslandState,
     /// The bodies at the end of the last step.
     pub step_ends: Vec<StepEnd>,
-    /// The gaps of its pairs of bodies there, by number.
-    pub gaps: Vec<PairGap>,
+    /// The gaps of its pairs of bodies there.
+    pub gaps: PairGaps,
     /// The same in the sampled state.
-    pub sampled_gaps: Vec<PairGap>,
+    pub sampled_gaps: PairGaps,
     /// A state within the last step; scratch between samples.
     pub sampled: State,
     /// |f| of the contacts of each body after the last step [N].
@@ -118,8 +118,8 @@ impl Island {
             integrator,
             state,
             step_ends: Vec::new(),
-            gaps: Vec::new(),
-            sampled_gaps: Vec::new(),
+            gaps: PairGaps::default(),
+            sampled_gaps: PairGaps::default(),
             sampled: State { low: vec![0.0; own.bodies.len()], ..own },
             forces: Vec::new(),
             events: Vec::new(),

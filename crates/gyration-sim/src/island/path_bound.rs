@@ -6,6 +6,7 @@
 //! polynomial stays within the hull of its coefficients, and so does its distance from the chord. Two bodies whose
 //! chords stay farther apart than their reach and both δ have not met, whatever they did in between.
 
+use gyration::neighbours::Bounds;
 use gyration::tensor::Vec3;
 use nalgebra::{SMatrix, SVector};
 use std::sync::LazyLock;
@@ -55,6 +56,11 @@ impl PathBound {
     /// The times of the places through which a bound is laid [s].
     pub fn nodes(start: f64, end: f64) -> [f64; NODES] {
         std::array::from_fn(|k| if k == DEGREE { end } else { start + (end - start) * (k as f64 / DEGREE as f64) })
+    }
+
+    /// A box about it.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::about(&self.from, self.deviation).with(&Bounds::about(&self.to, self.deviation))
     }
 
     /// Where the chord is at a time.

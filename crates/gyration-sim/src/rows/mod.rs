@@ -96,7 +96,7 @@ impl Fields {
         for index in 0..model.bodies.len() {
             let at = instant.at(model, index);
             let acting = acting(&at, scratch)?;
-            bodies.push(observe_at(&at, &acting, scratch));
+            bodies.push(observe_at(&at, &acting, scratch)?);
             if let Some(origin) = &self.origin {
                 homogeneous.push(observe_homogeneous(&at, &acting, scratch, origin)?);
             }

@@ -39,7 +39,7 @@ use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::Statistics;
 use gyration_threads::Interruption;
-use partition::{Neighbours, Partition, always_coupled};
+use partition::{Partition, always_coupled, may_be_islands};
 use window::WindowWidth;
 
 /// A run under way.
@@ -77,12 +77,12 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Start`] if the start is outside the model.
     pub fn new(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        Self::of_islands(model, start, plan, always_coupled(model), Neighbours::of(model))
+        Self::of_islands(model, start, plan, always_coupled(model), model.has_cutoffs())
     }
 
     /// The same with all bodies in one island: one step serves all.
     pub fn together(model: &Model, start: &State, plan: RunPlan) -> Result<Self, RunError> {
-        Self::of_islands(model, start, plan, vec![(0..model.bodies.len()).collect()], Neighbours::default())
+        Self::of_islands(model, start, plan, vec![(0..model.bodies.len()).collect()], false)
     }
 
     fn of_islands(
@@ -90,19 +90,18 @@ impl Simulation {
         start: &State,
         plan: RunPlan,
         members: Vec<Vec<usize>>,
-        neighbours: Neighbours,
+        changes: bool,
     ) -> Result<Self, RunError> {
-        let stays = neighbours.is_empty();
         let outside = |left: Inadmissible| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
         check_resistances(model).map_err(outside)?;
         let speeds = first_rates(model, start).and_then(|slopes| speed_scales(model, start, &slopes));
         let speeds = speeds.map_err(outside)?;
         let setting = Setting { model, start, speeds: &speeds, plan: &plan };
-        let islands = members.into_iter().map(|members| Island::new(setting, members, stays));
+        let islands = members.into_iter().map(|members| Island::new(setting, members, !changes));
         let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
         islands.shrink_to_fit();
         Ok(Self {
-            partition: Partition::new(model.bodies.len(), islands, neighbours),
+            partition: Partition::new(model.bodies.len(), islands, changes),
             start: start.clone(),
             speeds,
             state: RunState::new(start.time),
@@ -129,12 +128,11 @@ impl Simulation {
         let unfit =
             || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
-        let neighbours = Neighbours::of(model);
         let members: Vec<Vec<usize>> = memories.iter().map(|memory| memory.members.clone()).collect();
-        if !neighbours.may_be(model, &members) {
+        if !may_be_islands(model, &members) {
             return Err(unfit());
         }
-        let mut this = Self::of_islands(model, start, plan, members, neighbours)?;
+        let mut this = Self::of_islands(model, start, plan, members, model.has_cutoffs())?;
         let is_before = |memory: &IslandMemory| memory.stepper.time() <= state.time;
         if !(state.time <= plan.end && memories.iter().all(is_before)) {
             return Err(unfit());

@@ -11,9 +11,16 @@ use crate::island::{Island, PathBound, Paths, Setting};
 use crate::outcome::Stop;
 use crate::run_state::Settled;
 use gyration::model::Model;
+use gyration::neighbours::{BodyPair, Bounds, BoxTree};
+use gyration::pair::EDGE;
 use gyration_ode::{Components, Pattern};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
+
+/// The boxes are laid anew where the bodies whose steps are new, times this, are more than all.
+const FRESH: usize = 4;
+/// They are laid anew where there are more of them than so many a body.
+const STALE: usize = 8;
 
 /// The bodies of a run in islands.
 pub(crate) struct Partition {
@@ -21,7 +28,10 @@ pub(crate) struct Partition {
     pub islands: Vec<Island>,
     /// The island of each body, and its place there.
     island_of: Vec<(usize, usize)>,
-    neighbours: Neighbours,
+    /// Whether islands meet and part; without cutoff distances they do not.
+    changes: bool,
+    /// Boxes about the paths of the bodies, and about some that are no more, as much wider as their bodies are.
+    paths: BoxTree,
     /// Meetings of islands that may be, some of them of islands that are no more.
     queue: BinaryHeap<Reverse<Meeting>>,
     /// How many paths have been given a number.
@@ -30,28 +40,12 @@ pub(crate) struct Partition {
     changed: f64,
 }
 
-/// The bodies that act on a body within a cutoff distance, for each body.
-#[derive(Debug, Default)]
-pub(crate) struct Neighbours {
-    of: Vec<Vec<Neighbour>>,
-}
-
-/// A body that acts on another within a cutoff distance.
-#[derive(Debug, Clone, Copy)]
-struct Neighbour {
-    body: usize,
-    cutoff: f64,
-    /// The number of the pair.
-    pair: usize,
-}
-
 /// Two islands may meet within steps of which the later one begins at this time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Meeting {
     time: f64,
-    /// The number of the pair of bodies.
-    pair: usize,
-    bodies: [usize; 2],
+    /// The two bodies, and the rule by which they meet.
+    pair: BodyPair,
     /// By which the paths of their islands were known.
     revisions: [u64; 2],
 }
@@ -65,7 +59,7 @@ impl PartialOrd for Meeting {
 }
 
 impl Ord for Meeting {
-    /// By time, then by the number of the pair.
+    /// By time, then in the order of pairs.
     fn cmp(&self, other: &Self) -> Ordering {
         let rest = |meeting: &Self| (meeting.pair, meeting.revisions);
         self.time.total_cmp(&other.time).then(rest(self).cmp(&rest(other)))
@@ -90,63 +84,43 @@ pub(crate) struct Changing<'a> {
     pub settled: &'a mut Settled,
 }
 
-impl Neighbours {
-    /// Those of a model.
-    pub fn of(model: &Model) -> Self {
-        let mut of = vec![Vec::new(); model.bodies.len()];
-        let within = model.cutoffs().filter_map(|(bodies, cutoff)| Some((bodies, cutoff?)));
-        let mut any = false;
-        for (pair, ([one, other], cutoff)) in within.enumerate() {
-            of[one].push(Neighbour { body: other, cutoff, pair });
-            of[other].push(Neighbour { body: one, cutoff, pair });
-            any = true;
-        }
-        if any { Self { of } } else { Self::default() }
-    }
-
-    /// Whether no body meets another.
-    pub fn is_empty(&self) -> bool {
-        self.of.is_empty()
-    }
-
-    /// Whether these could be the islands of a model: each body in one of them, with all to which it is coupled always.
-    pub fn may_be(&self, model: &Model, islands: &[Vec<usize>]) -> bool {
-        let always = always_coupled(model);
-        if self.is_empty() {
-            return islands == always;
-        }
-        let mut island_of = vec![None; model.bodies.len()];
-        for (island, members) in islands.iter().enumerate() {
-            for body in members {
-                match island_of.get_mut(*body) {
-                    Some(home @ None) => *home = Some(island),
-                    _ => return false,
-                }
-            }
-        }
-        let whole = |coupled: &Vec<usize>| {
-            coupled.iter().all(|body| island_of[*body].is_some() && island_of[*body] == island_of[coupled[0]])
-        };
-        let ascend = islands.iter().all(|members| !members.is_empty() && members.is_sorted());
-        ascend && islands.is_sorted_by_key(|members| members[0]) && always.iter().all(whole)
-    }
-}
-
 /// The sets of bodies that act on one another however far they are.
 pub(super) fn always_coupled(model: &Model) -> Vec<Vec<usize>> {
-    let always = model.cutoffs().filter(|(_, cutoff)| cutoff.is_none());
     let bodies = model.bodies.len();
-    let coupled = Components::of(&Pattern::new(bodies, always.map(|(bodies, _)| bodies.into())), bodies);
+    let coupled = Components::of(&Pattern::new(bodies, model.endless_chain().map(Into::into)), bodies);
     coupled.iter().map(<[usize]>::to_vec).collect()
+}
+
+/// Whether these could be the islands of a model: each body in one of them, with all to which it is coupled always.
+pub(super) fn may_be_islands(model: &Model, islands: &[Vec<usize>]) -> bool {
+    let always = always_coupled(model);
+    if !model.has_cutoffs() {
+        return islands == always;
+    }
+    let mut island_of = vec![None; model.bodies.len()];
+    for (island, members) in islands.iter().enumerate() {
+        for body in members {
+            match island_of.get_mut(*body) {
+                Some(home @ None) => *home = Some(island),
+                _ => return false,
+            }
+        }
+    }
+    let whole = |coupled: &Vec<usize>| {
+        coupled.iter().all(|body| island_of[*body].is_some() && island_of[*body] == island_of[coupled[0]])
+    };
+    let ascend = islands.iter().all(|members| !members.is_empty() && members.is_sorted());
+    ascend && islands.is_sorted_by_key(|members| members[0]) && always.iter().all(whole)
 }
 
 impl Partition {
     /// Of islands in order of their first bodies.
-    pub fn new(bodies: usize, islands: Vec<Island>, neighbours: Neighbours) -> Self {
+    pub fn new(bodies: usize, islands: Vec<Island>, changes: bool) -> Self {
         let mut this = Self {
             islands,
             island_of: vec![(0, 0); bodies],
-            neighbours,
+            changes,
+            paths: BoxTree::default(),
             queue: BinaryHeap::new(),
             revisions: 0,
             changed: f64::NEG_INFINITY,
@@ -162,7 +136,7 @@ impl Partition {
 
     /// Whether the islands stay what they are.
     pub fn is_fixed(&self) -> bool {
-        self.neighbours.is_empty()
+        !self.changes
     }
 
     /// The time of the island that has come least far [s]; none if nothing moves.
@@ -176,7 +150,9 @@ impl Partition {
     /// # Errors
     /// [`Stop`] where the islands cannot go on as they are to.
     pub fn change(&mut self, until: f64, changing: Changing) -> Result<bool, Stop> {
-        let Some((time, change)) = self.first_change().filter(|(time, _)| *time < until) else { return Ok(false) };
+        let Some((time, change)) = self.first_change(changing.setting.model).filter(|(time, _)| *time < until) else {
+            return Ok(false);
+        };
         debug_assert!(time >= self.changed, "changes come in order of time: {time} after {}", self.changed);
         self.changed = time;
         match change {
@@ -187,17 +163,17 @@ impl Partition {
     }
 
     /// The time of the first change [s]; infinite if none is known.
-    pub fn change_time(&mut self) -> f64 {
-        self.first_change().map_or(f64::INFINITY, |(time, _)| time)
+    pub fn change_time(&mut self, model: &Model) -> f64 {
+        self.first_change(model).map_or(f64::INFINITY, |(time, _)| time)
     }
 
     /// The earliest change within what is known of all islands.
-    fn first_change(&mut self) -> Option<(f64, Change)> {
+    fn first_change(&mut self, model: &Model) -> Option<(f64, Change)> {
         if self.is_fixed() {
             return None;
         }
         let known = self.least_time()?;
-        self.look();
+        self.look(model);
         let first = match (self.first_merge(), self.first_split()) {
             (Some(merge), Some(split)) if split.0 < merge.0 => Some(split),
             (merge, split) => merge.or(split),
@@ -206,40 +182,56 @@ impl Partition {
     }
 
     /// Queues the meetings within steps that nobody has looked at.
-    fn look(&mut self) {
-        for index in 0..self.islands.len() {
-            let Some(paths) = &mut self.islands[index].paths else { continue };
-            let unseen = paths.unseen();
-            if unseen > 0 {
-                let number = self.revisions;
-                self.revisions += u64::from(paths.revision().is_none());
-                paths.saw(number);
-                self.look_at(index, unseen);
+    fn look(&mut self, model: &Model) {
+        let unseen = |island: &Island| island.paths.as_ref().map_or(0, Paths::unseen);
+        let fresh: Vec<usize> = (0..self.islands.len()).filter(|index| unseen(&self.islands[*index]) > 0).collect();
+        let count: usize = fresh.iter().map(|index| self.islands[*index].members().len()).sum();
+        let bodies = self.island_of.len();
+        if FRESH * count > bodies || self.paths.count() > STALE * bodies {
+            self.paths = BoxTree::new(self.islands.iter().flat_map(|island| boxes(model, island, usize::MAX)));
+        } else {
+            for island in fresh.iter().map(|index| &self.islands[*index]) {
+                boxes(model, island, unseen(island)).for_each(|(bounds, body)| self.paths.insert(bounds, body));
             }
+        }
+        for index in fresh {
+            let Some(paths) = &mut self.islands[index].paths else { continue };
+            let (unseen, number) = (paths.unseen(), self.revisions);
+            self.revisions += u64::from(paths.revision().is_none());
+            paths.saw(number);
+            self.look_at(model, index, unseen);
         }
     }
 
     /// Queues the meetings within the last steps of an island, of which so many are new, with steps of other islands
     /// that were looked at: those that were not look at these.
-    fn look_at(&mut self, index: usize, unseen: usize) {
-        let Self { islands, island_of, neighbours, queue, .. } = self;
+    fn look_at(&mut self, model: &Model, index: usize, unseen: usize) {
+        let Self { islands, island_of, paths, queue, .. } = self;
         let island = &islands[index];
         let Some((own, revision)) = known(island) else { return };
-        for (place, body) in island.members().iter().enumerate() {
-            let steps = own.body(place);
-            let new = &steps[steps.len() - unseen..];
-            for neighbour in &neighbours.of[*body] {
-                let (home, there) = island_of[neighbour.body];
-                if home == index {
-                    continue;
-                }
-                let Some((other, beside)) = known(&islands[home]) else { continue };
-                let steps = other.body(there);
-                let seen = &steps[..steps.len() - other.unseen()];
-                // Later steps would meet later.
-                if let Some(time) = new.iter().find_map(|bound| first_meeting(bound, seen, neighbour.cutoff)) {
-                    let (pair, bodies) = (neighbour.pair, [*body, neighbour.body]);
-                    queue.push(Reverse(Meeting { time, pair, bodies, revisions: [revision, beside] }));
+        let rules = model.rules();
+        for (bounds, body) in boxes(model, island, unseen) {
+            let new = last(own.body(island_of[body].1), unseen);
+            let reaches = rules.of(body).iter().filter_map(|rule| rules.all()[*rule].reach);
+            let bounds = bounds.wider(reaches.fold(0.0, f64::max));
+            let mut beside: Vec<usize> = paths.touching(&bounds).filter(|other| island_of[*other].0 != index).collect();
+            beside.sort_unstable();
+            beside.dedup();
+            for other in beside {
+                let (home, there) = island_of[other];
+                let Some((paths, revision_there)) = known(&islands[home]) else { continue };
+                let steps = paths.body(there);
+                let seen = &steps[..steps.len() - paths.unseen()];
+                for rule in rules.of(body) {
+                    let Some(bodies) = rules.all()[*rule].between(body, other) else { continue };
+                    let pair = BodyPair { rule: *rule, bodies };
+                    let Some(cutoff) = model.cutoff(&pair) else { continue };
+                    // Later steps would meet later.
+                    if let Some(time) = new.iter().find_map(|bound| first_meeting(bound, seen, cutoff)) {
+                        let is_first = bodies[0] == body;
+                        let revisions = if is_first { [revision, revision_there] } else { [revision_there, revision] };
+                        queue.push(Reverse(Meeting { time, pair, revisions }));
+                    }
                 }
             }
         }
@@ -249,7 +241,7 @@ impl Partition {
     /// have gone back, leave the queue.
     fn first_merge(&mut self) -> Option<(f64, Change)> {
         while let Some(Reverse(meeting)) = self.queue.peek() {
-            let islands = meeting.bodies.map(|body| self.island_of[body].0);
+            let islands = meeting.pair.bodies.map(|body| self.island_of[body].0);
             let revision = |island: usize| known(&self.islands[island]).map(|(_, revision)| revision);
             if islands.map(revision) == meeting.revisions.map(Some) {
                 let [one, other] = islands;
@@ -345,6 +337,22 @@ impl Partition {
     }
 }
 
+/// Boxes about the last steps of the bodies of an island that meet others within a distance, so many of each, as much
+/// wider as the bodies are.
+fn boxes(model: &Model, island: &Island, steps: usize) -> impl Iterator<Item = (Bounds, usize)> {
+    let bodies = island.members().iter().enumerate().filter(|(_, body)| model.meets_bodies(**body));
+    bodies.filter_map(move |(place, body)| {
+        let bounds = last(island.paths.as_ref()?.body(place), steps).iter().map(PathBound::bounds);
+        let radius = model.bodies[*body].solid.radius()?;
+        Some((bounds.reduce(|all, bounds| all.with(&bounds))?.wider((1.0 + EDGE) * radius), *body))
+    })
+}
+
+/// The last of some steps, so many if there are.
+fn last(steps: &[PathBound], count: usize) -> &[PathBound] {
+    &steps[steps.len().saturating_sub(count)..]
+}
+
 /// When a step of one body and the first of the steps of another begin within which they may be closer than a distance.
 fn first_meeting(bound: &PathBound, others: &[PathBound], cutoff: f64) -> Option<f64> {
     let from = others.partition_point(|other| other.end <= bound.start);
@@ -388,9 +396,8 @@ mod tests {
         let spring = SpringLaw { stiffness: 1.0, rest_length: 0.0, damping: 0.0 };
         let bond = Bond { bodies: [3, 1], points: [Vec3::zeros(); 2], law: spring };
         let model = scene.built().model.clone().bonded(vec![bond]);
-        let neighbours = Neighbours::of(&model);
         let may_be =
-            |islands: &[&[usize]]| neighbours.may_be(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());
+            |islands: &[&[usize]]| may_be_islands(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());
         assert!(may_be(&[&[0], &[1, 3], &[2]]) && may_be(&[&[0, 1, 3], &[2]]) && may_be(&[&[0, 1, 2, 3]]));
         // One parted, one missing, one twice, one too many, one that does not ascend, two exchanged, an empty one.
         for wrong in [

@@ -177,7 +177,7 @@ impl Simulation {
         let least = self.least_time().min(if only_steps { f64::INFINITY } else { self.portion });
         match (self.partition.is_fixed(), self.is_step(until)) {
             (true, _) => least,
-            (false, true) => least.min(self.partition.change_time()),
+            (false, true) => least.min(self.partition.change_time(&self.model)),
             (false, false) => least.min(until),
         }
     }

@@ -92,7 +92,7 @@ impl RunSummary {
                 let (instant, scratch) = read.as_mut()?;
                 let at = instant.at(model, index);
                 let acting = acting(&at, scratch).ok()?;
-                let seen = observe_at(&at, &acting, scratch);
+                let seen = observe_at(&at, &acting, scratch).ok()?;
                 let k = seen.affine_momentum;
                 Some(BodySummary {
                     name: model.bodies[index].name.clone(),

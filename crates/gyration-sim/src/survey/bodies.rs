@@ -29,6 +29,9 @@ pub struct Survey {
     pub springs: Vec<SpringSurvey>,
     /// The bodies that meet.
     pub meetings: Vec<MeetingSurvey>,
+    /// How many pairs of bodies meet, and how many of these without a reach.
+    #[serde(skip)]
+    pub pairs: [usize; 2],
     /// What must be told of the scene besides.
     #[serde(flatten)]
     pub remarks: Remarks,
@@ -128,6 +131,7 @@ impl Survey {
             bodies,
             springs: SpringSurvey::all(model, start),
             meetings: MeetingSurvey::all(model, start),
+            pairs: [model.count_pairs(), model.count_endless()],
             remarks: Remarks::at_start(model, start, scene.built().plan.rtol),
         })
     }

@@ -6,7 +6,8 @@
 use gyration::contact::Deformation;
 use gyration::kinematics::{Placement, Velocity};
 use gyration::model::Model;
-use gyration::pair::{Pair, PairLoads, PairScratch, Side};
+use gyration::neighbours::Pair;
+use gyration::pair::{PairForm, PairLoads, PairScratch, Side};
 use gyration::state::State;
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
@@ -18,7 +19,7 @@ const LEAST: f64 = 1e-15;
 /// Two bodies that approach each other.
 #[derive(Debug, Clone)]
 pub struct Encounter<'a> {
-    pair: &'a Pair,
+    form: Arc<PairForm>,
     ends: [End<'a>; 2],
     /// n, from the second to the first.
     normal: Vec3,
@@ -37,9 +38,8 @@ struct End<'a> {
 }
 
 impl<'a> Encounter<'a> {
-    /// Of the bodies of a pair, by its number; none where no plane is found between them at the start.
-    pub fn new(model: &'a Model, start: &State, number: usize) -> Option<Self> {
-        let pair = &model.pairs()[number];
+    /// Of the bodies of a pair; none where no plane is found between them at the start.
+    pub fn new(model: &'a Model, start: &State, pair: &Pair) -> Option<Self> {
         let bodies = pair.bodies.map(|body| &model.bodies[body]);
         let end = |k: usize| {
             let placement = start.motion(model, pair.bodies[k]).placement;
@@ -52,9 +52,9 @@ impl<'a> Encounter<'a> {
         let size = bodies.map(|body| body.size).into_iter().fold(0.0, f64::max);
         // Out of reach there is a plane all the same.
         let surfaces = ends.each_ref().map(|end| end.surface);
-        let felt_everywhere = Pair::new(pair.bodies, pair.parts, Arc::clone(&pair.laws), None, surfaces);
+        let felt_everywhere = PairForm::new(Arc::clone(&pair.form.laws), None, surfaces);
         let loads = loads(&felt_everywhere, &ends, size)?;
-        Some(Self { pair, ends, normal: loads.normal, initial_gap: loads.gap, size })
+        Some(Self { form: Arc::clone(&pair.form), ends, normal: loads.normal, initial_gap: loads.gap, size })
     }
 
     /// The slab \[m\] and the force \[N\] where the slab is as wide as this if the plane keeps its normal; none where
@@ -62,13 +62,13 @@ impl<'a> Encounter<'a> {
     pub fn at(&self, slab: f64) -> Option<[f64; 2]> {
         let mut ends = self.ends.clone();
         ends[0].placement.position += (slab - self.initial_gap) * self.normal;
-        let loads = loads(self.pair, &ends, self.size)?;
+        let loads = loads(&self.form, &ends, self.size)?;
         let force = loads.on[0].force.dot(&loads.normal);
         Some([loads.gap, force]).filter(|point| point.iter().all(|number| number.is_finite()))
     }
 }
 
-fn loads(pair: &Pair, ends: &[End; 2], size: f64) -> Option<PairLoads> {
+fn loads(form: &PairForm, ends: &[End; 2], size: f64) -> Option<PairLoads> {
     let still = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
     let [one, other] = ends.each_ref().map(|end| Side {
         surface: end.surface,
@@ -79,7 +79,7 @@ fn loads(pair: &Pair, ends: &[End; 2], size: f64) -> Option<PairLoads> {
         deformation: end.deformation,
         least_gap: LEAST * size,
     });
-    PairLoads::integrate(pair, [&one, &other], None, &mut PairScratch::default()).ok()
+    PairLoads::integrate(form, [&one, &other], None, &mut PairScratch::default()).ok()
 }
 
 #[cfg(test)]
@@ -101,11 +101,15 @@ mod tests {
         Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
     }
 
+    fn pair(scene: &Scene) -> Pair {
+        scene.built().model.pairs().next().unwrap()
+    }
+
     /// Faces of side a at a slab s are as one face at that gap: F = α (d₀/s)^ν a², edges aside.
     #[test]
     fn the_force_between_faces_is_the_traction_at_the_slab_times_the_face() {
         let scene = scene("box = { size = [0.1, 0.1, 0.1] }");
-        let encounter = Encounter::new(&scene.built().model, &scene.built().state, 0).unwrap();
+        let encounter = Encounter::new(&scene.built().model, &scene.built().state, &pair(&scene)).unwrap();
         assert!((encounter.initial_gap - 0.01).abs() < 1e-15);
         for slab in [1e-3, 1e-4, 1e-5] {
             let [found, force] = encounter.at(slab).unwrap();
@@ -119,7 +123,7 @@ mod tests {
     #[test]
     fn the_force_between_balls_falls_with_the_slab() {
         let scene = scene("sphere = { radius = 0.05 }");
-        let encounter = Encounter::new(&scene.built().model, &scene.built().state, 0).unwrap();
+        let encounter = Encounter::new(&scene.built().model, &scene.built().state, &pair(&scene)).unwrap();
         let force = |slab: f64| encounter.at(slab).unwrap()[1];
         // d^−ν over a paraboloid: F ∝ s^(1−ν) where the slab is small.
         let slope = (force(2e-6) / force(1e-6)).ln() / 2.0_f64.ln();

@@ -4,15 +4,18 @@
 
 use super::laws::LawSurvey;
 use crate::format::significant;
-use gyration::dynamics::Workspace;
+use gyration::dynamics::{PairGaps, Workspace};
 use gyration::model::Model;
-use gyration::pair::Pair;
+use gyration::neighbours::Pair;
 use gyration::state::State;
 use serde::Serialize;
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 /// Meetings that are told one by one.
 const MOST: usize = 12;
+/// Meetings that are listed.
+const MOST_LISTED: usize = 10_000;
 /// Pairs without a reach at which a step costs little.
 const FEW_ENDLESS: usize = 1000;
 /// Evaluations of an explicit step.
@@ -36,14 +39,24 @@ pub struct MeetingSurvey {
 }
 
 impl MeetingSurvey {
-    /// The meetings of a model, in order.
+    /// The meetings of a model, in order; of very many the first of each contact and those within reach at the start.
     pub fn all(model: &Model, start: &State) -> Vec<Self> {
-        let mut gaps = Vec::new();
+        let mut gaps = PairGaps::default();
         // A scene whose bodies reach each other at the start has been refused; of very many pairs the last ones may not
         // have been looked at in time.
         let _ = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps);
-        let gap = |number: usize| gaps.get(number).map(|slab| slab.gap).filter(|gap| gap.is_finite());
-        model.pairs().iter().enumerate().map(|(number, pair)| Self::of(model, pair, gap(number))).collect()
+        let near = || gaps.iter().filter(|(_, slab)| slab.gap < f64::INFINITY);
+        let known: HashMap<_, f64> = near().map(|(pair, slab)| (pair.key(), slab.gap)).collect();
+        let of = |pair: &Pair| Self::of(model, pair, known.get(&pair.key()).copied());
+        if model.count_pairs() <= MOST_LISTED {
+            return model.pairs().map(|pair| of(&pair)).collect();
+        }
+        let rules = model.rules().all().iter().enumerate();
+        let first = rules.filter_map(|(rule, set)| model.pairs_between(rule, set.pairs().next()?).next());
+        let mut pairs: Vec<Pair> = first.chain(near().take(MOST_LISTED).map(|(pair, _)| pair.clone())).collect();
+        pairs.sort_by_key(Pair::key);
+        pairs.dedup_by_key(|pair| pair.key());
+        pairs.iter().map(of).collect()
     }
 
     fn of(model: &Model, pair: &Pair, initial_gap: Option<f64>) -> Self {
@@ -51,19 +64,20 @@ impl MeetingSurvey {
         let shapes = bodies.map(|body| &body.solid.shape);
         let [first, second] = shapes.map(|shape| shape.sharpest_feature());
         let sharper = if first >= second { shapes[0] } else { shapes[1] };
-        let laws: Vec<LawSurvey> = pair.laws.laws().iter().map(|law| LawSurvey::of(law, sharper)).collect();
+        let laws: Vec<LawSurvey> = pair.form.laws.laws().iter().map(|law| LawSurvey::of(law, sharper)).collect();
         Self {
             between: bodies.map(|body| body.name.clone()),
             initial_gap,
-            reach: pair.reach,
+            reach: pair.form.reach,
             forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
             laws,
         }
     }
 }
 
-/// The meetings as text, those with the same laws under one verdict.
-pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
+/// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them without a
+/// reach.
+pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pairs: usize, endless: usize) {
     let short = |value: f64| significant(value, 5);
     let mut told: Option<&MeetingSurvey> = None;
     for meeting in meetings.iter().take(MOST) {
@@ -87,10 +101,11 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey]) {
             );
         }
     }
-    if meetings.len() > MOST {
-        let _ = writeln!(text, "           and {} meetings more: all with --json", meetings.len() - MOST);
+    let more = meetings.len().max(pairs) - meetings.len().min(MOST);
+    let listed = if pairs > MOST_LISTED { "those within reach at the start" } else { "all" };
+    if more > 0 {
+        let _ = writeln!(text, "           and {more} meetings more: {listed} with --json");
     }
-    let endless = meetings.iter().filter(|meeting| meeting.reach.is_none()).count();
     if endless > FEW_ENDLESS {
         let step = short((EVALUATIONS * endless) as f64 * PLANE);
         let _ = writeln!(

@@ -268,7 +268,7 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
     let first = supports.next();
     if body.pin.is_some() {
         Some("a pin holds the body as well")
-    } else if model.pairs_of(index).next().is_some() {
+    } else if model.meets_bodies(index) {
         Some("other bodies meet it as well")
     } else if !body.springs.is_empty() || model.is_joined(index) {
         Some("springs pull at the body as well")

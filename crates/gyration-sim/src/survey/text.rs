@@ -49,7 +49,7 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
     }
     write_springs(&mut text, &survey.springs);
-    write_meetings(&mut text, &survey.meetings);
+    write_meetings(&mut text, &survey.meetings, survey.pairs[0], survey.pairs[1]);
     for note in &survey.remarks.notes {
         let _ = writeln!(text, "note       {note}");
     }

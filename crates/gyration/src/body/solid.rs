@@ -51,6 +51,11 @@ impl Solid {
         self.radii[index]
     }
 
+    /// The largest radius of its parts about the centre of mass [m]; none without a surface.
+    pub fn radius(&self) -> Option<f64> {
+        self.radii.iter().copied().reduce(f64::max)
+    }
+
     /// The surface of a part.
     ///
     /// # Panics

@@ -1,6 +1,7 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
 use super::Scratch;
+use super::pairs::smallest_gap;
 use crate::body::Body;
 use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
@@ -88,10 +89,12 @@ pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
 
 /// The smallest gap of a body to anything that it has a contact with [m]: its distance to a support, the width of the
 /// slab to another body; infinite without contact or surface.
-pub fn gap_at(at: &BodyAt, scratch: &Scratch) -> f64 {
-    let pairs = at.model.pairs_of(at.index).map(|end| scratch.pairs.gap(end.number));
+///
+/// # Errors
+/// [`Inadmissible`] if no plane separates it from another body.
+pub fn gap_at(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
     let supports = least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support));
-    pairs.fold(supports, f64::min)
+    Ok(smallest_gap(at, scratch)?.min(supports))
 }
 
 /// The smallest distance of a body's surface to a support that it has a contact with [m]; infinite without one.

@@ -131,11 +131,10 @@ pub(super) fn add_slopes(
         Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
         Load::Bond(end) => slopes.add_spring(&bonded(at, end)?),
         Load::Pair(end) => {
-            if let Some(pair) = &scratch.pairs.slopes[end.number] {
-                slopes.loads += pair.on[end.end];
-                slopes.by_place += pair.by_place[end.end][end.end];
-                slopes.by_rate += pair.by_rate[end.end][end.end];
-            }
+            let pair = scratch.pairs.slopes(end.number);
+            slopes.loads += pair.on[end.end];
+            slopes.by_place += pair.by_place[end.end][end.end];
+            slopes.by_rate += pair.by_rate[end.end][end.end];
         }
         Load::Couple(couple) => {
             let inverse = at.inverse();

@@ -24,6 +24,7 @@ pub use contact_parts::{ContactParts, contact_parts};
 pub use contacts::{gap_at, gap_to_supports, nearest};
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
+pub use pairs::PairGaps;
 pub use pushes::{Push, each_push};
 pub use rates::{jacobian, rates};
 
@@ -80,7 +81,7 @@ impl Workspace {
     pub fn read(&mut self, model: &Model, state: &State) -> Result<(&Instant, &mut Scratch), Inadmissible> {
         let Self { instant, scratch } = self;
         instant.read(model, state.time, state.numbers())?;
-        pairs::find_planes(model, instant, scratch, true)?;
+        pairs::find_planes(model, instant, scratch)?;
         for index in 0..model.bodies.len() {
             if !model.bodies[index].has_inertia() {
                 inertialess::solve_balance(model, instant, scratch, index)?;

@@ -47,7 +47,7 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
             Load::Bond(end) => each(of_bond(at, &end)?),
             Load::Pair(end) => {
                 let pair = scratch.pairs.loads(end.number);
-                let exponent = end.interaction.laws.repulsion.exponent;
+                let exponent = end.interaction.form.laws.repulsion.exponent;
                 let digits = 8.0 * (exponent - 1.0) + exponent * at.body.size / pair.gap;
                 let rounding = if end.counts() { digits * f64::EPSILON * pair.energy } else { 0.0 };
                 each(Push { force: pair.on[end.end].force.norm(), gap: pair.gap, rounding });

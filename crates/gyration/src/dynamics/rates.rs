@@ -33,7 +33,7 @@ pub fn rates(
 ) -> Result<(), Inadmissible> {
     let Workspace { instant, scratch } = workspace;
     instant.read(model, time, state)?;
-    pairs::find_planes(model, instant, scratch, false)?;
+    pairs::find_planes(model, instant, scratch)?;
     powers.fill(0.0);
     for index in 0..model.bodies.len() {
         let done = match model.bodies[index].has_inertia() {

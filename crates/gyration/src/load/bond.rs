@@ -27,10 +27,6 @@ impl Interaction for Bond {
     fn bodies(&self) -> [usize; 2] {
         self.bodies
     }
-
-    fn renumbered(&self, bodies: [usize; 2]) -> Self {
-        Self { bodies, ..*self }
-    }
 }
 
 impl Bond {

@@ -6,10 +6,6 @@ use std::sync::Arc;
 pub trait Interaction {
     /// The indices of the two bodies, which differ.
     fn bodies(&self) -> [usize; 2];
-
-    /// The same between bodies with other indices.
-    #[must_use]
-    fn renumbered(&self, bodies: [usize; 2]) -> Self;
 }
 
 /// An interaction as one of its bodies sees it.
@@ -73,11 +69,18 @@ impl<J: Interaction> Interactions<J> {
             all.iter().all(|interaction| joins(interaction.bodies())),
             "an interaction is between two of the {bodies} bodies"
         );
-        let mut ends: Vec<(usize, usize)> = (0..all.len()).flat_map(|number| [(number, 0), (number, 1)]).collect();
-        let body = |(number, end): &(usize, usize)| all[*number].bodies()[*end];
-        ends.sort_by_key(body);
-        let starts = (0..=bodies).map(|index| ends.partition_point(|end| body(end) < index)).collect();
-        Self { all: all.into(), starts, ends: ends.into() }
+        // Sorted by counting: a crowd has millions.
+        let mut starts = vec![0; bodies + 1];
+        all.iter().flat_map(J::bodies).for_each(|body| starts[body + 1] += 1);
+        (0..bodies).for_each(|body| starts[body + 1] += starts[body]);
+        let (mut next, mut ends) = (starts.clone(), vec![(0, 0); 2 * all.len()]);
+        for (number, interaction) in all.iter().enumerate() {
+            for (end, body) in interaction.bodies().into_iter().enumerate() {
+                ends[next[body]] = (number, end);
+                next[body] += 1;
+            }
+        }
+        Self { all: all.into(), starts: starts.into(), ends: ends.into() }
     }
 
     /// All of them.
@@ -95,13 +98,18 @@ impl<J: Interaction> Interactions<J> {
         })
     }
 
-    /// Those between some bodies, which ascend, numbered among these.
+    /// Whether these are the same as others, or a copy of them.
+    pub fn are(&self, others: &Self) -> bool {
+        Arc::ptr_eq(&self.all, &others.all)
+    }
+
+    /// Those between some bodies, which ascend, as `renumbered` makes them with the places of their bodies among these.
     #[must_use]
-    pub fn among(&self, members: &[usize]) -> Self {
+    pub fn among(&self, members: &[usize], renumbered: impl Fn(&J, [usize; 2]) -> J) -> Self {
         let place = |body: usize| members.binary_search(&body).ok();
         let within = |end: InteractionEnd<J>| {
             let [Some(one), Some(other)] = end.interaction.bodies().map(place) else { return None };
-            Some((end.number, end.interaction.renumbered([one, other])))
+            Some((end.number, renumbered(end.interaction, [one, other])))
         };
         let counted = members.iter().flat_map(|body| self.of(*body)).filter(InteractionEnd::counts);
         let mut numbered: Vec<(usize, J)> = counted.filter_map(within).collect();

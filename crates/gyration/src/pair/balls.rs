@@ -257,7 +257,7 @@ impl PlacedBalls<'_> {
 mod tests {
     use crate::contact::{AreaMeasure, ContactLaw, Repulsion};
     use crate::kinematics::{Placement, Quaternion, Velocity};
-    use crate::pair::{Pair, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
+    use crate::pair::{PairForm, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
     use crate::surface::Surface;
     use crate::tensor::{Vec3, cross_matrix};
     use std::sync::Arc;
@@ -267,7 +267,7 @@ mod tests {
         surfaces: [Surface; 2],
         placements: [Placement; 2],
         velocities: [Velocity; 2],
-        pairs: [Pair; 2],
+        pairs: [PairForm; 2],
     }
 
     impl Meeting {
@@ -276,8 +276,8 @@ mod tests {
             let laws = vec![ContactLaw::Repulsion(repulsion)];
             let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap());
             let surfaces = radii.map(Surface::sphere);
-            let closed = Pair::new([0, 1], [0, 0], laws, reach, surfaces.each_ref());
-            let general = Pair { balls: None, ..closed.clone() };
+            let closed = PairForm::new(laws, reach, surfaces.each_ref());
+            let general = PairForm { balls: None, ..closed.clone() };
             let normal = Vec3::new(1.0, -2.0, 0.5).normalize();
             let gradient = Quaternion::from_axis_angle(&Vec3::new(1.0, 2.0, 3.0), 0.7).rotation();
             let place = |distance: f64| Placement { position: distance * normal, gradient };

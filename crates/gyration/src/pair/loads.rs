@@ -5,12 +5,13 @@
 //! The plane is in balance, so that the wrenches of the two are opposite; computed apart they differ by rounding, which
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
 
+use super::Mat34;
 use super::fault::PairFault;
+use super::form::PairForm;
 use super::gjk::separate;
 use super::plane::Guess;
 use super::side::{Half, Side};
 use super::state::{PairScratch, PairState, ViscousMoments, halves};
-use super::{Mat34, Pair};
 use crate::contact::{AreaMeasure, LawKind};
 use crate::load::Loads;
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
@@ -56,7 +57,7 @@ impl PairLoads {
     ///
     /// # Errors
     /// [`PairFault`] if no plane separates them.
-    pub fn nothing(pair: &Pair, sides: [&Side; 2]) -> Result<Self, PairFault> {
+    pub fn nothing(pair: &PairForm, sides: [&Side; 2]) -> Result<Self, PairFault> {
         let halves = halves(sides, pair.laws.measure != AreaMeasure::ReferenceArea);
         let plane = separate(halves.each_ref()).map_err(PairFault::of_gap)?;
         let [above, below] = halves.each_ref().map(|half| half.smallest_gap(&plane).0);
@@ -69,7 +70,7 @@ impl PairLoads {
     /// # Errors
     /// [`PairFault`] if no plane separates them.
     pub fn integrate(
-        pair: &Pair,
+        pair: &PairForm,
         sides: [&Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,

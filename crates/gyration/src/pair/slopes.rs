@@ -3,13 +3,14 @@
 //! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
 //! change by those of one more power of the gap, and everything else by the chain rule.
 
+use super::Mat34;
 use super::equilibrium::Change;
 use super::fault::PairFault;
+use super::form::PairForm;
 use super::mediator::Slope;
 use super::plane::Guess;
 use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
-use super::{Mat34, Pair};
 use crate::load::{COORDINATES, Loads, Mat12};
 
 /// What a pair of bodies does to both, and its derivatives.
@@ -31,7 +32,7 @@ impl PairSlopes {
     /// # Errors
     /// [`PairFault`] if no plane separates them.
     pub fn integrate(
-        pair: &Pair,
+        pair: &PairForm,
         sides: [&Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,

@@ -2,11 +2,12 @@
 
 use super::equilibrium::{Placed, place};
 use super::fault::PairFault;
+use super::form::PairForm;
 use super::laws::{ViscousLaw, shares};
 use super::mediator::{Mediator, Shares};
 use super::plane::Guess;
 use super::side::{Half, Side, columns};
-use super::{Mat34, Pair, Vec4};
+use super::{Mat34, Vec4};
 use crate::contact::AreaMeasure;
 use crate::surface::Moments;
 use crate::tensor::Vec3;
@@ -28,7 +29,7 @@ pub(super) enum ViscousMoments {
 
 /// A pair whose plane is found.
 pub(super) struct PairState<'a> {
-    pub pair: &'a Pair,
+    pub pair: &'a PairForm,
     pub halves: [Half<'a>; 2],
     pub placed: Placed,
     /// The foot of the repulsion on the plane, from A's centre [m].
@@ -68,7 +69,7 @@ pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2]
 impl<'a> PairState<'a> {
     /// Places the plane.
     pub fn new(
-        pair: &'a Pair,
+        pair: &'a PairForm,
         sides: [&Side<'a>; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
@@ -155,7 +156,7 @@ impl PairGap {
     }
 }
 
-impl Pair {
+impl PairForm {
     /// The slab between two bodies along the normal of their plane.
     ///
     /// # Errors

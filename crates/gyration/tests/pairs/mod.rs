@@ -8,7 +8,7 @@ mod values;
 use gyration::contact::{AreaMeasure, ContactLaw, Damping, Friction, Repulsion};
 use gyration::kinematics::{Placement, Velocity};
 use gyration::load::Loads;
-use gyration::pair::{Pair, PairLaws, PairLoads, PairScratch, Side};
+use gyration::pair::{PairForm, PairLaws, PairLoads, PairScratch, Side};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3, axial};
 use std::sync::Arc;
@@ -117,8 +117,8 @@ fn laws(exponents: [f64; 3], viscous: bool) -> PairLaws {
     PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap()
 }
 
-fn pair(laws: &PairLaws, reach: Option<f64>, halves: [&Half; 2]) -> Pair {
-    Pair::new([0, 1], [0, 0], Arc::new(laws.clone()), reach, halves.map(|half| &half.surface))
+fn pair(laws: &PairLaws, reach: Option<f64>, halves: [&Half; 2]) -> PairForm {
+    PairForm::new(Arc::new(laws.clone()), reach, halves.map(|half| &half.surface))
 }
 
 fn loads(laws: &PairLaws, halves: [&Half; 2]) -> PairLoads {

@@ -2,22 +2,26 @@
 //!
 //! Of bodies and supports, or pairs of bodies, that are alike the first is drawn, with how many there are of them.
 
-use super::sources::{Groups, alike};
+use super::sources::Groups;
 use super::{GapRange, by_sign, chart};
 use crate::chart::ticks::length_in_words;
 use crate::chart::{Chart, DOTTED, Series};
 use crate::draw::{Point, color};
+use gyration::body::Solid;
 use gyration::model::Model;
-use gyration::pair::Pair;
+use gyration::neighbours::Pair;
 use gyration::state::State;
 use gyration_sim::survey::{Approach, Encounter, RestGap};
 use serde_json::Value;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Curves with marks for their weights and gaps of rest.
 const MOST_MARKED: usize = 7;
 /// Curves that are drawn.
 const MOST_CURVES: usize = 40;
+/// Pairs of bodies among which those that are alike are looked for.
+const MOST_SORTED: usize = 100_000;
 
 /// A force over a distance.
 pub struct ForceCurve<'a> {
@@ -54,18 +58,13 @@ impl<'a> ForceCurve<'a> {
             }
         }
         let groups = Groups::of(model, resolved);
-        let solid = |body: usize| &model.bodies[body].solid;
-        let are_alike = |one: &Pair, other: &Pair| {
-            let same =
-                |k: usize| Arc::ptr_eq(solid(one.bodies[k]), solid(other.bodies[k])) && one.parts[k] == other.parts[k];
-            Arc::ptr_eq(&one.laws, &other.laws) && same(0) && same(1)
-        };
-        let sorts = alike(model.pairs(), are_alike);
-        left_out += sorts.len().saturating_sub(MOST_CURVES);
-        for pairs in sorts.into_iter().take(MOST_CURVES) {
-            let number = model.pairs().iter().position(|pair| std::ptr::eq(pair, pairs[0]));
-            if let Some(encounter) = number.and_then(|number| Encounter::new(model, start, number)) {
-                curves.push(Self { name: groups.name(model, &pairs), of: Meeting::Bodies(Box::new(encounter)) });
+        let sorts = sorts(model);
+        left_out += sorts.iter().map(|(_, parts)| parts.len()).sum::<usize>().saturating_sub(MOST_CURVES);
+        let sorts = sorts.iter().flat_map(|(bodies, parts)| parts.iter().map(move |first| (first, bodies)));
+        for (first, bodies) in sorts.take(MOST_CURVES) {
+            if let Some(encounter) = Encounter::new(model, start, first) {
+                let name = groups.name(model, bodies.len(), bodies.iter().copied());
+                curves.push(Self { name, of: Meeting::Bodies(Box::new(encounter)) });
             }
         }
         (curves, left_out)
@@ -115,6 +114,24 @@ impl<'a> ForceCurve<'a> {
         }
         marks
     }
+}
+
+/// The pairs of bodies that are alike, equal bodies that meet by one rule, each sort with the pairs of parts of its
+/// first two; of very many pairs of bodies some.
+fn sorts(model: &Model) -> Vec<(Vec<[usize; 2]>, Vec<Pair>)> {
+    let mut places: HashMap<(usize, [*const Solid; 2]), usize> = HashMap::new();
+    let mut sorts: Vec<(Vec<[usize; 2]>, Vec<Pair>)> = Vec::new();
+    let rules = model.rules().all().iter().enumerate();
+    let pairs = rules.flat_map(|(rule, set)| set.pairs().map(move |bodies| (rule, bodies)));
+    for (rule, bodies) in pairs.take(MOST_SORTED) {
+        let solids = bodies.map(|body| Arc::as_ptr(&model.bodies[body].solid));
+        let place = *places.entry((rule, solids)).or_insert(sorts.len());
+        match sorts.get_mut(place) {
+            Some((alike, _)) => alike.push(bodies),
+            None => sorts.push((vec![bodies], model.pairs_between(rule, bodies).collect())),
+        }
+    }
+    sorts
 }
 
 /// The forces of all curves; each is named, those of bodies with one force under one name.

@@ -2,10 +2,8 @@
 
 use gyration::contact::ContactLaw;
 use gyration::model::Model;
-use gyration::pair::Pair;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// Pairs by which two groups are recognized.
 const MOST_PAIRS: usize = 2000;
@@ -38,26 +36,13 @@ impl<'a> LawSource<'a> {
             is_between_bodies: false,
         });
         let groups = Groups::of(model, resolved);
-        let of_pairs = alike(model.pairs(), |one, other| Arc::ptr_eq(&one.laws, &other.laws)).into_iter();
-        let of_pairs = of_pairs.map(|pairs| Self {
-            name: groups.name(model, &pairs),
-            laws: pairs[0].laws.laws(),
+        let of_pairs = model.rules().all().iter().map(|rule| Self {
+            name: groups.name(model, rule.count(), rule.pairs()),
+            laws: rule.laws.laws(),
             is_between_bodies: true,
         });
         of_support.chain(of_pairs).collect()
     }
-}
-
-/// Pairs that are alike, in the order of the first ones.
-pub fn alike(pairs: &[Pair], are_alike: impl Fn(&Pair, &Pair) -> bool) -> Vec<Vec<&Pair>> {
-    let mut sorts: Vec<Vec<&Pair>> = Vec::new();
-    for pair in pairs {
-        match sorts.iter_mut().find(|sort| are_alike(sort[0], pair)) {
-            Some(sort) => sort.push(pair),
-            None => sorts.push(vec![pair]),
-        }
-    }
-    sorts
 }
 
 /// The bodies of each word by which contacts name many.
@@ -82,12 +67,14 @@ impl Groups {
         Self(groups)
     }
 
-    /// Who is in these pairs: the two of a single one, two groups that hold all of them, or the first two and how many
-    /// pairs besides.
-    pub fn name(&self, model: &Model, pairs: &[&Pair]) -> String {
-        let [one, other] = pairs[0].bodies.map(|body| model.bodies[body].name.as_str());
-        let more = pairs.iter().filter(|pair| pair.bodies != pairs[0].bodies).count();
-        match self.holding(pairs).filter(|_| more > 0) {
+    /// Who is in so many pairs of bodies: the two of a single one, two groups that hold all of them, or the first two
+    /// and how many pairs besides.
+    pub fn name(&self, model: &Model, count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> String {
+        let pairs: Vec<[usize; 2]> = pairs.take(MOST_PAIRS).collect();
+        let Some(first) = pairs.first() else { return String::new() };
+        let [one, other] = first.map(|body| model.bodies[body].name.as_str());
+        let more = count.saturating_sub(1);
+        match self.holding(&pairs).filter(|_| more > 0) {
             _ if more == 0 => format!("{one} – {other}"),
             Some((first, second)) => format!("{first} – {second}"),
             None => format!("{one} – {other}, {more} more {}", if more == 1 { "pair" } else { "pairs" }),
@@ -95,13 +82,10 @@ impl Groups {
     }
 
     /// Two groups of which each pair has a body each.
-    fn holding(&self, pairs: &[&Pair]) -> Option<(&str, &str)> {
+    fn holding(&self, pairs: &[[usize; 2]]) -> Option<(&str, &str)> {
         let words: Vec<_> = self.0.iter().take(MOST_WORDS).collect();
         let holds = |first: &[bool], second: &[bool]| {
-            pairs.iter().take(MOST_PAIRS).all(|pair| {
-                let [one, other] = pair.bodies;
-                (first[one] && second[other]) || (first[other] && second[one])
-            })
+            pairs.iter().all(|[one, other]| (first[*one] && second[*other]) || (first[*other] && second[*one]))
         };
         let mut all =
             words.iter().enumerate().flat_map(|(k, first)| words[k..].iter().map(move |second| (first, second)));

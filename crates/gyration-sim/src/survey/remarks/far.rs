@@ -21,14 +21,17 @@ const MOST_PAIRS: usize = 20;
 pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String> {
     let place = |body: usize| start.motion(model, body).placement.position.norm();
     let far = |body: usize| place(body) > NEAR * model.bodies[body].size;
-    let mut pairs = model.pairs().iter().filter(|pair| pair.bodies.iter().any(|body| far(*body))).take(MOST_PAIRS);
+    if !(0..model.bodies.len()).any(far) {
+        return None;
+    }
+    let mut pairs = model.pairs().filter(|pair| pair.bodies.iter().any(|body| far(*body))).take(MOST_PAIRS);
     pairs.find_map(|pair| {
         let distance = place(pair.bodies[0]).max(place(pair.bodies[1]));
-        let trial = TrialPair::of(model, start, pair);
+        let trial = TrialPair::of(model, start, &pair);
         let is_pinned = pair.bodies.iter().any(|body| model.bodies[*body].pin.is_some());
         let gap = if is_pinned { trial.turning_gap()? } else { trial.gap()? };
         // A repulsion d^−ν turns the rounding of a gap into so much of its energy.
-        let error = pair.laws.repulsion.exponent * DIGIT * distance / gap;
+        let error = pair.form.laws.repulsion.exponent * DIGIT * distance / gap;
         if error <= MARGIN * rtol {
             return None;
         }

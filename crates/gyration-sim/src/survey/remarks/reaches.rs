@@ -3,7 +3,6 @@
 use super::trial::TrialPair;
 use crate::format::significant;
 use gyration::model::Model;
-use gyration::pair::Pair;
 use gyration::state::State;
 
 /// In so many gaps, or d₀, a law falls to what may be left out.
@@ -15,19 +14,20 @@ const MOST_PAIRS: usize = 10_000;
 
 /// What must be told of the reaches of a model.
 pub(super) fn warnings(model: &Model, start: &State) -> Vec<String> {
-    // Pairs of one contact stand together.
-    let contacts = model.pairs().chunk_by(|one, other| std::ptr::eq(&*one.laws, &*other.laws));
-    contacts.take(MOST_CONTACTS).filter_map(|pairs| warning(model, start, pairs)).collect()
+    let rules = (0..model.rules().all().len()).take(MOST_CONTACTS);
+    rules.filter_map(|rule| warning(model, start, rule)).collect()
 }
 
-fn warning(model: &Model, start: &State, pairs: &[Pair]) -> Option<String> {
+fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     let velocity = |body: usize| start.motion(model, body).velocity.velocity;
-    let speed = |pair: &&Pair| (velocity(pair.bodies[0]) - velocity(pair.bodies[1])).norm();
-    let pair = pairs.iter().take(MOST_PAIRS).max_by(|one, other| speed(one).total_cmp(&speed(other)))?;
-    let reach = pair.reach?;
-    let trial = TrialPair::of(model, start, pair);
+    let speed = |[one, other]: &[usize; 2]| (velocity(*one) - velocity(*other)).norm();
+    let rule_of_both = &model.rules().all()[rule];
+    let reach = rule_of_both.reach?;
+    let fastest = rule_of_both.pairs().take(MOST_PAIRS).max_by(|one, other| speed(one).total_cmp(&speed(other)))?;
+    let pair = model.pairs_between(rule, fastest).last()?;
+    let trial = TrialPair::of(model, start, &pair);
     let gap = trial.turning_gap();
-    let reference = pair.laws.repulsion.reference_gap;
+    let reference = pair.form.laws.repulsion.reference_gap;
     let [one, other] = pair.bodies.map(|body| &model.bodies[body].name);
     let least = match gap {
         Some(gap) if reach < LEAST * gap => {

@@ -6,9 +6,10 @@ use crate::survey::Approach;
 use gyration::body::Body;
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::model::Model;
-use gyration::pair::Pair;
+use gyration::neighbours::{BodyPair, Pair, Sphere, near};
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// So many times all other energy is no start that was meant.
 const DWARFS: f64 = 1e3;
@@ -19,7 +20,9 @@ const MOST_PAIRS: usize = 10_000;
 
 /// What must be told of the contact that stores most.
 pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
-    let pairs = model.pairs().iter().take(MOST_PAIRS).filter_map(|pair| Near::of_pair(model, start, pair));
+    let near = beside_one_another(model, start);
+    let pairs = near.iter().flat_map(|pair| model.pairs_between(pair.rule, pair.bodies)).take(MOST_PAIRS);
+    let pairs = pairs.filter_map(|pair| Near::of_pair(model, start, &pair));
     let bodies = model.bodies.iter().enumerate().filter(|(_, body)| !body.contacts.is_empty()).take(MOST_PAIRS);
     let planes = bodies.flat_map(|(index, _)| {
         (0..model.supports.len()).filter_map(move |support| Near::of_support(model, start, (index, support)))
@@ -52,6 +55,17 @@ struct Near {
     energy: f64,
 }
 
+/// The bodies that meet and are not farther apart than they are large, and some others.
+fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
+    let sphere = |(index, body): (usize, &Arc<Body>)| {
+        let Some(radius) = body.solid.radius() else { return Sphere::NOWHERE };
+        let placement = start.motion(model, index).placement;
+        Sphere::new(placement.position, 2.0 * placement.gradient.norm() * radius)
+    };
+    let spheres: Vec<Sphere> = model.bodies.iter().enumerate().map(sphere).collect();
+    near(model.rules(), &spheres, |_| Some(0.0))
+}
+
 impl Near {
     /// A pair at the start, unless its balls are farther apart than they are large.
     fn of_pair(model: &Model, start: &State, pair: &Pair) -> Option<Self> {
@@ -65,7 +79,7 @@ impl Near {
         if between.norm() > 2.0 * (reach(0) + reach(1)) {
             return None;
         }
-        let loads = stored(pair, bodies, &motions)?;
+        let loads = stored((&pair.form, pair.parts), bodies, &motions)?;
         let names = format!("\"{}\" and \"{}\"", bodies[0].name, bodies[1].name);
         Some(Self { names, bodies: pair.bodies.map(Some), gap: loads.gap, energy: loads.energy })
     }

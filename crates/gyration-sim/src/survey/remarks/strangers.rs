@@ -7,7 +7,7 @@ use gyration::model::Model;
 use gyration::pair::Overlap;
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Pairs whose overlap is computed.
 const MOST_COMPUTED: usize = 2_000;
@@ -19,15 +19,15 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
     let solid: Vec<usize> =
         (0..model.bodies.len()).filter(|body| model.bodies[*body].solid.surface.is_some()).collect();
     let sorted = |[one, other]: [usize; 2]| if one < other { [one, other] } else { [other, one] };
-    let mut known: HashSet<[usize; 2]> = model.pairs().iter().map(|pair| sorted(pair.bodies)).collect();
     let all = solid.len() * solid.len().saturating_sub(1) / 2;
-    if known.len() >= all {
+    let meeting = count_meeting(model, &solid);
+    if meeting >= all {
         return;
     }
-    let meeting = known.len();
-    known.extend(apart_for_ever(model, &solid));
-    let strangers = all.saturating_sub(known.len());
-    let Some([one, other]) = first_stranger(&solid, &known) else { return };
+    let apart = apart_for_ever(model, &solid).into_iter().filter(|pair| !meet(model, *pair));
+    let mut known: HashSet<[usize; 2]> = apart.collect();
+    let strangers = all.saturating_sub(meeting + known.len());
+    let Some([one, other]) = first_stranger(model, &solid, &known) else { return };
     let name = |body: usize| &model.bodies[body].name;
     let who = match (strangers, meeting) {
         (1, _) => format!("\"{}\" and \"{}\" do not meet", name(one), name(other)),
@@ -66,7 +66,7 @@ impl Overlapping {
         let mut computed = 0;
         let is_whole = overlapping(&mut balls, |one, other| {
             let bodies = [one.body, other.body];
-            if known.contains(&bodies) {
+            if known.contains(&bodies) || meet(model, bodies) {
                 return true;
             }
             computed += 1;
@@ -135,10 +135,34 @@ fn apart_for_ever(model: &Model, solid: &[usize]) -> Vec<[usize; 2]> {
     apart
 }
 
-/// The first two bodies that are not known to meet or to stay apart.
-fn first_stranger(solid: &[usize], known: &HashSet<[usize; 2]>) -> Option<[usize; 2]> {
-    let pairs =
+/// Whether a contact says of two bodies that they meet.
+fn meet(model: &Model, [one, other]: [usize; 2]) -> bool {
+    let rules = model.rules();
+    rules.of(one).iter().any(|rule| rules.all()[*rule].between(one, other).is_some())
+}
+
+/// How many pairs of bodies meet: bodies that are in the same sets of the same rules are alike.
+fn count_meeting(model: &Model, solid: &[usize]) -> usize {
+    let rules = model.rules();
+    let mut sorts: HashMap<Vec<(usize, [bool; 2])>, Vec<usize>> = HashMap::new();
+    for body in solid.iter().filter(|body| model.meets_bodies(**body)) {
+        let is_in = |rule: &usize| rules.all()[*rule].bodies.each_ref().map(|set| set.binary_search(body).is_ok());
+        let sets = rules.of(*body).iter().map(|rule| (*rule, is_in(rule))).collect();
+        sorts.entry(sets).or_default().push(*body);
+    }
+    let sorts: Vec<Vec<usize>> = sorts.into_values().collect();
+    let between = |(place, sort): (usize, &Vec<usize>)| {
+        let within = sort.get(1).is_some_and(|second| meet(model, [sort[0], *second]));
+        let own = if within { sort.len() * (sort.len() - 1) / 2 } else { 0 };
+        let others = sorts[place + 1..].iter().filter(|other| meet(model, [sort[0], other[0]]));
+        own + others.map(|other| sort.len() * other.len()).sum::<usize>()
+    };
+    sorts.iter().enumerate().map(between).sum()
+}
+
+/// The first two bodies that do not meet and may.
+fn first_stranger(model: &Model, solid: &[usize], known: &HashSet<[usize; 2]>) -> Option<[usize; 2]> {
+    let mut pairs =
         solid.iter().enumerate().flat_map(|(place, one)| solid[place + 1..].iter().map(move |two| [*one, *two]));
-    // There are no more known ones to pass.
-    pairs.take(known.len() + 1).find(|pair| !known.contains(pair))
+    pairs.find(|pair| !known.contains(pair) && !meet(model, *pair))
 }

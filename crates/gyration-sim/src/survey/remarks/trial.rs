@@ -8,7 +8,8 @@ use crate::survey::balance::TrialGaps;
 use gyration::body::Body;
 use gyration::contact::Deformation;
 use gyration::model::Model;
-use gyration::pair::{Pair, PairLoads, PairScratch, Side};
+use gyration::neighbours::Pair;
+use gyration::pair::{PairForm, PairLoads, PairScratch, Side};
 use gyration::state::{BodyMotion, State};
 use gyration::surface::GapField;
 use gyration::tensor::{Mat3, Vec3};
@@ -19,7 +20,8 @@ const TRIED: (f64, f64) = (1e-11, 10.0);
 
 /// A pair without a reach, and where its bodies are.
 pub(super) struct TrialPair<'a> {
-    pair: Pair,
+    form: PairForm,
+    parts: [usize; 2],
     bodies: [&'a Body; 2],
     motions: [BodyMotion; 2],
     gravity: f64,
@@ -31,8 +33,8 @@ impl<'a> TrialPair<'a> {
         let bodies = pair.bodies.map(|body| &*model.bodies[body]);
         let surfaces = [0, 1].map(|end| bodies[end].solid.part(pair.parts[end]));
         let motions = pair.bodies.map(|body| start.motion(model, body));
-        let pair = Pair::new(pair.bodies, pair.parts, Arc::clone(&pair.laws), None, surfaces);
-        Self { pair, bodies, motions, gravity: model.gravity.norm() }
+        let form = PairForm::new(Arc::clone(&pair.form.laws), None, surfaces);
+        Self { form, parts: pair.parts, bodies, motions, gravity: model.gravity.norm() }
     }
 
     /// The size of the smaller one [m].
@@ -46,7 +48,7 @@ impl<'a> TrialPair<'a> {
             let sign = if end == 0 { 1.0 } else { -1.0 };
             let place = &self.motions[end].placement;
             let field = GapField::new(0.0, sign * place.gradient.tr_mul(normal));
-            self.bodies[end].solid.part(self.pair.parts[end]).smallest_gap(&field).0
+            self.bodies[end].solid.part(self.parts[end]).smallest_gap(&field).0
         });
         let between = self.motions[0].placement.position - self.motions[1].placement.position;
         between.dot(normal) + above + below
@@ -62,7 +64,7 @@ impl<'a> TrialPair<'a> {
     fn stored_at(&self, gap: f64, normal: &Vec3) -> Option<f64> {
         let mut motions = self.motions;
         motions[0].placement.position += (gap - self.width(normal)) * normal;
-        stored(&self.pair, self.bodies, &motions).map(|loads| loads.energy)
+        stored((&self.form, self.parts), self.bodies, &motions).map(|loads| loads.energy)
     }
 
     /// The gap at which the two turn back [m]; none where nothing brings them together.
@@ -76,7 +78,7 @@ impl<'a> TrialPair<'a> {
         if kinetic + weight <= 0.0 {
             return None;
         }
-        let falling = weight / (self.pair.laws.repulsion.exponent - 1.0);
+        let falling = weight / (self.form.laws.repulsion.exponent - 1.0);
         let balance = |gap: f64| Some(self.stored_at(gap, &normal)? - kinetic - falling * gap);
         let trials = TrialGaps::between(TRIED.0 * self.size(), TRIED.1 * self.size());
         trials.root_of_falling(balance).first().copied()
@@ -84,14 +86,18 @@ impl<'a> TrialPair<'a> {
 }
 
 /// What a pair does at these places; none where no plane separates them.
-pub(super) fn stored(pair: &Pair, bodies: [&Body; 2], motions: &[BodyMotion; 2]) -> Option<PairLoads> {
+pub(super) fn stored(
+    (form, parts): (&PairForm, [usize; 2]),
+    bodies: [&Body; 2],
+    motions: &[BodyMotion; 2],
+) -> Option<PairLoads> {
     /// A gap that cannot be told from zero, relative to size and distance.
     const RESOLUTION: f64 = 64.0 * f64::EPSILON;
     let apart = (motions[0].placement.position - motions[1].placement.position).norm();
     let [one, other] = [0, 1].map(|end| {
         let placement = &motions[end].placement;
         Side {
-            surface: bodies[end].solid.part(pair.parts[end]),
+            surface: bodies[end].solid.part(parts[end]),
             placement,
             from_first: placement.position - motions[0].placement.position,
             velocity: &motions[end].velocity,
@@ -100,5 +106,5 @@ pub(super) fn stored(pair: &Pair, bodies: [&Body; 2], motions: &[BodyMotion; 2])
             least_gap: RESOLUTION * (bodies[end].size + apart),
         }
     });
-    PairLoads::integrate(pair, [&one, &other], None, &mut PairScratch::default()).ok()
+    PairLoads::integrate(form, [&one, &other], None, &mut PairScratch::default()).ok()
 }

@@ -25,7 +25,7 @@ pub(in super::super) fn add_interactions(
         let (other, coupling) = match load {
             Load::Bond(end) => (end.other(), Coupling::of_bond(&end, &bonded(at, &end)?)),
             Load::Pair(end) => {
-                let Some(slopes) = &scratch.pairs.slopes[end.number] else { return Ok(()) };
+                let slopes = scratch.pairs.slopes(end.number);
                 let (own, other) = (end.end, 1 - end.end);
                 let (by_place, by_rate) = (slopes.by_place[own][other], slopes.by_rate[own][other]);
                 (end.other(), Coupling { by_place, by_rate })

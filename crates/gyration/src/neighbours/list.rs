@@ -1,0 +1,165 @@
+//! The pairs of bodies that may act on one another, kept while bodies move little.
+//!
+//! A list of Verlet: all pairs whose spheres come as near as their reach and a skin stand in it; it is made anew when a
+//! body has moved by half the skin. Few pairs are all listed, once. So are those without a cutoff: of rules without a
+//! reach, and of bodies that deform.
+
+use super::rules::{PairRule, PairRules};
+use super::spheres::{BodyPair, Sphere, near};
+use super::{Pair, form, parts_of};
+use crate::body::{Body, Solid};
+use crate::load::Interactions;
+use crate::pair::PairForm;
+use crate::tensor::Vec3;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
+
+/// So few pairs are all listed.
+const FEW: usize = 128;
+/// The skin, as a part of the mean radius of the bodies that meet.
+const SKIN: f64 = 0.5;
+
+/// The pairs that may act at a configuration of the bodies.
+#[derive(Debug, Clone, Default)]
+pub struct NeighbourList {
+    /// Those from which it is made.
+    rules: PairRules,
+    pairs: Interactions<Pair>,
+    /// Whether it has all pairs of the rules.
+    is_whole: bool,
+    /// What bodies may move by in sum before it is made anew [m].
+    skin: f64,
+    /// The largest radius of a body that meets others [m].
+    largest_radius: f64,
+    /// The centres of the bodies when it was made [m].
+    places: Vec<Vec3>,
+    forms: Forms,
+    tree: OnceLock<RTree<Place>>,
+}
+
+/// A place, and the body there.
+type Place = GeomWithData<[f64; 3], usize>;
+
+/// The forms of pairs, one for all pairs of equal parts of equal bodies: by rule, solids and parts.
+#[derive(Debug, Clone, Default)]
+struct Forms(HashMap<(usize, [(usize, usize); 2]), Form>);
+
+/// A form, and the solids by whose addresses it is found.
+#[derive(Debug, Clone)]
+struct Form {
+    form: Arc<PairForm>,
+    _solids: [Arc<Solid>; 2],
+}
+
+impl Forms {
+    fn of(&mut self, number: usize, rule: &PairRule, solids: [&Arc<Solid>; 2], parts: [usize; 2]) -> Arc<PairForm> {
+        let part = |end: usize| (Arc::as_ptr(solids[end]) as usize, parts[end]);
+        let made = || Form { form: Arc::new(form(rule, solids, parts)), _solids: solids.map(Arc::clone) };
+        Arc::clone(&self.0.entry((number, [part(0), part(1)])).or_insert_with(made).form)
+    }
+}
+
+impl NeighbourList {
+    /// The pairs.
+    pub fn pairs(&self) -> &Interactions<Pair> {
+        &self.pairs
+    }
+
+    /// Whether these are all pairs that there are, wherever the bodies are.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// Makes the list anew where it does not hold for these places [m] any longer.
+    pub fn update(&mut self, rules: &PairRules, bodies: &[Arc<Body>], place: impl Fn(usize) -> Vec3) {
+        if rules.is_empty() && self.rules.is_empty() {
+            return;
+        }
+        let is_of_these = self.rules.are(rules);
+        if is_of_these && self.is_whole {
+            return;
+        }
+        let stays = |(index, before): (usize, &Vec3)| 2.0 * (place(index) - before).norm() <= self.skin;
+        if is_of_these && self.places.iter().enumerate().all(stays) {
+            return;
+        }
+        if !is_of_these {
+            let is_endless = |rule: &PairRule| rule.reach.is_none();
+            let is_whole =
+                rules.all().iter().map(PairRule::count).sum::<usize>() <= FEW || rules.all().iter().all(is_endless);
+            let meeting = (0..bodies.len()).filter(|body| !rules.of(*body).is_empty());
+            let radii: Vec<f64> = meeting.filter_map(|body| bodies[body].solid.radius()).collect();
+            let skin = SKIN * radii.iter().sum::<f64>() / radii.len() as f64;
+            let largest_radius = radii.into_iter().fold(0.0, f64::max);
+            *self = Self { rules: rules.clone(), is_whole, skin, largest_radius, ..Self::default() };
+        }
+        self.make(bodies, place);
+    }
+
+    fn make(&mut self, bodies: &[Arc<Body>], place: impl Fn(usize) -> Vec3) {
+        let Self { rules, is_whole, skin, forms, .. } = self;
+        let spheres: Vec<Sphere> = match is_whole {
+            true => vec![Sphere::EVERYWHERE; bodies.len()],
+            false => bodies.iter().enumerate().map(|(index, body)| sphere(body, place(index))).collect(),
+        };
+        let mut pairs = Vec::new();
+        for BodyPair { rule, bodies: both } in
+            near(rules, &spheres, |rule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach + *skin)))
+        {
+            let solids = both.map(|body| &bodies[body].solid);
+            let forms = &mut *forms;
+            let rules = &*rules;
+            pairs.extend(parts_of(solids).map(|parts| Pair {
+                rule,
+                bodies: both,
+                parts,
+                form: forms.of(rule, &rules.all()[rule], solids, parts),
+            }));
+        }
+        self.pairs = Interactions::new(bodies.len(), pairs);
+        self.places = if self.is_whole { Vec::new() } else { (0..bodies.len()).map(place).collect() };
+        self.tree = OnceLock::new();
+    }
+
+    /// The pairs of the parts of two bodies that a rule joins, unless they are listed.
+    pub fn unlisted<'a>(
+        &'a self,
+        rule: usize,
+        both: [usize; 2],
+        bodies: &'a [Arc<Body>],
+    ) -> impl Iterator<Item = Pair> {
+        let solids = both.map(|body| &bodies[body].solid);
+        let pairs = BodyPair { rule, bodies: both };
+        let is_listed = self.pairs.all().binary_search_by(|pair| pair.key().0.cmp(&pairs)).is_ok();
+        (!is_listed).then(|| Pair::all_of(&self.rules, rule, both, solids)).into_iter().flatten()
+    }
+
+    /// The largest radius of a body that meets others [m].
+    pub fn largest_radius(&self) -> f64 {
+        self.largest_radius
+    }
+
+    /// The bodies whose centres are at least so far from a place [m], with this bound, as it ascends.
+    pub fn outward(&self, from: &Vec3) -> impl Iterator<Item = (f64, usize)> {
+        let is_finite = |place: &Vec3| place.iter().all(|x| x.is_finite());
+        let tree = self.tree.get_or_init(|| {
+            let places = self.places.iter().enumerate().filter(|(_, place)| is_finite(place));
+            RTree::bulk_load(places.map(|(index, place)| Place::new((*place).into(), index)).collect())
+        });
+        let from: [f64; 3] = if is_finite(from) { (*from).into() } else { [0.0; 3] };
+        let skin = self.skin;
+        let nearest = tree.nearest_neighbor_iter_with_distance_2(from);
+        nearest.map(move |(place, square)| (square.sqrt() - 0.5 * skin, place.data))
+    }
+}
+
+/// A sphere about a rigid body; no place for one without a surface.
+fn sphere(body: &Body, place: Vec3) -> Sphere {
+    match (body.affine(), body.solid.radius()) {
+        (_, None) => Sphere::NOWHERE,
+        (Some(_), _) => Sphere::EVERYWHERE,
+        (None, Some(radius)) => Sphere::new(place, radius),
+    }
+}

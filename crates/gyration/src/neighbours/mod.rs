@@ -1,0 +1,79 @@
+//! Who meets whom: rules between sets of bodies, and the pairs of bodies that are near enough to act on one another.
+//!
+//! A scene says rules (two sets of bodies, laws, a reach), no list of pairs: of N bodies there are N² pairs, of which
+//! each body has a few that matter. Forces out of reach are exactly zero, so that which pairs are listed beside those
+//! within reach leaves no trace in any number; listed pairs keep the order of the rules, in which loads are summed.
+//!
+//! | file      | what                                                          |
+//! |-----------|---------------------------------------------------------------|
+//! | `rules`   | what a scene says: sets of bodies, laws, reach                |
+//! | `boxes`   | boxes in a tree                                               |
+//! | `spheres` | which spheres about bodies come near one another              |
+//! | `list`    | the pairs that may act, kept while bodies move little         |
+
+mod boxes;
+mod list;
+mod rules;
+mod spheres;
+
+pub use boxes::{Bounds, BoxTree};
+pub use list::NeighbourList;
+pub use rules::{PairRule, PairRules};
+pub use spheres::{BodyPair, Sphere, near};
+
+use crate::body::Solid;
+use crate::load::Interaction;
+use crate::pair::PairForm;
+use std::sync::Arc;
+
+/// Two bodies of a model that meet, or convex parts of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The number of the rule that joins them.
+    pub rule: usize,
+    /// The indices of the two bodies, A and B, which differ.
+    pub bodies: [usize; 2],
+    /// Which part of each.
+    pub parts: [usize; 2],
+    /// What they do to each other.
+    pub form: Arc<PairForm>,
+}
+
+impl Interaction for Pair {
+    fn bodies(&self) -> [usize; 2] {
+        self.bodies
+    }
+}
+
+impl Pair {
+    /// The pairs of all parts of two bodies that a rule joins.
+    pub(crate) fn all_of<'a>(
+        rules: &'a PairRules,
+        rule: usize,
+        bodies: [usize; 2],
+        solids: [&'a Arc<Solid>; 2],
+    ) -> impl Iterator<Item = Self> + use<'a> {
+        parts_of(solids).map(move |parts| {
+            let form = Arc::new(form(&rules.all()[rule], solids, parts));
+            Self { rule, bodies, parts, form }
+        })
+    }
+
+    /// The order in which the pairs of a model stand.
+    pub fn key(&self) -> (BodyPair, [usize; 2]) {
+        (BodyPair { rule: self.rule, bodies: self.bodies }, self.parts)
+    }
+}
+
+/// The parts of two bodies, ascending.
+fn parts_of(solids: [&Arc<Solid>; 2]) -> impl Iterator<Item = [usize; 2]> + use<> {
+    let [one, other] = solids.map(|solid| solid.count_parts());
+    (0..one).flat_map(move |first| (0..other).map(move |second| [first, second]))
+}
+
+/// What parts of two bodies do to each other by a rule.
+fn form(rule: &PairRule, solids: [&Arc<Solid>; 2], parts: [usize; 2]) -> PairForm {
+    let surfaces = [0, 1].map(|end| solids[end].part(parts[end]));
+    let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));
+    PairForm::of_radii(Arc::clone(&rule.laws), rule.reach, surfaces, radii)
+}

@@ -1,0 +1,207 @@
+//! Rules: what a scene says of who meets whom.
+
+use crate::pair::PairLaws;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Any body of one set meets any body of another, by the same laws.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairRule {
+    /// The indices of the bodies of both sets, ascending.
+    pub bodies: [Arc<[usize]>; 2],
+    /// What acts between two of them.
+    pub laws: Arc<PairLaws>,
+    /// The distance at which it begins [m]; none if it is everywhere.
+    pub reach: Option<f64>,
+}
+
+/// The rules of a model, which copies of it share.
+#[derive(Debug, Clone)]
+pub struct PairRules {
+    all: Arc<[PairRule]>,
+    /// Where the rules of each body begin, and where the last end; empty without rules.
+    starts: Arc<[usize]>,
+    /// The numbers of the rules by which a body has somebody to meet, body by body.
+    of: Arc<[usize]>,
+}
+
+impl PairRule {
+    /// Two bodies in the order in which the rule joins them; none if it does not.
+    pub fn between(&self, one: usize, other: usize) -> Option<[usize; 2]> {
+        let (first, second) = (one.min(other), one.max(other));
+        let joins = |a: usize, b: usize| a != b && self.is_in(0, a) && self.is_in(1, b);
+        let orders = [[first, second], [second, first]];
+        orders.into_iter().find(|[a, b]| joins(*a, *b))
+    }
+
+    fn is_in(&self, set: usize, body: usize) -> bool {
+        self.bodies[set].binary_search(&body).is_ok()
+    }
+
+    /// All pairs that it joins, each once, ascending.
+    pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let [one, other] = &self.bodies;
+        let alike = one == other;
+        one.iter().flat_map(move |first| {
+            // Of two equal sets the bodies behind are left.
+            let from = if alike { other.partition_point(|second| second <= first) } else { 0 };
+            let joined = move |second: &&usize| alike || self.between(*first, **second) == Some([*first, **second]);
+            other[from..].iter().filter(joined).map(|second| [*first, *second])
+        })
+    }
+
+    /// How many these are.
+    pub fn count(&self) -> usize {
+        let [one, other] = &self.bodies;
+        let both = one.iter().filter(|body| self.is_in(1, **body)).count();
+        one.len() * other.len() - both - both * both.saturating_sub(1) / 2
+    }
+
+    /// Whether a body has somebody to meet.
+    fn concerns(&self, body: usize) -> bool {
+        let meets = |own: usize| self.is_in(own, body) && self.bodies[1 - own].iter().any(|other| *other != body);
+        meets(0) || meets(1)
+    }
+
+    /// So few pairs that any two bodies that they join through any chain are joined through these.
+    pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let star = |own: usize| {
+            let center = self.bodies[own].first();
+            center.into_iter().flat_map(move |body| self.bodies[1 - own].iter().map(move |other| [*body, *other]))
+        };
+        star(0).chain(star(1)).filter(|[one, other]| one != other)
+    }
+}
+
+impl Default for PairRules {
+    fn default() -> Self {
+        Self { all: Arc::from([]), starts: Arc::from([]), of: Arc::from([]) }
+    }
+}
+
+impl PairRules {
+    /// The rules between so many bodies.
+    ///
+    /// # Panics
+    /// If the bodies of a set do not ascend, or one does not exist.
+    pub fn new(bodies: usize, all: Vec<PairRule>) -> Self {
+        if all.is_empty() {
+            return Self::default();
+        }
+        let ascends = |set: &Arc<[usize]>| {
+            set.windows(2).all(|two| two[0] < two[1]) && set.last().is_none_or(|last| *last < bodies)
+        };
+        assert!(all.iter().flat_map(|rule| &rule.bodies).all(ascends), "the sets of a rule are of the {bodies} bodies");
+        let mut of: Vec<(usize, usize)> = Vec::new();
+        for (number, rule) in all.iter().enumerate() {
+            let concerned = rule.bodies.iter().flat_map(|set| set.iter()).filter(|body| rule.concerns(**body));
+            of.extend(concerned.map(|body| (*body, number)));
+        }
+        of.sort_unstable();
+        of.dedup();
+        let starts = (0..=bodies).map(|index| of.partition_point(|(body, _)| *body < index)).collect();
+        Self { all: all.into(), starts, of: of.into_iter().map(|(_, rule)| rule).collect() }
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[PairRule] {
+        &self.all
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Whether these are the same as others, or a copy of them.
+    pub fn are(&self, others: &Self) -> bool {
+        Arc::ptr_eq(&self.all, &others.all)
+    }
+
+    /// The numbers of the rules by which a body has somebody to meet.
+    pub fn of(&self, body: usize) -> &[usize] {
+        if body + 1 < self.starts.len() { &self.of[self.starts[body]..self.starts[body + 1]] } else { &[] }
+    }
+
+    /// Those between some bodies, which ascend, with the places of their bodies among these.
+    #[must_use]
+    pub fn among(&self, members: &[usize]) -> Self {
+        let mut sets: BTreeMap<usize, [Vec<usize>; 2]> = BTreeMap::new();
+        if members.len() < 2 {
+            return Self::default();
+        }
+        for (place, body) in members.iter().enumerate() {
+            for number in self.of(*body) {
+                let own = sets.entry(*number).or_default();
+                (0..2).filter(|set| self.all[*number].is_in(*set, *body)).for_each(|set| own[set].push(place));
+            }
+        }
+        let rules =
+            sets.into_iter().map(|(number, sets)| PairRule { bodies: sets.map(Arc::from), ..self.all[number].clone() });
+        Self::new(members.len(), rules.filter(|rule| rule.pairs().next().is_some()).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{AreaMeasure, ContactLaw, Repulsion};
+
+    fn rule(one: &[usize], other: &[usize]) -> PairRule {
+        let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 });
+        let laws = PairLaws::new(AreaMeasure::ReferenceArea, vec![repulsion]).unwrap();
+        PairRule { bodies: [one.into(), other.into()], laws: Arc::new(laws), reach: None }
+    }
+
+    /// Two sets, and the pairs that they join.
+    type Sets = (&'static [usize], &'static [usize], &'static [[usize; 2]]);
+
+    const SETS: [Sets; 6] = [
+        (&[0, 1, 2], &[0, 1, 2], &[[0, 1], [0, 2], [1, 2]]),
+        (&[0], &[1], &[[0, 1]]),
+        (&[2], &[0, 1, 2], &[[2, 0], [2, 1]]),
+        (&[0, 1], &[1, 2], &[[0, 1], [0, 2], [1, 2]]),
+        (&[0, 1, 3], &[1, 2, 3], &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [3, 2]]),
+        (&[1], &[1], &[]),
+    ];
+
+    #[test]
+    fn pairs_are_of_two_different_bodies_and_come_once() {
+        for (one, other, pairs) in SETS {
+            let rule = rule(one, other);
+            assert_eq!(rule.pairs().collect::<Vec<_>>(), pairs);
+            assert_eq!(rule.count(), pairs.len());
+            for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
+                let joined = pairs.iter().find(|pair| **pair == [a, b] || **pair == [b, a]);
+                assert_eq!(rule.between(a, b), joined.copied(), "{a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_chain_joins_whatever_the_pairs_join() {
+        for (one, other, pairs) in SETS {
+            let rule = rule(one, other);
+            let reached = |pairs: &[[usize; 2]], from: usize| {
+                let mut known = vec![from];
+                while let Some([a, b]) = pairs.iter().find(|[a, b]| known.contains(a) != known.contains(b)) {
+                    known.push(if known.contains(a) { *b } else { *a });
+                }
+                known.sort_unstable();
+                known
+            };
+            let chain: Vec<[usize; 2]> = rule.chain().collect();
+            assert!((0..4).all(|body| reached(&chain, body) == reached(pairs, body)), "{chain:?}");
+        }
+    }
+
+    #[test]
+    fn rules_among_some_bodies_join_the_same_ones() {
+        let rules = PairRules::new(5, vec![rule(&[0, 2, 4], &[0, 2, 4]), rule(&[1], &[2]), rule(&[1], &[3])]);
+        assert_eq!([0, 1, 2, 3].map(|body| rules.of(body).to_vec()), [vec![0], vec![1, 2], vec![0, 1], vec![2]]);
+        let among = rules.among(&[1, 2, 4]);
+        let pairs: Vec<_> = among.all().iter().map(|rule| rule.pairs().collect::<Vec<_>>()).collect();
+        assert_eq!(pairs, [[[1, 2]], [[0, 1]]]);
+        assert!(rules.among(&[3, 4]).is_empty() && !rules.are(&among) && rules.are(&rules.clone()));
+    }
+}

@@ -1,0 +1,99 @@
+//! What two parts of bodies do to each other, whichever bodies they belong to: equal bodies share it.
+
+use super::balls::{Balls, PlacedBalls};
+use super::fault::PairFault;
+use super::laws::PairLaws;
+use super::side::Side;
+use super::state::PairGap;
+use crate::surface::Surface;
+use std::sync::Arc;
+
+/// The part of a reach at whose end a pair is out of it already, lest the last digit of a distance decides: χ, of fifth
+/// order there, is below any digit of U.
+pub const EDGE: f64 = 1e-9;
+
+/// The least slab, of what is not two balls, that digits tell, and the least part of one that is on one side of the
+/// plane, as parts of the size of the smaller body. Gaps are known to some 1e-16 of the size: so small a part to 1e-5,
+/// its traction, which goes with a power of it, to 1e-4. What that leaves of the energy is told by the ledger.
+const LEAST_SLAB: f64 = 1e-8;
+const LEAST_PART: f64 = 1e-11;
+/// The same of two balls, whose gap comes from two places alone.
+const LEAST_BALLS: f64 = 1e-12;
+
+/// What two convex bodies, or parts of bodies, A and B, do to each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairForm {
+    /// What acts between them.
+    pub laws: Arc<PairLaws>,
+    /// The distance at which it begins [m]; none if it is everywhere.
+    pub reach: Option<f64>,
+    /// U_c [J]: below it nothing acts.
+    pub(super) threshold: f64,
+    /// The radius of each about its centre of mass, in the reference shape [m].
+    pub(super) radii: [f64; 2],
+    /// What both are, if they are balls about their centres of mass.
+    pub(super) balls: Option<Balls>,
+}
+
+impl PairForm {
+    /// Of two parts of bodies, given their surfaces.
+    pub fn new(laws: Arc<PairLaws>, reach: Option<f64>, surfaces: [&Surface; 2]) -> Self {
+        Self::of_radii(laws, reach, surfaces, surfaces.map(Surface::radius))
+    }
+
+    /// The same, given the radii of both about their centres of mass [m], which are those of their surfaces.
+    pub fn of_radii(laws: Arc<PairLaws>, reach: Option<f64>, surfaces: [&Surface; 2], radii: [f64; 2]) -> Self {
+        let threshold = reach.map_or(0.0, |reach| laws.most(reach, surfaces.map(Surface::area)));
+        let balls = match surfaces.map(Surface::ball) {
+            [Some(one), Some(other)] => Some(Balls::new(&laws, [one, other])),
+            _ => None,
+        };
+        Self { laws, reach, threshold, radii, balls }
+    }
+
+    /// Whether the energy at which it begins is a number; zero without a reach.
+    pub fn has_range(&self) -> bool {
+        self.reach.is_none() || self.threshold.is_normal()
+    }
+
+    /// The radius of each about its centre of mass, in the reference shape [m].
+    pub fn radii(&self) -> [f64; 2] {
+        self.radii
+    }
+
+    /// The slab between two rigid balls whose centres have a distance [m]; none of other shapes.
+    pub fn gap_of_balls(&self, distance: f64) -> Option<f64> {
+        self.balls.is_some().then(|| distance - self.radii[0] - self.radii[1])
+    }
+
+    /// How near the plane has come to one of two bodies [m], the smaller of which has this size, if that is so near
+    /// that digits do not tell it from touch.
+    pub fn touch(&self, slab: &PairGap, size: f64) -> Option<f64> {
+        let part = slab.gap * slab.share.min(1.0 - slab.share);
+        let touches = match self.balls.is_some() {
+            true => slab.gap < LEAST_BALLS * size,
+            false => slab.gap < LEAST_SLAB * size || part < LEAST_PART * size,
+        };
+        touches.then_some(part)
+    }
+
+    /// The plane between two rigid balls; none of other bodies.
+    pub(super) fn balls(&self, sides: [&Side; 2]) -> Option<Result<PlacedBalls<'_>, PairFault>> {
+        self.balls.as_ref()?.place(sides)
+    }
+
+    /// The distance of the centres from which on two rigid bodies do nothing to each other [m]; none if there is none.
+    pub fn cutoff(&self) -> Option<f64> {
+        self.reach.map(|reach| cutoff(reach, self.radii))
+    }
+}
+
+/// The distance of the centres from which on two rigid bodies of these radii do nothing to each other [m].
+pub fn cutoff(reach: f64, radii: [f64; 2]) -> f64 {
+    reach * (1.0 - EDGE) + radii[0] + radii[1]
+}
+
+/// The distance of the centres at which these are as far apart as the half of their reach at least [m].
+pub fn half_cutoff(reach: f64, radii: [f64; 2]) -> f64 {
+    reach + radii[0] + radii[1] - 0.5 * reach
+}
