@@ -38,6 +38,20 @@ impl Rates {
         &mut self.groups[stage * self.per_row..].as_flattened_mut()[..self.width]
     }
 
+    /// Hands Σ a_j k_j to `each`, component by component; a few at once, as they lie in memory.
+    pub fn each_sum(&self, row: &[(usize, f64)], mut each: impl FnMut(usize, f64)) {
+        for group in 0..self.per_row {
+            let mut sums = [-0.0; WIDEST];
+            for (stage, coefficient) in row {
+                let rates = &self.groups[stage * self.per_row + group];
+                sums.iter_mut().zip(rates).for_each(|(sum, rate)| *sum += coefficient * rate);
+            }
+            let first = group * WIDEST;
+            let count = WIDEST.min(self.width - first);
+            sums[..count].iter().enumerate().for_each(|(k, sum)| each(first + k, *sum));
+        }
+    }
+
     /// out = h Σ a_j k_j.
     pub fn combine(&self, out: &mut [f64], h: f64, row: Row) {
         Arch::new().dispatch(Combine { rates: self, h, row, into: Target::Change(out) });

@@ -126,13 +126,9 @@ impl Explicit {
     /// Hands u(θ) − u₀ of the last step to `put`, component by component.
     pub fn interpolate(&self, from: &Point, to: &Point, h: f64, theta: f64, mut put: impl FnMut(usize, f64)) {
         let weights = interpolation_weights(theta);
-        for (i, (start, end)) in from.u.iter().zip(&to.u).enumerate() {
-            let change = (end - start) + (to.low[i] - from.low[i]);
-            let mut sum = -0.0;
-            for (stage, weight) in &weights {
-                sum += weight * self.rates.row(*stage)[i];
-            }
+        self.rates.each_sum(&weights, |i, sum| {
+            let change = (to.u[i] - from.u[i]) + (to.low[i] - from.low[i]);
             put(i, theta * change + h * sum);
-        }
+        });
     }
 }

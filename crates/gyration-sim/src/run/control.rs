@@ -24,7 +24,7 @@ impl Simulation {
     pub(crate) fn land(&mut self) {
         let time = self.state.time;
         self.plan.end = time;
-        let beyond = |island: &&mut Island| island.time() > time && island.restart_point.is_some();
+        let beyond = |island: &&mut Box<Island>| island.time() > time && island.restart_point.is_some();
         for island in self.partition.islands.iter_mut().filter(beyond) {
             let landed = island.come_to(time, &self.plan, time);
             debug_assert!(landed.is_ok(), "a step that was made can be cut");
@@ -46,7 +46,7 @@ impl Simulation {
         if self.partition.islands.len() == 1 {
             return Ok(None);
         }
-        let steps = self.partition.islands.iter_mut().map(Island::next_size);
+        let steps = self.partition.islands.iter_mut().map(|island| island.next_size());
         steps.collect::<Result<Vec<_>, _>>().map(|steps| steps.into_iter().reduce(f64::min))
     }
 }

@@ -97,7 +97,7 @@ impl Simulation {
         let speeds = first_rates(model, start).and_then(|slopes| speed_scales(model, start, &slopes));
         let speeds = speeds.map_err(outside)?;
         let setting = Setting { model, start, speeds: &speeds, plan: &plan };
-        let islands = members.into_iter().map(|members| Island::new(setting, members, !changes));
+        let islands = members.into_iter().map(|members| Island::new(setting, members, !changes).map(Box::new));
         let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
         islands.shrink_to_fit();
         Ok(Self {
@@ -213,7 +213,7 @@ impl Simulation {
 
     /// A checkpoint at [`Simulation::time`].
     pub fn checkpoint(&self) -> Vec<u8> {
-        self.state.checkpoint(self.partition.islands.iter().map(Island::memory))
+        self.state.checkpoint(self.partition.islands.iter().map(|island| island.memory()))
     }
 
     /// Records the row t = 0.
@@ -226,7 +226,8 @@ impl Simulation {
             return Err(RunError::at_start(stop));
         }
         self.state.next_sample = 1;
-        self.shared.with_scratch(self.partition.islands.iter_mut(), |island| island.begin(&self.plan));
+        let islands = self.partition.islands.iter_mut().map(|island| &mut **island);
+        self.shared.with_scratch(islands, |island| island.begin(&self.plan));
         match self.partition.islands.iter_mut().any(|island| island.system.may_be_given_up()) {
             true => Err(RunError::at_start(Stop::by_interruption(self.state.time))),
             false => Ok(()),

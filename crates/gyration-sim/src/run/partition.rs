@@ -24,8 +24,8 @@ const STALE: usize = 8;
 
 /// The bodies of a run in islands.
 pub(crate) struct Partition {
-    /// In order of their first bodies.
-    pub islands: Vec<Island>,
+    /// In order of their first bodies; boxed, since a change moves all behind it.
+    pub islands: Vec<Box<Island>>,
     /// The island of each body, and its place there.
     island_of: Vec<(usize, usize)>,
     /// Whether islands meet and part; without cutoff distances they do not.
@@ -115,7 +115,7 @@ pub(super) fn may_be_islands(model: &Model, islands: &[Vec<usize>]) -> bool {
 
 impl Partition {
     /// Of islands in order of their first bodies.
-    pub fn new(bodies: usize, islands: Vec<Island>, changes: bool) -> Self {
+    pub fn new(bodies: usize, islands: Vec<Box<Island>>, changes: bool) -> Self {
         let mut this = Self {
             islands,
             island_of: vec![(0, 0); bodies],
@@ -141,7 +141,7 @@ impl Partition {
 
     /// The time of the island that has come least far [s]; none if nothing moves.
     pub fn least_time(&self) -> Option<f64> {
-        self.islands.iter().map(Island::time).reduce(f64::min)
+        self.islands.iter().map(|island| island.time()).reduce(f64::min)
     }
 
     /// Carries out the earliest change, if it comes before a time; whether there was one. One at that time is left to
@@ -275,9 +275,9 @@ impl Partition {
         let merged = Island::successor(setting, members, &[&first, &second], in_play);
         match merged {
             Ok(mut merged) => {
-                merged.take_events([&first, &second]);
-                settle_works(settled, setting.model, [&first, &second]);
-                self.put([merged]);
+                merged.take_events([&*first, &*second]);
+                settle_works(settled, setting.model, [&*first, &*second]);
+                self.put([Box::new(merged)]);
             }
             Err(stop) => {
                 self.put([first, second]);
@@ -301,17 +301,17 @@ impl Partition {
             let in_play = island.state.in_play.share(island.integrator.quadratures(), share);
             Island::successor(setting, members, &[island], in_play)
         });
-        let mut pieces = pieces.collect::<Result<Vec<Island>, Stop>>()?;
+        let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Vec<Box<Island>>, Stop>>()?;
         let island = self.islands.remove(index);
         // Its events are handed on by any of the pieces.
-        pieces[0].take_events([&island]);
-        settle_works(settled, setting.model, [&island]);
+        pieces[0].take_events([&*island]);
+        settle_works(settled, setting.model, [&*island]);
         self.put(pieces);
         Ok(())
     }
 
     /// Puts islands to the others, all in order of their first bodies.
-    fn put(&mut self, islands: impl IntoIterator<Item = Island>) {
+    fn put(&mut self, islands: impl IntoIterator<Item = Box<Island>>) {
         self.islands.extend(islands);
         self.islands.sort_by_key(|island| island.members()[0]);
         self.number();

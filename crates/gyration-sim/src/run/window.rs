@@ -53,7 +53,7 @@ impl WindowWidth {
 impl Simulation {
     /// Tells the monitor how far the run is, and which island holds it up: the one whose last step was the shortest.
     pub(crate) fn ask(&self, monitor: &mut dyn Monitor) -> Option<Reason> {
-        let length = |island: &&Island| island.report.as_ref().map_or(f64::INFINITY, |step| step.end - step.start);
+        let length = |island: &Island| island.report.as_ref().map_or(f64::INFINITY, |step| step.end - step.start);
         let slowest = self.partition.islands.iter().min_by(|a, b| length(a).total_cmp(&length(b)))?;
         let step = slowest.report.as_ref()?;
         let statistics = &self.statistics();
@@ -147,7 +147,8 @@ impl Simulation {
         let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
         let count = self.partition.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
-        let behind = self.partition.islands.iter_mut().filter(|island| island.time() < until);
+        let islands = self.partition.islands.iter_mut().map(|island| &mut **island);
+        let behind = islands.filter(|island| island.time() < until);
         if threads.get() == 1 || count == 1 || is_step {
             return shared.with_scratch(behind, |island| island.reach(until, most, plan));
         }
