@@ -23,7 +23,10 @@ impl Integrator {
     /// Gives its scratch to others, and takes or makes another before it steps again.
     pub fn give_scratch(&mut self, scratch: &mut Scratch) {
         let own = self.exchange(self.implicit.without_room());
-        scratch.rooms.push(own);
+        // Of one that has not been sized nobody has any use.
+        if own.has_the_size_of(&self.implicit, &self.layout) {
+            scratch.rooms.push(own);
+        }
     }
 
     /// Puts a scratch in the place of its own; the polynomial of the last step stays.

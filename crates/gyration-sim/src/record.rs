@@ -162,7 +162,7 @@ impl<'a> Job<'a> {
         let outcome = simulation.run(&mut sink, watch)?;
         let elapsed = Some(began.elapsed());
         // What has been done is told though no time is left, unless that takes long.
-        let told = Interruption::default().after(Some(TO_TELL));
+        let told = Interruption::default().after(Some(TO_TELL).filter(|_| !outcome.is_final()));
         let mut summary = told.within(|| RunSummary::of(self.model, &mut simulation, outcome, elapsed));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
