@@ -37,11 +37,6 @@ impl Key {
         Self(segments)
     }
 
-    /// Whether this is the place of a key of this name.
-    pub(crate) fn ends_with(&self, name: &str) -> bool {
-        matches!(self.0.last(), Some(Segment::Name(last)) if last == name)
-    }
-
     /// Whether the other place is this one or lies inside of it.
     pub(crate) fn holds(&self, other: &Self) -> bool {
         other.0.starts_with(&self.0)

@@ -13,6 +13,8 @@ use std::fmt;
 
 /// The schema keyword that holds the SI unit of a quantity.
 pub(crate) const UNIT: &str = "unit";
+/// The schema keyword that holds the words by which a quantity may be left to the program.
+pub(crate) const WORDS: &str = "words";
 
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident $unit:literal $example:literal;)*) => {$(

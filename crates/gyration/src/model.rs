@@ -3,7 +3,7 @@
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
 use crate::acting::{Load, PAIR_ENERGY, PairEnd, pair_works};
-use crate::body::{Body, Slots};
+use crate::body::{Body, Slots, Solid};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
@@ -232,9 +232,15 @@ impl Model {
     /// none, as where one of them deforms.
     pub fn cutoff(&self, pair: &BodyPair) -> Option<f64> {
         let bodies = pair.bodies.map(|body| &self.bodies[body]);
-        let reach = self.rules.all()[pair.rule].reach.filter(|_| bodies.iter().all(|body| body.affine().is_none()))?;
-        let [Some(one), Some(other)] = bodies.map(|body| body.solid.radius()) else { return None };
-        Some(cutoff(reach, [one, other]))
+        if bodies.iter().any(|body| body.affine().is_some()) {
+            return None;
+        }
+        let solids = bodies.map(|body| &*body.solid);
+        let of_parts = |parts: [usize; 2]| {
+            let reach = self.rules.all()[pair.rule].reach_between(solids, parts)?;
+            Some(cutoff(reach, [0, 1].map(|end| solids[end].part_radius(parts[end]))))
+        };
+        Solid::parts_of(solids).filter_map(of_parts).reduce(f64::max)
     }
 
     /// Whether a body has a contact, with a support or another body.

@@ -1,14 +1,16 @@
 //! Contacts: each `[[contact]]` goes to the bodies that it names, or to all bodies with a surface.
 
 use super::body::AssembledBody;
-use super::pair;
 use super::partners::{Names, Partners, without_surface};
+use super::{pair, reach};
 use crate::check::{PartialScene, Placed, Reporter};
-use crate::file::{Contact, Measure};
+use crate::file::{Contact, Measure, Reach};
 use crate::key::Key;
+use crate::quantity::si;
 use crate::units::shown;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::neighbours::PairRule;
+use gyration::pair::Falling;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -25,6 +27,8 @@ pub(super) fn attach(
     let names = Names::of(partial);
     let mut count = 0;
     let mut rules = Vec::new();
+    let is_found = partial.contacts.iter().any(|contact| matches!(contact.value.reach, Some(Reach::Auto(_))));
+    let falling = if is_found { reach::falling(&si(&partial.world.gravity), assembled) } else { Falling::default() };
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
@@ -33,8 +37,11 @@ pub(super) fn attach(
             Partners::Support { support, bodies, named } => {
                 count += bodies.len();
                 if let Some(reach) = &value.reach {
-                    let message =
-                        format!("a support is felt at any distance, and so beyond {} m", shown(reach.value()));
+                    let beyond = match reach {
+                        Reach::Length(reach) => format!(", and so beyond {} m", shown(reach.value())),
+                        Reach::Auto(_) => String::new(),
+                    };
+                    let message = format!("a support is felt at any distance{beyond}");
                     reporter.note(&key.key("reach"), message, "leave it out: it is for pairs of bodies");
                 }
                 let law_set = Arc::new(LawSet::new(measure, laws));
@@ -56,7 +63,9 @@ pub(super) fn attach(
                 let named: BTreeSet<usize> = groups.iter().flatten().copied().collect();
                 let named = named.into_iter().filter_map(|body| assembled[body].as_ref());
                 let unable = named.filter(|body| !pair::can_meet(body, &key.key("between"), reporter)).count();
-                let reach = value.reach.as_ref().map(|reach| reach.value());
+                let written = value.reach.filter(|_| unable == 0);
+                let reach = written
+                    .and_then(|written| reach::reach(written, (&laws, &groups), &falling, assembled, (key, reporter)));
                 let rule = PairRule { bodies: groups.map(Arc::from), laws, reach };
                 if unable == 0 {
                     pair::check_range(&rule, assembled, key, reporter);

@@ -17,6 +17,7 @@ mod orientation;
 mod overlap;
 mod pair;
 mod partners;
+mod reach;
 mod resolve;
 mod salvage;
 mod shape;

@@ -9,8 +9,7 @@ use gyration::body::Solid;
 use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::kinematics::Placement;
 use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, near};
-use gyration::pair::{Overlap, PairForm, PairLaws, PairLawsError};
-use gyration::surface::Surface;
+use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError};
 use std::sync::Arc;
 
 /// The laws of a contact between bodies; notes what cannot act there.
@@ -61,16 +60,20 @@ pub(super) fn check_range(
         let known = set.iter().filter_map(|body| Some(&assembled[*body].as_ref()?.body.solid));
         let mut solids: Vec<&Arc<Solid>> = known.collect();
         solids.dedup_by(|one, other| Arc::ptr_eq(one, other));
-        let surfaces = solids.into_iter().flat_map(|solid| (0..solid.count_parts()).map(|part| solid.part(part)));
-        let surfaces: Vec<&Surface> = surfaces.collect();
+        let masses = solids.into_iter().flat_map(|solid| {
+            let mass = solid.mass.mass;
+            (0..solid.count_parts()).map(move |part| Mass { surface: solid.part(part), mass })
+        });
+        let masses: Vec<Mass> = masses.collect();
         // U_c is between those of two smallest and of two largest surfaces.
-        let smaller = |one: &&Surface, other: &&Surface| one.area().total_cmp(&other.area());
-        let extreme = [surfaces.iter().copied().min_by(smaller), surfaces.iter().copied().max_by(smaller)];
+        let smaller = |one: &Mass, other: &Mass| one.surface.area().total_cmp(&other.surface.area());
+        let extreme = [masses.iter().copied().min_by(smaller), masses.iter().copied().max_by(smaller)];
         extreme[0].zip(extreme[1])
     });
     let [Some((least, most)), Some((other_least, other_most))] = solids else { return };
-    for surfaces in [[least, other_least], [most, other_most]] {
-        if !PairForm::new(Arc::clone(&rule.laws), rule.reach, surfaces).has_range() {
+    let Some(reach) = rule.reach else { return };
+    for bodies in [[least, other_least], [most, other_most]] {
+        if !reach.threshold(&rule.laws, bodies).energy.is_normal() {
             let help = "write a distance nearer to the gaps at which bodies turn back";
             reporter.note(&key.key("reach"), "the energy at this distance leaves the range of numbers", help);
             return;

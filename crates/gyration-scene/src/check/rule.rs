@@ -5,7 +5,7 @@
 //! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`. A test makes sure that
 //! nothing else occurs.
 
-use crate::quantity::UNIT;
+use crate::quantity::{UNIT, WORDS};
 use crate::schema::SCHEMA;
 use crate::units::{Unit, parse_unit};
 use serde_json::Value as Json;
@@ -49,8 +49,8 @@ pub(super) enum Rule {
     Boolean,
     /// A pure number.
     Number,
-    /// A number in SI units or a string with a unit.
-    Quantity { symbol: String, unit: Unit, example: String },
+    /// A number in SI units, a string with a unit, or one of these words.
+    Quantity { symbol: String, unit: Unit, example: String, words: Vec<String> },
     /// Any string.
     Text,
     /// One of these strings, or a table with one of these keys; there may be none of either.
@@ -170,7 +170,10 @@ fn choice(choices: &[Json]) -> Rule {
 
 fn quantity(symbol: &str, schema: &Json) -> Rule {
     let example = schema.pointer("/examples/0").and_then(Json::as_str).unwrap_or_default().to_owned();
-    parse_unit(symbol).map_or(Rule::Unknown, |unit| Rule::Quantity { symbol: symbol.to_owned(), unit, example })
+    let words = schema.get(WORDS).and_then(Json::as_array).into_iter().flatten();
+    let words = words.filter_map(|word| word.as_str().map(str::to_owned)).collect();
+    let symbol = symbol.to_owned();
+    parse_unit(&symbol).map_or(Rule::Unknown, |unit| Rule::Quantity { symbol, unit, example, words })
 }
 
 fn table(schema: &Json) -> Rule {

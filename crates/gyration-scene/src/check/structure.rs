@@ -54,16 +54,11 @@ impl Walker<'_> {
             (Value::Number(number), Rule::Quantity { symbol, .. }) => {
                 self.limits(*number, node, key, field.limits, symbol);
             }
-            (Value::Text(text), Rule::Quantity { symbol, unit, example }) => {
-                // `reach = "auto"` is in the format, and not in this version.
-                if text == "auto" && key.ends_with("reach") {
-                    let help = format!("give a length: a number in {symbol}, or a string such as \"{example}\"");
-                    self.diagnostics.at(node.span, key, "\"auto\" is not yet known", help);
-                    return;
-                }
+            (Value::Text(text), Rule::Quantity { words, .. }) if words.contains(text) => {}
+            (Value::Text(text), Rule::Quantity { symbol, unit, example, words }) => {
                 match in_unit(text, unit, symbol, example) {
                     Ok(number) => self.limits(number, node, key, field.limits, symbol),
-                    Err((message, help)) => self.diagnostics.at(node.span, key, message, help),
+                    Err((message, help)) => self.diagnostics.at(node.span, key, message, help + &or(words)),
                 }
             }
             (Value::Text(text), Rule::Choice { words, .. }) if words.contains(text) => {}
@@ -167,7 +162,9 @@ impl Walker<'_> {
     fn expected(&self, rule: &Rule) -> String {
         match self.rules.resolve(rule) {
             Rule::Number => "a number".to_owned(),
-            Rule::Quantity { symbol, example, .. } => format!("a number in {symbol} or a string such as \"{example}\""),
+            Rule::Quantity { symbol, example, words, .. } => {
+                format!("a number in {symbol} or a string such as \"{example}\"{}", or(words))
+            }
             Rule::Text => "a string".to_owned(),
             Rule::Boolean => "true or false".to_owned(),
             Rule::Choice { words, tags } => choices(words, tags),
@@ -202,6 +199,11 @@ const FILES: [(&str, &str, &[&str]); 3] = [
 fn of_another_file(name: &str) -> Option<String> {
     let (files, command, _) = FILES.iter().find(|(.., keys)| keys.contains(&name))?;
     Some(format!("it is a key of {files}, which `gyration {command}` takes"))
+}
+
+/// The words by which a quantity may be left to the program, as they end a help.
+fn or(words: &[String]) -> String {
+    words.iter().map(|word| format!(", or \"{word}\"")).collect()
 }
 
 /// One of some words, or a table with one of some keys.

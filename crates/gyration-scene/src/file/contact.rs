@@ -1,8 +1,9 @@
 //! `[[contact]]`: the laws by which bodies and supports touch, per unit area, powers of the gap d.
 
-use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping};
-use schemars::JsonSchema;
+use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping, WORDS};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The laws between a support and a body, or all bodies; or between any two of many.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,9 +18,10 @@ pub struct Contact {
     /// Names of bodies, groups or supports: every pair of two different ones, each pair once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
-    /// The distance at which a pair of bodies begins to feel each other, smoothly (m); without it they always do.
+    /// The distance at which a pair of bodies begins to feel each other, smoothly (m), or "auto": 25 contact gaps of
+    /// each pair; without it they always do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reach: Option<Positive<Length>>,
+    pub reach: Option<Reach>,
     /// The area that tractions are per; it makes no difference to a rigid body.
     #[serde(default)]
     pub measure: Measure,
@@ -35,6 +37,41 @@ pub struct Contact {
     /// Adhesion −β ((d/d₀)^−νa − (d/d₀)^−νr) along the normal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adhesion: Option<Adhesion>,
+}
+
+/// Where a pair of bodies begins to feel each other.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Reach {
+    /// Where the gaps of the pair say.
+    Auto(Auto),
+    /// At a distance.
+    Length(Positive<Length>),
+}
+
+/// The word for what the program finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Auto {
+    /// `"auto"`.
+    Auto,
+}
+
+impl JsonSchema for Reach {
+    fn schema_name() -> Cow<'static, str> {
+        "Reach".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = Length::json_schema(generator);
+        schema.insert("exclusiveMinimum".to_owned(), 0.into());
+        schema.insert(WORDS.to_owned(), vec!["auto"].into());
+        schema
+    }
 }
 
 /// The area that tractions are per.

@@ -23,7 +23,7 @@ mod world;
 pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use bond::Bond;
-pub use contact::{Adhesion, Contact, Measure, Repulsion, Resistance};
+pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
 pub use material::{

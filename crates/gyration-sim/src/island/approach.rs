@@ -66,5 +66,5 @@ pub(crate) fn may_meet(model: &Model, ends: &[StepEnd], within: f64) -> Vec<Body
         Sphere::new(end.motion.placement.position, wider * radius + way)
     };
     let spheres: Vec<Sphere> = ends.iter().enumerate().map(sphere).collect();
-    near(model.rules(), &spheres, |rule| rule.reach.map(|reach| wider * reach))
+    near(model.rules(), &spheres, |rule| rule.reach.map(|reach| wider * reach.longest()))
 }

@@ -15,6 +15,7 @@
 
 use crate::island::approach::{Approach, may_meet};
 use crate::island::step_end::StepEnd;
+use gyration::body::Solid;
 use gyration::contact::RelativeMotion;
 use gyration::dynamics::PairGaps;
 use gyration::kinematics::Placement;
@@ -101,10 +102,10 @@ pub(crate) fn horizon(
 fn before_any_meeting(model: &Model, ends: &[StepEnd], longest: f64) -> f64 {
     let mut step = longest;
     for BodyPair { rule, bodies } in may_meet(model, ends, longest) {
-        let Some(reach) = model.rules().all()[rule].reach else { continue };
-        let [one, other] = bodies.map(|body| &model.bodies[body].solid);
-        for parts in (0..one.count_parts()).flat_map(|i| (0..other.count_parts()).map(move |j| [i, j])) {
-            let radii = [one.part_radius(parts[0]), other.part_radius(parts[1])];
+        let solids = bodies.map(|body| &*model.bodies[body].solid);
+        for parts in Solid::parts_of(solids) {
+            let Some(reach) = model.rules().all()[rule].reach_between(solids, parts) else { continue };
+            let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));
             step = step.min(before_meeting(bodies.map(|body| &ends[body]), (reach, radii), step));
         }
     }

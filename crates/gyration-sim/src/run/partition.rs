@@ -212,7 +212,7 @@ impl Partition {
         let rules = model.rules();
         for (bounds, body) in boxes(model, island, unseen) {
             let new = last(own.body(island_of[body].1), unseen);
-            let reaches = rules.of(body).iter().filter_map(|rule| rules.all()[*rule].reach);
+            let reaches = rules.of(body).iter().filter_map(|rule| Some(rules.all()[*rule].reach?.longest()));
             let bounds = bounds.wider(reaches.fold(0.0, f64::max));
             let mut beside: Vec<usize> = paths.touching(&bounds).filter(|other| island_of[*other].0 != index).collect();
             beside.sort_unstable();

@@ -7,6 +7,7 @@ use crate::format::significant;
 use gyration::dynamics::{PairGaps, Workspace};
 use gyration::model::Model;
 use gyration::neighbours::Pair;
+use gyration::pair::{Falling, Mass, Reach};
 use gyration::state::State;
 use serde::Serialize;
 use std::collections::HashMap;
@@ -32,6 +33,10 @@ pub struct MeetingSurvey {
     pub initial_gap: Option<f64>,
     /// The distance at which they begin to feel each other [m]; none if they always do.
     pub reach: Option<f64>,
+    /// By what part of itself that makes the gap smaller at which they come to rest or turn back; none where nothing
+    /// brings them together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reach_change: Option<f64>,
     /// The laws between them.
     pub laws: Vec<LawSurvey>,
     /// Whether one of the laws forbids touching.
@@ -47,7 +52,7 @@ impl MeetingSurvey {
         let _ = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps);
         let near = || gaps.iter().filter(|(_, slab)| slab.gap < f64::INFINITY);
         let known: HashMap<_, f64> = near().map(|(pair, slab)| (pair.key(), slab.gap)).collect();
-        let of = |pair: &Pair| Self::of(model, pair, known.get(&pair.key()).copied());
+        let of = |pair: &Pair| Self::of(model, start, pair, known.get(&pair.key()).copied());
         if model.count_pairs() <= MOST_LISTED {
             return model.pairs().map(|pair| of(&pair)).collect();
         }
@@ -59,7 +64,7 @@ impl MeetingSurvey {
         pairs.iter().map(of).collect()
     }
 
-    fn of(model: &Model, pair: &Pair, initial_gap: Option<f64>) -> Self {
+    fn of(model: &Model, start: &State, pair: &Pair, initial_gap: Option<f64>) -> Self {
         let bodies = pair.bodies.map(|body| &model.bodies[body]);
         let shapes = bodies.map(|body| &body.solid.shape);
         let [first, second] = shapes.map(|shape| shape.sharpest_feature());
@@ -69,10 +74,29 @@ impl MeetingSurvey {
             between: bodies.map(|body| body.name.clone()),
             initial_gap,
             reach: pair.form.reach,
+            reach_change: change(model, start, pair),
             forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
             laws,
         }
     }
+}
+
+/// By what part of itself the reach of a pair makes the gap smaller at which the two come to rest or turn back, by what
+/// its reach was found from, or by gravity and their own speeds.
+fn change(model: &Model, start: &State, pair: &Pair) -> Option<f64> {
+    let velocity = |body: usize| start.motion(model, body).velocity.velocity;
+    let falling = match model.rules().all()[pair.rule].reach? {
+        Reach::Gaps { falling, .. } => falling,
+        Reach::Length(_) => Falling {
+            gravity: model.gravity.norm(),
+            speed: (velocity(pair.bodies[0]) - velocity(pair.bodies[1])).norm(),
+        },
+    };
+    let solids = pair.bodies.map(|body| &*model.bodies[body].solid);
+    let surfaces = [0, 1].map(|end| solids[end].part(pair.parts[end]));
+    let masses = [0, 1].map(|end| Mass { surface: surfaces[end], mass: solids[end].mass.mass });
+    let gap = falling.acts().then(|| falling.contact_gap(&pair.form.laws, masses))?;
+    pair.form.change_of_gap(gap, surfaces).filter(|change| change.is_finite())
 }
 
 /// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them without a
@@ -86,7 +110,10 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pair
         let gap =
             meeting.initial_gap.map_or_else(|| unknown.to_owned(), |gap| format!("gap {} m at the start", short(gap)));
         let reach = meeting.reach.map(|reach| format!(", felt within {} m", short(reach))).unwrap_or_default();
-        let _ = writeln!(text, "meeting    {one} with {other}: {gap}{reach}");
+        let change = meeting.reach_change.map(|change| significant(change, 2));
+        let change =
+            change.map(|change| format!(", which makes the gap at which they turn back smaller by {change} of it"));
+        let _ = writeln!(text, "meeting    {one} with {other}: {gap}{reach}{}", change.unwrap_or_default());
         if told.is_some_and(|told| told.laws == meeting.laws) {
             continue;
         }
@@ -139,7 +166,7 @@ mod tests {
         assert!((told.initial_gap.unwrap() - 0.3).abs() < 1e-12 && told.reach == Some(2.0));
         assert!(!told.forbids_touching && told.laws[0].feature == Some("vertex"));
         let words = survey.text(&scene).unwrap();
-        assert!(words.contains("meeting    a with b: gap 0.3 m at the start, felt within 2 m\n"), "{words}");
+        assert!(words.contains("meeting    a with b: gap 0.3 m at the start, felt within 2 m, which"), "{words}");
     }
 
     /// The critical exponents of a corner, a rim and a smooth point are 3, 2.5 and 2.

@@ -51,6 +51,12 @@ impl Solid {
         self.radii[index]
     }
 
+    /// The parts of two, each of one with each of the other, ascending.
+    pub fn parts_of([one, other]: [&Self; 2]) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let (one, other) = (one.count_parts(), other.count_parts());
+        (0..one).flat_map(move |first| (0..other).map(move |second| [first, second]))
+    }
+
     /// The largest radius of its parts about the centre of mass [m]; none without a surface.
     pub fn radius(&self) -> Option<f64> {
         self.radii.iter().copied().reduce(f64::max)

@@ -6,7 +6,7 @@
 
 use super::rules::{PairRule, PairRules};
 use super::spheres::{BodyPair, Sphere, near};
-use super::{Pair, form, parts_of};
+use super::{Pair, form};
 use crate::body::{Body, Solid};
 use crate::load::Interactions;
 use crate::pair::PairForm;
@@ -106,12 +106,12 @@ impl NeighbourList {
         };
         let mut pairs = Vec::new();
         for BodyPair { rule, bodies: both } in
-            near(rules, &spheres, |rule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach + *skin)))
+            near(rules, &spheres, |rule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach.longest() + *skin)))
         {
             let solids = both.map(|body| &bodies[body].solid);
             let forms = &mut *forms;
             let rules = &*rules;
-            pairs.extend(parts_of(solids).map(|parts| Pair {
+            pairs.extend(Solid::parts_of(solids.map(|solid| &**solid)).map(|parts| Pair {
                 rule,
                 bodies: both,
                 parts,

@@ -18,6 +18,7 @@ mod spheres;
 
 pub use boxes::{Bounds, BoxTree};
 pub use list::NeighbourList;
+use rules::masses;
 pub use rules::{PairRule, PairRules};
 pub use spheres::{BodyPair, Sphere, near};
 
@@ -53,7 +54,7 @@ impl Pair {
         bodies: [usize; 2],
         solids: [&'a Arc<Solid>; 2],
     ) -> impl Iterator<Item = Self> + use<'a> {
-        parts_of(solids).map(move |parts| {
+        Solid::parts_of(solids.map(|solid| &**solid)).map(move |parts| {
             let form = Arc::new(form(&rules.all()[rule], solids, parts));
             Self { rule, bodies, parts, form }
         })
@@ -65,15 +66,10 @@ impl Pair {
     }
 }
 
-/// The parts of two bodies, ascending.
-fn parts_of(solids: [&Arc<Solid>; 2]) -> impl Iterator<Item = [usize; 2]> + use<> {
-    let [one, other] = solids.map(|solid| solid.count_parts());
-    (0..one).flat_map(move |first| (0..other).map(move |second| [first, second]))
-}
-
 /// What parts of two bodies do to each other by a rule.
 fn form(rule: &PairRule, solids: [&Arc<Solid>; 2], parts: [usize; 2]) -> PairForm {
     let surfaces = [0, 1].map(|end| solids[end].part(parts[end]));
     let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));
-    PairForm::of_radii(Arc::clone(&rule.laws), rule.reach, surfaces, radii)
+    let threshold = rule.reach.map(|reach| reach.threshold(&rule.laws, masses(solids.map(|solid| &**solid), parts)));
+    PairForm::of_radii(Arc::clone(&rule.laws), threshold, surfaces, radii)
 }

@@ -1,6 +1,7 @@
 //! Rules: what a scene says of who meets whom.
 
-use crate::pair::PairLaws;
+use crate::body::Solid;
+use crate::pair::{Mass, PairLaws, Reach};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -11,8 +12,8 @@ pub struct PairRule {
     pub bodies: [Arc<[usize]>; 2],
     /// What acts between two of them.
     pub laws: Arc<PairLaws>,
-    /// The distance at which it begins [m]; none if it is everywhere.
-    pub reach: Option<f64>,
+    /// Where it begins; none if it is everywhere.
+    pub reach: Option<Reach>,
 }
 
 /// The rules of a model, which copies of it share.
@@ -26,6 +27,11 @@ pub struct PairRules {
 }
 
 impl PairRule {
+    /// The distance at which the parts of two bodies begin to act on each other [m]; none if they do everywhere.
+    pub fn reach_between(&self, solids: [&Solid; 2], parts: [usize; 2]) -> Option<f64> {
+        Some(self.reach?.of(&self.laws, masses(solids, parts)))
+    }
+
     /// Two bodies in the order in which the rule joins them; none if it does not.
     pub fn between(&self, one: usize, other: usize) -> Option<[usize; 2]> {
         let (first, second) = (one.min(other), one.max(other));
@@ -71,6 +77,11 @@ impl PairRule {
         };
         star(0).chain(star(1)).filter(|[one, other]| one != other)
     }
+}
+
+/// The parts of two bodies with the masses of the bodies.
+pub(super) fn masses<'a>(solids: [&'a Solid; 2], parts: [usize; 2]) -> [Mass<'a>; 2] {
+    [0, 1].map(|end| Mass { surface: solids[end].part(parts[end]), mass: solids[end].mass.mass })
 }
 
 impl Default for PairRules {

@@ -91,7 +91,7 @@ pub fn near(rules: &PairRules, spheres: &[Sphere], margin: impl Fn(&PairRule) ->
 mod tests {
     use super::*;
     use crate::contact::{AreaMeasure, ContactLaw, Repulsion};
-    use crate::pair::PairLaws;
+    use crate::pair::{PairLaws, Reach};
     use std::sync::Arc;
 
     /// Two hundred bodies of sizes 1 : 100 at places from a sequence of low discrepancy, some of them everywhere or
@@ -101,7 +101,7 @@ mod tests {
         let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 });
         let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, vec![repulsion]).unwrap());
         let sets = [(0..150).collect(), (50..200).collect()];
-        let rule = PairRule { bodies: sets, laws, reach: Some(0.02) };
+        let rule = PairRule { bodies: sets, laws, reach: Some(Reach::Length(0.02)) };
         let rules = PairRules::new(200, vec![rule.clone()]);
         let part = |k: usize, step: f64| (k as f64 * step).fract();
         let sphere = |k: usize| match k {
@@ -114,7 +114,7 @@ mod tests {
             }
         };
         let spheres: Vec<Sphere> = (0..200).map(sphere).collect();
-        let found = near(&rules, &spheres, |rule| rule.reach);
+        let found = near(&rules, &spheres, |rule| Some(rule.reach?.longest()));
         let one_by_one = rule.pairs().filter(|[one, other]| spheres[*one].meets(&spheres[*other], 0.02));
         let one_by_one: Vec<BodyPair> = one_by_one.map(|bodies| BodyPair { rule: 0, bodies }).collect();
         println!("{} of {} pairs are near", found.len(), rule.count());

@@ -51,6 +51,15 @@ struct Ball {
     decays: [f64; 2],
 }
 
+/// What the repulsion does to both balls.
+struct Repelled {
+    /// U [J].
+    energy: f64,
+    /// −dU/dg [N].
+    force: f64,
+    balls: [Ball; 2],
+}
+
 /// Two balls and their plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlacedBalls<'a> {
@@ -140,6 +149,33 @@ impl Balls {
         Err(PairFault::NotFound { decrement: f64::NAN })
     }
 
+    /// U [J] and the force [N] where they are a slab [m] apart.
+    ///
+    /// # Errors
+    /// [`PairFault`] if they are no numbers.
+    pub fn at(&self, gap: f64) -> Result<(f64, f64), PairFault> {
+        self.repulsion(self.balance(gap)?).map(|Repelled { energy, force, .. }| (energy, force))
+    }
+
+    /// What the repulsion does at the gaps of both to their plane, without a threshold.
+    fn repulsion(&self, gaps: [f64; 2]) -> Result<Repelled, PairFault> {
+        let above = self.ball(0, gaps[0]);
+        let below = if self.are_alike() { above } else { self.ball(1, gaps[1]) };
+        let value = self.value(&above);
+        let part = match self.are_alike() {
+            true => 0.5,
+            false => {
+                let others = libm::pow(value / self.value(&below), 0.5 / (self.exponent - 1.0));
+                1.0 / (1.0 + (self.shares[1] / self.shares[0]).sqrt() * others)
+            }
+        };
+        let energy = self.scale * value * libm::pow(part * part / self.shares[0], self.exponent - 1.0);
+        if !energy.is_finite() {
+            return Err(PairFault::NotFound { decrement: f64::NAN });
+        }
+        Ok(Repelled { energy, force: energy * part * self.fall(&above), balls: [above, below] })
+    }
+
     /// A ball at a gap from a plane.
     fn ball(&self, i: usize, gap: f64) -> Ball {
         let radius = self.radii[i];
@@ -215,22 +251,9 @@ impl PlacedBalls<'_> {
     /// [`PairFault`] if that is no number.
     pub fn loads(&self, sides: [&Side; 2], threshold: f64) -> Result<PairLoads, PairFault> {
         let Self { balls, normal, gaps, .. } = self;
-        let above = balls.ball(0, gaps[0]);
-        let below = if balls.are_alike() { above } else { balls.ball(1, gaps[1]) };
-        let value = balls.value(&above);
-        let part = match balls.are_alike() {
-            true => 0.5,
-            false => {
-                let others = libm::pow(value / balls.value(&below), 0.5 / (balls.exponent - 1.0));
-                1.0 / (1.0 + (balls.shares[1] / balls.shares[0]).sqrt() * others)
-            }
-        };
-        let energy = balls.scale * value * libm::pow(part * part / balls.shares[0], balls.exponent - 1.0);
-        if !energy.is_finite() {
-            return Err(PairFault::NotFound { decrement: f64::NAN });
-        }
+        let Repelled { energy, force, balls: [above, below] } = balls.repulsion(*gaps)?;
         let switch = Switch::at(threshold, energy);
-        let force = switch.slope * energy * part * balls.fall(&above);
+        let force = switch.slope * force;
         let on = |i: usize, sign: f64, lever: f64| Loads {
             force: sign * force * normal,
             moment: -force * lever * normal * sides[i].placement.gradient.tr_mul(normal).transpose(),

@@ -3,6 +3,7 @@
 use super::balls::{Balls, PlacedBalls};
 use super::fault::PairFault;
 use super::laws::PairLaws;
+use super::reach::Threshold;
 use super::side::Side;
 use super::state::PairGap;
 use crate::surface::Surface;
@@ -38,12 +39,19 @@ pub struct PairForm {
 impl PairForm {
     /// Of two parts of bodies, given their surfaces.
     pub fn new(laws: Arc<PairLaws>, reach: Option<f64>, surfaces: [&Surface; 2]) -> Self {
-        Self::of_radii(laws, reach, surfaces, surfaces.map(Surface::radius))
+        let threshold = reach.map(|reach| Threshold::at(&laws, reach, surfaces));
+        Self::of_radii(laws, threshold, surfaces, surfaces.map(Surface::radius))
     }
 
-    /// The same, given the radii of both about their centres of mass [m], which are those of their surfaces.
-    pub fn of_radii(laws: Arc<PairLaws>, reach: Option<f64>, surfaces: [&Surface; 2], radii: [f64; 2]) -> Self {
-        let threshold = reach.map_or(0.0, |reach| laws.most(reach, surfaces.map(Surface::area)));
+    /// The same, given where its force begins and the radii of both about their centres of mass [m], which are those of
+    /// their surfaces.
+    pub fn of_radii(
+        laws: Arc<PairLaws>,
+        threshold: Option<Threshold>,
+        surfaces: [&Surface; 2],
+        radii: [f64; 2],
+    ) -> Self {
+        let (reach, threshold) = threshold.map_or((None, 0.0), |begins| (Some(begins.reach), begins.energy));
         let balls = match surfaces.map(Surface::ball) {
             [Some(one), Some(other)] => Some(Balls::new(&laws, [one, other])),
             _ => None,
@@ -51,14 +59,22 @@ impl PairForm {
         Self { laws, reach, threshold, radii, balls }
     }
 
-    /// Whether the energy at which it begins is a number; zero without a reach.
-    pub fn has_range(&self) -> bool {
-        self.reach.is_none() || self.threshold.is_normal()
-    }
-
     /// The radius of each about its centre of mass, in the reference shape [m].
     pub fn radii(&self) -> [f64; 2] {
         self.radii
+    }
+
+    /// By what part of itself its reach makes a gap [m] smaller at which the two come to rest or turn back; none without
+    /// a reach.
+    ///
+    ///   δg/g = 5 U_c/(g F)
+    pub fn change_of_gap(&self, gap: f64, surfaces: [&Surface; 2]) -> Option<f64> {
+        self.reach?;
+        let steep = match &self.balls {
+            Some(balls) => gap * balls.at(gap).ok()?.1,
+            None => (self.laws.repulsion.exponent - 1.0) * self.laws.most(gap, surfaces.map(Surface::area)),
+        };
+        Some(5.0 * self.threshold / steep)
     }
 
     /// The slab between two rigid balls whose centres have a distance [m]; none of other shapes.

@@ -16,6 +16,7 @@
 //! |---------------|-----------------------------------------------------------------|
 //! | `laws`        | what acts between two bodies, and the moments that it needs      |
 //! | `form`        | laws, reach and radii of two parts of bodies                    |
+//! | `reach`       | where the force of a pair begins                                |
 //! | `side`        | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
 //! | `fault`       | why there is no plane between two bodies                         |
 //! | `overlap`     | two bodies that no plane separates                              |
@@ -40,6 +41,7 @@ mod loads;
 mod mediator;
 mod overlap;
 mod plane;
+mod reach;
 mod side;
 mod slopes;
 mod state;
@@ -50,6 +52,7 @@ pub use laws::{PairLaws, PairLawsError};
 pub use loads::PairLoads;
 pub use overlap::Overlap;
 pub use plane::Guess;
+pub use reach::{Falling, Mass, Reach, Threshold};
 pub use side::Side;
 pub use slopes::PairSlopes;
 pub use state::{PairGap, PairScratch};

@@ -3,6 +3,7 @@
 use super::trial::TrialPair;
 use crate::format::significant;
 use gyration::model::Model;
+use gyration::pair::Reach;
 use gyration::state::State;
 
 /// In so many gaps, or d₀, a law falls to what may be left out.
@@ -22,7 +23,8 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     let velocity = |body: usize| start.motion(model, body).velocity.velocity;
     let speed = |[one, other]: &[usize; 2]| (velocity(*one) - velocity(*other)).norm();
     let rule_of_both = &model.rules().all()[rule];
-    let reach = rule_of_both.reach?;
+    // One that is found from the gaps is no shorter.
+    let Reach::Length(reach) = rule_of_both.reach? else { return None };
     let fastest = rule_of_both.pairs().take(MOST_PAIRS).max_by(|one, other| speed(one).total_cmp(&speed(other)))?;
     let pair = model.pairs_between(rule, fastest).last()?;
     let trial = TrialPair::of(model, start, &pair);
