@@ -5,10 +5,18 @@
 //! A pattern says where numbers may stand, not what they are. Blocks that hang together through any chain of pairs form
 //! a component; the equations of two components can be solved apart.
 
+use std::sync::Arc;
+
 /// The pairs (i, j), i ≠ j, in which block j enters the rates of block i; the diagonal is always understood.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Pattern {
-    /// Where the columns of each row begin, and where the last end; empty if no blocks couple.
+///
+/// Copies share them: there may be millions, and each step asks whether they are still the same.
+#[derive(Debug, Clone, Default)]
+pub struct Pattern(Option<Arc<Coupled>>);
+
+/// The pairs of a pattern that has some.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Coupled {
+    /// Where the columns of each row begin, and where the last end.
     starts: Vec<usize>,
     /// The columns of all rows, ascending within each.
     columns: Vec<usize>,
@@ -16,10 +24,22 @@ pub struct Pattern {
     local_rates: Vec<usize>,
 }
 
+impl PartialEq for Pattern {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other) || own == other,
+            (None, None) => true,
+            _ => false,
+        }
+    }
+}
+
+impl Eq for Pattern {}
+
 impl Pattern {
     /// No block enters the rates of another.
     pub const fn uncoupled() -> Self {
-        Self { starts: Vec::new(), columns: Vec::new(), local_rates: Vec::new() }
+        Self(None)
     }
 
     /// The pattern of so many blocks and of these pairs (row, column), in any order; repetitions and i = j do no harm.
@@ -36,7 +56,7 @@ impl Pattern {
         assert!(pairs.iter().all(|(row, column)| row.max(column) < &blocks), "a pair of blocks beyond {blocks}");
         let starts = (0..=blocks).map(|row| pairs.partition_point(|pair| pair.0 < row)).collect();
         let columns = pairs.into_iter().map(|(_, column)| column).collect();
-        Self { starts, columns, local_rates: Vec::new() }
+        Self(Some(Arc::new(Coupled { starts, columns, local_rates: Vec::new() })))
     }
 
     /// States how many of the first rates of each block only the block itself enters, as those of positions where it is
@@ -47,46 +67,48 @@ impl Pattern {
     #[must_use]
     pub fn with_local_rates(mut self, counts: Vec<usize>) -> Self {
         assert!(self.fits(counts.len()), "{} counts of local rates for other blocks", counts.len());
-        if !self.is_uncoupled() && counts.iter().any(|count| *count > 0) {
-            self.local_rates = counts;
+        if let Some(coupled) = self.0.as_mut().filter(|_| counts.iter().any(|count| *count > 0)) {
+            Arc::make_mut(coupled).local_rates = counts;
         }
         self
     }
 
     /// How many of the first rates of a block only the block itself enters.
     pub(crate) fn local_rates(&self, block: usize) -> usize {
-        self.local_rates.get(block).copied().unwrap_or(0)
+        self.0.as_ref().and_then(|coupled| coupled.local_rates.get(block)).copied().unwrap_or(0)
     }
 
     /// Whether no block enters the rates of another.
     pub fn is_uncoupled(&self) -> bool {
-        self.columns.is_empty()
+        self.0.is_none()
     }
 
     /// The number of pairs.
     pub fn pairs(&self) -> usize {
-        self.columns.len()
+        self.0.as_ref().map_or(0, |coupled| coupled.columns.len())
     }
 
     /// The other blocks that enter the rates of a block, ascending.
     pub fn columns(&self, row: usize) -> &[usize] {
-        &self.columns[self.places(row)]
+        self.0.as_ref().map_or(&[], |coupled| &coupled.columns[self.places(row)])
     }
 
     /// The places of the pairs of a row among all pairs.
     pub(crate) fn places(&self, row: usize) -> std::ops::Range<usize> {
-        if row + 1 < self.starts.len() { self.starts[row]..self.starts[row + 1] } else { 0..0 }
+        match &self.0 {
+            Some(coupled) if row + 1 < coupled.starts.len() => coupled.starts[row]..coupled.starts[row + 1],
+            _ => 0..0,
+        }
     }
 
     /// The place of a pair among all pairs.
     pub(crate) fn place(&self, row: usize, column: usize) -> Option<usize> {
-        let places = self.places(row);
-        self.columns[places.clone()].binary_search(&column).ok().map(|k| places.start + k)
+        self.columns(row).binary_search(&column).ok().map(|k| self.places(row).start + k)
     }
 
     /// Whether the pattern can be one of so many blocks.
     pub(crate) fn fits(&self, blocks: usize) -> bool {
-        self.is_uncoupled() || self.starts.len() == blocks + 1
+        self.0.as_ref().is_none_or(|coupled| coupled.starts.len() == blocks + 1)
     }
 }
 

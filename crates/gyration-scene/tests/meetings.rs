@@ -177,8 +177,8 @@ fn bodies_that_reach_each_other_at_the_start_are_told_with_the_way_apart() {
     assert_error(&text, "contact.0.between", "\"ball\" and \"cube\"", "0.000000, 1.000000]");
 }
 
-/// 25 gaps at which the lighter one of two balls rests on the other, F = 2πα R₁R₂/(R₁+R₂) d₀^ν g^(1−ν)/(ν−1) = mg, or at
-/// which they turn back; each pair has its own, and so have parts of unions.
+/// 25 gaps at which the lighter one of two balls rests on the other, F = 2πα R₁R₂/(R₁+R₂) d₀^ν g^(1−ν)/(ν−1) = mg, or
+/// at which they turn back; each pair has its own, and so have parts of unions.
 #[test]
 fn a_reach_that_is_found_has_twenty_five_gaps_of_each_pair() {
     let ball = |name: &str, radius: f64, mass: f64, place: [f64; 3], speed: f64| {

@@ -161,8 +161,11 @@ impl<'a> Job<'a> {
         let began = Instant::now();
         let outcome = simulation.run(&mut sink, watch)?;
         let elapsed = Some(began.elapsed());
-        // What has been done is told though no time is left, unless that takes long.
-        let told = Interruption::default().after(Some(TO_TELL).filter(|_| !outcome.is_final()));
+        // What has been done is told though no time is left; of a run that was given up, unless that takes long.
+        let told = match outcome.is_final() {
+            true => Interruption::in_force().however_long(),
+            false => Interruption::default().after(Some(TO_TELL)),
+        };
         let mut summary = told.within(|| RunSummary::of(self.model, &mut simulation, outcome, elapsed));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {

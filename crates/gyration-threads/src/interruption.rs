@@ -56,6 +56,13 @@ impl Interruption {
         self
     }
 
+    /// The same, however long it takes.
+    #[must_use]
+    pub fn however_long(mut self) -> Self {
+        self.deadline = None;
+        self
+    }
+
     /// Whether to give up, and why.
     pub fn is_due(&self) -> Option<Interrupted> {
         if self.flags.iter().any(|flag| flag.load(Ordering::Relaxed)) {
@@ -99,6 +106,7 @@ mod tests {
         assert_eq!(Interruption::due(), None);
         let late = Interruption::in_force().after(Some(Duration::ZERO));
         assert_eq!(late.within(Interruption::due), Some(Interrupted::Overdue));
+        assert_eq!(late.however_long().within(Interruption::due), None);
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub struct Model {
     pub fluid: Option<Arc<Fluid>>,
     bonds: Interactions<Bond>,
     rules: PairRules,
+    /// How many pairs these join, and how many of them however far they are.
+    pairs: [usize; 2],
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -65,6 +67,7 @@ impl Model {
             fluid,
             bonds,
             rules,
+            pairs: [0, 0],
             slots,
             blocks,
             works,
@@ -109,6 +112,7 @@ impl Model {
         let mut bodies = rules.iter().flat_map(|rule| rule.bodies.iter().flat_map(|set| set.iter()));
         assert!(bodies.all(|body| self.bodies[*body].has_inertia()), "bodies that meet have inertia");
         self.rules = PairRules::new(self.bodies.len(), rules);
+        self.pairs = self.rules.count(&self.bodies);
         self.has_potential = has_potential(&self.bodies, self.rules.all());
         self.with_ledger()
     }
@@ -129,7 +133,7 @@ impl Model {
 
     /// Whether an evaluation would be given up now: of few pairs none is, since it ends soon.
     pub fn is_given_up(&self) -> bool {
-        self.count_pairs() >= PATIENCE && self.given_up.is_some_and(|given_up| given_up())
+        self.pairs[0] >= PATIENCE && self.given_up.is_some_and(|given_up| given_up())
     }
 
     /// The model of some of its bodies, whose indices ascend: as if there were no others, but with the ledger of all,
@@ -147,12 +151,14 @@ impl Model {
             fluid: self.fluid.clone(),
             bonds: self.bonds.among(members, |bond, bodies| Bond { bodies, ..*bond }),
             rules: self.rules.among(members),
+            pairs: [0, 0],
             works: Vec::new(),
             energies: Vec::new(),
             has_potential: self.has_potential,
             applied: members.iter().filter_map(|body| self.applied.get(*body)).copied().collect(),
             given_up: self.given_up,
         };
+        part.pairs = part.rules.count(&part.bodies);
         part.enter_ledger();
         part
     }
@@ -178,21 +184,19 @@ impl Model {
         Pair::all_of(&self.rules, rule, bodies, bodies.map(|body| &self.bodies[body].solid))
     }
 
-    /// How many pairs of bodies meet.
-    pub fn count_pairs(&self) -> usize {
-        self.rules.all().iter().map(PairRule::count).sum()
+    /// How many pairs of parts of bodies meet, and how many of these are looked at however far they are: those of rules
+    /// without a reach, and of bodies that deform.
+    pub fn count_pairs(&self) -> [usize; 2] {
+        self.pairs
     }
 
-    /// How many of these do so by rules without a reach.
-    pub fn count_endless(&self) -> usize {
-        self.rules.all().iter().filter(|rule| rule.reach.is_none()).map(PairRule::count).sum()
-    }
-
-    /// The pairs (i, j) of bodies of which j may act on i; some may come twice.
+    /// The pairs (i, j) of bodies of which j may act on i, in order of i; some may come twice.
     pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
-        let bonds = self.bonds().iter().map(|bond| bond.bodies);
-        let pairs = bonds.chain(self.rules.all().iter().flat_map(PairRule::pairs));
-        pairs.flat_map(|[one, other]| [(one, other), (other, one)])
+        (0..self.bodies.len()).flat_map(move |body| {
+            let bonds = self.bonds.of(body).map(|end| end.other());
+            let rules = self.rules.of(body).iter().map(|rule| &self.rules.all()[*rule]);
+            bonds.chain(rules.flat_map(move |rule| rule.partners(body))).map(move |other| (body, other))
+        })
     }
 
     /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.

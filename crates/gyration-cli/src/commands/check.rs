@@ -37,6 +37,10 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
         }
         if !survey.meetings.is_empty() {
             value["meetings"] = json!(survey.meetings);
+            let left_out = survey.pairs[0] - survey.meetings.len();
+            if left_out > 0 {
+                value["meetings_left_out"] = json!(left_out);
+            }
         }
         for (name, told) in [("notes", &survey.remarks.notes), ("warnings", &survey.remarks.warnings)] {
             if !told.is_empty() {
@@ -62,7 +66,7 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
 /// Refuses a start from which a run would not begin. Resistances that only a run needs are not computed for that, and
 /// where very many pairs take long the run tells.
 fn begins(scene: &Scene, job: &Job) -> Result<(), CliError> {
-    if !scene.unknown_forms().is_empty() || job.model.count_endless() > MOST_PAIRS {
+    if !scene.unknown_forms().is_empty() || job.model.count_pairs()[1] > MOST_PAIRS {
         return Ok(());
     }
     let begun = job.interruption().within(|| {

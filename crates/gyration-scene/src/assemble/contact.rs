@@ -17,6 +17,9 @@ use std::sync::Arc;
 /// The most contacts of bodies with supports in a scene.
 const MOST_CONTACTS: usize = 1_000_000;
 
+/// The most pairs of parts of bodies that act on each other however far they are: each takes some 400 bytes.
+const MOST_ENDLESS: usize = 10_000_000;
+
 /// Gives the bodies their contacts with supports, and returns the rules by which bodies meet; notes a contact with what
 /// has no surface, and laws out of range.
 pub(super) fn attach(
@@ -25,7 +28,7 @@ pub(super) fn attach(
     reporter: &mut Reporter<'_>,
 ) -> Vec<PairRule> {
     let names = Names::of(partial);
-    let mut count = 0;
+    let (mut count, mut endless) = (0, 0);
     let mut rules = Vec::new();
     let is_found = partial.contacts.iter().any(|contact| matches!(contact.value.reach, Some(Reach::Auto(_))));
     let falling = if is_found { reach::falling(&si(&partial.world.gravity), assembled) } else { Falling::default() };
@@ -67,6 +70,14 @@ pub(super) fn attach(
                 let reach = written
                     .and_then(|written| reach::reach(written, (&laws, &groups), &falling, assembled, (key, reporter)));
                 let rule = PairRule { bodies: groups.map(Arc::from), laws, reach };
+                endless += pair::count_endless(&rule, assembled);
+                if endless > MOST_ENDLESS {
+                    let message = format!("with this contact more than {MOST_ENDLESS} pairs act however far they are");
+                    let help =
+                        "give the contact a `reach`: without one, and between bodies that deform, all pairs count";
+                    reporter.note(&key.key("between"), message, help);
+                    break;
+                }
                 if unable == 0 {
                     pair::check_range(&rule, assembled, key, reporter);
                     pair::check_overlaps(&rule, assembled, key, reporter);

@@ -8,8 +8,9 @@ use crate::key::Key;
 use gyration::body::Solid;
 use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::kinematics::Placement;
-use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, near};
+use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, each_near};
 use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// The laws of a contact between bodies; notes what cannot act there.
@@ -47,6 +48,13 @@ pub(super) fn laws(
     };
     reporter.note(&key, message, help);
     None
+}
+
+/// How many pairs of parts of bodies act on each other however far they are.
+pub(super) fn count_endless(rule: &PairRule, assembled: &[Option<AssembledBody>]) -> usize {
+    let of = |body: usize| assembled[body].as_ref().map(|assembled| &assembled.body);
+    let parts = |body: usize| of(body).map_or(0, |body| body.solid.count_parts());
+    rule.count_endless(parts, |body| of(body).is_some_and(|body| body.affine().is_some()))
 }
 
 /// Notes a reach at which the energy of a pair is no number.
@@ -95,19 +103,26 @@ pub(super) fn check_overlaps(
         _ => Sphere::NOWHERE,
     };
     let spheres: Vec<Sphere> = assembled.iter().zip(&placements).map(sphere).collect();
-    for BodyPair { bodies, .. } in near(&PairRules::new(assembled.len(), vec![rule.clone()]), &spheres, |_| Some(0.0)) {
-        let both = bodies.map(|body| assembled[body].as_ref().zip(placements[body].as_ref()));
-        let [Some((one, first)), Some((other, second))] = both else { continue };
-        if reporter.diagnostics.is_full() {
-            return;
-        }
-        let solids = [&one.body.solid, &other.body.solid];
-        let parts = (0..solids[0].count_parts()).flat_map(|i| (0..solids[1].count_parts()).map(move |j| [i, j]));
-        let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [first, second]));
-        if let Some(overlap) = overlap.filter_map(Result::err).next() {
-            overlapping([one, other], &overlap, &key.key("between"), reporter);
-        }
-    }
+    let rules = PairRules::new(assembled.len(), vec![rule.clone()]);
+    let _ = each_near(
+        &rules,
+        &spheres,
+        |_| Some(0.0),
+        |BodyPair { bodies, .. }| {
+            let both = bodies.map(|body| assembled[body].as_ref().zip(placements[body].as_ref()));
+            let [Some((one, first)), Some((other, second))] = both else { return ControlFlow::Continue(()) };
+            if reporter.diagnostics.is_full() {
+                return ControlFlow::Break(());
+            }
+            let solids = [&one.body.solid, &other.body.solid];
+            let parts = (0..solids[0].count_parts()).flat_map(|i| (0..solids[1].count_parts()).map(move |j| [i, j]));
+            let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [first, second]));
+            if let Some(overlap) = overlap.filter_map(Result::err).next() {
+                overlapping([one, other], &overlap, &key.key("between"), reporter);
+            }
+            ControlFlow::Continue(())
+        },
+    );
 }
 
 /// A sphere that holds a body: |P X| ≤ √‖PᵀP‖_∞ |X|.

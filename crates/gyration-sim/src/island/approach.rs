@@ -55,15 +55,19 @@ impl Approach {
 
 /// The rigid bodies that may come within reach of one another in a time [s], and some others, ascending.
 ///
-/// A centre is then within |ṗ₀| t + ½ |p̈₀| t² of where it is.
+/// A centre is then within |ṗ₀ − u| t + ½ |p̈₀ − w| t² of where it would be if all moved alike, with the mean velocity
+/// u and acceleration w.
 pub(crate) fn may_meet(model: &Model, ends: &[StepEnd], within: f64) -> Vec<BodyPair> {
     // Bodies part a little farther out than they meet.
     let wider = 1.0 + 4.0 * EDGE;
+    let mean = |of: &dyn Fn(&StepEnd) -> Vec3| ends.iter().map(of).sum::<Vec3>() / ends.len().max(1) as f64;
+    let (velocity, acceleration) = (mean(&|end| end.motion.velocity.velocity), mean(&|end| end.acceleration));
     let sphere = |(index, end): (usize, &StepEnd)| {
         let body = &model.bodies[index];
         let Some(radius) = body.solid.radius().filter(|_| body.affine().is_none()) else { return Sphere::NOWHERE };
-        let way = end.motion.velocity.velocity.norm() * within + 0.5 * end.acceleration.norm() * within * within;
-        Sphere::new(end.motion.placement.position, wider * radius + way)
+        let (speed, bend) = (end.motion.velocity.velocity - velocity, end.acceleration - acceleration);
+        let way = speed.norm() * within + 0.5 * bend.norm() * within * within;
+        Sphere::new(end.motion.placement.position, wider * (radius + way))
     };
     let spheres: Vec<Sphere> = ends.iter().enumerate().map(sphere).collect();
     near(model.rules(), &spheres, |rule| rule.reach.map(|reach| wider * reach.longest()))

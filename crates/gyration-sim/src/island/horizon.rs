@@ -35,6 +35,8 @@ const TURN: f64 = 1.0;
 const PERIOD_PART: f64 = 0.125;
 /// The part of a drive's fastest period that a step may take: no wave is jumped over.
 const DRIVE_PART: f64 = 0.25;
+/// So many usual steps are looked at first.
+const AHEAD: f64 = 4.0;
 /// The time to contact is found to this fraction of itself.
 const PRECISION: f64 = 0.05;
 
@@ -54,13 +56,14 @@ struct PlaneApproach<'a> {
     spin: f64,
 }
 
-/// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m].
+/// The longest step [s] from this instant, at most `longest`; `radii` of the bodies about their centres [m], `usual` a
+/// step as long as is expected.
 pub(crate) fn horizon(
     model: &Model,
     time: f64,
     (ends, gaps): (&[StepEnd], &PairGaps),
     radii: &[f64],
-    longest: f64,
+    (usual, longest): (f64, f64),
 ) -> f64 {
     let mut step = next_kink(model, time).map_or(longest, |kink| longest.min(kink - time));
     for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
@@ -92,16 +95,20 @@ pub(crate) fn horizon(
         }
     }
     if !gaps.is_whole() {
-        step = step.min(before_any_meeting(model, ends, step));
+        // Who may meet within a usual step is soon found; only where nobody does, all time to go is looked at.
+        let soon = if usual > 0.0 { step.min(AHEAD * usual) } else { step };
+        let first = before_any_meeting(model, ends, soon, step);
+        let is_all = first <= soon || soon == step;
+        step = step.min(if is_all { first } else { before_any_meeting(model, ends, step, step) });
     }
     step
 }
 
-/// The longest step [s] after which any two bodies that are out of reach may be at another distance within it, at most
-/// `longest`: of all pairs, since which of them are listed must leave no trace.
-fn before_any_meeting(model: &Model, ends: &[StepEnd], longest: f64) -> f64 {
+/// The longest step [s] after which any two bodies that are out of reach, and may come within it in a time [s], may be
+/// at another distance within it, at most `longest`: of all pairs, since which of them are listed must leave no trace.
+fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64) -> f64 {
     let mut step = longest;
-    for BodyPair { rule, bodies } in may_meet(model, ends, longest) {
+    for BodyPair { rule, bodies } in may_meet(model, ends, within) {
         let solids = bodies.map(|body| &*model.bodies[body].solid);
         for parts in Solid::parts_of(solids) {
             let Some(reach) = model.rules().all()[rule].reach_between(solids, parts) else { continue };

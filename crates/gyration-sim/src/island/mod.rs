@@ -330,7 +330,8 @@ impl Island {
         if end <= time {
             end = plan.end;
         }
-        let horizon = horizon(self.model(), time, (&self.step_ends, &self.gaps), self.system.radii(), end - time);
+        let (ends, lengths) = ((&self.step_ends[..], &self.gaps), (self.integrator.next_size(), end - time));
+        let horizon = horizon(self.model(), time, ends, self.system.radii(), lengths);
         let target = time + horizon;
         // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.
         if target > time { target.min(end) } else { end }

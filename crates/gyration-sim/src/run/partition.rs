@@ -22,10 +22,13 @@ const FRESH: usize = 4;
 /// They are laid anew where there are more of them than so many a body.
 const STALE: usize = 8;
 
+/// Islands; boxed, since each is kilobytes and a change moves all behind it.
+pub(crate) type Islands = Vec<Box<Island>>;
+
 /// The bodies of a run in islands.
 pub(crate) struct Partition {
-    /// In order of their first bodies; boxed, since a change moves all behind it.
-    pub islands: Vec<Box<Island>>,
+    /// In order of their first bodies.
+    pub islands: Islands,
     /// The island of each body, and its place there.
     island_of: Vec<(usize, usize)>,
     /// Whether islands meet and part; without cutoff distances they do not.
@@ -115,7 +118,7 @@ pub(super) fn may_be_islands(model: &Model, islands: &[Vec<usize>]) -> bool {
 
 impl Partition {
     /// Of islands in order of their first bodies.
-    pub fn new(bodies: usize, islands: Vec<Box<Island>>, changes: bool) -> Self {
+    pub fn new(bodies: usize, islands: Islands, changes: bool) -> Self {
         let mut this = Self {
             islands,
             island_of: vec![(0, 0); bodies],
@@ -301,7 +304,7 @@ impl Partition {
             let in_play = island.state.in_play.share(island.integrator.quadratures(), share);
             Island::successor(setting, members, &[island], in_play)
         });
-        let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Vec<Box<Island>>, Stop>>()?;
+        let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Islands, Stop>>()?;
         let island = self.islands.remove(index);
         // Its events are handed on by any of the pieces.
         pieces[0].take_events([&*island]);

@@ -22,7 +22,7 @@ impl Simulation {
     /// Ends the next window before its rows take long, though the steps behind it go farther; an island that is the
     /// whole run then needs a restart point, from which the rest of its step can be had again.
     pub(super) fn portion(&mut self) {
-        let looks = self.model.bodies.len() + self.model.count_endless();
+        let looks = self.model.bodies.len() + self.model.count_pairs()[1];
         let rows = (MOST_LOOKS / looks.max(1) as u64).max(1);
         let end = self.sample_time(self.state.next_sample + rows);
         self.portion = end;

@@ -54,8 +54,7 @@ fn steps(summary: &RunSummary) -> String {
 /// The ledger as a table, and how well it closes; `start` are the energies at t = 0, in the order of the ledger.
 fn ledger(ledger: &LedgerSummary, start: &[f64]) -> String {
     if ledger.energies.is_empty() {
-        return "energy     at the end not known: the run was given up, and to look at all bodies takes long\n"
-            .to_owned();
+        return "energy     at the end not known: the bodies there could not all be looked at\n".to_owned();
     }
     let mut text = format!("energy [J]  {:>26} {:>16}\n", "at t = 0", "at the end");
     let end: f64 = ledger.energies.iter().map(|(_, value)| value).sum();

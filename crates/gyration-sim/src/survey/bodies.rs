@@ -29,7 +29,7 @@ pub struct Survey {
     pub springs: Vec<SpringSurvey>,
     /// The bodies that meet.
     pub meetings: Vec<MeetingSurvey>,
-    /// How many pairs of bodies meet, and how many of these without a reach.
+    /// How many pairs of bodies meet, and how many of these feel each other however far they are.
     #[serde(skip)]
     pub pairs: [usize; 2],
     /// What must be told of the scene besides.
@@ -131,7 +131,7 @@ impl Survey {
             bodies,
             springs: SpringSurvey::all(model, start),
             meetings: MeetingSurvey::all(model, start),
-            pairs: [model.count_pairs(), model.count_endless()],
+            pairs: model.count_pairs(),
             remarks: Remarks::at_start(model, start, scene.built().plan.rtol),
         })
     }

@@ -53,7 +53,7 @@ impl MeetingSurvey {
         let near = || gaps.iter().filter(|(_, slab)| slab.gap < f64::INFINITY);
         let known: HashMap<_, f64> = near().map(|(pair, slab)| (pair.key(), slab.gap)).collect();
         let of = |pair: &Pair| Self::of(model, start, pair, known.get(&pair.key()).copied());
-        if model.count_pairs() <= MOST_LISTED {
+        if model.count_pairs()[0] <= MOST_LISTED {
             return model.pairs().map(|pair| of(&pair)).collect();
         }
         let rules = model.rules().all().iter().enumerate();
@@ -99,8 +99,8 @@ fn change(model: &Model, start: &State, pair: &Pair) -> Option<f64> {
     pair.form.change_of_gap(gap, surfaces).filter(|change| change.is_finite())
 }
 
-/// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them without a
-/// reach.
+/// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them feel each
+/// other however far they are.
 pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pairs: usize, endless: usize) {
     let short = |value: f64| significant(value, 5);
     let mut told: Option<&MeetingSurvey> = None;
@@ -128,8 +128,8 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pair
             );
         }
     }
-    let more = meetings.len().max(pairs) - meetings.len().min(MOST);
-    let listed = if pairs > MOST_LISTED { "those within reach at the start" } else { "all" };
+    let more = pairs - meetings.len().min(MOST);
+    let listed = if meetings.len() < pairs { "some of those within reach at the start" } else { "all" };
     if more > 0 {
         let _ = writeln!(text, "           and {more} meetings more: {listed} with --json");
     }
@@ -137,7 +137,7 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pair
         let step = short((EVALUATIONS * endless) as f64 * PLANE);
         let _ = writeln!(
             text,
-            "           warning: {endless} of them have no reach: an evaluation looks at all, a step makes \
+            "           warning: {endless} of them have no reach, or deform: an evaluation looks at all, a step makes \
              {EVALUATIONS} or more,\n             which takes some {step} s; give the contact a `reach`, beyond which \
              bodies do not feel each other"
         );

@@ -1,7 +1,7 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
 use super::Scratch;
-use super::pairs::smallest_gap;
+use super::gaps::smallest_gap;
 use crate::body::Body;
 use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;

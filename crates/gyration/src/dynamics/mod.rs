@@ -9,6 +9,7 @@ mod body_rates;
 mod contact_parts;
 mod contacts;
 mod contractile;
+mod gaps;
 mod history;
 mod immersed;
 mod inertialess;

@@ -21,10 +21,20 @@ pub(crate) struct PairStates {
     /// The derivatives of those that act, where they are wanted, and their places in the same way.
     slopes: Vec<PairSlopes>,
     sloped: Vec<usize>,
-    /// When the planes were looked at from which they are looked for [s], and where they were; empty if that is not
-    /// remembered.
-    remembered: (f64, PairGaps),
-    room: PairScratch,
+    remembered: Remembered,
+    pub room: PairScratch,
+}
+
+/// Where the planes of pairs were, from which they are looked for.
+#[derive(Debug, Clone, Default)]
+struct Remembered {
+    /// When they were there [s].
+    since: f64,
+    /// Where they were; empty if that is not remembered.
+    gaps: PairGaps,
+    /// The list of pairs that was last asked for, and the place of each among these; empty if they are the same.
+    list: Interactions<Pair>,
+    places: Vec<usize>,
 }
 
 /// The slabs between the bodies of the listed pairs at a state.
@@ -58,11 +68,28 @@ impl PairStates {
         self.places.push(self.acting.len());
         self.acting.extend(loads);
     }
+}
 
-    /// Where a plane is looked for first at a time.
+impl Remembered {
+    /// Where the plane of a listed pair is looked for first at a time.
     fn guess(&self, number: usize, time: f64) -> Option<Guess> {
-        let (since, gaps) = &self.remembered;
-        gaps.slabs.get(number)?.guess(time - since)
+        let place = if self.places.is_empty() { number } else { *self.places.get(number)? };
+        self.gaps.slabs.get(place)?.guess(time - self.since)
+    }
+
+    /// Finds the pairs of a list among those that are remembered. What is remembered stays: a pair may leave the list
+    /// and come back.
+    fn find(&mut self, pairs: &Interactions<Pair>) {
+        if self.list.are(pairs) {
+            return;
+        }
+        self.list = pairs.clone();
+        self.places.clear();
+        if !self.gaps.pairs.are(pairs) {
+            let known = self.gaps.pairs.all();
+            let place = |pair: &Pair| known.binary_search_by_key(&pair.key(), Pair::key).unwrap_or(usize::MAX);
+            self.places.extend(pairs.all().iter().map(place));
+        }
     }
 }
 
@@ -95,20 +122,6 @@ impl PairGaps {
             self.pairs = instant.near().pairs().clone();
         }
     }
-
-    /// Goes over to the pairs of an instant, those that were not listed being out of reach.
-    fn carry_to(&mut self, instant: &Instant) {
-        let pairs = instant.near().pairs();
-        if self.slabs.is_empty() || self.pairs.are(pairs) {
-            return;
-        }
-        let before = self.pairs.all();
-        let slab =
-            |pair: &Pair| before.binary_search_by_key(&pair.key(), Pair::key).ok().map(|place| self.slabs[place]);
-        self.slabs = pairs.all().iter().map(|pair| slab(pair).unwrap_or(PairGap::FAR)).collect();
-        self.pairs = pairs.clone();
-        self.is_whole = instant.near().is_whole();
-    }
 }
 
 /// Hands the listed pairs to `each`, with their bodies and where their planes are looked for first; those out of reach
@@ -119,13 +132,13 @@ fn for_each(
     states: &mut PairStates,
     mut each: impl FnMut(&mut PairStates, Option<Looked>) -> Result<(), PairFault>,
 ) -> Result<(), Inadmissible> {
-    states.remembered.1.carry_to(instant);
+    states.remembered.find(instant.near().pairs());
     for (number, pair) in instant.near().pairs().all().iter().enumerate() {
         let bodies = pair.bodies.map(|body| instant.at(model, body));
         if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
             return Err(bodies[0].outside(Quantity::Interruption, f64::NAN));
         }
-        let guess = states.guess(number, instant.time());
+        let guess = states.remembered.guess(number, instant.time());
         let looked = instant.is_within_reach(number).then_some(Looked { pair, bodies: &bodies, guess: guess.as_ref() });
         each(states, looked).map_err(|fault| outside(&bodies[0], pair, fault))?;
     }
@@ -208,89 +221,19 @@ impl Workspace {
         (time, state): (f64, Numbers),
         gaps: &mut PairGaps,
     ) -> Result<(), Inadmissible> {
-        self.scratch.pairs.remembered.1.clear();
+        self.scratch.pairs.remembered.gaps.clear();
         self.pair_gaps(model, (time, state), gaps)?;
-        let (since, remembered) = &mut self.scratch.pairs.remembered;
-        *since = time;
-        remembered.clone_from(gaps);
+        let remembered = &mut self.scratch.pairs.remembered;
+        remembered.since = time;
+        remembered.gaps.clone_from(gaps);
+        // They are found among these at the next instant.
+        remembered.list = Interactions::default();
         Ok(())
     }
 }
 
-/// What a slab is wider than: the distance of the centres less so many radii of both. With d_i ≤ g_i + 2r_i on both
-/// surfaces, Φ ≤ (g + 2r_A + 2r_B) Σ w_i S_i^−p; a plane across the distance D ≥ |Δ| − r_A − r_B has D times that sum.
-const WIDEST: f64 = 3.0;
-
-/// The smallest slab between a body and another that it meets, however far [m]; infinite if it meets none.
-///
-/// # Errors
-/// [`Inadmissible`] if no plane separates two bodies.
-pub(super) fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
-    let near = at.near();
-    let (mut smallest, mut far) = (f64::INFINITY, None);
-    let width = |pair: &Pair| {
-        let [one, other] = pair.bodies.map(|body| at.beside(body));
-        one.from(&other).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
-    };
-    let mut nearest = f64::INFINITY;
-    for end in near.pairs().of(at.index) {
-        if at.is_within_reach(&end) {
-            smallest = smallest.min(scratch.pairs.loads(end.number).gap);
-            continue;
-        }
-        let least = width(end.interaction);
-        if least < nearest {
-            (nearest, far) = (least, Some(end.number));
-        }
-    }
-    let look = |pair: &Pair, scratch: &mut Scratch| far_gap(at, pair, scratch);
-    if let Some(number) = far.filter(|_| nearest < smallest) {
-        smallest = smallest.min(look(&near.pairs().all()[number], scratch)?);
-    }
-    for end in near.pairs().of(at.index) {
-        let is_seen = at.is_within_reach(&end) || Some(end.number) == far;
-        if !is_seen && width(end.interaction) < smallest {
-            smallest = smallest.min(look(end.interaction, scratch)?);
-        }
-    }
-    let rules = at.model.rules();
-    if near.is_whole() || rules.of(at.index).is_empty() {
-        return Ok(smallest);
-    }
-    let radii = near.largest_radius() + at.body.solid.radius().unwrap_or(0.0);
-    for (distance, other) in near.outward(&at.motion.placement.position) {
-        if distance - WIDEST * radii > smallest {
-            break;
-        }
-        for rule in rules.of(at.index) {
-            let Some(bodies) = rules.all()[*rule].between(at.index, other) else { continue };
-            for pair in near.unlisted(*rule, bodies, &at.model.bodies) {
-                if width(&pair) < smallest {
-                    smallest = smallest.min(look(&pair, scratch)?);
-                }
-            }
-        }
-    }
-    Ok(smallest)
-}
-
-/// The slab between two bodies that are out of reach [m].
-fn far_gap(at: &BodyAt, pair: &Pair, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
-    let bodies = pair.bodies.map(|body| at.beside(body));
-    let [one, other] = &bodies;
-    if let Some(gap) = pair.form.gap_of_balls(one.from(other).norm()) {
-        return Ok(gap);
-    }
-    let found = with_sides(pair, &bodies, |sides| {
-        // A plane of least potential may be beyond the digits of a number.
-        let found = PairLoads::integrate(&pair.form, sides, None, &mut scratch.pairs.room);
-        found.or_else(|_| PairLoads::nothing(&pair.form, sides))
-    });
-    found.map(|loads| loads.gap).map_err(|fault| outside(one, pair, fault))
-}
-
 /// A state outside the model, for what became of a plane.
-fn outside(at: &BodyAt, pair: &Pair, fault: PairFault) -> Inadmissible {
+pub(super) fn outside(at: &BodyAt, pair: &Pair, fault: PairFault) -> Inadmissible {
     let (other, rule) = (pair.bodies[1], pair.rule);
     match fault {
         PairFault::Overlap { gap } => at.outside(Quantity::PairGap { other, rule }, gap),
@@ -299,7 +242,7 @@ fn outside(at: &BodyAt, pair: &Pair, fault: PairFault) -> Inadmissible {
     }
 }
 
-fn with_sides<T>(pair: &Pair, bodies: &[BodyAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
+pub(super) fn with_sides<T>(pair: &Pair, bodies: &[BodyAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
     let apart = bodies[1].from(&bodies[0]);
     let [one, other] = [0, 1].map(|end| {
         let at = &bodies[end];

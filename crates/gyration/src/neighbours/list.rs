@@ -20,6 +20,9 @@ use std::sync::{Arc, OnceLock};
 const FEW: usize = 128;
 /// The skin, as a part of the mean radius of the bodies that meet.
 const SKIN: f64 = 0.5;
+/// A body so many times as large as the median is asked for its gap one by one, and so many of them at most.
+const OUTSIZE: f64 = 4.0;
+const MOST_OUTSIZE: usize = 32;
 
 /// The pairs that may act at a configuration of the bodies.
 #[derive(Debug, Clone, Default)]
@@ -31,12 +34,37 @@ pub struct NeighbourList {
     is_whole: bool,
     /// What bodies may move by in sum before it is made anew [m].
     skin: f64,
-    /// The largest radius of a body that meets others [m].
-    largest_radius: f64,
+    sizes: Sizes,
     /// The centres of the bodies when it was made [m].
     places: Vec<Vec3>,
     forms: Forms,
     tree: OnceLock<RTree<Place>>,
+}
+
+/// The sizes of the bodies that meet others.
+#[derive(Debug, Clone, Default)]
+struct Sizes {
+    /// Those that are far larger than most, if they are few.
+    outsize: Vec<usize>,
+    /// The largest radius of all others [m].
+    largest_radius: f64,
+}
+
+impl Sizes {
+    /// Of bodies with their radii [m].
+    fn of(bodies: &[(usize, f64)]) -> Self {
+        let mut radii: Vec<f64> = bodies.iter().map(|(_, radius)| *radius).collect();
+        radii.sort_unstable_by(f64::total_cmp);
+        let most = OUTSIZE * radii.get(radii.len() / 2).copied().unwrap_or(0.0);
+        let mut outsize: Vec<usize> =
+            bodies.iter().filter(|(_, radius)| *radius > most).map(|(body, _)| *body).collect();
+        if outsize.len() > MOST_OUTSIZE {
+            outsize.clear();
+        }
+        let others = bodies.iter().filter(|(body, _)| !outsize.contains(body));
+        let largest_radius = others.map(|(_, radius)| *radius).fold(0.0, f64::max);
+        Self { outsize, largest_radius }
+    }
 }
 
 /// A place, and the body there.
@@ -54,10 +82,20 @@ struct Form {
 }
 
 impl Forms {
-    fn of(&mut self, number: usize, rule: &PairRule, solids: [&Arc<Solid>; 2], parts: [usize; 2]) -> Arc<PairForm> {
+    /// That of two parts; one that was known before is taken over.
+    fn of(
+        &mut self,
+        before: &mut Self,
+        number: usize,
+        rule: &PairRule,
+        solids: [&Arc<Solid>; 2],
+        parts: [usize; 2],
+    ) -> Arc<PairForm> {
         let part = |end: usize| (Arc::as_ptr(solids[end]) as usize, parts[end]);
+        let key = (number, [part(0), part(1)]);
         let made = || Form { form: Arc::new(form(rule, solids, parts)), _solids: solids.map(Arc::clone) };
-        Arc::clone(&self.0.entry((number, [part(0), part(1)])).or_insert_with(made).form)
+        let known = self.0.entry(key).or_insert_with(|| before.0.remove(&key).unwrap_or_else(made));
+        Arc::clone(&known.form)
     }
 }
 
@@ -90,16 +128,18 @@ impl NeighbourList {
             let is_whole =
                 rules.all().iter().map(PairRule::count).sum::<usize>() <= FEW || rules.all().iter().all(is_endless);
             let meeting = (0..bodies.len()).filter(|body| !rules.of(*body).is_empty());
-            let radii: Vec<f64> = meeting.filter_map(|body| bodies[body].solid.radius()).collect();
-            let skin = SKIN * radii.iter().sum::<f64>() / radii.len() as f64;
-            let largest_radius = radii.into_iter().fold(0.0, f64::max);
-            *self = Self { rules: rules.clone(), is_whole, skin, largest_radius, ..Self::default() };
+            let meeting: Vec<(usize, f64)> =
+                meeting.filter_map(|body| Some((body, bodies[body].solid.radius()?))).collect();
+            let skin = SKIN * meeting.iter().map(|(_, radius)| radius).sum::<f64>() / meeting.len() as f64;
+            *self = Self { rules: rules.clone(), is_whole, skin, sizes: Sizes::of(&meeting), ..Self::default() };
         }
         self.make(bodies, place);
     }
 
     fn make(&mut self, bodies: &[Arc<Body>], place: impl Fn(usize) -> Vec3) {
         let Self { rules, is_whole, skin, forms, .. } = self;
+        // Those of pairs that are no longer near go.
+        let mut before = std::mem::take(forms);
         let spheres: Vec<Sphere> = match is_whole {
             true => vec![Sphere::EVERYWHERE; bodies.len()],
             false => bodies.iter().enumerate().map(|(index, body)| sphere(body, place(index))).collect(),
@@ -109,13 +149,13 @@ impl NeighbourList {
             near(rules, &spheres, |rule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach.longest() + *skin)))
         {
             let solids = both.map(|body| &bodies[body].solid);
-            let forms = &mut *forms;
+            let (forms, before) = (&mut *forms, &mut before);
             let rules = &*rules;
             pairs.extend(Solid::parts_of(solids.map(|solid| &**solid)).map(|parts| Pair {
                 rule,
                 bodies: both,
                 parts,
-                form: forms.of(rule, &rules.all()[rule], solids, parts),
+                form: forms.of(before, rule, &rules.all()[rule], solids, parts),
             }));
         }
         self.pairs = Interactions::new(bodies.len(), pairs);
@@ -136,16 +176,22 @@ impl NeighbourList {
         (!is_listed).then(|| Pair::all_of(&self.rules, rule, both, solids)).into_iter().flatten()
     }
 
-    /// The largest radius of a body that meets others [m].
-    pub fn largest_radius(&self) -> f64 {
-        self.largest_radius
+    /// The few bodies that are far larger than the others.
+    pub fn outsize(&self) -> &[usize] {
+        &self.sizes.outsize
     }
 
-    /// The bodies whose centres are at least so far from a place [m], with this bound, as it ascends.
+    /// The largest radius of all others that meet somebody [m].
+    pub fn largest_radius(&self) -> f64 {
+        self.sizes.largest_radius
+    }
+
+    /// These others, whose centres are at least so far from a place [m], with this bound, as it ascends.
     pub fn outward(&self, from: &Vec3) -> impl Iterator<Item = (f64, usize)> {
         let is_finite = |place: &Vec3| place.iter().all(|x| x.is_finite());
         let tree = self.tree.get_or_init(|| {
-            let places = self.places.iter().enumerate().filter(|(_, place)| is_finite(place));
+            let is_among = |body: usize| !self.rules.of(body).is_empty() && !self.sizes.outsize.contains(&body);
+            let places = self.places.iter().enumerate().filter(|(body, place)| is_among(*body) && is_finite(place));
             RTree::bulk_load(places.map(|(index, place)| Place::new((*place).into(), index)).collect())
         });
         let from: [f64; 3] = if is_finite(from) { (*from).into() } else { [0.0; 3] };

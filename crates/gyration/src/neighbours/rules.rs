@@ -1,6 +1,6 @@
 //! Rules: what a scene says of who meets whom.
 
-use crate::body::Solid;
+use crate::body::{Body, Solid};
 use crate::pair::{Mass, PairLaws, Reach};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -56,11 +56,41 @@ impl PairRule {
         })
     }
 
-    /// How many these are.
+    /// The bodies that a body meets, ascending within each set.
+    pub fn partners(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
+        let of_set = move |own: usize| {
+            let others = if self.is_in(own, body) { &self.bodies[1 - own][..] } else { &[] };
+            others.iter().copied().filter(move |other| *other != body)
+        };
+        // Who is in both sets is met once.
+        let twice = move |other: &usize| self.is_in(0, body) && self.is_in(1, *other);
+        of_set(0).chain(of_set(1).filter(move |other| !twice(other)))
+    }
+
+    /// How many these are at most.
+    pub fn most_partners(&self, body: usize) -> usize {
+        let of_set = |own: usize| if self.is_in(own, body) { self.bodies[1 - own].len() } else { 0 };
+        of_set(0) + of_set(1)
+    }
+
+    /// How many pairs of parts of bodies it joins, given how many parts each has.
+    pub fn count_parts(&self, parts: impl Fn(usize) -> usize) -> usize {
+        let sums = self.bodies.each_ref().map(|set| set.iter().map(|body| parts(*body)).sum::<usize>());
+        let both = self.bodies[0].iter().filter(|body| self.is_in(1, **body)).map(|body| parts(*body));
+        let (common, squares) = both.fold((0, 0), |(sum, squares), n| (sum + n, squares + n * n));
+        sums[0] * sums[1] - squares - (common * common - squares) / 2
+    }
+
+    /// How many of these act on each other however far they are, given too which bodies deform: all without a reach.
+    pub fn count_endless(&self, parts: impl Fn(usize) -> usize, deforms: impl Fn(usize) -> bool) -> usize {
+        let rigid = |body: usize| if deforms(body) { 0 } else { parts(body) };
+        let within_reach = if self.reach.is_some() { self.count_parts(rigid) } else { 0 };
+        self.count_parts(&parts) - within_reach
+    }
+
+    /// How many pairs of bodies it joins.
     pub fn count(&self) -> usize {
-        let [one, other] = &self.bodies;
-        let both = one.iter().filter(|body| self.is_in(1, **body)).count();
-        one.len() * other.len() - both - both * both.saturating_sub(1) / 2
+        self.count_parts(|_| 1)
     }
 
     /// Whether a body has somebody to meet.
@@ -127,6 +157,15 @@ impl PairRules {
     /// Whether these are the same as others, or a copy of them.
     pub fn are(&self, others: &Self) -> bool {
         Arc::ptr_eq(&self.all, &others.all)
+    }
+
+    /// How many pairs of parts of bodies they join, and how many of these however far they are: by rules without a
+    /// reach, and of bodies that deform.
+    pub fn count(&self, bodies: &[Arc<Body>]) -> [usize; 2] {
+        let parts = |body: usize| bodies[body].solid.count_parts();
+        let deforms = |body: usize| bodies[body].affine().is_some();
+        let of_rule = |rule: &PairRule| [rule.count_parts(parts), rule.count_endless(parts, deforms)];
+        self.all.iter().map(of_rule).fold([0; 2], |sum, more| [sum[0] + more[0], sum[1] + more[1]])
     }
 
     /// The numbers of the rules by which a body has somebody to meet.

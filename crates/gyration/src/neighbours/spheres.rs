@@ -7,9 +7,10 @@
 use super::boxes::{Bounds, BoxTree};
 use super::rules::{PairRule, PairRules};
 use crate::tensor::Vec3;
+use std::ops::ControlFlow;
 
-/// So few pairs are compared one by one.
-const FEW: usize = 128;
+/// So few products of the counts of two sets are compared one by one.
+const FEW: usize = 256;
 /// What rounding leaves of a comparison of distances.
 const ROUNDING: f64 = 1e-12;
 
@@ -45,6 +46,10 @@ impl Sphere {
         self.radius.is_finite()
     }
 
+    fn is_somewhere(&self) -> bool {
+        self.radius > f64::NEG_INFINITY
+    }
+
     /// Whether another comes as near as a margin [m].
     pub fn meets(&self, other: &Self, margin: f64) -> bool {
         (self.center - other.center).norm() <= (self.radius + other.radius + margin) * (1.0 + ROUNDING)
@@ -59,19 +64,35 @@ impl Sphere {
 /// none of rules without a margin.
 pub fn near(rules: &PairRules, spheres: &[Sphere], margin: impl Fn(&PairRule) -> Option<f64>) -> Vec<BodyPair> {
     let mut found = Vec::new();
+    let all = each_near(rules, spheres, margin, |pair| {
+        found.push(pair);
+        ControlFlow::<()>::Continue(())
+    });
+    debug_assert!(all.is_continue(), "nobody has stopped it");
+    found
+}
+
+/// Hands them to `each` until it breaks off.
+pub fn each_near<B>(
+    rules: &PairRules,
+    spheres: &[Sphere],
+    margin: impl Fn(&PairRule) -> Option<f64>,
+    mut each: impl FnMut(BodyPair) -> ControlFlow<B>,
+) -> ControlFlow<B> {
     for (number, rule) in rules.all().iter().enumerate() {
         let Some(margin) = margin(rule) else { continue };
         let meets = |[one, other]: [usize; 2]| spheres[one].meets(&spheres[other], margin);
-        let mut take = |bodies: [usize; 2]| found.push(BodyPair { rule: number, bodies });
-        if margin == f64::INFINITY || rule.count() <= FEW {
-            rule.pairs().filter(|pair| meets(*pair)).for_each(&mut take);
+        let mut take = |bodies: [usize; 2]| each(BodyPair { rule: number, bodies });
+        let [first, second] = &rule.bodies;
+        if margin == f64::INFINITY || first.len() * second.len() <= FEW {
+            rule.pairs().filter(|pair| meets(*pair)).try_for_each(&mut take)?;
             continue;
         }
-        let (bounded, unbounded): (Vec<usize>, Vec<usize>) =
-            rule.bodies[1].iter().partition(|body| spheres[**body].is_bounded());
+        let somewhere = second.iter().filter(|body| spheres[**body].is_somewhere());
+        let (bounded, unbounded): (Vec<usize>, Vec<usize>) = somewhere.partition(|body| spheres[**body].is_bounded());
         let tree = BoxTree::new(bounded.iter().map(|body| (spheres[*body].bounds(0.0), *body)));
         let mut partners: Vec<usize> = Vec::new();
-        for first in rule.bodies[0].iter() {
+        for first in first.iter().filter(|body| spheres[**body].is_somewhere()) {
             partners.clear();
             partners.extend(&unbounded);
             if spheres[*first].is_bounded() {
@@ -81,10 +102,10 @@ pub fn near(rules: &PairRules, spheres: &[Sphere], margin: impl Fn(&PairRule) ->
             }
             partners.sort_unstable();
             let joined = partners.iter().filter(|second| rule.between(*first, **second) == Some([*first, **second]));
-            joined.map(|second| [*first, *second]).filter(|pair| meets(*pair)).for_each(&mut take);
+            joined.map(|second| [*first, *second]).filter(|pair| meets(*pair)).try_for_each(&mut take)?;
         }
     }
-    found
+    ControlFlow::Continue(())
 }
 
 #[cfg(test)]

@@ -64,8 +64,8 @@ impl PairForm {
         self.radii
     }
 
-    /// By what part of itself its reach makes a gap [m] smaller at which the two come to rest or turn back; none without
-    /// a reach.
+    /// By what part of itself its reach makes a gap [m] smaller at which the two come to rest or turn back; none
+    /// without a reach.
     ///
     ///   δg/g = 5 U_c/(g F)
     pub fn change_of_gap(&self, gap: f64, surfaces: [&Surface; 2]) -> Option<f64> {

@@ -20,7 +20,7 @@ use std::sync::Arc;
 const MOST_MARKED: usize = 7;
 /// Curves that are drawn.
 const MOST_CURVES: usize = 40;
-/// Pairs of bodies among which those that are alike are looked for.
+/// Pairs of bodies of a contact among which those that are alike are looked for.
 const MOST_SORTED: usize = 100_000;
 
 /// A force over a distance.
@@ -117,13 +117,13 @@ impl<'a> ForceCurve<'a> {
 }
 
 /// The pairs of bodies that are alike, equal bodies that meet by one rule, each sort with the pairs of parts of its
-/// first two; of very many pairs of bodies some.
+/// first two; of very many pairs of bodies of a contact some.
 fn sorts(model: &Model) -> Vec<(Vec<[usize; 2]>, Vec<Pair>)> {
     let mut places: HashMap<(usize, [*const Solid; 2]), usize> = HashMap::new();
     let mut sorts: Vec<(Vec<[usize; 2]>, Vec<Pair>)> = Vec::new();
     let rules = model.rules().all().iter().enumerate();
-    let pairs = rules.flat_map(|(rule, set)| set.pairs().map(move |bodies| (rule, bodies)));
-    for (rule, bodies) in pairs.take(MOST_SORTED) {
+    let pairs = rules.flat_map(|(rule, set)| set.pairs().take(MOST_SORTED).map(move |bodies| (rule, bodies)));
+    for (rule, bodies) in pairs {
         let solids = bodies.map(|body| Arc::as_ptr(&model.bodies[body].solid));
         let place = *places.entry((rule, solids)).or_insert(sorts.len());
         match sorts.get_mut(place) {

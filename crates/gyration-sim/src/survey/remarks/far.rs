@@ -21,10 +21,13 @@ const MOST_PAIRS: usize = 20;
 pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String> {
     let place = |body: usize| start.motion(model, body).placement.position.norm();
     let far = |body: usize| place(body) > NEAR * model.bodies[body].size;
-    if !(0..model.bodies.len()).any(far) {
+    if !(0..model.bodies.len()).any(|body| far(body) && model.meets_bodies(body)) {
         return None;
     }
-    let mut pairs = model.pairs().filter(|pair| pair.bodies.iter().any(|body| far(*body))).take(MOST_PAIRS);
+    let rules = model.rules().all().iter().enumerate();
+    let pairs = rules.flat_map(|(rule, set)| set.pairs().map(move |bodies| (rule, bodies)));
+    let far_ones = pairs.filter(|(_, bodies)| bodies.iter().any(|body| far(*body)));
+    let mut pairs = far_ones.flat_map(|(rule, bodies)| model.pairs_between(rule, bodies)).take(MOST_PAIRS);
     pairs.find_map(|pair| {
         let distance = place(pair.bodies[0]).max(place(pair.bodies[1]));
         let trial = TrialPair::of(model, start, &pair);

@@ -6,9 +6,10 @@ use crate::survey::Approach;
 use gyration::body::Body;
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::model::Model;
-use gyration::neighbours::{BodyPair, Pair, Sphere, near};
+use gyration::neighbours::{BodyPair, Pair, Sphere, each_near};
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// So many times all other energy is no start that was meant.
@@ -21,7 +22,7 @@ const MOST_PAIRS: usize = 10_000;
 /// What must be told of the contact that stores most.
 pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
     let near = beside_one_another(model, start);
-    let pairs = near.iter().flat_map(|pair| model.pairs_between(pair.rule, pair.bodies)).take(MOST_PAIRS);
+    let pairs = near.iter().flat_map(|pair| model.pairs_between(pair.rule, pair.bodies));
     let pairs = pairs.filter_map(|pair| Near::of_pair(model, start, &pair));
     let bodies = model.bodies.iter().enumerate().filter(|(_, body)| !body.contacts.is_empty()).take(MOST_PAIRS);
     let planes = bodies.flat_map(|(index, _)| {
@@ -55,7 +56,7 @@ struct Near {
     energy: f64,
 }
 
-/// The bodies that meet and are not farther apart than they are large, and some others.
+/// The bodies that meet and are not farther apart than they are large, and some others; of very many some.
 fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
     let sphere = |(index, body): (usize, &Arc<Body>)| {
         let Some(radius) = body.solid.radius() else { return Sphere::NOWHERE };
@@ -63,7 +64,17 @@ fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
         Sphere::new(placement.position, 2.0 * placement.gradient.norm() * radius)
     };
     let spheres: Vec<Sphere> = model.bodies.iter().enumerate().map(sphere).collect();
-    near(model.rules(), &spheres, |_| Some(0.0))
+    let mut found = Vec::new();
+    let _ = each_near(
+        model.rules(),
+        &spheres,
+        |_| Some(0.0),
+        |pair| {
+            found.push(pair);
+            if found.len() < MOST_PAIRS { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        },
+    );
+    found
 }
 
 impl Near {

@@ -20,14 +20,15 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
         (0..model.bodies.len()).filter(|body| model.bodies[*body].solid.surface.is_some()).collect();
     let sorted = |[one, other]: [usize; 2]| if one < other { [one, other] } else { [other, one] };
     let all = solid.len() * solid.len().saturating_sub(1) / 2;
-    let meeting = count_meeting(model, &solid);
+    let sorts = alike(model, &solid);
+    let meeting = count_meeting(model, &sorts);
     if meeting >= all {
         return;
     }
     let apart = apart_for_ever(model, &solid).into_iter().filter(|pair| !meet(model, *pair));
     let mut known: HashSet<[usize; 2]> = apart.collect();
     let strangers = all.saturating_sub(meeting + known.len());
-    let Some([one, other]) = first_stranger(model, &solid, &known) else { return };
+    let Some([one, other]) = first_stranger(model, &sorts, &known) else { return };
     let name = |body: usize| &model.bodies[body].name;
     let who = match (strangers, meeting) {
         (1, _) => format!("\"{}\" and \"{}\" do not meet", name(one), name(other)),
@@ -141,28 +142,51 @@ fn meet(model: &Model, [one, other]: [usize; 2]) -> bool {
     rules.of(one).iter().any(|rule| rules.all()[*rule].between(one, other).is_some())
 }
 
-/// How many pairs of bodies meet: bodies that are in the same sets of the same rules are alike.
-fn count_meeting(model: &Model, solid: &[usize]) -> usize {
+/// Bodies that are in the same sets of the same rules, ascending: who meets one of them meets all.
+fn alike(model: &Model, solid: &[usize]) -> Vec<Vec<usize>> {
     let rules = model.rules();
     let mut sorts: HashMap<Vec<(usize, [bool; 2])>, Vec<usize>> = HashMap::new();
-    for body in solid.iter().filter(|body| model.meets_bodies(**body)) {
+    for body in solid {
         let is_in = |rule: &usize| rules.all()[*rule].bodies.each_ref().map(|set| set.binary_search(body).is_ok());
         let sets = rules.of(*body).iter().map(|rule| (*rule, is_in(rule))).collect();
         sorts.entry(sets).or_default().push(*body);
     }
-    let sorts: Vec<Vec<usize>> = sorts.into_values().collect();
-    let between = |(place, sort): (usize, &Vec<usize>)| {
-        let within = sort.get(1).is_some_and(|second| meet(model, [sort[0], *second]));
-        let own = if within { sort.len() * (sort.len() - 1) / 2 } else { 0 };
-        let others = sorts[place + 1..].iter().filter(|other| meet(model, [sort[0], other[0]]));
-        own + others.map(|other| sort.len() * other.len()).sum::<usize>()
+    let mut sorts: Vec<Vec<usize>> = sorts.into_values().collect();
+    sorts.sort_unstable();
+    sorts
+}
+
+/// Two sorts of bodies, or one of several bodies twice.
+type TwoSorts<'a> = [&'a [usize]; 2];
+
+/// All two sorts, and whether their bodies meet.
+fn two_by_two<'a>(model: &'a Model, sorts: &'a [Vec<usize>]) -> impl Iterator<Item = (TwoSorts<'a>, bool)> {
+    sorts.iter().enumerate().flat_map(move |(place, one)| {
+        let own = one.get(1).map(|second| ([&one[..], &one[..]], meet(model, [one[0], *second])));
+        let with = move |other: &'a Vec<usize>| ([&one[..], &other[..]], meet(model, [one[0], other[0]]));
+        own.into_iter().chain(sorts[place + 1..].iter().map(with))
+    })
+}
+
+/// How many pairs of bodies meet.
+fn count_meeting(model: &Model, sorts: &[Vec<usize>]) -> usize {
+    let meeting = two_by_two(model, sorts).filter(|(_, meet)| *meet);
+    let count = |([one, other], _): (TwoSorts, bool)| match std::ptr::eq(one, other) {
+        true => one.len() * (one.len() - 1) / 2,
+        false => one.len() * other.len(),
     };
-    sorts.iter().enumerate().map(between).sum()
+    meeting.map(count).sum()
 }
 
 /// The first two bodies that do not meet and may.
-fn first_stranger(model: &Model, solid: &[usize], known: &HashSet<[usize; 2]>) -> Option<[usize; 2]> {
-    let mut pairs =
-        solid.iter().enumerate().flat_map(|(place, one)| solid[place + 1..].iter().map(move |two| [*one, *two]));
-    pairs.find(|pair| !known.contains(pair) && !meet(model, *pair))
+fn first_stranger(model: &Model, sorts: &[Vec<usize>], known: &HashSet<[usize; 2]>) -> Option<[usize; 2]> {
+    let apart = two_by_two(model, sorts).filter(|(_, meet)| !meet);
+    let first = apart.filter_map(|([one, other], _)| {
+        let sorted = |a: usize, b: usize| [a.min(b), a.max(b)];
+        let pairs = one.iter().flat_map(|a| other.iter().map(move |b| (*a, *b))).filter(|(a, b)| a != b);
+        // No more known ones are to be passed, each twice at most.
+        let some = pairs.map(|(a, b)| sorted(a, b)).take(2 * known.len() + other.len() + 1);
+        some.filter(|pair| !known.contains(pair)).min()
+    });
+    first.min()
 }

@@ -1,0 +1,120 @@
+//! The smallest slab between a body and another that it meets, however far: pairs within reach have theirs, and of the
+//! others those are asked that may be nearer.
+
+use super::Scratch;
+use super::pairs::{outside, with_sides};
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::instant::BodyAt;
+use crate::model::PATIENCE;
+use crate::neighbours::Pair;
+use crate::pair::PairLoads;
+
+/// What a slab is wider than: the distance of the centres less so many radii of both. With d_i ≤ g_i + 2r_i on both
+/// surfaces, Φ ≤ (g + 2r_A + 2r_B) Σ w_i S_i^−p; a plane across the distance D ≥ |Δ| − r_A − r_B has D times that sum.
+const WIDEST: f64 = 3.0;
+/// So few bodies are asked one by one.
+const FEW: usize = 64;
+
+/// A search for the smallest slab of a body.
+struct Search<'a, 'b> {
+    at: &'a BodyAt<'a>,
+    scratch: &'b mut Scratch,
+    /// The smallest so far [m].
+    smallest: f64,
+    /// How many bodies were looked at.
+    looked: usize,
+}
+
+/// The smallest slab between a body and another that it meets [m]; infinite if it meets none.
+///
+/// # Errors
+/// [`Inadmissible`] if no plane separates two bodies.
+pub(super) fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
+    let (near, rules) = (at.near(), at.model.rules());
+    let within = near.pairs().of(at.index).filter(|end| at.is_within_reach(end));
+    let smallest = within.map(|end| scratch.pairs.loads(end.number).gap).fold(f64::INFINITY, f64::min);
+    let mut search = Search { at, scratch, smallest, looked: 0 };
+    let far = || near.pairs().of(at.index).filter(|end| !at.is_within_reach(end)).map(|end| end.interaction);
+    // The nearest of them leaves few of the others.
+    let nearest = far().min_by(|one, other| search.least(one).total_cmp(&search.least(other)));
+    if let Some(pair) = nearest {
+        search.look(pair)?;
+    }
+    for pair in far().filter(|pair| !nearest.is_some_and(|nearest| std::ptr::eq(*pair, nearest))) {
+        search.look(pair)?;
+    }
+    if near.is_whole() || !at.model.meets_bodies(at.index) {
+        return Ok(search.smallest);
+    }
+    let partners = rules.of(at.index).iter().map(|rule| &rules.all()[*rule]);
+    if partners.clone().map(|rule| rule.most_partners(at.index)).sum::<usize>() <= FEW {
+        for other in partners.flat_map(|rule| rule.partners(at.index)) {
+            search.ask(other)?;
+        }
+        return Ok(search.smallest);
+    }
+    for other in near.outsize() {
+        search.ask(*other)?;
+    }
+    let radii = near.largest_radius() + at.body.solid.radius().unwrap_or(0.0);
+    for (distance, other) in near.outward(&at.motion.placement.position) {
+        if distance - WIDEST * radii > search.smallest {
+            break;
+        }
+        search.ask(other)?;
+    }
+    Ok(search.smallest)
+}
+
+impl Search<'_, '_> {
+    /// What the slab of a pair is no narrower than [m].
+    fn least(&self, pair: &Pair) -> f64 {
+        let [one, other] = pair.bodies.map(|body| self.at.beside(body));
+        one.from(&other).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
+    }
+
+    /// Looks at the pairs that are not listed of the body and another.
+    fn ask(&mut self, other: usize) -> Result<(), Inadmissible> {
+        let at = self.at;
+        self.looked += 1;
+        if self.looked.is_multiple_of(PATIENCE) && at.model.is_given_up() {
+            return Err(at.outside(Quantity::Interruption, f64::NAN));
+        }
+        let beside = at.beside(other);
+        let radii = [at.body, beside.body].map(|body| body.solid.radius().unwrap_or(0.0));
+        if at.from(&beside).norm() - WIDEST * (radii[0] + radii[1]) >= self.smallest {
+            return Ok(());
+        }
+        let rules = at.model.rules();
+        for rule in rules.of(at.index) {
+            let Some(bodies) = rules.all()[*rule].between(at.index, other) else { continue };
+            for pair in at.near().unlisted(*rule, bodies, &at.model.bodies) {
+                self.look(&pair)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Looks at a pair out of reach.
+    fn look(&mut self, pair: &Pair) -> Result<(), Inadmissible> {
+        if self.least(pair) < self.smallest {
+            self.smallest = self.smallest.min(self.slab(pair)?);
+        }
+        Ok(())
+    }
+
+    /// The slab between two bodies that are out of reach [m].
+    fn slab(&mut self, pair: &Pair) -> Result<f64, Inadmissible> {
+        let bodies = pair.bodies.map(|body| self.at.beside(body));
+        let [one, other] = &bodies;
+        if let Some(gap) = pair.form.gap_of_balls(one.from(other).norm()) {
+            return Ok(gap);
+        }
+        let found = with_sides(pair, &bodies, |sides| {
+            // A plane of least potential may be beyond the digits of a number.
+            let found = PairLoads::integrate(&pair.form, sides, None, &mut self.scratch.pairs.room);
+            found.or_else(|_| PairLoads::nothing(&pair.form, sides))
+        });
+        found.map(|loads| loads.gap).map_err(|fault| outside(one, pair, fault))
+    }
+}
