@@ -5,7 +5,7 @@
 //!                 viscosity takes V μ|D|² = 4.5 ε² Ω² V μ of ½(1 + ⅖)mv²:  v̇ = −(4.5/1.4) μ ε² v/(ρR²),  e_zz = −ε
 //!   at rest       frequencies of the exact Jacobian at the rest state
 //!
-//! Source: `physics.md` §4; the rolling resistance is derived here.
+//! Source: `docs/theory-affine.md`; the rolling resistance is derived here.
 
 use gyration_sim::modes::{modes, rest};
 use gyration_validation::{Answer, Experiment, Run};

@@ -4,7 +4,7 @@
 //!   hanging     P = diag(l^−½, l^−½, l):  V W′(l) = ½ m g h,  W = c₁(l² + 2/l − 3) + c₂(2l + l⁻² − 3)
 //!   stiff       the way from the rigid motion goes as 1/stiffness, by viscosity as μ/stiffness²
 //!
-//! Source: `physics.md` §2, §4.
+//! Source: `docs/theory-affine.md`.
 
 use gyration_sim::modes::rest;
 use gyration_validation::{Answer, Experiment};

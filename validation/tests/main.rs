@@ -8,6 +8,7 @@ mod case_deforming_inclusion;
 mod case_gallery_dissipates;
 mod case_kept_through_partings;
 mod case_pinned_audit;
+mod case_reach;
 mod case_slender_inclusion;
 mod case_slopes;
 mod case_small_gaps;

@@ -15,7 +15,7 @@
 //!
 //! ψ is linear on each triangle, so that the first term is a best approximation from below. s ⟨n,·⟩² is added to S: any
 //! s > 0 leaves the solution alone. Sources: Pozrikidis, *Boundary Integral and Singularity Methods* (1992), ch. 2–4;
-//! `physics.md` §7.
+//! `docs/resistance.md`.
 
 use crate::assembly::SingleLayer;
 use crate::coarse::CoarseSpace;

@@ -5,7 +5,7 @@
 //!   K = P J Ṗᵀ (affine momentum; its antisymmetric part is angular momentum)
 //!
 //! U(d) = α d₀ (d/d₀)^(1−ν)/(ν−1); at ν = 1, −α d₀ ln(d/d₀). Works are done on the bodies since t = 0; the residual of
-//! the ledger is (Σ energies) − (Σ energies at 0) − Σ works. Source: `physics.md` §2, §3, §6.
+//! the ledger is (Σ energies) − (Σ energies at 0) − Σ works. Source: `docs/theory-rigid.md`.
 
 use crate::body::Body;
 use crate::contractile;

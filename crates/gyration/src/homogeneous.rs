@@ -5,7 +5,7 @@
 //!
 //! M is that of all loads, about the centre of mass or the pin, and so is J. The mean stress of a rigid body is the one
 //! that its balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Source: Sławianowski (1975),
-//! 2.7–3.9; `physics.md` §2.
+//! 2.7–3.9; `docs/theory-affine.md`.
 
 use crate::body::{Body, Slots};
 use crate::dynamics::{Acting, ContractileMotion, Scratch, affine_balance, body_rates, moment};

@@ -7,7 +7,7 @@
 //! t is the whole traction of the fluid, with the stress of the undisturbed flow, E∞ = sym L∞. In a simple shear L∞ =
 //! γ̇ e ⊗ g, v = e × g, the longest axis a is inclined by atan(a·g/a·e), and a body of revolution with axis p and
 //! aspect ratio r moves on an orbit C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not
-//! apply is NaN. Source: Batchelor (1970); `physics.md` §7.
+//! apply is NaN. Source: Batchelor (1970); `docs/theory-fluid.md`.
 
 use crate::body::Slots;
 use crate::dynamics::{RigidHistory, RigidImmersion, Scratch, body_rates, immersion};

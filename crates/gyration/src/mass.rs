@@ -3,7 +3,7 @@
 //!   m = ∫ρ dV,   X₀ = (1/m) ∫ρ X dV,   J = ∫ρ (X−X₀)⊗(X−X₀) dV,
 //!
 //! J symmetric, positive semi-definite \[kg m²\]. The inertia tensor of rigid mechanics is tr(J) I − J. About another
-//! point J_p = J + m (X₀−X_p)⊗(X₀−X_p); under X → R X + a, J → R J Rᵀ. Source: `physics.md` §1.
+//! point J_p = J + m (X₀−X_p)⊗(X₀−X_p); under X → R X + a, J → R J Rᵀ. Source: `docs/theory-rigid.md`.
 //!
 //! Nothing here knows a shape: the integrals are the shapes' business.
 

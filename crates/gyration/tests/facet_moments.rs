@@ -131,7 +131,7 @@ fn moments_over_triangles_and_boxes_agree_with_long_arithmetic() {
 
 #[test]
 fn tilted_flat_face_has_the_force_and_moment_of_its_closed_form() {
-    // verification.md row 12: b = L = 0.1, φ = 0.1, d₁ = 0.02, α = 1e-6, ν = 6.
+    // Row 12 of the known answers: b = L = 0.1, φ = 0.1, d₁ = 0.02, α = 1e-6, ν = 6.
     let (length, angle, nearest, strength) = (0.1, 0.1_f64, 0.02, 1e-6);
     let half = 0.5 * length;
     let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| Vec3::new(x, y, 0.0));

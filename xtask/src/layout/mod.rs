@@ -114,6 +114,35 @@ fn every_file_of_tests_is_a_module_of_its_program() {
     }
 }
 
+/// Pages that the sources of a folder cite by a name in backticks, with the files that do.
+fn cited_pages(folder: &Path, cited: &mut BTreeMap<String, PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            cited_pages(&path, cited);
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            let text = fs::read_to_string(&path).unwrap();
+            let comments = text.lines().filter(|line| line.trim_start().starts_with("//"));
+            let names = comments.flat_map(|line| line.split('`').skip(1).step_by(2));
+            let pages = names.filter(|name| name.ends_with(".md") && !name.contains(['*', ' ', 'Y']));
+            cited.extend(pages.map(|name| (name.to_owned(), path.clone())));
+        }
+    }
+}
+
+/// A reader has the pages of the repository and no others.
+#[test]
+fn the_pages_that_comments_cite_exist() {
+    let mut cited = BTreeMap::new();
+    for folder in ["crates", "xtask/src", "validation", "bench/benches", "bench/src"] {
+        cited_pages(&crate::root().join(folder), &mut cited);
+    }
+    assert!(cited.len() > 5, "{cited:?}");
+    for (page, file) in cited {
+        assert!(crate::root().join(&page).is_file(), "{} cites `{page}`, which is not there", file.display());
+    }
+}
+
 #[test]
 fn an_order_is_read_with_its_ranks() {
     let orders = orders("x\n```order\nworkspace: a b → c\n  → d\n```\ny\n```order\nc: e → f\n```\n");

@@ -5,7 +5,7 @@
 //!
 //! with α_i = ∫ds/((a_i² + s)Δ), χ₀ = ∫ds/Δ, Δ² = ∏(a_i² + s), L_i = (a₁a₂a₃/2) α_i and ⟨x_i²x_j²⟩ = (a₁a₂a₃/4) ∫ s
 //! ds/((a_i² + s)(a_j² + s)Δ). The integrals by the trapezoid rule in ln s, which converges exponentially. Source:
-//! Jeffery (1922); `physics.md` §7.
+//! Jeffery (1922); `docs/theory-fluid.md`.
 
 #![allow(
     dead_code,

@@ -3,7 +3,7 @@
 //!   P̈ = B J⁻¹ + π V Y,   Y = P⁻ᵀ J⁻¹,   π V a = tr(L²) − tr(B J⁻¹ P⁻¹),   a = tr(Y P⁻¹)
 //!
 //! with B = M − V(S_e + S_v). The corrections after a step go the same way, δP, δṖ ∝ Y: then δṖ J Pᵀ is a multiple of
-//! I, and the spin is left alone. Source: `physics.md` §4.
+//! I, and the spin is left alone. Source: `docs/theory-affine.md`.
 
 use super::AffineBody;
 use crate::simd::{F64x4, SimdMat3};

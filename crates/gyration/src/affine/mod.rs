@@ -4,7 +4,7 @@
 //!
 //! V reference volume, J Euler tensor, M affine moment of the loads, φ energy of the material, τ viscous Kirchhoff
 //! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M: no
-//! state, no time, no contact. Derivatives are in `slopes`. Source: `physics.md` §2, §4.
+//! state, no time, no contact. Derivatives are in `slopes`. Source: `docs/theory-affine.md`.
 
 mod anisotropic;
 mod constraint;

@@ -9,7 +9,7 @@
 //! Tangential loads follow likewise from what of (w₀, W) is not along n. f [N], M = ∫ q ⊗ X dA [N m]. On a body that
 //! deforms the moments are those per deformed or per reference area, as the measure of the contact says; `tension` adds
 //! what makes tractions per deformed area derive from a potential. These are linear in the moments and in (w₀, W), from
-//! which `slopes` takes the derivatives. Source: `physics.md` §2–3.
+//! which `slopes` takes the derivatives. Source: `docs/theory-rigid.md`.
 
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::{Meeting, RelativeMotion};

@@ -8,7 +8,7 @@
 //!
 //!   ∫U k [tr H (I − m⊗m) − (m·Hm)(I + m⊗m) + Hᵀm⊗m + m⊗Hᵀm] dA
 //!
-//! Only central laws have a potential (`potential`). Source: `physics.md` §3.
+//! Only central laws have a potential (`potential`). Source: `docs/theory-affine.md`.
 
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::{Deformation, Meeting};

@@ -6,8 +6,8 @@
 //!
 //! φ(F) is the energy per relaxed volume, Q the drive, μ_γ > 0. An incompressible material has det F = 1: its pressure
 //! π is algebraic, since it acts on V_G. Internal friction after Sławianowski acts on L, as that of the medium in which
-//! the body moves, and takes no part in the second line. Source: Tatone, *Soft and rigid impact*; `physics.md` §5 and
-//! §10.
+//! the body moves, and takes no part in the second line. Source: Tatone, *Soft and rigid impact*;
+//! `docs/theory-contractile.md`.
 
 mod batch;
 mod decomposition;

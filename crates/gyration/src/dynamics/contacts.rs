@@ -1,7 +1,5 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
-use super::Scratch;
-use super::gaps::smallest_gap;
 use crate::body::Body;
 use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
@@ -87,14 +85,10 @@ pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
     Some(Deformation { inverse: gyration.inverse, cofactor: gyration.volume_ratio * gyration.inverse.transpose() })
 }
 
-/// The smallest gap of a body to anything that it has a contact with [m]: its distance to a support, the width of the
-/// slab to another body; infinite without contact or surface.
-///
-/// # Errors
-/// [`Inadmissible`] if no plane separates it from another body.
-pub fn gap_at(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
-    let supports = least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support));
-    Ok(smallest_gap(at, scratch)?.min(supports))
+/// The smallest distance of a body to a support that it has a contact with [m], to all the digits of the state;
+/// infinite without one.
+pub(super) fn support_gap_at(at: &BodyAt) -> f64 {
+    least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support))
 }
 
 /// The smallest distance of a body's surface to a support that it has a contact with [m]; infinite without one.

@@ -1,7 +1,8 @@
-//! The smallest slab between a body and another that it meets, however far: pairs within reach have theirs, and of the
-//! others those are asked that may be nearer.
+//! The smallest gap of a body: its distance to supports, and the slab to another body that it meets, however far. Pairs
+//! within reach have theirs; of the others those are asked that may be nearer.
 
 use super::Scratch;
+use super::contacts::support_gap_at;
 use super::pairs::{outside, with_sides};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::BodyAt;
@@ -25,11 +26,21 @@ struct Search<'a, 'b> {
     looked: usize,
 }
 
+/// The smallest gap of a body to anything that it has a contact with [m]: its distance to a support, the width of the
+/// slab to another body; infinite without contact or surface.
+///
+/// # Errors
+/// [`Inadmissible`] if no plane separates it from another body.
+pub fn gap_at(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
+    let supports = support_gap_at(at);
+    Ok(smallest_gap(at, scratch)?.min(supports))
+}
+
 /// The smallest slab between a body and another that it meets [m]; infinite if it meets none.
 ///
 /// # Errors
 /// [`Inadmissible`] if no plane separates two bodies.
-pub(super) fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
+fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
     let (near, rules) = (at.near(), at.model.rules());
     let within = near.pairs().of(at.index).filter(|end| at.is_within_reach(end));
     let smallest = within.map(|end| scratch.pairs.loads(end.number).gap).fold(f64::INFINITY, f64::min);

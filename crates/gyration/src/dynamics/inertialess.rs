@@ -10,7 +10,7 @@
 //!
 //!   A_v δv − Y δλ = −A_q δq − A_G δG + λ δY,   P⁻ᵀ·δṖ = tr(Ṗ P⁻¹ δP P⁻¹)
 //!
-//! Masses only weigh the equations: nothing depends on them but the weight of the body. Source: `physics.md` §7.
+//! Masses only weigh the equations: nothing depends on them but the weight of the body. Source: `docs/theory-fluid.md`.
 
 use super::Scratch;
 use super::body_rates::body_rates;

@@ -22,7 +22,8 @@ mod rates;
 mod rigid;
 
 pub use contact_parts::{ContactParts, contact_parts};
-pub use contacts::{gap_at, gap_to_supports, nearest};
+pub use contacts::{gap_to_supports, nearest};
+pub use gaps::gap_at;
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
 pub use pairs::PairGaps;

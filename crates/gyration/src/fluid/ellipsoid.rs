@@ -10,7 +10,7 @@
 //!
 //! and the traction on the surface is σ n with the same σ everywhere. Tensors are in the principal axes, where B is
 //! diagonal and everything follows from `moments`. Derivatives by Q are those of B, δB = −B δQ B, so that equal axes
-//! are no special case. Source: `physics.md` §7, written without axes.
+//! are no special case. Source: `docs/theory-fluid.md`, written without axes.
 
 use super::moments::EllipsoidMoments;
 use crate::material::Spectrum;

@@ -4,7 +4,7 @@
 //!
 //! H symmetric, positive definite, for viscosity 1, about the centre of mass. In its own axes v′ = Rᵀ(v − u∞), L′ =
 //! [Ω]× − RᵀL∞R, and the torque about the axes of the body is the axial part of N′ᵀ. The stress of the undisturbed flow
-//! is symmetric and the same everywhere: it turns and moves nothing. Source: `physics.md` §7.
+//! is symmetric and the same everywhere: it turns and moves nothing. Source: `docs/theory-fluid.md`.
 
 use super::ambient::{Flow, Fluid};
 use super::ellipsoid::FluidEllipsoid;

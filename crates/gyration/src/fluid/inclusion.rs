@@ -3,7 +3,7 @@
 //!   f = f_d − ρ_f V det P g,   M = Nᵀ P⁻ᵀ + f ⊗ X_c,   Nᵀ = V det P σ      (σ, f_d: `ellipsoid`)
 //!
 //! X_c is the centre of the volume from the centre of mass; velocities are taken, and the weight of the displaced fluid
-//! acts, there. Hydrostatic pressure does not press on the body: it counts as a force. Source: `physics.md` §7.
+//! acts, there. Hydrostatic pressure does not press on the body: it counts as a force. Source: `docs/theory-fluid.md`.
 
 use super::ambient::{Flow, Fluid};
 use super::ellipsoid::{FluidEllipsoid, Stress};

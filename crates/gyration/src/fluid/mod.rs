@@ -16,7 +16,7 @@
 //! unsteady     a sphere in a fluid with inertia: kernels, relaxation modes, small vibrations
 //! ```
 //!
-//! Stokes flow: u∞ = U∞ + L∞ x far away, tr L∞ = 0. Source: Sławianowski §4; `physics.md` §7.
+//! Stokes flow: u∞ = U∞ + L∞ x far away, tr L∞ = 0. Source: Sławianowski §4; `docs/theory-fluid.md`.
 
 mod ambient;
 mod ellipsoid;

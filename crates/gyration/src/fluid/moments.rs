@@ -10,7 +10,7 @@
 //! ellipsoid does it; n_ij and m_ijk give their derivatives by the shape. With s = eᵗ the integrands are analytic
 //! in |Im t| < π, and the sum over equal steps h converges as e^(−2π²/h): at h = 0.45 to 9e-20 but for a factor of some
 //! hundreds. All terms are positive, so that nothing cancels, whatever the axes: spheres, discs, needles. Source:
-//! `physics.md` §7, whose α_i are 2 L_i/V.
+//! `docs/theory-fluid.md`, whose α_i are 2 L_i/V.
 
 use crate::simd::{F64x4, WithF64x4, dispatch_f64x4};
 

@@ -7,7 +7,7 @@
 //! Nᵀ P⁻ᵀ + f ⊗ X_c (`inclusion`).
 //!
 //! Derivatives: δR = R [w]× from `Polar::turn`, δs from δU = Rᵀ δP − [w]× U, and D grows by tr(P⁻¹δP). Source:
-//! `physics.md` §7.
+//! `docs/theory-fluid.md`.
 
 use super::ambient::{Flow, Fluid};
 use super::fixed::{packed, parted};

@@ -2,7 +2,7 @@
 //! couples, of friction that is linear in the velocity, and what a controller applies.
 //!
 //! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at a
-//! material point adds F to f and F ⊗ X to M. Source: `physics.md` §2.
+//! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
 
 mod applied;
 mod bond;

@@ -7,7 +7,7 @@
 //!
 //! Friction is a symmetric positive semi-definite H (Onsager), which never feeds energy in; a skew one works nothing.
 //! In the frame of the body, x and (f; Dᵀ) are components along axes that turn with it: with P = R U, U symmetric, v′ =
-//! Rᵀv, L′ = RᵀLR. Source: Sławianowski (1975), 4.6–4.9; `physics.md` §4.
+//! Rᵀv, L′ = RᵀLR. Source: Sławianowski (1975), 4.6–4.9; `docs/theory-affine.md`.
 
 use super::Loads;
 use crate::kinematics::Velocity;

@@ -10,12 +10,11 @@
 //! (s_A/Σ) (log v_A)′.
 
 use super::equilibrium::Switch;
+use super::exchange::{PairGap, PairLoads};
 use super::fault::PairFault;
 use super::laws::{PairLaws, shares};
-use super::loads::PairLoads;
 use super::plane::Plane;
 use super::side::Side;
-use super::state::PairGap;
 use crate::contact::LawKind;
 use crate::kinematics::Velocity;
 use crate::load::Loads;

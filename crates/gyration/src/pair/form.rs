@@ -1,11 +1,11 @@
 //! What two parts of bodies do to each other, whichever bodies they belong to: equal bodies share it.
 
 use super::balls::{Balls, PlacedBalls};
+use super::exchange::PairGap;
 use super::fault::PairFault;
 use super::laws::PairLaws;
 use super::reach::Threshold;
 use super::side::Side;
-use super::state::PairGap;
 use crate::surface::Surface;
 use std::sync::Arc;
 

@@ -6,6 +6,7 @@
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
 
 use super::Mat34;
+use super::exchange::PairLoads;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::gjk::separate;
@@ -14,24 +15,7 @@ use super::side::{Half, Side};
 use super::state::{PairScratch, PairState, ViscousMoments, halves};
 use crate::contact::{AreaMeasure, LawKind};
 use crate::load::Loads;
-use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
-
-/// What a pair of bodies does to both.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct PairLoads {
-    /// (f, M) on A and on B.
-    pub on: [Loads; 2],
-    /// U [J].
-    pub energy: f64,
-    /// The powers [W] of the laws on both bodies.
-    pub powers: [f64; LawKind::COUNT],
-    /// The width of the slab between the bodies along the normal [m].
-    pub gap: f64,
-    /// n, from B to A.
-    pub normal: Vec3,
-    /// Where the force of the repulsion passes through the plane [m].
-    pub point: Vec3,
-}
+use crate::tensor::{Mat3, axial, cross_matrix};
 
 impl PairState<'_> {
     /// The loads that (f | M) of both sides are, B's opposite to A's.

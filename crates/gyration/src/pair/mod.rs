@@ -24,6 +24,7 @@
 //! | `gjk`         | a plane between them to begin with, guessed or found             |
 //! | `plane`       | a plane, and where it may be                                    |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
+//! | `exchange`    | loads and slab, as they are told                                |
 //! | `balls`       | the plane of least potential and its loads of two balls          |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
@@ -33,6 +34,7 @@
 mod balls;
 mod deepest;
 mod equilibrium;
+mod exchange;
 mod fault;
 mod form;
 mod gjk;
@@ -46,16 +48,16 @@ mod side;
 mod slopes;
 mod state;
 
+pub use exchange::{PairGap, PairLoads};
 pub use fault::PairFault;
 pub use form::{EDGE, PairForm, cutoff, half_cutoff};
 pub use laws::{PairLaws, PairLawsError};
-pub use loads::PairLoads;
 pub use overlap::Overlap;
 pub use plane::Guess;
 pub use reach::{Falling, Mass, Reach, Threshold};
 pub use side::Side;
 pub use slopes::PairSlopes;
-pub use state::{PairGap, PairScratch};
+pub use state::PairScratch;
 
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 

@@ -1,6 +1,7 @@
 //! A pair whose plane is found.
 
 use super::equilibrium::{Placed, place};
+use super::exchange::PairGap;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::laws::{ViscousLaw, shares};
@@ -125,34 +126,6 @@ impl<'a> PairState<'a> {
             each(law, &shares, &mediator, rooms);
         }
         Ok(())
-    }
-}
-
-const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);
-
-/// The slab between two bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairGap {
-    /// Its width along the normal of their plane [m]; infinite where that was not asked for.
-    pub gap: f64,
-    /// How fast it widens [m/s].
-    pub rate: f64,
-    /// n, from B to A.
-    pub normal: Vec3,
-    /// ṅ [1/s].
-    pub turning: Vec3,
-    /// The part of it that is above the plane.
-    pub share: f64,
-}
-
-impl PairGap {
-    /// Of bodies that are too far apart to ask.
-    pub const FAR: Self = Self { gap: f64::INFINITY, rate: 0.0, normal: ZEROS, turning: ZEROS, share: 0.5 };
-
-    /// Where the plane will be after a time [s], if all goes on as it does; none for bodies that are far apart.
-    pub fn guess(&self, after: f64) -> Option<Guess> {
-        let normal = (self.normal + after * self.turning).try_normalize(0.0)?;
-        Some(Guess { normal, share: self.share })
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! A repulsion α (d/d₀)^−ν keeps a body from touching iff its potential diverges at contact. Around a point of contact
 //! the area nearer than d grows as d^p with p = 0 (face), ½ (line of a cylinder), 1 (edge, smooth point), 3/2 (rim), 2
-//! (vertex, apex), and ∫ d^(1−ν) d(d^p) diverges iff ν ≥ 1 + p. Source: `physics.md` §3. Damping obeys the same table
-//! in its exponent, adhesion in its repulsive one.
+//! (vertex, apex), and ∫ d^(1−ν) d(d^p) diverges iff ν ≥ 1 + p. Source: `docs/theory-rigid.md`. Damping obeys the same
+//! table in its exponent, adhesion in its repulsive one.
 
 use std::fmt;
 

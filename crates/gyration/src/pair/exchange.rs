@@ -1,0 +1,51 @@
+//! What two bodies exchange at their plane, and the slab between them: told, not computed.
+
+use super::plane::Guess;
+use crate::contact::LawKind;
+use crate::load::Loads;
+use crate::tensor::Vec3;
+
+/// What a pair of bodies does to both.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PairLoads {
+    /// (f, M) on A and on B.
+    pub on: [Loads; 2],
+    /// U [J].
+    pub energy: f64,
+    /// The powers [W] of the laws on both bodies.
+    pub powers: [f64; LawKind::COUNT],
+    /// The width of the slab between the bodies along the normal [m].
+    pub gap: f64,
+    /// n, from B to A.
+    pub normal: Vec3,
+    /// Where the force of the repulsion passes through the plane [m].
+    pub point: Vec3,
+}
+
+const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);
+
+/// The slab between two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairGap {
+    /// Its width along the normal of their plane [m]; infinite where that was not asked for.
+    pub gap: f64,
+    /// How fast it widens [m/s].
+    pub rate: f64,
+    /// n, from B to A.
+    pub normal: Vec3,
+    /// ṅ [1/s].
+    pub turning: Vec3,
+    /// The part of it that is above the plane.
+    pub share: f64,
+}
+
+impl PairGap {
+    /// Of bodies that are too far apart to ask.
+    pub const FAR: Self = Self { gap: f64::INFINITY, rate: 0.0, normal: ZEROS, turning: ZEROS, share: 0.5 };
+
+    /// Where the plane will be after a time [s], if all goes on as it does; none for bodies that are far apart.
+    pub fn guess(&self, after: f64) -> Option<Guess> {
+        let normal = (self.normal + after * self.turning).try_normalize(0.0)?;
+        Some(Guess { normal, share: self.share })
+    }
+}
