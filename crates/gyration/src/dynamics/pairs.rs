@@ -32,8 +32,9 @@ struct Remembered {
     since: f64,
     /// Where they were; empty if that is not remembered.
     gaps: PairGaps,
-    /// The list of pairs that was last asked for, and the place of each among these; empty if they are the same.
-    list: Interactions<Pair>,
+    /// The list of pairs that was last asked for, if any was since, and the place of each among these; empty if they
+    /// are the same.
+    list: Option<Interactions<Pair>>,
     places: Vec<usize>,
 }
 
@@ -80,10 +81,10 @@ impl Remembered {
     /// Finds the pairs of a list among those that are remembered. What is remembered stays: a pair may leave the list
     /// and come back.
     fn find(&mut self, pairs: &Interactions<Pair>) {
-        if self.list.are(pairs) {
+        if self.list.as_ref().is_some_and(|list| list.are(pairs)) {
             return;
         }
-        self.list = pairs.clone();
+        self.list = Some(pairs.clone());
         self.places.clear();
         if !self.gaps.pairs.are(pairs) {
             let known = self.gaps.pairs.all();
@@ -227,7 +228,7 @@ impl Workspace {
         remembered.since = time;
         remembered.gaps.clone_from(gaps);
         // They are found among these at the next instant.
-        remembered.list = Interactions::default();
+        remembered.list = None;
         Ok(())
     }
 }
