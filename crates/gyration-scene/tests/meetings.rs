@@ -217,3 +217,26 @@ fn a_reach_that_is_found_has_twenty_five_gaps_of_each_pair() {
         assert!((found / (25.0 * turning) - 1.0).abs() < 2e-3, "{found} {turning}");
     }
 }
+
+/// Symptom: a body with an error is no body without motion, and an energy that no gap stores made a reach of zero.
+#[test]
+fn a_reach_that_cannot_be_found_is_told_once_and_alone() {
+    let ball = |name: &str, lines: &str| {
+        format!("[[body]]\nname = \"{name}\"\ngroup = \"g\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\n{lines}\n")
+    };
+    let contact = |nu: f64, alpha: f64| {
+        contact(&format!(
+            "between = [\"g\", \"g\"]\nreach = §\"auto\"\nrepulsion = {{ alpha = {alpha:?}, nu = {nu:?}, d0 = 1e-4 }}"
+        ))
+    };
+    let still = "[world]\ngravity = [0, 0, 0]\n";
+    let wrong = ball("a", "mas = 1\nvelocity = [1, 0, 0]") + &ball("b", "mass = 1\nposition = [1, 0, 0]");
+    let text = format!("{TIME}{still}{}{wrong}", contact(6.0, 100.0).replace('§', ""));
+    let errors = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_err().to_string();
+    assert!(errors.contains("mas") && !errors.contains("none of them moves"), "{errors}");
+    let heavy = [("a", 1.0, 0.0), ("b", 1e6, 1.0), ("c", 1e6, 2.0), ("d", 1.0, 3.0)].map(|(name, mass, x)| {
+        ball(name, &format!("mass = {mass:?}\nposition = [{x:?}, 0, 0]\nvelocity = [{:?}, 0, 0]", -0.5 * x))
+    });
+    let text = format!("{TIME}{still}{}{}", contact(2.0, 3e6), heavy.concat());
+    assert_error(&text, "contact.0.reach", "at no gap that is a number", "a larger exponent");
+}

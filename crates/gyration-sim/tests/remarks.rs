@@ -103,6 +103,41 @@ fn a_reach_within_the_gaps_of_turning_is_warned_of() {
     assert!(told("0.011", 0.0).is_empty());
 }
 
+/// Symptom: a third body at 1 km/s made the reach of two slow ones shorter than the gap at which they turn back, and
+/// nobody said so; nor of a repulsion that falls too slowly for 25 gaps.
+#[test]
+fn a_reach_that_was_found_is_warned_of_where_it_changes_the_law() {
+    let moving = |name: &str, x: f64, v: [f64; 3]| ball(name, 0.02, &format!("{}velocity = {v:?}", at(x)));
+    let slow = moving("a", -0.05, [5e-4, 0.0, 0.0]) + &moving("b", 0.05, [-5e-4, 0.0, 0.0]);
+    let fast = moving("c", 50.0, [0.0, 1000.0, 0.0]);
+    let told = |bodies: &str, between: &[[&str; 2]], nu: f64| {
+        let contacts = between.iter().map(|[one, other]| {
+            format!(
+                "[[contact]]\nbetween = [\"{one}\", \"{other}\"]\nreach = \"auto\"\n\
+                 repulsion = {{ alpha = 100, nu = {nu}, d0 = 1e-4 }}\n"
+            )
+        });
+        let contacts: String = contacts.collect();
+        let warnings = remarks(&format!("{HEAD}{bodies}{contacts}")).warnings;
+        warnings.into_iter().filter(|told| told.contains("was found")).collect::<Vec<String>>()
+    };
+    assert!(told(&slow, &[["a", "b"]], 6.0).is_empty());
+    // In no contact with them, c has no part in their reach; nor by a contact of its own, nor a spin.
+    assert!(told(&format!("{slow}{fast}"), &[["a", "b"]], 6.0).is_empty());
+    let spinning = slow.replacen("velocity", "angular_velocity = [0, 0, 10]\nvelocity", 1);
+    assert!(told(&spinning, &[["a", "b"]], 6.0).is_empty());
+    // In one contact with it they have.
+    let grouped = format!("{slow}{fast}").replace("[[body]]\n", "[[body]]\ngroup = \"g\"\n");
+    let [slower] = &told(&grouped, &[["g", "g"]], 6.0)[..] else { panic!("one warning") };
+    assert!(slower.contains("for \"a\" and \"b\"") && slower.contains("turn back another"), "{slower}");
+    let [weak] = &told(&slow, &[["a", "b"]], 3.0)[..] else { panic!("one warning") };
+    assert!(weak.contains("turn back another: ") && weak.contains("exponent 3"), "{weak}");
+    // 5·25^(2−ν)/(ν−2) of equal balls.
+    let [weak] = &told(&slow, &[["a", "b"]], 3.5)[..] else { panic!("one warning") };
+    assert!(weak.contains("smaller by 0.027 of it"), "{weak}");
+    assert!(told(&slow, &[["a", "b"]], 12.0).is_empty());
+}
+
 #[test]
 fn energy_stored_at_the_start_that_dwarfs_all_other_is_warned_of() {
     let told = |gap: f64, gravity: &str| {

@@ -10,7 +10,6 @@ use crate::quantity::si;
 use crate::units::shown;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::neighbours::PairRule;
-use gyration::pair::Falling;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -30,8 +29,7 @@ pub(super) fn attach(
     let names = Names::of(partial);
     let (mut count, mut endless) = (0, 0);
     let mut rules = Vec::new();
-    let is_found = partial.contacts.iter().any(|contact| matches!(contact.value.reach, Some(Reach::Auto(_))));
-    let falling = if is_found { reach::falling(&si(&partial.world.gravity), assembled) } else { Falling::default() };
+    let gravity = si(&partial.world.gravity);
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
@@ -66,23 +64,31 @@ pub(super) fn attach(
                 let named: BTreeSet<usize> = groups.iter().flatten().copied().collect();
                 let named = named.into_iter().filter_map(|body| assembled[body].as_ref());
                 let unable = named.filter(|body| !pair::can_meet(body, &key.key("between"), reporter)).count();
-                let written = value.reach.filter(|_| unable == 0);
-                let reach = written
-                    .and_then(|written| reach::reach(written, (&laws, &groups), &falling, assembled, (key, reporter)));
+                if unable > 0 {
+                    continue;
+                }
+                let reach = match value.reach {
+                    None => None,
+                    Some(written) => {
+                        let found = reach::reach(written, (&laws, &groups), &gravity, assembled, (key, reporter));
+                        let Some(found) = found else { continue };
+                        Some(found)
+                    }
+                };
                 let rule = PairRule { bodies: groups.map(Arc::from), laws, reach };
                 endless += pair::count_endless(&rule, assembled);
                 if endless > MOST_ENDLESS {
                     let message = format!("with this contact more than {MOST_ENDLESS} pairs act however far they are");
-                    let help =
-                        "give the contact a `reach`: without one, and between bodies that deform, all pairs count";
+                    let help = match reach {
+                        None => "give the contact a `reach`: without one all pairs count",
+                        Some(_) => "give it fewer bodies that deform: they feel all others, whatever the `reach`",
+                    };
                     reporter.note(&key.key("between"), message, help);
                     break;
                 }
-                if unable == 0 {
-                    pair::check_range(&rule, assembled, key, reporter);
-                    pair::check_overlaps(&rule, assembled, key, reporter);
-                }
-                if unable == 0 && rule.pairs().next().is_none() && names.are_known() {
+                pair::check_range(&rule, assembled, key, reporter);
+                pair::check_overlaps(&rule, assembled, key, reporter);
+                if rule.pairs().next().is_none() && names.are_known() {
                     let message = "it is between no two different bodies";
                     reporter.note(&key.key("between"), message, "name two bodies, or groups that have two");
                 }

@@ -9,7 +9,7 @@ use gyration::body::Solid;
 use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::kinematics::Placement;
 use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, each_near};
-use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError};
+use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError, Reach};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -80,9 +80,12 @@ pub(super) fn check_range(
     });
     let [Some((least, most)), Some((other_least, other_most))] = solids else { return };
     let Some(reach) = rule.reach else { return };
+    let help = match reach {
+        Reach::Length(_) => "write a distance nearer to the gaps at which bodies turn back",
+        Reach::Gaps { .. } => "write a length, a larger exponent, or another alpha",
+    };
     for bodies in [[least, other_least], [most, other_most]] {
         if !reach.threshold(&rule.laws, bodies).energy.is_normal() {
-            let help = "write a distance nearer to the gaps at which bodies turn back";
             reporter.note(&key.key("reach"), "the energy at this distance leaves the range of numbers", help);
             return;
         }
@@ -115,7 +118,7 @@ pub(super) fn check_overlaps(
                 return ControlFlow::Break(());
             }
             let solids = [&one.body.solid, &other.body.solid];
-            let parts = (0..solids[0].count_parts()).flat_map(|i| (0..solids[1].count_parts()).map(move |j| [i, j]));
+            let parts = Solid::parts_of(solids.map(|solid| &**solid));
             let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [first, second]));
             if let Some(overlap) = overlap.filter_map(Result::err).next() {
                 overlapping([one, other], &overlap, &key.key("between"), reporter);

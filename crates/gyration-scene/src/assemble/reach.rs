@@ -1,12 +1,11 @@
 //! Where pairs of bodies begin to feel each other: at the length that is written, or at the gaps that weight and speeds
-//! of the scene say.
+//! of the bodies say.
 
 use super::body::AssembledBody;
 use crate::check::Reporter;
 use crate::file;
 use crate::key::Key;
 use gyration::body::Solid;
-use gyration::kinematics::Velocity;
 use gyration::pair::{Falling, Mass, PairLaws, Reach};
 use gyration::state::{RigidStart, Start};
 use gyration::surface::Surface;
@@ -14,69 +13,68 @@ use gyration::tensor::Vec3;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// So many velocities are compared one by one; of more, those that are extreme along some directions.
+/// So many velocities of a set are compared one by one; of more, those that are extreme along some directions.
 const COMPARED: usize = 1000;
-/// So many different solids are looked at two by two; of more, the largest surface with the smallest mass.
+/// So many different solids of a set are looked at one by one; of more, the largest surface with the smallest mass.
 const PAIRED: usize = 50;
 
-/// The reach of a contact between these sets of bodies; none where nothing says how long it is, which is noted.
+/// The reach of a contact between two sets of bodies; none where nothing says how long it is, which is noted.
 pub(super) fn reach(
     written: file::Reach,
     (laws, sets): (&PairLaws, &[Vec<usize>; 2]),
-    falling: &Falling,
+    gravity: &Vec3,
     assembled: &[Option<AssembledBody>],
     (key, reporter): (&Key, &mut Reporter<'_>),
 ) -> Option<Reach> {
-    Some(match written {
-        file::Reach::Length(length) => Reach::Length(length.value()),
-        file::Reach::Auto(_) => {
-            if !falling.acts() {
-                let message = "nothing says how near bodies come: there is no gravity, and none of them moves";
-                reporter.note(
-                    &key.key("reach"),
-                    message,
-                    "write a length: some 25 of the gaps at which they turn back",
-                );
-                return None;
-            }
-            let unlimited = Reach::Gaps { falling: *falling, longest: f64::INFINITY };
-            Reach::Gaps { falling: *falling, longest: longest(&unlimited, laws, sets, assembled) }
-        }
-    })
-}
-
-/// What brings the bodies of a scene together: gravity, and the largest relative speed of two centres with that of the
-/// two surfaces that turn fastest.
-pub(super) fn falling(gravity: &Vec3, assembled: &[Option<AssembledBody>]) -> Falling {
-    let moving = || assembled.iter().flatten().filter(|body| body.body.solid.surface.is_some());
-    let (mut velocities, mut turns): (Vec<Vec3>, Vec<f64>) = moving().map(velocity).unzip();
-    if velocities.len() > COMPARED {
-        velocities = extremes(&velocities);
+    if let file::Reach::Length(length) = written {
+        return Some(Reach::Length(length.value()));
     }
-    let apart = velocities.iter().flat_map(|one| velocities.iter().map(move |other| (one - other).norm()));
-    turns.sort_unstable_by(|one, other| other.total_cmp(one));
-    let speed = apart.fold(0.0, f64::max) + turns.iter().take(2).sum::<f64>();
-    Falling { gravity: gravity.norm(), speed: if velocities.len() > 1 { speed } else { 0.0 } }
+    let of = |set: &Vec<usize>| set.iter().filter_map(|body| assembled[*body].as_ref()).collect::<Vec<_>>();
+    let sets = sets.each_ref().map(of);
+    let falling = Falling { gravity: gravity.norm(), speed: largest_speed(&sets) };
+    let key = key.key("reach");
+    if !falling.acts() {
+        // Of a body with an error it is not known whether it moves.
+        if assembled.iter().all(Option::is_some) {
+            let message = "nothing says how near bodies come: there is no gravity, and none of them moves";
+            reporter.note(&key, message, "write a length: some 25 of the gaps at which they turn back");
+        }
+        return None;
+    }
+    let [least, longest] = extremes(&falling, laws, &sets);
+    if !(least > 0.0 && longest.is_finite()) {
+        let message = "at no gap that is a number do two of the bodies store what brings them together";
+        reporter.note(&key, message, "write a length, a larger exponent, or another alpha");
+        return None;
+    }
+    Some(Reach::Gaps { falling, longest, is_common: least == longest })
 }
 
-/// How fast the centre of a body moves, and its surface about it [m/s].
-fn velocity(assembled: &AssembledBody) -> (Vec3, f64) {
-    let body = &assembled.body;
-    let radius = body.solid.radius().unwrap_or(0.0);
-    let (velocity, turn) = match &assembled.start {
-        Start::Rigid(RigidStart { velocity, angular_velocity, .. }) => (*velocity, angular_velocity.norm()),
-        Start::Affine(_, Velocity { velocity, gradient_rate })
-        | Start::Contractile(_, Velocity { velocity, gradient_rate }, _) => (*velocity, gradient_rate.norm()),
-    };
-    // The centre of a pinned body moves as the pin lets it.
-    match &body.pin {
-        Some(pin) => (Vec3::zeros(), turn * (radius + pin.point.norm())),
-        None => (velocity, turn * radius),
+/// The largest speed of a body of one set relative to one of the other at the start [m/s].
+fn largest_speed(sets: &[Vec<&AssembledBody>; 2]) -> f64 {
+    let velocities = sets.each_ref().map(|set| {
+        let all: Vec<Vec3> = set.iter().map(|body| velocity(body)).collect();
+        if all.len() > COMPARED { farthest(&all) } else { all }
+    });
+    let [one, other] = &velocities;
+    one.iter().flat_map(|one| other.iter().map(move |other| (one - other).norm())).fold(0.0, f64::max)
+}
+
+/// ṗ₀; that of a pinned body follows from its spin, or from Ṗ [m/s].
+fn velocity(assembled: &AssembledBody) -> Vec3 {
+    let pin = assembled.body.pin.as_ref().map(|pin| &pin.point);
+    match (&assembled.start, pin) {
+        (Start::Rigid(RigidStart { velocity, .. }), None) => *velocity,
+        (Start::Rigid(RigidStart { orientation, angular_velocity, .. }), Some(arm)) => {
+            -angular_velocity.cross(&(orientation.rotation() * arm))
+        }
+        (Start::Affine(_, velocity) | Start::Contractile(_, velocity, _), None) => velocity.velocity,
+        (Start::Affine(_, velocity) | Start::Contractile(_, velocity, _), Some(arm)) => -(velocity.gradient_rate * arm),
     }
 }
 
 /// The velocities that go farthest along the axes, the diagonals of faces and those of a cube.
-fn extremes(velocities: &[Vec3]) -> Vec<Vec3> {
+fn farthest(velocities: &[Vec3]) -> Vec<Vec3> {
     let steps = [-1.0, 0.0, 1.0];
     let directions = steps.iter().flat_map(|x| steps.iter().flat_map(move |y| steps.map(|z| Vec3::new(*x, *y, z))));
     let farthest = |direction: Vec3| {
@@ -85,31 +83,37 @@ fn extremes(velocities: &[Vec3]) -> Vec<Vec3> {
     directions.filter_map(farthest).collect()
 }
 
-/// The longest reach of two bodies of two sets [m], or more.
-fn longest(reach: &Reach, laws: &PairLaws, sets: &[Vec<usize>; 2], assembled: &[Option<AssembledBody>]) -> f64 {
-    let solids = sets.each_ref().map(|set| {
+/// The shortest and the longest reach of bodies of two sets [m]; of very many different ones no less than the longest.
+fn extremes(falling: &Falling, laws: &PairLaws, sets: &[Vec<&AssembledBody>; 2]) -> [f64; 2] {
+    let kinds = sets.each_ref().map(|set| {
         let mut seen = HashSet::new();
-        let solids = set.iter().filter_map(|body| Some(&assembled[*body].as_ref()?.body.solid));
-        solids.filter(|solid| seen.insert(Arc::as_ptr(solid))).collect::<Vec<_>>()
+        let solids = set.iter().map(|assembled| &assembled.body.solid);
+        let different = solids.filter(|solid| seen.insert(Arc::as_ptr(solid)));
+        different.flat_map(|solid| parts(solid)).collect::<Vec<Mass>>()
     });
-    let parts = |solid: &'_ Arc<Solid>| -> Vec<(Surface, f64)> {
-        (0..solid.count_parts()).map(|part| (solid.part(part).clone(), solid.mass.mass)).collect()
+    let mut range = [f64::INFINITY, 0.0_f64];
+    let mut note = |bodies: [Mass; 2]| {
+        let reach = Reach::of_gaps(falling, laws, bodies);
+        range = [range[0].min(reach), range[1].max(reach)];
     };
-    let of = |one: &(Surface, f64), other: &(Surface, f64)| {
-        reach.of(laws, [one, other].map(|(surface, mass)| Mass { surface, mass: *mass }))
-    };
-    if solids.iter().all(|solids| solids.len() <= PAIRED) {
-        let [one, other] = solids.map(|solids| solids.into_iter().flat_map(parts).collect::<Vec<_>>());
-        let pairs = one.iter().flat_map(|one| other.iter().map(|other| of(one, other)));
-        return pairs.fold(0.0, f64::max);
+    if kinds.iter().all(|kinds| kinds.len() <= PAIRED) {
+        kinds[0].iter().for_each(|one| kinds[1].iter().for_each(|other| note([*one, *other])));
+        return range;
     }
-    // More is stored between larger surfaces, and less is needed by smaller masses.
-    let all = || solids.iter().flatten().copied();
-    let lightest = all().map(|solid| solid.mass.mass).fold(f64::INFINITY, f64::min);
-    let areas = all().filter_map(|solid| Some(solid.surface.as_ref()?.area()));
-    let area = areas.fold(0.0, f64::max);
-    // A cube of the largest surface: no ball, whose gap is smaller.
-    let cube = Surface::cuboid(&Vec3::repeat((area / 6.0).sqrt()));
-    let extreme = (cube, lightest);
-    of(&extreme, &extreme)
+    // More is stored between larger surfaces, and less is needed by smaller masses. Cubes of these surfaces: the gap of
+    // balls is smaller.
+    let bounds = kinds.each_ref().map(|kinds| {
+        let area = kinds.iter().map(|kind| kind.surface.area()).fold(0.0, f64::max);
+        let lightest = kinds.iter().map(|kind| kind.mass).fold(f64::INFINITY, f64::min);
+        (Surface::cuboid(&Vec3::repeat((area / 6.0).sqrt())), lightest)
+    });
+    note(bounds.each_ref().map(|(surface, mass)| Mass { surface, mass: *mass }));
+    // Some that are there: a bound alone is the reach of no two.
+    kinds[0].iter().zip(&kinds[1]).take(PAIRED).for_each(|(one, other)| note([*one, *other]));
+    range
+}
+
+/// The parts of a body that meet others.
+fn parts(solid: &Arc<Solid>) -> impl Iterator<Item = Mass<'_>> {
+    (0..solid.count_parts()).map(|part| Mass { surface: solid.part(part), mass: solid.mass.mass })
 }

@@ -3,11 +3,11 @@
 //! The verdict is that of the sharper of the two features.
 
 use super::laws::LawSurvey;
+use super::reach_change::ReachChange;
 use crate::format::significant;
 use gyration::dynamics::{PairGaps, Workspace};
 use gyration::model::Model;
 use gyration::neighbours::Pair;
-use gyration::pair::{Falling, Mass, Reach};
 use gyration::state::State;
 use serde::Serialize;
 use std::collections::HashMap;
@@ -33,8 +33,8 @@ pub struct MeetingSurvey {
     pub initial_gap: Option<f64>,
     /// The distance at which they begin to feel each other [m]; none if they always do.
     pub reach: Option<f64>,
-    /// By what part of itself that makes the gap smaller at which they come to rest or turn back; none where nothing
-    /// brings them together.
+    /// By what part of itself that makes the gap smaller at which they come to rest or turn back; infinite, null in
+    /// JSON, where it is near that gap; none where nothing brings them together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach_change: Option<f64>,
     /// The laws between them.
@@ -74,29 +74,11 @@ impl MeetingSurvey {
             between: bodies.map(|body| body.name.clone()),
             initial_gap,
             reach: pair.form.reach,
-            reach_change: change(model, start, pair),
+            reach_change: ReachChange::of(model, start, pair).map(|change| change.part),
             forbids_touching: laws.iter().any(|law| law.forbids_touching == Some(true)),
             laws,
         }
     }
-}
-
-/// By what part of itself the reach of a pair makes the gap smaller at which the two come to rest or turn back, by what
-/// its reach was found from, or by gravity and their own speeds.
-fn change(model: &Model, start: &State, pair: &Pair) -> Option<f64> {
-    let velocity = |body: usize| start.motion(model, body).velocity.velocity;
-    let falling = match model.rules().all()[pair.rule].reach? {
-        Reach::Gaps { falling, .. } => falling,
-        Reach::Length(_) => Falling {
-            gravity: model.gravity.norm(),
-            speed: (velocity(pair.bodies[0]) - velocity(pair.bodies[1])).norm(),
-        },
-    };
-    let solids = pair.bodies.map(|body| &*model.bodies[body].solid);
-    let surfaces = [0, 1].map(|end| solids[end].part(pair.parts[end]));
-    let masses = [0, 1].map(|end| Mass { surface: surfaces[end], mass: solids[end].mass.mass });
-    let gap = falling.acts().then(|| falling.contact_gap(&pair.form.laws, masses))?;
-    pair.form.change_of_gap(gap, surfaces).filter(|change| change.is_finite())
 }
 
 /// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them feel each
@@ -110,9 +92,12 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pair
         let gap =
             meeting.initial_gap.map_or_else(|| unknown.to_owned(), |gap| format!("gap {} m at the start", short(gap)));
         let reach = meeting.reach.map(|reach| format!(", felt within {} m", short(reach))).unwrap_or_default();
-        let change = meeting.reach_change.map(|change| significant(change, 2));
-        let change =
-            change.map(|change| format!(", which makes the gap at which they turn back smaller by {change} of it"));
+        let change = meeting.reach_change.map(|change| match change.is_finite() {
+            true => {
+                format!(", which makes the gap at which they turn back smaller by {} of it", significant(change, 2))
+            }
+            false => ", too near the gap at which they turn back".to_owned(),
+        });
         let _ = writeln!(text, "meeting    {one} with {other}: {gap}{reach}{}", change.unwrap_or_default());
         if told.is_some_and(|told| told.laws == meeting.laws) {
             continue;

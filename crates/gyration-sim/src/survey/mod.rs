@@ -17,6 +17,7 @@ mod laws;
 mod mass;
 mod meetings;
 mod modes;
+mod reach_change;
 pub(crate) mod remarks;
 mod rest;
 mod springs;

@@ -2,7 +2,7 @@
 //!
 //!   reach = 25 g₀,   g₀ = max(g_w, g_v),   F(g_w) = W,   U(g_v) = ½ μ v²
 //!
-//! W the weight of the lighter one, μ the reduced mass, v the largest relative speed of the scene at the start. F and U
+//! W the weight of the lighter one, μ the reduced mass, v the largest relative speed of the bodies at the start. F and U
 //! are those of two balls, and for other shapes those of the bound U_m (`laws`), above which no pair of surfaces is:
 //! the gap of faces with the whole surfaces, and more than the gap of corners. Source: `docs/theory-meetings.md`.
 
@@ -27,6 +27,8 @@ pub enum Reach {
         falling: Falling,
         /// The longest of all bodies for which it is meant, or more [m].
         longest: f64,
+        /// Whether that is the reach of any two of them.
+        is_common: bool,
     },
 }
 
@@ -77,8 +79,14 @@ impl Reach {
     pub fn of(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
         match self {
             Self::Length(reach) => *reach,
-            Self::Gaps { falling, .. } => GAPS * falling.contact_gap(laws, bodies),
+            Self::Gaps { longest, is_common: true, .. } => *longest,
+            Self::Gaps { falling, .. } => Self::of_gaps(falling, laws, bodies),
         }
+    }
+
+    /// So many gaps of two bodies [m].
+    pub fn of_gaps(falling: &Falling, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
+        GAPS * falling.contact_gap(laws, bodies)
     }
 
     /// Where the force of two bodies begins. U_c at so many gaps is that of two balls, if they are; else that of U_m.
@@ -188,7 +196,6 @@ mod tests {
                         2.0 => -unit * (gap / unit).ln(),
                         _ => unit * power(gap, 2.0 - exponent) / (exponent - 2.0),
                     };
-                    // From far away in steps, since nothing is the primitive's constant.
                     let all = primitive(gap) - primitive(gap + 4.0 * radius);
                     PI * radius * alpha * unit * all / (exponent - 1.0)
                 };
@@ -199,7 +206,7 @@ mod tests {
                 worst = worst.max((weighed / gap - 1.0).abs()).max((turning / gap - 1.0).abs());
                 let both = Falling { gravity: 2.0 * force(gap) / mass, speed };
                 assert!((both.contact_gap(&laws, bodies) / gap - 1.0).abs() < 1e-9);
-                let reach = Reach::Gaps { falling: both, longest: 0.0 };
+                let reach = Reach::Gaps { falling: both, longest: 0.0, is_common: false };
                 let begins = reach.threshold(&laws, bodies);
                 assert!((begins.reach / (25.0 * gap) - 1.0).abs() < 1e-9);
                 assert!((begins.energy / energy(25.0 * gap) - 1.0).abs() < 1e-9, "{exponent} {radius}");

@@ -2,14 +2,20 @@
 
 use super::trial::TrialPair;
 use crate::format::significant;
+use crate::survey::reach_change::ReachChange;
 use gyration::model::Model;
 use gyration::pair::Reach;
 use gyration::state::State;
+use gyration::tensor::Vec3;
 
 /// In so many gaps, or d₀, a law falls to what may be left out.
 const LEAST: f64 = 10.0;
 /// Contacts that are looked at.
 const MOST_CONTACTS: usize = 12;
+/// A gap that a reach found from it makes smaller by more than that part is another.
+const MOST_CHANGE: f64 = 1e-2;
+/// The same of slow bodies, which turn back farther out: of many there are always some.
+const MOST_OF_SLOW: f64 = 0.1;
 /// Pairs of a contact of which the fastest is looked at.
 const MOST_PAIRS: usize = 10_000;
 
@@ -20,12 +26,23 @@ pub(super) fn warnings(model: &Model, start: &State) -> Vec<String> {
 }
 
 fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
-    let velocity = |body: usize| start.motion(model, body).velocity.velocity;
-    let speed = |[one, other]: &[usize; 2]| (velocity(*one) - velocity(*other)).norm();
-    let rule_of_both = &model.rules().all()[rule];
-    // One that is found from the gaps is no shorter.
-    let Reach::Length(reach) = rule_of_both.reach? else { return None };
-    let fastest = rule_of_both.pairs().take(MOST_PAIRS).max_by(|one, other| speed(one).total_cmp(&speed(other)))?;
+    match model.rules().all()[rule].reach? {
+        Reach::Length(reach) => of_a_length(model, start, rule, reach),
+        Reach::Gaps { .. } => of_gaps(model, start, rule),
+    }
+}
+
+/// Place [m] and velocity [m/s] of the first of two centres from the second.
+fn apart(model: &Model, start: &State, bodies: [usize; 2]) -> (Vec3, Vec3) {
+    let [one, other] = bodies.map(|body| start.motion(model, body));
+    (one.placement.position - other.placement.position, one.velocity.velocity - other.velocity.velocity)
+}
+
+/// A reach that is written, beside the gap at which the fastest two of its bodies turn back.
+fn of_a_length(model: &Model, start: &State, rule: usize, reach: f64) -> Option<String> {
+    let speed = |bodies: &[usize; 2]| apart(model, start, *bodies).1.norm();
+    let pairs = model.rules().all()[rule].pairs().take(MOST_PAIRS);
+    let fastest = pairs.max_by(|one, other| speed(one).total_cmp(&speed(other)))?;
     let pair = model.pairs_between(rule, fastest).last()?;
     let trial = TrialPair::of(model, start, &pair);
     let gap = trial.turning_gap();
@@ -46,4 +63,35 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
         "the reach of {reach} m between \"{one}\" and \"{other}\" is short: {least}, and within ten times that a reach \
          makes another law of the repulsion"
     ))
+}
+
+/// A reach that was found, for the fastest two of its bodies, and the slowest two that are on their way to each other: it
+/// goes by the speed of the fastest, and by so many gaps, which are few where a repulsion falls slowly.
+fn of_gaps(model: &Model, start: &State, rule: usize) -> Option<String> {
+    let set = &model.rules().all()[rule];
+    let speed = |bodies: &[usize; 2]| apart(model, start, *bodies).1.norm();
+    let slower = |one: &[usize; 2], other: &[usize; 2]| speed(one).total_cmp(&speed(other));
+    let on_the_way = |bodies: &[usize; 2]| {
+        let (place, velocity) = apart(model, start, *bodies);
+        let radii: f64 = bodies.iter().filter_map(|body| model.bodies[*body].solid.radius()).sum();
+        place.dot(&velocity) < 0.0 && place.cross(&velocity).norm() < radii * velocity.norm()
+    };
+    let pairs = || set.pairs().take(MOST_PAIRS);
+    let told = |bodies: Option<[usize; 2]>, most: f64| {
+        let pair = model.pairs_between(rule, bodies?).last()?;
+        let change = ReachChange::of(model, start, &pair).filter(|change| change.part > most)?;
+        let part = match change.part.is_finite() {
+            true => format!("smaller by {} of it", significant(change.part, 2)),
+            false => "another".to_owned(),
+        };
+        let [one, other] = pair.bodies.map(|body| &model.bodies[body].name);
+        let (reach, gap) = (significant(pair.form.reach?, 3), significant(change.gap, 2));
+        let exponent = pair.form.laws.repulsion.exponent;
+        Some(format!(
+            "the reach of {reach} m that was found for \"{one}\" and \"{other}\" makes the gap of about {gap} m at \
+             which they turn back {part}: it has 25 gaps of the fastest two, of a repulsion of exponent {exponent}; write \
+             a longer one, or leave it out"
+        ))
+    };
+    told(pairs().max_by(slower), MOST_CHANGE).or_else(|| told(pairs().filter(on_the_way).min_by(slower), MOST_OF_SLOW))
 }
