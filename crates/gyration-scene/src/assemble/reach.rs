@@ -89,7 +89,7 @@ fn extremes(falling: &Falling, laws: &PairLaws, sets: &[Vec<&AssembledBody>; 2])
         let mut seen = HashSet::new();
         let solids = set.iter().map(|assembled| &assembled.body.solid);
         let different = solids.filter(|solid| seen.insert(Arc::as_ptr(solid)));
-        different.flat_map(|solid| parts(solid)).collect::<Vec<Mass>>()
+        different.flat_map(parts).collect::<Vec<Mass>>()
     });
     let mut range = [f64::INFINITY, 0.0_f64];
     let mut note = |bodies: [Mass; 2]| {

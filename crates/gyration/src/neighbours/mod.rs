@@ -20,7 +20,7 @@ pub use boxes::{Bounds, BoxTree};
 pub use list::NeighbourList;
 use rules::masses;
 pub use rules::{PairRule, PairRules};
-pub use spheres::{BodyPair, Sphere, each_near, near};
+pub use spheres::{BodyPair, Sphere, each_near, each_overlap, near};
 
 use crate::body::Solid;
 use crate::load::Interaction;

@@ -108,6 +108,22 @@ pub fn each_near<B>(
     ControlFlow::Continue(())
 }
 
+/// Hands each two spheres that overlap to `each`, by their places among all, the smaller one first, until it breaks
+/// off.
+pub fn each_overlap<B>(spheres: &[Sphere], mut each: impl FnMut([usize; 2]) -> ControlFlow<B>) -> ControlFlow<B> {
+    let bounded = || (0..spheres.len()).filter(|place| spheres[*place].is_bounded());
+    let tree = BoxTree::new(bounded().map(|place| (spheres[place].bounds(0.0), place)));
+    let mut beside: Vec<usize> = Vec::new();
+    for one in bounded() {
+        beside.clear();
+        beside.extend(tree.touching(&spheres[one].bounds(0.0)).filter(|other| *other > one));
+        beside.sort_unstable();
+        let overlapping = beside.iter().filter(|other| spheres[one].meets(&spheres[**other], 0.0));
+        overlapping.map(|other| [one, *other]).try_for_each(&mut each)?;
+    }
+    ControlFlow::Continue(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,10 +155,23 @@ mod tests {
         let one_by_one = rule.pairs().filter(|[one, other]| spheres[*one].meets(&spheres[*other], 0.02));
         let one_by_one: Vec<BodyPair> = one_by_one.map(|bodies| BodyPair { rule: 0, bodies }).collect();
         println!("{} of {} pairs are near", found.len(), rule.count());
+        // Neither few nor most.
         assert!(found.len() > 600 && found.len() < rule.count() / 4);
         assert_eq!(found, one_by_one);
         assert!(near(&rules, &spheres, |_| None).is_empty());
         assert!(found.iter().all(|meeting| !meeting.bodies.contains(&62)));
+        let mut overlaps = Vec::new();
+        let all = each_overlap(&spheres, |bodies| {
+            overlaps.push(bodies);
+            if overlaps.len() < 10_000 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        let bounded: Vec<usize> = (0..200).filter(|k| spheres[*k].is_bounded()).collect();
+        let pairs = bounded.iter().flat_map(|one| bounded.iter().map(move |other| [*one, *other]));
+        let one_by_one = pairs.filter(|[one, other]| one < other && spheres[*one].meets(&spheres[*other], 0.0));
+        println!("{} spheres overlap", overlaps.len());
+        assert!(all.is_continue() && !overlaps.is_empty());
+        assert_eq!(overlaps, one_by_one.collect::<Vec<_>>());
+        assert!(each_overlap(&spheres, |_| ControlFlow::Break(())).is_break());
         assert!([60, 61].iter().all(|body| found.iter().filter(|it| it.bodies.contains(body)).count() > 190));
     }
 }

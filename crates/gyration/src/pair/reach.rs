@@ -2,8 +2,8 @@
 //!
 //!   reach = 25 g₀,   g₀ = max(g_w, g_v),   F(g_w) = W,   U(g_v) = ½ μ v²
 //!
-//! W the weight of the lighter one, μ the reduced mass, v the largest relative speed of the bodies at the start. F and U
-//! are those of two balls, and for other shapes those of the bound U_m (`laws`), above which no pair of surfaces is:
+//! W the weight of the lighter one, μ the reduced mass, v the largest relative speed of the bodies at the start. F and
+//! U are those of two balls, and for other shapes those of the bound U_m (`laws`), above which no pair of surfaces is:
 //! the gap of faces with the whole surfaces, and more than the gap of corners. Source: `docs/theory-meetings.md`.
 
 use super::balls::Balls;

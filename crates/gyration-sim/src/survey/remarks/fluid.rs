@@ -5,20 +5,23 @@
 //! tells its size: 1 + 3R/2r of the speed at a distance r of the centres, 1/(1 − 9R/8h) of the drag at a height h above
 //! a plane.
 
-use super::nearby::{Ball, overlapping};
 use super::neighbor::{pair_speed_ratio, plane_drag_ratio};
 use crate::format::significant;
 use gyration::body::BodyKind;
 use gyration::model::Model;
+use gyration::neighbours::{Sphere, each_overlap};
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_record::{RecordError, Recording};
+use std::ops::ControlFlow;
 
 /// Within so many radii a neighbour is told: beyond, it changes less than a seventh.
 const NEAR: f64 = 10.0;
 /// The height, in radii, below which the first term of a plane tells nothing.
 const LEAST_HEIGHT: f64 = 1.2;
 
+/// Pairs of neighbours at a time that are looked at.
+const MOST_COMPARED: usize = 1_000_000;
 /// Rows that are looked at.
 const MOST_ROWS: usize = 10_000;
 /// Places of bodies that are read at once.
@@ -98,30 +101,27 @@ impl LeftOut {
         let inclusions =
             inclusions.filter(|(_, (body, place))| body.inclusion.is_some() && place.iter().all(|c| c.is_finite()));
         let radius = |body: usize| 0.5 * model.bodies[body].size;
-        let ball = |(body, (_, center)): (usize, (_, &Vec3))| Ball {
-            body,
-            center: *center,
-            radius: 0.5 * NEAR * radius(body),
-        };
-        let mut balls: Vec<Ball> = inclusions.map(ball).collect();
+        let inclusions: Vec<(usize, &Vec3)> = inclusions.map(|(body, (_, center))| (body, center)).collect();
         let (mut pairs, mut planes) = (0, 0);
-        for ball in &balls {
-            let mut supports: Vec<usize> = model.bodies[ball.body].contacts.iter().map(|it| it.support()).collect();
+        for (body, center) in &inclusions {
+            let mut supports: Vec<usize> = model.bodies[*body].contacts.iter().map(|it| it.support()).collect();
             supports.sort_unstable();
             supports.dedup();
             for support in supports {
-                let height = model.supports[support].gap(&ball.center, time);
-                if height < NEAR * radius(ball.body) {
+                let height = model.supports[support].gap(center, time);
+                if height < NEAR * radius(*body) {
                     planes += 1;
-                    largest(&mut self.plane, above(model, ball.body, (support, height), time));
+                    largest(&mut self.plane, above(model, *body, (support, height), time));
                 }
             }
         }
-        overlapping(&mut balls, |one, other| {
+        let sphere = |(body, center): &(usize, &Vec3)| Sphere::new(**center, 0.5 * NEAR * radius(*body));
+        let spheres: Vec<Sphere> = inclusions.iter().map(sphere).collect();
+        let _ = each_overlap(&spheres, |places| {
+            let [(one, here), (other, there)] = places.map(|place| inclusions[place]);
             pairs += 1;
-            let distance = (one.center - other.center).norm();
-            largest(&mut self.pair, beside(model, [one.body, other.body], distance, time));
-            true
+            largest(&mut self.pair, beside(model, [one, other], (here - there).norm(), time));
+            if pairs < MOST_COMPARED { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         self.pairs = self.pairs.max(pairs);
         self.planes = self.planes.max(planes);

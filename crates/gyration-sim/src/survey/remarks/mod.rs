@@ -6,7 +6,6 @@
 mod far;
 mod fluid;
 mod meshes;
-mod nearby;
 mod neighbor;
 mod reaches;
 mod stored;

@@ -65,8 +65,8 @@ fn of_a_length(model: &Model, start: &State, rule: usize, reach: f64) -> Option<
     ))
 }
 
-/// A reach that was found, for the fastest two of its bodies, and the slowest two that are on their way to each other: it
-/// goes by the speed of the fastest, and by so many gaps, which are few where a repulsion falls slowly.
+/// A reach that was found, for the fastest two of its bodies, and the slowest two that are on their way to each other:
+/// it goes by the speed of the fastest, and by so many gaps, which are few where a repulsion falls slowly.
 fn of_gaps(model: &Model, start: &State, rule: usize) -> Option<String> {
     let set = &model.rules().all()[rule];
     let speed = |bodies: &[usize; 2]| apart(model, start, *bodies).1.norm();

@@ -1,14 +1,17 @@
 //! Bodies between which no contact stands: they pass through each other.
 
 use super::Remarks;
-use super::nearby::{Ball, overlapping};
-use gyration::body::{Body, BodyKind};
+use gyration::body::{Body, BodyKind, Solid};
 use gyration::model::Model;
+use gyration::neighbours::{Sphere, each_overlap};
 use gyration::pair::Overlap;
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
 use std::collections::{HashMap, HashSet};
+use std::ops::ControlFlow;
 
+/// Pairs of spheres that are looked at; a second for the most unlucky scene.
+const MOST_COMPARED: usize = 1_000_000;
 /// Pairs whose overlap is computed.
 const MOST_COMPUTED: usize = 2_000;
 /// Pinned bodies whose pairs are looked at one by one.
@@ -62,21 +65,26 @@ impl Overlapping {
     fn among(model: &Model, start: &State, solid: &[usize], known: &HashSet<[usize; 2]>) -> Option<Self> {
         // Of what is not convex the hull tells nothing.
         let convex = solid.iter().filter(|body| model.bodies[**body].solid.shape.check_convex().is_ok());
-        let mut balls: Vec<Ball> = convex.map(|body| ball(model, start, *body)).collect();
+        let convex: Vec<usize> = convex.copied().collect();
+        let spheres: Vec<Sphere> = convex.iter().map(|body| sphere(model, start, *body)).collect();
         let mut found: Option<Self> = None;
-        let mut computed = 0;
-        let is_whole = overlapping(&mut balls, |one, other| {
-            let bodies = [one.body, other.body];
+        let (mut compared, mut computed) = (0, 0);
+        let is_whole = each_overlap(&spheres, |places| {
+            let bodies = places.map(|place| convex[place]);
+            compared += 1;
+            if compared > MOST_COMPARED {
+                return ControlFlow::Break(());
+            }
             if known.contains(&bodies) || meet(model, bodies) {
-                return true;
+                return ControlFlow::Continue(());
             }
             computed += 1;
             if let Some(depth) = depth(model, start, bodies) {
                 found.get_or_insert(Self { first: bodies, depth, count: 0, has_more: false }).count += 1;
             }
-            computed < MOST_COMPUTED
+            if computed < MOST_COMPUTED { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
-        found.map(|found| Self { has_more: !is_whole, ..found })
+        found.map(|found| Self { has_more: is_whole.is_break(), ..found })
     }
 
     /// In words, after the two have been named if they are the only strangers.
@@ -93,22 +101,20 @@ impl Overlapping {
     }
 }
 
-/// The ball around a body about its centre of mass.
-fn ball(model: &Model, start: &State, body: usize) -> Ball {
+/// A sphere around a body about its centre of mass.
+fn sphere(model: &Model, start: &State, body: usize) -> Sphere {
     let placement = start.motion(model, body).placement;
     let radius = model.bodies[body].solid.surface.as_ref();
     // |P X| is the speed of X under the gradient rate P.
     let radius = radius.map_or(0.0, |surface| surface.fastest_point(&Vec3::zeros(), &placement.gradient));
-    Ball { body, center: placement.position, radius }
+    Sphere::new(placement.position, radius)
 }
 
 /// How far two bodies reach into each other, if any of their parts do [m].
 fn depth(model: &Model, start: &State, bodies: [usize; 2]) -> Option<f64> {
     let motions: [BodyMotion; 2] = bodies.map(|body| start.motion(model, body));
     let solids = bodies.map(|body| &model.bodies[body].solid);
-    let parts =
-        (0..solids[0].count_parts()).flat_map(|one| (0..solids[1].count_parts()).map(move |other| [one, other]));
-    let overlaps = parts.filter_map(|[one, other]| {
+    let overlaps = Solid::parts_of(solids.map(|solid| &**solid)).filter_map(|[one, other]| {
         let surfaces = [solids[0].part(one), solids[1].part(other)];
         Overlap::check(surfaces, motions.each_ref().map(|motion| &motion.placement)).err()
     });
