@@ -36,7 +36,8 @@ fn balls_turn_where_the_reach_that_is_found_says() {
         };
         let experiment = Experiment::of_scene(&format!(
             "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 0.2, sample = 0.2 }}\nsolver = {{ rtol = 1e-12 }}\n\
-             [[contact]]\nbetween = [\"a\", \"b\"]\n{reach}\nrepulsion = {{ alpha = {ALPHA}, nu = {NU}, d0 = {UNIT} }}\n{}{}",
+             [[contact]]\nbetween = [\"a\", \"b\"]\n{reach}\n\
+             repulsion = {{ alpha = {ALPHA}, nu = {NU}, d0 = {UNIT} }}\n{}{}",
             ball("a", -0.1, 0.5),
             ball("b", 0.1, -0.5)
         ));

@@ -183,7 +183,8 @@ fn bodies_that_reach_each_other_at_the_start_are_told_with_the_way_apart() {
 fn a_reach_that_is_found_has_twenty_five_gaps_of_each_pair() {
     let ball = |name: &str, radius: f64, mass: f64, place: [f64; 3], speed: f64| {
         format!(
-            "[[body]]\nname = \"{name}\"\ngroup = \"grain\"\nshape = {{ sphere = {{ radius = {radius} }} }}\nmass = {mass}\n\
+            "[[body]]\nname = \"{name}\"\ngroup = \"grain\"\nshape = {{ sphere = {{ radius = {radius} }} }}\n\
+             mass = {mass}\n\
              position = {place:?}\nvelocity = [{speed}, 0, 0]\n"
         )
     };

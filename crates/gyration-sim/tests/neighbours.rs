@@ -40,7 +40,8 @@ fn crowd(size: usize, spacing: f64, reach: &str, is_soft: bool) -> Scene {
         };
         text += &format!(
             "[[body]]\nname = \"b{k}\"\ngroup = [\"all\", \"{word}\"]\nshape = {{ {shape} }}\ndensity = 10\n{soft}\n\
-             position = {place:?}\nvelocity = {speed:?}\norientation = {{ axis_angle = {{ axis = [1, 2, {k}], angle = 0.1 }} }}\n"
+             position = {place:?}\nvelocity = {speed:?}\n\
+             orientation = {{ axis_angle = {{ axis = [1, 2, {k}], angle = 0.1 }} }}\n"
         );
     }
     parsed(&text, &[])
@@ -161,5 +162,6 @@ fn a_crowd_in_one_island_resumes_after_every_window() {
     let FirstSteps { windows, difference, planes, .. } = FirstSteps::of(&job, 30).unwrap();
     println!("{windows} windows, forces by planes found anew {planes:.1e}");
     assert_eq!((windows, difference), (30, None));
+    // A decrement of rounding leaves a plane to some 1e-10 of its slab, and a force to ν times that.
     assert!(planes < 1e-9);
 }
