@@ -70,7 +70,7 @@ fn soft_polyhedron_takes_the_form_of_the_ball_in_shear() {
     let angle = |experiment: &Experiment, run: &Run| {
         let mut workspace = Workspace::default();
         let read = workspace.read(&experiment.model, &run.end);
-        let seen = read.and_then(|(instant, scratch)| observe_immersion(&instant.at(&experiment.model, 0), scratch));
+        let seen = read.and_then(|(instant, scratch)| observe_immersion(&instant.at(0), scratch));
         seen.ok().flatten().map_or(f64::NAN, |seen| seen.inclination)
     };
     case.check("inclination [rad]", angle(&exact, &reference), angle(&faceted, &measured), TOLERANCE);

@@ -10,8 +10,9 @@ use crate::resistance::check_resistances;
 use crate::scales::{energy_scale, speed_scales, spring_frequency};
 use gyration::balance::fastest_speed;
 use gyration::body::{Body, NEAR};
-use gyration::dynamics::{Blocks, PairGaps, Workspace, gap_to_supports, jacobian, rates};
+use gyration::dynamics::{Blocks, Workspace, gap_to_supports, jacobian, rates};
 use gyration::extended::Numbers;
+use gyration::instant::PairGaps;
 use gyration::model::Model;
 use gyration::state::{BodyMotion, State};
 use gyration::surface::Surface;
@@ -48,8 +49,6 @@ pub struct ModelSystem {
     frequencies: Vec<f64>,
     energy: f64,
     radii: Vec<f64>,
-    /// The gaps of the pairs of bodies when they were last looked at.
-    gaps: PairGaps,
     /// What the fluid turns into heat while bodies without inertia move by their size [J].
     viscous: f64,
     /// The rates of the bodies at the start.
@@ -105,7 +104,6 @@ impl ModelSystem {
             frequencies,
             energy,
             radii,
-            gaps: PairGaps::default(),
             viscous,
             first_rates,
             interrupted: false,
@@ -135,6 +133,17 @@ impl ModelSystem {
     /// The model and the scratch of its mechanics, for observations between steps.
     pub fn observed(&mut self) -> (&Model, &mut Workspace) {
         (&self.model, &mut self.workspace)
+    }
+
+    /// The slabs between bodies at the end of the last step; none where no plane was found there.
+    pub(crate) fn step_end_gaps(&self) -> Option<&PairGaps> {
+        self.workspace.remembered_gaps()
+    }
+
+    /// The slabs between bodies at a time and state, beside the system; none where no plane is found.
+    pub(crate) fn gaps_at(&mut self, time: f64, bodies: &[f64]) -> (&Self, Option<&PairGaps>) {
+        let is_known = self.workspace.pair_gaps(&self.model, time, bodies.into()).is_ok();
+        (self, is_known.then(|| self.workspace.found_gaps()))
     }
 
     /// Puts scratch of the mechanics in the place of its own.
@@ -243,14 +252,14 @@ impl System for ModelSystem {
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
         let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
         let mut energy = self.energy;
-        let Self { model, workspace, gaps, .. } = self;
-        let known = workspace.pair_gaps(model, (t, y.into()), gaps).is_ok();
+        let gaps = self.workspace.pair_gaps(&self.model, t, y.into()).ok();
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
-            let apart = match known || !self.model.meets_bodies(index) {
-                true => self.gaps.of(index).map(|slab| slab.gap).fold(f64::INFINITY, f64::min),
-                false => 0.0,
+            let apart = match (gaps, self.model.meets_bodies(index)) {
+                (_, false) => f64::INFINITY,
+                (Some(gaps), true) => gaps.of(index).map(|slab| slab.gap).fold(f64::INFINITY, f64::min),
+                (None, true) => 0.0,
             };
             let gap = gap_to_supports(&self.model, t, index, &motion).min(apart).max(0.0);
             let speed = fastest_speed(body, &motion);

@@ -12,7 +12,8 @@
 //! of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several steps
 //! unless its force does not matter. A body without inertia is carried, not thrown: it has no events.
 
-use gyration::dynamics::{PairGaps, nearest};
+use gyration::dynamics::nearest;
+use gyration::instant::PairGaps;
 use gyration::model::Model;
 use gyration::state::BodyMotion;
 use serde::{Deserialize, Serialize};
@@ -70,13 +71,20 @@ pub fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 
     -motion.velocity.velocity.dot(&model.gravity) / (gravity * speed * REST)
 }
 
-/// The rate of the smallest gap, given those to other bodies; NaN without surface, or with nothing to come near to.
-pub fn approach(model: &Model, time: f64, body: usize, (motion, gaps): (&BodyMotion, &PairGaps), speed: f64) -> f64 {
+/// The rate of the smallest gap, given those to other bodies, where they are known; NaN without surface, or with
+/// nothing to come near to.
+pub fn approach(
+    model: &Model,
+    time: f64,
+    body: usize,
+    (motion, gaps): (&BodyMotion, Option<&PairGaps>),
+    speed: f64,
+) -> f64 {
     if !model.bodies[body].has_inertia() {
         return f64::NAN;
     }
     let support = nearest(model, time, body, motion).map(|nearest| (nearest.gap, nearest.speed));
-    let bodies = gaps.of(body).map(|slab| (slab.gap, slab.rate));
+    let bodies = gaps.into_iter().flat_map(|gaps| gaps.of(body)).map(|slab| (slab.gap, slab.rate));
     let near = support.into_iter().chain(bodies).filter(|(gap, _)| *gap < f64::INFINITY);
     near.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(f64::NAN, |(_, rate)| rate / (speed * REST))
 }

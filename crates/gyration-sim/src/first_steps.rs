@@ -12,7 +12,7 @@ use crate::run::Simulation;
 use gyration::Inadmissible;
 use gyration::acting::Load;
 use gyration::balance::{fastest_speed, observe};
-use gyration::dynamics::{PairGaps, Workspace, each_push};
+use gyration::dynamics::{Workspace, each_push};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
@@ -123,7 +123,7 @@ fn planes(model: &Model, before: &State, after: &State) -> Result<f64, Inadmissi
         return Ok(0.0);
     }
     let mut remembering = Workspace::default();
-    remembering.remember_pairs(model, (before.time, before.numbers()), &mut PairGaps::default())?;
+    remembering.remember_pairs(model, before.time, before.numbers())?;
     let found = [pushes(model, remembering, after)?, pushes(model, Workspace::default(), after)?];
     let off = found[0].iter().zip(&found[1]).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
     let largest = found[1].iter().copied().fold(0.0, f64::max);
@@ -135,7 +135,7 @@ fn pushes(model: &Model, mut workspace: Workspace, state: &State) -> Result<Vec<
     let (instant, scratch) = workspace.read(model, state)?;
     let mut forces = Vec::new();
     for index in 0..model.bodies.len() {
-        each_push(&instant.at(model, index), scratch, |push| forces.push(push.force))?;
+        each_push(&instant.at(index), scratch, |push| forces.push(push.force))?;
     }
     Ok(forces)
 }

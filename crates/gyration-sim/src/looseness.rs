@@ -45,7 +45,7 @@ impl Looseness {
         let (instant, scratch) = workspace.read(model, state)?;
         let mut sum = Self::default();
         for (index, body) in model.bodies.iter().enumerate() {
-            each_push(&instant.at(model, index), scratch, |push| {
+            each_push(&instant.at(index), scratch, |push| {
                 let of_lengths = push.force * (atol * body.size + rtol * push.gap.min(body.size));
                 sum = sum + Self { of_lengths, of_pairs: push.rounding };
             })?;

@@ -7,7 +7,7 @@ use gyration::balance::fastest_speed;
 use gyration::body::Body;
 use gyration::contractile::Contraction;
 use gyration::dynamics::{Scratch, Workspace, each_push};
-use gyration::instant::BodyAt;
+use gyration::instant::{BodyAt, MotionAt};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
@@ -47,7 +47,7 @@ pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Resu
         let mut workspace = Workspace::default();
         let (instant, scratch) = workspace.read(model, start)?;
         for (index, scale) in scales.iter_mut().enumerate().filter(|(_, scale)| **scale == 0.0) {
-            *scale = pushed(&instant.at(model, index), slopes, scratch)?;
+            *scale = pushed(&instant.at(index), slopes, scratch)?;
         }
     }
     let joined = Pattern::new(bodies, model.chain().map(Into::into));
@@ -87,7 +87,7 @@ fn own_scale(model: &Model, start: &State, slopes: &[f64], index: usize) -> f64 
 
 /// The speed that what acts on a body at rest gives it over its size [m/s], or that of a support that it meets.
 fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Inadmissible> {
-    let BodyAt { model, body, index, .. } = *at;
+    let MotionAt { model, body, index, .. } = **at;
     if !body.has_inertia() {
         return Ok(0.0);
     }

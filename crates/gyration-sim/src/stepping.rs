@@ -131,7 +131,7 @@ impl SteppedRun {
         let (state, mut workspace) = (self.state(), Workspace::default());
         let model = self.model();
         let read = workspace.read(model, &state);
-        let loads = read.and_then(|(instant, scratch)| acting(&instant.at(model, body), scratch));
+        let loads = read.and_then(|(instant, scratch)| acting(&instant.at(body), scratch));
         let loads = loads.map_err(|left| Stop::by_inadmissible(model, self.time(), &left))?;
         Ok(loads.contact)
     }

@@ -10,7 +10,7 @@ use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_ode::Statistics;
-use gyration_sim::events::APEX;
+use gyration_sim::events::{APEX, EVENT_KINDS};
 use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Unwatched};
 use std::num::NonZeroUsize;
 
@@ -251,4 +251,30 @@ fn springs_stay_while_neighbours_come_and_go() {
     assert!(apart < 1e-7 && place(&own, 0).x > 0.5 && place(&own, 3) == Vec3::new(0.0, 3.0, 0.0));
     let change = (momentum(&model, &own.state) - momentum(&model, &start)).norm();
     assert!(change < 1e-13 && own.residual < 1e-8, "{change:e} {:e}", own.residual);
+}
+
+/// Two pairs of balls that turn back soon after each other, mostly within the same part of a step: where the second one
+/// does is not where slabs were looked at to find the first.
+#[test]
+fn events_of_one_pair_leave_those_of_another_where_they_are() {
+    let mut fastest: f64 = 0.0;
+    for k in -10..=10 {
+        let later = 0.1 + 4e-4 * f64::from(k);
+        let ball = |x: f64, y: f64, speed: f64| ([x, y, 0.0], [speed, 0.0, 0.0]);
+        let starts = [ball(-0.1, 0.0, 0.5), ball(0.1, 0.0, -0.5), ball(-later, 1.0, 0.5), ball(later, 1.0, -0.5)];
+        let (model, start, plan) = balls(&starts, &["solver.rtol=1e-6", "time.end=0.4"]);
+        let found = run_of(Simulation::together(&model, &start, plan).unwrap());
+        let closest = found.kept.events.iter().filter(|event| EVENT_KINDS[event.kind] == "closest_approach");
+        let closest: Vec<_> = closest.collect();
+        assert_eq!(closest.len(), 4, "{closest:?}");
+        for event in closest {
+            let plan = RunPlan { end: event.time, ..plan };
+            let there = run_of(Simulation::together(&model, &start, plan).unwrap()).state;
+            let speed = |body: usize| there.motion(&model, body).velocity.velocity.x;
+            fastest = fastest.max((speed(event.body) - speed(event.body ^ 1)).abs());
+        }
+    }
+    println!("balls that turn back move by {fastest:.1e} m/s towards each other");
+    // Other steps to another end: 1e-6 of the speeds.
+    assert!(fastest < 1e-4);
 }

@@ -5,7 +5,7 @@
 
 use crate::islands::parsed;
 use gyration::balance::gaps;
-use gyration::dynamics::{PairGaps, Workspace};
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{BlockMatrix, System};
@@ -58,8 +58,7 @@ fn computed(system: &mut ModelSystem, time: f64, state: &[f64]) -> [Vec<u64>; 4]
     let blocks = blocks.diagonal().iter().flat_map(|block| block.iter().copied()).chain((0..count).flat_map(of_row));
     let blocks = blocks.map(f64::to_bits).collect();
     let (model, workspace) = system.observed();
-    let mut gaps = PairGaps::default();
-    workspace.pair_gaps(model, (time, state.into()), &mut gaps).unwrap();
+    let gaps = workspace.pair_gaps(model, time, state.into()).unwrap();
     let near = gaps.iter().map(|(_, slab)| slab.gap).filter(|gap| gap.is_finite()).map(f64::to_bits).collect();
     let bits = |numbers: Vec<f64>| numbers.into_iter().map(f64::to_bits).collect();
     [bits(slopes), bits(powers), blocks, near]
@@ -132,7 +131,7 @@ fn what_is_remembered_of_a_pair_outlasts_the_list() {
         let mut fresh = system(model, start);
         for system in [&mut kept, &mut fresh] {
             let (model, workspace) = system.observed();
-            workspace.remember_pairs(model, (0.0, state.as_slice().into()), &mut PairGaps::default()).unwrap();
+            workspace.remember_pairs(model, 0.0, state.as_slice().into()).unwrap();
         }
         computed(&mut kept, 1e-3, &scattered(model, &state));
         assert_same(&computed(&mut kept, 1e-3, &later), &computed(&mut fresh, 1e-3, &later), &format!("state {k}"));

@@ -7,13 +7,38 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind, Partner};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Spring};
+use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, Spring};
 use crate::neighbours::Pair;
-use crate::pair::PairLaws;
+use crate::pair::{PairLaws, PairLoads, PairSlopes};
 use crate::support::{Support, SupportMotion};
+use crate::tensor::Vec3;
 
 /// A pair as one of its bodies sees it.
 pub type PairEnd<'a> = InteractionEnd<'a, Pair>;
+
+/// A pair within reach at an instant, as one of its bodies sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct PairAt<'a> {
+    /// The pair, and which of its bodies this is.
+    pub end: PairEnd<'a>,
+    /// What it does to both.
+    pub loads: &'a PairLoads,
+    /// The derivatives of that; none at an instant of which they were not asked.
+    pub slopes: Option<&'a PairSlopes>,
+}
+
+impl PairAt<'_> {
+    /// (f | M) on the body.
+    pub fn on_body(&self) -> &Loads {
+        &self.loads.on[self.end.end]
+    }
+
+    /// n, from the other body to this one.
+    pub fn normal(&self) -> Vec3 {
+        // That of the pair points from the second body to the first.
+        if self.end.end == 0 { self.loads.normal } else { -self.loads.normal }
+    }
+}
 
 /// A load on a body.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +50,7 @@ pub enum Load<'a> {
     /// A spring to another body.
     Bond(BondEnd<'a>),
     /// Another body that it meets.
-    Pair(PairEnd<'a>),
+    Pair(PairAt<'a>),
     /// An affine moment.
     Couple(&'a Couple),
     /// What a controller applies.
@@ -41,7 +66,7 @@ impl<'a> Load<'a> {
     #[inline]
     pub fn try_each<E>(
         body: &'a Body,
-        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = PairEnd<'a>>),
+        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = PairAt<'a>>),
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
@@ -96,7 +121,7 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
-            Self::Pair(end) => pair_works(&end.interaction.form.laws).collect(),
+            Self::Pair(pair) => pair_works(&pair.end.interaction.form.laws).collect(),
             Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],

@@ -11,7 +11,7 @@ use crate::body::Body;
 use crate::contractile;
 use crate::dynamics::{Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, stored_energy};
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, Instant, KindAt};
+use crate::instant::{BodyAt, Instant, KindAt, MotionAt};
 use crate::kinematics::Velocity;
 use crate::ledger::Energy;
 use crate::model::Model;
@@ -62,7 +62,7 @@ pub fn observe(
     index: usize,
 ) -> Result<BodyObservation, Inadmissible> {
     let (instant, scratch) = workspace.read(model, state)?;
-    let at = instant.at(model, index);
+    let at = instant.at(index);
     let acting = acting(&at, scratch)?;
     observe_at(&at, &acting, scratch)
 }
@@ -86,7 +86,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result
             (balance.pressure, Some(effort))
         }
     };
-    let BodyAt { body, motion, .. } = *at;
+    let MotionAt { body, motion, .. } = **at;
     let BodyMotion { placement, velocity } = motion;
     let affine_momentum = placement.gradient * body.solid.mass.euler_tensor * velocity.gradient_rate.transpose();
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
@@ -109,7 +109,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result
 /// [`Inadmissible`] where the state is outside the model.
 pub fn gaps(model: &Model, workspace: &mut Workspace, state: &State) -> Result<Vec<f64>, Inadmissible> {
     let (instant, scratch) = workspace.read(model, state)?;
-    (0..model.bodies.len()).map(|index| gap_at(&instant.at(model, index), scratch)).collect()
+    (0..model.bodies.len()).map(|index| gap_at(&instant.at(index), scratch)).collect()
 }
 
 /// The speed of a body's fastest material point [m/s].
@@ -144,23 +144,19 @@ pub fn energies(
     values: &mut [f64],
 ) -> Result<(), Inadmissible> {
     let (instant, scratch) = workspace.read(model, state)?;
-    energies_at(model, instant, scratch, values)
+    energies_at(&instant, scratch, values)
 }
 
 /// The energies [J] of all bodies together at an instant, in the order of `Model::energies`.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
-pub fn energies_at(
-    model: &Model,
-    instant: &Instant,
-    scratch: &mut Scratch,
-    values: &mut [f64],
-) -> Result<(), Inadmissible> {
+pub fn energies_at(instant: &Instant, scratch: &mut Scratch, values: &mut [f64]) -> Result<(), Inadmissible> {
+    let model = instant.model();
     for (energy, value) in model.energies().iter().zip(values) {
         *value = 0.0;
         for index in 0..model.bodies.len() {
-            let at = instant.at(model, index);
+            let at = instant.at(index);
             *value += match energy {
                 Energy::Kinetic => kinetic_energy(at.body, at.motion),
                 Energy::Gravity => -at.body.solid.mass.mass * model.gravity.dot(&at.motion.placement.position),

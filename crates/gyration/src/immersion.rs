@@ -13,7 +13,7 @@ use crate::body::Slots;
 use crate::dynamics::{RigidHistory, RigidImmersion, Scratch, body_rates, immersion};
 use crate::fluid::{Fluid, Immersed};
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, KindAt};
+use crate::instant::{BodyAt, KindAt, MotionAt};
 use crate::state::{BodyMotion, Turn};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 
@@ -100,7 +100,7 @@ fn history_reaction(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<(
     ))
 }
 
-fn deformable(at: &BodyAt, fluid: &Fluid) -> Result<Option<Tractions>, Inadmissible> {
+fn deformable(at: &MotionAt, fluid: &Fluid) -> Result<Option<Tractions>, Inadmissible> {
     let Some(immersed) = immersion(at)? else { return Ok(None) };
     let (axes, squares) = immersed.principal();
     Ok(Some(Tractions {

@@ -2,7 +2,7 @@
 //!
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
-use crate::acting::{Load, PAIR_ENERGY, PairEnd, pair_works};
+use crate::acting::{Load, PAIR_ENERGY, PairAt, pair_works};
 use crate::body::{Body, Slots, Solid};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
@@ -274,7 +274,7 @@ impl Model {
     pub(crate) fn try_each_load_with<'a, E>(
         &'a self,
         index: usize,
-        pairs: impl Iterator<Item = PairEnd<'a>>,
+        pairs: impl Iterator<Item = PairAt<'a>>,
         each: impl FnMut(Load<'a>) -> Result<(), E>,
     ) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());

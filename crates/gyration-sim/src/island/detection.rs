@@ -4,12 +4,14 @@
 //! Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
 //! samples have a part in this.
 
+use crate::adapter::ModelSystem;
 use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
 use crate::island::Island;
 use crate::island::step_end::StepEnd;
 use crate::outcome::Stop;
 use gyration::balance::observe;
-use gyration::dynamics::{PairGaps, acting};
+use gyration::dynamics::acting;
+use gyration::instant::PairGaps;
 use gyration::state::{BodyMotion, State};
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
@@ -21,7 +23,7 @@ impl Island {
     pub fn signals(&self, body: usize) -> Signals {
         let (model, time) = (self.model(), self.time());
         let (motion, speed) = (self.step_ends[body].motion, self.system.speed_scale(body));
-        let [apex, approach] = self.motion_signals(body, time, (&motion, &self.gaps));
+        let [apex, approach] = motion_signals(&self.system, (body, time), &motion, self.system.step_end_gaps());
         [apex, approach, events::lift_off(model, body, self.forces[body], speed)]
     }
 
@@ -42,24 +44,22 @@ impl Island {
         let Ok((instant, scratch)) = workspace.read(model, &self.sampled) else { return };
         let unknown = |body: usize, force: f64| force.is_nan() && model.has_contact(body);
         for (body, force) in self.forces.iter_mut().enumerate().filter(|(body, force)| unknown(*body, **force)) {
-            *force = acting(&instant.at(model, body), scratch).map_or(f64::NAN, |acting| acting.contact.force.norm());
+            *force = acting(&instant.at(body), scratch).map_or(f64::NAN, |acting| acting.contact.force.norm());
         }
     }
 
     /// Finds the planes between its bodies after the last step, from which those of the next begin.
     pub fn find_gaps(&mut self) {
-        let Self { system, integrator, gaps, .. } = self;
+        let Self { system, integrator, .. } = self;
         let (model, workspace) = system.observed();
         // Where no plane is found there are no rates either: the next step stops the run with that.
-        if workspace.remember_pairs(model, (integrator.time(), integrator.state().into()), gaps).is_err() {
-            gaps.clear();
-        }
+        let _ = workspace.remember_pairs(model, integrator.time(), integrator.state().into());
     }
 
     /// The stop of an island in which two bodies touch, as far as digits tell: what would follow is made of rounding.
     pub fn touch(&self) -> Option<Stop> {
         let model = self.model();
-        self.gaps.iter().find_map(|(pair, slab)| {
+        self.system.step_end_gaps()?.iter().find_map(|(pair, slab)| {
             let size = pair.bodies.map(|body| model.bodies[body].size).into_iter().fold(f64::INFINITY, f64::min);
             let gap = pair.form.touch(slab, size)?;
             Some(Stop::by_touch(model, self.time(), pair.bodies, gap, size))
@@ -76,35 +76,45 @@ impl Island {
             if part < PARTS {
                 let State { bodies, low, works, .. } = &mut self.sampled;
                 self.integrator.interpolate_extended(time, bodies, works, Some(low));
-                let (model, workspace) = self.system.observed();
-                let sampled = (time, self.sampled.bodies.as_slice().into());
-                if workspace.pair_gaps(model, sampled, &mut self.sampled_gaps).is_err() {
-                    self.sampled_gaps.clear();
-                }
+                self.find_signals_within(time);
             } else {
                 self.find_forces();
+                self.find_signals();
             }
             for body in 0..self.step_ends.len() {
-                let signals = if part == PARTS { self.signals(body) } else { self.signals_within(body, time) };
-                self.compare(body, time, &signals);
+                self.compare(body, time);
             }
         }
         self.events[before..].sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 
-    /// The signals of a body in the sampled state, but for the one that needs a force.
-    fn signals_within(&self, body: usize, time: f64) -> Signals {
-        let motion = self.sampled.motion(self.model(), body);
-        let [apex, approach] = self.motion_signals(body, time, (&motion, &self.sampled_gaps));
-        [apex, approach, f64::NAN]
+    /// The signals of all bodies at the end of the step.
+    fn find_signals(&mut self) {
+        let mut signals = std::mem::take(&mut self.signals);
+        signals.clear();
+        signals.extend((0..self.step_ends.len()).map(|body| self.signals(body)));
+        self.signals = signals;
+    }
+
+    /// The signals of all bodies in the sampled state, but for the one that needs a force.
+    fn find_signals_within(&mut self, time: f64) {
+        let Self { system, sampled, signals, .. } = self;
+        let (system, gaps) = system.gaps_at(time, &sampled.bodies);
+        signals.clear();
+        signals.extend((0..system.model().bodies.len()).map(|body| {
+            let motion = sampled.motion(system.model(), body);
+            let [apex, approach] = motion_signals(system, (body, time), &motion, gaps);
+            [apex, approach, f64::NAN]
+        }));
     }
 
     /// Compares the signals of a body with the last significant ones, and collects the events between.
-    fn compare(&mut self, body: usize, time: f64, signals: &Signals) {
-        for (kind, after) in signals.iter().enumerate().filter(|(_, after)| events::is_significant(**after)) {
-            let before = std::mem::replace(&mut self.state.signals[body][kind], *after);
+    fn compare(&mut self, body: usize, time: f64) {
+        let signals = self.signals[body].into_iter().enumerate();
+        for (kind, after) in signals.filter(|(_, after)| events::is_significant(*after)) {
+            let before = std::mem::replace(&mut self.state.signals[body][kind], after);
             let since = std::mem::replace(&mut self.since[body][kind], time);
-            if events::happened(kind, before, *after) {
+            if events::happened(kind, before, after) {
                 let event = Event { time: self.locate(body, kind, since, time), kind, body: self.members()[body] };
                 self.events.push(event);
             }
@@ -114,7 +124,7 @@ impl Island {
     /// The time of an event between two times of the last step [s].
     fn locate(&mut self, body: usize, kind: usize, since: f64, until: f64) -> f64 {
         let speed = self.system.speed_scale(body);
-        let Self { system, sampled: state, sampled_gaps: gaps, integrator, .. } = self;
+        let Self { system, sampled: state, integrator, .. } = self;
         let (model, workspace) = system.observed();
         let (this, slots) = (&model.bodies[body], model.slots(body));
         let signal = |time: f64, bodies: &[f64], _: &[f64]| {
@@ -130,9 +140,7 @@ impl Island {
                     events::lift_off(model, body, seen.map_or(f64::NAN, |seen| seen.contact_force.norm()), speed)
                 }
                 _ => {
-                    if workspace.pair_gaps(model, (time, bodies.into()), gaps).is_err() {
-                        gaps.clear();
-                    }
+                    let gaps = workspace.pair_gaps(model, time, bodies.into()).ok();
                     events::approach(model, time, body, (&motion(), gaps), speed)
                 }
             }
@@ -140,11 +148,17 @@ impl Island {
         let direction = if events::rises(kind) { CrossingDirection::Rising } else { CrossingDirection::Falling };
         find_crossing(integrator, (since, until), signal, direction, 1).unwrap_or(until)
     }
+}
 
-    fn motion_signals(&self, body: usize, time: f64, (motion, gaps): (&BodyMotion, &PairGaps)) -> [f64; 2] {
-        let (model, speed) = (self.model(), self.system.speed_scale(body));
-        [events::apex(model, body, motion, speed), events::approach(model, time, body, (motion, gaps), speed)]
-    }
+/// Those signals of a body that follow from its motion and from the slabs between bodies, as far as these are known.
+fn motion_signals(
+    system: &ModelSystem,
+    (body, time): (usize, f64),
+    motion: &BodyMotion,
+    gaps: Option<&PairGaps>,
+) -> [f64; 2] {
+    let (model, speed) = (system.model(), system.speed_scale(body));
+    [events::apex(model, body, motion, speed), events::approach(model, time, body, (motion, gaps), speed)]
 }
 
 /// The end of a part of a step [s].

@@ -17,7 +17,7 @@ use crate::island::approach::{Approach, may_meet};
 use crate::island::step_end::StepEnd;
 use gyration::body::Solid;
 use gyration::contact::RelativeMotion;
-use gyration::dynamics::PairGaps;
+use gyration::instant::PairGaps;
 use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::neighbours::{BodyPair, Pair};
@@ -61,7 +61,7 @@ struct PlaneApproach<'a> {
 pub(crate) fn horizon(
     model: &Model,
     time: f64,
-    (ends, gaps): (&[StepEnd], &PairGaps),
+    (ends, gaps): (&[StepEnd], Option<&PairGaps>),
     radii: &[f64],
     (usual, longest): (f64, f64),
 ) -> f64 {
@@ -84,6 +84,8 @@ pub(crate) fn horizon(
             });
         }
     }
+    // Where a plane was not found there are no rates either, and the next step stops the run with that.
+    let Some(gaps) = gaps else { return step };
     for (pair, slab) in gaps.iter() {
         let both = pair.bodies.map(|body| &ends[body]);
         match (slab.gap < f64::INFINITY, pair.form.reach) {

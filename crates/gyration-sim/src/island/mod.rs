@@ -19,11 +19,10 @@ pub(crate) mod step_end;
 mod within;
 
 use crate::adapter::ModelSystem;
-use crate::events::Event;
+use crate::events::{Event, Signals};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
-use gyration::dynamics::PairGaps;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
@@ -61,16 +60,14 @@ pub(crate) struct Island {
     pub state: IslandState,
     /// The bodies at the end of the last step.
     pub step_ends: Vec<StepEnd>,
-    /// The gaps of its pairs of bodies there.
-    pub gaps: PairGaps,
-    /// The same in the sampled state.
-    pub sampled_gaps: PairGaps,
     /// A state within the last step; scratch between samples.
     pub sampled: State,
     /// |f| of the contacts of each body after the last step [N].
     pub forces: Vec<f64>,
     /// Events that are not handed on yet, in order of time.
     pub events: Vec<Event>,
+    /// Scratch: the signals of each body at a time within the step.
+    pub signals: Vec<Signals>,
     /// Scratch: since when each signal of each body is known within the step [s].
     pub since: Vec<[f64; 3]>,
     /// The last step.
@@ -118,11 +115,10 @@ impl Island {
             integrator,
             state,
             step_ends: Vec::new(),
-            gaps: PairGaps::default(),
-            sampled_gaps: PairGaps::default(),
             sampled: State { low: vec![0.0; own.bodies.len()], ..own },
             forces: Vec::new(),
             events: Vec::new(),
+            signals: Vec::new(),
             since: Vec::new(),
             report: None,
             window_steps: 0,
@@ -330,7 +326,8 @@ impl Island {
         if end <= time {
             end = plan.end;
         }
-        let (ends, lengths) = ((&self.step_ends[..], &self.gaps), (self.integrator.next_size(), end - time));
+        let (ends, lengths) =
+            ((&self.step_ends[..], self.system.step_end_gaps()), (self.integrator.next_size(), end - time));
         let horizon = horizon(self.model(), time, ends, self.system.radii(), lengths);
         let target = time + horizon;
         // A horizon lost in rounding is no horizon: the domain of the rates then ends the run.

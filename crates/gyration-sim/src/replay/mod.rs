@@ -88,7 +88,7 @@ impl Replay {
             if body.affine().is_none() {
                 return Ok(None);
             }
-            let at = instant.at(model, index);
+            let at = instant.at(index);
             let acting = acting(&at, scratch).map_err(outside)?;
             let seen = observe_homogeneous(&at, &acting, scratch, &Vec3::zeros()).map_err(outside)?;
             Ok(Some(seen.cauchy_stress))
@@ -105,7 +105,7 @@ impl Replay {
         let Self { model, workspace, .. } = self;
         let outside = |source| ReplayError::Inadmissible { row, source };
         let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
-        let parts = |index| contact_parts(&instant.at(model, index), scratch).map_err(outside);
+        let parts = |index| contact_parts(&instant.at(index), scratch).map_err(outside);
         (0..model.bodies.len()).map(parts).collect()
     }
 }

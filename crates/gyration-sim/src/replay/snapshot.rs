@@ -51,7 +51,7 @@ impl<'a> Snapshot<'a> {
     pub fn body(&self, body: usize) -> BodySnapshot<'a> {
         // Of a state outside the model nothing better is known.
         let mut workspace = Workspace::default();
-        let read = workspace.read(self.model, &self.state).map(|(instant, _)| *instant.at(self.model, body).motion);
+        let read = workspace.read(self.model, &self.state).map(|(instant, _)| *instant.at(body).motion);
         let motion = read.unwrap_or_else(|_| self.state.motion(self.model, body));
         BodySnapshot { model: self.model, row: self.row, time: self.state.time, body, motion }
     }

@@ -94,7 +94,7 @@ impl Fields {
         row.clear();
         let (instant, scratch) = workspace.read(model, state)?;
         for index in 0..model.bodies.len() {
-            let at = instant.at(model, index);
+            let at = instant.at(index);
             let acting = acting(&at, scratch)?;
             bodies.push(observe_at(&at, &acting, scratch)?);
             if let Some(origin) = &self.origin {
@@ -124,7 +124,7 @@ impl Fields {
         }
         let ledger = row.len();
         row.resize(ledger + model.energies().len(), 0.0);
-        energies_at(model, instant, scratch, &mut row[ledger..])?;
+        energies_at(&instant, scratch, &mut row[ledger..])?;
         let energy = row[ledger..].iter().sum();
         let residual = residual(energy, initial, &state.works);
         row.extend(&state.works);

@@ -90,7 +90,7 @@ impl RunSummary {
         let bodies = (0..model.bodies.len())
             .filter_map(|index| {
                 let (instant, scratch) = read.as_mut()?;
-                let at = instant.at(model, index);
+                let at = instant.at(index);
                 let acting = acting(&at, scratch).ok()?;
                 let seen = observe_at(&at, &acting, scratch).ok()?;
                 let k = seen.affine_momentum;

@@ -5,7 +5,7 @@
 use super::laws::LawSurvey;
 use super::reach_change::ReachChange;
 use crate::format::significant;
-use gyration::dynamics::{PairGaps, Workspace};
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::neighbours::Pair;
 use gyration::state::State;
@@ -46,11 +46,11 @@ pub struct MeetingSurvey {
 impl MeetingSurvey {
     /// The meetings of a model, in order; of very many the first of each contact and those within reach at the start.
     pub fn all(model: &Model, start: &State) -> Vec<Self> {
-        let mut gaps = PairGaps::default();
+        let mut workspace = Workspace::default();
         // A scene whose bodies reach each other at the start has been refused; of very many pairs the last ones may not
         // have been looked at in time.
-        let _ = Workspace::default().pair_gaps(model, (start.time, start.numbers()), &mut gaps);
-        let near = || gaps.iter().filter(|(_, slab)| slab.gap < f64::INFINITY);
+        let _ = workspace.pair_gaps(model, start.time, start.numbers());
+        let near = || workspace.found_gaps().iter().filter(|(_, slab)| slab.gap < f64::INFINITY);
         let known: HashMap<_, f64> = near().map(|(pair, slab)| (pair.key(), slab.gap)).collect();
         let of = |pair: &Pair| Self::of(model, start, pair, known.get(&pair.key()).copied());
         if model.count_pairs()[0] <= MOST_LISTED {

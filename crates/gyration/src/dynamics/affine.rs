@@ -5,14 +5,14 @@
 use super::loads::Acting;
 use crate::affine::{AffineBalance, AffineBody, Gyration};
 use crate::body::{Affine, Slots};
-use crate::instant::BodyAt;
+use crate::instant::MotionAt;
 use crate::ledger::Work;
 use crate::load::Loads;
 use crate::tensor::Mat3;
 
 /// The affine moment of some loads about the centre of mass, or about the pin.
 #[inline]
-pub(crate) fn moment(at: &BodyAt, loads: &Loads) -> Mat3 {
+pub(crate) fn moment(at: &MotionAt, loads: &Loads) -> Mat3 {
     match &at.body.pin {
         None => loads.moment,
         Some(pin) => loads.moment - (loads.force + at.body.solid.mass.mass * at.model.gravity) * pin.point.transpose(),
@@ -21,7 +21,7 @@ pub(crate) fn moment(at: &BodyAt, loads: &Loads) -> Mat3 {
 
 /// P̈, stress and pressure of an affine body under some loads.
 #[inline]
-pub(crate) fn balance(at: &BodyAt, affine: &Affine, gyration: &Gyration, loads: &Loads) -> AffineBalance {
+pub(crate) fn balance(at: &MotionAt, affine: &Affine, gyration: &Gyration, loads: &Loads) -> AffineBalance {
     let mut balance = affine.interior.balance(gyration, &moment(at, loads));
     if let Some(pressure) = &mut balance.pressure {
         let excess = excess(at, &affine.interior, gyration, &balance.acceleration);
@@ -33,7 +33,7 @@ pub(crate) fn balance(at: &BodyAt, affine: &Affine, gyration: &Gyration, loads: 
 
 /// λ/V, by which the pressure that keeps det P is less where the body has no inertia \[Pa\]: P̈ = λ Y is then no
 /// acceleration but what that pressure takes back.
-pub(super) fn excess(at: &BodyAt, interior: &AffineBody, gyration: &Gyration, acceleration: &Mat3) -> f64 {
+pub(super) fn excess(at: &MotionAt, interior: &AffineBody, gyration: &Gyration, acceleration: &Mat3) -> f64 {
     if at.body.has_inertia() {
         return 0.0;
     }
@@ -45,7 +45,7 @@ pub(super) fn excess(at: &BodyAt, interior: &AffineBody, gyration: &Gyration, ac
 /// Solves the balance for the rates, and adds the powers of friction and constraint.
 #[inline]
 pub(super) fn fill(
-    at: &BodyAt,
+    at: &MotionAt,
     affine: &Affine,
     gyration: &Gyration,
     acting: &mut Acting,
@@ -63,7 +63,7 @@ pub(super) fn fill(
 
 /// Writes the rates of p₀, P, ṗ₀ and Ṗ, those of the velocities from the force and P̈.
 #[inline]
-pub(super) fn write(at: &BodyAt, acting: &Acting, acceleration: &Mat3, slots: &Slots, rates: &mut [f64]) {
+pub(super) fn write(at: &MotionAt, acting: &Acting, acceleration: &Mat3, slots: &Slots, rates: &mut [f64]) {
     let velocity = &at.motion.velocity;
     if at.body.pin.is_none() {
         let linear = at.model.gravity + acting.total.force / at.body.solid.mass.mass;

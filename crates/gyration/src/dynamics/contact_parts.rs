@@ -49,11 +49,9 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
                     parts.add(&force, &normal);
                 }
             }
-            Load::Pair(end) => {
-                let pair = scratch.pairs.loads(end.number);
-                let force = pair.on[end.end].force;
-                // n points from the second body to the first.
-                parts.add(&force, &if end.end == 0 { pair.normal } else { -pair.normal });
+            Load::Pair(pair) => {
+                let force = pair.on_body().force;
+                parts.add(&force, &pair.normal());
                 parts.of_bodies += force;
             }
             Load::Spring(..)

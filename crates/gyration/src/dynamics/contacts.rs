@@ -1,11 +1,11 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
 use crate::body::Body;
-use crate::contact::{Contact, Deformation, Meeting, Partner, RelativeMotion};
+use crate::contact::{Contact, Meeting, Partner, RelativeMotion};
 use crate::contractile::Nearest;
 use crate::extended::{Extended, rotated_back};
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::{BodyAt, KindAt};
+use crate::instant::{KindAt, MotionAt};
 use crate::model::Model;
 use crate::state::BodyMotion;
 use crate::support::Support;
@@ -15,18 +15,18 @@ use crate::tensor::Vec3;
 /// Hands a contact of a body to `integrate`, unless a gap is closed; none without a surface.
 #[inline]
 pub(super) fn meet<T>(
-    at: &BodyAt,
+    at: &MotionAt,
     contact: &Contact,
     integrate: impl FnOnce(&Meeting) -> Result<T, GapClosed>,
 ) -> Result<Option<T>, Inadmissible> {
-    let BodyAt { model, body, motion, .. } = at;
+    let MotionAt { model, body, motion, .. } = at;
     let Some(surface) = &body.solid.surface else { return Ok(None) };
     let Partner::Support(index) = contact.partner;
     let support = &model.supports[index];
     let field = gap_field(at, surface, support);
     let result = if surface.is_above(&field, body.least_gap(&field)) {
         let motion = RelativeMotion::to(support, &motion.velocity, at.time);
-        integrate(&Meeting { surface, field, motion, deformation: deformation(at) }).map(Some)
+        integrate(&Meeting { surface, field, motion, deformation: at.deformation() }).map(Some)
     } else {
         Err(GapClosed { gap: surface.smallest_gap(&field).0 })
     };
@@ -35,7 +35,7 @@ pub(super) fn meet<T>(
 
 /// The gap to a support: to twice the digits where it is small and the surface can use them.
 #[inline]
-fn gap_field(at: &BodyAt, surface: &Surface, support: &Support) -> GapField {
+fn gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> GapField {
     let field = support.gap_field(&at.motion.placement, at.time);
     if at.numbers.low.is_empty() || surface.is_above(&field, at.body.near_gap(&field)) {
         return field;
@@ -45,8 +45,8 @@ fn gap_field(at: &BodyAt, surface: &Surface, support: &Support) -> GapField {
 
 /// g₀ = (p₀ − o(t))·n and m = Pᵀn to twice the digits, of a body that keeps them; a pinned one has p₀ = a − P r.
 #[cold]
-fn extended_gap_field(at: &BodyAt, surface: &Surface, support: &Support) -> Option<GapField> {
-    let BodyAt { model, body, index, time, numbers, .. } = *at;
+fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Option<GapField> {
+    let MotionAt { model, body, index, time, numbers, .. } = *at;
     if !body.keeps_digits(surface) {
         return None;
     }
@@ -73,21 +73,14 @@ fn extended_gap_field(at: &BodyAt, surface: &Surface, support: &Support) -> Opti
 }
 
 /// The velocity with which the partner of a contact is moved [m/s].
-pub(super) fn carrying(at: &BodyAt, contact: &Contact) -> Vec3 {
+pub(super) fn carrying(at: &MotionAt, contact: &Contact) -> Vec3 {
     let Partner::Support(index) = contact.partner;
     at.model.supports[index].motion.velocity(at.time)
 }
 
-/// How the body takes its surface along; none of a rigid one.
-#[inline]
-pub(super) fn deformation(at: &BodyAt) -> Option<Deformation> {
-    let gyration = at.gyration()?;
-    Some(Deformation { inverse: gyration.inverse, cofactor: gyration.volume_ratio * gyration.inverse.transpose() })
-}
-
 /// The smallest distance of a body to a support that it has a contact with [m], to all the digits of the state;
 /// infinite without one.
-pub(super) fn support_gap_at(at: &BodyAt) -> f64 {
+pub(super) fn support_gap_at(at: &MotionAt) -> f64 {
     least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support))
 }
 

@@ -11,7 +11,7 @@ use crate::contractile::{
     ContractileBalance, ContractileSlopes, ContractionCommand, ContractionSource, Decomposition, Feedback, Felt, Pull,
     velocity_of,
 };
-use crate::instant::BodyAt;
+use crate::instant::MotionAt;
 use crate::ledger::Work;
 use crate::load::Loads;
 use crate::simd::F64x4;
@@ -20,7 +20,7 @@ use crate::tensor::Mat3;
 /// A contractile body at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContractileMotion<'a> {
-    pub at: &'a BodyAt<'a>,
+    pub at: &'a MotionAt<'a>,
     pub contractile: &'a Contractile,
     pub gyration: &'a Gyration,
     pub decomposition: &'a Decomposition,
@@ -51,7 +51,7 @@ impl<'a> ContractileMotion<'a> {
 
     /// The measures of the parts that answer to the body, and what they are for.
     pub fn felt(&self) -> impl Iterator<Item = (Felt, &'a Feedback)> {
-        let BodyAt { model, time, index, motion, .. } = *self.at;
+        let MotionAt { model, time, index, motion, .. } = *self.at;
         let near = move || nearest(model, time, index, motion);
         let parts = self.contractile.contraction.feedback().iter();
         parts.map(move |part| (part.measure.of(&motion.placement, &motion.velocity, near), part))

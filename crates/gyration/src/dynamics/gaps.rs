@@ -3,9 +3,8 @@
 
 use super::Scratch;
 use super::contacts::support_gap_at;
-use super::pairs::{outside, with_sides};
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::BodyAt;
+use crate::instant::{BodyAt, outside, with_sides};
 use crate::model::PATIENCE;
 use crate::neighbours::Pair;
 use crate::pair::PairLoads;
@@ -42,10 +41,9 @@ pub fn gap_at(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
 /// [`Inadmissible`] if no plane separates two bodies.
 fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
     let (near, rules) = (at.near(), at.model.rules());
-    let within = near.pairs().of(at.index).filter(|end| at.is_within_reach(end));
-    let smallest = within.map(|end| scratch.pairs.loads(end.number).gap).fold(f64::INFINITY, f64::min);
+    let smallest = at.pairs().map(|pair| pair.loads.gap).fold(f64::INFINITY, f64::min);
     let mut search = Search { at, scratch, smallest, looked: 0 };
-    let far = || near.pairs().of(at.index).filter(|end| !at.is_within_reach(end)).map(|end| end.interaction);
+    let far = || near.pairs().of(at.index).filter(|end| at.place(end).is_none()).map(|end| end.interaction);
     // The nearest of them leaves few of the others.
     let nearest = far().min_by(|one, other| search.least(one).total_cmp(&search.least(other)));
     if let Some(pair) = nearest {
@@ -123,7 +121,7 @@ impl Search<'_, '_> {
         }
         let found = with_sides(pair, &bodies, |sides| {
             // A plane of least potential may be beyond the digits of a number.
-            let found = PairLoads::integrate(&pair.form, sides, None, &mut self.scratch.pairs.room);
+            let found = PairLoads::integrate(&pair.form, sides, None, &mut self.scratch.pairs);
             found.or_else(|_| PairLoads::nothing(&pair.form, sides))
         });
         found.map(|loads| loads.gap).map_err(|fault| outside(one, pair, fault))

@@ -6,7 +6,7 @@
 
 use crate::body::{RigidInertia, Slots};
 use crate::fluid::{History, HistoryLoads};
-use crate::instant::BodyAt;
+use crate::instant::MotionAt;
 use crate::load::Wrench;
 use crate::state::Turn;
 use crate::tensor::{Mat3, Vec3};
@@ -14,7 +14,7 @@ use crate::tensor::{Mat3, Vec3};
 /// Such a sphere at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RigidHistory<'a> {
-    pub at: &'a BodyAt<'a>,
+    pub at: &'a MotionAt<'a>,
     pub history: &'a History,
     pub loads: HistoryLoads,
     pub turn: &'a Turn,
@@ -24,8 +24,8 @@ pub(crate) struct RigidHistory<'a> {
 
 impl<'a> RigidHistory<'a> {
     /// None if the fluid forgets how the body moved.
-    pub fn of(at: &'a BodyAt<'a>, turn: &'a Turn) -> Option<Self> {
-        let BodyAt { model, time, body, motion, .. } = *at;
+    pub fn of(at: &'a MotionAt<'a>, turn: &'a Turn) -> Option<Self> {
+        let MotionAt { model, time, body, motion, .. } = *at;
         let fluid = model.fluid.as_deref()?;
         let history = body.history()?;
         let flow = fluid.flow(time);

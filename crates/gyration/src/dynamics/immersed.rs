@@ -2,7 +2,7 @@
 
 use crate::fluid::{Form, Immersed, RigidDrag, UnresolvedForm};
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, KindAt};
+use crate::instant::{KindAt, MotionAt};
 use crate::load::{Loads, Wrench, WrenchSlope};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 
@@ -11,7 +11,7 @@ use crate::tensor::{Mat3, Vec3, cross_matrix};
 /// # Errors
 /// [`Inadmissible`] where the resistance of its form is not known.
 #[inline]
-pub(crate) fn immersion<'a>(at: &BodyAt<'a>) -> Result<Option<Immersed<'a>>, Inadmissible> {
+pub(crate) fn immersion<'a>(at: &MotionAt<'a>) -> Result<Option<Immersed<'a>>, Inadmissible> {
     let (Some(fluid), Some(inclusion)) = (&at.model.fluid, &at.body.inclusion) else { return Ok(None) };
     let Some(gyration) = at.gyration() else { return Ok(None) };
     let around = (&**fluid, &fluid.flow(at.time), &at.model.gravity);
@@ -34,8 +34,8 @@ pub(crate) struct RigidImmersion<'a> {
 
 impl<'a> RigidImmersion<'a> {
     /// None if the body is not immersed.
-    pub fn of(at: &BodyAt<'a>) -> Option<Self> {
-        let BodyAt { model, body, motion, .. } = at;
+    pub fn of(at: &MotionAt<'a>) -> Option<Self> {
+        let MotionAt { model, body, motion, .. } = at;
         let (fluid, inclusion) = (model.fluid.as_deref()?, body.inclusion.as_ref()?);
         let (Form::Fixed(form), KindAt::Rigid(_, turn)) = (&inclusion.form, at.kind()) else { return None };
         let flow = fluid.flow(at.time);

@@ -20,8 +20,7 @@ use super::powers::Powers;
 use crate::body::{Slots, matrix};
 use crate::contractile::ContractionCommand;
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::{BodyAt, Instant, KindAt};
-use crate::model::Model;
+use crate::instant::{BodyAt, Instant, KindAt, MotionAt};
 use crate::tensor::Mat3;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
@@ -71,7 +70,7 @@ struct Kept {
 
 impl Kept {
     /// None where the volume is free, or where the law of contraction gives the pressure.
-    fn of(at: &BodyAt) -> Option<Self> {
+    fn of(at: &MotionAt) -> Option<Self> {
         let (affine, gyration, growth) = match at.kind() {
             KindAt::Rigid(..) => return None,
             KindAt::Affine(affine, gyration) => (affine, gyration, 0.0),
@@ -150,18 +149,17 @@ fn without_resistance(index: usize) -> Inadmissible {
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model, or where nothing resists the motion.
 pub(super) fn solve_balance(
-    model: &Model,
     instant: &mut Instant,
     scratch: &mut Scratch,
     index: usize,
 ) -> Result<Settled, Inadmissible> {
-    let body = &model.bodies[index];
-    let slots = Slots::with_inertia(body, 0);
+    let at = instant.at(index);
+    let model = at.model;
+    let slots = Slots::with_inertia(at.body, 0);
     let mut numbers = [0.0; NUMBERS];
     numbers[slots.places()].copy_from_slice(&instant.state()[model.slots(index).places()]);
     numbers[slots.extra()].copy_from_slice(&instant.state()[model.slots(index).extra()]);
     let mut rates = [0.0; NUMBERS];
-    let at = instant.at(model, index);
     body_rates(&at, &slots, scratch, &mut rates)?;
     let kept = Kept::of(&at);
     let mut jacobian = scratch.take(slots.block().len());
@@ -172,21 +170,20 @@ pub(super) fn solve_balance(
     let growth = kept.as_ref().map_or(0.0, |kept| kept.growth);
     let velocities = solver.velocities(&rates[slots.velocities()], growth).ok_or_else(|| without_resistance(index))?;
     numbers[slots.velocities()].copy_from_slice(&velocities.as_slice()[..slots.velocities().len()]);
-    instant.read_body(body, index, &slots, &numbers)?;
-    let done = body_rates(&instant.at(model, index), &slots, scratch, &mut rates)?;
+    instant.set_motion(index, &slots, &numbers)?;
+    let done = body_rates(&instant.at(index), &slots, scratch, &mut rates)?;
     Ok(Settled { slots, numbers, rates, done })
 }
 
 /// Fills the rates of a body without inertia.
 pub(super) fn fill(
-    model: &Model,
     instant: &mut Instant,
     scratch: &mut Scratch,
     index: usize,
     rates: &mut [f64],
 ) -> Result<Powers, Inadmissible> {
-    let Settled { slots: from, rates: found, done, .. } = solve_balance(model, instant, scratch, index)?;
-    let slots = model.slots(index);
+    let Settled { slots: from, rates: found, done, .. } = solve_balance(instant, scratch, index)?;
+    let slots = instant.model().slots(index);
     rates[slots.places()].copy_from_slice(&found[from.places()]);
     rates[slots.extra()].copy_from_slice(&found[from.extra()]);
     Ok(done)
@@ -195,14 +192,13 @@ pub(super) fn fill(
 /// Fills the derivatives of the rates of a body without inertia, by its own numbers and by those of bodies to which
 /// springs join it.
 pub(super) fn fill_jacobian(
-    model: &Model,
     instant: &mut Instant,
     scratch: &mut Scratch,
     index: usize,
     blocks: &mut (impl Blocks + ?Sized),
 ) -> Result<(), Inadmissible> {
-    let settled = solve_balance(model, instant, scratch, index)?;
-    let at = instant.at(model, index);
+    let settled = solve_balance(instant, scratch, index)?;
+    let at = instant.at(index);
     let mut jacobian = scratch.take(settled.slots.block().len());
     let filled = body_jacobian(&at, scratch, &mut jacobian);
     let kept = Kept::of(&at);
@@ -211,7 +207,7 @@ pub(super) fn fill_jacobian(
     let solved = filled.and_then(|()| {
         let own = blocks.block(index, index).map_or(Some(()), |matrix| columns.fill(&solver, matrix));
         own.ok_or_else(|| without_resistance(index))?;
-        columns.add_interactions((&at, scratch), &solver, blocks)
+        columns.add_interactions(&at, &solver, blocks)
     });
     scratch.matrices.push(jacobian);
     solved
@@ -229,14 +225,14 @@ impl Columns<'_> {
     /// so the velocities of its balance.
     fn add_interactions(
         &self,
-        (at, scratch): (&BodyAt, &Scratch),
+        at: &BodyAt,
         solver: &Solver,
         blocks: &mut (impl Blocks + ?Sized),
     ) -> Result<(), Inadmissible> {
         let slots = &self.settled.slots;
         let velocities = slots.velocities();
         let mut solved = Some(());
-        add_interactions(at, scratch, |other, coupling, lower, lift| {
+        add_interactions(at, |other, coupling, lower, lift| {
             let Some(matrix) = blocks.block(at.index, other) else { return };
             // A dashpot would make velocities follow velocities; there is none, and places alone enter.
             let (by_place, _) = coupling.accelerations(lower, lift);

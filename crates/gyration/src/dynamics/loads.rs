@@ -8,12 +8,13 @@ use super::Scratch;
 use super::contacts::{carrying, meet};
 use super::immersed::{RigidImmersion, immersion};
 use super::powers::Powers;
-use crate::acting::Load;
+use crate::acting::{Load, PairAt};
 use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::BodyAt;
+use crate::instant::{BodyAt, MotionAt};
 use crate::ledger::{Energy, Work};
 use crate::load::{BondEnd, LoadSlopes, Loads, Spring, SpringLoads};
+use crate::pair::PairSlopes;
 
 /// What acts on a body, gravity aside.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,7 +40,7 @@ pub fn acting(at: &BodyAt, scratch: &mut Scratch) -> Result<Acting, Inadmissible
 impl Acting {
     /// Adds a load.
     #[inline]
-    pub(super) fn add(&mut self, load: &Load, at: &BodyAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
+    pub(super) fn add(&mut self, load: &Load, at: &MotionAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
         let velocity = &at.motion.velocity;
         match load {
             Load::Contact(contact) => {
@@ -67,15 +68,14 @@ impl Acting {
                 }
                 self.total += loads.total();
             }
-            Load::Pair(end) => {
-                let pair = scratch.pairs.loads(end.number);
-                if end.counts() {
+            Load::Pair(pair) => {
+                if pair.end.counts() {
                     for law in LawKind::ALL {
-                        self.powers.add(law, pair.powers[law as usize]);
+                        self.powers.add(law, pair.loads.powers[law as usize]);
                     }
                 }
-                self.contact += pair.on[end.end];
-                self.total += pair.on[end.end];
+                self.contact += *pair.on_body();
+                self.total += *pair.on_body();
             }
             Load::Couple(couple) => {
                 let moment = couple.moment(at.time, &at.inverse());
@@ -106,7 +106,7 @@ impl Acting {
 
 /// f and M of the fluid; none where its form does not go with the kind of the body.
 #[inline]
-fn fluid(at: &BodyAt) -> Result<Option<Loads>, Inadmissible> {
+fn fluid(at: &MotionAt) -> Result<Option<Loads>, Inadmissible> {
     match at.gyration() {
         None => Ok(RigidImmersion::of(at).map(|immersed| immersed.loads(&at.motion.placement.gradient))),
         Some(gyration) => Ok(immersion(at)?.map(|immersed| immersed.loads(gyration))),
@@ -116,7 +116,7 @@ fn fluid(at: &BodyAt) -> Result<Option<Loads>, Inadmissible> {
 /// Adds the derivatives of a load by (p₀ | P) and their rates, and the load itself.
 pub(super) fn add_slopes(
     load: &Load,
-    at: &BodyAt,
+    at: &MotionAt,
     scratch: &mut Scratch,
     slopes: &mut LoadSlopes,
 ) -> Result<(), Inadmissible> {
@@ -130,11 +130,11 @@ pub(super) fn add_slopes(
         }
         Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
         Load::Bond(end) => slopes.add_spring(&bonded(at, end)?),
-        Load::Pair(end) => {
-            let pair = scratch.pairs.slopes(end.number);
-            slopes.loads += pair.on[end.end];
-            slopes.by_place += pair.by_place[end.end][end.end];
-            slopes.by_rate += pair.by_rate[end.end][end.end];
+        Load::Pair(pair) => {
+            let (own, found) = (pair.end.end, sloped(pair));
+            slopes.loads += *pair.on_body();
+            slopes.by_place += found.by_place[own][own];
+            slopes.by_rate += found.by_rate[own][own];
         }
         Load::Couple(couple) => {
             let inverse = at.inverse();
@@ -153,6 +153,11 @@ pub(super) fn add_slopes(
     Ok(())
 }
 
+/// The derivatives of a pair at an instant of which they were asked.
+pub(super) fn sloped<'a>(pair: &PairAt<'a>) -> &'a PairSlopes {
+    pair.slopes.unwrap_or_else(|| unreachable!("a Jacobian is that of an instant with derivatives"))
+}
+
 /// The energy [J] that the loads of a body store in one column of the ledger.
 ///
 /// # Errors
@@ -168,7 +173,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 }
                 Load::Spring(_, spring) => spring.energy(&at.motion.placement),
                 Load::Bond(end) => end.energy(&at.motion.placement, &at.other(end.other()).placement),
-                Load::Pair(end) if end.counts() => scratch.pairs.loads(end.number).energy,
+                Load::Pair(pair) if pair.end.counts() => pair.loads.energy,
                 Load::Pair(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
             };
         }
@@ -178,14 +183,14 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
 }
 
 /// The force of a spring.
-pub(super) fn stretched(at: &BodyAt, number: usize, spring: &Spring) -> Result<SpringLoads, Inadmissible> {
+pub(super) fn stretched(at: &MotionAt, number: usize, spring: &Spring) -> Result<SpringLoads, Inadmissible> {
     let loads = spring.loads(&at.motion.placement, &at.motion.velocity);
     let quantity = Quantity::SpringLength { spring: number };
     loads.ok_or_else(|| at.outside(quantity, spring.length(&at.motion.placement)))
 }
 
 /// The force of a bond on the body.
-pub(super) fn bonded(at: &BodyAt, end: &BondEnd) -> Result<SpringLoads, Inadmissible> {
+pub(super) fn bonded(at: &MotionAt, end: &BondEnd) -> Result<SpringLoads, Inadmissible> {
     let (own, other) = (at.motion, at.other(end.other()));
     let loads = end.loads((&own.placement, &own.velocity), (&other.placement, &other.velocity));
     let quantity = Quantity::BondLength { bond: end.number };

@@ -15,7 +15,6 @@ mod immersed;
 mod inertialess;
 mod jacobian;
 mod loads;
-mod pairs;
 mod powers;
 mod pushes;
 mod rates;
@@ -26,7 +25,6 @@ pub use contacts::{gap_to_supports, nearest};
 pub use gaps::gap_at;
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
-pub use pairs::PairGaps;
 pub use pushes::{Push, each_push};
 pub use rates::{jacobian, rates};
 
@@ -37,24 +35,26 @@ pub(crate) use history::RigidHistory;
 pub(crate) use immersed::{RigidImmersion, immersion};
 
 use crate::contact::ContactScratch;
+use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
-use crate::instant::Instant;
+use crate::instant::{Instant, Instants, PairGaps};
 use crate::model::Model;
+use crate::pair::PairScratch;
 use crate::state::State;
 use nalgebra::DMatrix;
 
 /// Memory of the mechanics, reused from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct Workspace {
-    instant: Instant,
+    instants: Instants,
     scratch: Scratch,
 }
 
-/// Room for the moments of contacts and for matrices.
+/// Room for the moments of contacts and pairs, and for matrices.
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
     pub(crate) contact: ContactScratch,
-    pub(crate) pairs: pairs::PairStates,
+    pub(crate) pairs: PairScratch,
     /// The Jacobians of bodies with inertia, by their number of rows.
     matrices: Vec<DMatrix<f64>>,
     numbers: Vec<f64>,
@@ -80,15 +80,45 @@ impl Workspace {
     ///
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
-    pub fn read(&mut self, model: &Model, state: &State) -> Result<(&Instant, &mut Scratch), Inadmissible> {
-        let Self { instant, scratch } = self;
-        instant.read(model, state.time, state.numbers())?;
-        pairs::find_planes(model, instant, scratch)?;
+    pub fn read<'a>(
+        &'a mut self,
+        model: &'a Model,
+        state: &State,
+    ) -> Result<(Instant<'a>, &'a mut Scratch), Inadmissible> {
+        let Self { instants, scratch } = self;
+        let mut instant = instants.read(model, state.time, state.numbers())?;
         for index in 0..model.bodies.len() {
             if !model.bodies[index].has_inertia() {
-                inertialess::solve_balance(model, instant, scratch, index)?;
+                inertialess::solve_balance(&mut instant, scratch, index)?;
             }
         }
         Ok((instant, scratch))
+    }
+
+    /// The slab between the bodies of each listed pair; infinite where they are out of reach.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates two of them.
+    pub fn pair_gaps(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
+        self.instants.slabs(model, time, state)
+    }
+
+    /// The slabs that were found last, of the pairs that were looked at until something failed.
+    pub fn found_gaps(&self) -> &PairGaps {
+        self.instants.found()
+    }
+
+    /// The slabs as if nothing were known, and from then on planes are looked for where they are then: what follows is
+    /// the same for whoever comes to this state.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates two of them; nothing is remembered then.
+    pub fn remember_pairs(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
+        self.instants.remember(model, time, state)
+    }
+
+    /// The slabs that are remembered; none if none are.
+    pub fn remembered_gaps(&self) -> Option<&PairGaps> {
+        self.instants.remembered()
     }
 }

@@ -9,8 +9,9 @@ use super::loads::{bonded, stretched};
 use crate::acting::Load;
 use crate::contact::ContactLoads;
 use crate::inadmissible::Inadmissible;
-use crate::instant::BodyAt;
+use crate::instant::{BodyAt, MotionAt};
 use crate::load::BondEnd;
+use crate::pair::PairLoads;
 
 /// One of the forces on a body that come from a support, a spring or another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,12 +46,12 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 each(Push { force, gap: spring.length(&at.motion.placement), rounding: 0.0 });
             }
             Load::Bond(end) => each(of_bond(at, &end)?),
-            Load::Pair(end) => {
-                let pair = scratch.pairs.loads(end.number);
-                let exponent = end.interaction.form.laws.repulsion.exponent;
-                let digits = 8.0 * (exponent - 1.0) + exponent * at.body.size / pair.gap;
-                let rounding = if end.counts() { digits * f64::EPSILON * pair.energy } else { 0.0 };
-                each(Push { force: pair.on[end.end].force.norm(), gap: pair.gap, rounding });
+            Load::Pair(pair) => {
+                let PairLoads { gap, energy, .. } = pair.loads;
+                let exponent = pair.end.interaction.form.laws.repulsion.exponent;
+                let digits = 8.0 * (exponent - 1.0) + exponent * at.body.size / gap;
+                let rounding = if pair.end.counts() { digits * f64::EPSILON * energy } else { 0.0 };
+                each(Push { force: pair.on_body().force.norm(), gap: *gap, rounding });
             }
             Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {}
         }
@@ -58,7 +59,7 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
     })
 }
 
-fn of_bond(at: &BodyAt, end: &BondEnd) -> Result<Push, Inadmissible> {
+fn of_bond(at: &MotionAt, end: &BondEnd) -> Result<Push, Inadmissible> {
     let force = bonded(at, end)?.total().force.norm();
     let gap = end.length(&at.motion.placement, &at.other(end.other()).placement);
     Ok(Push { force, gap, rounding: 0.0 })

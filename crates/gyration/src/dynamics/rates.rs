@@ -12,7 +12,7 @@
 
 use super::body_rates::body_rates;
 use super::jacobian::{Blocks, add_interactions, body_jacobian};
-use super::{Workspace, inertialess, pairs};
+use super::{Workspace, inertialess};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
@@ -31,14 +31,13 @@ pub fn rates(
     rates: &mut [f64],
     powers: &mut [f64],
 ) -> Result<(), Inadmissible> {
-    let Workspace { instant, scratch } = workspace;
-    instant.read(model, time, state)?;
-    pairs::find_planes(model, instant, scratch)?;
+    let Workspace { instants, scratch } = workspace;
+    let mut instant = instants.read(model, time, state)?;
     powers.fill(0.0);
     for index in 0..model.bodies.len() {
         let done = match model.bodies[index].has_inertia() {
-            true => body_rates(&instant.at(model, index), model.slots(index), scratch, rates)?,
-            false => inertialess::fill(model, instant, scratch, index, rates)?,
+            true => body_rates(&instant.at(index), model.slots(index), scratch, rates)?,
+            false => inertialess::fill(&mut instant, scratch, index, rates)?,
         };
         for (work, power) in model.works().iter().zip(powers.iter_mut()) {
             *power += done[*work];
@@ -61,22 +60,21 @@ pub fn jacobian(
     state: Numbers,
     blocks: &mut (impl Blocks + ?Sized),
 ) -> Result<(), Inadmissible> {
-    let Workspace { instant, scratch } = workspace;
-    instant.read(model, time, state)?;
-    pairs::differentiate(model, instant, scratch)?;
+    let Workspace { instants, scratch } = workspace;
+    let mut instant = instants.differentiate(model, time, state)?;
     for index in 0..model.bodies.len() {
         let Some(matrix) = blocks.block(index, index) else { continue };
         match model.bodies[index].has_inertia() {
             true => {
-                let at = instant.at(model, index);
+                let at = instant.at(index);
                 body_jacobian(&at, scratch, matrix)?;
-                add_interactions(&at, scratch, |other, coupling, lower, lift| {
+                add_interactions(&at, |other, coupling, lower, lift| {
                     if let Some(matrix) = blocks.block(index, other) {
                         coupling.add_to(matrix, lower, lift);
                     }
                 })?;
             }
-            false => inertialess::fill_jacobian(model, instant, scratch, index, blocks)?,
+            false => inertialess::fill_jacobian(&mut instant, scratch, index, blocks)?,
         }
     }
     Ok(())

@@ -9,7 +9,7 @@ use crate::acting::Load;
 use crate::body::{RigidInertia, Slots};
 use crate::contact::{Contact, ContactLoads, LawKind, Meeting, RigidLoads, RigidMotion};
 use crate::inadmissible::Inadmissible;
-use crate::instant::BodyAt;
+use crate::instant::{BodyAt, MotionAt};
 use crate::ledger::Work;
 use crate::load::Wrench;
 use crate::state::Turn;
@@ -48,7 +48,7 @@ pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<
 /// The laws of a contact; the powers of central ones only where the ledger has them as works.
 #[inline]
 fn contact_loads(
-    at: &BodyAt,
+    at: &MotionAt,
     turn: &Turn,
     contact: &Contact,
     scratch: &mut Scratch,
@@ -70,7 +70,7 @@ fn contact_loads(
 /// Solves the balance of a rigid body for its rates.
 #[inline]
 pub(super) fn fill(
-    at: &BodyAt,
+    at: &MotionAt,
     inertia: &RigidInertia,
     turn: &Turn,
     wrench: &Wrench,

@@ -18,8 +18,30 @@ use crate::load::Loads;
 use crate::tensor::{Mat3, axial, cross_matrix};
 
 impl PairState<'_> {
+    /// The powers of the laws [W], given (f | M) of the repulsion on both sides: those of damping and friction are
+    /// zero.
+    pub fn powers(&self, repulsion: &[Mat34; 2]) -> [f64; LawKind::COUNT] {
+        let rates = self.halves.each_ref().map(Half::rates);
+        let mut powers = [0.0; LawKind::COUNT];
+        powers[LawKind::Repulsion as usize] = repulsion[0].dot(&rates[0]) + repulsion[1].dot(&rates[1]);
+        powers
+    }
+
+    /// What is exchanged, given (f | M) on both sides and the powers of the laws [W].
+    pub fn exchange(&self, on: [Mat34; 2], powers: [f64; LawKind::COUNT]) -> PairLoads {
+        let plane = &self.placed.plane;
+        PairLoads {
+            on: self.opposite(on),
+            energy: self.placed.energy,
+            powers,
+            gap: self.halves.iter().map(|half| half.smallest_gap(plane).0).sum(),
+            normal: plane.normal,
+            point: self.halves[0].side.placement.position + self.foot,
+        }
+    }
+
     /// The loads that (f | M) of both sides are, B's opposite to A's.
-    pub fn opposite(&self, on: [Mat34; 2]) -> [Loads; 2] {
+    fn opposite(&self, on: [Mat34; 2]) -> [Loads; 2] {
         let [above, below] =
             on.map(|on| Loads { force: on.column(0).into(), moment: on.fixed_columns::<3>(1).into_owned() });
         let about_foot = |half: &Half, loads: &Loads| {
@@ -66,22 +88,12 @@ impl PairLoads {
         }
         let state = PairState::new(pair, sides, guess, scratch)?;
         let mut on = [state.repulsion(0), state.repulsion(1)];
-        let mut powers = [0.0; LawKind::COUNT];
-        let rates = state.halves.each_ref().map(Half::rates);
-        powers[LawKind::Repulsion as usize] = on[0].dot(&rates[0]) + on[1].dot(&rates[1]);
+        let mut powers = state.powers(&on);
         state.each_mediator(ViscousMoments::Values, scratch, |_, _, mediator, _| {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
         })?;
-        let plane = &state.placed.plane;
-        Ok(Self {
-            on: state.opposite(on),
-            energy: state.placed.energy,
-            powers,
-            gap: state.halves.iter().map(|half| half.smallest_gap(plane).0).sum(),
-            normal: plane.normal,
-            point: sides[0].placement.position + state.foot,
-        })
+        Ok(state.exchange(on, powers))
     }
 }

@@ -5,19 +5,20 @@
 
 use super::Mat34;
 use super::equilibrium::Change;
+use super::exchange::PairLoads;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::mediator::Slope;
 use super::plane::Guess;
 use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
-use crate::load::{COORDINATES, Loads, Mat12};
+use crate::load::{COORDINATES, Mat12};
 
 /// What a pair of bodies does to both, and its derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSlopes {
-    /// (f, M) on A and on B.
-    pub on: [Loads; 2],
+    /// What it does.
+    pub loads: PairLoads,
     /// ∂Q_i/∂q_j.
     pub by_place: [[Mat12; 2]; 2],
     /// ∂Q_i/∂q̇_j.
@@ -40,18 +41,21 @@ impl PairSlopes {
         let state = PairState::new(pair, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let mut on = [state.repulsion(0), state.repulsion(1)];
+        let mut powers = state.powers(&on);
         let zeros = [[Mat12::zeros(); 2]; 2];
-        let mut slopes = Self { on: [Loads::default(); 2], by_place: zeros, by_rate: zeros };
+        let mut slopes = Self { loads: PairLoads::default(), by_place: zeros, by_rate: zeros };
         let changes: [Change; BOTH] =
             std::array::from_fn(|column| state.placed.along(halves, places(column).each_ref()));
         for (column, change) in changes.iter().enumerate() {
             add(&mut slopes.by_place, column, [0, 1].map(|side| state.repulsion_along(side, change)));
         }
         if state.placed.is_out_of_reach() {
+            slopes.loads = state.exchange(on, powers);
             return Ok(slopes);
         }
         let normal = &state.placed.plane.normal;
         state.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
+            powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
             let bent = [0, 1].map(|side| Slope::new(law, shares, side, moments[side]));
@@ -63,7 +67,7 @@ impl PairSlopes {
                 add(&mut slopes.by_rate, column, mediator.along_rates(normal, body, &moved));
             }
         })?;
-        slopes.on = state.opposite(on);
+        slopes.loads = state.exchange(on, powers);
         Ok(slopes)
     }
 }

@@ -54,7 +54,7 @@ fn slopes_agree_with_differences() {
         .unwrap();
         let at = within(&laws, reach, [&one, &other]);
         for body in 0..2 {
-            assert!(off(&numbers(&slopes.on[body]), &numbers(&at.on[body])) < 1e-12);
+            assert!(off(&numbers(&slopes.loads.on[body]), &numbers(&at.on[body])) < 1e-12);
         }
         let step = 1e-4 * at.gap;
         for (rates, found) in [(false, &slopes.by_place), (true, &slopes.by_rate)] {

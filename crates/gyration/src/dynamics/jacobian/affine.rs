@@ -11,7 +11,7 @@ use super::super::loads::add_slopes;
 use crate::affine::{AffineSlopes, Entry, Gyration};
 use crate::body::Affine;
 use crate::inadmissible::Inadmissible;
-use crate::instant::BodyAt;
+use crate::instant::{BodyAt, MotionAt};
 use crate::load::LoadSlopes;
 use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::{Mat3, Vec3};
@@ -109,7 +109,7 @@ pub(super) struct Seen<'a> {
 
 impl<'a> Seen<'a> {
     /// By a body at an instant.
-    pub fn of(at: &BodyAt, slopes: &'a LoadSlopes) -> Self {
+    pub fn of(at: &MotionAt, slopes: &'a LoadSlopes) -> Self {
         Self { slopes, arm: at.body.pin.as_ref().map(|pin| pin.point), mass: at.body.solid.mass.mass }
     }
 

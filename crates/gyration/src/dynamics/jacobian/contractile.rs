@@ -12,6 +12,7 @@ use super::affine::{Seen, load_slopes};
 use crate::body::Slots;
 use crate::contractile::{ContractileSlopes, Felt};
 use crate::inadmissible::Inadmissible;
+use crate::instant::BodyAt;
 use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::Mat3;
 use nalgebra::DMatrix;
@@ -19,10 +20,10 @@ use nalgebra::DMatrix;
 /// Fills the block; what is zero in it is taken to be zero already.
 pub(super) fn fill(
     block: &mut DMatrix<f64>,
+    at: &BodyAt,
     moving: &ContractileMotion,
     scratch: &mut Scratch,
 ) -> Result<(), Inadmissible> {
-    let at = moving.at;
     let loads = load_slopes(at, scratch)?;
     let moment = moment(at, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
     let half = Slots::with_inertia(at.body, 0).places().len();

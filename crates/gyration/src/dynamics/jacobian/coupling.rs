@@ -16,7 +16,7 @@ use super::super::contractile::ContractileMotion;
 use super::super::history::RigidHistory;
 use crate::affine::Gyration;
 use crate::body::{Affine, RigidInertia, Slots};
-use crate::instant::{BodyAt, KindAt};
+use crate::instant::{KindAt, MotionAt};
 use crate::load::{LoadSlopes, Loads, Mat12, loads, numbers};
 use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::state::Turn;
@@ -87,12 +87,12 @@ fn packed(force: &Vec3, moment: &Mat3) -> Vec12 {
 
 impl Lift {
     /// Of a body at an instant whose block has what its state has: no velocities without inertia.
-    pub(super) fn of_state(at: &BodyAt) -> Self {
+    pub(super) fn of_state(at: &MotionAt) -> Self {
         Self { slots: Slots::of(at.body, 0), ..Self::of(at) }
     }
 
     /// Of a body at an instant, with velocities; its block begins at 0.
-    pub fn of(at: &BodyAt) -> Self {
+    pub fn of(at: &MotionAt) -> Self {
         let slots = Slots::with_inertia(at.body, 0);
         let (mut place, mut sway, mut rate) = (Mat12::zeros(), Mat12::zeros(), Mat12::zeros());
         let free = slots.position().len();
@@ -130,7 +130,7 @@ impl Lift {
 
 impl Lower {
     /// Of a body at an instant; its block begins at 0.
-    pub fn of(at: &BodyAt) -> Self {
+    pub fn of(at: &MotionAt) -> Self {
         let slots = Slots::with_inertia(at.body, 0);
         let columns: [Vec12; 12] = match at.kind() {
             KindAt::Rigid(inertia, turn) => {
@@ -146,7 +146,7 @@ impl Lower {
 }
 
 /// M about the pin, if there is one.
-fn about_pin(at: &BodyAt, loads: &Loads) -> Mat3 {
+fn about_pin(at: &MotionAt, loads: &Loads) -> Mat3 {
     match &at.body.pin {
         None => loads.moment,
         Some(pin) => loads.moment - loads.force * pin.point.transpose(),
@@ -154,7 +154,7 @@ fn about_pin(at: &BodyAt, loads: &Loads) -> Mat3 {
 }
 
 /// (δp̈₀, δΩ̇) of a rigid body.
-fn turned(at: &BodyAt, inertia: &RigidInertia, turn: &Turn, change: &Loads) -> Vec12 {
+fn turned(at: &MotionAt, inertia: &RigidInertia, turn: &Turn, change: &Loads) -> Vec12 {
     let (mass, inverse) = match RigidHistory::of(at, turn) {
         Some(sphere) => (sphere.mass(), sphere.inverse(inertia)),
         None => (at.body.solid.mass.mass, inertia.inverse),
@@ -165,7 +165,7 @@ fn turned(at: &BodyAt, inertia: &RigidInertia, turn: &Turn, change: &Loads) -> V
 }
 
 /// The accelerations of a slot after those of the centre, which a pinned body does not have.
-fn stacked(at: &BodyAt, linear: &Vec3, own: &[f64]) -> Vec12 {
+fn stacked(at: &MotionAt, linear: &Vec3, own: &[f64]) -> Vec12 {
     let linear = linear.as_slice().iter().filter(|_| at.body.pin.is_none());
     let mut stacked = Vec12::zeros();
     stacked.iter_mut().zip(linear.chain(own)).for_each(|(out, number)| *out = *number);
@@ -174,14 +174,14 @@ fn stacked(at: &BodyAt, linear: &Vec3, own: &[f64]) -> Vec12 {
 
 /// An affine body at an instant.
 struct Deforming<'a> {
-    at: &'a BodyAt<'a>,
+    at: &'a MotionAt<'a>,
     affine: &'a Affine,
     gyration: &'a Gyration,
 }
 
 /// (δp̈₀, δP̈) by each number of Q, given δP̈ of δM.
 #[inline(always)]
-fn deformed<F: F64x4>(at: &BodyAt, acceleration: impl Fn(&SimdMat3) -> SimdMat3<F>) -> [Vec12; 12] {
+fn deformed<F: F64x4>(at: &MotionAt, acceleration: impl Fn(&SimdMat3) -> SimdMat3<F>) -> [Vec12; 12] {
     std::array::from_fn(|k| {
         let change = loads(&Vec12::ith(k, 1.0));
         let mut own = [0.0; 9];

@@ -4,8 +4,7 @@
 //!
 //!   ∂Q_i/∂q_j = −(∂F/∂d) X̃_i⊗X̃_j,   ∂Q_i/∂q̇_j = −(∂F/∂ḋ) X̃_i⊗X̃_j
 
-use super::super::Scratch;
-use super::super::loads::bonded;
+use super::super::loads::{bonded, sloped};
 use super::{Coupling, Lift, Lower};
 use crate::acting::Load;
 use crate::inadmissible::Inadmissible;
@@ -17,18 +16,16 @@ use crate::tensor::Vec3;
 /// other.
 pub(in super::super) fn add_interactions(
     at: &BodyAt,
-    scratch: &Scratch,
     mut each: impl FnMut(usize, &Coupling, &Lower, &Lift),
 ) -> Result<(), Inadmissible> {
     let mut lower = None;
     at.try_each_load(|load| {
         let (other, coupling) = match load {
             Load::Bond(end) => (end.other(), Coupling::of_bond(&end, &bonded(at, &end)?)),
-            Load::Pair(end) => {
-                let slopes = scratch.pairs.slopes(end.number);
-                let (own, other) = (end.end, 1 - end.end);
-                let (by_place, by_rate) = (slopes.by_place[own][other], slopes.by_rate[own][other]);
-                (end.other(), Coupling { by_place, by_rate })
+            Load::Pair(pair) => {
+                let (slopes, own) = (sloped(&pair), pair.end.end);
+                let (by_place, by_rate) = (slopes.by_place[own][1 - own], slopes.by_rate[own][1 - own]);
+                (pair.end.other(), Coupling { by_place, by_rate })
             }
             // What acts on one body alone.
             Load::Contact(_)

@@ -56,7 +56,7 @@ pub(super) fn body_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMa
         }
         KindAt::Affine(affine, gyration) => affine::fill(matrix, at, affine, gyration, scratch),
         KindAt::Contractile(contractile, gyration, decomposition) => {
-            contractile::fill(matrix, &ContractileMotion { at, contractile, gyration, decomposition }, scratch)
+            contractile::fill(matrix, at, &ContractileMotion { at, contractile, gyration, decomposition }, scratch)
         }
     }
 }

@@ -1,13 +1,13 @@
-//! The motion of every body at one time and state, read once an evaluation; rates, Jacobian, rows and events look at
-//! it.
+//! The motion of every body at one time and state: the first stage of an instant, and what follows from it alone.
 //!
 //! Beside (p₀, P) and (ṗ₀, Ṗ) it holds what each kind of body needs of them more than once: the quaternion and spin of
 //! a rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time.
 //! A body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
 
-use crate::acting::{Load, PairEnd};
+use crate::acting::PairEnd;
 use crate::affine::Gyration;
 use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
+use crate::contact::Deformation;
 use crate::contractile::Decomposition;
 use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::inadmissible::{Inadmissible, Quantity};
@@ -19,15 +19,15 @@ use crate::tensor::{Mat3, Vec3};
 
 /// The motion of every body at one time and state.
 #[derive(Debug, Clone, Default)]
-pub struct Instant {
+pub(crate) struct Motions {
     time: f64,
     state: Vec<f64>,
     /// What the state lacks of twice its digits; empty where that is not known.
     low: Vec<f64>,
     bodies: Vec<BodyInstant>,
     near: NeighbourList,
-    /// Whether the bodies of each listed pair are within reach of each other.
-    within: Vec<bool>,
+    /// By the number of a listed pair: its place among those whose bodies are within reach of each other.
+    within: Vec<Option<usize>>,
 }
 
 /// The motion of one body.
@@ -46,9 +46,9 @@ enum Attitude {
     Contractile(Gyration, Decomposition),
 }
 
-/// A body of a model at an instant: all that its loads and its balance are computed from.
+/// A body of a model and its motion at a time.
 #[derive(Debug, Clone, Copy)]
-pub struct BodyAt<'a> {
+pub struct MotionAt<'a> {
     /// The model.
     pub model: &'a Model,
     /// t [s].
@@ -63,7 +63,7 @@ pub struct BodyAt<'a> {
     pub(crate) numbers: Numbers<'a>,
     attitude: &'a Attitude,
     /// Where the other bodies are found.
-    instant: &'a Instant,
+    motions: &'a Motions,
 }
 
 /// The kind of a body, with what it needs of its motion more than once.
@@ -121,12 +121,12 @@ impl BodyInstant {
 const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);
 const NO_MATRIX: Mat3 = Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
-impl Instant {
+impl Motions {
     /// Reads a state; bodies without inertia are taken to be still.
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
-    pub(crate) fn read(&mut self, model: &Model, time: f64, numbers: Numbers) -> Result<(), Inadmissible> {
+    pub fn read(&mut self, model: &Model, time: f64, numbers: Numbers) -> Result<(), Inadmissible> {
         let state = numbers.high;
         self.time = time;
         for (kept, given) in [(&mut self.state, state), (&mut self.low, numbers.low)] {
@@ -147,17 +147,21 @@ impl Instant {
     fn find_reached(&mut self, model: &Model) {
         let mut within = std::mem::take(&mut self.within);
         within.clear();
+        let mut count = 0;
         within.extend(self.near.pairs().all().iter().map(|pair| {
             let [one, other] = pair.bodies.map(|body| self.at(model, body));
-            let is_rigid = |at: &BodyAt| matches!(at.attitude, Attitude::Rigid(_));
+            let is_rigid = |at: &MotionAt| matches!(at.attitude, Attitude::Rigid(_));
             let cutoff = pair.form.cutoff().filter(|_| is_rigid(&one) && is_rigid(&other));
-            cutoff.is_none_or(|cutoff| one.from(&other).norm() < cutoff)
+            cutoff.is_none_or(|cutoff| one.from(&other).norm() < cutoff).then(|| {
+                count += 1;
+                count - 1
+            })
         }));
         self.within = within;
     }
 
-    /// Whether the bodies of a listed pair are within reach of each other.
-    pub(crate) fn is_within_reach(&self, number: usize) -> bool {
+    /// The place of a listed pair among those within reach, if it is one of them.
+    pub fn place(&self, number: usize) -> Option<usize> {
         self.within[number]
     }
 
@@ -165,23 +169,17 @@ impl Instant {
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
-    pub(crate) fn read_body(
-        &mut self,
-        body: &Body,
-        index: usize,
-        slots: &Slots,
-        numbers: &[f64],
-    ) -> Result<(), Inadmissible> {
+    pub fn read_body(&mut self, body: &Body, index: usize, slots: &Slots, numbers: &[f64]) -> Result<(), Inadmissible> {
         self.bodies[index].read(body, index, slots, (self.time, numbers))
     }
 
     /// The numbers that were read.
-    pub(crate) fn state(&self) -> &[f64] {
+    pub fn state(&self) -> &[f64] {
         &self.state
     }
 
     /// The pairs of bodies that may act on one another.
-    pub(crate) fn near(&self) -> &NeighbourList {
+    pub fn near(&self) -> &NeighbourList {
         &self.near
     }
 
@@ -194,14 +192,14 @@ impl Instant {
     ///
     /// Its loads and balance panic if the model is another one, whose body of this index is of another kind.
     #[inline]
-    pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> BodyAt<'a> {
+    pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> MotionAt<'a> {
         let BodyInstant { motion, attitude } = &self.bodies[index];
         let numbers = Numbers { high: &self.state, low: &self.low };
-        BodyAt { model, time: self.time, index, body: &model.bodies[index], motion, numbers, attitude, instant: self }
+        MotionAt { model, time: self.time, index, body: &model.bodies[index], motion, numbers, attitude, motions: self }
     }
 }
 
-impl<'a> BodyAt<'a> {
+impl<'a> MotionAt<'a> {
     /// Its kind.
     #[inline]
     pub(crate) fn kind(&self) -> KindAt<'a> {
@@ -230,32 +228,32 @@ impl<'a> BodyAt<'a> {
         self.gyration().map_or_else(|| self.motion.placement.gradient.transpose(), |gyration| gyration.inverse)
     }
 
-    /// Hands what acts on it to `each`.
+    /// How it takes its surface along; none of a rigid body.
     #[inline]
-    pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
-        let pairs = self.instant.near.pairs().of(self.index).filter(|end| self.is_within_reach(end));
-        self.model.try_each_load_with(self.index, pairs, each)
+    pub(crate) fn deformation(&self) -> Option<Deformation> {
+        let Gyration { inverse, volume_ratio, .. } = self.gyration()?;
+        Some(Deformation { inverse: *inverse, cofactor: *volume_ratio * inverse.transpose() })
     }
 
     /// The motion of another body; of one without inertia the places alone are known.
     #[inline]
     pub(crate) fn other(&self, index: usize) -> &'a BodyMotion {
-        &self.instant.bodies[index].motion
+        &self.motions.bodies[index].motion
     }
 
     /// The pairs of bodies that may act on one another.
     pub(crate) fn near(&self) -> &'a NeighbourList {
-        &self.instant.near
+        &self.motions.near
     }
 
-    /// Whether the other body of a listed pair is within reach.
-    pub(crate) fn is_within_reach(&self, end: &PairEnd) -> bool {
-        self.instant.is_within_reach(end.number)
+    /// The place of a listed pair among those within reach, if it is one of them.
+    pub(crate) fn place(&self, end: &PairEnd) -> Option<usize> {
+        self.motions.place(end.number)
     }
 
-    /// Another body at the same instant.
+    /// Another body at the same time.
     pub(crate) fn beside(&self, index: usize) -> Self {
-        self.instant.at(self.model, index)
+        self.motions.at(self.model, index)
     }
 
     /// The place of its centre of mass from that of another body [m], to all the digits of the state: p₀ − p₀′ has

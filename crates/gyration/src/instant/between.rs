@@ -1,0 +1,132 @@
+//! What bodies that meet do to each other: the second stage of an instant. The plane of each pair is found once, and
+//! both bodies have their part of what is exchanged there.
+
+use super::motions::{MotionAt, Motions};
+use super::slabs::{PairGaps, Remembered};
+use crate::acting::{PairAt, PairEnd};
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::model::{Model, PATIENCE};
+use crate::neighbours::Pair;
+use crate::pair::{Guess, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
+use crate::tensor::Vec3;
+
+/// What the pairs within reach do, in order of the list.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Between {
+    loads: Vec<PairLoads>,
+    /// Their derivatives, where these were asked for; else empty.
+    slopes: Vec<PairSlopes>,
+}
+
+/// Whoever looks at the pairs of an instant, one after the other.
+pub(super) struct Looking<'a> {
+    pub model: &'a Model,
+    pub motions: &'a Motions,
+    pub remembered: &'a mut Remembered,
+    pub room: &'a mut PairScratch,
+}
+
+/// A pair within reach, and where its plane is looked for first.
+struct Looked<'a> {
+    pair: &'a Pair,
+    bodies: &'a [MotionAt<'a>; 2],
+    guess: Option<&'a Guess>,
+}
+
+impl Between {
+    /// A pair as one of its bodies sees it, given its place among those within reach.
+    pub fn pair<'a>(&'a self, end: PairEnd<'a>, place: usize) -> PairAt<'a> {
+        PairAt { end, loads: &self.loads[place], slopes: self.slopes.get(place) }
+    }
+
+    /// Finds what the pairs of an instant do.
+    pub fn find_loads(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
+        let Self { loads, slopes } = self;
+        loads.clear();
+        slopes.clear();
+        looking.for_each(|looked, room| {
+            if let Some(Looked { pair, bodies, guess }) = looked {
+                let integrate = |sides: [&Side; 2]| PairLoads::integrate(&pair.form, sides, guess, room);
+                loads.push(with_sides(pair, bodies, integrate)?);
+            }
+            Ok(())
+        })
+    }
+
+    /// The same with derivatives.
+    pub fn find_slopes(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
+        let Self { loads, slopes } = self;
+        loads.clear();
+        slopes.clear();
+        looking.for_each(|looked, room| {
+            if let Some(Looked { pair, bodies, guess }) = looked {
+                let integrate = |sides: [&Side; 2]| PairSlopes::integrate(&pair.form, sides, guess, room);
+                let found = with_sides(pair, bodies, integrate)?;
+                loads.push(found.loads);
+                slopes.push(found);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Finds the slabs between the bodies of all listed pairs.
+pub(super) fn find_slabs(looking: &mut Looking, slabs: &mut PairGaps) -> Result<(), Inadmissible> {
+    slabs.begin(looking.motions.near());
+    looking.for_each(|looked, room| {
+        let gap = |Looked { pair, bodies, guess }| with_sides(pair, bodies, |sides| pair.form.gap(sides, guess, room));
+        slabs.push(looked.map(gap).transpose()?.unwrap_or(PairGap::FAR));
+        Ok(())
+    })
+}
+
+impl Looking<'_> {
+    /// Hands the listed pairs to `each`; none in the place of one out of reach.
+    fn for_each(
+        &mut self,
+        mut each: impl FnMut(Option<Looked>, &mut PairScratch) -> Result<(), PairFault>,
+    ) -> Result<(), Inadmissible> {
+        let Self { model, motions, remembered, room } = self;
+        let pairs = motions.near().pairs();
+        remembered.find(pairs);
+        for (number, pair) in pairs.all().iter().enumerate() {
+            let bodies = pair.bodies.map(|body| motions.at(model, body));
+            if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
+                return Err(bodies[0].outside(Quantity::Interruption, f64::NAN));
+            }
+            let guess = remembered.guess(number, motions.time());
+            let looked = Looked { pair, bodies: &bodies, guess: guess.as_ref() };
+            let looked = motions.place(number).map(|_| looked);
+            each(looked, room).map_err(|fault| outside(&bodies[0], pair, fault))?;
+        }
+        Ok(())
+    }
+}
+
+/// A state outside the model, for what became of a plane.
+pub(crate) fn outside(at: &MotionAt, pair: &Pair, fault: PairFault) -> Inadmissible {
+    let (other, rule) = (pair.bodies[1], pair.rule);
+    match fault {
+        PairFault::Overlap { gap } => at.outside(Quantity::PairGap { other, rule }, gap),
+        PairFault::NotFound { decrement } => at.outside(Quantity::PairPlane { other, rule }, decrement),
+        PairFault::Singular(_) => at.outside(Quantity::PairPlane { other, rule }, f64::NAN),
+    }
+}
+
+/// Hands the two sides of a pair to `each`.
+pub(crate) fn with_sides<T>(pair: &Pair, bodies: &[MotionAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
+    let apart = bodies[1].from(&bodies[0]);
+    let [one, other] = [0, 1].map(|end| {
+        let at = &bodies[end];
+        Side {
+            surface: at.body.solid.part(pair.parts[end]),
+            placement: &at.motion.placement,
+            from_first: if end == 0 { Vec3::zeros() } else { apart },
+            velocity: &at.motion.velocity,
+            inverse: at.inverse(),
+            deformation: at.deformation(),
+            least_gap: at.body.least_distance(apart.norm()),
+        }
+    });
+    each([&one, &other])
+}

@@ -1,0 +1,173 @@
+//! A model at an instant, in two stages that each evaluation goes through once: the motion of every body, then what
+//! bodies do to each other. Rates, Jacobian, rows and events look at both.
+//!
+//! An [`Instant`] is made of stages that were read for one time and state, and it lends them: what an earlier one found
+//! cannot be asked for while it lasts, nor it once the next is read.
+//!
+//! | file      | what                                                                          |
+//! |-----------|-------------------------------------------------------------------------------|
+//! | `motions` | places, velocities and what each kind of body needs of them; who is within reach |
+//! | `between` | what the pairs within reach do: loads, their derivatives                       |
+//! | `slabs`   | the slabs between bodies, and those from which planes are looked for           |
+
+mod between;
+mod motions;
+mod slabs;
+
+pub(crate) use between::{outside, with_sides};
+pub(crate) use motions::KindAt;
+pub use motions::MotionAt;
+pub use slabs::PairGaps;
+
+use crate::acting::{Load, PairAt};
+use crate::body::Slots;
+use crate::extended::Numbers;
+use crate::inadmissible::Inadmissible;
+use crate::model::Model;
+use crate::pair::PairScratch;
+use between::{Between, Looking};
+use motions::Motions;
+use slabs::Remembered;
+use std::ops::Deref;
+
+/// A model at a time and state.
+#[derive(Debug)]
+pub struct Instant<'a> {
+    model: &'a Model,
+    motions: &'a mut Motions,
+    between: &'a Between,
+}
+
+/// A body of a model at an instant: all that its loads and its balance are computed from.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyAt<'a> {
+    moving: MotionAt<'a>,
+    between: &'a Between,
+}
+
+/// The memory of instants, one after the other.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Instants {
+    motions: Motions,
+    between: Between,
+    slabs: PairGaps,
+    remembered: Remembered,
+    room: PairScratch,
+}
+
+impl Instants {
+    /// Reads a state; bodies without inertia are taken to be still.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0, or where no plane separates two bodies.
+    pub fn read<'a>(&'a mut self, model: &'a Model, time: f64, state: Numbers) -> Result<Instant<'a>, Inadmissible> {
+        self.motions.read(model, time, state)?;
+        let Self { motions, between, remembered, room, .. } = self;
+        between.find_loads(&mut Looking { model, motions, remembered, room })?;
+        Ok(Instant { model, motions, between })
+    }
+
+    /// The same with the derivatives of what pairs do.
+    ///
+    /// # Errors
+    /// Those of [`Instants::read`].
+    pub fn differentiate<'a>(
+        &'a mut self,
+        model: &'a Model,
+        time: f64,
+        state: Numbers,
+    ) -> Result<Instant<'a>, Inadmissible> {
+        self.motions.read(model, time, state)?;
+        let Self { motions, between, remembered, room, .. } = self;
+        between.find_slopes(&mut Looking { model, motions, remembered, room })?;
+        Ok(Instant { model, motions, between })
+    }
+
+    /// The slab between the bodies of each listed pair; infinite where they are out of reach.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates two of them.
+    pub fn slabs(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
+        if model.rules().is_empty() {
+            self.slabs.be_of_none();
+            return Ok(&self.slabs);
+        }
+        self.slabs.clear();
+        self.motions.read(model, time, state)?;
+        let Self { motions, slabs, remembered, room, .. } = self;
+        between::find_slabs(&mut Looking { model, motions, remembered, room }, slabs)?;
+        Ok(slabs)
+    }
+
+    /// The same as if nothing were known, and from then on planes are looked for where they are then.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates two of them; nothing is remembered then.
+    pub fn remember(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
+        self.remembered.forget();
+        self.slabs(model, time, state)?;
+        Ok(self.remembered.keep(time, &self.slabs))
+    }
+
+    /// The slabs that were found last, of the pairs that were looked at.
+    pub fn found(&self) -> &PairGaps {
+        &self.slabs
+    }
+
+    /// The slabs from which planes are looked for; none where none are remembered.
+    pub fn remembered(&self) -> Option<&PairGaps> {
+        self.remembered.slabs()
+    }
+}
+
+impl Instant<'_> {
+    /// The model.
+    pub fn model(&self) -> &Model {
+        self.model
+    }
+
+    /// A body.
+    #[inline]
+    pub fn at(&self, index: usize) -> BodyAt<'_> {
+        BodyAt { moving: self.motions.at(self.model, index), between: self.between }
+    }
+
+    /// The numbers that were read.
+    pub(crate) fn state(&self) -> &[f64] {
+        self.motions.state()
+    }
+
+    /// Gives a body without inertia its motion, from numbers of its own. No pair has such a body, and a spring to it has
+    /// no dashpot: what stands between bodies stays as it was found.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
+    pub(crate) fn set_motion(&mut self, index: usize, slots: &Slots, numbers: &[f64]) -> Result<(), Inadmissible> {
+        let body = &self.model.bodies[index];
+        debug_assert!(!body.has_inertia());
+        self.motions.read_body(body, index, slots, numbers)
+    }
+}
+
+impl<'a> Deref for BodyAt<'a> {
+    type Target = MotionAt<'a>;
+
+    #[inline]
+    fn deref(&self) -> &MotionAt<'a> {
+        &self.moving
+    }
+}
+
+impl<'a> BodyAt<'a> {
+    /// Hands what acts on it to `each`.
+    #[inline]
+    pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
+        self.moving.model.try_each_load_with(self.moving.index, self.pairs(), each)
+    }
+
+    /// The pairs of which it is one, as far as they are within reach.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = PairAt<'a>> {
+        let Self { moving, between } = *self;
+        moving.near().pairs().of(moving.index).filter_map(move |end| Some(between.pair(end, moving.place(&end)?)))
+    }
+}
