@@ -12,7 +12,7 @@
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
 use gyration_bench::{SHAPES, near_table, seconds_each};
-use gyration_ode::{BlockMatrix, ImplicitOrder, Integrator, Method, Options, Pattern, System};
+use gyration_ode::{BlockMatrix, Components, ImplicitOrder, Integrator, Method, Options, Pattern, System};
 use nalgebra::DMatrix;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -29,6 +29,7 @@ struct Linear {
     scales: [f64; 2],
     blocks: Vec<Range<usize>>,
     pattern: Pattern,
+    components: Components,
     /// Row, column and value of the entries that are not zero.
     entries: Vec<(usize, usize, f64)>,
 }
@@ -41,7 +42,8 @@ impl Linear {
         let row = |i: usize| [(i, (i + 1) % SIZE, 1.0), (i, (i + SIZE - 1) % SIZE, -1.0), (i, i, -DECAY)];
         let entries = (0..SIZE).flat_map(row).collect();
         let blocks = std::iter::once(0..SIZE).collect();
-        Self { works: WORKS, scales: [1.0; 2], blocks, pattern: Pattern::uncoupled(), entries }
+        let (pattern, components) = (Pattern::uncoupled(), Components::apart());
+        Self { works: WORKS, scales: [1.0; 2], blocks, pattern, components, entries }
     }
 
     /// Unit masses between two walls, a block (x, v) each: x_i'' = k Δx_i + c Δx'_i, Δx_i = x_{i−1} − 2x_i + x_{i+1}.
@@ -55,11 +57,13 @@ impl Linear {
             std::iter::once((2 * i, 2 * i + 1, 1.0)).chain(bonds)
         };
         let neighbours = (1..bodies).flat_map(|i| [(i - 1, i), (i, i - 1)]);
+        let pattern = Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]);
         Self {
             works: 0,
             scales: [1e-7, 1e-5],
             blocks: (0..bodies).map(|i| 2 * i..2 * i + 2).collect(),
-            pattern: Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]),
+            components: Components::of(&pattern, bodies),
+            pattern,
             entries: (0..bodies).flat_map(row).collect(),
         }
     }
@@ -80,8 +84,8 @@ impl System for Linear {
         &self.blocks
     }
 
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
+    fn components(&self) -> &Components {
+        &self.components
     }
 
     fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Infallible> {
@@ -93,6 +97,7 @@ impl System for Linear {
 
     fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
         let size = self.blocks[0].len();
+        jacobian.arrange(&self.pattern);
         for (row, column, value) in &self.entries {
             let block = jacobian.block_mut(row / size, column / size).expect("it is in the pattern");
             block[(row % size, column % size)] = *value;

@@ -1,7 +1,8 @@
 //! A square matrix of dense blocks, which stand where a pattern has them.
 //!
-//! This is what `System::jacobian` writes. Blocks may be written in any order and added to; no call allocates. Diagonal
-//! blocks stand side by side, so that a system without coupling sees a plain slice of them.
+//! This is what `System::jacobian` writes. Blocks may be written in any order and added to; no call allocates but one
+//! that arranges them anew. Diagonal blocks stand side by side, so that a system without coupling sees a plain slice of
+//! them.
 
 use std::ops::Range;
 
@@ -19,20 +20,28 @@ pub struct BlockMatrix {
 }
 
 impl BlockMatrix {
-    /// Zeros, with room for what a system of these blocks and this pattern has to write.
+    /// Zeros, with room for the diagonal of a system of these blocks.
+    pub fn new(blocks: &[Range<usize>]) -> Self {
+        let diagonal = blocks.iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect();
+        Self { pattern: Pattern::uncoupled(), diagonal, coupling: Vec::new() }
+    }
+
+    /// Has blocks where a pattern has them, all zero, those of the diagonal as they are; room is kept if it has them
+    /// already.
     ///
     /// # Panics
     /// If the pattern is one of another number of blocks.
-    pub fn new(blocks: &[Range<usize>], pattern: &Pattern) -> Self {
-        assert!(pattern.fits(blocks.len()), "the pattern is not one of {} blocks", blocks.len());
-        let zeros = |row: usize, column: usize| DMatrix::zeros(blocks[row].len(), blocks[column].len());
-        let coupling =
-            (0..blocks.len()).flat_map(|row| pattern.columns(row).iter().map(move |column| zeros(row, *column)));
-        Self {
-            pattern: pattern.clone(),
-            diagonal: (0..blocks.len()).map(|row| zeros(row, row)).collect(),
-            coupling: coupling.collect(),
+    pub fn arrange(&mut self, pattern: &Pattern) {
+        if self.pattern == *pattern {
+            self.coupling.iter_mut().for_each(|block| block.fill(0.0));
+            return;
         }
+        assert!(pattern.fits(self.diagonal.len()), "the pattern is not one of {} blocks", self.diagonal.len());
+        let size = |block: usize| self.diagonal[block].nrows();
+        let rows =
+            (0..self.diagonal.len()).flat_map(|row| pattern.columns(row).iter().map(move |column| (row, *column)));
+        self.coupling = rows.map(|(row, column)| DMatrix::zeros(size(row), size(column))).collect();
+        self.pattern = pattern.clone();
     }
 
     /// Where the matrix may have numbers.
@@ -86,7 +95,8 @@ mod tests {
 
     #[test]
     fn blocks_are_added_to_in_any_order_where_the_pattern_has_them() {
-        let mut matrix = BlockMatrix::new(&[0..2, 2..5, 5..6], &Pattern::new(3, [(1, 0), (1, 2)]));
+        let mut matrix = BlockMatrix::new(&[0..2, 2..5, 5..6]);
+        matrix.arrange(&Pattern::new(3, [(1, 0), (1, 2)]));
         for (row, column) in [(1, 2), (0, 0), (1, 0), (1, 2)] {
             matrix.block_mut(row, column).unwrap()[(0, 0)] += 1.0;
         }

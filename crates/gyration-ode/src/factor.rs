@@ -9,8 +9,8 @@ use crate::analysis::Analysis;
 use crate::block_matrix::BlockMatrix;
 use crate::elimination::BlockLu;
 use crate::kernel::{Complex, Real};
-use crate::layout::SystemLayout;
 use crate::linear::Singular;
+use crate::pattern::Components;
 use crate::radau::Radau;
 use crate::shifted::{ComplexShifted, RealShifted};
 
@@ -41,16 +41,16 @@ struct Coupled {
 
 impl ComponentFactors {
     /// Analyses a pattern; room for its factors.
-    pub fn new(layout: &SystemLayout, matrix: &BlockMatrix, method: &Radau) -> Self {
+    pub fn new(blocks: &[Range<usize>], components: &Components, matrix: &BlockMatrix, method: &Radau) -> Self {
         let (mut factors, pairs) = (Self::default(), method.complex.len());
-        for component in layout.components.iter() {
+        for component in components.iter() {
             if let [block] = *component {
-                let unknowns = layout.blocks()[block].clone();
+                let unknowns = blocks[block].clone();
                 let (real, complex) =
                     (RealShifted::new(unknowns.len()), vec![ComplexShifted::new(unknowns.len()); pairs]);
                 factors.single.push(Single { block, unknowns, real, complex });
             } else {
-                let analysis = Analysis::of(component, layout.blocks(), matrix);
+                let analysis = Analysis::of(component, blocks, matrix);
                 let (real, complex) = (BlockLu::new(&analysis), vec![BlockLu::new(&analysis); pairs]);
                 factors.coupled.push(Coupled { analysis, real, complex });
             }
@@ -130,6 +130,7 @@ fn of_pairs(pairs: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::SystemLayout;
     use crate::pattern::Pattern;
     use crate::radau::{FIVE, THIRTEEN};
     use nalgebra::{DMatrix, DVector};
@@ -148,7 +149,8 @@ mod tests {
         });
         let blocks: Vec<_> = ends.collect();
         let pattern = Pattern::new(sizes.len(), pairs.iter().copied()).with_local_rates(local.to_vec());
-        let (mut jacobian, mut numbers) = (BlockMatrix::new(&blocks, &pattern), entries.iter().cycle());
+        let (mut jacobian, mut numbers) = (BlockMatrix::new(&blocks), entries.iter().cycle());
+        jacobian.arrange(&pattern);
         for (i, j) in pairs.iter().copied().chain((0..sizes.len()).map(|i| (i, i))) {
             let block = jacobian.block_mut(i, j).unwrap();
             block.apply(|value| *value = *numbers.next().unwrap());
@@ -156,7 +158,7 @@ mod tests {
                 block.rows_mut(0, local[i].min(sizes[i])).fill(0.0);
             }
         }
-        (jacobian, SystemLayout::new(&blocks, &pattern, 0))
+        (jacobian, SystemLayout::new(&blocks, &Components::of(&pattern, blocks.len()), 0))
     }
 
     fn dense(jacobian: &BlockMatrix, layout: &SystemLayout) -> DMatrix<f64> {
@@ -179,7 +181,7 @@ mod tests {
         ) {
             let pairs: Vec<_> = pairs.into_iter().filter(|(i, j)| i != j).collect();
             let (jacobian, layout) = system(&[3, 1, 2, 0, 4, 2, 4], &pairs, &local, &entries);
-            let mut factors = ComponentFactors::new(&layout, &jacobian, &THIRTEEN);
+            let mut factors = ComponentFactors::new(layout.blocks(), &layout.components, &jacobian, &THIRTEEN);
             // Small enough a step for shifts of 23 and more, beyond the sums of 16 numbers: no cancellation.
             let h = 0.1;
             prop_assert!(factors.factorize(h, &jacobian, &THIRTEEN).is_ok());
@@ -208,7 +210,7 @@ mod tests {
         let own = &mut jacobian.diagonal_mut()[1];
         own.rows_mut(0, 2).fill(0.0);
         (own[(0, 2)], own[(1, 3)]) = (1.0, 1.0);
-        let mut factors = ComponentFactors::new(&layout, &jacobian, &FIVE);
+        let mut factors = ComponentFactors::new(layout.blocks(), &layout.components, &jacobian, &FIVE);
         let (mut alone, h) = (RealShifted::new(4), 0.3);
         factors.factorize(h, &jacobian, &FIVE).unwrap();
         alone.factorize(FIVE.real / h, &jacobian.diagonal()[1]).unwrap();
@@ -226,7 +228,7 @@ mod tests {
         for n in [40, 400] {
             let pairs: Vec<_> = (1..n).flat_map(|i| [(0, i), (i, 0)]).collect();
             let (jacobian, layout) = system(&vec![2; n], &pairs, &vec![0; n], &[0.5]);
-            let factors = ComponentFactors::new(&layout, &jacobian, &FIVE);
+            let factors = ComponentFactors::new(layout.blocks(), &layout.components, &jacobian, &FIVE);
             assert_eq!(factors.entries(), 3 * 4 * (3 * n - 2));
             // A third of eight products for each block, and twice eight more for all but the middle.
             assert!((factors.relative_cost() - (n as f64 + 6.0 * (n - 1) as f64) / n as f64).abs() < 1e-12);

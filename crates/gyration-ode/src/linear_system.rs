@@ -4,57 +4,72 @@ use crate::block_matrix::BlockMatrix;
 use crate::factor::ComponentFactors;
 use crate::layout::SystemLayout;
 use crate::linear::Singular;
+use crate::pattern::{Components, Pattern};
 use crate::radau::Radau;
 use crate::spectrum::{least_spectral_radius, spectral_radius};
 
 /// The Jacobian of a step with its factors.
 ///
-/// Where blocks couple, room is made when it is first needed: an explicit run whose pattern changes with every contact
-/// analyses none of them.
+/// Where blocks may couple, room is made when it is first needed: an explicit run needs none.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearSystem {
     method: &'static Radau,
     jacobian: BlockMatrix,
+    /// The blocks that hang together in it.
+    components: Components,
     factors: ComponentFactors,
-    /// Whether both have the layout of the system.
-    ready: bool,
+    /// The pattern for which there are factors, if there are any.
+    analysed: Option<Pattern>,
 }
 
 impl LinearSystem {
     /// For the stages of a method; without room yet.
     pub fn of(method: &'static Radau) -> Self {
-        Self { method, jacobian: BlockMatrix::default(), factors: ComponentFactors::default(), ready: false }
+        Self {
+            method,
+            jacobian: BlockMatrix::default(),
+            components: Components::apart(),
+            factors: ComponentFactors::default(),
+            analysed: None,
+        }
     }
 
     /// Takes note of a new layout.
     pub fn set_layout(&mut self, layout: &SystemLayout) {
-        self.ready = false;
-        if layout.pattern.is_uncoupled() {
-            self.make_room(layout);
+        self.jacobian = BlockMatrix::default();
+        self.analysed = None;
+        if layout.components.are_apart() {
+            self.cleared(layout);
+            self.analyse(layout);
         }
     }
 
-    fn make_room(&mut self, layout: &SystemLayout) {
-        self.jacobian = BlockMatrix::new(layout.blocks(), &layout.pattern);
-        self.factors = ComponentFactors::new(layout, &self.jacobian, self.method);
-        self.ready = true;
-    }
-
-    /// The Jacobian, filled with zeros.
+    /// The Jacobian, filled with zeros, and arranged as it was last.
     pub fn cleared(&mut self, layout: &SystemLayout) -> &mut BlockMatrix {
-        if self.ready {
+        if self.jacobian.diagonal().len() == layout.blocks().len() {
             self.jacobian.clear();
         } else {
-            self.make_room(layout);
+            self.jacobian = BlockMatrix::new(layout.blocks());
         }
         &mut self.jacobian
+    }
+
+    /// Makes room for the factors of the Jacobian, unless there is.
+    fn analyse(&mut self, layout: &SystemLayout) {
+        let pattern = self.jacobian.pattern();
+        if self.analysed.as_ref() != Some(pattern) {
+            self.components = Components::of(pattern, layout.blocks().len());
+            self.factors = ComponentFactors::new(layout.blocks(), &self.components, &self.jacobian, self.method);
+            self.analysed = Some(pattern.clone());
+        }
     }
 
     /// Factorizes γ/h I − J and (α + iβ)/h I − J of every pair.
     ///
     /// # Errors
     /// `Singular` if one of them is singular or not finite.
-    pub fn factorize(&mut self, h: f64) -> Result<(), Singular> {
+    pub fn factorize(&mut self, layout: &SystemLayout, h: f64) -> Result<(), Singular> {
+        self.analyse(layout);
         self.factors.factorize(h, &self.jacobian, self.method)
     }
 
@@ -75,16 +90,16 @@ impl LinearSystem {
 
     /// How many numbers the factors of coupled blocks are.
     pub fn entries_of_factors(&self) -> usize {
-        if self.ready { self.factors.entries() } else { 0 }
+        self.analysed.as_ref().map_or(0, |_| self.factors.entries())
     }
 
     /// A lower bound of the spectral radius of the Jacobian.
-    pub fn least_spectral_radius(&self, layout: &SystemLayout) -> f64 {
-        least_spectral_radius(&self.jacobian, layout)
+    pub fn least_spectral_radius(&self) -> f64 {
+        least_spectral_radius(&self.jacobian, &self.components)
     }
 
     /// The spectral radius of the Jacobian; `work` has room for two vectors.
     pub fn spectral_radius(&self, layout: &SystemLayout, scale: &[f64], work: &mut [f64]) -> f64 {
-        spectral_radius(&self.jacobian, layout, scale, work)
+        spectral_radius((&self.jacobian, &self.components), layout, scale, work)
     }
 }

@@ -165,7 +165,7 @@ impl NewtonStages {
     /// `Cause::Newton` if one of them is singular or not finite.
     pub fn factorize<S: System>(&mut self, context: &mut Context<'_, S>, h: f64) -> Result<(), Cause<S::Inadmissible>> {
         context.statistics.factorizations += 1;
-        self.linear.factorize(h).map_err(|_| Cause::Newton)
+        self.linear.factorize(context.layout, h).map_err(|_| Cause::Newton)
     }
 
     /// Solves for the increments of y.

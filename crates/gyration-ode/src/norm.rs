@@ -55,10 +55,10 @@ pub(crate) fn norm(layout: &SystemLayout, error: &[f64], start: &[f64], end: &[f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::Pattern;
+    use crate::pattern::Components;
 
     fn layout() -> SystemLayout {
-        SystemLayout::new(&[0..2, 2..3], &Pattern::uncoupled(), 1)
+        SystemLayout::new(&[0..2, 2..3], &Components::apart(), 1)
     }
 
     #[test]

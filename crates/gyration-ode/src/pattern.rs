@@ -78,11 +78,6 @@ impl Pattern {
         self.0.as_ref().and_then(|coupled| coupled.local_rates.get(block)).copied().unwrap_or(0)
     }
 
-    /// Whether no block enters the rates of another.
-    pub fn is_uncoupled(&self) -> bool {
-        self.0.is_none()
-    }
-
     /// The number of pairs.
     pub fn pairs(&self) -> usize {
         self.0.as_ref().map_or(0, |coupled| coupled.columns.len())
@@ -120,6 +115,28 @@ pub struct Components {
 }
 
 impl Components {
+    /// Each block is one, however many there are.
+    pub const fn apart() -> Self {
+        Self { starts: Vec::new(), members: Vec::new() }
+    }
+
+    /// The same of so many blocks, each listed.
+    ///
+    /// # Panics
+    /// If these are components of another number of blocks: a mistake in the system, not in its data.
+    pub(crate) fn listed(&self, blocks: usize) -> Self {
+        if self.starts.is_empty() {
+            return Self::of(&Pattern::uncoupled(), blocks);
+        }
+        assert!(self.members.len() == blocks, "the components are not those of {blocks} blocks");
+        self.clone()
+    }
+
+    /// Whether each block is one.
+    pub(crate) fn are_apart(&self) -> bool {
+        self.iter().all(|members| members.len() == 1)
+    }
+
     /// The components of a pattern of so many blocks.
     pub fn of(pattern: &Pattern, blocks: usize) -> Self {
         let mut first: Vec<usize> = (0..blocks).collect();

@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use crate::block_matrix::BlockMatrix;
 use crate::layout::SystemLayout;
+use crate::pattern::Components;
 
 /// Applications of the Jacobian that let the largest eigenvalues prevail, and those over which growth is measured.
 const POWER_ITERATIONS: (usize, usize) = (4, 8);
 
 /// A lower bound of the spectral radius for next to nothing: ρ ≥ |tr J|/n.
-pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, layout: &SystemLayout) -> f64 {
-    let bounds = layout.components.iter().filter_map(|component| {
+pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, components: &Components) -> f64 {
+    let bounds = components.iter().filter_map(|component| {
         let blocks = component.iter().map(|block| &jacobian.diagonal()[*block]);
         let (trace, n) = blocks.fold((0.0, 0), |(trace, n), block| (trace + block.trace(), n + block.nrows()));
         (n > 0).then(|| trace.abs() / n as f64)
@@ -25,10 +26,15 @@ pub(crate) fn least_spectral_radius(jacobian: &BlockMatrix, layout: &SystemLayou
 /// in components relative to their scales, which makes unlike units comparable; the mean over k applications irons out
 /// what a complex pair does to the norm. The start is fixed and has no symmetry. A nilpotent block (free flight)
 /// gives 0. An estimate, good to a factor of two.
-pub(crate) fn spectral_radius(jacobian: &BlockMatrix, layout: &SystemLayout, scale: &[f64], work: &mut [f64]) -> f64 {
+pub(crate) fn spectral_radius(
+    (jacobian, components): (&BlockMatrix, &Components),
+    layout: &SystemLayout,
+    scale: &[f64],
+    work: &mut [f64],
+) -> f64 {
     let (vector, rest) = work.split_at_mut(layout.dimension);
     let image = &mut rest[..layout.dimension];
-    let growths = layout.components.iter().map(|blocks| {
+    let growths = components.iter().map(|blocks| {
         let component = CoupledBlocks { jacobian, ranges: layout.blocks(), blocks, scale };
         component.power_growth(vector, image)
     });
@@ -107,15 +113,15 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     fn whole(matrix: DMatrix<f64>) -> (BlockMatrix, SystemLayout) {
-        let (blocks, pattern) = ([0..0, 0..matrix.nrows()], Pattern::uncoupled());
-        let mut jacobian = BlockMatrix::new(&blocks, &pattern);
+        let blocks = [0..0, 0..matrix.nrows()];
+        let mut jacobian = BlockMatrix::new(&blocks);
         jacobian.diagonal_mut()[1].copy_from(&matrix);
-        (jacobian, SystemLayout::new(&blocks, &pattern, 0))
+        (jacobian, SystemLayout::new(&blocks, &Components::apart(), 0))
     }
 
     fn radius(matrix: DMatrix<f64>, scale: &[f64]) -> f64 {
         let (jacobian, layout) = whole(matrix);
-        spectral_radius(&jacobian, &layout, scale, &mut vec![0.0; 2 * scale.len()])
+        spectral_radius((&jacobian, &layout.components), &layout, scale, &mut vec![0.0; 2 * scale.len()])
     }
 
     #[test]
@@ -141,11 +147,14 @@ mod tests {
     #[test]
     fn spectral_radius_sees_the_coupling() {
         let (blocks, pattern) = ([0..1, 1..1, 1..2], Pattern::new(3, [(0, 2), (2, 0)]));
-        let mut jacobian = BlockMatrix::new(&blocks, &pattern);
+        let components = Components::of(&pattern, 3);
+        let mut jacobian = BlockMatrix::new(&blocks);
+        jacobian.arrange(&pattern);
         for (pair, value) in [((0, 2), 1e4), ((2, 0), -1e4)] {
             jacobian.block_mut(pair.0, pair.1).unwrap()[(0, 0)] = value;
         }
-        let rho = spectral_radius(&jacobian, &SystemLayout::new(&blocks, &pattern, 0), &[1.0; 2], &mut [0.0; 4]);
+        let layout = SystemLayout::new(&blocks, &components, 0);
+        let rho = spectral_radius((&jacobian, &components), &layout, &[1.0; 2], &mut [0.0; 4]);
         assert!((rho / 1e4 - 1.0).abs() < 1e-9, "{rho}");
     }
 
@@ -161,7 +170,7 @@ mod tests {
             let matrix = DMatrix::from_fn(5, 5, entry);
             let exact = matrix.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max);
             let (jacobian, layout) = whole(matrix);
-            let least = least_spectral_radius(&jacobian, &layout);
+            let least = least_spectral_radius(&jacobian, &layout.components);
             assert!(least > 0.0 && least <= exact, "{least} {exact}");
         }
     }

@@ -310,7 +310,7 @@ impl Integrator {
                 let stages = &mut self.implicit.stages;
                 let (step, max_step) = (self.progress.step, self.options.max_step);
                 let effort = ImplicitEffort { h: step, max_step, evaluations, linear: stages.linear.relative_cost() };
-                let mut radius = stages.linear.least_spectral_radius(&self.layout);
+                let mut radius = stages.linear.least_spectral_radius();
                 // In a stiff stretch the bound says enough.
                 if effort.exceeds_explicit(radius) {
                     radius = stages.spectral_radius(&self.layout, &self.current.scale);

@@ -4,14 +4,14 @@
 //!
 //! y is the state, w are quadratures: integrals that do not feed back (work, impulse, distance). They cost no linear
 //! algebra, yet are integrated, controlled and interpolated with the same care as y. The Jacobian ∂f/∂y consists of
-//! blocks; which of them couple is the system's to say. The integrator asks for nothing else: it knows neither bodies
-//! nor forces.
+//! blocks; which of them couple is the system's to say with each Jacobian. The integrator asks for nothing else: it
+//! knows neither bodies nor forces.
 
 use std::ops::Range;
 
 use crate::block_matrix::BlockMatrix;
 use crate::extended::{Extended, ExtendedMut};
-use crate::pattern::Pattern;
+use crate::pattern::Components;
 
 /// A system dy/dt = f(t, y), dw/dt = g(t, y) on a domain that may have a boundary.
 ///
@@ -30,12 +30,13 @@ pub trait System {
     /// The blocks of y: consecutive ranges, a partition of `0..dimension`. They may change between steps.
     fn blocks(&self) -> &[Range<usize>];
 
-    /// Which blocks enter the rates of which others: none, unless a system says otherwise. It may change between steps.
+    /// Sets of blocks of which none ever enters the rates of another: each block by itself, unless a system says
+    /// otherwise. They may change between steps.
     ///
-    /// The steppers compare it with that of the step before, and analyse it anew only where it differs.
-    fn pattern(&self) -> &Pattern {
-        static UNCOUPLED: Pattern = Pattern::uncoupled();
-        &UNCOUPLED
+    /// How stiff a system is is judged set by set.
+    fn components(&self) -> &Components {
+        static APART: Components = Components::apart();
+        &APART
     }
 
     /// The rates dy = f(t, y) and dw = g(t, y); every entry is to be written.
@@ -61,7 +62,10 @@ pub trait System {
         self.rates(t, y.high, dy, dw)
     }
 
-    /// The exact Jacobian ∂f/∂y, block (i, j) = ∂f_i/∂y_j where the pattern has it; it arrives filled with zeros.
+    /// The exact Jacobian ∂f/∂y, block (i, j) = ∂f_i/∂y_j; it arrives filled with zeros.
+    ///
+    /// A system whose blocks couple at this state [arranges](BlockMatrix::arrange) the matrix first. The steppers
+    /// compare the pattern with that of the step before, and analyse it anew only where it differs.
     ///
     /// # Errors
     /// `Inadmissible` if the state lies outside the domain.

@@ -3,7 +3,9 @@
 use crate::common::chain::{Balls, Chain, Shown};
 use crate::common::{Problem, distance, fixed, run_system, short, slopes, with};
 use allocation_counter::measure;
-use gyration_ode::{BlockMatrix, Cause, Failure, Integrator, Memory, Method, Options, Pattern, Stepper, System};
+use gyration_ode::{
+    BlockMatrix, Cause, Components, Failure, Integrator, Memory, Method, Options, Pattern, Stepper, System,
+};
 use std::convert::Infallible;
 use std::ops::Range;
 
@@ -162,7 +164,17 @@ fn nothing_is_allocated_while_the_pattern_stays() {
 struct Pair {
     rate: f64,
     slope: f64,
-    pattern: Pattern,
+    components: Components,
+}
+
+impl Pair {
+    fn new(rate: f64, slope: f64) -> Self {
+        Self { rate, slope, components: Components::of(&Self::pattern(), 2) }
+    }
+
+    fn pattern() -> Pattern {
+        Pattern::new(2, [(0, 1), (1, 0)])
+    }
 }
 
 impl System for Pair {
@@ -180,8 +192,8 @@ impl System for Pair {
         const { &[0..1, 1..2] }
     }
 
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
+    fn components(&self) -> &Components {
+        &self.components
     }
 
     fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], _: &mut [f64]) -> Result<(), Infallible> {
@@ -190,6 +202,7 @@ impl System for Pair {
     }
 
     fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
+        jacobian.arrange(&Self::pattern());
         for (row, column) in [(0, 1), (1, 0)] {
             jacobian.block_mut(row, column).unwrap()[(0, 0)] = self.slope;
         }
@@ -209,7 +222,7 @@ impl System for Pair {
 fn a_singular_matrix_costs_a_smaller_step() {
     // The real eigenvalue of the inverse of Radau's matrix: γ/h I − J is singular for h = 1.
     let gamma = 3.637_834_252_744_496;
-    let mut pair = Pair { rate: gamma, slope: gamma, pattern: Pattern::new(2, [(0, 1), (1, 0)]) };
+    let mut pair = Pair::new(gamma, gamma);
     let options = Options { initial_step: Some(1.0), ..with(Method::Implicit) };
     let end = run_system(&mut pair, &[1.0, 0.0], &[], (0.0, 2.0), options);
     let exact = (2.0 * gamma).cosh();
@@ -218,7 +231,7 @@ fn a_singular_matrix_costs_a_smaller_step() {
 
 #[test]
 fn a_matrix_that_is_no_number_is_an_error() {
-    let mut pair = Pair { rate: 1.0, slope: f64::NAN, pattern: Pattern::new(2, [(0, 1), (1, 0)]) };
+    let mut pair = Pair::new(1.0, f64::NAN);
     let mut integrator = Integrator::new(0.0, &[1.0, 0.0], &[], with(Method::Implicit));
     let failure = integrator.step(&mut pair, 1.0).unwrap_err();
     assert!(matches!(failure, Failure::StepTooSmall { cause: Cause::Newton, .. }), "{failure}");
@@ -229,9 +242,9 @@ fn a_matrix_that_is_no_number_is_an_error() {
 }
 
 #[test]
-#[should_panic = "the pattern is not one of 1 blocks"]
-fn a_pattern_of_other_blocks_is_refused() {
+#[should_panic = "the components are not those of 1 blocks"]
+fn components_of_other_blocks_are_refused() {
     let mut problem = Problem::new(2, |_, _, dy| dy.fill(0.0), |_, _, _| ());
-    problem.pattern = Pattern::new(2, [(0, 1)]);
+    problem.components = Components::of(&Pattern::new(2, [(0, 1)]), 2);
     let _ = Integrator::new(0.0, &[1.0, 0.0], &[], with(Method::Auto)).step(&mut problem, 1.0);
 }

@@ -18,7 +18,7 @@ use gyration::state::{BodyMotion, State};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use gyration::{Inadmissible, Quantity};
-use gyration_ode::{BlockMatrix, Extended, ExtendedMut, Pattern, System};
+use gyration_ode::{BlockMatrix, Components, Extended, ExtendedMut, Pattern, System};
 use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::Arc;
@@ -40,8 +40,8 @@ const SHARE: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub struct ModelSystem {
     model: Model,
-    /// Which bodies act on which others.
-    pattern: Pattern,
+    components: Components,
+    coupling: Coupling,
     workspace: Workspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
@@ -94,10 +94,11 @@ impl ModelSystem {
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // One of its own, if it needs one: most are lent one.
         let workspace = Workspace::default();
-        let pattern = pattern(&model);
+        let (components, coupling) = (components(&model), Coupling::of(&model));
         Self {
             model,
-            pattern,
+            components,
+            coupling,
             workspace,
             tolerance,
             speeds,
@@ -189,22 +190,59 @@ pub(crate) fn first_rates(model: &Model, start: &State) -> Result<Vec<f64>, Inad
     Ok(slopes)
 }
 
-/// Which bodies act on which others; they do so by forces, which the rates of places do not feel.
-fn pattern(model: &Model) -> Pattern {
-    let local = |(index, body): (usize, &Arc<Body>)| match body.has_inertia() {
-        true => model.slots(index).places().len(),
-        false => 0,
-    };
-    let local = model.bodies.iter().enumerate().map(local).collect();
-    Pattern::new(model.bodies.len(), model.joins()).with_local_rates(local)
+/// Which bodies act on which others at a state. They do so by forces, which the rates of places do not feel.
+#[derive(Debug, Clone, Default)]
+struct Coupling {
+    /// How many of the first rates of each body only the body itself enters.
+    local: Vec<usize>,
+    /// The pairs of the pattern.
+    pairs: Vec<(usize, usize)>,
+    pattern: Pattern,
+    /// Scratch: the pairs that are asked for.
+    asked: Vec<(usize, usize)>,
+}
+
+impl Coupling {
+    fn of(model: &Model) -> Self {
+        let local = |(index, body): (usize, &Arc<Body>)| match body.has_inertia() {
+            true => model.slots(index).places().len(),
+            false => 0,
+        };
+        Self { local: model.bodies.iter().enumerate().map(local).collect(), ..Self::default() }
+    }
+
+    /// The pattern of these pairs: made anew where they have changed.
+    fn pattern(&mut self, pairs: &mut dyn Iterator<Item = (usize, usize)>) -> &Pattern {
+        self.asked.clear();
+        self.asked.extend(pairs);
+        if self.asked != self.pairs {
+            self.pairs.clone_from(&self.asked);
+            let pattern = Pattern::new(self.local.len(), self.pairs.iter().copied());
+            self.pattern = pattern.with_local_rates(self.local.clone());
+        }
+        &self.pattern
+    }
+}
+
+/// The sets of bodies that may act on one another.
+fn components(model: &Model) -> Components {
+    let bodies = model.bodies.len();
+    Components::of(&Pattern::new(bodies, model.chain().map(Into::into)), bodies)
 }
 
 /// The blocks of a matrix, as the mechanics writes them.
-struct Written<'a>(&'a mut BlockMatrix);
+struct Written<'a> {
+    matrix: &'a mut BlockMatrix,
+    coupling: &'a mut Coupling,
+}
 
 impl Blocks for Written<'_> {
+    fn arrange(&mut self, pairs: &mut dyn Iterator<Item = (usize, usize)>) {
+        self.matrix.arrange(self.coupling.pattern(pairs));
+    }
+
     fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
-        self.0.block_mut(row, column)
+        self.matrix.block_mut(row, column)
     }
 }
 
@@ -223,8 +261,8 @@ impl System for ModelSystem {
         self.model.blocks()
     }
 
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
+    fn components(&self) -> &Components {
+        &self.components
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
@@ -239,13 +277,13 @@ impl System for ModelSystem {
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
-        let found = jacobian(&self.model, &mut self.workspace, t, y.into(), &mut Written(slopes));
-        self.noted(found)
+        self.extended_jacobian(t, Extended { high: y, low: &[] }, slopes)
     }
 
     fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        let found = jacobian(&self.model, &mut self.workspace, t, numbers, &mut Written(slopes));
+        let mut written = Written { matrix: slopes, coupling: &mut self.coupling };
+        let found = jacobian(&self.model, &mut self.workspace, t, numbers, &mut written);
         self.noted(found)
     }
 

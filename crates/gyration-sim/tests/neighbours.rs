@@ -51,7 +51,7 @@ fn crowd(size: usize, spacing: f64, reach: &str, is_soft: bool) -> Scene {
 fn computed(system: &mut ModelSystem, time: f64, state: &[f64]) -> [Vec<u64>; 4] {
     let (mut slopes, mut powers) = (vec![0.0; system.dimension()], vec![0.0; system.quadratures()]);
     system.rates(time, state, &mut slopes, &mut powers).unwrap();
-    let mut blocks = BlockMatrix::new(system.blocks(), system.pattern());
+    let mut blocks = BlockMatrix::new(system.blocks());
     system.jacobian(time, state, &mut blocks).unwrap();
     let count = system.model().bodies.len();
     let of_row = |row: usize| blocks.row(row).flat_map(|(_, block)| block.iter().copied()).collect::<Vec<_>>();

@@ -79,7 +79,7 @@ const IMMERSED: &str = r#"
 fn warm_up(system: &mut ModelSystem, start: &State) {
     let (n, works) = (start.bodies.len(), start.works.len());
     system.rates(0.0, &start.bodies, &mut vec![0.0; n], &mut vec![0.0; works]).unwrap();
-    let mut jacobian = BlockMatrix::new(system.blocks(), system.pattern());
+    let mut jacobian = BlockMatrix::new(system.blocks());
     system.jacobian(0.0, &start.bodies, &mut jacobian).unwrap();
 }
 

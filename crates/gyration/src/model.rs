@@ -7,7 +7,7 @@ use crate::body::{Body, Slots, Solid};
 use crate::contact::AreaMeasure;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, Interactions};
+use crate::load::{Applied, Bond, BondEnd, Interactions};
 use crate::neighbours::{BodyPair, Pair, PairRule, PairRules};
 use crate::pair::cutoff;
 use crate::support::Support;
@@ -190,13 +190,9 @@ impl Model {
         self.pairs
     }
 
-    /// The pairs (i, j) of bodies of which j may act on i, in order of i; some may come twice.
-    pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.bodies.len()).flat_map(move |body| {
-            let bonds = self.bonds.of(body).map(|end| end.other());
-            let rules = self.rules.of(body).iter().map(|rule| &self.rules.all()[*rule]);
-            bonds.chain(rules.flat_map(move |rule| rule.partners(body))).map(move |other| (body, other))
-        })
+    /// The springs between a body and others.
+    pub(crate) fn bonds_of(&self, body: usize) -> impl Iterator<Item = BondEnd<'_>> {
+        self.bonds.of(body)
     }
 
     /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.

@@ -1,6 +1,6 @@
 //! Systems of many coupled blocks: a chain of oscillators with known normal modes, and balls that come to touch.
 
-use gyration_ode::{BlockMatrix, Pattern, System};
+use gyration_ode::{BlockMatrix, Components, Pattern, System};
 use std::convert::Infallible;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -53,6 +53,7 @@ pub struct Chain {
     shown: Shown,
     blocks: Vec<Range<usize>>,
     pattern: Pattern,
+    components: Components,
 }
 
 impl Chain {
@@ -64,7 +65,9 @@ impl Chain {
             Shown::Reduced => Pattern::new(bodies, neighbours).with_local_rates(vec![1; bodies]),
             Shown::Whole => Pattern::uncoupled(),
         };
-        Self { bodies, stiffness: 1e6, damping: 1e4, atol: 1e-7, shown, blocks: blocks(bodies, shown), pattern }
+        let (stiffness, damping, atol, blocks) = (1e6, 1e4, 1e-7, blocks(bodies, shown));
+        let components = Components::of(&pattern, blocks.len());
+        Self { bodies, stiffness, damping, atol, shown, blocks, pattern, components }
     }
 
     /// x_i = a sin(m π i/(N + 1)) of mode m, at rest at t = 0: a'' = −λ (k a + c a'), λ = 4 sin²(m π/(2(N + 1))).
@@ -109,8 +112,8 @@ impl System for Chain {
         &self.blocks
     }
 
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
+    fn components(&self) -> &Components {
+        &self.components
     }
 
     fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Infallible> {
@@ -126,6 +129,7 @@ impl System for Chain {
     }
 
     fn jacobian(&mut self, _: f64, _: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
+        jacobian.arrange(&self.pattern);
         add_velocities(jacobian, self.shown, self.bodies);
         let (k, c) = (self.stiffness, self.damping);
         // Bond by bond, the last first: blocks may be added to in any order.
@@ -157,6 +161,7 @@ pub struct Balls {
     shown: Shown,
     blocks: Vec<Range<usize>>,
     pattern: Pattern,
+    components: Components,
 }
 
 const STIFFNESS: f64 = 1e6;
@@ -166,7 +171,8 @@ const MARGIN: f64 = 0.02;
 impl Balls {
     /// With this damping c: they bounce for 3e5, and creep for 1e8.
     pub fn new(bodies: usize, damping: f64, shown: Shown) -> Self {
-        Self { bodies, damping, shown, blocks: blocks(bodies, shown), pattern: Pattern::uncoupled() }
+        let (blocks, pattern) = (blocks(bodies, shown), Pattern::uncoupled());
+        Self { bodies, damping, shown, blocks, pattern, components: Components::apart() }
     }
 
     /// The start: gaps that grow upwards, at rest.
@@ -180,6 +186,7 @@ impl Balls {
         let pattern = Pattern::new(self.bodies, near.flat_map(|i| [(i - 1, i), (i, i - 1)]));
         let changed = self.shown == Shown::Coupled && pattern != self.pattern;
         if changed {
+            self.components = Components::of(&pattern, self.bodies);
             self.pattern = pattern;
         }
         changed
@@ -207,8 +214,8 @@ impl System for Balls {
         &self.blocks
     }
 
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
+    fn components(&self) -> &Components {
+        &self.components
     }
 
     fn rates(&mut self, _: f64, y: &[f64], dy: &mut [f64], _: &mut [f64]) -> Result<(), Infallible> {
@@ -227,6 +234,7 @@ impl System for Balls {
     }
 
     fn jacobian(&mut self, _: f64, y: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
+        jacobian.arrange(&self.pattern);
         add_velocities(jacobian, self.shown, self.bodies);
         for i in 0..self.bodies {
             let (o, rate) = Self::overlap(y, i);

@@ -6,7 +6,7 @@ pub mod chain;
 
 use std::ops::Range;
 
-use gyration_ode::{BlockMatrix, ImplicitOrder, Integrator, Method, Options, Pattern, Statistics, System};
+use gyration_ode::{BlockMatrix, Components, ImplicitOrder, Integrator, Method, Options, Statistics, System};
 use nalgebra::DMatrix;
 
 type Rates = dyn Fn(f64, &[f64], &mut [f64], &mut [f64]) -> Result<(), &'static str>;
@@ -16,7 +16,7 @@ type Jacobian = dyn Fn(f64, &[f64], &mut [DMatrix<f64>]);
 pub struct Problem {
     pub quadratures: usize,
     pub blocks: Vec<Range<usize>>,
-    pub pattern: Pattern,
+    pub components: Components,
     pub rtol: f64,
     pub atol: f64,
     pub project: fn(&mut [f64]) -> f64,
@@ -52,7 +52,7 @@ impl Problem {
         Self {
             quadratures,
             blocks: vec![Range { start: 0, end: dimension }],
-            pattern: Pattern::uncoupled(),
+            components: Components::apart(),
             rtol: 1e-6,
             atol: 1e-9,
             project: |_| 0.0,
@@ -82,8 +82,8 @@ impl System for Problem {
         &self.blocks
     }
 
-    fn pattern(&self) -> &Pattern {
-        &self.pattern
+    fn components(&self) -> &Components {
+        &self.components
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), &'static str> {

@@ -5,13 +5,13 @@ use nalgebra::DMatrix;
 use std::ops::Range;
 
 /// The places of the numbers of each set of blocks that hang together.
-pub(super) fn apart(slopes: &BlockMatrix, blocks: &[Range<usize>]) -> Vec<Vec<usize>> {
+pub(super) fn apart(components: &Components, blocks: &[Range<usize>]) -> Vec<Vec<usize>> {
     let places = |members: &[usize]| members.iter().flat_map(|block| blocks[*block].clone()).collect();
-    Components::of(slopes.pattern(), blocks.len()).iter().map(places).collect()
+    components.iter().map(places).collect()
 }
 
 /// The matrix of each of these sets.
-pub(super) fn together(slopes: &BlockMatrix, blocks: &[Range<usize>]) -> Vec<DMatrix<f64>> {
+pub(super) fn together(slopes: &BlockMatrix, components: &Components, blocks: &[Range<usize>]) -> Vec<DMatrix<f64>> {
     let matrix = |members: &[usize]| {
         let mut starts = vec![0; blocks.len()];
         let size = members.iter().fold(0, |start, block| {
@@ -26,5 +26,5 @@ pub(super) fn together(slopes: &BlockMatrix, blocks: &[Range<usize>]) -> Vec<DMa
         }
         matrix
     };
-    Components::of(slopes.pattern(), blocks.len()).iter().map(matrix).collect()
+    components.iter().map(matrix).collect()
 }

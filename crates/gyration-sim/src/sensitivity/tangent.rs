@@ -251,13 +251,13 @@ impl<'a> Tangent<'a> {
             self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
             self.history.at(self.at.time, &mut self.at.bodies);
             self.project();
-            let mut slopes = BlockMatrix::new(model.blocks(), self.system.pattern());
+            let mut slopes = BlockMatrix::new(model.blocks());
             // A step may end at a kink, behind which the model is another one.
             let inside = self.at.time - INSIDE * (to - from);
             self.system.jacobian(inside, &self.at.bodies, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
-            nodes.sets = apart(&slopes, model.blocks());
-            nodes.stages.slopes.push(together(&slopes, model.blocks()));
+            nodes.sets = apart(self.system.components(), model.blocks());
+            nodes.stages.slopes.push(together(&slopes, self.system.components(), model.blocks()));
             nodes.stages.forcing.push(forcing);
             nodes.powers.push(forcing_works);
             nodes.states.push(State { time: inside, ..self.at.clone() });

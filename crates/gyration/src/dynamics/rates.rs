@@ -49,7 +49,6 @@ pub fn rates(
 /// ∂(rates)/∂(state), block (i, j) the rates of body i by the numbers of body j, as `Model::blocks`.
 ///
 /// Blocks off the diagonal are added to; on the diagonal, what is always zero is taken to be zero already.
-/// `Model::joins` says where there are others than those on the diagonal.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
@@ -62,6 +61,7 @@ pub fn jacobian(
 ) -> Result<(), Inadmissible> {
     let Workspace { instants, scratch } = workspace;
     let mut instant = instants.differentiate(model, time, state)?;
+    blocks.arrange(&mut instant.joins());
     for index in 0..model.bodies.len() {
         let Some(matrix) = blocks.block(index, index) else { continue };
         match model.bodies[index].has_inertia() {

@@ -132,13 +132,21 @@ impl Instant<'_> {
         BodyAt { moving: self.motions.at(self.model, index), between: self.between }
     }
 
+    /// The pairs (i, j) of bodies of which j acts on i, in order of i; some come twice.
+    pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..self.model.bodies.len()).flat_map(|body| {
+            let bonds = self.model.bonds_of(body).map(|end| end.other());
+            bonds.chain(self.at(body).pairs().map(|pair| pair.end.other())).map(move |other| (body, other))
+        })
+    }
+
     /// The numbers that were read.
     pub(crate) fn state(&self) -> &[f64] {
         self.motions.state()
     }
 
-    /// Gives a body without inertia its motion, from numbers of its own. No pair has such a body, and a spring to it has
-    /// no dashpot: what stands between bodies stays as it was found.
+    /// Gives a body without inertia its motion, from numbers of its own. No pair has such a body, and a spring to it
+    /// has no dashpot: what stands between bodies stays as it was found.
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
@@ -166,7 +174,7 @@ impl<'a> BodyAt<'a> {
     }
 
     /// The pairs of which it is one, as far as they are within reach.
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = PairAt<'a>> {
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = PairAt<'a>> + use<'a> {
         let Self { moving, between } = *self;
         moving.near().pairs().of(moving.index).filter_map(move |end| Some(between.pair(end, moving.place(&end)?)))
     }

@@ -28,6 +28,10 @@ use nalgebra::DMatrix;
 
 /// The blocks of a Jacobian, to be written.
 pub trait Blocks {
+    /// Takes note of the pairs (i, j) of bodies of which j acts on i, some of them twice, before any block is asked
+    /// for.
+    fn arrange(&mut self, _pairs: &mut dyn Iterator<Item = (usize, usize)>) {}
+
     /// Block (row, column), or none where it is not wanted.
     fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>>;
 }
