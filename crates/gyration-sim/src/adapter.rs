@@ -41,7 +41,7 @@ const SHARE: f64 = 0.1;
 pub struct ModelSystem {
     model: Model,
     components: Components,
-    coupling: Coupling,
+    pattern: BodyPattern,
     workspace: Workspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
@@ -94,11 +94,11 @@ impl ModelSystem {
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // One of its own, if it needs one: most are lent one.
         let workspace = Workspace::default();
-        let (components, coupling) = (components(&model), Coupling::of(&model));
+        let (components, pattern) = (components(&model), BodyPattern::of(&model));
         Self {
             model,
             components,
-            coupling,
+            pattern,
             workspace,
             tolerance,
             speeds,
@@ -192,7 +192,7 @@ pub(crate) fn first_rates(model: &Model, start: &State) -> Result<Vec<f64>, Inad
 
 /// Which bodies act on which others at a state. They do so by forces, which the rates of places do not feel.
 #[derive(Debug, Clone, Default)]
-struct Coupling {
+struct BodyPattern {
     /// How many of the first rates of each body only the body itself enters.
     local: Vec<usize>,
     /// The pairs of the pattern.
@@ -202,7 +202,7 @@ struct Coupling {
     asked: Vec<(usize, usize)>,
 }
 
-impl Coupling {
+impl BodyPattern {
     fn of(model: &Model) -> Self {
         let local = |(index, body): (usize, &Arc<Body>)| match body.has_inertia() {
             true => model.slots(index).places().len(),
@@ -212,7 +212,7 @@ impl Coupling {
     }
 
     /// The pattern of these pairs: made anew where they have changed.
-    fn pattern(&mut self, pairs: &mut dyn Iterator<Item = (usize, usize)>) -> &Pattern {
+    fn of_pairs(&mut self, pairs: &mut dyn Iterator<Item = (usize, usize)>) -> &Pattern {
         self.asked.clear();
         self.asked.extend(pairs);
         if self.asked != self.pairs {
@@ -233,12 +233,12 @@ fn components(model: &Model) -> Components {
 /// The blocks of a matrix, as the mechanics writes them.
 struct Written<'a> {
     matrix: &'a mut BlockMatrix,
-    coupling: &'a mut Coupling,
+    pattern: &'a mut BodyPattern,
 }
 
 impl Blocks for Written<'_> {
     fn arrange(&mut self, pairs: &mut dyn Iterator<Item = (usize, usize)>) {
-        self.matrix.arrange(self.coupling.pattern(pairs));
+        self.matrix.arrange(self.pattern.of_pairs(pairs));
     }
 
     fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
@@ -282,7 +282,7 @@ impl System for ModelSystem {
 
     fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
-        let mut written = Written { matrix: slopes, coupling: &mut self.coupling };
+        let mut written = Written { matrix: slopes, pattern: &mut self.pattern };
         let found = jacobian(&self.model, &mut self.workspace, t, numbers, &mut written);
         self.noted(found)
     }

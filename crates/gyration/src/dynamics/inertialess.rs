@@ -235,8 +235,8 @@ impl Columns<'_> {
         add_interactions(at, |other, coupling, lower, lift| {
             let Some(matrix) = blocks.block(at.index, other) else { return };
             // A dashpot would make velocities follow velocities; there is none, and places alone enter.
-            let (by_place, _) = coupling.accelerations(lower, lift);
-            for (column, loads) in by_place.column_iter().take(at.model.slots(other).places().len()).enumerate() {
+            for column in 0..at.model.slots(other).places().len() {
+                let loads = coupling.by_place(lower, lift, column);
                 let change = solver.velocities(&loads.as_slice()[..velocities.len()], 0.0);
                 let Some(change) = change else { return solved = None };
                 for (row, into) in slots.places().chain(slots.extra()).enumerate() {

@@ -134,7 +134,9 @@ pub(super) fn add_slopes(
             let (own, found) = (pair.end.end, sloped(pair));
             slopes.loads += *pair.on_body();
             slopes.by_place += found.by_place[own][own];
-            slopes.by_rate += found.by_rate[own][own];
+            if let Some(by_rate) = &found.by_rate {
+                slopes.by_rate += by_rate[own][own];
+            }
         }
         Load::Couple(couple) => {
             let inverse = at.inverse();

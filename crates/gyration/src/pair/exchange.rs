@@ -1,8 +1,8 @@
-//! What two bodies exchange at their plane, and the slab between them: told, not computed.
+//! What two bodies exchange at their plane, its derivatives, and the slab between them: told, not computed.
 
 use super::plane::Guess;
 use crate::contact::LawKind;
-use crate::load::Loads;
+use crate::load::{Loads, Mat12};
 use crate::tensor::Vec3;
 
 /// What a pair of bodies does to both.
@@ -20,6 +20,17 @@ pub struct PairLoads {
     pub normal: Vec3,
     /// Where the force of the repulsion passes through the plane [m].
     pub point: Vec3,
+}
+
+/// What a pair of bodies does to both, and its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairSlopes {
+    /// What it does.
+    pub loads: PairLoads,
+    /// ∂Q_i/∂q_j.
+    pub by_place: [[Mat12; 2]; 2],
+    /// ∂Q_i/∂q̇_j; none where no law feels velocities.
+    pub by_rate: Option<[[Mat12; 2]; 2]>,
 }
 
 const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);

@@ -24,8 +24,8 @@
 //! | `gjk`         | a plane between them to begin with, guessed or found             |
 //! | `plane`       | a plane, and where it may be                                    |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
-//! | `exchange`    | loads and slab, as they are told                                |
-//! | `balls`       | the plane of least potential and its loads of two balls          |
+//! | `exchange`    | loads, derivatives and slab, as they are told                   |
+//! | `balls`       | the plane of two balls, their loads and derivatives             |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `loads`       | forces, moments, energy and powers                               |
@@ -48,7 +48,7 @@ mod side;
 mod slopes;
 mod state;
 
-pub use exchange::{PairGap, PairLoads};
+pub use exchange::{PairGap, PairLoads, PairSlopes};
 pub use fault::PairFault;
 pub use form::{EDGE, PairForm, cutoff, half_cutoff};
 pub use laws::{PairLaws, PairLawsError};
@@ -56,7 +56,6 @@ pub use overlap::Overlap;
 pub use plane::Guess;
 pub use reach::{Falling, Mass, Reach, Threshold};
 pub use side::Side;
-pub use slopes::PairSlopes;
 pub use state::PairScratch;
 
 use nalgebra::{Matrix3x4, Matrix4, Vector4};

@@ -5,7 +5,7 @@
 
 use super::Mat34;
 use super::equilibrium::Change;
-use super::exchange::PairLoads;
+use super::exchange::{PairLoads, PairSlopes};
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::mediator::Slope;
@@ -14,21 +14,11 @@ use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
 use crate::load::{COORDINATES, Mat12};
 
-/// What a pair of bodies does to both, and its derivatives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PairSlopes {
-    /// What it does.
-    pub loads: PairLoads,
-    /// ∂Q_i/∂q_j.
-    pub by_place: [[Mat12; 2]; 2],
-    /// ∂Q_i/∂q̇_j.
-    pub by_rate: [[Mat12; 2]; 2],
-}
-
 impl PairSlopes {
     /// Places the plane between two bodies, integrates the laws over both, and differentiates them.
     ///
-    /// The area factor of a body that deforms is held.
+    /// The area factor of a body that deforms is held. Those of rigid balls are by what they can do, turn and not
+    /// deform.
     ///
     /// # Errors
     /// [`PairFault`] if no plane separates them.
@@ -38,12 +28,17 @@ impl PairSlopes {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
+        if pair.laws.viscous.is_empty()
+            && let Some(balls) = pair.balls(sides)
+        {
+            return balls?.slopes(sides, pair.threshold);
+        }
         let state = PairState::new(pair, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
         let zeros = [[Mat12::zeros(); 2]; 2];
-        let mut slopes = Self { loads: PairLoads::default(), by_place: zeros, by_rate: zeros };
+        let mut slopes = Self { loads: PairLoads::default(), by_place: zeros, by_rate: None };
         let changes: [Change; BOTH] =
             std::array::from_fn(|column| state.placed.along(halves, places(column).each_ref()));
         for (column, change) in changes.iter().enumerate() {
@@ -54,6 +49,7 @@ impl PairSlopes {
             return Ok(slopes);
         }
         let normal = &state.placed.plane.normal;
+        let mut by_rate = None;
         state.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
@@ -64,11 +60,11 @@ impl PairSlopes {
                 let (foot, places) = ((&state.foot, &bent), (places.each_ref(), change));
                 add(&mut slopes.by_place, column, mediator.along_places(law, halves, placed, foot, places));
                 let (body, moved) = (column / COORDINATES, unit(column % COORDINATES));
-                add(&mut slopes.by_rate, column, mediator.along_rates(normal, body, &moved));
+                add(by_rate.get_or_insert(zeros), column, mediator.along_rates(normal, body, &moved));
             }
         })?;
         slopes.loads = state.exchange(on, powers);
-        Ok(slopes)
+        Ok(Self { by_rate, ..slopes })
     }
 }
 

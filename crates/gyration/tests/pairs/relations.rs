@@ -57,7 +57,8 @@ fn slopes_agree_with_differences() {
             assert!(off(&numbers(&slopes.loads.on[body]), &numbers(&at.on[body])) < 1e-12);
         }
         let step = 1e-4 * at.gap;
-        for (rates, found) in [(false, &slopes.by_place), (true, &slopes.by_rate)] {
+        let by_rate = slopes.by_rate.unwrap();
+        for (rates, found) in [(false, &slopes.by_place), (true, &by_rate)] {
             for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let shifted = |place: usize, by: f64| {
                     let mut halves = [one.clone(), other.clone()];

@@ -30,8 +30,8 @@ type Vec12 = SVector<f64, 12>;
 pub struct Coupling {
     /// ∂Q_i/∂q_j.
     pub by_place: Mat12,
-    /// ∂Q_i/∂q̇_j.
-    pub by_rate: Mat12,
+    /// ∂Q_i/∂q̇_j; none where no load feels velocities.
+    pub by_rate: Option<Mat12>,
 }
 
 /// A of one body: its columns are the numbers of a slot, position and velocity from 0, attitude and rate behind them.
@@ -55,29 +55,46 @@ pub struct Lower {
 
 impl From<&LoadSlopes> for Coupling {
     fn from(slopes: &LoadSlopes) -> Self {
-        Self { by_place: slopes.by_place, by_rate: slopes.by_rate }
+        Self { by_place: slopes.by_place, by_rate: Some(slopes.by_rate) }
     }
 }
 
 impl Coupling {
     /// Adds the block that these derivatives give to a matrix with the rows of one body and the columns of another.
     pub fn add_to(&self, matrix: &mut DMatrix<f64>, lower: &Lower, lift: &Lift) {
-        let (by_place, by_rate) = self.accelerations(lower, lift);
         let rows = lower.slots.velocities();
-        for (part, columns) in [(by_place, lift.slots.places()), (by_rate, lift.slots.velocities())] {
-            let mut block = matrix.view_mut((rows.start, columns.start), (rows.len(), columns.len()));
-            block += part.view((0, 0), (rows.len(), columns.len()));
+        let mut add = |column: usize, change: &Vec12| {
+            let mut block = matrix.column_mut(column);
+            block.rows_mut(rows.start, rows.len()).iter_mut().zip(change.iter()).for_each(|(sum, part)| *sum += part);
+        };
+        for (place, column) in lift.slots.places().enumerate() {
+            add(column, &self.by_place(lower, lift, place));
         }
+        if let Some(by_rate) = &self.by_rate {
+            for (place, column) in lift.slots.velocities().enumerate() {
+                add(column, &image(&lower.map, &image(by_rate, &lift.rate.column(place).into())));
+            }
+        }
+    }
+
+    /// The derivative of the rates of (velocity, rate) of one body by one of the numbers (position, attitude) of the
+    /// other.
+    pub(in super::super) fn by_place(&self, lower: &Lower, lift: &Lift, place: usize) -> Vec12 {
+        let mut change = image(&self.by_place, &lift.place.column(place).into());
+        if let Some(by_rate) = &self.by_rate {
+            change += image(by_rate, &lift.sway.column(place).into());
+        }
+        image(&lower.map, &change)
     }
 }
 
-impl Coupling {
-    /// The derivatives of the rates of (velocity, rate) of one body, by (position, attitude) and by (velocity, rate) of
-    /// the other.
-    pub(in super::super) fn accelerations(&self, lower: &Lower, lift: &Lift) -> (Mat12, Mat12) {
-        let by_place = lower.map * (self.by_place * lift.place + self.by_rate * lift.sway);
-        (by_place, lower.map * (self.by_rate * lift.rate))
+/// The image of a vector, most of whose entries are zero.
+fn image(matrix: &Mat12, vector: &Vec12) -> Vec12 {
+    let mut image = Vec12::zeros();
+    for (column, entry) in matrix.column_iter().zip(vector.iter()).filter(|(_, entry)| **entry != 0.0) {
+        image.iter_mut().zip(column.iter()).for_each(|(sum, part)| *sum += part * entry);
     }
+    image
 }
 
 /// (a | A) as a vector of twelve.

@@ -24,7 +24,8 @@ pub(in super::super) fn add_interactions(
             Load::Bond(end) => (end.other(), Coupling::of_bond(&end, &bonded(at, &end)?)),
             Load::Pair(pair) => {
                 let (slopes, own) = (sloped(&pair), pair.end.end);
-                let (by_place, by_rate) = (slopes.by_place[own][1 - own], slopes.by_rate[own][1 - own]);
+                let by_place = slopes.by_place[own][1 - own];
+                let by_rate = slopes.by_rate.as_ref().map(|by_rate| by_rate[own][1 - own]);
                 (pair.end.other(), Coupling { by_place, by_rate })
             }
             // What acts on one body alone.
@@ -46,9 +47,12 @@ impl Coupling {
     fn of_bond(end: &BondEnd, loads: &SpringLoads) -> Self {
         let point = |point: &Vec3, place: usize| if place == 0 { 1.0 } else { point[place - 1] };
         let weight = |a: usize, b: usize| -point(&loads.point, a) * point(&end.other_point(), b);
-        let mut coupling = Self { by_place: Mat12::zeros(), by_rate: Mat12::zeros() };
-        add_blocks(&mut coupling.by_place, &loads.by_place, weight);
-        add_blocks(&mut coupling.by_rate, &loads.by_velocity, weight);
-        coupling
+        let (mut by_place, mut by_rate) = (Mat12::zeros(), Mat12::zeros());
+        add_blocks(&mut by_place, &loads.by_place, weight);
+        if end.interaction.law.damping == 0.0 {
+            return Self { by_place, by_rate: None };
+        }
+        add_blocks(&mut by_rate, &loads.by_velocity, weight);
+        Self { by_place, by_rate: Some(by_rate) }
     }
 }

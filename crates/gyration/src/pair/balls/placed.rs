@@ -1,0 +1,125 @@
+//! Two balls whose plane is found: the slab between them, what they do to each other, and its derivatives.
+
+use super::{Balls, Repelled};
+use crate::contact::LawKind;
+use crate::kinematics::Velocity;
+use crate::load::{Loads, Mat12, numbers};
+use crate::pair::equilibrium::Switch;
+use crate::pair::exchange::{PairGap, PairLoads, PairSlopes};
+use crate::pair::fault::PairFault;
+use crate::pair::plane::Plane;
+use crate::pair::side::Side;
+use crate::tensor::{Mat3, Vec3};
+
+/// Two balls and their plane.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct PlacedBalls<'a> {
+    pub(super) balls: &'a Balls,
+    /// n, from B to A.
+    pub(super) normal: Vec3,
+    /// The distance of their centres [m].
+    pub(super) distance: f64,
+    /// The gap of each to the plane [m].
+    pub(super) gaps: [f64; 2],
+}
+
+impl PlacedBalls<'_> {
+    /// The plane, from the centre of A.
+    pub fn plane(&self) -> Plane {
+        Plane { normal: self.normal, offset: -(self.balls.radii[0] + self.gaps[0]) }
+    }
+
+    /// The slab between them.
+    pub fn gap(&self, sides: [&Side; 2]) -> PairGap {
+        let gap = self.gaps[0] + self.gaps[1];
+        let apart = sides[0].velocity.velocity - sides[1].velocity.velocity;
+        let along = apart.dot(&self.normal);
+        let turning = (apart - along * self.normal) / self.distance;
+        // The nearest points are at ∓R n; rigid balls do not move them along n.
+        let swelling = |i: usize| {
+            let Side { velocity, placement, .. } = sides[i];
+            let point = placement.gradient.tr_mul(&self.normal);
+            self.balls.radii[i] * self.normal.dot(&(velocity.gradient_rate * point))
+        };
+        let rate = along - swelling(0) - swelling(1);
+        PairGap { gap, rate, normal: self.normal, turning, share: self.gaps[0] / gap }
+    }
+
+    /// What the repulsion does to both, beginning at an energy [J].
+    ///
+    /// # Errors
+    /// [`PairFault`] if that is no number.
+    pub fn loads(&self, sides: [&Side; 2], threshold: f64) -> Result<PairLoads, PairFault> {
+        let repelled = self.balls.repulsion(self.gaps)?;
+        Ok(self.pushed(sides, &repelled, &Switch::at(threshold, repelled.energy)))
+    }
+
+    /// The same, given the repulsion at the gaps and how it begins.
+    fn pushed(&self, sides: [&Side; 2], repelled: &Repelled, switch: &Switch) -> PairLoads {
+        let Self { normal, gaps, .. } = self;
+        let Repelled { energy, force, balls } = repelled;
+        let force = switch.slope * force;
+        let on = |i: usize, sign: f64| Loads {
+            force: sign * force * normal,
+            moment: -force * balls[i].lever() * normal * sides[i].placement.gradient.tr_mul(normal).transpose(),
+        };
+        let on = [on(0, 1.0), on(1, -1.0)];
+        let power = |i: usize| {
+            let Velocity { velocity, gradient_rate } = sides[i].velocity;
+            on[i].force.dot(velocity) + on[i].moment.dot(gradient_rate)
+        };
+        let mut powers = [0.0; LawKind::COUNT];
+        powers[LawKind::Repulsion as usize] = power(0) + power(1);
+        PairLoads {
+            on,
+            energy: switch.value * energy,
+            powers,
+            gap: gaps[0] + gaps[1],
+            normal: *normal,
+            point: sides[0].placement.position + self.plane().offset * normal,
+        }
+    }
+
+    /// The same with its derivatives, along motions of rigid bodies.
+    ///
+    ///   f_A = F n,   M_i = −F l_i n⊗m_i,   m_i = P_iᵀn
+    ///   δn = (1 − n⊗n)(δp_A − δp_B)/D,   δg = n·(δp_A − δp_B),   δm_i = P_iᵀδn + δP_iᵀn
+    ///
+    /// # Errors
+    /// [`PairFault`] if they are no numbers.
+    pub fn slopes(&self, sides: [&Side; 2], threshold: f64) -> Result<PairSlopes, PairFault> {
+        let Self { balls, normal, distance, gaps } = self;
+        let repelled = balls.repulsion(*gaps)?;
+        let switch = Switch::at(threshold, repelled.energy);
+        let (stiffness, levers_by_gap) = balls.stiffness(&repelled);
+        // χ″ = bend χ′/U, and dU/dg = −F.
+        let bend = -switch.bend * repelled.force * repelled.force / repelled.energy;
+        let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
+        let mut by_place = [[Mat12::zeros(); 2]; 2];
+        for (axis, across) in Mat3::identity().column_iter().enumerate() {
+            let along = normal[axis];
+            let turned = (across - along * normal) / *distance;
+            let pushed = stiffness * along * normal + force * turned;
+            for side in 0..2 {
+                let gradient = &sides[side].placement.gradient;
+                let point = gradient.tr_mul(normal);
+                let lever = repelled.balls[side].lever();
+                let moment = force * lever;
+                let by_gap = stiffness * lever + force * levers_by_gap[side];
+                let moved = -by_gap * along * normal * point.transpose()
+                    - moment * (turned * point.transpose() + normal * gradient.tr_mul(&turned).transpose());
+                for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+                    let force = if side == 0 { sign * pushed } else { -sign * pushed };
+                    by_place[side][body].set_column(axis, &numbers(&Loads { force, moment: sign * moved }));
+                }
+                // δP = e_axis ⊗ e_k.
+                for k in 0..3 {
+                    let moment = -moment * along * normal * Vec3::ith(k, 1.0).transpose();
+                    let change = Loads { force: Vec3::zeros(), moment };
+                    by_place[side][side].set_column(3 + 3 * k + axis, &numbers(&change));
+                }
+            }
+        }
+        Ok(PairSlopes { loads: self.pushed(sides, &repelled, &switch), by_place, by_rate: None })
+    }
+}
