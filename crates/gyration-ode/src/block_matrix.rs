@@ -17,31 +17,42 @@ pub struct BlockMatrix {
     diagonal: Vec<DMatrix<f64>>,
     /// The other blocks, pair by pair.
     coupling: Vec<DMatrix<f64>>,
+    /// Whether it was arranged since it was cleared.
+    arranged: bool,
 }
 
 impl BlockMatrix {
     /// Zeros, with room for the diagonal of a system of these blocks.
     pub fn new(blocks: &[Range<usize>]) -> Self {
         let diagonal = blocks.iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect();
-        Self { pattern: Pattern::uncoupled(), diagonal, coupling: Vec::new() }
+        Self { pattern: Pattern::uncoupled(), diagonal, coupling: Vec::new(), arranged: false }
     }
 
-    /// Has blocks where a pattern has them, all zero, those of the diagonal as they are; room is kept if it has them
-    /// already.
+    /// Places blocks of zeros beside the diagonal where a pattern has pairs, those of before being gone; room is kept
+    /// if the pattern is the same.
     ///
     /// # Panics
     /// If the pattern is one of another number of blocks.
     pub fn arrange(&mut self, pattern: &Pattern) {
+        self.arranged = true;
         if self.pattern == *pattern {
             self.coupling.iter_mut().for_each(|block| block.fill(0.0));
             return;
         }
         assert!(pattern.fits(self.diagonal.len()), "the pattern is not one of {} blocks", self.diagonal.len());
+        self.coupling.clear();
         let size = |block: usize| self.diagonal[block].nrows();
         let rows =
             (0..self.diagonal.len()).flat_map(|row| pattern.columns(row).iter().map(move |column| (row, *column)));
-        self.coupling = rows.map(|(row, column)| DMatrix::zeros(size(row), size(column))).collect();
+        self.coupling.extend(rows.map(|(row, column)| DMatrix::zeros(size(row), size(column))));
         self.pattern = pattern.clone();
+    }
+
+    /// Has the diagonal alone, unless it was arranged since it was cleared.
+    pub(crate) fn settle(&mut self) {
+        if !self.arranged {
+            self.arrange(&Pattern::uncoupled());
+        }
     }
 
     /// Where the matrix may have numbers.
@@ -81,11 +92,10 @@ impl BlockMatrix {
         std::iter::once((row, &self.diagonal[row])).chain(others)
     }
 
-    /// Sets every number to zero.
-    pub fn clear(&mut self) {
-        for block in self.diagonal.iter_mut().chain(&mut self.coupling) {
-            block.fill(0.0);
-        }
+    /// Sets the blocks of the diagonal to zero; those beside it wait for being arranged.
+    pub(crate) fn clear(&mut self) {
+        self.diagonal.iter_mut().for_each(|block| block.fill(0.0));
+        self.arranged = false;
     }
 }
 
@@ -103,7 +113,11 @@ mod tests {
         assert!(matrix.block_mut(0, 1).is_none() && matrix.block_mut(3, 3).is_none());
         let row: Vec<_> = matrix.row(1).map(|(column, block)| (column, block.shape(), block[(0, 0)])).collect();
         assert_eq!(row, [(1, (3, 3), 0.0), (0, (3, 2), 1.0), (2, (3, 1), 2.0)]);
+        // Arranged alike, it has zeros beside the diagonal; cleared and not arranged, nothing.
+        matrix.arrange(&Pattern::new(3, [(1, 2), (1, 0)]));
+        assert_eq!(matrix.row(1).map(|(_, block)| block.amax()).collect::<Vec<_>>(), [0.0; 3]);
         matrix.clear();
-        assert!((0..3).all(|row| matrix.row(row).all(|(_, block)| block.amax() == 0.0)));
+        matrix.settle();
+        assert_eq!((matrix.row(1).count(), matrix.diagonal()[0].amax()), (1, 0.0));
     }
 }

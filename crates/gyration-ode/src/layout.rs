@@ -16,7 +16,7 @@ pub(crate) struct SystemLayout {
     pub groups: Vec<Range<usize>>,
     /// How many of the groups are blocks of y.
     pub blocks: usize,
-    /// The blocks that hang together, as the system has them.
+    /// The components, as the system has them.
     pub given: Components,
     /// The same, each listed.
     pub components: Components,

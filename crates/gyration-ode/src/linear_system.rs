@@ -44,7 +44,7 @@ impl LinearSystem {
         }
     }
 
-    /// The Jacobian, filled with zeros, and arranged as it was last.
+    /// The Jacobian, its diagonal filled with zeros, to be arranged and written.
     pub fn cleared(&mut self, layout: &SystemLayout) -> &mut BlockMatrix {
         if self.jacobian.diagonal().len() == layout.blocks().len() {
             self.jacobian.clear();
@@ -58,6 +58,9 @@ impl LinearSystem {
     fn analyse(&mut self, layout: &SystemLayout) {
         let pattern = self.jacobian.pattern();
         if self.analysed.as_ref() != Some(pattern) {
+            debug_assert!(layout.components.contain(pattern), "blocks couple across the components of the system");
+            // Those of before go first.
+            self.factors = ComponentFactors::default();
             self.components = Components::of(pattern, layout.blocks().len());
             self.factors = ComponentFactors::new(layout.blocks(), &self.components, &self.jacobian, self.method);
             self.analysed = Some(pattern.clone());
@@ -69,6 +72,7 @@ impl LinearSystem {
     /// # Errors
     /// `Singular` if one of them is singular or not finite.
     pub fn factorize(&mut self, layout: &SystemLayout, h: f64) -> Result<(), Singular> {
+        self.jacobian.settle();
         self.analyse(layout);
         self.factors.factorize(h, &self.jacobian, self.method)
     }

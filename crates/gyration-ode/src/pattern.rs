@@ -115,7 +115,7 @@ pub struct Components {
 }
 
 impl Components {
-    /// Each block is one, however many there are.
+    /// Each block is one, however many there are; none of them is listed.
     pub const fn apart() -> Self {
         Self { starts: Vec::new(), members: Vec::new() }
     }
@@ -130,6 +130,15 @@ impl Components {
         }
         assert!(self.members.len() == blocks, "the components are not those of {blocks} blocks");
         self.clone()
+    }
+
+    /// Whether each pair of a pattern is within one of these, which are listed.
+    pub(crate) fn contain(&self, pattern: &Pattern) -> bool {
+        let mut set = vec![0; self.members.len()];
+        for (k, members) in self.iter().enumerate() {
+            members.iter().for_each(|block| set[*block] = k);
+        }
+        (0..set.len()).all(|row| pattern.columns(row).iter().all(|column| set[row] == set[*column]))
     }
 
     /// Whether each block is one.

@@ -30,10 +30,10 @@ pub trait System {
     /// The blocks of y: consecutive ranges, a partition of `0..dimension`. They may change between steps.
     fn blocks(&self) -> &[Range<usize>];
 
-    /// Sets of blocks of which none ever enters the rates of another: each block by itself, unless a system says
-    /// otherwise. They may change between steps.
+    /// Sets of blocks such that no block enters the rates of one in another set: each block by itself, unless a system
+    /// says otherwise. They hold at every state until the next step, before which they may change.
     ///
-    /// How stiff a system is is judged set by set.
+    /// Stiffness is judged set by set.
     fn components(&self) -> &Components {
         static APART: Components = Components::apart();
         &APART
@@ -64,8 +64,9 @@ pub trait System {
 
     /// The exact Jacobian ∂f/∂y, block (i, j) = ∂f_i/∂y_j; it arrives filled with zeros.
     ///
-    /// A system whose blocks couple at this state [arranges](BlockMatrix::arrange) the matrix first. The steppers
-    /// compare the pattern with that of the step before, and analyse it anew only where it differs.
+    /// A system whose blocks couple at this state [arranges](BlockMatrix::arrange) the matrix in this call, within its
+    /// components; one that does not has the diagonal alone. The steppers compare the pattern with that of the step
+    /// before, and analyse it anew only where it differs.
     ///
     /// # Errors
     /// `Inadmissible` if the state lies outside the domain.

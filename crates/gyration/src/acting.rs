@@ -28,6 +28,11 @@ pub struct PairAt<'a> {
 }
 
 impl PairAt<'_> {
+    /// Whether it does anything: below the energy at which it begins, loads and derivatives are zeros.
+    pub fn acts(&self) -> bool {
+        self.loads.energy != 0.0
+    }
+
     /// (f | M) on the body.
     pub fn on_body(&self) -> &Loads {
         &self.loads.on[self.end.end]

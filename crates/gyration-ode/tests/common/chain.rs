@@ -162,6 +162,8 @@ pub struct Balls {
     blocks: Vec<Range<usize>>,
     pattern: Pattern,
     components: Components,
+    /// How often the pattern has changed.
+    pub changes: usize,
 }
 
 const STIFFNESS: f64 = 1e6;
@@ -172,7 +174,9 @@ impl Balls {
     /// With this damping c: they bounce for 3e5, and creep for 1e8.
     pub fn new(bodies: usize, damping: f64, shown: Shown) -> Self {
         let (blocks, pattern) = (blocks(bodies, shown), Pattern::uncoupled());
-        Self { bodies, damping, shown, blocks, pattern, components: Components::apart() }
+        let together = Pattern::new(blocks.len(), (1..blocks.len()).map(|i| (i - 1, i)));
+        let components = Components::of(&together, blocks.len());
+        Self { bodies, damping, shown, blocks, pattern, components, changes: 0 }
     }
 
     /// The start: gaps that grow upwards, at rest.
@@ -180,16 +184,14 @@ impl Balls {
         (0..self.bodies).flat_map(|i| [i as f64 + 0.02 * ((i + 1) * (i + 2)) as f64, 0.0]).collect()
     }
 
-    /// States the pattern of the pairs that are near each other; returns whether it has changed.
-    pub fn look(&mut self, y: &[f64]) -> bool {
+    /// Finds the pattern of the pairs that are near each other.
+    fn look(&mut self, y: &[f64]) {
         let near = (1..self.bodies).filter(|i| y[2 * i] - y[2 * i - 2] < 1.0 + MARGIN);
         let pattern = Pattern::new(self.bodies, near.flat_map(|i| [(i - 1, i), (i, i - 1)]));
-        let changed = self.shown == Shown::Coupled && pattern != self.pattern;
-        if changed {
-            self.components = Components::of(&pattern, self.bodies);
+        if self.shown == Shown::Coupled && pattern != self.pattern {
             self.pattern = pattern;
+            self.changes += 1;
         }
-        changed
     }
 
     /// Overlap of ball i with what is below, and its rate.
@@ -234,6 +236,7 @@ impl System for Balls {
     }
 
     fn jacobian(&mut self, _: f64, y: &[f64], jacobian: &mut BlockMatrix) -> Result<(), Infallible> {
+        self.look(y);
         jacobian.arrange(&self.pattern);
         add_velocities(jacobian, self.shown, self.bodies);
         for i in 0..self.bodies {
@@ -244,8 +247,7 @@ impl System for Balls {
             let slopes = (3.0 * o * o * (STIFFNESS + self.damping * rate), self.damping * o.powi(3));
             let minus = (-slopes.0, -slopes.1);
             add(jacobian, self.shown, (i, i), minus);
-            // A contact that the pattern does not have yet is left out: Newton's method is slower, no worse.
-            if i > 0 && (self.shown == Shown::Whole || jacobian.block_mut(i, i - 1).is_some()) {
+            if i > 0 {
                 add(jacobian, self.shown, (i - 1, i - 1), minus);
                 add(jacobian, self.shown, (i, i - 1), slopes);
                 add(jacobian, self.shown, (i - 1, i), slopes);

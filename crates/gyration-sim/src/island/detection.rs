@@ -52,7 +52,7 @@ impl Island {
     pub fn find_gaps(&mut self) {
         let Self { system, integrator, .. } = self;
         let (model, workspace) = system.observed();
-        // Where no plane is found there are no rates either: the next step stops the run with that.
+        // Where no plane is found none is remembered; stages of the next step that find none either end the run.
         let _ = workspace.remember_pairs(model, integrator.time(), integrator.state().into());
     }
 

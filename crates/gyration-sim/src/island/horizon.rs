@@ -84,19 +84,19 @@ pub(crate) fn horizon(
             });
         }
     }
-    // Where a plane was not found there are no rates either, and the next step stops the run with that.
-    let Some(gaps) = gaps else { return step };
-    for (pair, slab) in gaps.iter() {
+    // Of pairs whose planes were not found nothing is known: the next step is likely to stop the run.
+    let is_whole = gaps.is_some_and(PairGaps::is_whole);
+    for (pair, slab) in gaps.into_iter().flat_map(PairGaps::iter) {
         let both = pair.bodies.map(|body| &ends[body]);
         match (slab.gap < f64::INFINITY, pair.form.reach) {
-            (false, Some(reach)) if gaps.is_whole() => {
+            (false, Some(reach)) if is_whole => {
                 step = step.min(before_meeting(both, (reach, pair.form.radii()), step));
             }
             (false, Some(_)) => {}
             _ => step = step.min(BodyApproach::of(model, pair, both, radii, &slab.normal).time(step)),
         }
     }
-    if !gaps.is_whole() {
+    if !is_whole {
         // Who may meet within a usual step is soon found; only where nobody does, all time to go is looked at.
         let soon = if usual > 0.0 { step.min(AHEAD * usual) } else { step };
         let first = before_any_meeting(model, ends, soon, step);

@@ -30,6 +30,8 @@ impl ScratchPool {
                 act(island);
                 continue;
             }
+            // No pairs, whose planes a workspace would remember.
+            debug_assert!(island.model().rules().is_empty());
             island.integrator.take_scratch(&mut pooled.stepper);
             island.system.exchange_workspace(&mut pooled.workspace);
             act(island);

@@ -103,7 +103,8 @@ impl Workspace {
         self.instants.slabs(model, time, state)
     }
 
-    /// The slabs that were found last, of the pairs that were looked at until something failed.
+    /// The slabs that were found last, of the pairs that were looked at until something failed; none once they are
+    /// remembered.
     pub fn found_gaps(&self) -> &PairGaps {
         self.instants.found()
     }

@@ -1,8 +1,8 @@
 //! A model at an instant, in two stages that each evaluation goes through once: the motion of every body, then what
 //! bodies do to each other. Rates, Jacobian, rows and events look at both.
 //!
-//! An [`Instant`] is made of stages that were read for one time and state, and it lends them: what an earlier one found
-//! cannot be asked for while it lasts, nor it once the next is read.
+//! An [`Instant`] lends what both stages found at one time and state. The next one is read into the same memory, so
+//! that the compiler refuses to ask an instant behind its end.
 //!
 //! | file      | what                                                                          |
 //! |-----------|-------------------------------------------------------------------------------|
@@ -89,7 +89,7 @@ impl Instants {
     /// [`Inadmissible`] if no plane separates two of them.
     pub fn slabs(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
         if model.rules().is_empty() {
-            self.slabs.be_of_none();
+            self.slabs.become_empty();
             return Ok(&self.slabs);
         }
         self.slabs.clear();
@@ -106,10 +106,10 @@ impl Instants {
     pub fn remember(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
         self.remembered.forget();
         self.slabs(model, time, state)?;
-        Ok(self.remembered.keep(time, &self.slabs))
+        Ok(self.remembered.keep(time, &mut self.slabs))
     }
 
-    /// The slabs that were found last, of the pairs that were looked at.
+    /// The slabs that were found last, of the pairs that were looked at; none once they are remembered.
     pub fn found(&self) -> &PairGaps {
         &self.slabs
     }
@@ -132,11 +132,13 @@ impl Instant<'_> {
         BodyAt { moving: self.motions.at(self.model, index), between: self.between }
     }
 
-    /// The pairs (i, j) of bodies of which j acts on i, in order of i; some come twice.
+    /// The pairs (i, j) of bodies of which j acts on i at this instant, in order of i; some come twice.
     pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.model.bodies.len()).flat_map(|body| {
             let bonds = self.model.bonds_of(body).map(|end| end.other());
-            bonds.chain(self.at(body).pairs().map(|pair| pair.end.other())).map(move |other| (body, other))
+            bonds
+                .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.end.other()))
+                .map(move |other| (body, other))
         })
     }
 

@@ -189,8 +189,6 @@ impl Motions {
     }
 
     /// A body of the model from whose state this was read.
-    ///
-    /// Its loads and balance panic if the model is another one, whose body of this index is of another kind.
     #[inline]
     pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> MotionAt<'a> {
         let BodyInstant { motion, attitude } = &self.bodies[index];

@@ -57,8 +57,8 @@ impl PairGaps {
         }
     }
 
-    /// Is that of a model without pairs.
-    pub(super) fn be_of_none(&mut self) {
+    /// Becomes that of a model without pairs.
+    pub(super) fn become_empty(&mut self) {
         self.clear();
         self.is_whole = true;
         if !self.pairs.all().is_empty() {
@@ -83,10 +83,11 @@ impl Remembered {
         self.since = None;
     }
 
-    /// Remembers the slabs of a time [s].
-    pub fn keep(&mut self, time: f64, slabs: &PairGaps) -> &PairGaps {
+    /// Remembers the slabs of a time [s]; those of before are given back.
+    pub fn keep(&mut self, time: f64, slabs: &mut PairGaps) -> &PairGaps {
         self.since = Some(time);
-        self.gaps.clone_from(slabs);
+        std::mem::swap(&mut self.gaps, slabs);
+        slabs.clear();
         // They are found among these at the next instant.
         self.list = None;
         &self.gaps
