@@ -11,7 +11,7 @@
 
 use super::fault::PairFault;
 use super::gjk::{guessed, separate};
-use super::laws::PairLaws;
+use super::laws::{PairLaws, raised};
 use super::plane::{Guess, Plane};
 use super::side::{Half, Potential};
 use super::{Mat34, Vec4};
@@ -140,10 +140,13 @@ impl Placed {
         let tangents = tangents(&plane.normal);
         let [above, below] = halves;
         let potentials = [above.potential(laws, &plane, room)?, below.potential(laws, &plane, room)?];
-        let terms = [0, 1].map(|i| halves[i].root_share * libm::pow(potentials[i].value, -power));
-        let sum = terms[0] + terms[1];
-        let energy = libm::pow(sum, -1.0 / power);
-        let parts = terms.map(|term| term / sum);
+        let ratio = libm::pow(potentials[1].value / potentials[0].value, -power);
+        let parts = [above.root_share, below.root_share * ratio];
+        let parts = parts.map(|part| part / (parts[0] + parts[1]));
+        // U = U_i (s_i²/w_i)^(ν−1), of the side whose part is the larger.
+        let larger = usize::from(parts[1] > parts[0]);
+        let squeezed = (parts[larger] / halves[larger].root_share).powi(2);
+        let energy = potentials[larger].value * raised(squeezed, laws.repulsion.exponent - 1.0);
         let weights = [0, 1].map(|i| parts[i] * energy / potentials[i].value);
         let zeros = Vec3::zeros();
         let heights = halves.map(|half| {

@@ -10,6 +10,8 @@ pub struct PairLaws {
     pub measure: AreaMeasure,
     /// What places the plane.
     pub repulsion: Repulsion,
+    /// α d₀^ν.
+    pub(super) coefficient: f64,
     laws: Vec<ContactLaw>,
     /// Of d^(1−ν), d^−ν and d^−(ν+1).
     pub(super) placing: MomentPlan,
@@ -57,6 +59,9 @@ pub enum PairLawsError {
     Measure,
 }
 
+/// The largest power that is taken by products, of as many halves of a rounding.
+const MOST_PRODUCTS: f64 = 16.0;
+
 /// The least exponent with which a plane stays off both bodies.
 const LEAST_EXPONENT: f64 = 2.0;
 
@@ -99,6 +104,7 @@ impl PairLaws {
         Ok(Self {
             measure,
             repulsion,
+            coefficient: repulsion.term().coefficient,
             laws,
             placing: MomentPlan::new(placing),
             viscous,
@@ -125,6 +131,12 @@ impl PairLaws {
         let mean: f64 = (0..2).map(|i| shares[i] * libm::pow(areas[i], -1.0 / (exponent - 1.0))).sum();
         density * libm::pow(mean, 1.0 - exponent)
     }
+}
+
+/// xᵖ; by products where p is a small integer.
+pub(super) fn raised(base: f64, exponent: f64) -> f64 {
+    let is_integer = exponent.fract() == 0.0 && exponent.abs() <= MOST_PRODUCTS;
+    if is_integer { base.powi(exponent as i32) } else { libm::pow(base, exponent) }
 }
 
 /// w of surfaces of these areas.

@@ -16,7 +16,7 @@
 
 use super::equilibrium::{Change, Placed};
 use super::fault::PairFault;
-use super::laws::{PairLaws, ViscousLaw};
+use super::laws::{PairLaws, ViscousLaw, raised};
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::LawKind;
@@ -70,7 +70,7 @@ impl Shares {
 
     /// κ d^ν′ of a side.
     fn coefficient(&self, law: &ViscousLaw, side: usize) -> f64 {
-        law.coefficient * libm::pow(self.own[side], law.exponent) / self.parts[side]
+        law.coefficient * raised(self.own[side], law.exponent) / self.parts[side]
     }
 
     /// δ log κ, given δ log λ.

@@ -62,6 +62,13 @@ pub(super) fn joined(zeroth: f64, first: &Vec3, second: &Mat3) -> Mat4 {
     joined
 }
 
+impl Side<'_> {
+    /// Whether it can only turn: P is a rotation, and stays one.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.deformation.is_none() && self.inverse == self.placement.gradient.transpose()
+    }
+}
+
 impl Half<'_> {
     /// z of a plane.
     pub fn heights(&self, plane: &Plane) -> Vec4 {
@@ -99,12 +106,12 @@ impl Half<'_> {
     /// The potential of a plane.
     pub fn potential(&self, laws: &PairLaws, plane: &Plane, room: &mut [Moments]) -> Result<Potential, GapClosed> {
         self.moments(plane, &laws.placing, room)?;
-        let term = laws.repulsion.term();
+        let (coefficient, exponent) = (laws.coefficient, laws.repulsion.exponent);
         let [energy, force, stiffness] = room else { unreachable!("the plan of a repulsion has three powers") };
         Ok(Potential {
-            value: term.coefficient / (term.exponent - 1.0) * energy.zeroth,
-            first: term.coefficient * force.joined_first(),
-            second: term.exponent * term.coefficient * joined(stiffness.zeroth, &stiffness.first, &stiffness.second),
+            value: coefficient / (exponent - 1.0) * energy.zeroth,
+            first: coefficient * force.joined_first(),
+            second: exponent * coefficient * joined(stiffness.zeroth, &stiffness.first, &stiffness.second),
         })
     }
 

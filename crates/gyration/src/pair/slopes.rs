@@ -1,11 +1,11 @@
 //! The derivatives of what two bodies do to each other, by the coordinates and velocities of both.
 //!
-//! They are taken along each of the twelve coordinates of each body in turn, with the change of the plane: moments
-//! change by those of one more power of the gap, and everything else by the chain rule.
+//! They are taken along each of the twelve coordinates of each body in turn, of a rigid one along its six, with the
+//! change of the plane: moments change by those of one more power of the gap, and everything else by the chain rule.
 
 use super::Mat34;
 use super::equilibrium::Change;
-use super::exchange::{PairLoads, PairSlopes};
+use super::exchange::PairSlopes;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::mediator::Slope;
@@ -13,12 +13,14 @@ use super::plane::Guess;
 use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
 use crate::load::{COORDINATES, Mat12};
+use crate::tensor::{Mat3, Vec3, cross_matrix};
+use nalgebra::ArrayStorage;
 
 impl PairSlopes {
     /// Places the plane between two bodies, integrates the laws over both, and differentiates them.
     ///
-    /// The area factor of a body that deforms is held. Those of rigid balls are by what they can do, turn and not
-    /// deform.
+    /// The area factor of a body that deforms is held. Those by the place of a rigid body are by what it can do, turn
+    /// and not deform.
     ///
     /// # Errors
     /// [`PairFault`] if no plane separates them.
@@ -37,16 +39,18 @@ impl PairSlopes {
         let halves = state.halves.each_ref();
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
-        let zeros = [[Mat12::zeros(); 2]; 2];
-        let mut slopes = Self { loads: PairLoads::default(), by_place: zeros, by_rate: None };
-        let changes: [Change; BOTH] =
-            std::array::from_fn(|column| state.placed.along(halves, places(column).each_ref()));
-        for (column, change) in changes.iter().enumerate() {
-            add(&mut slopes.by_place, column, [0, 1].map(|side| state.repulsion_along(side, change)));
+        let (mut directions, mut count) = ([Direction::Coordinate { body: 0, place: 0 }; BOTH], 0);
+        for direction in Direction::all(sides) {
+            directions[count] = direction;
+            count += 1;
         }
-        if state.placed.is_out_of_reach() {
-            slopes.loads = state.exchange(on, powers);
-            return Ok(slopes);
+        let directions = &directions[..count];
+        let mut sums = [[Mat34::zeros(); 2]; BOTH];
+        let changes: [Option<Change>; BOTH] = std::array::from_fn(|k| {
+            directions.get(k).map(|direction| state.placed.along(halves, direction.places().each_ref()))
+        });
+        for (sum, change) in sums.iter_mut().zip(changes.iter().flatten()) {
+            *sum = [0, 1].map(|side| state.repulsion_along(side, change));
         }
         let normal = &state.placed.plane.normal;
         let mut by_rate = None;
@@ -55,42 +59,90 @@ impl PairSlopes {
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
             let bent = [0, 1].map(|side| Slope::new(law, shares, side, moments[side]));
-            for (column, change) in changes.iter().enumerate() {
-                let (placed, places) = ((&state.placed, shares), places(column));
+            for ((direction, change), sum) in directions.iter().zip(changes.iter().flatten()).zip(&mut sums) {
+                let (placed, places) = ((&state.placed, shares), direction.places());
                 let (foot, places) = ((&state.foot, &bent), (places.each_ref(), change));
-                add(&mut slopes.by_place, column, mediator.along_places(law, halves, placed, foot, places));
-                let (body, moved) = (column / COORDINATES, unit(column % COORDINATES));
-                add(by_rate.get_or_insert(zeros), column, mediator.along_rates(normal, body, &moved));
+                let change = mediator.along_places(law, halves, placed, foot, places);
+                sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
+            }
+            let by_rate = by_rate.get_or_insert(ZEROS);
+            for column in 0..BOTH {
+                let (body, place) = (column / COORDINATES, column % COORDINATES);
+                let change = mediator.along_rates(normal, body, &unit(place));
+                Direction::Coordinate { body, place }.add_to(by_rate, &change);
             }
         })?;
-        slopes.loads = state.exchange(on, powers);
-        Ok(Self { by_rate, ..slopes })
+        let mut by_place = ZEROS;
+        directions.iter().zip(&sums).for_each(|(direction, sum)| direction.add_to(&mut by_place, sum));
+        Ok(Self { loads: state.exchange(on, powers), by_place, by_rate })
     }
 }
 
 /// The coordinates of both bodies.
 const BOTH: usize = 2 * COORDINATES;
 
-/// The columns of a matrix that are one, counted by (p₀ | P) column by column.
+const ZEROS: [[Mat12; 2]; 2] = [[ZERO; 2]; 2];
+const ZERO: Mat12 = Mat12::from_array_storage(ArrayStorage([[0.0; COORDINATES]; COORDINATES]));
+
+/// A way in which one of two bodies can move.
+#[derive(Debug, Clone, Copy)]
+enum Direction {
+    /// Along one of the twelve coordinates (p₀ | P), counted column by column.
+    Coordinate { body: usize, place: usize },
+    /// About an axis of its own: P [e]×.
+    Turn { body: usize, gradient: Mat3 },
+}
+
+impl Direction {
+    /// All those of two bodies: six of a rigid one.
+    fn all<'a>(sides: [&'a Side; 2]) -> impl Iterator<Item = Self> + use<'a> {
+        sides.into_iter().enumerate().flat_map(|(body, side)| {
+            let gradient = &side.placement.gradient;
+            let turns = if side.is_rigid() { 3 } else { 0 };
+            let coordinates = if side.is_rigid() { 3 } else { COORDINATES };
+            let turned = move |axis: usize| gradient * cross_matrix(&Vec3::ith(axis, 1.0));
+            (0..coordinates)
+                .map(move |place| Self::Coordinate { body, place })
+                .chain((0..turns).map(move |axis| Self::Turn { body, gradient: turned(axis) }))
+        })
+    }
+
+    /// (δq_A, δq_B).
+    fn places(&self) -> [Mat34; 2] {
+        let mut places = [Mat34::zeros(); 2];
+        match self {
+            Self::Coordinate { body, place } => places[*body] = unit(*place),
+            Self::Turn { body, gradient } => places[*body].fixed_view_mut::<3, 3>(0, 1).copy_from(gradient),
+        }
+        places
+    }
+
+    /// Adds the change of (f | M) on both along it. Turned by θ_k = ½ P [e_k]× · δP, a rotation has no other part.
+    fn add_to(&self, slopes: &mut [[Mat12; 2]; 2], change: &[Mat34; 2]) {
+        match self {
+            Self::Coordinate { body, place } => {
+                for (rows, change) in slopes.iter_mut().zip(change) {
+                    let column = rows[*body].column_mut(*place);
+                    column.into_iter().zip(change.iter()).for_each(|(entry, number)| *entry += number);
+                }
+            }
+            Self::Turn { body, gradient } => {
+                for (rows, change) in slopes.iter_mut().zip(change) {
+                    for (place, part) in gradient.iter().enumerate() {
+                        let column = rows[*body].column_mut(3 + place);
+                        column.into_iter().zip(change.iter()).for_each(|(entry, number)| *entry += 0.5 * part * number);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A change of one of the twelve coordinates, counted by (p₀ | P) column by column.
 fn unit(coordinate: usize) -> Mat34 {
     let mut unit = Mat34::zeros();
     unit[coordinate] = 1.0;
     unit
-}
-
-/// (δq_A, δq_B) of one coordinate of the two.
-fn places(column: usize) -> [Mat34; 2] {
-    [0, 1].map(|body| if column / COORDINATES == body { unit(column % COORDINATES) } else { Mat34::zeros() })
-}
-
-/// Adds the change of (f | M) on both with one coordinate of the two.
-fn add(slopes: &mut [[Mat12; 2]; 2], column: usize, change: [Mat34; 2]) {
-    let (body, coordinate) = (column / COORDINATES, column % COORDINATES);
-    for (rows, change) in slopes.iter_mut().zip(&change) {
-        for (entry, number) in rows[body].column_mut(coordinate).iter_mut().zip(change.iter()) {
-            *entry += number;
-        }
-    }
 }
 
 impl PairState<'_> {

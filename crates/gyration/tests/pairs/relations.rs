@@ -1,9 +1,11 @@
 //! Relations that hold for every pair of bodies.
 
-use super::{laws, loads, noise, numbers, off, pair, pairs, rotation, vector, within};
+use super::{Half, laws, loads, noise, numbers, off, pair, pairs, rotation, vector, within};
 use gyration::contact::LawKind;
+use gyration::kinematics::Placement;
 use gyration::load::Loads;
-use gyration::pair::{PairScratch, PairSlopes};
+use gyration::pair::{PairScratch, PairSlopes, Side};
+use gyration::tensor::{Mat3, Vec3, cross_matrix};
 
 #[test]
 fn forces_are_the_derivative_of_the_potential() {
@@ -122,4 +124,46 @@ fn names_and_axes_do_not_matter() {
             assert!(apart < 1e-11, "{name}: {apart:e}");
         }
     }
+}
+
+/// Along what rigid bodies can do, six motions of each, against the derivatives by all twelve coordinates.
+#[test]
+fn slopes_of_rigid_bodies_are_those_along_their_motions() {
+    let mut worst: f64 = 0.0;
+    for (k, (name, one, other)) in pairs().enumerate() {
+        let laws = laws([[6.0, 6.0, 6.0], [2.5, 4.0, 3.0]][k % 2], k % 3 > 0);
+        // Without their strain they may need more room.
+        let apart = 0.1 * (one.placement.position - other.placement.position);
+        let one = one.turned(&Mat3::identity(), &apart);
+        let halves = [one, other].map(|half| {
+            let turn = nalgebra::Rotation3::from_matrix(&half.placement.gradient).into_inner();
+            let placement = Placement { gradient: turn, ..half.placement };
+            Half { placement, ..half }
+        });
+        let reach = 20.0 * loads(&laws, halves.each_ref()).gap;
+        let slopes = |inverse: fn(&Mat3) -> Mat3| {
+            let sides = halves
+                .each_ref()
+                .map(|half| Side { inverse: inverse(&half.placement.gradient), ..half.side(&halves[0]) });
+            let pair = pair(&laws, Some(reach), halves.each_ref());
+            PairSlopes::integrate(&pair, sides.each_ref(), None, &mut PairScratch::default()).unwrap()
+        };
+        // By the last digit of its inverse a body is one that deforms.
+        let (rigid, general) = (slopes(Mat3::transpose), slopes(|turn| turn.transpose() * (1.0 + f64::EPSILON)));
+        assert_eq!(rigid.by_rate.is_some(), general.by_rate.is_some());
+        for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let turn = &halves[moved].placement.gradient;
+            let size = general.by_place[acting][moved].amax();
+            for axis in 0..3 {
+                let unit = Vec3::ith(axis, 1.0);
+                for (force, moment) in [(unit, Mat3::zeros()), (Vec3::zeros(), turn * cross_matrix(&unit))] {
+                    let motion = nalgebra::SVector::<f64, 12>::from_vec(numbers(&Loads { force, moment }));
+                    let [own, wanted] = [&rigid, &general].map(|slopes| slopes.by_place[acting][moved] * motion);
+                    worst = worst.max((own - wanted).amax() / size);
+                    assert!((own - wanted).amax() < 1e-9 * size, "{name}: on {acting} by {moved}, axis {axis}");
+                }
+            }
+        }
+    }
+    println!("worst difference {worst:.1e} of the largest");
 }

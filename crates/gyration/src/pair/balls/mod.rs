@@ -16,7 +16,7 @@ mod tests;
 pub(super) use placed::PlacedBalls;
 
 use super::fault::PairFault;
-use super::laws::{PairLaws, shares};
+use super::laws::{PairLaws, raised, shares};
 use super::side::Side;
 use std::f64::consts::PI;
 
@@ -87,9 +87,7 @@ impl Balls {
     /// # Errors
     /// [`PairFault`] if they touch, or a number of theirs is none.
     pub fn place<'a>(&'a self, sides: [&Side; 2]) -> Option<Result<PlacedBalls<'a>, PairFault>> {
-        let turns = |side: &&Side| side.inverse == side.placement.gradient.transpose();
-        let rigid = sides.iter().all(|side| side.deformation.is_none() && turns(side));
-        rigid.then(|| self.place_rigid(sides))
+        sides.iter().all(|side| side.is_rigid()).then(|| self.place_rigid(sides))
     }
 
     fn place_rigid(&self, [above, below]: [&Side; 2]) -> Result<PlacedBalls<'_>, PairFault> {
@@ -177,7 +175,7 @@ impl Balls {
                 1.0 / (1.0 + (self.shares[1] / self.shares[0]).sqrt() * others)
             }
         };
-        let energy = self.scale * value * libm::pow(part * part / self.shares[0], self.exponent - 1.0);
+        let energy = self.scale * value * raised(part * part / self.shares[0], self.exponent - 1.0);
         if !energy.is_finite() {
             return Err(PairFault::NotFound { decrement: f64::NAN });
         }
@@ -199,7 +197,7 @@ impl Balls {
 
     /// v.
     fn value(&self, ball: &Ball) -> f64 {
-        self.scaled(ball) * libm::pow(ball.gap / self.reference_gap, 2.0 - self.exponent)
+        self.scaled(ball) * raised(ball.gap / self.reference_gap, 2.0 - self.exponent)
     }
 
     /// log v, which may be where v is no number.

@@ -85,8 +85,8 @@ fn balls_do_what_the_general_method_says() {
         }
     }
     println!("balls: energy {energy:.1e}, forces {force:.1e}, planes and the rest {rest:.1e}");
-    // A gap of 1e-4 radii is rounded to 2e-12 of it, which the eleventh power makes 2e-11; the general method finds
-    // its plane to half of the digits where U is flat.
+    // A gap of 1e-4 radii is rounded to 2e-12 of it, which the eleventh power makes 2e-11; the general method finds its
+    // plane to half of the digits where U is flat.
     assert!(energy < 5e-11 && force < 5e-11 && rest < 1e-8);
 }
 
@@ -109,8 +109,8 @@ fn force_is_the_slope_of_the_energy() {
     }
 }
 
-/// Derjaguin's limit: that of balls of one radius R_A R_B/(R_A + R_B) at the whole gap of one of them from a plane,
-/// a sphere beside which is a half-space.
+/// Derjaguin's limit: that of balls of one radius R_A R_B/(R_A + R_B) at the whole gap of one of them from a plane, a
+/// sphere beside which is a half-space.
 #[test]
 fn a_ball_feels_one_that_is_a_million_times_larger_as_a_plane() {
     for (radii, small) in [([1.0, 1e-6], 1), ([1e-6, 1.0], 0)] {
