@@ -4,6 +4,7 @@
 
 mod contracting;
 mod corpus;
+mod counts;
 mod deforming;
 mod dissipation;
 mod interruptions;
