@@ -1,5 +1,5 @@
-//! What runs cost, in counts: steps, evaluations, Jacobians, factorizations. A tenth more fails; bytes would only say that
-//! numbers have moved.
+//! What runs cost, in counts: steps, evaluations, Jacobians, factorizations. A tenth more fails; bytes would only say
+//! that numbers have moved.
 
 use crate::islands::parsed;
 use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Unwatched};
