@@ -78,12 +78,13 @@ impl BlockMatrix {
         self.pattern.place(row, column).map(|place| &self.coupling[place])
     }
 
-    /// Block (row, column), to be written or added to; none where the pattern has none.
+    /// Block (row, column), to be written or added to; none where the pattern has none, or before it is arranged.
     pub fn block_mut(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
         if row == column {
             return self.diagonal.get_mut(row);
         }
-        self.pattern.place(row, column).map(|place| &mut self.coupling[place])
+        let place = self.pattern.place(row, column).filter(|_| self.arranged);
+        place.map(|place| &mut self.coupling[place])
     }
 
     /// The blocks of a row with their columns, the diagonal first, then ascending.
@@ -117,6 +118,7 @@ mod tests {
         matrix.arrange(&Pattern::new(3, [(1, 2), (1, 0)]));
         assert_eq!(matrix.row(1).map(|(_, block)| block.amax()).collect::<Vec<_>>(), [0.0; 3]);
         matrix.clear();
+        assert!(matrix.block_mut(1, 0).is_none());
         matrix.settle();
         assert_eq!((matrix.row(1).count(), matrix.diagonal()[0].amax()), (1, 0.0));
     }

@@ -28,7 +28,7 @@ pub struct PairAt<'a> {
 }
 
 impl PairAt<'_> {
-    /// Whether it does anything: below the energy at which it begins, loads and derivatives are zeros.
+    /// Whether it does anything that a number can tell: below the energy at which it begins, it does not.
     pub fn acts(&self) -> bool {
         self.loads.energy != 0.0
     }

@@ -140,8 +140,10 @@ impl Placed {
         let tangents = tangents(&plane.normal);
         let [above, below] = halves;
         let potentials = [above.potential(laws, &plane, room)?, below.potential(laws, &plane, room)?];
-        let ratio = libm::pow(potentials[1].value / potentials[0].value, -power);
-        let parts = [above.root_share, below.root_share * ratio];
+        // The lower one has the larger s; their ratio may be too small for a number, not too large.
+        let [low, high] = if potentials[0].value <= potentials[1].value { [0, 1] } else { [1, 0] };
+        let mut parts = halves.map(|half| half.root_share);
+        parts[high] *= libm::pow(potentials[low].value / potentials[high].value, power);
         let parts = parts.map(|part| part / (parts[0] + parts[1]));
         // U = U_i (s_i²/w_i)^(ν−1), of the side whose part is the larger.
         let larger = usize::from(parts[1] > parts[0]);

@@ -55,6 +55,8 @@ struct Repelled {
     energy: f64,
     /// −dU/dg [N].
     force: f64,
+    /// s_A/Σ.
+    part: f64,
     balls: [Ball; 2],
 }
 
@@ -141,6 +143,11 @@ impl Balls {
         self.repulsion(self.balance(gap)?).map(|Repelled { energy, force, .. }| (energy, force))
     }
 
+    /// −d log U/dg [1/m], also where U is too small for a number.
+    fn growth(&self, repelled: &Repelled) -> f64 {
+        repelled.part * self.fall(&repelled.balls[0])
+    }
+
     /// How the force changes with the slab, without a threshold, and the lever of each [N/m, 1].
     ///
     ///   U = c Σ^(−1/q),   Σ = max s_A(a) + s_B(g − a),   dΣ/dg = s′,   d²Σ/dg² = s_A″ s_B″/(s_A″ + s_B″)
@@ -148,8 +155,8 @@ impl Balls {
     fn stiffness(&self, repelled: &Repelled) -> (f64, [f64; 2]) {
         let power = 0.5 / (self.exponent - 1.0);
         let [above, below] = &repelled.balls;
+        let part = repelled.part;
         // s and its second derivative over Σ.
-        let part = repelled.force / (repelled.energy * self.fall(above));
         let parts = [part, 1.0 - part];
         let bent =
             |i: usize, ball: &Ball| power * parts[i] * ((1.0 + power) * self.fall(ball).powi(2) - self.bend(ball));
@@ -179,7 +186,7 @@ impl Balls {
         if !energy.is_finite() {
             return Err(PairFault::NotFound { decrement: f64::NAN });
         }
-        Ok(Repelled { energy, force: energy * part * self.fall(&above), balls: [above, below] })
+        Ok(Repelled { energy, force: energy * part * self.fall(&above), part, balls: [above, below] })
     }
 
     /// A ball at a gap from a plane.

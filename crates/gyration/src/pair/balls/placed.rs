@@ -57,7 +57,7 @@ impl PlacedBalls<'_> {
     /// The same, given the repulsion at the gaps and how it begins.
     fn pushed(&self, sides: [&Side; 2], repelled: &Repelled, switch: &Switch) -> PairLoads {
         let Self { normal, gaps, .. } = self;
-        let Repelled { energy, force, balls } = repelled;
+        let Repelled { energy, force, balls, .. } = repelled;
         let force = switch.slope * force;
         let on = |i: usize, sign: f64| Loads {
             force: sign * force * normal,
@@ -93,7 +93,7 @@ impl PlacedBalls<'_> {
         let switch = Switch::at(threshold, repelled.energy);
         let (stiffness, levers_by_gap) = balls.stiffness(&repelled);
         // χ″ = bend χ′/U, and dU/dg = −F.
-        let bend = -switch.bend * repelled.force * repelled.force / repelled.energy;
+        let bend = -switch.bend * repelled.force * balls.growth(&repelled);
         let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
         let mut by_place = [[Mat12::zeros(); 2]; 2];
         for (axis, across) in Mat3::identity().column_iter().enumerate() {

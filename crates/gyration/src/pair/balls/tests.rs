@@ -165,6 +165,16 @@ fn slopes_are_those_of_the_general_method() {
     assert!(worst < 1e-8);
 }
 
+/// Of balls whose energy is too small for a number.
+#[test]
+fn slopes_of_next_to_nothing_are_zeros() {
+    let meeting = Meeting::new([1.0, 1.0], 40.0, 1e8, None);
+    let (pair, sides) = (&meeting.pairs[0], meeting.sides());
+    let found = PairSlopes::integrate(pair, sides.each_ref(), None, &mut PairScratch::default()).unwrap();
+    assert_eq!(found.loads.energy, 0.0);
+    assert!(found.by_place.iter().flatten().all(|slopes| slopes.amax() == 0.0));
+}
+
 /// The size of slopes [N/m].
 fn meeting_size(meeting: &Meeting, exponent: f64) -> f64 {
     let found = &meeting.loads()[0];
