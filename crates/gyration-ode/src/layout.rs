@@ -16,9 +16,7 @@ pub(crate) struct SystemLayout {
     pub groups: Vec<Range<usize>>,
     /// How many of the groups are blocks of y.
     pub blocks: usize,
-    /// The components, as the system has them.
-    pub given: Components,
-    /// The same, each listed.
+    /// The components of the system, each listed.
     pub components: Components,
 }
 
@@ -28,7 +26,7 @@ impl SystemLayout {
     /// # Panics
     /// If the blocks are not consecutive ranges from 0, or the components are of other blocks: a mistake in the system,
     /// not in its data.
-    pub fn new(blocks: &[Range<usize>], given: &Components, quadratures: usize) -> Self {
+    pub fn new(blocks: &[Range<usize>], components: &Components, quadratures: usize) -> Self {
         let mut dimension = 0;
         for block in blocks {
             assert!(block.start == dimension && block.end >= dimension, "blocks must be consecutive ranges");
@@ -38,8 +36,8 @@ impl SystemLayout {
         if quadratures > 0 {
             groups.push(dimension..dimension + quadratures);
         }
-        let (given, components) = (given.clone(), given.listed(blocks.len()));
-        Self { dimension, width: dimension + quadratures, groups, blocks: blocks.len(), given, components }
+        let components = components.listed(blocks.len());
+        Self { dimension, width: dimension + quadratures, groups, blocks: blocks.len(), components }
     }
 
     /// Copies the layout of a system.
@@ -58,7 +56,7 @@ impl SystemLayout {
         self.dimension == system.dimension()
             && self.width == system.dimension() + system.quadratures()
             && self.blocks() == system.blocks()
-            && self.given == *system.components()
+            && self.components.are(system.components())
     }
 
     /// The blocks of y.

@@ -120,13 +120,18 @@ impl Components {
         Self { starts: Vec::new(), members: Vec::new() }
     }
 
+    /// Whether these, which are listed, are the same as others, which may not be.
+    pub(crate) fn are(&self, others: &Self) -> bool {
+        if others.starts.is_empty() { self.are_apart() } else { self == others }
+    }
+
     /// The same of so many blocks, each listed.
     ///
     /// # Panics
     /// If these are components of another number of blocks: a mistake in the system, not in its data.
     pub(crate) fn listed(&self, blocks: usize) -> Self {
         if self.starts.is_empty() {
-            return Self::of(&Pattern::uncoupled(), blocks);
+            return Self::joined(blocks, []);
         }
         assert!(self.members.len() == blocks, "the components are not those of {blocks} blocks");
         self.clone()
@@ -148,12 +153,18 @@ impl Components {
 
     /// The components of a pattern of so many blocks.
     pub fn of(pattern: &Pattern, blocks: usize) -> Self {
+        Self::joined(blocks, (0..blocks).flat_map(|row| pattern.columns(row).iter().map(move |column| [row, *column])))
+    }
+
+    /// So many blocks, of which these pairs hang together.
+    ///
+    /// # Panics
+    /// If a pair names a block that does not exist.
+    pub fn joined(blocks: usize, pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let mut first: Vec<usize> = (0..blocks).collect();
-        for row in 0..blocks {
-            for column in pattern.columns(row) {
-                let (a, b) = (root(&mut first, row), root(&mut first, *column));
-                first[a.max(b)] = a.min(b);
-            }
+        for [one, other] in pairs {
+            let (a, b) = (root(&mut first, one), root(&mut first, other));
+            first[a.max(b)] = a.min(b);
         }
         let mut members: Vec<usize> = (0..blocks).collect();
         let roots: Vec<usize> = members.iter().map(|block| root(&mut first, *block)).collect();

@@ -244,6 +244,6 @@ fn a_matrix_that_is_no_number_is_an_error() {
 #[should_panic = "the components are not those of 1 blocks"]
 fn components_of_other_blocks_are_refused() {
     let mut problem = Problem::new(2, |_, _, dy| dy.fill(0.0), |_, _, _| ());
-    problem.components = Components::of(&Pattern::new(2, [(0, 1)]), 2);
+    problem.components = Components::joined(2, [[0, 1]]);
     let _ = Integrator::new(0.0, &[1.0, 0.0], &[], with(Method::Auto)).step(&mut problem, 1.0);
 }

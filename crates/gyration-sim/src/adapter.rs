@@ -40,6 +40,7 @@ const SHARE: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub struct ModelSystem {
     model: Model,
+    /// The sets of bodies that may act on one another.
     components: Components,
     pattern: BodyPattern,
     workspace: Workspace,
@@ -94,7 +95,8 @@ impl ModelSystem {
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // One of its own, if it needs one: most are lent one.
         let workspace = Workspace::default();
-        let (components, pattern) = (components(&model), BodyPattern::of(&model));
+        let components = Components::joined(model.bodies.len(), model.chain());
+        let pattern = BodyPattern::of(&model);
         Self {
             model,
             components,
@@ -222,12 +224,6 @@ impl BodyPattern {
         }
         &self.pattern
     }
-}
-
-/// The sets of bodies that may act on one another.
-fn components(model: &Model) -> Components {
-    let bodies = model.bodies.len();
-    Components::of(&Pattern::new(bodies, model.chain().map(Into::into)), bodies)
 }
 
 /// The blocks of a matrix, as the mechanics writes them.

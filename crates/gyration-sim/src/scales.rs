@@ -12,7 +12,7 @@ use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
-use gyration_ode::{Components, Pattern};
+use gyration_ode::Components;
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -50,8 +50,7 @@ pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Resu
             *scale = pushed(&instant.at(index), slopes, scratch)?;
         }
     }
-    let joined = Pattern::new(bodies, model.chain().map(Into::into));
-    for members in Components::of(&joined, bodies).iter().filter(|members| members.len() > 1) {
+    for members in Components::joined(bodies, model.chain()).iter().filter(|members| members.len() > 1) {
         let mass = |body: usize| model.bodies[body].solid.mass.mass;
         let moving = || members.iter().filter(|body| model.bodies[**body].has_inertia());
         let speed = moving().map(|body| scales[*body]).fold(0.0, f64::max);

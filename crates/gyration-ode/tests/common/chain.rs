@@ -174,8 +174,7 @@ impl Balls {
     /// With this damping c: they bounce for 3e5, and creep for 1e8.
     pub fn new(bodies: usize, damping: f64, shown: Shown) -> Self {
         let (blocks, pattern) = (blocks(bodies, shown), Pattern::uncoupled());
-        let together = Pattern::new(blocks.len(), (1..blocks.len()).map(|i| (i - 1, i)));
-        let components = Components::of(&together, blocks.len());
+        let components = Components::joined(blocks.len(), (1..blocks.len()).map(|i| [i - 1, i]));
         Self { bodies, damping, shown, blocks, pattern, components, changes: 0 }
     }
 

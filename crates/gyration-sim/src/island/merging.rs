@@ -15,7 +15,7 @@ use crate::plan::RunPlan;
 use gyration::neighbours::BodyPair;
 use gyration::pair::EDGE;
 use gyration::tensor::Vec3;
-use gyration_ode::{Components, Integrator, Options, Pattern, StepReport};
+use gyration_ode::{Components, Integrator, Options, StepReport};
 use gyration_threads::Interruption;
 
 /// For how many of its next steps bodies must stay out of reach before an island falls apart.
@@ -53,7 +53,7 @@ impl Island {
         };
         let near = may_meet(model, &self.step_ends, ahead);
         let joined = near.iter().filter(|pair| stays(pair)).map(|pair| pair.bodies).chain(model.endless_chain());
-        Components::of(&Pattern::new(model.bodies.len(), joined.map(Into::into)), model.bodies.len())
+        Components::joined(model.bodies.len(), joined)
     }
 
     /// Comes to a time within its paths, by a step that ends there; what it has done since is forgotten.

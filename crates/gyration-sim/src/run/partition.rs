@@ -13,7 +13,7 @@ use crate::run_state::Settled;
 use gyration::model::Model;
 use gyration::neighbours::{BodyPair, Bounds, BoxTree};
 use gyration::pair::EDGE;
-use gyration_ode::{Components, Pattern};
+use gyration_ode::Components;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -89,9 +89,7 @@ pub(crate) struct Changing<'a> {
 
 /// The sets of bodies that act on one another however far they are.
 pub(super) fn always_coupled(model: &Model) -> Vec<Vec<usize>> {
-    let bodies = model.bodies.len();
-    let coupled = Components::of(&Pattern::new(bodies, model.endless_chain().map(Into::into)), bodies);
-    coupled.iter().map(<[usize]>::to_vec).collect()
+    Components::joined(model.bodies.len(), model.endless_chain()).iter().map(<[usize]>::to_vec).collect()
 }
 
 /// Whether these could be the islands of a model: each body in one of them, with all to which it is coupled always.
