@@ -275,6 +275,6 @@ fn events_of_one_pair_leave_those_of_another_where_they_are() {
         }
     }
     println!("balls that turn back move by {fastest:.1e} m/s towards each other");
-    // Other steps to another end: 1e-6 of the speeds.
-    assert!(fastest < 1e-4);
+    // Another end makes other steps, at rtol 1e-6: some 1e-6 of a speed of 1 m/s.
+    assert!(fastest < 1e-5);
 }

@@ -8,6 +8,9 @@ use crate::kinematics::{Placement, Velocity};
 use crate::surface::{GapClosed, GapField, MomentPlan, Moments, Surface};
 use crate::tensor::{Mat3, Vec3};
 
+/// σ: A is above the plane, B below.
+pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
+
 /// One of the two bodies, or a convex part of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Side<'a> {

@@ -39,19 +39,12 @@ impl PairSlopes {
         let halves = state.halves.each_ref();
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
-        let (mut directions, mut count) = ([Direction::Coordinate { body: 0, place: 0 }; BOTH], 0);
-        for direction in Direction::all(sides) {
-            directions[count] = direction;
-            count += 1;
-        }
-        let directions = &directions[..count];
-        let mut sums = [[Mat34::zeros(); 2]; BOTH];
-        let changes: [Option<Change>; BOTH] = std::array::from_fn(|k| {
-            directions.get(k).map(|direction| state.placed.along(halves, direction.places().each_ref()))
+        let mut directions = Direction::all(sides);
+        let mut columns: [Option<Column>; BOTH] = std::array::from_fn(|_| {
+            let direction = directions.next()?;
+            let change = state.placed.along(halves, direction.places().each_ref());
+            Some(Column { direction, change, sum: [0, 1].map(|side| state.repulsion_along(side, &change)) })
         });
-        for (sum, change) in sums.iter_mut().zip(changes.iter().flatten()) {
-            *sum = [0, 1].map(|side| state.repulsion_along(side, change));
-        }
         let normal = &state.placed.plane.normal;
         let mut by_rate = None;
         state.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
@@ -59,9 +52,9 @@ impl PairSlopes {
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
             let bent = [0, 1].map(|side| Slope::new(law, shares, side, moments[side]));
-            for ((direction, change), sum) in directions.iter().zip(changes.iter().flatten()).zip(&mut sums) {
+            for Column { direction, change, sum } in columns.iter_mut().flatten() {
                 let (placed, places) = ((&state.placed, shares), direction.places());
-                let (foot, places) = ((&state.foot, &bent), (places.each_ref(), change));
+                let (foot, places) = ((&state.foot, &bent), (places.each_ref(), &*change));
                 let change = mediator.along_places(law, halves, placed, foot, places);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
             }
@@ -73,7 +66,7 @@ impl PairSlopes {
             }
         })?;
         let mut by_place = ZEROS;
-        directions.iter().zip(&sums).for_each(|(direction, sum)| direction.add_to(&mut by_place, sum));
+        columns.iter().flatten().for_each(|Column { direction, sum, .. }| direction.add_to(&mut by_place, sum));
         Ok(Self { loads: state.exchange(on, powers), by_place, by_rate })
     }
 }
@@ -83,6 +76,13 @@ const BOTH: usize = 2 * COORDINATES;
 
 const ZEROS: [[Mat12; 2]; 2] = [[ZERO; 2]; 2];
 const ZERO: Mat12 = Mat12::from_array_storage(ArrayStorage([[0.0; COORDINATES]; COORDINATES]));
+
+/// What changes along one direction: the plane, and (f | M) on both, law by law.
+struct Column {
+    direction: Direction,
+    change: Change,
+    sum: [Mat34; 2],
+}
 
 /// A way in which one of two bodies can move.
 #[derive(Debug, Clone, Copy)]

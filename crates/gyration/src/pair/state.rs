@@ -7,7 +7,7 @@ use super::form::PairForm;
 use super::laws::{ViscousLaw, shares};
 use super::mediator::{Mediator, Shares};
 use super::plane::Guess;
-use super::side::{Half, Side, columns};
+use super::side::{Half, SIGNS, Side, columns};
 use super::{Mat34, Vec4};
 use crate::contact::AreaMeasure;
 use crate::surface::Moments;
@@ -48,9 +48,6 @@ impl PairScratch {
         })
     }
 }
-
-/// A is above the plane, B below.
-const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// Both sides, their places from the centre of A; `deformed` if their areas are.
 pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2] {

@@ -8,7 +8,7 @@ use crate::pair::equilibrium::Switch;
 use crate::pair::exchange::{PairGap, PairLoads, PairSlopes};
 use crate::pair::fault::PairFault;
 use crate::pair::plane::Plane;
-use crate::pair::side::Side;
+use crate::pair::side::{SIGNS, Side};
 use crate::tensor::{Mat3, Vec3};
 
 /// Two balls and their plane.
@@ -59,11 +59,10 @@ impl PlacedBalls<'_> {
         let Self { normal, gaps, .. } = self;
         let Repelled { energy, force, balls, .. } = repelled;
         let force = switch.slope * force;
-        let on = |i: usize, sign: f64| Loads {
-            force: sign * force * normal,
+        let on = [0, 1].map(|i| Loads {
+            force: SIGNS[i] * force * normal,
             moment: -force * balls[i].lever() * normal * sides[i].placement.gradient.tr_mul(normal).transpose(),
-        };
-        let on = [on(0, 1.0), on(1, -1.0)];
+        });
         let power = |i: usize| {
             let Velocity { velocity, gradient_rate } = sides[i].velocity;
             on[i].force.dot(velocity) + on[i].moment.dot(gradient_rate)
@@ -96,21 +95,20 @@ impl PlacedBalls<'_> {
         let bend = -switch.bend * repelled.force * balls.growth(&repelled);
         let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
         let mut by_place = [[Mat12::zeros(); 2]; 2];
-        for (axis, across) in Mat3::identity().column_iter().enumerate() {
-            let along = normal[axis];
-            let turned = (across - along * normal) / *distance;
-            let pushed = stiffness * along * normal + force * turned;
-            for side in 0..2 {
-                let gradient = &sides[side].placement.gradient;
-                let point = gradient.tr_mul(normal);
-                let lever = repelled.balls[side].lever();
-                let moment = force * lever;
-                let by_gap = stiffness * lever + force * levers_by_gap[side];
+        for side in 0..2 {
+            let gradient = &sides[side].placement.gradient;
+            let (point, lever) = (gradient.tr_mul(normal), repelled.balls[side].lever());
+            let moment = force * lever;
+            let by_gap = stiffness * lever + force * levers_by_gap[side];
+            for (axis, across) in Mat3::identity().column_iter().enumerate() {
+                let along = normal[axis];
+                let turned = (across - along * normal) / *distance;
+                let pushed = stiffness * along * normal + force * turned;
                 let moved = -by_gap * along * normal * point.transpose()
                     - moment * (turned * point.transpose() + normal * gradient.tr_mul(&turned).transpose());
-                for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
-                    let force = if side == 0 { sign * pushed } else { -sign * pushed };
-                    by_place[side][body].set_column(axis, &numbers(&Loads { force, moment: sign * moved }));
+                for body in 0..2 {
+                    let force = SIGNS[side] * SIGNS[body] * pushed;
+                    by_place[side][body].set_column(axis, &numbers(&Loads { force, moment: SIGNS[body] * moved }));
                 }
                 // δP = e_axis ⊗ e_k.
                 for k in 0..3 {

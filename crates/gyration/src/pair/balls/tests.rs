@@ -161,8 +161,8 @@ fn slopes_are_those_of_the_general_method() {
         }
     }
     println!("slopes of balls off by {worst:.1e} of the largest");
-    // The general method finds its plane to half of the digits where U is flat.
-    assert!(worst < 1e-8);
+    // A slab of 0.02 is a difference of places of order one: 1e-14 of it, times ν.
+    assert!(worst < 1e-11);
 }
 
 /// Of balls whose energy is too small for a number.
