@@ -43,8 +43,9 @@ fn bench_contact<T>(
     let body = &model.bodies[0];
     let surface = body.solid.surface.as_ref().expect("every shape here has a surface");
     let mut scratch = ContactScratch::default();
-    bencher
-        .bench_local(|| integrate(&body.contacts[0].law_set, surface, divan::black_box(&field), &motion, &mut scratch));
+    bencher.bench_local(|| {
+        integrate(&model.contacts()[0].law_set, surface, divan::black_box(&field), &motion, &mut scratch)
+    });
 }
 
 #[divan::bench(args = NAMES)]

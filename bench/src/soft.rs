@@ -93,24 +93,19 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
     let rotation = Quaternion::from_axis_angle(&Vec3::new(1.0, 0.7, 0.3), 0.5).rotation();
     let gradient = if laws.is_empty() { rotation * strain() } else { rotation };
     let rate = cross_matrix(&Vec3::new(1.0, 0.5, 2.0)) * gradient;
-    let contacts = if laws.is_empty() {
-        Vec::new()
-    } else {
-        vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), laws))]
-    };
+    let contacts =
+        if laws.is_empty() { Vec::new() } else { vec![Contact::new(0, 0, LawSet::new(AreaMeasure::default(), laws))] };
     let body = Body {
         name: "cube".into(),
         kind: BodyKind::Affine(Box::new(Affine::from(interior))),
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
-        contacts,
-        springs: Vec::new(),
         inclusion: None,
         pin: None,
     };
     let table =
         Support { name: "table".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: SupportMotion::Fixed };
-    let model = Model::new(gravity, vec![table], vec![body]);
+    let model = Model::new(gravity, vec![table], vec![body]).with_contacts(contacts);
     let start = Start::Affine(
         Placement { position: Vec3::new(0.0, 0.0, height), gradient },
         Velocity { velocity: Vec3::new(0.3, 0.0, 0.0), gradient_rate: rate },

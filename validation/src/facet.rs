@@ -60,8 +60,6 @@ impl FacetBody {
                 mass,
                 surface.unwrap_or_else(|error| panic!("{error}")),
             )),
-            contacts: vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), self.laws.clone()))],
-            springs: Vec::new(),
             inclusion: None,
             pin: None,
             size: side,
@@ -69,6 +67,8 @@ impl FacetBody {
         let plane =
             Support { name: "plane".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: SupportMotion::Fixed };
         let model = Model::new(Vec3::new(0.0, 0.0, -self.gravity), vec![plane], vec![body]);
+        let model =
+            model.with_contacts(vec![Contact::new(0, 0, LawSet::new(AreaMeasure::default(), self.laws.clone()))]);
         let start = RigidStart {
             position: Vec3::new(0.0, 0.0, self.gap),
             orientation: Quaternion::from_axis_angle(&Vec3::y(), self.tilt),
@@ -89,10 +89,10 @@ impl FacetBody {
         let bodies = model.bodies.into_iter().map(|body| {
             let interior = AffineBody::new(&body.solid.mass, None, Some(material.clone()), Viscosity::default());
             let affine = Affine::from(interior.unwrap_or_else(|error| panic!("{error}")));
-            let contacts = vec![Contact::with_support(0, LawSet::new(measure, self.laws.clone()))];
-            Body { kind: BodyKind::Affine(Box::new(affine)), contacts, ..(*body).clone() }
+            Body { kind: BodyKind::Affine(Box::new(affine)), ..(*body).clone() }
         });
         let model = Model::new(model.gravity, model.supports, bodies);
+        let model = model.with_contacts(vec![Contact::new(0, 0, LawSet::new(measure, self.laws.clone()))]);
         let start = State::start(&model, &[Start::Affine(motion.placement, motion.velocity)]);
         Experiment::of_model(model, start, tolerance)
     }

@@ -39,7 +39,7 @@ fn groups_and_names_say_who_meets_whom() {
     let near = Some(0.05);
     let wanted = [([1, 2], None), ([1, 3], None), ([2, 3], None), ([0, 1], near), ([0, 2], near), ([0, 3], near)];
     assert_eq!(found, wanted);
-    let on_table: Vec<usize> = model.bodies.iter().map(|body| body.contacts.len()).collect();
+    let on_table: Vec<usize> = (0..model.bodies.len()).map(|body| model.contacts_of(body).count()).collect();
     assert_eq!(on_table, [0, 1, 1, 1]);
 }
 

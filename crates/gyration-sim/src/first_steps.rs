@@ -177,7 +177,10 @@ impl Momenta {
 
 /// Whether nothing but other bodies acts on a body, and it is held nowhere.
 fn is_alone(model: &Model, index: usize) -> bool {
-    let between = |load: Load| if matches!(load, Load::Bond(_)) { Ok(()) } else { Err(()) };
+    let between = |load: Load| match load {
+        Load::Spring(end) if end.other().body().is_some() => Ok(()),
+        _ => Err(()),
+    };
     let body = &model.bodies[index];
     body.pin.is_none() && body.has_inertia() && model.try_each_load(index, between).is_ok()
 }

@@ -217,19 +217,25 @@ impl Stop {
                     }),
                 )
             }
-            Quantity::SpringLength { spring } => (
-                Reason::SpringCollapsed,
-                format!("spring {spring} of body {body:?} has no length left"),
-                "Give it rest_length = 0 without damping, or another anchor.".to_string(),
-            ),
-            Quantity::BondLength { bond } => {
-                let [one, other] = model.bonds()[bond].bodies.map(|body| &model.bodies[body].name);
-                (
-                    Reason::SpringCollapsed,
-                    format!("the spring between bodies {one:?} and {other:?} has no length left"),
-                    "Give it rest_length = 0 without damping, or other points.".to_string(),
-                )
-            }
+            Quantity::SpringLength { spring } => match model.springs()[spring].bodies() {
+                Some(bodies) => {
+                    let [one, other] = bodies.map(|body| &model.bodies[body].name);
+                    (
+                        Reason::SpringCollapsed,
+                        format!("the spring between bodies {one:?} and {other:?} has no length left"),
+                        "Give it rest_length = 0 without damping, or other points.".to_string(),
+                    )
+                }
+                None => {
+                    // Those to anchors stand first.
+                    let place = model.springs_of(left.body).position(|end| end.number == spring).unwrap_or(spring);
+                    (
+                        Reason::SpringCollapsed,
+                        format!("spring {place} of body {body:?} has no length left"),
+                        "Give it rest_length = 0 without damping, or another anchor.".to_string(),
+                    )
+                }
+            },
             Quantity::Volume => (
                 Reason::Inverted,
                 format!("body {body:?} is flattened: det P has come down to {:e}", left.value),

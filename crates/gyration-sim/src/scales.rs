@@ -96,7 +96,7 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let acceleration = norm(slots.velocity()) + norm(slots.rate()) * body.size;
     let mut forces = 0.0;
     each_push(at, scratch, |push| forces += push.force)?;
-    let supports = body.contacts.iter().map(|contact| fastest_motion(&model.supports[contact.support()].motion));
+    let supports = model.contacts_of(index).map(|contact| fastest_motion(&model.supports[contact.support].motion));
     let carried = supports.fold(0.0, f64::max);
     Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))
 }
@@ -117,8 +117,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
     let mut stiffness = 0.0;
     let listed = model.try_each_load(index, |load| {
         stiffness += match load {
-            Load::Spring(_, spring) => spring.law.stiffness,
-            Load::Bond(end) => end.interaction.law.stiffness,
+            Load::Spring(end) => end.interaction.law.stiffness,
             Load::Contact(_)
             | Load::Pair(_)
             | Load::Couple(_)

@@ -197,7 +197,7 @@ fn ends_of_a_spring_pass_through_one_another() {
 #[test]
 fn a_spring_without_length_is_told_with_its_bodies() {
     let scene = parsed(&drawn_together(), &[]);
-    let left = Inadmissible { body: 1, quantity: Quantity::BondLength { bond: 0 }, value: 0.0 };
+    let left = Inadmissible { body: 1, quantity: Quantity::SpringLength { spring: 0 }, value: 0.0 };
     let stop = Stop::by_inadmissible(&scene.built().model, 0.5, &left);
     assert_eq!((stop.reason, stop.body.as_deref()), (Reason::SpringCollapsed, Some("right")));
     assert!(stop.what.contains("\"right\" and \"left\""), "{}", stop.what);

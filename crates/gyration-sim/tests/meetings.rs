@@ -5,7 +5,7 @@
 
 use crate::islands::{Seen, motion_in, parsed};
 use crate::runs::StopAfter;
-use gyration::load::{Bond, SpringLaw};
+use gyration::load::{Spring, SpringLaw};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
@@ -241,7 +241,7 @@ fn springs_stay_while_neighbours_come_and_go() {
     ];
     let (model, start, plan) = balls(&starts, &["time.end=3"]);
     let spring = SpringLaw { stiffness: 30.0, rest_length: 0.6, damping: 0.0 };
-    let model = model.bonded(vec![Bond { bodies: [1, 0], points: [Vec3::zeros(); 2], law: spring }]);
+    let model = model.with_springs(vec![Spring::between([1, 0], [Vec3::zeros(); 2], spring)]);
     let start = State { works: vec![0.0; model.works().len()], ..start };
     let own = run(&(model.clone(), start.clone(), plan));
     let together = run_of(Simulation::together(&model, &start, plan).unwrap());

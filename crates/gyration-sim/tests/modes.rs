@@ -33,8 +33,6 @@ fn bare(shape: Shape, density: f64) -> Body {
         kind: BodyKind::Rigid(RigidInertia::new(&mass, None).unwrap()),
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
-        contacts: Vec::new(),
-        springs: Vec::new(),
         inclusion: None,
         pin: None,
     }
@@ -57,6 +55,20 @@ fn ball() -> Shape {
 
 fn plane(normal: Vec3) -> Support {
     Support { name: "plane".into(), origin: Vec3::zeros(), normal, motion: SupportMotion::Fixed }
+}
+
+/// The same with a contact.
+fn on(contact: Contact, (model, state): (Model, State)) -> (Model, State) {
+    let model = model.with_contacts(vec![contact]);
+    let state = State { works: vec![0.0; model.works().len()], ..state };
+    (model, state)
+}
+
+/// The same with a spring to the place above the origin.
+fn hung(law: SpringLaw, (model, state): (Model, State)) -> (Model, State) {
+    let model = model.with_springs(vec![Spring::to_anchor(0, Vec3::zeros(), Vec3::z(), law)]);
+    let state = State { works: vec![0.0; model.works().len()], ..state };
+    (model, state)
 }
 
 /// A body with supports, starting at a place, not turned.
@@ -165,7 +177,7 @@ fn compressible_sphere_breathes_at_the_bulk_modulus() {
 /// A box of 2 kg, 0.1×0.1×0.2 m, above a field of α = 1e-6, ν = 6.
 fn standing(height: f64, deformable: Option<f64>) -> (Model, State) {
     let shape = Shape::Box(Cuboid { size: Vec3::new(0.1, 0.1, 0.2) });
-    let mut body = match deformable {
+    let body = match deformable {
         None => bare(shape, 1000.0),
         Some(stiffness) => {
             let material = MooneyRivlin { c1: stiffness, c2: 0.0, bulk: None };
@@ -173,9 +185,8 @@ fn standing(height: f64, deformable: Option<f64>) -> (Model, State) {
         }
     };
     let law = Repulsion { alpha: 1e-6, exponent: 6.0, reference_gap: 1.0 };
-    body.contacts =
-        vec![Contact::with_support(0, LawSet::new(AreaMeasure::default(), vec![ContactLaw::Repulsion(law)]))];
-    model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::new(0.3, -0.2, height))
+    let contact = Contact::new(0, 0, LawSet::new(AreaMeasure::default(), vec![ContactLaw::Repulsion(law)]));
+    on(contact, model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::new(0.3, -0.2, height)))
 }
 
 #[test]
@@ -228,7 +239,7 @@ fn flat_box_on_the_field_of_its_bottom_rocks_as_in_the_closed_form() {
     let corners = corners.map(|(x, y)| Vec3::new(x, y, -0.5 * height));
     let facet = Surface::from_triangles(&corners, &[[0, 1, 2], [0, 2, 3]]).unwrap();
     Arc::make_mut(&mut body.solid).surface = Some(facet);
-    let single = (Model::new(model.gravity, model.supports, vec![body]), state);
+    let single = (model.with_bodies([body]), state);
     let (rest, found) = survey(&single);
     let gap = (1e-6 * side * side / (mass * GRAVITY)).powf(1.0 / 6.0);
     assert_close("gap", rest.gap, gap, 1e-13);
@@ -243,14 +254,14 @@ fn flat_box_on_the_field_of_its_bottom_rocks_as_in_the_closed_form() {
 
 /// A ball with a field that carries it some millimetres above a plane.
 fn resting_ball(normal: Vec3, friction: f64, deformable: bool) -> (Model, State) {
-    let mut body = if deformable { soft(ball(), 1000.0, rubber(), 20.0) } else { bare(ball(), 1000.0) };
+    let body = if deformable { soft(ball(), 1000.0, rubber(), 20.0) } else { bare(ball(), 1000.0) };
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 40e3, exponent: 6.0, reference_gap: 2e-3 }),
         ContactLaw::Damping(Damping { beta: 500.0, exponent: 6.0, reference_gap: 2e-3 }),
         ContactLaw::Friction(Friction { beta: friction, exponent: 6.0, reference_gap: 2e-3 }),
     ];
-    body.contacts = vec![Contact::with_support(0, LawSet::new(AreaMeasure::DeformedAreaPotential, laws))];
-    model(GRAVITY, vec![plane(normal)], body, 0.5 * normal)
+    let contact = Contact::new(0, 0, LawSet::new(AreaMeasure::DeformedAreaPotential, laws));
+    on(contact, model(GRAVITY, vec![plane(normal)], body, 0.5 * normal))
 }
 
 #[test]
@@ -354,15 +365,10 @@ fn pinned_incompressible_body_has_eight_modes() {
 
 #[test]
 fn spring_pendulum_bounces_and_swings() {
-    let mut body = bare(ball(), 1000.0);
+    let body = bare(ball(), 1000.0);
     let (stiffness, mass) = (400.0, body.solid.mass.mass);
-    let spring = Spring {
-        point: Vec3::zeros(),
-        anchor: Vec3::z(),
-        law: SpringLaw { stiffness, rest_length: 0.5, damping: 2.0 },
-    };
-    body.springs = vec![spring];
-    let (rest, found) = survey(&model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8)));
+    let spring = SpringLaw { stiffness, rest_length: 0.5, damping: 2.0 };
+    let (rest, found) = survey(&hung(spring, model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8))));
     let length = 0.5 + mass * GRAVITY / stiffness;
     assert_close("length", 1.0 - rest.placement.position.z, length, 1e-13);
     let bounce = named(&found, "translation along z");
@@ -373,13 +379,9 @@ fn spring_pendulum_bounces_and_swings() {
 
 #[test]
 fn a_search_that_nobody_waits_for_is_given_up() {
-    let mut body = bare(ball(), 1000.0);
-    body.springs = vec![Spring {
-        point: Vec3::zeros(),
-        anchor: Vec3::z(),
-        law: SpringLaw { stiffness: 400.0, rest_length: 0.5, damping: 2.0 },
-    }];
-    let (model, start) = model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8));
+    let spring = SpringLaw { stiffness: 400.0, rest_length: 0.5, damping: 2.0 };
+    let body = bare(ball(), 1000.0);
+    let (model, start) = hung(spring, model(GRAVITY, vec![], body, Vec3::new(0.4, 0.1, 0.8)));
     let at_once = Interruption::default().after(Some(Duration::ZERO));
     assert_eq!(at_once.within(|| rest(&model, &start, 0)), Err(NoRest::Interrupted));
     assert!(rest(&model, &start, 0).is_ok());
@@ -402,7 +404,7 @@ fn what_has_no_rest_state_is_said_in_words() {
     if let BodyKind::Affine(affine) = &mut body.kind {
         affine.interior.material = None;
     }
-    let flattening = Model::new(model.gravity, model.supports, vec![body]);
+    let flattening = model.with_bodies([body]);
     let refusal = rest(&flattening, &state, 0).unwrap_err();
     println!("{refusal}");
     assert!(matches!(refusal, NoRest::Deforms { .. }));
@@ -425,13 +427,10 @@ fn brick_that_falls_on_its_edge_is_not_turned_about_the_vertical() {
     // Far above the table all stiffnesses vanish but the material's; the free turn about the vertical must not be mixed
     // with the fall.
     let material = Some(Material::NeoHookeanLog(NeoHookeanLog { mu: 8000.0, lambda: 20000.0 }));
-    let mut body = soft(Shape::Box(Cuboid { size: Vec3::new(0.2, 0.1, 0.06) }), 1000.0, material, 0.0);
+    let body = soft(Shape::Box(Cuboid { size: Vec3::new(0.2, 0.1, 0.06) }), 1000.0, material, 0.0);
     let law = Repulsion { alpha: 40e3, exponent: 6.0, reference_gap: 2e-3 };
-    body.contacts = vec![Contact::with_support(
-        0,
-        LawSet::new(AreaMeasure::DeformedAreaPotential, vec![ContactLaw::Repulsion(law)]),
-    )];
-    let (model, _) = model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::zeros());
+    let laws = LawSet::new(AreaMeasure::DeformedAreaPotential, vec![ContactLaw::Repulsion(law)]);
+    let (model, _) = on(Contact::new(0, 0, laws), model(GRAVITY, vec![plane(Vec3::z())], body, Vec3::zeros()));
     let gradient = Quaternion::from_axis_angle(&Vec3::y(), 0.5).rotation();
     let still = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
     let start = State::start(&model, &[Start::Affine(Placement { position: 0.4 * Vec3::z(), gradient }, still)]);

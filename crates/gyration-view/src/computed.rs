@@ -8,7 +8,7 @@
 use crate::blob;
 use crate::error::ViewError;
 use crate::header::{ArrayEntry, Header};
-use gyration::body::{Body, BodyKind};
+use gyration::body::BodyKind;
 use gyration::dynamics::ContactParts;
 use gyration::model::Model;
 use gyration_record::Recording;
@@ -73,12 +73,12 @@ fn deforms(model: &Model) -> bool {
 
 /// Whether the sum of the contact forces on a body may not tell their normal part.
 fn has_parts(model: &Model) -> bool {
-    let normals_differ = |body: &Body| {
-        let mut normals = body.contacts.iter().map(|contact| &model.supports[contact.support()].normal);
+    let normals_differ = |body: usize| {
+        let mut normals = model.contacts_of(body).map(|contact| &model.supports[contact.support].normal);
         let first = normals.next();
         normals.any(|normal| Some(normal) != first)
     };
-    !model.rules().is_empty() || model.bodies.iter().any(|body| normals_differ(body))
+    !model.rules().is_empty() || (0..model.bodies.len()).any(normals_differ)
 }
 
 /// Arrays of a recording that are computed.

@@ -4,10 +4,10 @@
 //! `load` with its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
 
 use crate::body::Body;
-use crate::contact::{Contact, LawKind, Partner};
+use crate::contact::{Contact, LawKind};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, Spring};
+use crate::load::{Applied, Couple, InteractionEnd, LinearResistance, Loads, SpringEnd};
 use crate::neighbours::Pair;
 use crate::pair::{PairLaws, PairLoads, PairSlopes};
 use crate::support::{Support, SupportMotion};
@@ -38,6 +38,11 @@ impl PairAt<'_> {
         &self.loads.on[self.end.end]
     }
 
+    /// The index of the other body.
+    pub fn other(&self) -> usize {
+        self.end.interaction.bodies[1 - self.end.end]
+    }
+
     /// n, from the other body to this one.
     pub fn normal(&self) -> Vec3 {
         // That of the pair points from the second body to the first.
@@ -45,15 +50,23 @@ impl PairAt<'_> {
     }
 }
 
+/// What is between a body and other parties.
+pub(crate) struct Interacting<C, S, P> {
+    /// Laws with supports.
+    pub contacts: C,
+    /// Springs, those to anchors first.
+    pub springs: S,
+    /// Bodies that it meets.
+    pub pairs: P,
+}
+
 /// A load on a body.
 #[derive(Debug, Clone, Copy)]
 pub enum Load<'a> {
     /// The laws with a support.
     Contact(&'a Contact),
-    /// A spring to a fixed anchor, with its number in the body.
-    Spring(usize, &'a Spring),
-    /// A spring to another body.
-    Bond(BondEnd<'a>),
+    /// A spring, to another body or to an anchor.
+    Spring(SpringEnd<'a>),
     /// Another body that it meets.
     Pair(PairAt<'a>),
     /// An affine moment.
@@ -69,21 +82,23 @@ pub enum Load<'a> {
 impl<'a> Load<'a> {
     /// Hands the loads on a body to `each`, in the order in which they are summed; stops at the first error.
     #[inline]
-    pub fn try_each<E>(
+    pub(crate) fn try_each<E>(
         body: &'a Body,
-        (bonds, pairs): (impl Iterator<Item = BondEnd<'a>>, impl Iterator<Item = PairAt<'a>>),
+        interactions: Interacting<
+            impl Iterator<Item = &'a Contact>,
+            impl Iterator<Item = SpringEnd<'a>>,
+            impl Iterator<Item = PairAt<'a>>,
+        >,
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
     ) -> Result<(), E> {
-        for contact in &body.contacts {
+        let Interacting { contacts, springs, pairs } = interactions;
+        for contact in contacts {
             each(Self::Contact(contact))?;
         }
-        for (number, spring) in body.springs.iter().enumerate() {
-            each(Self::Spring(number, spring))?;
-        }
-        for bond in bonds {
-            each(Self::Bond(bond))?;
+        for spring in springs {
+            each(Self::Spring(spring))?;
         }
         for pair in pairs {
             each(Self::Pair(pair))?;
@@ -108,7 +123,7 @@ impl<'a> Load<'a> {
     pub fn pulls(&self) -> bool {
         match self {
             Self::Contact(_) | Self::Pair(_) | Self::Couple(_) => false,
-            Self::Spring(..) | Self::Bond(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
+            Self::Spring(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
         }
     }
 
@@ -116,8 +131,7 @@ impl<'a> Load<'a> {
     pub fn works(&self, supports: &[Support]) -> Vec<Work> {
         match self {
             Self::Contact(contact) => {
-                let Partner::Support(index) = contact.partner;
-                let moves = supports[index].motion != SupportMotion::Fixed;
+                let moves = supports[contact.support].motion != SupportMotion::Fixed;
                 contact
                     .law_set
                     .laws()
@@ -127,12 +141,11 @@ impl<'a> Load<'a> {
                     .collect()
             }
             Self::Pair(pair) => pair_works(&pair.end.interaction.form.laws).collect(),
-            Self::Spring(_, spring) if spring.law.damping > 0.0 => vec![Work::Load],
-            Self::Bond(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
+            Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
-            Self::Spring(..) | Self::Bond(_) | Self::Resistance(_) => Vec::new(),
+            Self::Spring(_) | Self::Resistance(_) => Vec::new(),
         }
     }
 
@@ -144,7 +157,7 @@ impl<'a> Load<'a> {
                 central.then_some(Energy::Contact)
             }
             Self::Pair(_) => Some(PAIR_ENERGY),
-            Self::Spring(..) | Self::Bond(_) => Some(Energy::Load),
+            Self::Spring(_) => Some(Energy::Load),
             Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
         }
     }

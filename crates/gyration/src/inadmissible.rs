@@ -10,13 +10,8 @@ pub enum Quantity {
     },
     /// The length of the spring of this index, which must be > 0 [m].
     SpringLength {
-        /// Index of the spring in its body.
+        /// Index of the spring in the model.
         spring: usize,
-    },
-    /// The length of the bond of this index, which must be > 0 [m].
-    BondLength {
-        /// Index of the bond in the model.
-        bond: usize,
     },
     /// The width of the slab between this body and another, which must be > 0 [m].
     PairGap {

@@ -19,6 +19,15 @@ pub struct Placement {
     pub gradient: Mat3,
 }
 
+/// Where a body is and how it moves, whatever its kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyMotion {
+    /// p₀ and P.
+    pub placement: Placement,
+    /// ṗ₀ and Ṗ.
+    pub velocity: Velocity,
+}
+
 /// How a body moves: ṗ₀ [m/s] and Ṗ [1/s].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Velocity {

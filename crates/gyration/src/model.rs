@@ -2,12 +2,12 @@
 //!
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
-use crate::acting::{Load, PAIR_ENERGY, PairAt, pair_works};
+use crate::acting::{Interacting, Load, PAIR_ENERGY, PairAt, pair_works};
 use crate::body::{Body, Slots, Solid};
-use crate::contact::AreaMeasure;
+use crate::contact::{AreaMeasure, Contact};
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, BondEnd, Interactions};
+use crate::load::{Applied, Interactions, Spring, SpringEnd};
 use crate::neighbours::{BodyPair, Pair, PairRule, PairRules};
 use crate::pair::cutoff;
 use crate::support::Support;
@@ -27,7 +27,8 @@ pub struct Model {
     pub bodies: Vec<Arc<Body>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
-    bonds: Interactions<Bond>,
+    contacts: Interactions<Contact>,
+    springs: Interactions<Spring>,
     rules: PairRules,
     /// How many pairs these join, and how many of them however far they are.
     pairs: [usize; 2],
@@ -58,24 +59,40 @@ impl Model {
         let slots = layout(&bodies);
         let blocks = slots.iter().map(Slots::block).collect();
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
-        let has_potential = has_potential(&bodies, &[]);
-        let (fluid, bonds, rules) = (None, Interactions::default(), PairRules::default());
+        let (contacts, springs) = (Interactions::default(), Interactions::default());
+        let (fluid, rules) = (None, PairRules::default());
         let model = Self {
             gravity,
             supports,
             bodies,
             fluid,
-            bonds,
+            contacts,
+            springs,
             rules,
             pairs: [0, 0],
             slots,
             blocks,
             works,
             energies,
-            has_potential,
+            has_potential: true,
             applied,
             given_up: None,
         };
+        model.with_ledger()
+    }
+
+    /// The model with other bodies in the places of its own, which meet and are held as these were.
+    ///
+    /// # Panics
+    /// If there are more or fewer.
+    #[must_use]
+    pub fn with_bodies(self, bodies: impl IntoIterator<Item: Into<Arc<Body>>>) -> Self {
+        let bodies: Vec<Arc<Body>> = bodies.into_iter().map(Into::into).collect();
+        assert_eq!(bodies.len(), self.bodies.len(), "each body has one in its place");
+        let slots = layout(&bodies);
+        let (blocks, pairs) = (slots.iter().map(Slots::block).collect(), self.rules.count(&bodies));
+        let mut model = Self { bodies, slots, blocks, pairs, ..self };
+        model.has_potential = model.find_potential();
         model.with_ledger()
     }
 
@@ -86,18 +103,36 @@ impl Model {
         self.with_ledger()
     }
 
-    /// The model with springs between its bodies.
+    /// The model with laws between its bodies and its supports.
     ///
     /// To be called when all bodies are what they are to be.
     ///
     /// # Panics
-    /// If a bond does not join two bodies of the model, or has a dashpot at a body without inertia, whose velocity no
-    /// other body feels.
+    /// If a contact is not of a body and a support of the model.
     #[must_use]
-    pub fn bonded(mut self, bonds: Vec<Bond>) -> Self {
-        self.bonds = Interactions::new(self.bodies.len(), bonds);
-        let moves = |bond: &Bond| bond.bodies.iter().all(|body| self.bodies[*body].has_inertia());
-        assert!(self.bonds().iter().all(|bond| bond.law.damping == 0.0 || moves(bond)), "a dashpot without inertia");
+    pub fn with_contacts(mut self, contacts: Vec<Contact>) -> Self {
+        let count = self.supports.len();
+        assert!(contacts.iter().all(|contact| contact.support < count), "a contact is with one of {count} supports");
+        self.contacts = Interactions::new(self.bodies.len(), contacts);
+        self.has_potential = self.find_potential();
+        self.with_ledger()
+    }
+
+    /// The model with springs, to anchors or between its bodies.
+    ///
+    /// To be called when all bodies are what they are to be.
+    ///
+    /// # Panics
+    /// If one end of a spring is no body of the model, the other neither another body nor an anchor; or if there is a
+    /// dashpot between a body without inertia and another, which does not feel its velocity.
+    #[must_use]
+    pub fn with_springs(mut self, springs: Vec<Spring>) -> Self {
+        let moves = |spring: &Spring| {
+            let mut bodies = spring.bodies().into_iter().flatten();
+            bodies.all(|body| self.bodies[body].has_inertia())
+        };
+        assert!(springs.iter().all(|spring| spring.law.damping == 0.0 || moves(spring)), "a dashpot without inertia");
+        self.springs = Interactions::new(self.bodies.len(), springs);
         self.with_ledger()
     }
 
@@ -113,7 +148,7 @@ impl Model {
         assert!(bodies.all(|body| self.bodies[*body].has_inertia()), "bodies that meet have inertia");
         self.rules = PairRules::new(self.bodies.len(), rules);
         self.pairs = self.rules.count(&self.bodies);
-        self.has_potential = has_potential(&self.bodies, self.rules.all());
+        self.has_potential = self.find_potential();
         self.with_ledger()
     }
 
@@ -149,7 +184,8 @@ impl Model {
             slots,
             bodies,
             fluid: self.fluid.clone(),
-            bonds: self.bonds.among(members, |bond, bodies| Bond { bodies, ..*bond }),
+            contacts: self.contacts.among(members, Contact::of_parties),
+            springs: self.springs.among(members, Spring::of_parties),
             rules: self.rules.among(members),
             pairs: [0, 0],
             works: Vec::new(),
@@ -163,9 +199,24 @@ impl Model {
         part
     }
 
-    /// The springs between its bodies.
-    pub fn bonds(&self) -> &[Bond] {
-        self.bonds.all()
+    /// The laws between its bodies and its supports.
+    pub fn contacts(&self) -> &[Contact] {
+        self.contacts.all()
+    }
+
+    /// Those of a body, in order.
+    pub fn contacts_of(&self, body: usize) -> impl Iterator<Item = &Contact> + Clone {
+        self.contacts.of(body).map(|end| end.interaction)
+    }
+
+    /// Its springs.
+    pub fn springs(&self) -> &[Spring] {
+        self.springs.all()
+    }
+
+    /// The pairs of bodies that springs join.
+    pub fn joined_by_springs(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.springs().iter().filter_map(Spring::bodies)
     }
 
     /// Who of its bodies meets whom.
@@ -190,14 +241,14 @@ impl Model {
         self.pairs
     }
 
-    /// The springs between a body and others.
-    pub(crate) fn bonds_of(&self, body: usize) -> impl Iterator<Item = BondEnd<'_>> {
-        self.bonds.of(body)
+    /// The springs of a body, in order.
+    pub fn springs_of(&self, body: usize) -> impl Iterator<Item = SpringEnd<'_>> + Clone {
+        self.springs.of(body)
     }
 
     /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.
     pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.bonds().iter().map(|bond| bond.bodies).chain(self.rules.all().iter().flat_map(PairRule::chain))
+        self.joined_by_springs().chain(self.rules.all().iter().flat_map(PairRule::chain))
     }
 
     /// The same of those that act on one another however far they are: through springs, rules without a reach, and
@@ -216,7 +267,7 @@ impl Model {
             };
             rule.chain().filter(is_endless).chain(of_set(0)).chain(of_set(1))
         });
-        self.bonds().iter().map(|bond| bond.bodies).chain(rules)
+        self.joined_by_springs().chain(rules)
     }
 
     /// Whether there are bodies that act on one another within a distance only.
@@ -245,7 +296,7 @@ impl Model {
 
     /// Whether a body has a contact, with a support or another body.
     pub fn has_contact(&self, body: usize) -> bool {
-        !self.bodies[body].contacts.is_empty() || self.meets_bodies(body)
+        self.contacts.of(body).next().is_some() || self.meets_bodies(body)
     }
 
     /// Whether a body meets others.
@@ -255,7 +306,8 @@ impl Model {
 
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
-        self.bonds.of(body).any(|end| end.interaction.law.acts()) || self.meets_bodies(body)
+        let acts = |end: SpringEnd| end.other().body().is_some() && end.interaction.law.acts();
+        self.springs.of(body).any(acts) || self.meets_bodies(body)
     }
 
     /// Hands what acts on a body beside those that it meets to `each`, in the order in which it is summed; stops at the
@@ -274,7 +326,8 @@ impl Model {
         each: impl FnMut(Load<'a>) -> Result<(), E>,
     ) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
-        Load::try_each(body, (self.bonds.of(index), pairs), fluid, self.applied(index), each)
+        let (contacts, springs) = (self.contacts_of(index), self.springs_of(index));
+        Load::try_each(body, Interacting { contacts, springs, pairs }, fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.
@@ -330,6 +383,18 @@ impl Model {
         self
     }
 
+    /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
+    fn find_potential(&self) -> bool {
+        let deforms = |body: usize| self.bodies[body].affine().is_some();
+        let contacts = self.contacts().iter().filter(|contact| deforms(contact.body)).all(|contact| {
+            let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
+            contact.law_set.measure != AreaMeasure::DeformedArea || !acts
+        });
+        let is_rigid = |rule: &PairRule| !rule.chain().flatten().any(deforms);
+        let rules = self.rules.all();
+        contacts && rules.iter().all(|rule| rule.laws.measure != AreaMeasure::DeformedArea || is_rigid(rule))
+    }
+
     fn enter_ledger(&mut self) {
         let potential = self.has_potential;
         let mut loads: Vec<Load> = Vec::new();
@@ -362,16 +427,4 @@ fn layout(bodies: &[Arc<Body>]) -> Vec<Slots> {
         slots
     });
     slots.collect()
-}
-
-/// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
-fn has_potential(bodies: &[Arc<Body>], rules: &[PairRule]) -> bool {
-    let deforms = |body: &Arc<Body>| body.affine().is_some();
-    let mut contacts = bodies.iter().filter(|body| deforms(body)).flat_map(|body| &body.contacts);
-    let contacts = contacts.all(|contact| {
-        let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
-        contact.law_set.measure != AreaMeasure::DeformedArea || !acts
-    });
-    let rigid = |rule: &PairRule| !rule.chain().flatten().any(|body| deforms(&bodies[body]));
-    contacts && rules.iter().all(|rule| rule.laws.measure != AreaMeasure::DeformedArea || rigid(rule))
 }

@@ -3,6 +3,7 @@
 use crate::body::{Body, BodyKind, Slots, matrix, vector};
 use crate::contractile::{Contraction, ContractionSource};
 use crate::extended::Numbers;
+pub use crate::kinematics::BodyMotion;
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
@@ -43,15 +44,6 @@ pub struct RigidStart {
     pub velocity: Vec3,
     /// ω in spatial axes [rad/s].
     pub angular_velocity: Vec3,
-}
-
-/// The motion of one body of any kind, unpacked from its block of the state.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyMotion {
-    /// p₀ and P.
-    pub placement: Placement,
-    /// ṗ₀ and Ṗ.
-    pub velocity: Velocity,
 }
 
 /// What the block of a rigid body holds of its rotation.

@@ -4,7 +4,7 @@
 use crate::moving::*;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, RigidInertia};
-use gyration::contact::AreaMeasure;
+use gyration::contact::{AreaMeasure, Contact, LawSet};
 use gyration::dynamics::Workspace;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::ledger::{Energy, Work};
@@ -21,7 +21,7 @@ const MEASURES: [AreaMeasure; 3] =
 
 /// A box of each variant, and one body of each other shape.
 fn model(exponents: [f64; 4], measure: AreaMeasure) -> Model {
-    let free = Variant { measure, incompressible: false, pinned: false, frame: Frame::Space };
+    let free = Variant { incompressible: false, pinned: false, frame: Frame::Space };
     let boxes = [
         free,
         Variant { incompressible: true, frame: Frame::Body, ..free },
@@ -29,9 +29,10 @@ fn model(exponents: [f64; 4], measure: AreaMeasure) -> Model {
         Variant { incompressible: true, pinned: true, ..free },
     ];
     let [cuboid, round @ ..] = shapes();
-    let boxes = boxes.map(|variant| body(cuboid.clone(), exponents, variant));
-    let others = round.map(|shape| body(shape, exponents, Variant { incompressible: true, ..free }));
-    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), boxes.into_iter().chain(others))
+    let boxes = boxes.map(|variant| body(cuboid.clone(), variant));
+    let others = round.map(|shape| body(shape, Variant { incompressible: true, ..free }));
+    let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), boxes.into_iter().chain(others));
+    attached(model, exponents, measure)
 }
 
 /// A state above both supports for any 24 numbers in [−1, 1]; incompressible bodies on their constraint.
@@ -113,14 +114,14 @@ proptest! {
     fn turning_everything_about_the_vertical_turns_the_answer(numbers in numbers(24), angle in -3.0..3.0_f64) {
         // Friction fixed in space and couples single out directions: without them.
         let shape = Shape::Box(Cuboid { size: Vec3::new(0.8, 1.0, 0.6) });
-        let variant = Variant { measure: AreaMeasure::DeformedArea, incompressible: true, pinned: false, frame: Frame::Body };
-        let mut soft = body(shape, [6.0, 3.0, 3.0, 2.0], variant);
-        soft.springs.clear();
-        soft.contacts.truncate(1);
+        let variant = Variant { incompressible: true, pinned: false, frame: Frame::Body };
+        let mut soft = body(shape, variant);
         if let BodyKind::Affine(affine) = &mut soft.kind {
             affine.couple = None;
         }
+        let law_set = LawSet::new(AreaMeasure::DeformedArea, laws([6.0, 3.0, 3.0, 2.0]));
         let model = Model::new(Vec3::new(0.0, 0.0, -9.81), supports(), vec![soft]);
+        let model = model.with_contacts(vec![Contact::new(0, 0, law_set)]);
         let state = state(&model, &numbers);
         let turn = *nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), angle).matrix();
         let turned = |numbers: &[f64]| -> Vec<f64> {
@@ -169,12 +170,11 @@ fn pressure_is_told_of_incompressible_bodies_alone() {
 #[test]
 fn the_ledger_closes_for_a_rigid_body_beside_a_soft_one() {
     let [cuboid, ..] = shapes();
-    let variant =
-        Variant { measure: AreaMeasure::DeformedArea, incompressible: true, pinned: false, frame: Frame::Space };
-    let soft = body(cuboid, [6.0, 3.0, 3.0, 2.0], variant);
+    let soft = body(cuboid, Variant { incompressible: true, pinned: false, frame: Frame::Space });
     let inertia = RigidInertia::new(&soft.solid.mass, None).unwrap();
     let hard = Body { name: "hard".into(), kind: BodyKind::Rigid(inertia), ..soft.clone() };
     let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), vec![soft, hard]);
+    let model = attached(model, [6.0, 3.0, 3.0, 2.0], AreaMeasure::DeformedArea);
     let position = Vec3::new(0.1, -0.2, 1.4);
     let velocity = Vec3::new(0.3, 0.5, -0.7);
     let (orientation, angular_velocity) = (Quaternion::IDENTITY, Vec3::new(0.4, -0.8, 0.3));

@@ -2,13 +2,12 @@
 //! reaction, and the balance of power.
 
 use crate::moving::*;
-use gyration::acting::Load;
 use gyration::body::{Body, BodyKind, Contractile, RigidInertia};
 use gyration::contact::AreaMeasure;
 use gyration::contractile::{Contraction, ContractionSource, Spin};
 use gyration::dynamics::{Blocks, Workspace, jacobian};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
-use gyration::load::{Bond, Frame, SpringLaw};
+use gyration::load::{Frame, Spring, SpringLaw};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, RigidStart, Start, State};
@@ -24,16 +23,11 @@ const PLAIN: SpringLaw = SpringLaw { stiffness: 1.9, rest_length: 0.0, damping: 
 /// Rigid, affine and contractile bodies, free and pinned, compressible or not.
 fn bodies() -> Vec<Body> {
     let [shape, ..] = shapes();
-    let variant = |incompressible, pinned| Variant {
-        measure: AreaMeasure::DeformedArea,
-        incompressible,
-        pinned,
-        frame: Frame::Space,
-    };
+    let variant = |incompressible, pinned| Variant { incompressible, pinned, frame: Frame::Space };
     let mut bodies = Vec::new();
     for pinned in [false, true] {
         for incompressible in [false, true] {
-            let soft = body(shape.clone(), [6.0, 5.0, 4.0, 3.0], variant(incompressible, pinned));
+            let soft = body(shape.clone(), variant(incompressible, pinned));
             let source = ContractionSource::Driven { drive: Signal::Constant(Mat3::identity()), feedback: Vec::new() };
             for kept_volume in [None, Some(1.0)] {
                 let contraction = Contraction { viscosity: 0.8, kept_volume, spin: Spin::Full, source: source.clone() };
@@ -67,15 +61,22 @@ fn start(body: &Body, seed: f64) -> Start {
 }
 
 /// A ring of springs, and two more between bodies that it does not join.
-fn bonds(bodies: usize, laws: [SpringLaw; 2]) -> Vec<Bond> {
-    let bond = |k: usize, one: usize, other: usize| {
+fn ring(bodies: usize, laws: [SpringLaw; 2]) -> Vec<Spring> {
+    let spring = |k: usize, one: usize, other: usize| {
         let seed = k as f64;
         let point = |seed: f64| 0.4 * Vec3::new(seed.sin(), (2.0 * seed).cos(), (3.0 * seed).sin());
-        Bond { bodies: [one, other], points: [point(seed + 0.3), point(seed + 1.1)], law: laws[k % 2] }
+        Spring::between([one, other], [point(seed + 0.3), point(seed + 1.1)], laws[k % 2])
     };
-    let mut bonds: Vec<Bond> = (0..bodies).map(|k| bond(k, k, (k + 1) % bodies)).collect();
-    bonds.extend([bond(bodies, 2, 0), bond(bodies + 1, 0, 2)]);
-    bonds
+    let mut ring: Vec<Spring> = (0..bodies).map(|k| spring(k, k, (k + 1) % bodies)).collect();
+    ring.extend([spring(bodies, 2, 0), spring(bodies + 1, 0, 2)]);
+    ring
+}
+
+/// The model on supports and anchors, whose bodies are joined by such springs too.
+fn joined(model: Model, laws: [SpringLaw; 2]) -> Model {
+    let model = attached(model, [6.0, 5.0, 4.0, 3.0], AreaMeasure::DeformedArea);
+    let springs = model.springs().iter().copied().chain(ring(model.bodies.len(), laws)).collect();
+    model.with_springs(springs)
 }
 
 fn state(model: &Model) -> State {
@@ -130,9 +131,7 @@ fn assert_blocks_are_derivatives(model: &Model, state: &State) {
 
 #[test]
 fn blocks_between_joined_bodies_are_derivatives_of_the_rates() {
-    let bodies = bodies();
-    let bonds = bonds(bodies.len(), [DIRECTED, PLAIN]);
-    let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies).bonded(bonds);
+    let model = joined(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies()), [DIRECTED, PLAIN]);
     let state = state(&model);
     assert_blocks_are_derivatives(&model, &state);
     assert_power_is_the_rate_of_energy(&model, &state);
@@ -141,14 +140,12 @@ fn blocks_between_joined_bodies_are_derivatives_of_the_rates() {
 #[test]
 fn blocks_of_joined_spheres_that_the_fluid_remembers_are_derivatives_of_the_rates() {
     let [_, sphere, ..] = shapes();
-    let variant =
-        Variant { measure: AreaMeasure::DeformedArea, incompressible: false, pinned: false, frame: Frame::Space };
-    let soft = body(sphere, [6.0, 5.0, 4.0, 3.0], variant);
+    let soft = body(sphere, Variant { incompressible: false, pinned: false, frame: Frame::Space });
     let inertia = RigidInertia::new(&soft.solid.mass, None).unwrap();
     let rigid = Body { kind: BodyKind::Rigid(inertia), ..soft };
     let model = with_history(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), vec![rigid; 4]));
     assert!(model.bodies.len() == 4 && model.bodies.iter().all(|body| body.history().is_some()));
-    let model = model.bonded(bonds(4, [DIRECTED, PLAIN]));
+    let model = joined(model, [DIRECTED, PLAIN]);
     let state = state(&model);
     assert_blocks_are_derivatives(&model, &state);
     assert_power_is_the_rate_of_energy(&model, &state);
@@ -158,15 +155,13 @@ fn blocks_of_joined_spheres_that_the_fluid_remembers_are_derivatives_of_the_rate
 fn blocks_of_joined_bodies_without_inertia_are_derivatives_of_the_rates() {
     let undamped = SpringLaw { damping: 0.0, ..DIRECTED };
     let free: Vec<Body> = bodies().into_iter().filter(|body| body.pin.is_none()).collect();
-    let count = free.len();
-    let mut model = immersed(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), free), false);
+    let model = immersed(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), free), false);
     // Every third has inertia.
-    for body in model.bodies.iter_mut().step_by(3) {
+    let mut bodies = model.bodies.clone();
+    for body in bodies.iter_mut().step_by(3) {
         Arc::make_mut(body).inclusion.as_mut().unwrap().inertia = true;
     }
-    let fluid = model.fluid.take().unwrap();
-    let model = Model::new(model.gravity, model.supports, model.bodies).in_fluid(fluid);
-    let model = model.bonded(bonds(count, [undamped, PLAIN]));
+    let model = joined(model.with_bodies(bodies), [undamped, PLAIN]);
     let state = state(&model);
     assert_blocks_are_derivatives(&model, &state);
     assert_power_is_the_rate_of_energy(&model, &state);
@@ -175,21 +170,17 @@ fn blocks_of_joined_bodies_without_inertia_are_derivatives_of_the_rates() {
 #[test]
 fn what_a_spring_does_to_one_body_it_undoes_to_the_other() {
     let count = bodies().len();
-    let model = Model::new(Vec3::zeros(), supports(), bodies()).bonded(bonds(count, [DIRECTED, PLAIN]));
+    let model = Model::new(Vec3::zeros(), supports(), bodies()).with_springs(ring(count, [DIRECTED, PLAIN]));
     let state = state(&model);
     let motions: Vec<BodyMotion> = (0..count).map(|body| state.motion(&model, body)).collect();
-    let mut sums = vec![(Vec3::zeros(), Vec3::zeros()); model.bonds().len()];
+    let mut sums = vec![(Vec3::zeros(), Vec3::zeros()); model.springs().len()];
     for (body, own) in motions.iter().enumerate() {
-        let added = model.try_each_load(body, |load| {
-            let Load::Bond(end) = load else { return Ok(()) };
-            let other = &motions[end.other()];
-            let loads = end.loads((&own.placement, &own.velocity), (&other.placement, &other.velocity)).ok_or(())?;
-            assert!(loads.force.norm() > 1e-3);
-            sums[end.number].0 += loads.force;
-            sums[end.number].1 += own.placement.place(&loads.point).cross(&loads.force);
-            Ok::<(), ()>(())
-        });
-        assert!(added.is_ok());
+        for end in model.springs_of(body) {
+            let force = end.loads(&end.interaction.loads(|body| &motions[body]).unwrap()).force;
+            assert!(force.norm() > 1e-3);
+            sums[end.number].0 += force;
+            sums[end.number].1 += own.placement.place(&end.point()).cross(&force);
+        }
     }
     for (force, torque) in sums {
         // The forces to the last digit, their moments about the origin as the rounding of products lets them.
@@ -200,10 +191,15 @@ fn what_a_spring_does_to_one_body_it_undoes_to_the_other() {
 #[test]
 fn a_part_of_a_model_has_the_springs_between_its_bodies() {
     let count = bodies().len();
-    let model = Model::new(Vec3::zeros(), supports(), bodies()).bonded(bonds(count, [DIRECTED, PLAIN]));
+    let anchored = attached(Model::new(Vec3::zeros(), supports(), bodies()), [6.0; 4], AreaMeasure::default());
+    let springs = anchored.springs().iter().copied().chain(ring(count, [DIRECTED, PLAIN])).collect();
+    let model = anchored.with_springs(springs);
     let part = model.part(&[0, 2, 3, 7]);
-    let kept: Vec<[usize; 2]> = part.bonds().iter().map(|bond| bond.bodies).collect();
+    let kept: Vec<[usize; 2]> = part.joined_by_springs().collect();
     // 2 and 3 of the ring, and the two more.
     assert_eq!(kept, [[1, 2], [1, 0], [0, 1]]);
     assert!(part.is_joined(0) && !part.is_joined(3));
+    // Two contacts and two anchors each.
+    assert_eq!((part.contacts().len(), part.springs().len()), (8, 8 + 3));
+    assert!((0..4).all(|body| part.contacts_of(body).all(|contact| contact.body == body)));
 }

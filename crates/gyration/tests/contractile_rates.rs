@@ -58,9 +58,7 @@ fn model(exponents: [f64; 4], incompressible: bool, viscous: bool) -> Model {
     let [cuboid, ..] = shapes();
     let bodies = [false, true].into_iter().flat_map(|pinned| {
         sources.clone().map(|(source, kept_volume, spin)| {
-            let measure = AreaMeasure::DeformedArea;
-            let variant = Variant { measure, incompressible, pinned, frame: Frame::Space };
-            let body = body(cuboid.clone(), exponents, variant);
+            let body = body(cuboid.clone(), Variant { incompressible, pinned, frame: Frame::Space });
             let mut affine = body.affine().unwrap().clone();
             if !viscous {
                 affine.interior.viscosity = Default::default();
@@ -69,7 +67,7 @@ fn model(exponents: [f64; 4], incompressible: bool, viscous: bool) -> Model {
             Body { kind: contractile(affine, contraction), ..body }
         })
     });
-    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies)
+    attached(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies), exponents, AreaMeasure::DeformedArea)
 }
 
 fn contractile(affine: Affine, contraction: Contraction) -> BodyKind {
@@ -132,8 +130,7 @@ proptest! {
         // Without contacts, whose steep powers would hide errors of what is inside the body.
         for (incompressible, viscous) in [(false, false), (false, true), (true, false), (true, true)] {
             let Model { bodies, gravity, supports, .. } = model([3.0; 4], incompressible, viscous);
-            let alone = |body: Arc<Body>| Body { contacts: Vec::new(), springs: Vec::new(), ..(*body).clone() };
-            let model = Model::new(gravity, supports, bodies.into_iter().map(alone));
+            let model = Model::new(gravity, supports, bodies);
             assert_jacobian_is_the_derivative(&model, &state(&model, &numbers));
         }
     }
@@ -141,8 +138,7 @@ proptest! {
     #[test]
     fn jacobian_owes_nothing_to_what_the_block_held_before(numbers in numbers(33)) {
         let Model { bodies, gravity, supports, .. } = model([3.0; 4], true, true);
-        let alone = |body: Arc<Body>| Body { contacts: Vec::new(), springs: Vec::new(), ..(*body).clone() };
-        let model = Model::new(gravity, supports, bodies.into_iter().map(alone));
+        let model = Model::new(gravity, supports, bodies);
         let blocks = || -> Vec<_> { model.blocks().iter().map(|block| DMatrix::zeros(block.len(), block.len())).collect() };
         let fill = |state: &State, blocks: &mut [DMatrix<f64>]| {
             jacobian(&model, &mut Workspace::default(), state.time, state.numbers(), blocks).unwrap();

@@ -1,8 +1,8 @@
 //! Relations that the rates of rigid bodies obey, whatever the scene: exact Jacobian, power balance, dissipation.
 
 use crate::moving::{
-    self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, controlled, evaluate,
-    immersed, shapes, supports, with_history,
+    self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, attached, controlled,
+    evaluate, immersed, shapes, supports, with_history,
 };
 use gyration::balance::{kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, RigidInertia};
@@ -18,18 +18,16 @@ use gyration::tensor::Vec3;
 use proptest::prelude::*;
 
 /// A body under everything that may act on a rigid one.
-fn body(shape: Shape, exponents: [f64; 4], pinned: bool) -> Body {
-    let variant = Variant { measure: AreaMeasure::default(), incompressible: false, pinned, frame: Frame::Space };
-    let soft = moving::body(shape, exponents, variant);
+fn body(shape: Shape, pinned: bool) -> Body {
+    let soft = moving::body(shape, Variant { incompressible: false, pinned, frame: Frame::Space });
     let inertia = RigidInertia::new(&soft.solid.mass, soft.pin.as_ref()).unwrap();
     Body { kind: BodyKind::Rigid(inertia), ..soft }
 }
 
 /// One body of each shape, free and pinned.
 fn model(exponents: [f64; 4]) -> Model {
-    let bodies =
-        shapes().into_iter().flat_map(|shape| [false, true].map(|pinned| body(shape.clone(), exponents, pinned)));
-    Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies)
+    let bodies = shapes().into_iter().flat_map(|shape| [false, true].map(|pinned| body(shape.clone(), pinned)));
+    attached(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), bodies), exponents, AreaMeasure::default())
 }
 
 /// A state above both supports for any ten numbers in [−1, 1].

@@ -24,6 +24,8 @@ use gyration::tensor::Vec3;
 pub(super) struct AssembledBody {
     pub(super) body: Moving,
     pub(super) start: Start,
+    /// Its springs to anchors, of the body's number in the scene.
+    pub(super) springs: Vec<Spring>,
 }
 
 impl AssembledBody {
@@ -56,17 +58,16 @@ impl AssembledBody {
         let inclusion = ImmersedBody { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(context, reporter);
         let start = attitude?.start(placed, &kind, reporter)?;
         let place = placement(&start);
+        let springs = springs(placed, &place, reporter);
         let body = Moving {
             name: value.name.clone(),
             kind,
             size: size(&shape, &mass, &arm.unwrap_or_default()),
             solid: solids.share(shape, mass),
-            contacts: Vec::new(),
-            springs: springs(placed, &place, reporter),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
             inclusion: inclusion?,
         };
-        Some(Self { body, start })
+        Some(Self { body, start, springs })
     }
 }
 
@@ -88,16 +89,13 @@ fn near(arm: Option<&Vec3>, shape: &Shape, key: &Key, reporter: &mut Reporter<'_
 fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>) -> Vec<Spring> {
     let key = placed.key.key("spring");
     let make = |(index, written): (usize, &crate::file::Spring)| {
-        let spring = Spring {
-            point: si(&written.point),
-            anchor: si(&written.anchor),
-            law: SpringLaw {
-                stiffness: written.stiffness.value(),
-                rest_length: written.rest_length.value(),
-                damping: written.damping.value(),
-            },
+        let (point, anchor) = (si(&written.point), si(&written.anchor));
+        let law = SpringLaw {
+            stiffness: written.stiffness.value(),
+            rest_length: written.rest_length.value(),
+            damping: written.damping.value(),
         };
-        if spring.law.is_directed() && place.place(&spring.point) == spring.anchor {
+        if law.is_directed() && place.place(&point) == anchor {
             let help = "move the anchor, or leave out `rest_length` and `damping`";
             reporter.note(
                 &key.index(index).key("anchor"),
@@ -105,7 +103,7 @@ fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>
                 help,
             );
         }
-        spring
+        Spring::to_anchor(placed.number, point, anchor, law)
     };
     placed.value.spring.iter().enumerate().map(make).collect()
 }

@@ -5,7 +5,8 @@ use super::start::placement;
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file;
 use crate::quantity::si;
-use gyration::load::{Bond, SpringLaw};
+use gyration::load::{Spring, SpringLaw};
+use gyration::tensor::Vec3;
 use std::collections::HashMap;
 
 /// The springs between bodies; notes those that start without a direction, or whose dashpot is at a body without
@@ -14,11 +15,12 @@ pub(super) fn bonds(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],
     reporter: &mut Reporter<'_>,
-) -> Vec<Bond> {
+) -> Vec<Spring> {
     let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.body.name.clone(), index));
     let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
     let bond = |Placed { key, value, .. }: &Placed<file::Bond>| {
         let [Some(&one), Some(&other)] = value.between.each_ref().map(|name| named.get(name)) else { return None };
+        let bodies = [one, other];
         if one == other {
             return None;
         }
@@ -27,11 +29,12 @@ pub(super) fn bonds(
             rest_length: value.rest_length.value(),
             damping: value.damping.value(),
         };
-        let bond = Bond { bodies: [one, other], points: value.points.each_ref().map(si), law };
-        let ends = bond.bodies.map(|body| assembled[body].as_ref());
-        let [Some(one), Some(other)] = ends else { return None };
-        if law.is_directed() && bond.length([&placement(&one.start), &placement(&other.start)]) == 0.0 {
-            let [x, y, z] = placement(&one.start).place(&bond.points[0]).into();
+        let [Some(one), Some(other)] = bodies.map(|body| assembled[body].as_ref()) else { return None };
+        let points: [Vec3; 2] = value.points.each_ref().map(si);
+        let [here, there] =
+            [(one, points[0]), (other, points[1])].map(|(end, point)| placement(&end.start).place(&point));
+        if law.is_directed() && here == there {
+            let [x, y, z] = here.into();
             let (first, second) = (&one.body.name, &other.body.name);
             let message = format!(
                 "the spring starts with no length and has no direction: both points, of \"{first}\" and of \
@@ -46,7 +49,7 @@ pub(super) fn bonds(
             let help = "leave out `damping`, or give the body `inclusion = { inertia = true }`";
             reporter.note(&key.key("damping"), message, help);
         }
-        Some(bond)
+        Some(Spring::between(bodies, points, law))
     };
     partial.bonds.iter().filter_map(bond).collect()
 }

@@ -19,16 +19,16 @@ const MOST_CONTACTS: usize = 1_000_000;
 /// The most pairs of parts of bodies that act on each other however far they are: each takes some 400 bytes.
 const MOST_ENDLESS: usize = 10_000_000;
 
-/// Gives the bodies their contacts with supports, and returns the rules by which bodies meet; notes a contact with what
-/// has no surface, and laws out of range.
+/// The contacts of bodies with supports, and the rules by which bodies meet; notes a contact with what has no surface,
+/// and laws out of range.
 pub(super) fn attach(
     partial: &PartialScene,
-    assembled: &mut [Option<AssembledBody>],
+    assembled: &[Option<AssembledBody>],
     reporter: &mut Reporter<'_>,
-) -> Vec<PairRule> {
+) -> (Vec<Acting>, Vec<PairRule>) {
     let names = Names::of(partial);
     let (mut count, mut endless) = (0, 0);
-    let mut rules = Vec::new();
+    let (mut contacts, mut rules) = (Vec::new(), Vec::new());
     let gravity = si(&partial.world.gravity);
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
@@ -48,11 +48,9 @@ pub(super) fn attach(
                 let law_set = Arc::new(LawSet::new(measure, laws));
                 let between = key.key(if value.between.is_some() { "between" } else { "body" });
                 for body in bodies {
-                    let Some(assembled_body) = &mut assembled[body] else { continue };
+                    let Some(assembled_body) = &assembled[body] else { continue };
                     match &assembled_body.body.solid.surface {
-                        Some(_) => {
-                            assembled_body.body.contacts.push(Acting::with_support(support, Arc::clone(&law_set)));
-                        }
+                        Some(_) => contacts.push(Acting::new(body, support, Arc::clone(&law_set))),
                         None if named => without_surface(assembled_body, &between, reporter),
                         None => {}
                     }
@@ -105,7 +103,7 @@ pub(super) fn attach(
             break;
         }
     }
-    rules
+    (contacts, rules)
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

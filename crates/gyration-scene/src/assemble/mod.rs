@@ -35,11 +35,13 @@ use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
+use gyration::load::Spring;
 use gyration::model::Model;
 use gyration::state::{Start, State};
 use gyration::tensor::Vec3;
 use gyration_threads::Interruption;
 use solids::Solids;
+use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
@@ -144,11 +146,14 @@ pub(crate) fn assemble(
     }
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    let rules = contact::attach(partial, &mut assembled, reporter);
-    let bonds = bond::bonds(partial, &assembled, reporter);
+    let (contacts, rules) = contact::attach(partial, &assembled, reporter);
+    let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).copied();
+    let springs: Vec<Spring> = anchored.chain(bond::bonds(partial, &assembled, reporter)).collect();
+    let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
+    contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
         if let Some(assembled_body) = &assembled[body.number] {
-            overlap::check(body, assembled_body, &supports, reporter);
+            overlap::check(body, assembled_body, &met[body.number], &supports, reporter);
             resolve::resolve(&mut body.value, &assembled_body.start);
         }
     }
@@ -161,7 +166,7 @@ pub(crate) fn assemble(
     if let Some(fluid) = around {
         model = model.in_fluid(fluid?);
     }
-    model = model.bonded(bonds).meeting(rules).asking(|| Interruption::due().is_some());
+    model = model.with_contacts(contacts).with_springs(springs).meeting(rules).asking(|| Interruption::due().is_some());
     let state = State::start(&model, &starts);
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let forms = partial.bodies.iter().zip(&model.bodies).enumerate();

@@ -8,17 +8,17 @@ use gyration::support::Support;
 use gyration::surface::GapField;
 use std::collections::BTreeSet;
 
-/// Notes each support that a body reaches at t = 0, with the lift that it needs.
+/// Notes each support, of those with which it has contacts, that a body reaches at t = 0, with the lift that it needs.
 pub(super) fn check(
     placed: &Placed<Body>,
     assembled: &AssembledBody,
+    met: &BTreeSet<usize>,
     supports: &[Option<Support>],
     reporter: &mut Reporter<'_>,
 ) {
     let Some(surface) = &assembled.body.solid.surface else { return };
-    let met: BTreeSet<usize> = assembled.body.contacts.iter().map(|contact| contact.support()).collect();
     let start = placement(&assembled.start);
-    for support in met.into_iter().filter_map(|index| supports.get(index)?.as_ref()) {
+    for support in met.iter().filter_map(|index| supports.get(*index)?.as_ref()) {
         let field = GapField::new(support.gap(&start.position, 0.0), start.gradient.tr_mul(&support.normal));
         let (gap, _) = surface.smallest_gap(&field);
         if assembled.body.is_apart(gap, &field) {

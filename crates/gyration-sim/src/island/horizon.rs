@@ -69,11 +69,11 @@ pub(crate) fn horizon(
     for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
         step = step.min(DRIVE_PART / frequency);
     }
-    for ((body, end), radius) in model.bodies.iter().zip(ends).zip(radii) {
+    for (index, ((body, end), radius)) in model.bodies.iter().zip(ends).zip(radii).enumerate() {
         let Some(surface) = &body.solid.surface else { continue };
-        for contact in &body.contacts {
-            let support = &model.supports[contact.support()];
-            let approach = PlaneApproach::of(model, contact.support(), time, end, surface, *radius);
+        for contact in model.contacts_of(index) {
+            let support = &model.supports[contact.support];
+            let approach = PlaneApproach::of(model, contact.support, time, end, surface, *radius);
             step = step.min(match support.motion {
                 SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
                     let near = surface.smallest_gap(&approach.field).0 < body.size;

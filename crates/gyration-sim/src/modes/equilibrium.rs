@@ -66,7 +66,7 @@ fn not_found(frozen: &mut FrozenBody, block: &[f64], steps: usize) -> Result<NoR
 /// Refuses what gravity moves on for ever: the laws push along the normals of supports alone.
 fn is_supported(frozen: &FrozenBody) -> Result<(), NoRest> {
     let body = frozen.body();
-    if body.pin.is_some() || body.springs.iter().any(|spring| spring.law.stiffness > 0.0) {
+    if body.pin.is_some() || frozen.is_sprung() {
         return Ok(());
     }
     let normals = frozen.normals();

@@ -66,7 +66,9 @@ impl FrozenBody {
         }
         let mut block = still[slots.block()].to_vec();
         block.truncate(body.dimension());
-        let mut frozen = Model::new(model.gravity, supports, vec![body]);
+        let alone = model.part(&[index]);
+        let frozen = Model::new(model.gravity, supports, vec![body]);
+        let mut frozen = frozen.with_contacts(alone.contacts().to_vec()).with_springs(alone.springs().to_vec());
         if let Some(fluid) = &model.fluid {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
             frozen = frozen.in_fluid(Fluid { velocity, gradient, ..(**fluid).clone() });
@@ -82,6 +84,11 @@ impl FrozenBody {
 
     pub fn body(&self) -> &Body {
         &self.model.bodies[0]
+    }
+
+    /// Whether a spring to an anchor holds it.
+    pub fn is_sprung(&self) -> bool {
+        self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0)
     }
 
     pub fn gravity(&self) -> Vec3 {
@@ -133,11 +140,11 @@ impl FrozenBody {
     fn holding(&self) -> impl Iterator<Item = usize> {
         let pushes = |term: Term| term.action == Action::Central && term.coefficient != 0.0;
         let contacts = self
-            .body()
-            .contacts
+            .model
+            .contacts()
             .iter()
             .filter(move |contact| contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().any(pushes));
-        contacts.map(|contact| contact.support())
+        contacts.map(|contact| contact.support)
     }
 
     /// The normals of the supports that push or pull.

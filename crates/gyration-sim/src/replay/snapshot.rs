@@ -126,17 +126,17 @@ impl BodySnapshot<'_> {
 
     /// The gap to the support of a contact, and the motion relative to it.
     fn relative_to(&self, contact: &Contact) -> (GapField, RelativeMotion) {
-        let support = &self.model.supports[contact.support()];
+        let support = &self.model.supports[contact.support];
         let field = support.gap_field(&self.motion.placement, self.time);
         (field, RelativeMotion::to(support, &self.motion.velocity, self.time))
     }
 
-    fn contacts(&self) -> &[Contact] {
-        &self.model.bodies[self.body].contacts
+    fn contacts(&self) -> impl Iterator<Item = &Contact> {
+        self.model.contacts_of(self.body)
     }
 
     fn outside(&self, contact: &Contact, gap: f64) -> ReplayError {
-        let quantity = Quantity::Gap { support: contact.support() };
+        let quantity = Quantity::Gap { support: contact.support };
         ReplayError::Inadmissible { row: self.row, source: Inadmissible { body: self.body, quantity, value: gap } }
     }
 }

@@ -378,7 +378,7 @@ fn settle_works<'a>(settled: &mut Settled, model: &Model, ended: impl IntoIterat
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gyration::load::{Bond, SpringLaw};
+    use gyration::load::{Spring, SpringLaw};
     use gyration::tensor::Vec3;
     use std::path::Path;
 
@@ -395,8 +395,8 @@ mod tests {
         let text: String = [head.to_owned()].into_iter().chain((0..4).map(body)).collect();
         let scene = gyration_scene::Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
         let spring = SpringLaw { stiffness: 1.0, rest_length: 0.0, damping: 0.0 };
-        let bond = Bond { bodies: [3, 1], points: [Vec3::zeros(); 2], law: spring };
-        let model = scene.built().model.clone().bonded(vec![bond]);
+        let spring = Spring::between([3, 1], [Vec3::zeros(); 2], spring);
+        let model = scene.built().model.clone().with_springs(vec![spring]);
         let may_be =
             |islands: &[&[usize]]| may_be_islands(&model, &islands.iter().map(|it| it.to_vec()).collect::<Vec<_>>());
         assert!(may_be(&[&[0], &[1, 3], &[2]]) && may_be(&[&[0, 1, 3], &[2]]) && may_be(&[&[0, 1, 2, 3]]));

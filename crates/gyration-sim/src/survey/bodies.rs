@@ -141,7 +141,7 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
     let body = &model.bodies[index];
     let pair = |support: usize| {
         let approach = Approach::new(model, start, index, support)?;
-        let contacts = body.contacts.iter().filter(|contact| contact.support() == support);
+        let contacts = model.contacts_of(index).filter(|contact| contact.support == support);
         let laws = contacts.flat_map(|contact| contact.law_set.laws());
         let laws: Vec<LawSurvey> = laws.map(|law| LawSurvey::of(law, &body.solid.shape)).collect();
         Some(PairSurvey {

@@ -22,6 +22,7 @@ use super::balance::TrialGaps;
 use gyration::contact::{
     Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
 };
+use gyration::load::Party;
 use gyration::load::{LoadSlopes, Loads};
 use gyration::model::Model;
 use gyration::state::State;
@@ -128,7 +129,7 @@ impl<'a> Approach<'a> {
         let (initial_gap, _) = surface.smallest_gap(&GapField::new(height, direction));
         Some(Self {
             surface,
-            contacts: body.contacts.iter().filter(|contact| contact.support() == support).collect(),
+            contacts: model.contacts_of(index).filter(|contact| contact.support == support).collect(),
             normal: plane.normal,
             direction,
             gradient: motion.placement.gradient,
@@ -264,13 +265,13 @@ fn along_plane(gravity: &Vec3, normal: &Vec3) -> Vec3 {
 fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
     let body = &model.bodies[index];
     let acts = |contact: &&Contact| contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().any(acts);
-    let mut supports = body.contacts.iter().filter(acts).map(|contact| contact.support());
+    let mut supports = model.contacts_of(index).filter(acts).map(|contact| contact.support);
     let first = supports.next();
     if body.pin.is_some() {
         Some("a pin holds the body as well")
     } else if model.meets_bodies(index) {
         Some("other bodies meet it as well")
-    } else if !body.springs.is_empty() || model.is_joined(index) {
+    } else if model.springs_of(index).any(|end| end.other() == Party::Space) || model.is_joined(index) {
         Some("springs pull at the body as well")
     } else if supports.any(|support| Some(support) != first) {
         Some("the laws of other supports act on the body as well")

@@ -5,7 +5,7 @@
 //! of two free bodies on the line of the spring; what else holds or turns them makes it another period.
 
 use crate::format::significant;
-use gyration::load::Bond;
+use gyration::load::Spring;
 use gyration::model::Model;
 use gyration::state::State;
 use serde::Serialize;
@@ -35,21 +35,21 @@ pub struct SpringSurvey {
 impl SpringSurvey {
     /// The springs between the bodies of a model, in order.
     pub fn all(model: &Model, start: &State) -> Vec<Self> {
-        model.bonds().iter().filter_map(|bond| Self::of(model, start, bond)).collect()
+        model.springs().iter().filter_map(|spring| Self::of(model, start, spring)).collect()
     }
 
-    fn of(model: &Model, start: &State, bond: &Bond) -> Option<Self> {
-        let law = bond.law;
-        let [one, other] = bond.bodies.map(|body| start.motion(model, body).placement);
-        let [m, n] = bond.bodies.map(|body| model.bodies[body].solid.mass.mass);
+    /// Of one between two bodies; none of others.
+    fn of(model: &Model, start: &State, spring: &Spring) -> Option<Self> {
+        let (law, bodies) = (spring.law, spring.bodies()?);
+        let [m, n] = bodies.map(|body| model.bodies[body].solid.mass.mass);
         let reduced = m * n / (m + n);
         let period = (law.stiffness > 0.0).then(|| TAU * (reduced / law.stiffness).sqrt());
         let damped = period.filter(|_| law.damping > 0.0);
         Some(Self {
-            between: bond.bodies.map(|body| model.bodies[body].name.clone()),
+            between: bodies.map(|body| model.bodies[body].name.clone()),
             stiffness: law.stiffness,
             rest_length: law.rest_length,
-            initial_length: bond.length([&one, &other]),
+            initial_length: spring.length(|body| start.motion(model, body).placement),
             period,
             damping_ratio: damped.map(|_| law.damping / (2.0 * (law.stiffness * reduced).sqrt())),
         })

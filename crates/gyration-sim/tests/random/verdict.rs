@@ -1,6 +1,7 @@
 //! Runs a scene and looks at the end of every step: gaps, ledger, outcome.
 
 use gyration::balance::energies;
+use gyration::contact::Contact;
 use gyration::dynamics::{Workspace, gap_to_supports};
 use gyration::model::Model;
 use gyration::state::State;
@@ -117,17 +118,9 @@ fn barrier(model: &Model, state: &State) -> f64 {
     const NEAREST: f64 = 1e-9;
     let mut lowest = f64::INFINITY;
     for (index, body) in model.bodies.iter().enumerate().filter(|(_, body)| body.pin.is_none()) {
-        for contact in &body.contacts {
-            let only = Model::new(
-                model.gravity,
-                vec![model.supports[contact.support()].clone()],
-                vec![{
-                    let mut alone = (**body).clone();
-                    alone.contacts = vec![contact.clone()];
-                    alone.contacts[0].partner = gyration::contact::Partner::Support(0);
-                    alone
-                }],
-            );
+        for contact in model.contacts_of(index) {
+            let only = Model::new(model.gravity, vec![model.supports[contact.support].clone()], [body.clone()]);
+            let only = only.with_contacts(vec![Contact::new(0, 0, contact.law_set.clone())]);
             let block = model.blocks()[index].clone();
             let mut moved =
                 State { time: state.time, bodies: state.bodies[block].to_vec(), low: Vec::new(), works: Vec::new() };

@@ -61,7 +61,7 @@ pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, Stri
 
 /// The normal of the first support that acts on a body.
 pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
-    let contact = model.bodies[body].contacts.first();
+    let contact = model.contacts_of(body).next();
     let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
-    Ok(model.supports[contact.support()].normal)
+    Ok(model.supports[contact.support].normal)
 }

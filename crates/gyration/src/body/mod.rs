@@ -1,4 +1,4 @@
-//! A body: the solid that it is, the laws and springs that act on it, and its kind.
+//! A body: the solid that it is, and its kind.
 //!
 //! Everything is relative to the centre of mass. A rigid body has the configuration (p₀, P = R) and the velocity (ṗ₀,
 //! Ω), an affine body (p₀, P) and (ṗ₀, Ṗ), a contractile one G besides; `layout` says where these stand in the state. A
@@ -11,11 +11,10 @@ pub use layout::{Slots, matrix, vector};
 pub use solid::Solid;
 
 use crate::affine::AffineBody;
-use crate::contact::Contact;
 use crate::contractile::{self, Contraction, Decomposition, Restored};
 use crate::fluid::{History, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Couple, LinearResistance, Spring};
+use crate::load::{Couple, LinearResistance};
 use crate::mass::MassProperties;
 use crate::surface::{GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
@@ -30,10 +29,6 @@ pub struct Body {
     pub kind: BodyKind,
     /// Its shape, mass and surface, which equal bodies share.
     pub solid: Arc<Solid>,
-    /// Laws with supports.
-    pub contacts: Vec<Contact>,
-    /// Springs to fixed anchors.
-    pub springs: Vec<Spring>,
     /// The material point that stays fixed in space, if any.
     pub pin: Option<Pin>,
     /// What makes it feel the fluid, if it is immersed.

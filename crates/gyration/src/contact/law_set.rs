@@ -5,21 +5,17 @@
 
 use super::potential::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, Term};
+use crate::load::{Interaction, Party};
 use crate::surface::{MomentPlan, Moments, OrientedMoments, request};
 use std::sync::Arc;
 
-/// What a body meets.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Partner {
-    /// The support of this index in the model.
-    Support(usize),
-}
-
-/// The laws between a body and its partner.
+/// The laws between a body and a support.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// What the body meets.
-    pub partner: Partner,
+    /// The index of the body.
+    pub body: usize,
+    /// The index of the support.
+    pub support: usize,
     /// What acts between them.
     pub law_set: Arc<LawSet>,
 }
@@ -76,15 +72,20 @@ impl ContactScratch {
 }
 
 impl Contact {
-    /// A contact with the support of this index.
-    pub fn with_support(support: usize, law_set: impl Into<Arc<LawSet>>) -> Self {
-        Self { partner: Partner::Support(support), law_set: law_set.into() }
+    /// A contact of a body with a support.
+    pub fn new(body: usize, support: usize, law_set: impl Into<Arc<LawSet>>) -> Self {
+        Self { body, support, law_set: law_set.into() }
     }
 
-    /// The index of its support.
-    pub fn support(&self) -> usize {
-        let Partner::Support(support) = self.partner;
-        support
+    /// The same laws between a body and the support, renumbered.
+    pub(crate) fn of_parties(&self, [body, _]: [Party; 2]) -> Self {
+        Self { body: body.body().unwrap_or(self.body), ..self.clone() }
+    }
+}
+
+impl Interaction for Contact {
+    fn parties(&self) -> [Party; 2] {
+        [Party::Body(self.body), Party::Support(self.support)]
     }
 }
 

@@ -27,7 +27,7 @@ mod wrench;
 pub use adhesion::Adhesion;
 pub use damping::Damping;
 pub use friction::Friction;
-pub use law_set::{Contact, ContactScratch, LawSet, Partner};
+pub use law_set::{Contact, ContactScratch, LawSet};
 pub use meeting::{Deformation, Meeting, RelativeMotion};
 pub use repulsion::Repulsion;
 pub use resultant::ContactLoads;

@@ -1,7 +1,6 @@
 //! A body at its supports: gaps, relative motion, and the contacts that are to be integrated.
 
-use crate::body::Body;
-use crate::contact::{Contact, Meeting, Partner, RelativeMotion};
+use crate::contact::{Contact, Meeting, RelativeMotion};
 use crate::contractile::Nearest;
 use crate::extended::{Extended, rotated_back};
 use crate::inadmissible::{Inadmissible, Quantity};
@@ -21,7 +20,7 @@ pub(super) fn meet<T>(
 ) -> Result<Option<T>, Inadmissible> {
     let MotionAt { model, body, motion, .. } = at;
     let Some(surface) = &body.solid.surface else { return Ok(None) };
-    let Partner::Support(index) = contact.partner;
+    let index = contact.support;
     let support = &model.supports[index];
     let field = gap_field(at, surface, support);
     let result = if surface.is_above(&field, body.least_gap(&field)) {
@@ -72,27 +71,26 @@ fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Op
     Some(GapField::extended(height, &direction))
 }
 
-/// The velocity with which the partner of a contact is moved [m/s].
+/// The velocity with which the support of a contact is moved [m/s].
 pub(super) fn carrying(at: &MotionAt, contact: &Contact) -> Vec3 {
-    let Partner::Support(index) = contact.partner;
-    at.model.supports[index].motion.velocity(at.time)
+    at.model.supports[contact.support].motion.velocity(at.time)
 }
 
 /// The smallest distance of a body to a support that it has a contact with [m], to all the digits of the state;
 /// infinite without one.
 pub(super) fn support_gap_at(at: &MotionAt) -> f64 {
-    least_of_supports(at.model, at.body, |surface, support| gap_field(at, surface, support))
+    least_of_supports(at.model, at.index, |surface, support| gap_field(at, surface, support))
 }
 
 /// The smallest distance of a body's surface to a support that it has a contact with [m]; infinite without one.
 pub fn gap_to_supports(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> f64 {
-    least_of_supports(model, &model.bodies[index], |_, support| support.gap_field(&motion.placement, time))
+    least_of_supports(model, index, |_, support| support.gap_field(&motion.placement, time))
 }
 
 /// The least gap of the fields of those supports that a body has a contact with.
-fn least_of_supports(model: &Model, body: &Body, field: impl Fn(&Surface, &Support) -> GapField) -> f64 {
-    let Some(surface) = &body.solid.surface else { return f64::INFINITY };
-    let supports = body.contacts.iter().map(|contact| &model.supports[contact.support()]);
+fn least_of_supports(model: &Model, index: usize, field: impl Fn(&Surface, &Support) -> GapField) -> f64 {
+    let Some(surface) = &model.bodies[index].solid.surface else { return f64::INFINITY };
+    let supports = model.contacts_of(index).map(|contact| &model.supports[contact.support]);
     supports.map(|support| surface.smallest_gap(&field(surface, support)).0).fold(f64::INFINITY, f64::min)
 }
 

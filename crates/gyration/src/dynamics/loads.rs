@@ -10,10 +10,10 @@ use super::immersed::{RigidImmersion, immersion};
 use super::powers::Powers;
 use crate::acting::{Load, PairAt};
 use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
-use crate::inadmissible::{Inadmissible, Quantity};
+use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, MotionAt};
 use crate::ledger::{Energy, Work};
-use crate::load::{BondEnd, LoadSlopes, Loads, Spring, SpringLoads};
+use crate::load::{LoadSlopes, Loads};
 use crate::pair::PairSlopes;
 
 /// What acts on a body, gravity aside.
@@ -40,7 +40,7 @@ pub fn acting(at: &BodyAt, scratch: &mut Scratch) -> Result<Acting, Inadmissible
 impl Acting {
     /// Adds a load.
     #[inline]
-    pub(super) fn add(&mut self, load: &Load, at: &MotionAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
+    pub(super) fn add(&mut self, load: &Load, at: &BodyAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
         let velocity = &at.motion.velocity;
         match load {
             Load::Contact(contact) => {
@@ -56,17 +56,12 @@ impl Acting {
                 self.contact += total;
                 self.total += total;
             }
-            Load::Spring(number, spring) => {
-                let loads = stretched(at, *number, spring)?;
-                self.powers[Work::Load] += loads.dashpot_power;
-                self.total += loads.total();
-            }
-            Load::Bond(end) => {
-                let loads = bonded(at, end)?;
+            Load::Spring(end) => {
+                let spring = at.spring(end);
                 if end.counts() {
-                    self.powers[Work::Load] += loads.dashpot_power;
+                    self.powers[Work::Load] += spring.dashpot_power;
                 }
-                self.total += loads.total();
+                self.total += end.loads(spring);
             }
             Load::Pair(pair) => {
                 if pair.end.counts() {
@@ -116,7 +111,7 @@ fn fluid(at: &MotionAt) -> Result<Option<Loads>, Inadmissible> {
 /// Adds the derivatives of a load by (p₀ | P) and their rates, and the load itself.
 pub(super) fn add_slopes(
     load: &Load,
-    at: &MotionAt,
+    at: &BodyAt,
     scratch: &mut Scratch,
     slopes: &mut LoadSlopes,
 ) -> Result<(), Inadmissible> {
@@ -128,8 +123,7 @@ pub(super) fn add_slopes(
                 contact.add_to(slopes);
             }
         }
-        Load::Spring(number, spring) => slopes.add_spring(&stretched(at, *number, spring)?),
-        Load::Bond(end) => slopes.add_spring(&bonded(at, end)?),
+        Load::Spring(end) => slopes.add_spring(end, at.spring(end)),
         Load::Pair(pair) => {
             let (own, found) = (pair.end.end, sloped(pair));
             slopes.loads += *pair.on_body();
@@ -173,28 +167,17 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                     meet(at, contact, |it| contact_potential(&contact.law_set, it, &mut scratch.contact))?
                         .unwrap_or(0.0)
                 }
-                Load::Spring(_, spring) => spring.energy(&at.motion.placement),
-                Load::Bond(end) => end.energy(&at.motion.placement, &at.other(end.other()).placement),
+                Load::Spring(end) if end.counts() => end.interaction.law.energy(at.spring(&end).length),
                 Load::Pair(pair) if pair.end.counts() => pair.loads.energy,
-                Load::Pair(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => 0.0,
+                Load::Spring(_)
+                | Load::Pair(_)
+                | Load::Couple(_)
+                | Load::Applied(_)
+                | Load::Resistance(_)
+                | Load::Fluid(..) => 0.0,
             };
         }
         Ok(())
     })?;
     Ok(total)
-}
-
-/// The force of a spring.
-pub(super) fn stretched(at: &MotionAt, number: usize, spring: &Spring) -> Result<SpringLoads, Inadmissible> {
-    let loads = spring.loads(&at.motion.placement, &at.motion.velocity);
-    let quantity = Quantity::SpringLength { spring: number };
-    loads.ok_or_else(|| at.outside(quantity, spring.length(&at.motion.placement)))
-}
-
-/// The force of a bond on the body.
-pub(super) fn bonded(at: &MotionAt, end: &BondEnd) -> Result<SpringLoads, Inadmissible> {
-    let (own, other) = (at.motion, at.other(end.other()));
-    let loads = end.loads((&own.placement, &own.velocity), (&other.placement, &other.velocity));
-    let quantity = Quantity::BondLength { bond: end.number };
-    loads.ok_or_else(|| at.outside(quantity, end.length(&own.placement, &other.placement)))
 }

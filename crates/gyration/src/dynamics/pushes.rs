@@ -5,12 +5,10 @@
 
 use super::Scratch;
 use super::contacts::meet;
-use super::loads::{bonded, stretched};
 use crate::acting::Load;
 use crate::contact::ContactLoads;
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, MotionAt};
-use crate::load::BondEnd;
+use crate::instant::BodyAt;
 use crate::pair::PairLoads;
 
 /// One of the forces on a body that come from a support, a spring or another body.
@@ -41,11 +39,10 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 })?;
                 push.into_iter().for_each(&mut each);
             }
-            Load::Spring(number, spring) => {
-                let force = stretched(at, number, spring)?.total().force.norm();
-                each(Push { force, gap: spring.length(&at.motion.placement), rounding: 0.0 });
+            Load::Spring(end) => {
+                let spring = at.spring(&end);
+                each(Push { force: spring.force.norm(), gap: spring.length, rounding: 0.0 });
             }
-            Load::Bond(end) => each(of_bond(at, &end)?),
             Load::Pair(pair) => {
                 let PairLoads { gap, energy, .. } = pair.loads;
                 let exponent = pair.end.interaction.form.laws.repulsion.exponent;
@@ -57,10 +54,4 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
         }
         Ok(())
     })
-}
-
-fn of_bond(at: &MotionAt, end: &BondEnd) -> Result<Push, Inadmissible> {
-    let force = bonded(at, end)?.total().force.norm();
-    let gap = end.length(&at.motion.placement, &at.other(end.other()).placement);
-    Ok(Push { force, gap, rounding: 0.0 })
 }

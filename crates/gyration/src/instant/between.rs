@@ -5,17 +5,20 @@ use super::motions::{MotionAt, Motions};
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
 use crate::inadmissible::{Inadmissible, Quantity};
+use crate::load::{Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
 use crate::pair::{Guess, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::tensor::Vec3;
 
-/// What the pairs within reach do, in order of the list.
+/// What springs and the pairs within reach do, these in order of the list.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Between {
     loads: Vec<PairLoads>,
     /// Their derivatives, where these were asked for; else empty.
     slopes: Vec<PairSlopes>,
+    /// What the springs of the model exert, in their order.
+    springs: Vec<SpringLoads>,
 }
 
 /// Whoever looks at the pairs of an instant, one after the other.
@@ -39,9 +42,33 @@ impl Between {
         PairAt { end, loads: &self.loads[place], slopes: self.slopes.get(place) }
     }
 
+    /// What a spring of the model exerts.
+    pub fn spring(&self, number: usize) -> &SpringLoads {
+        &self.springs[number]
+    }
+
+    /// Finds what the springs of an instant exert.
+    fn find_springs(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
+        let Looking { model, motions, .. } = looking;
+        self.springs.clear();
+        for number in 0..model.springs().len() {
+            self.springs.push(stretched(model, motions, number)?);
+        }
+        Ok(())
+    }
+
+    /// Finds again what the springs of a body exert.
+    pub fn find_springs_of(&mut self, body: usize, model: &Model, motions: &Motions) -> Result<(), Inadmissible> {
+        for end in model.springs_of(body) {
+            self.springs[end.number] = stretched(model, motions, end.number)?;
+        }
+        Ok(())
+    }
+
     /// Finds what the pairs of an instant do.
     pub fn find_loads(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
-        let Self { loads, slopes } = self;
+        self.find_springs(looking)?;
+        let Self { loads, slopes, .. } = self;
         loads.clear();
         slopes.clear();
         looking.for_each(|looked, room| {
@@ -55,7 +82,8 @@ impl Between {
 
     /// The same with derivatives.
     pub fn find_slopes(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
-        let Self { loads, slopes } = self;
+        self.find_springs(looking)?;
+        let Self { loads, slopes, .. } = self;
         loads.clear();
         slopes.clear();
         looking.for_each(|looked, room| {
@@ -68,6 +96,15 @@ impl Between {
             Ok(())
         })
     }
+}
+
+/// What a spring exerts.
+fn stretched(model: &Model, motions: &Motions, number: usize) -> Result<SpringLoads, Inadmissible> {
+    let spring = &model.springs()[number];
+    spring.loads(|body| motions.motion(body)).map_err(|length| {
+        let body = spring.parties()[0].body().unwrap_or_default();
+        Inadmissible { body, quantity: Quantity::SpringLength { spring: number }, value: length }
+    })
 }
 
 /// Finds the slabs between the bodies of all listed pairs.

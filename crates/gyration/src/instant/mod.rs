@@ -23,6 +23,7 @@ use crate::acting::{Load, PairAt};
 use crate::body::Slots;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
+use crate::load::{SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
 use between::{Between, Looking};
@@ -35,7 +36,7 @@ use std::ops::Deref;
 pub struct Instant<'a> {
     model: &'a Model,
     motions: &'a mut Motions,
-    between: &'a Between,
+    between: &'a mut Between,
 }
 
 /// A body of a model at an instant: all that its loads and its balance are computed from.
@@ -135,9 +136,9 @@ impl Instant<'_> {
     /// The pairs (i, j) of bodies of which j acts on i at this instant, in order of i; some come twice.
     pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.model.bodies.len()).flat_map(|body| {
-            let bonds = self.model.bonds_of(body).map(|end| end.other());
-            bonds
-                .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.end.other()))
+            let springs = self.model.springs_of(body).filter_map(|end| end.other().body());
+            springs
+                .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
                 .map(move |other| (body, other))
         })
     }
@@ -147,15 +148,16 @@ impl Instant<'_> {
         self.motions.state()
     }
 
-    /// Gives a body without inertia its motion, from numbers of its own. No pair has such a body, and a spring to it
-    /// has no dashpot: what stands between bodies stays as it was found.
+    /// Gives a body without inertia its motion, from numbers of its own; its springs are found again. No pair has such
+    /// a body, and a spring between it and another has no dashpot: what others feel stays as it was found.
     ///
     /// # Errors
-    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0, or a spring has no length.
     pub(crate) fn set_motion(&mut self, index: usize, slots: &Slots, numbers: &[f64]) -> Result<(), Inadmissible> {
         let body = &self.model.bodies[index];
         debug_assert!(!body.has_inertia());
-        self.motions.read_body(body, index, slots, numbers)
+        self.motions.read_body(body, index, slots, numbers)?;
+        self.between.find_springs_of(index, self.model, self.motions)
     }
 }
 
@@ -173,6 +175,11 @@ impl<'a> BodyAt<'a> {
     #[inline]
     pub fn try_each_load<E>(&self, each: impl FnMut(Load<'a>) -> Result<(), E>) -> Result<(), E> {
         self.moving.model.try_each_load_with(self.moving.index, self.pairs(), each)
+    }
+
+    /// What a spring of the model exerts.
+    pub(crate) fn spring(&self, end: &SpringEnd) -> &'a SpringLoads {
+        self.between.spring(end.number)
     }
 
     /// The pairs of which it is one, as far as they are within reach.

@@ -188,6 +188,12 @@ impl Motions {
         self.time
     }
 
+    /// How a body moves; of one without inertia the places alone are known.
+    #[inline]
+    pub fn motion(&self, index: usize) -> &BodyMotion {
+        &self.bodies[index].motion
+    }
+
     /// A body of the model from whose state this was read.
     #[inline]
     pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> MotionAt<'a> {
@@ -231,12 +237,6 @@ impl<'a> MotionAt<'a> {
     pub(crate) fn deformation(&self) -> Option<Deformation> {
         let Gyration { inverse, volume_ratio, .. } = self.gyration()?;
         Some(Deformation { inverse: *inverse, cofactor: *volume_ratio * inverse.transpose() })
-    }
-
-    /// The motion of another body; of one without inertia the places alone are known.
-    #[inline]
-    pub(crate) fn other(&self, index: usize) -> &'a BodyMotion {
-        &self.motions.bodies[index].motion
     }
 
     /// The pairs of bodies that may act on one another.

@@ -1,11 +1,37 @@
-//! What acts between two bodies, found by body.
+//! What acts between two parties, found by body.
 
 use std::sync::Arc;
 
-/// Something between two bodies of a model.
+/// One of the two between which something acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Party {
+    /// The body of this index.
+    Body(usize),
+    /// The support of this index.
+    Support(usize),
+    /// Space itself, where anchors are.
+    Space,
+}
+
+/// Something between a body of a model and another party.
 pub trait Interaction {
-    /// The indices of the two bodies, which differ.
-    fn bodies(&self) -> [usize; 2];
+    /// The two, of which the first is a body; they differ.
+    fn parties(&self) -> [Party; 2];
+}
+
+impl Party {
+    /// The index of a body; none of what is no body.
+    pub fn body(self) -> Option<usize> {
+        match self {
+            Self::Body(index) => Some(index),
+            Self::Support(_) | Self::Space => None,
+        }
+    }
+}
+
+/// The bodies among two parties.
+fn bodies_of(parties: [Party; 2]) -> impl Iterator<Item = usize> {
+    parties.into_iter().filter_map(Party::body)
 }
 
 /// An interaction as one of its bodies sees it.
@@ -49,35 +75,40 @@ impl<J: Interaction> InteractionEnd<'_, J> {
         self.end == 0
     }
 
-    /// The other body.
-    pub fn other(&self) -> usize {
-        self.interaction.bodies()[1 - self.end]
+    /// The other party.
+    pub fn other(&self) -> Party {
+        self.interaction.parties()[1 - self.end]
     }
 }
 
 impl<J: Interaction> Interactions<J> {
-    /// The interactions between so many bodies.
+    /// The interactions of so many bodies.
     ///
     /// # Panics
-    /// If one joins a body to itself, or names one that does not exist.
+    /// If one has no body first, joins a body to itself, or names one that does not exist.
     pub fn new(bodies: usize, all: Vec<J>) -> Self {
         if all.is_empty() {
             return Self::default();
         }
-        let joins = |[one, other]: [usize; 2]| one != other && one.max(other) < bodies;
+        let joins = |[one, other]: [Party; 2]| {
+            one.body().is_some() && one != other && bodies_of([one, other]).all(|body| body < bodies)
+        };
         assert!(
-            all.iter().all(|interaction| joins(interaction.bodies())),
-            "an interaction is between two of the {bodies} bodies"
+            all.iter().all(|interaction| joins(interaction.parties())),
+            "an interaction is between one of the {bodies} bodies and another party"
         );
         // Sorted by counting: a crowd has millions.
         let mut starts = vec![0; bodies + 1];
-        all.iter().flat_map(J::bodies).for_each(|body| starts[body + 1] += 1);
+        let concerned = all.iter().flat_map(|interaction| bodies_of(interaction.parties()));
+        concerned.for_each(|body| starts[body + 1] += 1);
         (0..bodies).for_each(|body| starts[body + 1] += starts[body]);
-        let (mut next, mut ends) = (starts.clone(), vec![(0, 0); 2 * all.len()]);
+        let (mut next, mut ends) = (starts.clone(), vec![(0, 0); starts[bodies]]);
         for (number, interaction) in all.iter().enumerate() {
-            for (end, body) in interaction.bodies().into_iter().enumerate() {
-                ends[next[body]] = (number, end);
-                next[body] += 1;
+            for (end, party) in interaction.parties().into_iter().enumerate() {
+                if let Party::Body(body) = party {
+                    ends[next[body]] = (number, end);
+                    next[body] += 1;
+                }
             }
         }
         Self { all: all.into(), starts: starts.into(), ends: ends.into() }
@@ -89,7 +120,7 @@ impl<J: Interaction> Interactions<J> {
     }
 
     /// Those of a body, in order.
-    pub fn of(&self, body: usize) -> impl Iterator<Item = InteractionEnd<'_, J>> {
+    pub fn of(&self, body: usize) -> impl Iterator<Item = InteractionEnd<'_, J>> + Clone {
         let ends = if body + 1 < self.starts.len() { self.starts[body]..self.starts[body + 1] } else { 0..0 };
         self.ends[ends].iter().map(|(number, end)| InteractionEnd {
             number: *number,
@@ -103,12 +134,16 @@ impl<J: Interaction> Interactions<J> {
         Arc::ptr_eq(&self.all, &others.all)
     }
 
-    /// Those between some bodies, which ascend, as `renumbered` makes them with the places of their bodies among these.
+    /// Those that have none but some bodies, which ascend, as `renumbered` makes them with the places of their bodies
+    /// among these.
     #[must_use]
-    pub fn among(&self, members: &[usize], renumbered: impl Fn(&J, [usize; 2]) -> J) -> Self {
-        let place = |body: usize| members.binary_search(&body).ok();
+    pub fn among(&self, members: &[usize], renumbered: impl Fn(&J, [Party; 2]) -> J) -> Self {
+        let place = |party: Party| match party {
+            Party::Body(body) => members.binary_search(&body).ok().map(Party::Body),
+            Party::Support(_) | Party::Space => Some(party),
+        };
         let within = |end: InteractionEnd<J>| {
-            let [Some(one), Some(other)] = end.interaction.bodies().map(place) else { return None };
+            let [Some(one), Some(other)] = end.interaction.parties().map(place) else { return None };
             Some((end.number, renumbered(end.interaction, [one, other])))
         };
         let counted = members.iter().flat_map(|body| self.of(*body)).filter(InteractionEnd::counts);

@@ -5,7 +5,6 @@
 //! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
 
 mod applied;
-mod bond;
 mod couple;
 mod interactions;
 mod resistance;
@@ -14,14 +13,13 @@ mod spring;
 mod wrench;
 
 pub use applied::Applied;
-pub use bond::{Bond, BondEnd};
 pub use couple::Couple;
-pub use interactions::{Interaction, InteractionEnd, Interactions};
+pub use interactions::{Interaction, InteractionEnd, Interactions, Party};
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;
 pub(crate) use slopes::{COORDINATES, add_blocks, loads, numbers, unit};
-pub use spring::{Spring, SpringLaw, SpringLoads};
+pub use spring::{Attachment, Spring, SpringEnd, SpringLaw, SpringLoads};
 pub use wrench::{Wrench, WrenchSlope};
 
 use crate::tensor::{Mat3, Vec3, axial};

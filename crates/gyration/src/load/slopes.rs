@@ -4,7 +4,7 @@
 //! they are vectors of twelve, with power Q·q̇. A point X is X̃ = (1; X) on their columns: x = q X̃, and a force F
 //! there is Q = F ⊗ X̃. A pinned body has the coordinates P alone: q = P T, T = (−r | I), r = X_p, and Q_p = Q Tᵀ.
 
-use super::{Applied, LinearResistance, Loads, SpringLoads};
+use super::{Applied, LinearResistance, Loads, SpringEnd, SpringLoads};
 use crate::kinematics::{Placement, Velocity};
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
@@ -78,10 +78,11 @@ impl LoadSlopes {
         add_blocks(&mut self.by_rate, across, |a, b| -moment(a, b));
     }
 
-    /// Adds a spring at a material point, whose other end stays.
-    pub fn add_spring(&mut self, spring: &SpringLoads) {
-        let point = |a: usize| if a == 0 { 1.0 } else { spring.point[a - 1] };
-        self.loads += spring.total();
+    /// Adds a spring on one of its bodies, while the other end stays.
+    pub fn add_spring(&mut self, end: &SpringEnd, spring: &SpringLoads) {
+        let at = end.point();
+        let point = |a: usize| if a == 0 { 1.0 } else { at[a - 1] };
+        self.loads += end.loads(spring);
         add_blocks(&mut self.by_place, &spring.by_place, |a, b| point(a) * point(b));
         add_blocks(&mut self.by_rate, &spring.by_velocity, |a, b| point(a) * point(b));
     }

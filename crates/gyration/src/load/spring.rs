@@ -1,13 +1,14 @@
-//! Springs and dashpots at material points: to a fixed anchor, or between two bodies.
+//! Springs and dashpots at material points: between two bodies, or from a body to an anchor in space.
 //!
-//!   F = −[k (l − l₀) + c l̇] e,   e = d/l,   l = |d|,   l̇ = e·ḋ
+//!   F = −[k (l − l₀) + c l̇] e,   e = d/l,   l = |d|,   l̇ = e·ḋ,   d = x − y
 //!
-//! on the point x, with d = x − a for an anchor a and d = x − y for a point y of another body, on which −F acts. The
-//! potential is ½k(l − l₀)², the dissipation c l̇². At l = 0 the direction e is lost: outside the model unless the
-//! spring has neither rest length nor dashpot.
+//! on the point x of the first body; −F acts on the point y of the second, or on the anchor y. The potential is ½k(l −
+//! l₀)², the dissipation c l̇², which count as the first body's. At l = 0 the direction e is lost: outside the model
+//! unless the spring has neither rest length nor dashpot.
 
 use super::Loads;
-use crate::kinematics::{Placement, Velocity};
+use super::interactions::{Interaction, InteractionEnd, Party};
+use crate::kinematics::{BodyMotion, Placement};
 use crate::tensor::{Mat3, Vec3};
 
 /// A spring with a dashpot in parallel, whatever its ends are.
@@ -21,18 +22,33 @@ pub struct SpringLaw {
     pub damping: f64,
 }
 
-/// A spring from a material point to a point fixed in space.
+/// Where an end of a spring is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Attachment {
+    /// At a material point of a body.
+    Body {
+        /// The index of the body.
+        index: usize,
+        /// The point (from the centre of mass) [m].
+        point: Vec3,
+    },
+    /// At a place in space [m].
+    Anchor(Vec3),
+}
+
+/// A spring between two bodies, or from a body to an anchor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
-    /// The material point X (from the centre of mass) [m].
-    pub point: Vec3,
-    /// a, fixed in space [m].
-    pub anchor: Vec3,
+    /// Where it begins, which is at a body, and where it ends.
+    pub ends: [Attachment; 2],
     /// What it does.
     pub law: SpringLaw,
 }
 
-/// The force of a spring on a material point and what its derivatives need.
+/// A spring as one of its bodies sees it.
+pub type SpringEnd<'a> = InteractionEnd<'a, Spring>;
+
+/// The force of a spring on the point of its first body and what its derivatives need.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringLoads {
     /// F [N].
@@ -43,8 +59,8 @@ pub struct SpringLoads {
     pub by_velocity: Mat3,
     /// −c l̇² [W].
     pub dashpot_power: f64,
-    /// The material point X (from the centre of mass) [m].
-    pub point: Vec3,
+    /// l [m].
+    pub length: f64,
 }
 
 impl SpringLaw {
@@ -63,16 +79,18 @@ impl SpringLaw {
         0.5 * self.stiffness * (length - self.rest_length).powi(2)
     }
 
-    /// Force and derivatives on a material point that is d from the other end and moves away with ḋ, or `None` where
-    /// the direction is lost.
-    pub(super) fn loads(&self, along: Vec3, speed: Vec3, point: Vec3) -> Option<SpringLoads> {
+    /// Force and derivatives where the first end is d from the second and moves away with ḋ.
+    ///
+    /// # Errors
+    /// The length [m], where the direction is lost.
+    fn loads(&self, along: Vec3, speed: Vec3) -> Result<SpringLoads, f64> {
+        let length = along.norm();
         if !self.is_directed() {
             let (force, by_place) = (-self.stiffness * along, Mat3::from_diagonal_element(-self.stiffness));
-            return Some(SpringLoads { force, by_place, by_velocity: Mat3::zeros(), dashpot_power: 0.0, point });
+            return Ok(SpringLoads { force, by_place, by_velocity: Mat3::zeros(), dashpot_power: 0.0, length });
         }
-        let length = along.norm();
         if length.is_nan() || length <= 0.0 {
-            return None;
+            return Err(length);
         }
         let e = along / length;
         let rate = e.dot(&speed);
@@ -82,30 +100,98 @@ impl SpringLaw {
         let turn = (Mat3::identity() - ee) / length;
         let by_place = -self.stiffness * ee - self.damping * e * (turn * speed).transpose() - tension * turn;
         let (by_velocity, dashpot_power) = (-self.damping * ee, -self.damping * rate * rate);
-        Some(SpringLoads { force: -tension * e, by_place, by_velocity, dashpot_power, point })
+        Ok(SpringLoads { force: -tension * e, by_place, by_velocity, dashpot_power, length })
+    }
+}
+
+impl Interaction for Spring {
+    fn parties(&self) -> [Party; 2] {
+        self.ends.map(|end| match end {
+            Attachment::Body { index, .. } => Party::Body(index),
+            Attachment::Anchor(_) => Party::Space,
+        })
+    }
+}
+
+impl Attachment {
+    /// The material point of a body (from its centre of mass), or the place of an anchor [m].
+    pub fn point(&self) -> Vec3 {
+        match self {
+            Self::Body { point, .. } => *point,
+            Self::Anchor(place) => *place,
+        }
+    }
+
+    /// The same of a body that has another index.
+    fn of_party(&self, party: Party) -> Self {
+        match (self, party) {
+            (Self::Body { point, .. }, Party::Body(index)) => Self::Body { index, point: *point },
+            _ => *self,
+        }
     }
 }
 
 impl Spring {
-    /// The current length l [m].
-    pub fn length(&self, placement: &Placement) -> f64 {
-        (placement.place(&self.point) - self.anchor).norm()
+    /// Between material points of two bodies.
+    pub fn between(bodies: [usize; 2], points: [Vec3; 2], law: SpringLaw) -> Self {
+        Self { ends: [0, 1].map(|end| Attachment::Body { index: bodies[end], point: points[end] }), law }
     }
 
-    /// The stored energy [J].
-    pub fn energy(&self, placement: &Placement) -> f64 {
-        self.law.energy(self.length(placement))
+    /// From a material point of a body to a place in space.
+    pub fn to_anchor(body: usize, point: Vec3, anchor: Vec3, law: SpringLaw) -> Self {
+        Self { ends: [Attachment::Body { index: body, point }, Attachment::Anchor(anchor)], law }
     }
 
-    /// Force and derivatives, or `None` where the direction is lost (l = 0 with l₀ > 0 or a dashpot).
-    pub fn loads(&self, placement: &Placement, velocity: &Velocity) -> Option<SpringLoads> {
-        self.law.loads(placement.place(&self.point) - self.anchor, velocity.at(&self.point), self.point)
+    /// The same spring between parties that have other indices.
+    pub(crate) fn of_parties(&self, parties: [Party; 2]) -> Self {
+        Self { ends: [0, 1].map(|end| self.ends[end].of_party(parties[end])), ..*self }
+    }
+
+    /// Its two bodies; none where one end is an anchor.
+    pub fn bodies(&self) -> Option<[usize; 2]> {
+        let [one, other] = self.parties().map(Party::body);
+        Some([one?, other?])
+    }
+
+    /// Its length l [m], given where its bodies are.
+    pub fn length(&self, placement: impl Fn(usize) -> Placement) -> f64 {
+        let [one, other] = self.ends.map(|end| match end {
+            Attachment::Body { index, point } => placement(index).place(&point),
+            Attachment::Anchor(place) => place,
+        });
+        (one - other).norm()
+    }
+
+    /// Force and derivatives, given how its bodies move.
+    ///
+    /// # Errors
+    /// The length [m], where the direction is lost (l = 0 with l₀ > 0 or a dashpot).
+    pub fn loads<'a>(&self, motion: impl Fn(usize) -> &'a BodyMotion) -> Result<SpringLoads, f64> {
+        let [one, other] = self.ends.map(|end| match end {
+            Attachment::Body { index, point } => {
+                let BodyMotion { placement, velocity } = motion(index);
+                (placement.place(&point), velocity.at(&point))
+            }
+            Attachment::Anchor(place) => (place, Vec3::zeros()),
+        });
+        self.law.loads(one.0 - other.0, one.1 - other.1)
     }
 }
 
-impl SpringLoads {
-    /// f and M.
-    pub fn total(&self) -> Loads {
-        Loads::at_point(self.force, &self.point)
+impl SpringEnd<'_> {
+    /// f and M on the body, given the force on the first end.
+    pub fn loads(&self, spring: &SpringLoads) -> Loads {
+        let force = if self.end == 0 { spring.force } else { -spring.force };
+        Loads::at_point(force, &self.point())
+    }
+
+    /// The material point of the body [m].
+    pub fn point(&self) -> Vec3 {
+        self.interaction.ends[self.end].point()
+    }
+
+    /// The material point of the other body [m], or where the anchor is.
+    pub fn other_point(&self) -> Vec3 {
+        self.interaction.ends[1 - self.end].point()
     }
 }

@@ -23,7 +23,7 @@ pub use rules::{PairRule, PairRules};
 pub use spheres::{BodyPair, Sphere, each_near, each_overlap, near};
 
 use crate::body::Solid;
-use crate::load::Interaction;
+use crate::load::{Interaction, Party};
 use crate::pair::PairForm;
 use std::sync::Arc;
 
@@ -41,8 +41,8 @@ pub struct Pair {
 }
 
 impl Interaction for Pair {
-    fn bodies(&self) -> [usize; 2] {
-        self.bodies
+    fn parties(&self) -> [Party; 2] {
+        self.bodies.map(Party::Body)
     }
 }
 

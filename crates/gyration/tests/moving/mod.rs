@@ -64,21 +64,27 @@ pub fn resistances(frame: Frame) -> Vec<LinearResistance> {
 /// What bodies differ in.
 #[derive(Debug, Clone, Copy)]
 pub struct Variant {
-    pub measure: AreaMeasure,
     pub incompressible: bool,
     pub pinned: bool,
     pub frame: Frame,
 }
 
-pub fn body(shape: Shape, exponents: [f64; 4], variant: Variant) -> Body {
+/// The model whose bodies feel all laws of both supports, and hang on two springs each.
+pub fn attached(model: Model, exponents: [f64; 4], measure: AreaMeasure) -> Model {
+    let bodies = 0..model.bodies.len();
+    let law_set = Arc::new(LawSet::new(measure, laws(exponents)));
+    let contacts = bodies.clone().flat_map(|body| [0, 1].map(|support| Contact::new(body, support, law_set.clone())));
+    let directed = SpringLaw { stiffness: 1.7, rest_length: 0.6, damping: 0.4 };
+    let plain = SpringLaw { rest_length: 0.0, damping: 0.0, ..directed };
+    let (point, anchor) = (Vec3::new(0.1, 0.2, -0.3), Vec3::new(1.0, 2.0, 3.0));
+    let springs = bodies.flat_map(|body| [directed, plain].map(|law| Spring::to_anchor(body, point, anchor, law)));
+    let (contacts, springs) = (contacts.collect(), springs.collect());
+    model.with_contacts(contacts).with_springs(springs)
+}
+
+pub fn body(shape: Shape, variant: Variant) -> Body {
     let mass = shape.mass_properties(0.8);
     let pin = variant.pinned.then(|| Pin { point: Vec3::new(0.2, -0.1, 0.3), anchor: Vec3::new(0.3, 0.1, 1.4) });
-    let spring = Spring {
-        point: Vec3::new(0.1, 0.2, -0.3),
-        anchor: Vec3::new(1.0, 2.0, 3.0),
-        law: SpringLaw { stiffness: 1.7, rest_length: 0.6, damping: 0.4 },
-    };
-    let plain = SpringLaw { rest_length: 0.0, damping: 0.0, ..spring.law };
     let material = match variant.incompressible {
         true => Material::MooneyRivlin(MooneyRivlin { c1: 2.0, c2: 1.0, bulk: None }),
         false => Material::NeoHookeanLog(NeoHookeanLog { mu: 3.0, lambda: 2.0 }),
@@ -92,10 +98,6 @@ pub fn body(shape: Shape, exponents: [f64; 4], variant: Variant) -> Body {
         kind: BodyKind::Affine(Box::new(affine)),
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
-        contacts: (0..2)
-            .map(|support| Contact::with_support(support, LawSet::new(variant.measure, laws(exponents))))
-            .collect(),
-        springs: vec![spring, Spring { law: plain, ..spring }],
         inclusion: None,
         pin,
     }
@@ -125,24 +127,25 @@ fn inclusion(body: &Body, inertia: bool) -> Inclusion {
 
 /// The same bodies immersed in a fluid, with inertia or without.
 pub fn immersed(model: Model, inertia: bool) -> Model {
-    let Model { gravity, supports, bodies, .. } = model;
-    let immerse = |body: Arc<Body>| Body { inclusion: Some(inclusion(&body, inertia)), ..(*body).clone() };
-    Model::new(gravity, supports, bodies.into_iter().map(immerse)).in_fluid(fluid())
+    let immerse = |body: &Arc<Body>| Body { inclusion: Some(inclusion(body, inertia)), ..(**body).clone() };
+    let bodies: Vec<Body> = model.bodies.iter().map(immerse).collect();
+    model.with_bodies(bodies).in_fluid(fluid())
 }
 
 /// Rigid spheres whose motion a fluid remembers, roughly.
 pub fn with_history(model: Model) -> Model {
-    let mut model = immersed(model, true);
-    model.bodies.retain(|body| body.pin.is_none() && matches!(body.solid.shape, Shape::Sphere(_)));
-    for body in &mut model.bodies {
+    let model = immersed(model, true);
+    let is_free = |body: &Body| body.pin.is_none() && matches!(body.solid.shape, Shape::Sphere(_));
+    let free: Vec<usize> = (0..model.bodies.len()).filter(|body| is_free(&model.bodies[*body])).collect();
+    let model = model.part(&free);
+    let mut bodies = model.bodies.clone();
+    for body in &mut bodies {
         let own = Arc::make_mut(body);
         if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut own.inclusion, &own.solid.shape) {
             inclusion.history = Some(History::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
         }
     }
-    let fluid = model.fluid.take();
-    let again = Model::new(model.gravity, model.supports, model.bodies);
-    again.in_fluid(fluid.unwrap())
+    model.with_bodies(bodies)
 }
 
 /// The same bodies under a controller that applies force, affine moment and torque to each.

@@ -46,7 +46,7 @@ impl<'a> ForceCurve<'a> {
             (0..model.bodies.len()).flat_map(|body| (0..model.supports.len()).map(move |k| (body, k)))
         {
             if curves.len() == MOST_CURVES {
-                let has = model.bodies[body].contacts.iter().any(|contact| contact.support() == support);
+                let has = model.contacts_of(body).any(|contact| contact.support == support);
                 left_out += usize::from(has);
                 continue;
             }

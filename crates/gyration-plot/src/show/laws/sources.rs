@@ -1,6 +1,6 @@
 //! The different laws of a model, and the names of who has them: a support, two bodies, or two groups of bodies.
 
-use gyration::contact::ContactLaw;
+use gyration::contact::{Contact, ContactLaw};
 use gyration::model::Model;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -24,14 +24,15 @@ pub struct LawSource<'a> {
 impl<'a> LawSource<'a> {
     /// The different laws of a model, each once.
     pub fn all(model: &'a Model, resolved: &Value) -> Vec<Self> {
-        let mut contacts = Vec::new();
-        for contact in model.bodies.iter().flat_map(|body| &body.contacts) {
-            if !contacts.contains(&contact) {
+        let mut contacts: Vec<&Contact> = Vec::new();
+        for contact in (0..model.bodies.len()).flat_map(|body| model.contacts_of(body)) {
+            let is_same = |known: &&Contact| (known.support, &known.law_set) == (contact.support, &contact.law_set);
+            if !contacts.iter().any(is_same) {
                 contacts.push(contact);
             }
         }
         let of_support = contacts.into_iter().map(|contact| Self {
-            name: model.supports[contact.support()].name.clone(),
+            name: model.supports[contact.support].name.clone(),
             laws: contact.law_set.laws(),
             is_between_bodies: false,
         });

@@ -111,7 +111,7 @@ impl<'a> VtkSample<'a> {
     /// The surface, without the arrays of the whole.
     fn poly_data(&self) -> Result<PolyData<'a>, ReplayError> {
         let model = self.snapshot.model();
-        let touch = model.bodies.iter().any(|body| !body.contacts.is_empty());
+        let touch = !model.contacts().is_empty();
         let deform = self.stress.iter().any(Option::is_some);
         let velocity = self.at_points(|body, x| body.motion().velocity.at(x).into());
         let mut point_data = vec![DataArray { name: "velocity", units: "m/s", components: 3, values: velocity }];

@@ -88,8 +88,9 @@ impl LeftOut {
 
     /// Whether a model may leave anything out.
     pub(crate) fn may_be(model: &Model) -> bool {
-        let immersed = || model.bodies.iter().filter(|body| body.inclusion.is_some());
-        model.fluid.is_some() && (immersed().nth(1).is_some() || immersed().any(|body| !body.contacts.is_empty()))
+        let immersed = || (0..model.bodies.len()).filter(|body| model.bodies[*body].inclusion.is_some());
+        let has_support = |body: usize| model.contacts_of(body).next().is_some();
+        model.fluid.is_some() && (immersed().nth(1).is_some() || immersed().any(has_support))
     }
 
     /// Notes the bodies at a time, each with its centre.
@@ -104,7 +105,7 @@ impl LeftOut {
         let inclusions: Vec<(usize, &Vec3)> = inclusions.map(|(body, (_, center))| (body, center)).collect();
         let (mut pairs, mut planes) = (0, 0);
         for (body, center) in &inclusions {
-            let mut supports: Vec<usize> = model.bodies[*body].contacts.iter().map(|it| it.support()).collect();
+            let mut supports: Vec<usize> = model.contacts_of(*body).map(|it| it.support).collect();
             supports.sort_unstable();
             supports.dedup();
             for support in supports {

@@ -24,8 +24,8 @@ pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
     let near = beside_one_another(model, start);
     let pairs = near.iter().flat_map(|pair| model.pairs_between(pair.rule, pair.bodies));
     let pairs = pairs.filter_map(|pair| Near::of_pair(model, start, &pair));
-    let bodies = model.bodies.iter().enumerate().filter(|(_, body)| !body.contacts.is_empty()).take(MOST_PAIRS);
-    let planes = bodies.flat_map(|(index, _)| {
+    let bodies = (0..model.bodies.len()).filter(|body| model.contacts_of(*body).next().is_some()).take(MOST_PAIRS);
+    let planes = bodies.flat_map(|index| {
         (0..model.supports.len()).filter_map(move |support| Near::of_support(model, start, (index, support)))
     });
     let most = pairs.chain(planes).max_by(|one, other| one.energy.total_cmp(&other.energy))?;
@@ -98,7 +98,7 @@ impl Near {
     /// A body and a support at the start.
     fn of_support(model: &Model, start: &State, (body, support): (usize, usize)) -> Option<Self> {
         let approach = Approach::new(model, start, body, support)?;
-        let laws = model.bodies[body].contacts.iter().filter(|contact| contact.support() == support);
+        let laws = model.contacts_of(body).filter(|contact| contact.support == support);
         let laws = laws.flat_map(|contact| contact.law_set.laws());
         let exponent = laws.filter(|law| law.kind() == LawKind::Repulsion).map(ContactLaw::leading_exponent);
         let exponent = exponent.fold(1.0, f64::max);

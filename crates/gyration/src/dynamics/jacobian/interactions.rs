@@ -4,16 +4,16 @@
 //!
 //!   ∂Q_i/∂q_j = −(∂F/∂d) X̃_i⊗X̃_j,   ∂Q_i/∂q̇_j = −(∂F/∂ḋ) X̃_i⊗X̃_j
 
-use super::super::loads::{bonded, sloped};
+use super::super::loads::sloped;
 use super::{Coupling, Lift, Lower};
 use crate::acting::Load;
 use crate::inadmissible::Inadmissible;
 use crate::instant::BodyAt;
-use crate::load::{BondEnd, Mat12, SpringLoads, add_blocks};
+use crate::load::{Mat12, SpringEnd, SpringLoads, add_blocks};
 use crate::tensor::Vec3;
 
-/// Hands to `each`, for every bond and pair of a body, the other body, ∂Q by its coordinates, B of the one and A of the
-/// other.
+/// Hands to `each`, for every spring and pair of a body with another, this other body, ∂Q by its coordinates, B of the
+/// one and A of the other.
 pub(in super::super) fn add_interactions(
     at: &BodyAt,
     mut each: impl FnMut(usize, &Coupling, &Lower, &Lift),
@@ -21,20 +21,20 @@ pub(in super::super) fn add_interactions(
     let mut lower = None;
     at.try_each_load(|load| {
         let (other, coupling) = match load {
-            Load::Bond(end) => (end.other(), Coupling::of_bond(&end, &bonded(at, &end)?)),
+            Load::Spring(end) => match end.other().body() {
+                Some(other) => (other, Coupling::of_spring(&end, at.spring(&end))),
+                None => return Ok(()),
+            },
             Load::Pair(pair) => {
                 let (slopes, own) = (sloped(&pair), pair.end.end);
                 let by_place = slopes.by_place[own][1 - own];
                 let by_rate = slopes.by_rate.as_ref().map(|by_rate| by_rate[own][1 - own]);
-                (pair.end.other(), Coupling { by_place, by_rate })
+                (pair.other(), Coupling { by_place, by_rate })
             }
             // What acts on one body alone.
-            Load::Contact(_)
-            | Load::Spring(..)
-            | Load::Couple(_)
-            | Load::Applied(_)
-            | Load::Resistance(_)
-            | Load::Fluid(..) => return Ok(()),
+            Load::Contact(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {
+                return Ok(());
+            }
         };
         let lower = lower.get_or_insert_with(|| Lower::of(at));
         each(other, &coupling, lower, &Lift::of_state(&at.beside(other)));
@@ -43,10 +43,11 @@ pub(in super::super) fn add_interactions(
 }
 
 impl Coupling {
-    /// Of a bond, given the force on the body.
-    fn of_bond(end: &BondEnd, loads: &SpringLoads) -> Self {
+    /// Of a spring between two bodies.
+    fn of_spring(end: &SpringEnd, loads: &SpringLoads) -> Self {
+        let (here, there) = (end.point(), end.other_point());
         let point = |point: &Vec3, place: usize| if place == 0 { 1.0 } else { point[place - 1] };
-        let weight = |a: usize, b: usize| -point(&loads.point, a) * point(&end.other_point(), b);
+        let weight = |a: usize, b: usize| -point(&here, a) * point(&there, b);
         let (mut by_place, mut by_rate) = (Mat12::zeros(), Mat12::zeros());
         add_blocks(&mut by_place, &loads.by_place, weight);
         if end.interaction.law.damping == 0.0 {
