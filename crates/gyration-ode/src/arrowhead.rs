@@ -7,7 +7,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::linear::{ComplexLu, RealLu, Singular};
+use gyration_blocks::{ComplexLu, RealLu, Singular};
 
 /// How many unknowns come before those that relax by themselves, if these are the most.
 pub(crate) fn leading(jacobian: &DMatrix<f64>) -> Option<usize> {

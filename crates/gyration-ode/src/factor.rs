@@ -5,14 +5,9 @@
 
 use std::ops::Range;
 
-use crate::analysis::Analysis;
-use crate::block_matrix::BlockMatrix;
-use crate::elimination::BlockLu;
-use crate::kernel::{Complex, Real};
-use crate::linear::Singular;
-use crate::pattern::Components;
 use crate::radau::Radau;
 use crate::shifted::{ComplexShifted, RealShifted};
+use gyration_blocks::{Analysis, BlockLu, BlockMatrix, Complex, Components, Real, Singular};
 
 /// The factorizations of every component.
 #[derive(Debug, Clone, Default)]
@@ -131,8 +126,8 @@ fn of_pairs(pairs: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::layout::SystemLayout;
-    use crate::pattern::Pattern;
     use crate::radau::{FIVE, THIRTEEN};
+    use gyration_blocks::Pattern;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 

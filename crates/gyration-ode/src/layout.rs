@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::pattern::Components;
 use crate::system::System;
+use gyration_blocks::Components;
 
 /// Sizes, blocks and components, copied from the system: u = (y, w) is one vector to the steppers.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -12,9 +12,9 @@
 //! | one accepted step | `integrator`, `step`, `scratch` |
 //! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
 //! | Radau IIA | `implicit`, `newton`, `radau`, `stages`, `linear_system` |
-//! | which blocks couple | `pattern`, `block_matrix`, `layout` |
-//! | factors of one block | `shifted`, `arrowhead`, `linear` |
-//! | factors of several | `factor`, `analysis`, `reduction`, `elimination`, `kernel` |
+//! | which blocks couple | `layout`, the crate `gyration-blocks` |
+//! | factors of one block | `shifted`, `arrowhead` |
+//! | factors of several | `factor`, the crate `gyration-blocks` |
 //! | step sizes, norms | `control`, `norm` |
 //! | which of the two | `auto`, `spectrum` |
 //!
@@ -22,15 +22,12 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
-mod analysis;
 mod arrowhead;
 mod auto;
-mod block_matrix;
 mod combination;
 mod context;
 mod control;
 mod dense;
-mod elimination;
 mod events;
 mod explicit;
 mod extended;
@@ -38,17 +35,13 @@ mod factor;
 mod implicit;
 mod integrator;
 mod interpolant;
-mod kernel;
 mod layout;
-mod linear;
 mod linear_system;
 mod memory;
 mod newton;
 mod norm;
-mod pattern;
 mod prince;
 mod radau;
-mod reduction;
 mod report;
 mod scratch;
 mod shifted;
@@ -59,12 +52,12 @@ mod system;
 #[cfg(test)]
 mod trees;
 
-pub use block_matrix::BlockMatrix;
+pub use gyration_blocks::{BlockMatrix, Components, Pattern};
+
 pub use events::{CrossingDirection, find_crossing};
 pub use extended::{Extended, ExtendedMut};
 pub use integrator::Integrator;
 pub use memory::{MOST_COUNTED, Memory, MemoryError};
-pub use pattern::{Components, Pattern};
 pub use report::{Cause, Failure, ImplicitOrder, Limit, Method, Options, Statistics, StepReport, Stepper};
 pub use scratch::Scratch;
 pub use system::System;

@@ -1,12 +1,10 @@
 //! The linear equations of a step: the Jacobian, and the factors made of it.
 
-use crate::block_matrix::BlockMatrix;
 use crate::factor::ComponentFactors;
 use crate::layout::SystemLayout;
-use crate::linear::Singular;
-use crate::pattern::{Components, Pattern};
 use crate::radau::Radau;
 use crate::spectrum::{least_spectral_radius, spectral_radius};
+use gyration_blocks::{BlockMatrix, Components, Pattern, Singular};
 
 /// The Jacobian of a step with its factors.
 ///

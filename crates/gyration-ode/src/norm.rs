@@ -55,7 +55,7 @@ pub(crate) fn norm(layout: &SystemLayout, error: &[f64], start: &[f64], end: &[f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::Components;
+    use gyration_blocks::Components;
 
     fn layout() -> SystemLayout {
         SystemLayout::new(&[0..2, 2..3], &Components::apart(), 1)

@@ -13,7 +13,7 @@
 use nalgebra::DMatrix;
 
 use crate::arrowhead::{ComplexArrowhead, RealArrowhead, leading};
-use crate::linear::{ComplexLu, RealLu, Singular};
+use gyration_blocks::{ComplexLu, RealLu, Singular};
 
 /// How many rates are unknowns themselves: the number of rows (0 I 0) at the top of J.
 fn second_order(jacobian: &DMatrix<f64>) -> Option<usize> {

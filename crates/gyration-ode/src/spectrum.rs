@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use crate::block_matrix::BlockMatrix;
 use crate::layout::SystemLayout;
-use crate::pattern::Components;
+use gyration_blocks::{BlockMatrix, Components};
 
 /// Applications of the Jacobian that let the largest eigenvalues prevail, and those over which growth is measured.
 const POWER_ITERATIONS: (usize, usize) = (4, 8);
@@ -109,7 +108,7 @@ impl CoupledBlocks<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::Pattern;
+    use gyration_blocks::Pattern;
     use nalgebra::{DMatrix, DVector};
 
     fn whole(matrix: DMatrix<f64>) -> (BlockMatrix, SystemLayout) {

@@ -9,9 +9,8 @@
 
 use std::ops::Range;
 
-use crate::block_matrix::BlockMatrix;
 use crate::extended::{Extended, ExtendedMut};
-use crate::pattern::Components;
+use gyration_blocks::{BlockMatrix, Components};
 
 /// A system dy/dt = f(t, y), dw/dt = g(t, y) on a domain that may have a boundary.
 ///

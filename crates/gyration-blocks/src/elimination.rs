@@ -18,7 +18,7 @@ use crate::reduction::Reduction;
 
 /// The factors of s I − J.
 #[derive(Debug, Clone)]
-pub(crate) struct BlockLu<K> {
+pub struct BlockLu<K> {
     factors: Vec<f64>,
     pivots: Vec<usize>,
     /// A vector in the order of the elimination.

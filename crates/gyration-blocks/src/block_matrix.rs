@@ -49,7 +49,7 @@ impl BlockMatrix {
     }
 
     /// Has the diagonal alone, unless it was arranged since it was cleared.
-    pub(crate) fn settle(&mut self) {
+    pub fn settle(&mut self) {
         if !self.arranged {
             self.arrange(&Pattern::uncoupled());
         }
@@ -94,7 +94,7 @@ impl BlockMatrix {
     }
 
     /// Sets the blocks of the diagonal to zero; those beside it wait for being arranged.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.diagonal.iter_mut().for_each(|block| block.fill(0.0));
         self.arranged = false;
     }

@@ -8,7 +8,7 @@ use nalgebra::DMatrixView;
 use crate::linear::{Singular, divide, dot, factorize_complex, factorize_real, solve_complex, solve_real};
 
 /// What an elimination by blocks asks of its numbers.
-pub(crate) trait BlockArithmetic {
+pub trait BlockArithmetic {
     /// How many floating-point numbers stand for one number.
     const PARTS: usize;
     /// The shift s of s I − J.
@@ -38,7 +38,7 @@ pub(crate) trait BlockArithmetic {
 
 /// Real numbers.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Real;
+pub struct Real;
 
 impl BlockArithmetic for Real {
     const PARTS: usize = 1;
@@ -102,7 +102,7 @@ impl BlockArithmetic for Real {
 
 /// Complex numbers.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Complex;
+pub struct Complex;
 
 impl BlockArithmetic for Complex {
     const PARTS: usize = 2;

@@ -102,7 +102,7 @@ impl Pattern {
     }
 
     /// Whether the pattern can be one of so many blocks.
-    pub(crate) fn fits(&self, blocks: usize) -> bool {
+    pub fn fits(&self, blocks: usize) -> bool {
         self.0.as_ref().is_none_or(|coupled| coupled.starts.len() == blocks + 1)
     }
 }
@@ -121,7 +121,7 @@ impl Components {
     }
 
     /// Whether these, which are listed, are the same as others, which may not be.
-    pub(crate) fn are(&self, others: &Self) -> bool {
+    pub fn are(&self, others: &Self) -> bool {
         if others.starts.is_empty() { self.are_apart() } else { self == others }
     }
 
@@ -129,7 +129,7 @@ impl Components {
     ///
     /// # Panics
     /// If these are components of another number of blocks: a mistake in the system, not in its data.
-    pub(crate) fn listed(&self, blocks: usize) -> Self {
+    pub fn listed(&self, blocks: usize) -> Self {
         if self.starts.is_empty() {
             return Self::joined(blocks, []);
         }
@@ -138,7 +138,7 @@ impl Components {
     }
 
     /// Whether each pair of a pattern is within one of these, which are listed.
-    pub(crate) fn contain(&self, pattern: &Pattern) -> bool {
+    pub fn contain(&self, pattern: &Pattern) -> bool {
         let mut set = vec![0; self.members.len()];
         for (k, members) in self.iter().enumerate() {
             members.iter().for_each(|block| set[*block] = k);
@@ -147,7 +147,7 @@ impl Components {
     }
 
     /// Whether each block is one.
-    pub(crate) fn are_apart(&self) -> bool {
+    pub fn are_apart(&self) -> bool {
         self.iter().all(|members| members.len() == 1)
     }
 

@@ -14,23 +14,23 @@ use crate::block_matrix::BlockMatrix;
 /// Where the factors of a component stand: block k of the elimination, its diagonal first, then the blocks below it,
 /// then those beside it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Analysis {
+pub struct Analysis {
     /// The block of each step of the elimination.
-    pub blocks: Vec<usize>,
+    pub(crate) blocks: Vec<usize>,
     /// The unknowns of local rates of each step, in the whole vector.
-    pub local: Vec<Range<usize>>,
+    pub(crate) local: Vec<Range<usize>>,
     /// The other unknowns of each step, in the whole vector.
-    pub unknowns: Vec<Range<usize>>,
+    pub(crate) unknowns: Vec<Range<usize>>,
     /// Where the unknowns of each step stand in the order of the elimination, and where the last end.
-    pub firsts: Vec<usize>,
+    pub(crate) firsts: Vec<usize>,
     /// Where the followers of each step begin among all followers.
     starts: Vec<usize>,
     /// The later steps whose blocks a step changes, ascending.
     followers: Vec<usize>,
     /// Where the factors of each step begin, and where the last end.
-    pub offsets: Vec<usize>,
+    pub(crate) offsets: Vec<usize>,
     /// The blocks of the matrix: row, column and where they go.
-    pub entries: Vec<BlockEntry>,
+    pub(crate) entries: Vec<BlockEntry>,
 }
 
 /// A block of the matrix, by the steps of its row and its column, and its place among the factors.

@@ -7,17 +7,18 @@
 
 /// A matrix to be factorized is singular to working precision, or not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Singular;
+pub struct Singular;
 
 /// The factors of a real matrix.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct RealLu {
+pub struct RealLu {
     size: usize,
     rows: Vec<f64>,
     pivots: Vec<usize>,
 }
 
 impl RealLu {
+    /// Room for the factors of a matrix of so many rows.
     pub fn new(size: usize) -> Self {
         Self { size, rows: vec![0.0; size * size], pivots: vec![0; size] }
     }
@@ -87,7 +88,7 @@ pub(crate) fn solve_real(rows: &[f64], pivots: &[usize], b: &mut [f64]) {
 
 /// The factors of a complex matrix.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct ComplexLu {
+pub struct ComplexLu {
     size: usize,
     real: Vec<f64>,
     imaginary: Vec<f64>,
@@ -95,6 +96,7 @@ pub(crate) struct ComplexLu {
 }
 
 impl ComplexLu {
+    /// Room for the factors of a matrix of so many rows.
     pub fn new(size: usize) -> Self {
         let zeros = vec![0.0; size * size];
         Self { size, real: zeros.clone(), imaginary: zeros, pivots: vec![0; size] }
