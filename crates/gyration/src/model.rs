@@ -32,6 +32,8 @@ pub struct Model {
     rules: PairRules,
     /// How many pairs these join, and how many of them however far they are.
     pairs: [usize; 2],
+    /// The bodies without inertia, ascending.
+    inertialess: Vec<usize>,
     slots: Vec<Slots>,
     blocks: Vec<Range<usize>>,
     works: Vec<Work>,
@@ -57,7 +59,7 @@ impl Model {
         let supports = supports.into();
         let bodies: Vec<Arc<Body>> = bodies.into_iter().map(Into::into).collect();
         let slots = layout(&bodies);
-        let blocks = slots.iter().map(Slots::block).collect();
+        let (blocks, inertialess) = (slots.iter().map(Slots::block).collect(), without_inertia(&bodies));
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
         let (contacts, springs) = (Interactions::default(), Interactions::default());
         let (fluid, rules) = (None, PairRules::default());
@@ -70,6 +72,7 @@ impl Model {
             springs,
             rules,
             pairs: [0, 0],
+            inertialess,
             slots,
             blocks,
             works,
@@ -91,7 +94,8 @@ impl Model {
         assert_eq!(bodies.len(), self.bodies.len(), "each body has one in its place");
         let slots = layout(&bodies);
         let (blocks, pairs) = (slots.iter().map(Slots::block).collect(), self.rules.count(&bodies));
-        let mut model = Self { bodies, slots, blocks, pairs, ..self };
+        let inertialess = without_inertia(&bodies);
+        let mut model = Self { bodies, inertialess, slots, blocks, pairs, ..self };
         model.has_potential = model.find_potential();
         model.with_ledger()
     }
@@ -123,15 +127,9 @@ impl Model {
     /// To be called when all bodies are what they are to be.
     ///
     /// # Panics
-    /// If one end of a spring is no body of the model, the other neither another body nor an anchor; or if there is a
-    /// dashpot between a body without inertia and another, which does not feel its velocity.
+    /// If one end of a spring is no body of the model, or the other neither another body nor an anchor.
     #[must_use]
     pub fn with_springs(mut self, springs: Vec<Spring>) -> Self {
-        let moves = |spring: &Spring| {
-            let mut bodies = spring.bodies().into_iter().flatten();
-            bodies.all(|body| self.bodies[body].has_inertia())
-        };
-        assert!(springs.iter().all(|spring| spring.law.damping == 0.0 || moves(spring)), "a dashpot without inertia");
         self.springs = Interactions::new(self.bodies.len(), springs);
         self.with_ledger()
     }
@@ -141,11 +139,9 @@ impl Model {
     /// To be called when all bodies are what they are to be.
     ///
     /// # Panics
-    /// If a rule is not of bodies of the model, or of one without inertia, whose velocity no other body feels.
+    /// If a rule is not of bodies of the model.
     #[must_use]
     pub fn meeting(mut self, rules: Vec<PairRule>) -> Self {
-        let mut bodies = rules.iter().flat_map(|rule| rule.bodies.iter().flat_map(|set| set.iter()));
-        assert!(bodies.all(|body| self.bodies[*body].has_inertia()), "bodies that meet have inertia");
         self.rules = PairRules::new(self.bodies.len(), rules);
         self.pairs = self.rules.count(&self.bodies);
         self.has_potential = self.find_potential();
@@ -182,6 +178,7 @@ impl Model {
             supports: self.supports.clone(),
             blocks: slots.iter().map(Slots::block).collect(),
             slots,
+            inertialess: without_inertia(&bodies),
             bodies,
             fluid: self.fluid.clone(),
             contacts: self.contacts.among(members, Contact::of_parties),
@@ -346,6 +343,11 @@ impl Model {
         self.applied.get_mut(body).map(|applied| *applied = load).is_some()
     }
 
+    /// The indices of the bodies without inertia, ascending.
+    pub fn inertialess(&self) -> &[usize] {
+        &self.inertialess
+    }
+
     /// Where the numbers of a body stand in the state.
     pub fn slots(&self, body: usize) -> &Slots {
         &self.slots[body]
@@ -417,6 +419,11 @@ impl Model {
         self.works = Work::ALL.into_iter().filter(|work| works.contains(work)).collect();
         self.energies = Energy::ALL.into_iter().filter(|energy| energies.contains(energy)).collect();
     }
+}
+
+/// The bodies without inertia.
+fn without_inertia(bodies: &[Arc<Body>]) -> Vec<usize> {
+    (0..bodies.len()).filter(|body| !bodies[*body].has_inertia()).collect()
 }
 
 fn layout(bodies: &[Arc<Body>]) -> Vec<Slots> {

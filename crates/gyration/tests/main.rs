@@ -4,7 +4,7 @@
 
 mod affine_balance;
 mod affine_rates;
-mod bonds;
+mod between;
 mod contact_wrench;
 mod contractile_balance;
 mod contractile_rates;

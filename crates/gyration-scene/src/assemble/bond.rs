@@ -9,8 +9,7 @@ use gyration::load::{Spring, SpringLaw};
 use gyration::tensor::Vec3;
 use std::collections::HashMap;
 
-/// The springs between bodies; notes those that start without a direction, or whose dashpot is at a body without
-/// inertia.
+/// The springs between bodies; notes those that start without a direction.
 pub(super) fn bonds(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],
@@ -42,12 +41,6 @@ pub(super) fn bonds(
             );
             let help = "move a body or a point, or leave out `rest_length` and `damping`";
             reporter.note(&key.key("points"), message, help);
-        }
-        let still = [one, other].into_iter().find(|end| !end.body.has_inertia());
-        if let Some(still) = still.filter(|_| law.damping > 0.0) {
-            let message = format!("\"{}\" has no inertia, and no other body feels its velocity", still.body.name);
-            let help = "leave out `damping`, or give the body `inclusion = { inertia = true }`";
-            reporter.note(&key.key("damping"), message, help);
         }
         Some(Spring::between(bodies, points, law))
     };

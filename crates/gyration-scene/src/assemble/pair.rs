@@ -148,11 +148,6 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
         reporter.note(key, message, "make its shape a union of convex ones: a plane stands between convex bodies");
         return false;
     }
-    if !assembled.body.has_inertia() {
-        let message = format!("\"{name}\" has no inertia: this version has no meeting of such bodies");
-        reporter.note(key, message, "give the body `inclusion = { inertia = true }`");
-        return false;
-    }
     true
 }
 

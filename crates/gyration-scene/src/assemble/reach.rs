@@ -31,8 +31,14 @@ pub(super) fn reach(
     }
     let of = |set: &Vec<usize>| set.iter().filter_map(|body| assembled[*body].as_ref()).collect::<Vec<_>>();
     let sets = sets.each_ref().map(of);
-    let falling = Falling { gravity: gravity.norm(), speed: largest_speed(&sets) };
     let key = key.key("reach");
+    if let Some(still) = sets.iter().flatten().find(|body| !body.body.has_inertia()) {
+        let name = &still.body.name;
+        let message = format!("nothing says how near \"{name}\" comes to others: it has no inertia that carries it");
+        reporter.note(&key, message, "write a length: some 25 of the gaps at which their forces balance the fluid's");
+        return None;
+    }
+    let falling = Falling { gravity: gravity.norm(), speed: largest_speed(&sets) };
     if !falling.acts() {
         // Of a body with an error it is not known whether it moves.
         if assembled.iter().all(Option::is_some) {

@@ -55,8 +55,9 @@ pub struct Workspace {
 pub struct Scratch {
     pub(crate) contact: ContactScratch,
     pub(crate) pairs: PairScratch,
-    /// The Jacobians of bodies with inertia, by their number of rows.
+    /// The Jacobians that bodies without inertia would have with it, by their number of rows.
     matrices: Vec<DMatrix<f64>>,
+    balances: inertialess::Balances,
     numbers: Vec<f64>,
 }
 
@@ -87,11 +88,7 @@ impl Workspace {
     ) -> Result<(Instant<'a>, &'a mut Scratch), Inadmissible> {
         let Self { instants, scratch } = self;
         let mut instant = instants.read(model, state.time, state.numbers())?;
-        for index in 0..model.bodies.len() {
-            if !model.bodies[index].has_inertia() {
-                inertialess::solve_balance(&mut instant, scratch, index)?;
-            }
-        }
+        inertialess::solve(&mut instant, scratch)?;
         Ok((instant, scratch))
     }
 
@@ -100,7 +97,8 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] if no plane separates two of them.
     pub fn pair_gaps(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
-        self.instants.slabs(model, time, state)
+        let Self { instants, scratch } = self;
+        instants.slabs(model, time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
     /// The slabs that were found last, of the pairs that were looked at until something failed; none once they are
@@ -115,7 +113,8 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] if no plane separates two of them; nothing is remembered then.
     pub fn remember_pairs(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
-        self.instants.remember(model, time, state)
+        let Self { instants, scratch } = self;
+        instants.remember(model, time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
     /// The slabs that are remembered; none if none are.

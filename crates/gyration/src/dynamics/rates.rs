@@ -33,11 +33,13 @@ pub fn rates(
 ) -> Result<(), Inadmissible> {
     let Workspace { instants, scratch } = workspace;
     let mut instant = instants.read(model, time, state)?;
+    inertialess::solve(&mut instant, scratch)?;
     powers.fill(0.0);
     for index in 0..model.bodies.len() {
-        let done = match model.bodies[index].has_inertia() {
-            true => body_rates(&instant.at(index), model.slots(index), scratch, rates)?,
-            false => inertialess::fill(&mut instant, scratch, index, rates)?,
+        let at = instant.at(index);
+        let done = match at.body.has_inertia() {
+            true => body_rates(&at, model.slots(index), scratch, rates)?,
+            false => inertialess::fill(&at, scratch, rates)?,
         };
         for (work, power) in model.works().iter().zip(powers.iter_mut()) {
             *power += done[*work];
@@ -61,21 +63,18 @@ pub fn jacobian(
 ) -> Result<(), Inadmissible> {
     let Workspace { instants, scratch } = workspace;
     let mut instant = instants.differentiate(model, time, state)?;
-    blocks.arrange(&mut instant.joins());
-    for index in 0..model.bodies.len() {
+    inertialess::solve(&mut instant, scratch)?;
+    let joins = inertialess::joins(&instant, scratch);
+    blocks.arrange(&mut instant.joins().chain(joins.iter().copied()));
+    for index in (0..model.bodies.len()).filter(|body| model.bodies[*body].has_inertia()) {
         let Some(matrix) = blocks.block(index, index) else { continue };
-        match model.bodies[index].has_inertia() {
-            true => {
-                let at = instant.at(index);
-                body_jacobian(&at, scratch, matrix)?;
-                add_interactions(&at, |other, coupling, lower, lift| {
-                    if let Some(matrix) = blocks.block(index, other) {
-                        coupling.add_to(matrix, lower, lift);
-                    }
-                })?;
+        let at = instant.at(index);
+        body_jacobian(&at, scratch, matrix)?;
+        add_interactions(&at, |other, coupling, lower, lift| {
+            if let Some(matrix) = blocks.block(index, other) {
+                coupling.add_to(matrix, lower, lift);
             }
-            false => inertialess::fill_jacobian(&mut instant, scratch, index, blocks)?,
-        }
+        });
     }
-    Ok(())
+    inertialess::add_jacobian(&instant, scratch, blocks)
 }

@@ -15,8 +15,10 @@ use crate::tensor::Vec3;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Between {
     loads: Vec<PairLoads>,
-    /// Their derivatives, where these were asked for; else empty.
+    /// The derivatives of some of them.
     slopes: Vec<PairSlopes>,
+    /// Where these are, by the place of a pair.
+    sloped: Vec<Option<usize>>,
     /// What the springs of the model exert, in their order.
     springs: Vec<SpringLoads>,
 }
@@ -27,6 +29,15 @@ pub(super) struct Looking<'a> {
     pub motions: &'a Motions,
     pub remembered: &'a mut Remembered,
     pub room: &'a mut PairScratch,
+    pub wanted: Wanted,
+}
+
+/// What is asked of pairs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Loads,
+    /// Beside them their derivatives.
+    Slopes,
 }
 
 /// A pair within reach, and where its plane is looked for first.
@@ -34,12 +45,13 @@ struct Looked<'a> {
     pair: &'a Pair,
     bodies: &'a [MotionAt<'a>; 2],
     guess: Option<&'a Guess>,
+    asked: Wanted,
 }
 
 impl Between {
     /// A pair as one of its bodies sees it, given its place among those within reach.
     pub fn pair<'a>(&'a self, end: PairEnd<'a>, place: usize) -> PairAt<'a> {
-        PairAt { end, loads: &self.loads[place], slopes: self.slopes.get(place) }
+        PairAt { end, loads: &self.loads[place], slopes: self.sloped[place].map(|sloped| &self.slopes[sloped]) }
     }
 
     /// What a spring of the model exerts.
@@ -65,36 +77,77 @@ impl Between {
         Ok(())
     }
 
-    /// Finds what the pairs of an instant do.
-    pub fn find_loads(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
+    /// Finds what stands between the bodies of an instant.
+    pub fn find(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
         self.find_springs(looking)?;
-        let Self { loads, slopes, .. } = self;
+        let Self { loads, slopes, sloped, .. } = self;
         loads.clear();
         slopes.clear();
+        sloped.clear();
         looking.for_each(|looked, room| {
-            if let Some(Looked { pair, bodies, guess }) = looked {
-                let integrate = |sides: [&Side; 2]| PairLoads::integrate(&pair.form, sides, guess, room);
-                loads.push(with_sides(pair, bodies, integrate)?);
+            let Some(looked) = looked else { return Ok(()) };
+            match looked.wanted() {
+                Wanted::Loads => {
+                    loads.push(looked.loads(room)?);
+                    sloped.push(None);
+                }
+                Wanted::Slopes => {
+                    let found = looked.slopes(room)?;
+                    loads.push(found.loads);
+                    sloped.push(Some(slopes.len()));
+                    slopes.push(found);
+                }
             }
             Ok(())
         })
     }
 
-    /// The same with derivatives.
-    pub fn find_slopes(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
-        self.find_springs(looking)?;
-        let Self { loads, slopes, .. } = self;
-        loads.clear();
-        slopes.clear();
+    /// Finds again what pairs do of which a body has no inertia, as far as they feel its velocity: their planes stay.
+    pub fn find_felt(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
+        if !looking.model.rules().all().iter().any(|rule| rule.laws.feel_velocities()) {
+            return Ok(());
+        }
+        let Self { loads, slopes, sloped, .. } = self;
+        let mut place = 0;
         looking.for_each(|looked, room| {
-            if let Some(Looked { pair, bodies, guess }) = looked {
-                let integrate = |sides: [&Side; 2]| PairSlopes::integrate(&pair.form, sides, guess, room);
-                let found = with_sides(pair, bodies, integrate)?;
-                loads.push(found.loads);
-                slopes.push(found);
+            let Some(looked) = looked else { return Ok(()) };
+            if let Some(sloped) = sloped[place].filter(|_| looked.feels_balance()) {
+                match looked.asked {
+                    Wanted::Loads => loads[place] = looked.loads(room)?,
+                    Wanted::Slopes => {
+                        slopes[sloped] = looked.slopes(room)?;
+                        loads[place] = slopes[sloped].loads;
+                    }
+                }
             }
+            place += 1;
             Ok(())
         })
+    }
+}
+
+impl Looked<'_> {
+    /// What is to be found: derivatives if they were asked for, or if the balance of a body without inertia needs them.
+    fn wanted(&self) -> Wanted {
+        if self.is_balanced() { Wanted::Slopes } else { self.asked }
+    }
+
+    /// Whether one of the two has no inertia.
+    fn is_balanced(&self) -> bool {
+        self.bodies.iter().any(|at| !at.body.has_inertia())
+    }
+
+    /// Whether it feels the velocity of a body without inertia.
+    fn feels_balance(&self) -> bool {
+        self.is_balanced() && self.pair.form.laws.feel_velocities()
+    }
+
+    fn loads(&self, room: &mut PairScratch) -> Result<PairLoads, PairFault> {
+        with_sides(self.pair, self.bodies, |sides| PairLoads::integrate(&self.pair.form, sides, self.guess, room))
+    }
+
+    fn slopes(&self, room: &mut PairScratch) -> Result<PairSlopes, PairFault> {
+        with_sides(self.pair, self.bodies, |sides| PairSlopes::integrate(&self.pair.form, sides, self.guess, room))
     }
 }
 
@@ -111,7 +164,8 @@ fn stretched(model: &Model, motions: &Motions, number: usize) -> Result<SpringLo
 pub(super) fn find_slabs(looking: &mut Looking, slabs: &mut PairGaps) -> Result<(), Inadmissible> {
     slabs.begin(looking.motions.near());
     looking.for_each(|looked, room| {
-        let gap = |Looked { pair, bodies, guess }| with_sides(pair, bodies, |sides| pair.form.gap(sides, guess, room));
+        let gap =
+            |Looked { pair, bodies, guess, .. }| with_sides(pair, bodies, |sides| pair.form.gap(sides, guess, room));
         slabs.push(looked.map(gap).transpose()?.unwrap_or(PairGap::FAR));
         Ok(())
     })
@@ -123,7 +177,7 @@ impl Looking<'_> {
         &mut self,
         mut each: impl FnMut(Option<Looked>, &mut PairScratch) -> Result<(), PairFault>,
     ) -> Result<(), Inadmissible> {
-        let Self { model, motions, remembered, room } = self;
+        let Self { model, motions, remembered, room, wanted } = self;
         let pairs = motions.near().pairs();
         remembered.find(pairs);
         for (number, pair) in pairs.all().iter().enumerate() {
@@ -132,7 +186,7 @@ impl Looking<'_> {
                 return Err(bodies[0].outside(Quantity::Interruption, f64::NAN));
             }
             let guess = remembered.guess(number, motions.time());
-            let looked = Looked { pair, bodies: &bodies, guess: guess.as_ref() };
+            let looked = Looked { pair, bodies: &bodies, guess: guess.as_ref(), asked: *wanted };
             let looked = motions.place(number).map(|_| looked);
             each(looked, room).map_err(|fault| outside(&bodies[0], pair, fault))?;
         }

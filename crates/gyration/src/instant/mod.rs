@@ -26,7 +26,7 @@ use crate::inadmissible::Inadmissible;
 use crate::load::{SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
-use between::{Between, Looking};
+use between::{Between, Looking, Wanted};
 use motions::Motions;
 use slabs::Remembered;
 use std::ops::Deref;
@@ -37,6 +37,9 @@ pub struct Instant<'a> {
     model: &'a Model,
     motions: &'a mut Motions,
     between: &'a mut Between,
+    remembered: &'a mut Remembered,
+    room: &'a mut PairScratch,
+    wanted: Wanted,
 }
 
 /// A body of a model at an instant: all that its loads and its balance are computed from.
@@ -64,8 +67,7 @@ impl Instants {
     pub fn read<'a>(&'a mut self, model: &'a Model, time: f64, state: Numbers) -> Result<Instant<'a>, Inadmissible> {
         self.motions.read(model, time, state)?;
         let Self { motions, between, remembered, room, .. } = self;
-        between.find_loads(&mut Looking { model, motions, remembered, room })?;
-        Ok(Instant { model, motions, between })
+        Instant { model, motions, between, remembered, room, wanted: Wanted::Loads }.found()
     }
 
     /// The same with the derivatives of what pairs do.
@@ -80,23 +82,33 @@ impl Instants {
     ) -> Result<Instant<'a>, Inadmissible> {
         self.motions.read(model, time, state)?;
         let Self { motions, between, remembered, room, .. } = self;
-        between.find_slopes(&mut Looking { model, motions, remembered, room })?;
-        Ok(Instant { model, motions, between })
+        Instant { model, motions, between, remembered, room, wanted: Wanted::Slopes }.found()
     }
 
-    /// The slab between the bodies of each listed pair; infinite where they are out of reach.
+    /// The slab between the bodies of each listed pair; infinite where they are out of reach. Bodies without inertia
+    /// move as `balance` makes them.
     ///
     /// # Errors
     /// [`Inadmissible`] if no plane separates two of them.
-    pub fn slabs(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
+    pub fn slabs(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: Numbers,
+        balance: impl FnOnce(Instant) -> Result<(), Inadmissible>,
+    ) -> Result<&PairGaps, Inadmissible> {
         if model.rules().is_empty() {
             self.slabs.become_empty();
             return Ok(&self.slabs);
         }
         self.slabs.clear();
-        self.motions.read(model, time, state)?;
+        if model.inertialess().is_empty() {
+            self.motions.read(model, time, state)?;
+        } else {
+            balance(self.read(model, time, state)?)?;
+        }
         let Self { motions, slabs, remembered, room, .. } = self;
-        between::find_slabs(&mut Looking { model, motions, remembered, room }, slabs)?;
+        between::find_slabs(&mut Looking { model, motions, remembered, room, wanted: Wanted::Loads }, slabs)?;
         Ok(slabs)
     }
 
@@ -104,9 +116,15 @@ impl Instants {
     ///
     /// # Errors
     /// [`Inadmissible`] if no plane separates two of them; nothing is remembered then.
-    pub fn remember(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
+    pub fn remember(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: Numbers,
+        balance: impl FnOnce(Instant) -> Result<(), Inadmissible>,
+    ) -> Result<&PairGaps, Inadmissible> {
         self.remembered.forget();
-        self.slabs(model, time, state)?;
+        self.slabs(model, time, state, balance)?;
         Ok(self.remembered.keep(time, &mut self.slabs))
     }
 
@@ -122,6 +140,28 @@ impl Instants {
 }
 
 impl Instant<'_> {
+    /// With what stands between bodies found.
+    fn found(mut self) -> Result<Self, Inadmissible> {
+        let (between, mut looking) = self.looking();
+        between.find(&mut looking)?;
+        Ok(self)
+    }
+
+    /// What stands between bodies, and whoever looks for it.
+    fn looking(&mut self) -> (&mut Between, Looking<'_>) {
+        let Self { model, motions, between, remembered, room, wanted } = self;
+        (between, Looking { model, motions, remembered, room, wanted: *wanted })
+    }
+
+    /// Finds again what pairs do that feel the velocities of bodies without inertia.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates two bodies.
+    pub(crate) fn find_felt_pairs(&mut self) -> Result<(), Inadmissible> {
+        let (between, mut looking) = self.looking();
+        between.find_felt(&mut looking)
+    }
+
     /// The model.
     pub fn model(&self) -> &Model {
         self.model
@@ -135,12 +175,13 @@ impl Instant<'_> {
 
     /// The pairs (i, j) of bodies of which j acts on i at this instant, in order of i; some come twice.
     pub fn joins(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.model.bodies.len()).flat_map(|body| {
-            let springs = self.model.springs_of(body).filter_map(|end| end.other().body());
-            springs
-                .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
-                .map(move |other| (body, other))
-        })
+        (0..self.model.bodies.len()).flat_map(|body| self.partners(body).map(move |other| (body, other)))
+    }
+
+    /// The bodies that act on a body at this instant; some come twice.
+    pub(crate) fn partners(&self, body: usize) -> impl Iterator<Item = usize> {
+        let springs = self.model.springs_of(body).filter_map(|end| end.other().body());
+        springs.chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
     }
 
     /// The numbers that were read.
@@ -148,8 +189,8 @@ impl Instant<'_> {
         self.motions.state()
     }
 
-    /// Gives a body without inertia its motion, from numbers of its own; its springs are found again. No pair has such
-    /// a body, and a spring between it and another has no dashpot: what others feel stays as it was found.
+    /// Gives a body without inertia its motion, from numbers of its own; its springs are found again, but not yet what
+    /// its pairs do ([`Instant::find_felt_pairs`]).
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0, or a spring has no length.

@@ -66,6 +66,11 @@ const MOST_PRODUCTS: f64 = 16.0;
 const LEAST_EXPONENT: f64 = 2.0;
 
 impl PairLaws {
+    /// Whether damping or friction are among them.
+    pub fn feel_velocities(&self) -> bool {
+        !self.viscous.is_empty()
+    }
+
     /// Joins the laws between two bodies.
     ///
     /// # Errors

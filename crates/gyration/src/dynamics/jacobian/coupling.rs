@@ -21,7 +21,7 @@ use crate::load::{LoadSlopes, Loads, Mat12, loads, numbers};
 use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::state::Turn;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
-use nalgebra::{DMatrix, SVector};
+use nalgebra::{DMatrix, DVectorViewMut, SVector};
 
 type Vec12 = SVector<f64, 12>;
 
@@ -62,19 +62,41 @@ impl From<&LoadSlopes> for Coupling {
 impl Coupling {
     /// Adds the block that these derivatives give to a matrix with the rows of one body and the columns of another.
     pub fn add_to(&self, matrix: &mut DMatrix<f64>, lower: &Lower, lift: &Lift) {
-        let rows = lower.slots.velocities();
-        let mut add = |column: usize, change: &Vec12| {
-            let mut block = matrix.column_mut(column);
-            block.rows_mut(rows.start, rows.len()).iter_mut().zip(change.iter()).for_each(|(sum, part)| *sum += part);
-        };
+        let mut add = |column: usize, change: &Vec12| lower.add_to(&mut matrix.column_mut(column), change);
         for (place, column) in lift.slots.places().enumerate() {
             add(column, &self.by_place(lower, lift, place));
         }
-        if let Some(by_rate) = &self.by_rate {
+        if self.by_rate.is_some() {
             for (place, column) in lift.slots.velocities().enumerate() {
-                add(column, &image(&lower.map, &image(by_rate, &lift.rate.column(place).into())));
+                add(column, &self.by_velocity(lower, lift, place));
             }
         }
+    }
+
+    /// The derivative of the rates of (velocity, rate) of one body by a number of the other; none by one that is
+    /// neither place nor velocity.
+    pub(in super::super) fn along(&self, lower: &Lower, lift: &Lift, number: usize) -> Option<Vec12> {
+        let velocities = lift.slots.velocities();
+        match number {
+            place if lift.slots.places().contains(&place) => Some(self.by_place(lower, lift, place)),
+            velocity if velocities.contains(&velocity) => {
+                Some(self.by_velocity(lower, lift, velocity - velocities.start))
+            }
+            _ => None,
+        }
+    }
+
+    /// The same by one of the numbers (velocity, rate).
+    pub(in super::super) fn by_velocity(&self, lower: &Lower, lift: &Lift, place: usize) -> Vec12 {
+        let by_rate = self.by_rate.as_ref();
+        by_rate.map_or_else(Vec12::zeros, |by_rate| image(&lower.map, &image(by_rate, &lift.rate.column(place).into())))
+    }
+
+    /// The change of these rates with a change of all numbers (velocity, rate).
+    pub(in super::super) fn along_velocities(&self, lower: &Lower, lift: &Lift, change: &[f64]) -> Vec12 {
+        let mut along = Vec12::zeros();
+        change.iter().enumerate().for_each(|(place, change)| along += *change * lift.rate.column(place));
+        self.by_rate.as_ref().map_or_else(Vec12::zeros, |by_rate| image(&lower.map, &image(by_rate, &along)))
     }
 
     /// The derivative of the rates of (velocity, rate) of one body by one of the numbers (position, attitude) of the
@@ -146,6 +168,12 @@ impl Lift {
 }
 
 impl Lower {
+    /// Adds a change of the rates of (velocity, rate) to a column of the block of the body.
+    pub(in super::super) fn add_to(&self, column: &mut DVectorViewMut<f64>, change: &Vec12) {
+        let rows = self.slots.velocities();
+        column.rows_mut(rows.start, rows.len()).iter_mut().zip(change.iter()).for_each(|(sum, part)| *sum += part);
+    }
+
     /// Of a body at an instant; its block begins at 0.
     pub fn of(at: &MotionAt) -> Self {
         let slots = Slots::with_inertia(at.body, 0);

@@ -7,19 +7,16 @@
 use super::super::loads::sloped;
 use super::{Coupling, Lift, Lower};
 use crate::acting::Load;
-use crate::inadmissible::Inadmissible;
 use crate::instant::BodyAt;
 use crate::load::{Mat12, SpringEnd, SpringLoads, add_blocks};
 use crate::tensor::Vec3;
+use std::convert::Infallible;
 
 /// Hands to `each`, for every spring and pair of a body with another, this other body, ∂Q by its coordinates, B of the
 /// one and A of the other.
-pub(in super::super) fn add_interactions(
-    at: &BodyAt,
-    mut each: impl FnMut(usize, &Coupling, &Lower, &Lift),
-) -> Result<(), Inadmissible> {
+pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut(usize, &Coupling, &Lower, &Lift)) {
     let mut lower = None;
-    at.try_each_load(|load| {
+    let Ok(()) = at.try_each_load(|load| {
         let (other, coupling) = match load {
             Load::Spring(end) => match end.other().body() {
                 Some(other) => (other, Coupling::of_spring(&end, at.spring(&end))),
@@ -38,8 +35,8 @@ pub(in super::super) fn add_interactions(
         };
         let lower = lower.get_or_insert_with(|| Lower::of(at));
         each(other, &coupling, lower, &Lift::of_state(&at.beside(other)));
-        Ok(())
-    })
+        Ok::<(), Infallible>(())
+    });
 }
 
 impl Coupling {

@@ -1,5 +1,5 @@
-//! Springs between bodies of any two kinds: blocks of the Jacobian B_i ∂Q_i A_j against differences, action and
-//! reaction, and the balance of power.
+//! Springs between bodies of any two kinds, and bodies that meet, with inertia and without: blocks of the Jacobian B_i
+//! ∂Q_i A_j against differences, action and reaction, and the balance of power.
 
 use crate::moving::*;
 use gyration::body::{Body, BodyKind, Contractile, RigidInertia};
@@ -9,6 +9,9 @@ use gyration::dynamics::{Blocks, Workspace, jacobian};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::load::{Frame, Spring, SpringLaw};
 use gyration::model::Model;
+use gyration::neighbours::PairRule;
+use gyration::pair::PairLaws;
+use gyration::shape::{Shape, Sphere};
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3};
@@ -23,6 +26,10 @@ const PLAIN: SpringLaw = SpringLaw { stiffness: 1.9, rest_length: 0.0, damping: 
 /// Rigid, affine and contractile bodies, free and pinned, compressible or not.
 fn bodies() -> Vec<Body> {
     let [shape, ..] = shapes();
+    bodies_of(&shape)
+}
+
+fn bodies_of(shape: &Shape) -> Vec<Body> {
     let variant = |incompressible, pinned| Variant { incompressible, pinned, frame: Frame::Space };
     let mut bodies = Vec::new();
     for pinned in [false, true] {
@@ -43,9 +50,9 @@ fn bodies() -> Vec<Body> {
 }
 
 /// A start that no symmetry makes simple; the constraints hold.
-fn start(body: &Body, seed: f64) -> Start {
+fn start(body: &Body, seed: f64, place: Vec3) -> Start {
     let vector = |seed: f64| Vec3::new(seed.sin(), (2.0 * seed).cos(), (3.0 * seed).sin());
-    let (position, velocity) = (Vec3::new(0.2, 0.1, 1.6) + 0.1 * vector(seed), vector(seed + 0.4));
+    let (position, velocity) = (place + 0.1 * vector(seed), vector(seed + 0.4));
     let orientation = Quaternion::from_axis_angle(&vector(seed + 0.8), 0.9 + seed);
     match body.affine() {
         None => RigidStart { position, orientation, velocity, angular_velocity: vector(seed + 1.2) }.into(),
@@ -80,7 +87,12 @@ fn joined(model: Model, laws: [SpringLaw; 2]) -> Model {
 }
 
 fn state(model: &Model) -> State {
-    let starts: Vec<Start> = model.bodies.iter().enumerate().map(|(k, body)| start(body, 0.1 * k as f64)).collect();
+    state_at(model, |_| Vec3::new(0.2, 0.1, 1.6))
+}
+
+fn state_at(model: &Model, place: impl Fn(usize) -> Vec3) -> State {
+    let start = |(k, body): (usize, &Arc<Body>)| start(body, 0.1 * k as f64, place(k));
+    let starts: Vec<Start> = model.bodies.iter().enumerate().map(start).collect();
     State::start(model, &starts)
 }
 
@@ -153,7 +165,6 @@ fn blocks_of_joined_spheres_that_the_fluid_remembers_are_derivatives_of_the_rate
 
 #[test]
 fn blocks_of_joined_bodies_without_inertia_are_derivatives_of_the_rates() {
-    let undamped = SpringLaw { damping: 0.0, ..DIRECTED };
     let free: Vec<Body> = bodies().into_iter().filter(|body| body.pin.is_none()).collect();
     let model = immersed(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), free), false);
     // Every third has inertia.
@@ -161,10 +172,34 @@ fn blocks_of_joined_bodies_without_inertia_are_derivatives_of_the_rates() {
     for body in bodies.iter_mut().step_by(3) {
         Arc::make_mut(body).inclusion.as_mut().unwrap().inertia = true;
     }
-    let model = joined(model.with_bodies(bodies), [undamped, PLAIN]);
+    let model = joined(model.with_bodies(bodies), [DIRECTED, PLAIN]);
     let state = state(&model);
     assert_blocks_are_derivatives(&model, &state);
     assert_power_is_the_rate_of_energy(&model, &state);
+}
+
+/// Balls of every kind in a row that nearly touch, in a fluid; every third has inertia.
+#[test]
+fn blocks_of_meeting_bodies_without_inertia_are_derivatives_of_the_rates() {
+    let balls = bodies_of(&Shape::Sphere(Sphere { radius: 0.3 }));
+    let free: Vec<Body> = balls.into_iter().filter(|body| body.pin.is_none()).collect();
+    let count = free.len();
+    let model = immersed(Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), free), false);
+    let mut bodies = model.bodies.clone();
+    for body in bodies.iter_mut().step_by(3) {
+        Arc::make_mut(body).inclusion.as_mut().unwrap().inertia = true;
+    }
+    let [repulsion, damping, friction, _] = laws([5.0, 4.0, 3.0, 2.0]).try_into().unwrap();
+    for viscous in [false, true] {
+        let laws = if viscous { vec![repulsion, damping, friction] } else { vec![repulsion] };
+        let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap());
+        let all: Arc<[usize]> = (0..count).collect();
+        let rule = PairRule { bodies: [all.clone(), all], laws, reach: None };
+        let model = model.clone().with_bodies(bodies.clone()).meeting(vec![rule]);
+        let state = state_at(&model, |k| Vec3::new(0.8 * k as f64, 0.0, 0.0));
+        assert_blocks_are_derivatives(&model, &state);
+        assert_power_is_the_rate_of_energy(&model, &state);
+    }
 }
 
 #[test]
