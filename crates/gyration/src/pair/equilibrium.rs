@@ -1,49 +1,34 @@
 //! The plane of least potential between two bodies, by Newton's method on L = log U.
 //!
-//!   s_i = √w_i U_i^−q/Σ,   U = Σ^(−1/q),   q = 1/(2(ν−1)),   ∂U/∂U_i = λ_i = s_i U/U_i
-//!
-//! A plane has three free numbers: n turns along two tangents, and c. Z_i (4×3) is how z_i changes with them. With ρ_i
-//! = −Z_iᵀa_i/U_i,
-//!
-//!   r = Σ s_i ρ_i,   K = Σ s_i [Z_iᵀh_iZ_i/U_i − (1+q) ρ_i⊗ρ_i] + q r⊗r + (ν−1) diag(1, 1, 0)
-//!
-//! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
+//! A step δ that changes no gap by more than the part η of it leaves a gradient of second order, some ν η times the one
+//! before, and changes moments by ½ ν(ν+1) η² of themselves beyond first order. Where that is rounding the search ends:
+//! plane and forces are carried there in first order, and derivatives alone need a look at the plane itself.
 
+use super::Vec4;
+use super::expansion::{Expansion, Step};
 use super::fault::PairFault;
+use super::form::PairForm;
 use super::gjk::{guessed, separate};
-use super::laws::{PairLaws, raised};
+use super::laws::PairLaws;
 use super::plane::{Guess, Plane};
-use super::side::{Half, Potential};
-use super::{Mat34, Vec4};
+use super::side::Half;
 use crate::surface::Moments;
-use crate::tensor::{Mat3, Vec3};
-use nalgebra::{Cholesky, Const, Matrix4x3};
+use crate::tensor::Vec3;
 
-/// A plane, and all that its potential is put together from.
-#[derive(Debug, Clone)]
+/// The plane in balance, and what is exchanged there.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Placed {
     pub plane: Plane,
-    pub potentials: [Potential; 2],
-    /// s.
-    parts: [f64; 2],
+    /// Two directions across n.
+    pub tangents: [Vec3; 2],
     /// U [J].
     pub energy: f64,
+    /// a.
+    pub first: [Vec4; 2],
     /// λ.
     pub weights: [f64; 2],
-    /// The directions in which n turns.
-    pub tangents: [Vec3; 2],
-    /// Z.
-    heights: [Matrix4x3<f64>; 2],
-    /// ρ.
-    slopes: [Vec3; 2],
-    /// r.
-    gradient: Vec3,
     /// δ log χ′ by δ log U.
-    switching: f64,
-    /// K.
-    curvature: Cholesky<f64, Const<3>>,
-    /// q.
-    power: f64,
+    pub switching: f64,
 }
 
 /// The switching function, four times differentiable: χ(U) = U (1 − U_c/U)₊⁵ in the place of U.
@@ -88,99 +73,99 @@ const LOST: f64 = 1e-8;
 const MOST_STEPS: usize = 100;
 const MOST_HALVINGS: usize = 60;
 
-/// Two unit vectors across n.
-fn tangents(n: &Vec3) -> [Vec3; 2] {
-    let first = n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize();
-    [first, n.cross(&first)]
+/// Where a search ends: next to the plane of least potential, and the step to it.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    expansion: Expansion,
+    left: Step,
 }
 
-/// The plane of least potential.
+/// Searches the plane of least potential.
 ///
 /// # Errors
 /// [`PairFault`] if nothing separates the bodies, or the plane is beyond the digits of a number.
-pub(super) fn place(
-    laws: &PairLaws,
+pub(super) fn search(
+    pair: &PairForm,
     halves: [&Half; 2],
     guess: Option<&Guess>,
     room: &mut [Moments],
-) -> Result<Placed, PairFault> {
-    let guessed = guess.and_then(|guess| Placed::at(laws, halves, guessed(halves, guess)?, room).ok());
-    let mut placed = match guessed {
-        Some(placed) => placed,
-        None => Placed::at(laws, halves, separate(halves).map_err(PairFault::of_gap)?, room)?,
+) -> Result<Found, PairFault> {
+    let laws = &*pair.laws;
+    let guessed = guess.and_then(|guess| Expansion::about(laws, halves, guessed(halves, guess)?, room).ok());
+    let mut expansion = match guessed {
+        Some(expansion) => expansion,
+        None => Expansion::about(laws, halves, separate(halves).map_err(PairFault::of_gap)?, room)?,
     };
-    let mut left = f64::INFINITY;
+    let mut left = expansion.step();
+    let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        let step = -placed.curvature.solve(&placed.gradient);
-        let decrement = -step.dot(&placed.gradient);
-        let falls = decrement >= NEAR || decrement <= 0.25 * left;
-        left = decrement;
-        if decrement <= CONVERGED || !falls {
+        let falls = left.decrement >= NEAR || left.decrement <= 0.25 * before;
+        if !falls || is_last(pair, halves, &expansion, &left) {
             break;
         }
-        let Some(next) = placed.descend(laws, halves, &step, decrement, room) else { break };
-        let stays = next.plane == placed.plane;
-        placed = next;
+        let Some(next) = descend(laws, halves, &expansion, &left, room) else { break };
+        let stays = next.plane == expansion.plane;
+        before = left.decrement;
+        expansion = next;
+        left = expansion.step();
         // Digits tell no other plane.
         if stays {
             break;
         }
     }
     // A plane that is not in balance would push without a potential.
-    if left < LOST { Ok(placed) } else { Err(PairFault::NotFound { decrement: left }) }
+    if left.decrement < LOST {
+        Ok(Found { expansion, left })
+    } else {
+        Err(PairFault::NotFound { decrement: left.decrement })
+    }
+}
+
+/// Whether what a step leaves is rounding: a decrement of ν η times this one, against that of gaps known to ε R.
+fn is_last(pair: &PairForm, halves: [&Half; 2], expansion: &Expansion, step: &Step) -> bool {
+    if step.decrement >= NEAR {
+        return false;
+    }
+    let (radii, gaps) = (pair.radii, halves.map(|half| half.smallest_gap(&expansion.plane).0));
+    let rounding = f64::EPSILON * (radii[0] / gaps[0]).max(radii[1] / gaps[1]);
+    let left = pair.laws.repulsion.exponent * expansion.stretch(radii, gaps, step);
+    step.decrement * left * left <= CONVERGED.max(rounding * rounding)
+}
+
+/// The expansion about a plane of less potential along a step; none if that is not to be had.
+fn descend(
+    laws: &PairLaws,
+    halves: [&Half; 2],
+    expansion: &Expansion,
+    step: &Step,
+    room: &mut [Moments],
+) -> Option<Expansion> {
+    let mut part = 1.0;
+    for _ in 0..MOST_HALVINGS {
+        if let Ok(next) = Expansion::about(laws, halves, expansion.moved(part, step), room)
+            && (next.energy <= expansion.energy * (1.0 + ROUNDING) || step.decrement < NEAR)
+        {
+            return Some(next);
+        }
+        part *= 0.5;
+    }
+    None
+}
+
+impl Found {
+    /// The plane in balance.
+    pub fn placed(&self) -> Placed {
+        self.expansion.placed_after(&self.left)
+    }
+
+    /// log U about the plane in balance, of which derivatives are.
+    pub fn confirmed(self, laws: &PairLaws, halves: [&Half; 2], room: &mut [Moments]) -> Expansion {
+        let there = Expansion::about(laws, halves, self.expansion.moved(1.0, &self.left), room);
+        there.unwrap_or(self.expansion)
+    }
 }
 
 impl Placed {
-    /// At a plane, of least potential or not.
-    ///
-    /// # Errors
-    /// [`PairFault`] if it does not separate the bodies, or a potential is no number.
-    pub fn at(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, PairFault> {
-        let power = 0.5 / (laws.repulsion.exponent - 1.0);
-        let tangents = tangents(&plane.normal);
-        let [above, below] = halves;
-        let potentials = [above.potential(laws, &plane, room)?, below.potential(laws, &plane, room)?];
-        // The lower one has the larger s; their ratio may be too small for a number, not too large.
-        let [low, high] = if potentials[0].value <= potentials[1].value { [0, 1] } else { [1, 0] };
-        let mut parts = halves.map(|half| half.root_share);
-        parts[high] *= libm::pow(potentials[low].value / potentials[high].value, power);
-        let parts = parts.map(|part| part / (parts[0] + parts[1]));
-        // U = U_i (s_i²/w_i)^(ν−1), of the side whose part is the larger.
-        let larger = usize::from(parts[1] > parts[0]);
-        let squeezed = (parts[larger] / halves[larger].root_share).powi(2);
-        let energy = potentials[larger].value * raised(squeezed, laws.repulsion.exponent - 1.0);
-        let weights = [0, 1].map(|i| parts[i] * energy / potentials[i].value);
-        let zeros = Vec3::zeros();
-        let heights = halves.map(|half| {
-            let [one, other] = tangents.map(|tangent| half.heights_by(&tangent, 0.0));
-            Matrix4x3::from_columns(&[one, other, half.heights_by(&zeros, 1.0)])
-        });
-        let slopes = [0, 1].map(|i| -heights[i].tr_mul(&potentials[i].first) / potentials[i].value);
-        let gradient: Vec3 = parts[0] * slopes[0] + parts[1] * slopes[1];
-        let bent = laws.repulsion.exponent - 1.0;
-        let mut curvature = power * gradient * gradient.transpose() + Mat3::from_diagonal(&Vec3::new(bent, bent, 0.0));
-        for i in 0..2 {
-            let own = heights[i].tr_mul(&(potentials[i].second * heights[i])) / potentials[i].value;
-            curvature += parts[i] * (own - (1.0 + power) * slopes[i] * slopes[i].transpose());
-        }
-        let curvature = curvature.cholesky().ok_or(PairFault::NotFound { decrement: f64::NAN })?;
-        let switching = 0.0;
-        Ok(Self {
-            plane,
-            potentials,
-            parts,
-            energy,
-            weights,
-            tangents,
-            heights,
-            slopes,
-            gradient,
-            switching,
-            curvature,
-            power,
-        })
-    }
-
     /// Lets the pair begin at an energy U_c [J].
     pub fn switch(&mut self, threshold: f64) {
         let switch = Switch::at(threshold, self.energy);
@@ -193,65 +178,4 @@ impl Placed {
     pub fn is_out_of_reach(&self) -> bool {
         self.weights == [0.0; 2]
     }
-
-    /// A plane of less potential along a step; none if that is not to be had.
-    fn descend(
-        &self,
-        laws: &PairLaws,
-        halves: [&Half; 2],
-        step: &Vec3,
-        decrement: f64,
-        room: &mut [Moments],
-    ) -> Option<Self> {
-        let mut part = 1.0;
-        for _ in 0..MOST_HALVINGS {
-            if let Ok(next) = Self::at(laws, halves, self.plane.moved(&self.tangents, &(part * step)), room)
-                && (next.energy <= self.energy * (1.0 + ROUNDING) || decrement < NEAR)
-            {
-                return Some(next);
-            }
-            part *= 0.5;
-        }
-        None
-    }
-
-    /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane.
-    pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2]) -> Change {
-        let own = [0, 1].map(|i| halves[i].sign * change[i].tr_mul(&self.plane.normal));
-        let growth =
-            |heights: [Vec4; 2]| [0, 1].map(|i| -self.potentials[i].first.dot(&heights[i]) / self.potentials[i].value);
-        let mean = |growth: [f64; 2]| self.parts[0] * growth[0] + self.parts[1] * growth[1];
-        let at_rest = growth(own);
-        let mut right = Vec3::zeros();
-        for i in 0..2 {
-            let Potential { value, first, second } = &self.potentials[i];
-            let turned = halves[i].sign * change[i] * first;
-            let tilted = Vec3::new(self.tangents[0].dot(&turned), self.tangents[1].dot(&turned), 0.0);
-            let slope = (self.heights[i].tr_mul(&(second * own[i])) - tilted) / *value - self.slopes[i] * at_rest[i];
-            right += self.parts[i] * (slope - self.power * (at_rest[i] - mean(at_rest)) * self.slopes[i]);
-        }
-        let moved = -self.curvature.solve(&right);
-        let heights = [0, 1].map(|i| own[i] + self.heights[i] * moved);
-        let by_side = growth(heights);
-        let growth = mean(by_side);
-        Change {
-            normal: self.tangents[0] * moved.x + self.tangents[1] * moved.y,
-            first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
-            weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + self.switching * growth),
-            heights,
-        }
-    }
-}
-
-/// What changes with the coordinates of two bodies.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Change {
-    /// δn.
-    pub normal: Vec3,
-    /// δz.
-    pub heights: [Vec4; 2],
-    /// δa.
-    pub first: [Vec4; 2],
-    /// δ log λ.
-    pub weights: [f64; 2],
 }

@@ -12,8 +12,8 @@ use super::form::PairForm;
 use super::gjk::separate;
 use super::plane::Guess;
 use super::side::{Half, Side};
-use super::state::{PairScratch, PairState, ViscousMoments, halves};
-use crate::contact::{AreaMeasure, LawKind};
+use super::state::{PairScratch, PairState, ViscousMoments};
+use crate::contact::LawKind;
 use crate::load::Loads;
 use crate::tensor::{Mat3, axial, cross_matrix};
 
@@ -64,7 +64,7 @@ impl PairLoads {
     /// # Errors
     /// [`PairFault`] if no plane separates them.
     pub fn nothing(pair: &PairForm, sides: [&Side; 2]) -> Result<Self, PairFault> {
-        let halves = halves(sides, pair.laws.measure != AreaMeasure::ReferenceArea);
+        let halves = pair.halves(sides);
         let plane = separate(halves.each_ref()).map_err(PairFault::of_gap)?;
         let [above, below] = halves.each_ref().map(|half| half.smallest_gap(&plane).0);
         let point = sides[0].placement.position + plane.offset * plane.normal;

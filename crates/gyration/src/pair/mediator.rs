@@ -14,7 +14,8 @@
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 
-use super::equilibrium::{Change, Placed};
+use super::equilibrium::Placed;
+use super::expansion::Change;
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};
 use super::side::{Half, joined};

@@ -23,6 +23,7 @@
 //! | `deepest`     | the shortest way apart of these                                 |
 //! | `gjk`         | a plane between them to begin with, guessed or found             |
 //! | `plane`       | a plane, and where it may be                                    |
+//! | `expansion`   | log U about a plane, to second order                            |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
 //! | `exchange`    | loads, derivatives and slab, as they are told                   |
 //! | `balls`       | the plane of two balls, their loads and derivatives             |
@@ -35,6 +36,7 @@ mod balls;
 mod deepest;
 mod equilibrium;
 mod exchange;
+mod expansion;
 mod fault;
 mod form;
 mod gjk;

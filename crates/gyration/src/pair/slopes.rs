@@ -4,8 +4,8 @@
 //! change of the plane: moments change by those of one more power of the gap, and everything else by the chain rule.
 
 use super::Mat34;
-use super::equilibrium::Change;
 use super::exchange::PairSlopes;
+use super::expansion::Change;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::mediator::Slope;
@@ -35,14 +35,14 @@ impl PairSlopes {
         {
             return balls?.slopes(sides, pair.threshold);
         }
-        let state = PairState::new(pair, sides, guess, scratch)?;
+        let (state, expansion) = PairState::expanded(pair, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
         let mut directions = Direction::all(sides);
         let mut columns: [Option<Column>; BOTH] = std::array::from_fn(|_| {
             let direction = directions.next()?;
-            let change = state.placed.along(halves, direction.places().each_ref());
+            let change = expansion.along(halves, direction.places().each_ref(), state.placed.switching);
             Some(Column { direction, change, sum: [0, 1].map(|side| state.repulsion_along(side, &change)) })
         });
         let normal = &state.placed.plane.normal;
@@ -148,7 +148,7 @@ fn unit(coordinate: usize) -> Mat34 {
 impl PairState<'_> {
     /// The change of the repulsion on a side.
     fn repulsion_along(&self, side: usize, change: &Change) -> Mat34 {
-        let (normal, first) = (&self.placed.plane.normal, &self.placed.potentials[side].first);
+        let (normal, first) = (&self.placed.plane.normal, &self.placed.first[side]);
         let pressed = (change.weights[side] * normal + change.normal) * first.transpose();
         self.halves[side].sign * self.placed.weights[side] * (pressed + normal * change.first[side].transpose())
     }

@@ -1,7 +1,8 @@
 //! A pair whose plane is found.
 
-use super::equilibrium::{Placed, place};
+use super::equilibrium::{Placed, search};
 use super::exchange::PairGap;
+use super::expansion::Expansion;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::laws::{ViscousLaw, shares};
@@ -47,6 +48,12 @@ impl PairScratch {
             &mut moments[..count]
         })
     }
+
+    /// Those of one side that place a plane.
+    fn placing(&mut self, pair: &PairForm) -> &mut [Moments] {
+        let [room, _] = self.take(pair.laws.placing.requests().len());
+        room
+    }
 }
 
 /// Both sides, their places from the centre of A; `deformed` if their areas are.
@@ -66,31 +73,58 @@ pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2]
 
 impl<'a> PairState<'a> {
     /// Places the plane.
+    ///
+    /// # Errors
+    /// [`PairFault`] if no plane separates the bodies.
     pub fn new(
         pair: &'a PairForm,
         sides: [&Side<'a>; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
-        let laws = &pair.laws;
-        let halves = halves(sides, laws.measure != AreaMeasure::ReferenceArea);
-        let [room, _] = scratch.take(laws.placing.requests().len());
-        let mut placed = match pair.balls(sides) {
-            Some(balls) => Placed::at(laws, halves.each_ref(), balls?.plane(), room)?,
-            None => place(laws, halves.each_ref(), guess, room)?,
+        let halves = pair.halves(sides);
+        let room = scratch.placing(pair);
+        let placed = match pair.balls(sides) {
+            Some(balls) => Expansion::about(&pair.laws, halves.each_ref(), balls?.plane(), room)?.placed(),
+            None => search(pair, halves.each_ref(), guess, room)?.placed(),
         };
+        Ok(Self::at(pair, halves, placed))
+    }
+
+    /// Places the plane, and expands log U about it.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn expanded(
+        pair: &'a PairForm,
+        sides: [&Side<'a>; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<(Self, Expansion), PairFault> {
+        let halves = pair.halves(sides);
+        let room = scratch.placing(pair);
+        let expansion = match pair.balls(sides) {
+            Some(balls) => Expansion::about(&pair.laws, halves.each_ref(), balls?.plane(), room)?,
+            None => search(pair, halves.each_ref(), guess, room)?.confirmed(&pair.laws, halves.each_ref(), room),
+        };
+        let placed = expansion.placed();
+        Ok((Self::at(pair, halves, placed), expansion))
+    }
+
+    /// At a plane in balance.
+    fn at(pair: &'a PairForm, halves: [Half<'a>; 2], mut placed: Placed) -> Self {
         placed.switch(pair.threshold);
-        let first = &placed.potentials[0].first;
+        let first = &placed.first[0];
         let center = halves[0].columns * first / first[0];
         let plane = &placed.plane;
         let foot = center - (center.dot(&plane.normal) - plane.offset) * plane.normal;
-        Ok(Self { pair, halves, placed, foot })
+        Self { pair, halves, placed, foot }
     }
 
     /// (f | M) of the repulsion on a side.
     pub fn repulsion(&self, side: usize) -> Mat34 {
-        let Placed { plane, weights, potentials, .. } = &self.placed;
-        self.halves[side].sign * weights[side] * plane.normal * potentials[side].first.transpose()
+        let Placed { plane, weights, first, .. } = &self.placed;
+        self.halves[side].sign * weights[side] * plane.normal * first[side].transpose()
     }
 
     /// Hands damping and friction to `each`, with the moments of both sides from which they are.
@@ -127,6 +161,11 @@ impl<'a> PairState<'a> {
 }
 
 impl PairForm {
+    /// Both sides, in the measure of the pair.
+    pub(super) fn halves<'a>(&self, sides: [&Side<'a>; 2]) -> [Half<'a>; 2] {
+        halves(sides, self.laws.measure != AreaMeasure::ReferenceArea)
+    }
+
     /// The slab between two bodies along the normal of their plane.
     ///
     /// # Errors
@@ -140,10 +179,10 @@ impl PairForm {
         if let Some(balls) = self.balls(sides) {
             return balls.map(|balls| balls.gap(sides));
         }
-        let state = PairState::new(self, sides, guess, scratch)?;
+        let (state, expansion) = PairState::expanded(self, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let rates = halves.map(Half::rates);
-        let change = state.placed.along(halves, rates.each_ref());
+        let change = expansion.along(halves, rates.each_ref(), state.placed.switching);
         let (mut gaps, mut rate) = ([0.0; 2], 0.0);
         for ((half, heights), gap) in halves.into_iter().zip(&change.heights).zip(&mut gaps) {
             let (own, point) = half.smallest_gap(&state.placed.plane);

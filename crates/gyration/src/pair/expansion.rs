@@ -1,0 +1,196 @@
+//! log U of two bodies about a plane, to second order in the three numbers of planes.
+//!
+//!   s_i = √w_i U_i^−q/Σ,   U = Σ^(−1/q),   q = 1/(2(ν−1)),   ∂U/∂U_i = λ_i = s_i U/U_i
+//!
+//! A plane has three free numbers: n turns along two tangents, and c. Z_i (4×3) is how z_i changes with them. With ρ_i
+//! = −Z_iᵀa_i/U_i,
+//!
+//!   r = Σ s_i ρ_i,   K = Σ s_i [Z_iᵀh_iZ_i/U_i − (1+q) ρ_i⊗ρ_i] + q r⊗r + (ν−1) diag(1, 1, 0)
+//!
+//! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
+
+use super::equilibrium::Placed;
+use super::fault::PairFault;
+use super::laws::{PairLaws, raised};
+use super::plane::Plane;
+use super::side::{Half, Potential};
+use super::{Mat34, Vec4};
+use crate::surface::Moments;
+use crate::tensor::{Mat3, Vec3};
+use nalgebra::{Cholesky, Const, Matrix4x3};
+
+/// L = log U about a plane.
+#[derive(Debug, Clone)]
+pub(super) struct Expansion {
+    pub plane: Plane,
+    /// U [J].
+    pub energy: f64,
+    potentials: [Potential; 2],
+    /// s.
+    parts: [f64; 2],
+    /// The directions in which n turns.
+    tangents: [Vec3; 2],
+    /// Z.
+    heights: [Matrix4x3<f64>; 2],
+    /// ρ.
+    slopes: [Vec3; 2],
+    /// r.
+    gradient: Vec3,
+    /// K.
+    curvature: Cholesky<f64, Const<3>>,
+    /// q.
+    power: f64,
+}
+
+/// A Newton step of the plane, whole.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    /// −K⁻¹r.
+    pub by: Vec3,
+    /// The squared Newton decrement r·K⁻¹r.
+    pub decrement: f64,
+}
+
+/// What changes with the coordinates of two bodies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Change {
+    /// δn.
+    pub normal: Vec3,
+    /// δz.
+    pub heights: [Vec4; 2],
+    /// δa.
+    pub first: [Vec4; 2],
+    /// δ log λ.
+    pub weights: [f64; 2],
+}
+
+/// Two unit vectors across n.
+fn tangents(n: &Vec3) -> [Vec3; 2] {
+    let first = n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize();
+    [first, n.cross(&first)]
+}
+
+impl Expansion {
+    /// About a plane, of least potential or not.
+    ///
+    /// # Errors
+    /// [`PairFault`] if it does not separate the bodies, or a potential is no number.
+    pub fn about(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, PairFault> {
+        let power = 0.5 / (laws.repulsion.exponent - 1.0);
+        let tangents = tangents(&plane.normal);
+        let [above, below] = halves;
+        let potentials = [above.potential(laws, &plane, room)?, below.potential(laws, &plane, room)?];
+        // The lower one has the larger s; their ratio may be too small for a number, not too large.
+        let [low, high] = if potentials[0].value <= potentials[1].value { [0, 1] } else { [1, 0] };
+        let mut parts = halves.map(|half| half.root_share);
+        parts[high] *= libm::pow(potentials[low].value / potentials[high].value, power);
+        let parts = parts.map(|part| part / (parts[0] + parts[1]));
+        // U = U_i (s_i²/w_i)^(ν−1), of the side whose part is the larger.
+        let larger = usize::from(parts[1] > parts[0]);
+        let squeezed = (parts[larger] / halves[larger].root_share).powi(2);
+        let energy = potentials[larger].value * raised(squeezed, laws.repulsion.exponent - 1.0);
+        let zeros = Vec3::zeros();
+        let heights = halves.map(|half| {
+            let [one, other] = tangents.map(|tangent| half.heights_by(&tangent, 0.0));
+            Matrix4x3::from_columns(&[one, other, half.heights_by(&zeros, 1.0)])
+        });
+        let slopes = [0, 1].map(|i| -heights[i].tr_mul(&potentials[i].first) / potentials[i].value);
+        let gradient: Vec3 = parts[0] * slopes[0] + parts[1] * slopes[1];
+        let bent = laws.repulsion.exponent - 1.0;
+        let mut curvature = power * gradient * gradient.transpose() + Mat3::from_diagonal(&Vec3::new(bent, bent, 0.0));
+        for i in 0..2 {
+            let own = heights[i].tr_mul(&(potentials[i].second * heights[i])) / potentials[i].value;
+            curvature += parts[i] * (own - (1.0 + power) * slopes[i] * slopes[i].transpose());
+        }
+        let curvature = curvature.cholesky().ok_or(PairFault::NotFound { decrement: f64::NAN })?;
+        Ok(Self { plane, energy, potentials, parts, tangents, heights, slopes, gradient, curvature, power })
+    }
+
+    /// The step to where the gradient of the expansion vanishes.
+    pub fn step(&self) -> Step {
+        let by = -self.curvature.solve(&self.gradient);
+        Step { by, decrement: -by.dot(&self.gradient) }
+    }
+
+    /// The plane after a part of a step.
+    pub fn moved(&self, part: f64, step: &Step) -> Plane {
+        self.plane.moved(&self.tangents, &(part * step.by))
+    }
+
+    /// η: no gap changes by more than this part of it with a step, given the radii R of both about their centres [m] and
+    /// their smallest gaps [m].
+    ///
+    ///   η = max (|δg₀| + |δm| R)/d
+    pub fn stretch(&self, radii: [f64; 2], gaps: [f64; 2], step: &Step) -> f64 {
+        let of_side = |i: usize| {
+            let change = self.heights[i] * step.by;
+            (change[0].abs() + radii[i] * change.fixed_rows::<3>(1).norm()) / gaps[i]
+        };
+        of_side(0).max(of_side(1))
+    }
+
+    /// The plane in balance, as if this one were.
+    pub fn placed(&self) -> Placed {
+        Placed {
+            plane: self.plane,
+            tangents: self.tangents,
+            energy: self.energy,
+            first: [0, 1].map(|i| self.potentials[i].first),
+            weights: [0, 1].map(|i| self.parts[i] * self.energy / self.potentials[i].value),
+            switching: 0.0,
+        }
+    }
+
+    /// The plane after a step, and what is exchanged there, in first order; U, which is least there, changes in second.
+    pub fn placed_after(&self, step: &Step) -> Placed {
+        let plane = self.moved(1.0, step);
+        let Placed { energy, first, weights, switching, .. } = self.placed();
+        let heights = [0, 1].map(|i| self.heights[i] * step.by);
+        let growth = self.growth(&heights);
+        let mean = self.mean(growth);
+        Placed {
+            plane,
+            tangents: tangents(&plane.normal),
+            energy,
+            first: [0, 1].map(|i| first[i] - self.potentials[i].second * heights[i]),
+            weights: [0, 1].map(|i| weights[i] * (1.0 + (1.0 + self.power) * (mean - growth[i]))),
+            switching,
+        }
+    }
+
+    /// δ log U_i, given δz.
+    fn growth(&self, heights: &[Vec4; 2]) -> [f64; 2] {
+        [0, 1].map(|i| -self.potentials[i].first.dot(&heights[i]) / self.potentials[i].value)
+    }
+
+    /// δ log U, given δ log U_i.
+    fn mean(&self, growth: [f64; 2]) -> f64 {
+        self.parts[0] * growth[0] + self.parts[1] * growth[1]
+    }
+
+    /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane in balance, which this one is; δ log χ′
+    /// by δ log U is `switching`.
+    pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2], switching: f64) -> Change {
+        let own = [0, 1].map(|i| halves[i].sign * change[i].tr_mul(&self.plane.normal));
+        let at_rest = self.growth(&own);
+        let mean_at_rest = self.mean(at_rest);
+        let mut right = Vec3::zeros();
+        for i in 0..2 {
+            let Potential { value, first, second } = &self.potentials[i];
+            let turned = halves[i].sign * change[i] * first;
+            let tilted = Vec3::new(self.tangents[0].dot(&turned), self.tangents[1].dot(&turned), 0.0);
+            let slope = (self.heights[i].tr_mul(&(second * own[i])) - tilted) / *value - self.slopes[i] * at_rest[i];
+            right += self.parts[i] * (slope - self.power * (at_rest[i] - mean_at_rest) * self.slopes[i]);
+        }
+        let moved = -self.curvature.solve(&right);
+        let heights = [0, 1].map(|i| own[i] + self.heights[i] * moved);
+        let by_side = self.growth(&heights);
+        let growth = self.mean(by_side);
+        Change {
+            normal: self.tangents[0] * moved.x + self.tangents[1] * moved.y,
+            first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
+            weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + switching * growth),
+            heights,
+        }
+    }
+}
