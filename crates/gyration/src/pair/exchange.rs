@@ -48,15 +48,20 @@ pub struct PairGap {
     pub turning: Vec3,
     /// The part of it that is above the plane.
     pub share: f64,
+    /// How fast that part grows [1/s]; zero between balls, whose plane is not searched.
+    pub sharing: f64,
 }
 
 impl PairGap {
     /// Of bodies that are too far apart to ask.
-    pub const FAR: Self = Self { gap: f64::INFINITY, rate: 0.0, normal: ZEROS, turning: ZEROS, share: 0.5 };
+    pub const FAR: Self =
+        Self { gap: f64::INFINITY, rate: 0.0, normal: ZEROS, turning: ZEROS, share: 0.5, sharing: 0.0 };
 
     /// Where the plane will be after a time [s], if all goes on as it does; none for bodies that are far apart.
     pub fn guess(&self, after: f64) -> Option<Guess> {
         let normal = (self.normal + after * self.turning).try_normalize(0.0)?;
-        Some(Guess { normal, share: self.share })
+        // Neither side loses more than half of its part.
+        let share = (self.share + after * self.sharing).clamp(0.5 * self.share, 0.5 * (1.0 + self.share));
+        Some(Guess { normal, share })
     }
 }

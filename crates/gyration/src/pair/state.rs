@@ -183,13 +183,15 @@ impl PairForm {
         let halves = state.halves.each_ref();
         let rates = halves.map(Half::rates);
         let change = expansion.along(halves, rates.each_ref(), state.placed.switching);
-        let (mut gaps, mut rate) = ([0.0; 2], 0.0);
-        for ((half, heights), gap) in halves.into_iter().zip(&change.heights).zip(&mut gaps) {
-            let (own, point) = half.smallest_gap(&state.placed.plane);
-            *gap = own;
-            rate += heights.dot(&Vec4::new(1.0, point.x, point.y, point.z));
+        let (mut gaps, mut rates) = ([0.0; 2], [0.0; 2]);
+        for (i, half) in halves.into_iter().enumerate() {
+            let (gap, point) = half.smallest_gap(&state.placed.plane);
+            gaps[i] = gap;
+            rates[i] = change.heights[i].dot(&Vec4::new(1.0, point.x, point.y, point.z));
         }
-        let gap = gaps[0] + gaps[1];
-        Ok(PairGap { gap, rate, normal: state.placed.plane.normal, turning: change.normal, share: gaps[0] / gap })
+        let (gap, rate) = (gaps[0] + gaps[1], rates[0] + rates[1]);
+        let share = gaps[0] / gap;
+        let sharing = (rates[0] - share * rate) / gap;
+        Ok(PairGap { gap, rate, normal: state.placed.plane.normal, turning: change.normal, share, sharing })
     }
 }

@@ -42,7 +42,7 @@ impl PlacedBalls<'_> {
             self.balls.radii[i] * self.normal.dot(&(velocity.gradient_rate * point))
         };
         let rate = along - swelling(0) - swelling(1);
-        PairGap { gap, rate, normal: self.normal, turning, share: self.gaps[0] / gap }
+        PairGap { gap, rate, normal: self.normal, turning, share: self.gaps[0] / gap, sharing: 0.0 }
     }
 
     /// What the repulsion does to both, beginning at an energy [J].
