@@ -86,9 +86,11 @@ impl Simplex {
         self.count += 1;
     }
 
-    /// Its point next to the origin; leaves the points that this one is between.
+    /// Its point next to the origin; leaves the points that this one is between. The last point is one of these, since
+    /// the hull of the others is farther.
     fn shrink(&mut self) -> Vec3 {
-        let subsets = (1..1_usize << self.count).map(|subset| self.members(subset));
+        let last = 1 << (self.count - 1);
+        let subsets = (last..2 * last).map(|subset| self.members(subset));
         let nearest = subsets.filter_map(|subset| Some((subset.nearest()?, subset)));
         let least = nearest.min_by(|(a, _), (b, _)| a.norm_squared().total_cmp(&b.norm_squared()));
         let Some((nearest, subset)) = least else { return Vec3::zeros() };
@@ -119,6 +121,9 @@ impl Simplex {
     fn nearest(&self) -> Option<Vec3> {
         let first = self.points[0];
         let count = self.count - 1;
+        if count == 0 {
+            return Some(first);
+        }
         // Edges that are not there have the weight 0.
         let edge = |i: usize| if i < count { self.points[i + 1] - first } else { Vec3::zeros() };
         let edges = [edge(0), edge(1), edge(2)];
