@@ -59,10 +59,11 @@ pub(super) fn separate(halves: [&Half; 2]) -> Result<Plane, f64> {
 /// The plane of a guess, unless it does not separate the bodies.
 pub(super) fn guessed([above, below]: [&Half; 2], guess: &Guess) -> Option<Plane> {
     let Guess { normal, share } = *guess;
-    let lowest = above.lowest(&normal).dot(&normal);
-    let slab = lowest - below.lowest(&-normal).dot(&normal);
+    let through_center = Plane { normal, offset: 0.0 };
+    let [above_gap, below_gap] = [above, below].map(|half| half.smallest_gap(&through_center).0);
+    let slab = above_gap + below_gap;
     let least = above.side.least_gap + below.side.least_gap;
-    (slab > least).then_some(Plane { normal, offset: lowest - share * slab })
+    (slab > least).then_some(Plane { normal, offset: above_gap - share * slab })
 }
 
 impl Half<'_> {

@@ -23,6 +23,9 @@ use oriented::add_oriented;
 use pack::{PointPack, TrianglePack};
 use sums::{add_deformed, add_moments, smallest_gap};
 
+/// Vertices from which on registers pay.
+const MANY: usize = 32;
+
 /// Triangles with their areas, ready for contact integrals.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Facets {
@@ -148,24 +151,30 @@ impl Facets {
         self.area
     }
 
-    /// The smallest gap [m] and the vertex where it is; infinite for no facets.
+    /// The smallest gap [m] and the vertex where it is, the first of several; infinite for no facets.
     ///
     /// The first gap that is not finite is returned at once.
     pub fn smallest_gap(&self, field: &GapField) -> (f64, Vec3) {
-        match smallest_gap(&self.points, field) {
-            Some((gap, place)) => (gap, self.vertices.get(place).copied().unwrap_or_default()),
-            None => {
-                let gaps = self.vertices.iter().map(|vertex| (field.gap(vertex), *vertex));
-                gaps.into_iter().find(|(gap, _)| !gap.is_finite()).unwrap_or((f64::INFINITY, Vec3::zeros()))
+        let in_registers = self.vertices.len() >= MANY || field.lack.is_some();
+        if in_registers && let Some((gap, place)) = smallest_gap(&self.points, field) {
+            return (gap, self.vertices.get(place).copied().unwrap_or_default());
+        }
+        let mut smallest = (f64::INFINITY, Vec3::zeros());
+        for vertex in &self.vertices {
+            let gap = field.gap(vertex);
+            if !gap.is_finite() {
+                return (gap, *vertex);
+            }
+            if gap < smallest.0 {
+                smallest = (gap, *vertex);
             }
         }
+        smallest
     }
 
     /// Whether the gaps of all vertices are finite and above a floor [m].
     #[inline]
     pub(super) fn are_above(&self, field: &GapField, floor: f64) -> bool {
-        /// Vertices from which on registers pay.
-        const MANY: usize = 32;
         let fits = |gap: f64| gap > floor && gap < f64::INFINITY;
         if self.vertices.len() < MANY {
             self.vertices.iter().all(|vertex| fits(field.gap(vertex)))
