@@ -128,7 +128,7 @@ fn is_last(pair: &PairForm, halves: [&Half; 2], expansion: &Expansion, step: &St
     }
     let (radii, gaps) = (pair.radii, halves.map(|half| half.smallest_gap(&expansion.plane).0));
     let rounding = f64::EPSILON * (radii[0] / gaps[0]).max(radii[1] / gaps[1]);
-    let left = pair.laws.repulsion.exponent * expansion.stretch(radii, gaps, step);
+    let left = pair.laws.repulsion.exponent * expansion.stretch(halves, radii, gaps, step);
     step.decrement * left * left <= CONVERGED.max(rounding * rounding)
 }
 
@@ -154,8 +154,8 @@ fn descend(
 
 impl Found {
     /// The plane in balance.
-    pub fn placed(&self) -> Placed {
-        self.expansion.placed_after(&self.left)
+    pub fn placed(&self, halves: [&Half; 2]) -> Placed {
+        self.expansion.placed_after(halves, &self.left)
     }
 
     /// log U about the plane in balance, of which derivatives are.

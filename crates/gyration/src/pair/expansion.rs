@@ -17,7 +17,7 @@ use super::side::{Half, Potential};
 use super::{Mat34, Vec4};
 use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3};
-use nalgebra::{Cholesky, Const, Matrix4x3};
+use nalgebra::{Cholesky, Const};
 
 /// L = log U about a plane.
 #[derive(Debug, Clone)]
@@ -30,8 +30,6 @@ pub(super) struct Expansion {
     parts: [f64; 2],
     /// The directions in which n turns.
     tangents: [Vec3; 2],
-    /// Z.
-    heights: [Matrix4x3<f64>; 2],
     /// ρ.
     slopes: [Vec3; 2],
     /// r.
@@ -83,27 +81,22 @@ impl Expansion {
         // The lower one has the larger s; their ratio may be too small for a number, not too large.
         let [low, high] = if potentials[0].value <= potentials[1].value { [0, 1] } else { [1, 0] };
         let mut parts = halves.map(|half| half.root_share);
-        parts[high] *= libm::pow(potentials[low].value / potentials[high].value, power);
+        parts[high] *= libm::exp(power * libm::log(potentials[low].value / potentials[high].value));
         let parts = parts.map(|part| part / (parts[0] + parts[1]));
         // U = U_i (s_i²/w_i)^(ν−1), of the side whose part is the larger.
         let larger = usize::from(parts[1] > parts[0]);
         let squeezed = (parts[larger] / halves[larger].root_share).powi(2);
         let energy = potentials[larger].value * raised(squeezed, laws.repulsion.exponent - 1.0);
-        let zeros = Vec3::zeros();
-        let heights = halves.map(|half| {
-            let [one, other] = tangents.map(|tangent| half.heights_by(&tangent, 0.0));
-            Matrix4x3::from_columns(&[one, other, half.heights_by(&zeros, 1.0)])
-        });
-        let slopes = [0, 1].map(|i| -heights[i].tr_mul(&potentials[i].first) / potentials[i].value);
+        let slopes = [0, 1].map(|i| -halves[i].by_plane(&tangents, &potentials[i].first) / potentials[i].value);
         let gradient: Vec3 = parts[0] * slopes[0] + parts[1] * slopes[1];
         let bent = laws.repulsion.exponent - 1.0;
         let mut curvature = power * gradient * gradient.transpose() + Mat3::from_diagonal(&Vec3::new(bent, bent, 0.0));
         for i in 0..2 {
-            let own = heights[i].tr_mul(&(potentials[i].second * heights[i])) / potentials[i].value;
+            let own = halves[i].bent_by_plane(&tangents, &potentials[i].second) / potentials[i].value;
             curvature += parts[i] * (own - (1.0 + power) * slopes[i] * slopes[i].transpose());
         }
         let curvature = curvature.cholesky().ok_or(PairFault::NotFound { decrement: f64::NAN })?;
-        Ok(Self { plane, energy, potentials, parts, tangents, heights, slopes, gradient, curvature, power })
+        Ok(Self { plane, energy, potentials, parts, tangents, slopes, gradient, curvature, power })
     }
 
     /// The step to where the gradient of the expansion vanishes.
@@ -121,9 +114,9 @@ impl Expansion {
     /// their smallest gaps [m].
     ///
     ///   η = max (|δg₀| + |δm| R)/d
-    pub fn stretch(&self, radii: [f64; 2], gaps: [f64; 2], step: &Step) -> f64 {
+    pub fn stretch(&self, halves: [&Half; 2], radii: [f64; 2], gaps: [f64; 2], step: &Step) -> f64 {
         let of_side = |i: usize| {
-            let change = self.heights[i] * step.by;
+            let change = self.heights_after(halves[i], &step.by);
             (change[0].abs() + radii[i] * change.fixed_rows::<3>(1).norm()) / gaps[i]
         };
         of_side(0).max(of_side(1))
@@ -142,10 +135,10 @@ impl Expansion {
     }
 
     /// The plane after a step, and what is exchanged there, in first order; U, which is least there, changes in second.
-    pub fn placed_after(&self, step: &Step) -> Placed {
+    pub fn placed_after(&self, halves: [&Half; 2], step: &Step) -> Placed {
         let plane = self.moved(1.0, step);
         let Placed { energy, first, weights, switching, .. } = self.placed();
-        let heights = [0, 1].map(|i| self.heights[i] * step.by);
+        let heights = halves.map(|half| self.heights_after(half, &step.by));
         let growth = self.growth(&heights);
         let mean = self.mean(growth);
         Placed {
@@ -156,6 +149,16 @@ impl Expansion {
             weights: [0, 1].map(|i| weights[i] * (1.0 + (1.0 + self.power) * (mean - growth[i]))),
             switching,
         }
+    }
+
+    /// δn, given what the plane moves by.
+    fn turned(&self, by: &Vec3) -> Vec3 {
+        self.tangents[0] * by.x + self.tangents[1] * by.y
+    }
+
+    /// δz of a side.
+    fn heights_after(&self, half: &Half, by: &Vec3) -> Vec4 {
+        half.heights_by(&self.turned(by), by.z)
     }
 
     /// δ log U_i, given δz.
@@ -179,15 +182,16 @@ impl Expansion {
             let Potential { value, first, second } = &self.potentials[i];
             let turned = halves[i].sign * change[i] * first;
             let tilted = Vec3::new(self.tangents[0].dot(&turned), self.tangents[1].dot(&turned), 0.0);
-            let slope = (self.heights[i].tr_mul(&(second * own[i])) - tilted) / *value - self.slopes[i] * at_rest[i];
+            let slope = (halves[i].by_plane(&self.tangents, &(second * own[i])) - tilted) / *value
+                - self.slopes[i] * at_rest[i];
             right += self.parts[i] * (slope - self.power * (at_rest[i] - mean_at_rest) * self.slopes[i]);
         }
         let moved = -self.curvature.solve(&right);
-        let heights = [0, 1].map(|i| own[i] + self.heights[i] * moved);
+        let heights = [0, 1].map(|i| own[i] + self.heights_after(halves[i], &moved));
         let by_side = self.growth(&heights);
         let growth = self.mean(by_side);
         Change {
-            normal: self.tangents[0] * moved.x + self.tangents[1] * moved.y,
+            normal: self.turned(&moved),
             first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
             weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + switching * growth),
             heights,

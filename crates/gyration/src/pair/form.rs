@@ -3,7 +3,7 @@
 use super::balls::{Balls, PlacedBalls};
 use super::exchange::PairGap;
 use super::fault::PairFault;
-use super::laws::PairLaws;
+use super::laws::{PairLaws, shares};
 use super::reach::Threshold;
 use super::side::Side;
 use crate::surface::Surface;
@@ -32,6 +32,8 @@ pub struct PairForm {
     pub(super) threshold: f64,
     /// The radius of each about its centre of mass, in the reference shape [m].
     pub(super) radii: [f64; 2],
+    /// w.
+    pub(super) shares: [f64; 2],
     /// What both are, if they are balls about their centres of mass.
     pub(super) balls: Option<Balls>,
 }
@@ -56,7 +58,8 @@ impl PairForm {
             [Some(one), Some(other)] => Some(Balls::new(&laws, [one, other])),
             _ => None,
         };
-        Self { laws, reach, threshold, radii, balls }
+        let shares = shares(surfaces.map(Surface::area));
+        Self { laws, reach, threshold, radii, shares, balls }
     }
 
     /// The radius of each about its centre of mass, in the reference shape [m].

@@ -2,6 +2,7 @@
 
 use super::deepest::shortest_way;
 use super::gjk::separate;
+use super::laws::shares;
 use super::side::Side;
 use super::state::halves;
 use crate::kinematics::{Placement, Velocity};
@@ -50,7 +51,7 @@ impl Overlap {
             deformation: None,
             least_gap: RESOLUTION * (size[i] + between.norm()),
         });
-        let halves = halves([&one, &other], false);
+        let halves = halves([&one, &other], shares(surfaces.map(Surface::area)), false);
         if separate(halves.each_ref()).is_ok() {
             return Ok(());
         }

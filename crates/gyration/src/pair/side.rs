@@ -33,15 +33,15 @@ pub struct Side<'a> {
 /// A side with places taken from the centre of mass of A, from which no large numbers cancel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Half<'a> {
-    pub side: Side<'a>,
+    pub side: &'a Side<'a>,
     /// σ.
     pub sign: f64,
     /// (p₀ − o | P).
     pub columns: Mat34,
     /// √w.
     pub root_share: f64,
-    /// Whether its areas are those of the deformed body.
-    pub cofactor: Option<Mat3>,
+    /// cof P, if its areas are those of the deformed body.
+    pub cofactor: Option<&'a Mat3>,
 }
 
 /// U, and its derivatives by z: U′ = −a, U″ = h.
@@ -87,6 +87,19 @@ impl Half<'_> {
         self.sign * heights
     }
 
+    /// Zᵀv: what v·δz is by the turns of n along two tangents and by c.
+    pub fn by_plane(&self, tangents: &[Vec3; 2], v: &Vec4) -> Vec3 {
+        let carried = self.sign * (self.columns * v);
+        Vec3::new(tangents[0].dot(&carried), tangents[1].dot(&carried), -self.sign * v[0])
+    }
+
+    /// ZᵀhZ, h symmetric.
+    pub fn bent_by_plane(&self, tangents: &[Vec3; 2], h: &Mat4) -> Mat3 {
+        let turned = tangents.each_ref().map(|tangent| h * self.heights_by(tangent, 0.0));
+        let [one, other] = turned.each_ref().map(|turned| self.by_plane(tangents, turned));
+        Mat3::new(one.x, one.y, one.z, one.y, other.y, other.z, one.z, other.z, h[(0, 0)])
+    }
+
     /// The gaps to a plane.
     fn field(heights: &Vec4) -> GapField {
         GapField::new(heights[0], heights.fixed_rows::<3>(1).into())
@@ -100,7 +113,7 @@ impl Half<'_> {
     /// The moments of a plan, in the measure of the pair.
     pub fn moments(&self, plane: &Plane, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
         let field = Self::field(&self.heights(plane));
-        match &self.cofactor {
+        match self.cofactor {
             Some(cofactor) => self.side.surface.deformed_moments(&field, cofactor, plan, out),
             None => self.side.surface.planned_moments(&field, plan, out),
         }

@@ -5,7 +5,7 @@ use super::exchange::PairGap;
 use super::expansion::Expansion;
 use super::fault::PairFault;
 use super::form::PairForm;
-use super::laws::{ViscousLaw, shares};
+use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares};
 use super::plane::Guess;
 use super::side::{Half, SIGNS, Side, columns};
@@ -56,17 +56,16 @@ impl PairScratch {
     }
 }
 
-/// Both sides, their places from the centre of A; `deformed` if their areas are.
-pub(super) fn halves<'a>(sides: [&Side<'a>; 2], deformed: bool) -> [Half<'a>; 2] {
-    let shares = shares(sides.map(|side| side.surface.area()));
+/// Both sides, of these shares w, their places from the centre of A; `deformed` if their areas are.
+pub(super) fn halves<'a>(sides: [&'a Side; 2], shares: [f64; 2], deformed: bool) -> [Half<'a>; 2] {
     [0, 1].map(|i| {
         let side = sides[i];
         Half {
-            side: *side,
+            side,
             sign: SIGNS[i],
             columns: columns(&side.from_first, &side.placement.gradient),
             root_share: shares[i].sqrt(),
-            cofactor: side.deformation.filter(|_| deformed).map(|deformation| deformation.cofactor),
+            cofactor: side.deformation.as_ref().filter(|_| deformed).map(|deformation| &deformation.cofactor),
         }
     })
 }
@@ -78,7 +77,7 @@ impl<'a> PairState<'a> {
     /// [`PairFault`] if no plane separates the bodies.
     pub fn new(
         pair: &'a PairForm,
-        sides: [&Side<'a>; 2],
+        sides: [&'a Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
@@ -86,7 +85,7 @@ impl<'a> PairState<'a> {
         let room = scratch.placing(pair);
         let placed = match pair.balls(sides) {
             Some(balls) => Expansion::about(&pair.laws, halves.each_ref(), balls?.plane(), room)?.placed(),
-            None => search(pair, halves.each_ref(), guess, room)?.placed(),
+            None => search(pair, halves.each_ref(), guess, room)?.placed(halves.each_ref()),
         };
         Ok(Self::at(pair, halves, placed))
     }
@@ -97,7 +96,7 @@ impl<'a> PairState<'a> {
     /// As there.
     pub fn expanded(
         pair: &'a PairForm,
-        sides: [&Side<'a>; 2],
+        sides: [&'a Side; 2],
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<(Self, Expansion), PairFault> {
@@ -162,8 +161,8 @@ impl<'a> PairState<'a> {
 
 impl PairForm {
     /// Both sides, in the measure of the pair.
-    pub(super) fn halves<'a>(&self, sides: [&Side<'a>; 2]) -> [Half<'a>; 2] {
-        halves(sides, self.laws.measure != AreaMeasure::ReferenceArea)
+    pub(super) fn halves<'a>(&self, sides: [&'a Side; 2]) -> [Half<'a>; 2] {
+        halves(sides, self.shares, self.laws.measure != AreaMeasure::ReferenceArea)
     }
 
     /// The slab between two bodies along the normal of their plane.
