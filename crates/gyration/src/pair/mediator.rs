@@ -21,9 +21,13 @@ use super::laws::{PairLaws, ViscousLaw, raised};
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::LawKind;
+use crate::load::Mat12;
 use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
-use nalgebra::{Cholesky, Const};
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
+
+type Vec12 = SVector<f64, 12>;
+type Mat12x3 = SMatrix<f64, 12, 3>;
 
 /// How the powers d^−ν′ of two sides are weighed.
 #[derive(Debug, Clone, Copy)]
@@ -182,16 +186,25 @@ impl Mediator {
         -(0..2).map(|side| (self.slips[side] * self.moments[side]).dot(&self.slips[side])).sum::<f64>()
     }
 
-    /// The change of (f | M) on both sides with the motion of one, places kept.
-    pub fn along_rates(&self, normal: &Vec3, side: usize, change: &Mat34) -> [Mat34; 2] {
-        let change = projector(self.kind, normal) * change;
-        let weighed = change * self.moments[side];
-        let motion = self.system.solve(&along(&self.fields[side], &weighed));
-        [0, 1].map(|other| {
-            let carried = combined(&motion, &self.fields[other]);
-            let slip = if other == side { change - carried } else { -carried };
-            -(slip * self.moments[other])
-        })
+    /// Adds the derivatives of (f | M) on each side by the motion of each, places kept.
+    ///
+    ///   ∂(f | M)_i/∂V_j = G_i S⁻¹ G_jᵀ − δ_ij M_i⊗Π,   G_i = (B_1M_i, B_2M_i, B_3M_i),   S_kl = Σ ⟨B_k, B_l⟩
+    ///
+    /// G is 12×3; the B_k lie in the image of Π.
+    pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
+        let projector = projector(self.kind, normal);
+        let pressed = [0, 1].map(|side| {
+            let columns =
+                self.fields[side].map(|field| Vec12::from_column_slice((field * self.moments[side]).as_slice()));
+            Mat12x3::from_columns(&columns)
+        });
+        for (body, pressed_by) in pressed.iter().enumerate() {
+            let motion = self.system.solve(&pressed_by.transpose());
+            for (side, pressed) in pressed.iter().enumerate() {
+                slopes[side][body] += pressed * motion;
+            }
+            slopes[body][body] -= self.moments[body].kronecker(&projector);
+        }
     }
 
     /// The change of (f | M) on both sides with the places of both, (δq_A, δq_B), motions kept.

@@ -58,12 +58,7 @@ impl PairSlopes {
                 let change = mediator.along_places(law, halves, placed, foot, places);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
             }
-            let by_rate = by_rate.get_or_insert(ZEROS);
-            for column in 0..BOTH {
-                let (body, place) = (column / COORDINATES, column % COORDINATES);
-                let change = mediator.along_rates(normal, body, &unit(place));
-                Direction::Coordinate { body, place }.add_to(by_rate, &change);
-            }
+            mediator.add_by_rates(normal, by_rate.get_or_insert(ZEROS));
         })?;
         let mut by_place = ZEROS;
         columns.iter().flatten().for_each(|Column { direction, sum, .. }| direction.add_to(&mut by_place, sum));
