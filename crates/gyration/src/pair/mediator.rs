@@ -15,7 +15,6 @@
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 
 use super::equilibrium::Placed;
-use super::expansion::Change;
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};
 use super::side::{Half, joined};
@@ -47,22 +46,25 @@ pub(super) struct Mediator {
     /// M.
     pub moments: [Mat4; 2],
     /// B.
-    fields: [[Mat34; 3]; 2],
-    /// ΠV − Σ η_k B_k.
-    slips: [Mat34; 2],
+    pub fields: [[Mat34; 3]; 2],
+    /// B M.
+    pub pressed: [[Mat34; 3]; 2],
+    /// W.
+    pub slips: [Mat34; 2],
     /// η.
-    motion: Vec3,
-    system: Cholesky<f64, Const<3>>,
+    pub motion: Vec3,
+    pub system: Cholesky<f64, Const<3>>,
     /// G, of friction.
-    feet: Option<[Mat4; 2]>,
+    pub feet: Option<[Foot; 2]>,
 }
 
-/// The change of M on its way from d^−ν′: what the moments change by with z, before they are weighed.
-pub(super) struct Slope {
-    /// κ · moments of d^−ν′.
-    value: Mat4,
-    /// −ν′ κ × the moments of d^−(ν′+1), with one X̃ more.
-    raised: Moments,
+/// G = 1 − a⊗e of a side: e the height of X̃ over the plane, and a how X̃ changes with it along the normal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Foot {
+    /// e = σ z.
+    pub heights: Vec4,
+    /// a = (0; P⁻¹n).
+    pub across: Vec4,
 }
 
 impl Shares {
@@ -74,31 +76,44 @@ impl Shares {
     }
 
     /// κ d^ν′ of a side.
-    fn coefficient(&self, law: &ViscousLaw, side: usize) -> f64 {
+    pub fn coefficient(&self, law: &ViscousLaw, side: usize) -> f64 {
         law.coefficient * raised(self.own[side], law.exponent) / self.parts[side]
     }
 
-    /// δ log κ, given δ log λ.
-    fn growth(&self, law: &ViscousLaw, weights: &[f64; 2], side: usize) -> f64 {
-        let mean = self.parts[0] * weights[0] + self.parts[1] * weights[1];
-        self.power * ((law.exponent - 1.0) * weights[side] + mean)
+    /// δ log κ of a side by δ log λ of both.
+    pub fn growth(&self, law: &ViscousLaw, side: usize) -> [f64; 2] {
+        let mut growth = self.parts.map(|part| self.power * part);
+        growth[side] += self.power * (law.exponent - 1.0);
+        growth
     }
 }
 
-/// G of a side: X̃ of the material point that stands at the foot of another on the plane.
-fn feet(half: &Half, placed: &Placed) -> Mat4 {
-    let across = half.side.inverse * placed.plane.normal;
-    let heights = half.sign * half.heights(&placed.plane);
-    Mat4::identity() - upright(&across) * heights.transpose()
+impl Foot {
+    fn new(half: &Half, placed: &Placed) -> Self {
+        let heights = half.sign * half.heights(&placed.plane);
+        Self { heights, across: upright(&(half.side.inverse * placed.plane.normal)) }
+    }
+
+    /// G v.
+    pub fn image(&self, v: &Vec4) -> Vec4 {
+        v - self.heights.dot(v) * self.across
+    }
+
+    /// G M Gᵀ = M − a⊗b − b⊗a,   b = Me − ½ (e·Me) a.
+    pub fn carried(&self, moments: &Mat4) -> Mat4 {
+        let pressed = moments * self.heights;
+        let cross = self.across * (pressed - 0.5 * self.heights.dot(&pressed) * self.across).transpose();
+        moments - cross - cross.transpose()
+    }
 }
 
 /// (0; v).
-fn upright(v: &Vec3) -> Vec4 {
+pub(super) fn upright(v: &Vec3) -> Vec4 {
     Vec4::new(0.0, v.x, v.y, v.z)
 }
 
 /// n⊗n or 1 − n⊗n.
-fn projector(kind: LawKind, n: &Vec3) -> Mat3 {
+pub(super) fn projector(kind: LawKind, n: &Vec3) -> Mat3 {
     let along = n * n.transpose();
     if kind == LawKind::Damping { along } else { Mat3::identity() - along }
 }
@@ -115,24 +130,24 @@ fn fields(kind: LawKind, placed: &Placed, from_foot: &Mat34) -> [Mat34; 3] {
 }
 
 /// The field that is v everywhere.
-fn uniform(v: &Vec3) -> Mat34 {
+pub(super) fn uniform(v: &Vec3) -> Mat34 {
     let mut uniform = Mat34::zeros();
     uniform.set_column(0, v);
     uniform
 }
 
 /// Σ η_k B_k.
-fn combined(motion: &Vec3, fields: &[Mat34; 3]) -> Mat34 {
+pub(super) fn combined(motion: &Vec3, fields: &[Mat34; 3]) -> Mat34 {
     motion.x * fields[0] + motion.y * fields[1] + motion.z * fields[2]
 }
 
 /// B_k · A of each k.
-fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
+pub(super) fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
     Vec3::from_fn(|k, _| fields[k].dot(weighed))
 }
 
 /// (p₀ − foot | P) of a side, both places from A's centre.
-fn from_foot(half: &Half, foot: &Vec3) -> Mat34 {
+pub(super) fn from_foot(half: &Half, foot: &Vec3) -> Mat34 {
     let mut columns = half.columns;
     let shifted = columns.column(0) - foot;
     columns.set_column(0, &shifted);
@@ -149,22 +164,22 @@ impl Mediator {
         moments: [&Moments; 2],
     ) -> Result<Self, PairFault> {
         let kind = law.kind;
-        let feet = (kind == LawKind::Friction).then(|| halves.map(|half| feet(half, placed)));
+        let feet = (kind == LawKind::Friction).then(|| halves.map(|half| Foot::new(half, placed)));
         let moments = [0, 1].map(|side| {
             let Moments { zeroth, first, second, .. } = moments[side];
             let whole = shares.coefficient(law, side) * joined(*zeroth, first, second);
-            feet.map_or(whole, |feet| feet[side] * whole * feet[side].transpose())
+            feet.map_or(whole, |feet| feet[side].carried(&whole))
         });
         let fields = halves.map(|half| fields(kind, placed, &from_foot(half, foot)));
         let projector = projector(kind, &placed.plane.normal);
         let mut slips = halves.map(|half| projector * half.rates());
+        let pressed = [0, 1].map(|side| fields[side].map(|field| field * moments[side]));
         let (mut matrix, mut right) = (Mat3::zeros(), Vec3::zeros());
         for side in 0..2 {
             for k in 0..3 {
-                let weighed = fields[side][k] * moments[side];
-                right[k] += weighed.dot(&slips[side]);
+                right[k] += pressed[side][k].dot(&slips[side]);
                 for l in 0..3 {
-                    matrix[(k, l)] += weighed.dot(&fields[side][l]);
+                    matrix[(k, l)] += pressed[side][k].dot(&fields[side][l]);
                 }
             }
         }
@@ -173,7 +188,7 @@ impl Mediator {
         for (slip, fields) in slips.iter_mut().zip(&fields) {
             *slip -= combined(&motion, fields);
         }
-        Ok(Self { kind, moments, fields, slips, motion, system, feet })
+        Ok(Self { kind, moments, fields, pressed, slips, motion, system, feet })
     }
 
     /// (f | M) on a side.
@@ -193,10 +208,8 @@ impl Mediator {
     /// G is 12×3; the B_k lie in the image of Π.
     pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
         let projector = projector(self.kind, normal);
-        let pressed = [0, 1].map(|side| {
-            let columns =
-                self.fields[side].map(|field| Vec12::from_column_slice((field * self.moments[side]).as_slice()));
-            Mat12x3::from_columns(&columns)
+        let pressed = self.pressed.each_ref().map(|pressed| {
+            Mat12x3::from_columns(&pressed.each_ref().map(|pressed| Vec12::from_column_slice(pressed.as_slice())))
         });
         for (body, pressed_by) in pressed.iter().enumerate() {
             let motion = self.system.solve(&pressed_by.transpose());
@@ -205,92 +218,5 @@ impl Mediator {
             }
             slopes[body][body] -= self.moments[body].kronecker(&projector);
         }
-    }
-
-    /// The change of (f | M) on both sides with the places of both, (δq_A, δq_B), motions kept.
-    pub fn along_places(
-        &self,
-        law: &ViscousLaw,
-        halves: [&Half; 2],
-        (placed, shares): (&Placed, &Shares),
-        (foot, slopes): (&Vec3, &[Slope; 2]),
-        (places, change): ([&Mat34; 2], &Change),
-    ) -> [Mat34; 2] {
-        let n = &placed.plane.normal;
-        let turned = placed.tangents.map(|tangent| -n * tangent.dot(&change.normal));
-        let (mut moments, mut slips, mut right) = ([Mat4::zeros(); 2], [Mat34::zeros(); 2], Vec3::zeros());
-        let mut fields = [[Mat34::zeros(); 3]; 2];
-        for side in 0..2 {
-            let (half, place) = (halves[side], places[side]);
-            moments[side] = self.moments_along(law, (half, side), placed, &slopes[side], (place, change), shares);
-            let from_foot = from_foot(half, foot);
-            fields[side] = if self.kind == LawKind::Damping {
-                let tilt = |k: usize| {
-                    let row = (from_foot.tr_mul(&turned[k]) + place.tr_mul(&placed.tangents[k])).transpose();
-                    change.normal * from_foot.tr_mul(&placed.tangents[k]).transpose() + n * row
-                };
-                [uniform(&change.normal), tilt(0), tilt(1)]
-            } else {
-                let spin = cross_matrix(&change.normal) * from_foot + cross_matrix(n) * place;
-                [uniform(&turned[0]), uniform(&turned[1]), spin]
-            };
-            let rates = half.rates();
-            let sign = if self.kind == LawKind::Damping { 1.0 } else { -1.0 };
-            slips[side] =
-                sign * (change.normal * rates.tr_mul(n).transpose() + n * rates.tr_mul(&change.normal).transpose());
-            slips[side] -= combined(&self.motion, &fields[side]);
-            let pressed = self.slips[side] * self.moments[side];
-            let changed = self.slips[side] * moments[side] + slips[side] * self.moments[side];
-            right += along(&fields[side], &pressed) + along(&self.fields[side], &changed);
-        }
-        let motion = self.system.solve(&right);
-        [0, 1].map(|side| {
-            let carried = combined(&motion, &self.fields[side]);
-            -((slips[side] - carried) * self.moments[side] + self.slips[side] * moments[side])
-        })
-    }
-
-    /// δM of a side.
-    fn moments_along(
-        &self,
-        law: &ViscousLaw,
-        (half, side): (&Half, usize),
-        placed: &Placed,
-        slope: &Slope,
-        (place, change): (&Mat34, &Change),
-        shares: &Shares,
-    ) -> Mat4 {
-        let heights = &change.heights[side];
-        let changed = shares.growth(law, &change.weights, side) * slope.value + slope.along(heights);
-        let Some(feet) = &self.feet else { return changed };
-        let (n, inverse, feet) = (&placed.plane.normal, &half.side.inverse, &feet[side]);
-        let across = inverse * n;
-        let gradient = place.fixed_columns::<3>(1);
-        let turned = inverse * (change.normal - gradient * across);
-        let moved = -half.sign
-            * (upright(&turned) * half.heights(&placed.plane).transpose() + upright(&across) * heights.transpose());
-        let cross = moved * slope.value * feet.transpose();
-        feet * changed * feet.transpose() + cross + cross.transpose()
-    }
-}
-
-impl Slope {
-    /// From the moments of ν′ and of ν′ + 1 of a side.
-    pub fn new(law: &ViscousLaw, shares: &Shares, side: usize, moments: &[Moments]) -> Self {
-        let coefficient = shares.coefficient(law, side);
-        let [value, mut raised] = law.slopes.map(|place| moments[place]);
-        raised.scale(-law.exponent * coefficient);
-        Self { value: coefficient * joined(value.zeroth, &value.first, &value.second), raised }
-    }
-
-    /// The change with z.
-    fn along(&self, heights: &Vec4) -> Mat4 {
-        let Moments { zeroth, first, second, third } = &self.raised;
-        let (height, direction) = (heights[0], Vec3::new(heights[1], heights[2], heights[3]));
-        joined(
-            height * zeroth + direction.dot(first),
-            &(height * first + second * direction),
-            &(height * second + third.contract(&direction)),
-        )
     }
 }

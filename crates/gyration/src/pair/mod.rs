@@ -29,6 +29,7 @@
 //! | `balls`       | the plane of two balls, their loads and derivatives             |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
+//! | `mediator_slopes` | how these change with the places of both                    |
 //! | `loads`       | forces, moments, energy and powers                               |
 //! | `slopes`      | their derivatives by the coordinates and velocities of both      |
 
@@ -43,6 +44,7 @@ mod gjk;
 mod laws;
 mod loads;
 mod mediator;
+mod mediator_slopes;
 mod overlap;
 mod plane;
 mod reach;

@@ -8,7 +8,7 @@ use super::exchange::PairSlopes;
 use super::expansion::Change;
 use super::fault::PairFault;
 use super::form::PairForm;
-use super::mediator::Slope;
+use super::mediator_slopes::Slope;
 use super::plane::Guess;
 use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
@@ -51,11 +51,9 @@ impl PairSlopes {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
-            let bent = [0, 1].map(|side| Slope::new(law, shares, side, moments[side]));
+            let bent = [0, 1].map(|side| Slope::new(law, shares, &state, side, moments[side]));
             for Column { direction, change, sum } in columns.iter_mut().flatten() {
-                let (placed, places) = ((&state.placed, shares), direction.places());
-                let (foot, places) = ((&state.foot, &bent), (places.each_ref(), &*change));
-                let change = mediator.along_places(law, halves, placed, foot, places);
+                let change = mediator.along_places(&state, &bent, direction.places().each_ref(), change);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
             }
             mediator.add_by_rates(normal, by_rate.get_or_insert(ZEROS));

@@ -1,0 +1,125 @@
+//! How damping and friction against a mediator change with the places of both bodies, motions kept.
+//!
+//!   δ(f | M) = −(δW M + W δM),   δW = δΠ V − Σ η_k δB_k − Σ δη_k B_k
+//!   Σ_l ⟨B_k, B_l⟩ δη_l = Σ δB_k·(W M) + B_k·(W δM + (δΠ V − Σ η_l δB_l) M)
+//!
+//! M of a side changes with its weight κ, with z, by the moments of one more power of the gap, and of friction with G:
+//!
+//!   δ(G M Gᵀ) = G δM Gᵀ − c − cᵀ,   c = δa⊗(G M e) + a⊗(G M δe),   δa = (0; P⁻¹(δn − δP P⁻¹n))
+
+use super::expansion::Change;
+use super::laws::ViscousLaw;
+use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upright};
+use super::side::joined;
+use super::state::PairState;
+use super::{Mat4, Mat34, Vec4};
+use crate::contact::LawKind;
+use crate::surface::Moments;
+use crate::tensor::{Vec3, cross_matrix};
+
+/// A side of a mediator on its way from d^−ν′, whatever changes.
+pub(super) struct Slope {
+    /// κ · moments of d^−ν′.
+    value: Mat4,
+    /// −ν′ κ × the moments of d^−(ν′+1), with one X̃ more.
+    raised: Moments,
+    /// δ log κ by δ log λ of both sides.
+    growth: [f64; 2],
+    /// (p₀ − foot | P).
+    from_foot: Mat34,
+    /// What that is along the two tangents and along n.
+    arms: [Vec4; 3],
+    /// V.
+    rates: Mat34,
+    /// Vᵀn.
+    rising: Vec4,
+}
+
+impl Slope {
+    /// From the moments of ν′ and of ν′ + 1 of a side.
+    pub fn new(law: &ViscousLaw, shares: &Shares, state: &PairState, side: usize, moments: &[Moments]) -> Self {
+        let coefficient = shares.coefficient(law, side);
+        let [value, mut raised] = law.slopes.map(|place| moments[place]);
+        raised.scale(-law.exponent * coefficient);
+        let (half, normal) = (&state.halves[side], state.placed.plane.normal);
+        let (from_foot, rates) = (from_foot(half, &state.foot), half.rates());
+        let [one, other] = state.placed.tangents;
+        Self {
+            value: coefficient * joined(value.zeroth, &value.first, &value.second),
+            raised,
+            growth: shares.growth(law, side),
+            from_foot,
+            arms: [one, other, normal].map(|direction| from_foot.tr_mul(&direction)),
+            rates,
+            rising: rates.tr_mul(&normal),
+        }
+    }
+
+    /// The change with z.
+    fn along(&self, heights: &Vec4) -> Mat4 {
+        let Moments { zeroth, first, second, third } = &self.raised;
+        let (height, direction) = (heights[0], Vec3::new(heights[1], heights[2], heights[3]));
+        joined(
+            height * zeroth + direction.dot(first),
+            &(height * first + second * direction),
+            &(height * second + third.contract(&direction)),
+        )
+    }
+}
+
+impl Mediator {
+    /// The change of (f | M) on both sides with the places of both, (δq_A, δq_B), motions kept.
+    pub fn along_places(
+        &self,
+        state: &PairState,
+        slopes: &[Slope; 2],
+        places: [&Mat34; 2],
+        change: &Change,
+    ) -> [Mat34; 2] {
+        let mut right = Vec3::zeros();
+        let changed = [0, 1].map(|side| {
+            let moments = self.moments_along(state, side, &slopes[side], places[side], change);
+            let fields = self.fields_along(state, &slopes[side], places[side], change);
+            let Slope { rates, rising, .. } = &slopes[side];
+            let sign = if self.kind == LawKind::Damping { 1.0 } else { -1.0 };
+            let turned = change.normal * rising.transpose()
+                + state.placed.plane.normal * rates.tr_mul(&change.normal).transpose();
+            let slip = sign * turned - combined(&self.motion, &fields);
+            let changed = self.slips[side] * moments + slip * self.moments[side];
+            right += along(&self.fields[side], &changed) - along(&fields, &self.loads(side));
+            changed
+        });
+        let motion = self.system.solve(&right);
+        [0, 1].map(|side| combined(&motion, &self.pressed[side]) - changed[side])
+    }
+
+    /// δB of a side.
+    fn fields_along(&self, state: &PairState, slope: &Slope, place: &Mat34, change: &Change) -> [Mat34; 3] {
+        let (normal, tangents) = (&state.placed.plane.normal, &state.placed.tangents);
+        let turns = tangents.map(|tangent| tangent.dot(&change.normal));
+        if self.kind == LawKind::Damping {
+            let tilt = |k: usize| {
+                let arm = place.tr_mul(&tangents[k]) - turns[k] * slope.arms[2];
+                change.normal * slope.arms[k].transpose() + normal * arm.transpose()
+            };
+            [uniform(&change.normal), tilt(0), tilt(1)]
+        } else {
+            let spin = cross_matrix(&change.normal) * slope.from_foot + cross_matrix(normal) * place;
+            [uniform(&(-turns[0] * normal)), uniform(&(-turns[1] * normal)), spin]
+        }
+    }
+
+    /// δM of a side.
+    fn moments_along(&self, state: &PairState, side: usize, slope: &Slope, place: &Mat34, change: &Change) -> Mat4 {
+        let heights = &change.heights[side];
+        let growth = slope.growth[0] * change.weights[0] + slope.growth[1] * change.weights[1];
+        let changed = growth * slope.value + slope.along(heights);
+        let Some(feet) = &self.feet else { return changed };
+        let (foot, half) = (&feet[side], &state.halves[side]);
+        let across = foot.across.fixed_rows::<3>(1);
+        let turned = half.side.inverse * (change.normal - place.fixed_columns::<3>(1) * across);
+        let image = |heights: &Vec4| foot.image(&(slope.value * heights)).transpose();
+        let cross = upright(&turned) * image(&foot.heights) + foot.across * image(&(half.sign * heights));
+        foot.carried(&changed) - cross - cross.transpose()
+    }
+}
