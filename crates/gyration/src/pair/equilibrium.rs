@@ -1,8 +1,12 @@
 //! The plane of least potential between two bodies, by Newton's method on L = log U.
 //!
-//! A step δ that changes no gap by more than the part η of it leaves a gradient of second order, some ν η times the one
-//! before, and changes moments by ½ ν(ν+1) η² of themselves beyond first order. Where that is rounding the search ends:
-//! plane and forces are carried there in first order, and derivatives alone need a look at the plane itself.
+//! A step δ that changes gaps by the parts x of them, |x| ≤ η, leaves a gradient of second order, some ν η times the
+//! one before, and changes the moments of a side by ½ ν(ν+1) ⟨x²⟩ beyond first order, where
+//!
+//!   s_i ⟨x²⟩_i ≤ 2/(ν−1) (squared Newton decrement)
+//!
+//! Where both are rounding the search ends: plane and forces are carried there in first order, and derivatives alone
+//! need a look at the plane itself.
 
 use super::Vec4;
 use super::expansion::{Expansion, Step};
@@ -57,8 +61,8 @@ impl Switch {
     }
 }
 
-/// A squared Newton decrement that is rounding: the plane is known to fifteen digits of what its forces feel.
-const CONVERGED: f64 = 1e-29;
+/// A Newton decrement that is rounding: the plane is known to fifteen digits of what its forces feel.
+const CONVERGED: f64 = 3e-15;
 
 /// Below this squared decrement steps are whole, and a decrement that no longer falls is rounding.
 const NEAR: f64 = 1e-10;
@@ -73,11 +77,12 @@ const LOST: f64 = 1e-8;
 const MOST_STEPS: usize = 100;
 const MOST_HALVINGS: usize = 60;
 
-/// Where a search ends: next to the plane of least potential, and the step to it.
+/// Where a search ends: next to the plane of least potential, with the step to it; none where digits tell no better
+/// one.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
     expansion: Expansion,
-    left: Step,
+    left: Option<Step>,
 }
 
 /// Searches the plane of least potential.
@@ -96,40 +101,41 @@ pub(super) fn search(
         Some(expansion) => expansion,
         None => Expansion::about(laws, halves, separate(halves).map_err(PairFault::of_gap)?, room)?,
     };
-    let mut left = expansion.step();
     let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        let falls = left.decrement >= NEAR || left.decrement <= 0.25 * before;
-        if !falls || is_last(pair, halves, &expansion, &left) {
+        let step = expansion.step();
+        if is_last(pair, halves, &expansion, &step) {
+            return Ok(Found { expansion, left: Some(step) });
+        }
+        let falls = step.decrement >= NEAR || step.decrement <= 0.25 * before;
+        before = step.decrement;
+        if !falls {
             break;
         }
-        let Some(next) = descend(laws, halves, &expansion, &left, room) else { break };
+        let Some(next) = descend(laws, halves, &expansion, &step, room) else { break };
         let stays = next.plane == expansion.plane;
-        before = left.decrement;
         expansion = next;
-        left = expansion.step();
         // Digits tell no other plane.
         if stays {
             break;
         }
     }
     // A plane that is not in balance would push without a potential.
-    if left.decrement < LOST {
-        Ok(Found { expansion, left })
-    } else {
-        Err(PairFault::NotFound { decrement: left.decrement })
-    }
+    if before < LOST { Ok(Found { expansion, left: None }) } else { Err(PairFault::NotFound { decrement: before }) }
 }
 
-/// Whether what a step leaves is rounding: a decrement of ν η times this one, against that of gaps known to ε R.
+/// Whether what a step leaves is rounding, of gaps known to ε R: a decrement of ν η times this one, and moments beyond
+/// first order.
 fn is_last(pair: &PairForm, halves: [&Half; 2], expansion: &Expansion, step: &Step) -> bool {
     if step.decrement >= NEAR {
         return false;
     }
-    let (radii, gaps) = (pair.radii, halves.map(|half| half.smallest_gap(&expansion.plane).0));
-    let rounding = f64::EPSILON * (radii[0] / gaps[0]).max(radii[1] / gaps[1]);
-    let left = pair.laws.repulsion.exponent * expansion.stretch(halves, radii, gaps, step);
-    step.decrement * left * left <= CONVERGED.max(rounding * rounding)
+    let (radii, exponent) = (pair.radii, pair.laws.repulsion.exponent);
+    let gaps = halves.map(|half| half.smallest_gap(&expansion.plane).0);
+    let rounding = CONVERGED.max(f64::EPSILON * (radii[0] / gaps[0]).min(radii[1] / gaps[1]));
+    let left = exponent * expansion.stretch(halves, radii, gaps, step);
+    step.decrement * left * left <= rounding * rounding
+        && exponent * step.decrement <= rounding * expansion.least_part()
 }
 
 /// The expansion about a plane of less potential along a step; none if that is not to be had.
@@ -155,13 +161,16 @@ fn descend(
 impl Found {
     /// The plane in balance.
     pub fn placed(&self, halves: [&Half; 2]) -> Placed {
-        self.expansion.placed_after(halves, &self.left)
+        match &self.left {
+            Some(step) => self.expansion.placed_after(halves, step),
+            None => self.expansion.placed(),
+        }
     }
 
     /// log U about the plane in balance, of which derivatives are.
     pub fn confirmed(self, laws: &PairLaws, halves: [&Half; 2], room: &mut [Moments]) -> Expansion {
-        let there = Expansion::about(laws, halves, self.expansion.moved(1.0, &self.left), room);
-        there.unwrap_or(self.expansion)
+        let about = |step: &Step| Expansion::about(laws, halves, self.expansion.moved(1.0, step), room).ok();
+        self.left.as_ref().and_then(about).unwrap_or(self.expansion)
     }
 }
 

@@ -110,8 +110,8 @@ impl Expansion {
         self.plane.moved(&self.tangents, &(part * step.by))
     }
 
-    /// η: no gap changes by more than this part of it with a step, given the radii R of both about their centres [m] and
-    /// their smallest gaps [m].
+    /// η: no gap changes by more than this part of it with a step, given the radii R of both about their centres [m]
+    /// and their smallest gaps [m].
     ///
     ///   η = max (|δg₀| + |δm| R)/d
     pub fn stretch(&self, halves: [&Half; 2], radii: [f64; 2], gaps: [f64; 2], step: &Step) -> f64 {
@@ -120,6 +120,11 @@ impl Expansion {
             (change[0].abs() + radii[i] * change.fixed_rows::<3>(1).norm()) / gaps[i]
         };
         of_side(0).max(of_side(1))
+    }
+
+    /// The smaller s.
+    pub fn least_part(&self) -> f64 {
+        self.parts[0].min(self.parts[1])
     }
 
     /// The plane in balance, as if this one were.
@@ -171,8 +176,8 @@ impl Expansion {
         self.parts[0] * growth[0] + self.parts[1] * growth[1]
     }
 
-    /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane in balance, which this one is; δ log χ′
-    /// by δ log U is `switching`.
+    /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane in balance, which this one is; δ log
+    /// χ′ by δ log U is `switching`.
     pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2], switching: f64) -> Change {
         let own = [0, 1].map(|i| halves[i].sign * change[i].tr_mul(&self.plane.normal));
         let at_rest = self.growth(&own);

@@ -99,7 +99,7 @@ impl Foot {
         v - self.heights.dot(v) * self.across
     }
 
-    /// G M Gᵀ = M − a⊗b − b⊗a,   b = Me − ½ (e·Me) a.
+    /// G M Gᵀ = M − a⊗b − b⊗a, b = Me − ½ (e·Me) a.
     pub fn carried(&self, moments: &Mat4) -> Mat4 {
         let pressed = moments * self.heights;
         let cross = self.across * (pressed - 0.5 * self.heights.dot(&pressed) * self.across).transpose();
