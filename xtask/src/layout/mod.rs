@@ -4,6 +4,7 @@
 //! imports only what stands in a rank to its left. Nowhere do modules that stand side by side import one another in a
 //! circle.
 
+mod features;
 mod paths;
 mod tree;
 
