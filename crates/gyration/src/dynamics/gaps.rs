@@ -3,6 +3,7 @@
 
 use super::Scratch;
 use super::contacts::support_gap_at;
+use crate::acting::PairEnd;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, outside, with_sides};
 use crate::model::PATIENCE;
@@ -43,7 +44,8 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
     let (near, rules) = (at.near(), at.model.rules());
     let smallest = at.pairs().map(|pair| pair.loads.gap).fold(f64::INFINITY, f64::min);
     let mut search = Search { at, scratch, smallest, looked: 0 };
-    let far = || near.pairs().of(at.index).filter(|end| at.place(end).is_none()).map(|end| end.interaction);
+    let is_known = |end: &PairEnd| at.pair(end).is_some();
+    let far = || near.pairs().of(at.index).filter(|end| !is_known(end)).map(|end| end.interaction);
     // The nearest of them leaves few of the others.
     let nearest = far().min_by(|one, other| search.least(one).total_cmp(&search.least(other)));
     if let Some(pair) = nearest {

@@ -14,7 +14,8 @@ use crate::tensor::Vec3;
 /// What springs and the pairs within reach do, these in order of the list.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Between {
-    loads: Vec<PairLoads>,
+    /// None of a pair that a look at its slab has shown to be out of reach.
+    loads: Vec<Option<PairLoads>>,
     /// The derivatives of some of them.
     slopes: Vec<PairSlopes>,
     /// Where these are, by the place of a pair.
@@ -50,8 +51,9 @@ struct Looked<'a> {
 
 impl Between {
     /// A pair as one of its bodies sees it, given its place among those within reach.
-    pub fn pair<'a>(&'a self, end: PairEnd<'a>, place: usize) -> PairAt<'a> {
-        PairAt { end, loads: &self.loads[place], slopes: self.sloped[place].map(|sloped| &self.slopes[sloped]) }
+    pub fn pair<'a>(&'a self, end: PairEnd<'a>, place: usize) -> Option<PairAt<'a>> {
+        let slopes = self.sloped[place].map(|sloped| &self.slopes[sloped]);
+        Some(PairAt { end, loads: self.loads[place].as_ref()?, slopes })
     }
 
     /// What a spring of the model exerts.
@@ -86,14 +88,19 @@ impl Between {
         sloped.clear();
         looking.for_each(|looked, room| {
             let Some(looked) = looked else { return Ok(()) };
+            if looked.is_out_of_reach() {
+                loads.push(None);
+                sloped.push(None);
+                return Ok(());
+            }
             match looked.wanted() {
                 Wanted::Loads => {
-                    loads.push(looked.loads(room)?);
+                    loads.push(Some(looked.loads(room)?));
                     sloped.push(None);
                 }
                 Wanted::Slopes => {
                     let found = looked.slopes(room)?;
-                    loads.push(found.loads);
+                    loads.push(Some(found.loads));
                     sloped.push(Some(slopes.len()));
                     slopes.push(found);
                 }
@@ -113,10 +120,10 @@ impl Between {
             let Some(looked) = looked else { return Ok(()) };
             if let Some(sloped) = sloped[place].filter(|_| looked.feels_balance()) {
                 match looked.asked {
-                    Wanted::Loads => loads[place] = looked.loads(room)?,
+                    Wanted::Loads => loads[place] = Some(looked.loads(room)?),
                     Wanted::Slopes => {
                         slopes[sloped] = looked.slopes(room)?;
-                        loads[place] = slopes[sloped].loads;
+                        loads[place] = Some(slopes[sloped].loads);
                     }
                 }
             }
@@ -130,6 +137,12 @@ impl Looked<'_> {
     /// What is to be found: derivatives if they were asked for, or if the balance of a body without inertia needs them.
     fn wanted(&self) -> Wanted {
         if self.is_balanced() { Wanted::Slopes } else { self.asked }
+    }
+
+    /// Whether it does nothing, as the plane tells that it had before.
+    fn is_out_of_reach(&self) -> bool {
+        let Some(guess) = self.guess else { return false };
+        with_sides(self.pair, self.bodies, |sides| self.pair.form.is_out_of_reach(sides, guess))
     }
 
     /// Whether one of the two has no inertia.

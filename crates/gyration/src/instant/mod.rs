@@ -19,7 +19,7 @@ pub(crate) use motions::KindAt;
 pub use motions::MotionAt;
 pub use slabs::PairGaps;
 
-use crate::acting::{Load, PairAt};
+use crate::acting::{Load, PairAt, PairEnd};
 use crate::body::Slots;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
@@ -223,9 +223,15 @@ impl<'a> BodyAt<'a> {
         self.between.spring(end.number)
     }
 
-    /// The pairs of which it is one, as far as they are within reach.
+    /// The pairs of which it is one, but those that are known to be out of reach.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = PairAt<'a>> + use<'a> {
+        let own = *self;
+        own.near().pairs().of(own.index).filter_map(move |end| own.pair(&end))
+    }
+
+    /// A listed pair of which it is one; none that is known to be out of reach.
+    pub(crate) fn pair(&self, end: &PairEnd<'a>) -> Option<PairAt<'a>> {
         let Self { moving, between } = *self;
-        moving.near().pairs().of(moving.index).filter_map(move |end| Some(between.pair(end, moving.place(&end)?)))
+        between.pair(*end, moving.place(end)?)
     }
 }

@@ -7,7 +7,7 @@ use super::fault::PairFault;
 use super::form::PairForm;
 use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares};
-use super::plane::Guess;
+use super::plane::{Guess, Plane};
 use super::side::{Half, SIGNS, Side, columns};
 use super::{Mat34, Vec4};
 use crate::contact::AreaMeasure;
@@ -163,6 +163,16 @@ impl PairForm {
     /// Both sides, in the measure of the pair.
     pub(super) fn halves<'a>(&self, sides: [&'a Side; 2]) -> [Half<'a>; 2] {
         halves(sides, self.shares, self.laws.measure != AreaMeasure::ReferenceArea)
+    }
+
+    /// Whether two rigid bodies do nothing to each other, which the slab along a guess of their normal tells: one as
+    /// wide as the reach has no more potential than U_c, and the plane of least potential has less.
+    pub fn is_out_of_reach(&self, sides: [&Side; 2], guess: &Guess) -> bool {
+        let is_rigid = sides.iter().all(|side| side.deformation.is_none());
+        let Some(reach) = self.reach.filter(|_| is_rigid && self.balls.is_none()) else { return false };
+        let across = Plane { normal: guess.normal, offset: 0.0 };
+        let gaps = self.halves(sides).each_ref().map(|half| half.smallest_gap(&across).0);
+        gaps[0] + gaps[1] >= reach
     }
 
     /// The slab between two bodies along the normal of their plane.
