@@ -391,9 +391,7 @@ fn measurement_in_another_unit_is_named() {
     let alpha = "scene = \"ball.toml\"\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\nstart = 30e3\n";
     let friction = "[fit.friction]\nkey = \"contact.0.friction.beta\"\nstart = 3e4\n";
     let cases = [
-        (friction, 1..2, 1e3, ("gap.0", Some(1))),
         (friction, 2..3, 1e-3, ("gap.0", Some(2))),
-        (friction, 4..5, 100.0, ("slope.0", Some(0))),
         // The friction would explain all of the slopes.
         ("", 4..7, 0.1, ("slope.0", None)),
         (friction, 7..8, 1e3, ("pull_off.0", Some(0))),
@@ -464,7 +462,7 @@ fn search_that_is_given_up_anywhere_is_no_fit() {
     let (folder, mut given_up) = (folder(), 0);
     let calibration = Calibration::parse("data.toml", &text, folder.path()).unwrap();
     for attempt in 0.. {
-        let most = Duration::from_secs_f64(1e-3 * 1.2f64.powi(attempt));
+        let most = Duration::from_secs_f64(1e-3 * 1.5f64.powi(attempt));
         match Interruption::default().after(Some(most)).within(|| calibration.fit()) {
             Err(error) => assert!(matches!(error, CalibrationError::Interrupted { .. }), "{error}"),
             Ok(fitted) => {
