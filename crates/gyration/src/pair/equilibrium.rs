@@ -64,6 +64,10 @@ impl Switch {
 /// A Newton decrement that is rounding: the plane is known to fifteen digits of what its forces feel.
 const CONVERGED: f64 = 3e-15;
 
+/// By how much what a step leaves is told to be more than it is found to be: ν η bounds it for ν above 3, and is
+/// exceeded up to fiftyfold where corners next to the plane weigh little (ν near 2).
+const CAUTION: f64 = 64.0;
+
 /// Below this squared decrement steps are whole, and a decrement that no longer falls is rounding.
 const NEAR: f64 = 1e-10;
 
@@ -133,9 +137,9 @@ fn is_last(pair: &PairForm, halves: [&Half; 2], expansion: &Expansion, step: &St
     let (radii, exponent) = (pair.radii, pair.laws.repulsion.exponent);
     let gaps = halves.map(|half| half.smallest_gap(&expansion.plane).0);
     let rounding = CONVERGED.max(f64::EPSILON * (radii[0] / gaps[0]).min(radii[1] / gaps[1]));
-    let left = exponent * expansion.stretch(halves, radii, gaps, step);
+    let left = CAUTION * exponent * expansion.stretch(halves, radii, gaps, step);
     step.decrement * left * left <= rounding * rounding
-        && exponent * step.decrement <= rounding * expansion.least_part()
+        && CAUTION * exponent * step.decrement <= rounding * expansion.least_part()
 }
 
 /// The expansion about a plane of less potential along a step; none if that is not to be had.
