@@ -71,6 +71,19 @@ fn a_heavy_ball_presses_on_a_light_one_as_they_sink() {
     case.by("πRαd₀^ν [g^(1−ν) − (g+4R)^(1−ν)]/(ν−1)").check("force of their gap [N]", closed, force, 1e-8);
 }
 
+/// A damping 1e10 times as stiff as the fluid takes its digits from a factorization, not from the velocities.
+#[test]
+fn what_sticks_together_sinks_as_one() {
+    let (radius, masses, gravity) = (0.1, [3.0, 1.0], 9.81);
+    let laws = "[[contact]]\nbetween = [\"a\", \"b\"]\nrepulsion = { alpha = 1e4, nu = 6, d0 = 0.01 }\n\
+                damping = { beta = 1e14, nu = 6, d0 = 0.01 }\n";
+    let bodies = ball("a", radius, masses[0], 0.215) + &ball("b", radius, masses[1], 0.0);
+    let run = in_fluid(gravity, 0.5, &(bodies + laws)).run();
+    let both = run.column("a.vz")[1] + run.column("b.vz")[1];
+    let case = Case { row: None, name: "balls that stick together, β = 1e14 Pa s/m", source: "(W_a + W_b)/ζ" };
+    case.check("sum of the velocities [m/s]", -(masses[0] + masses[1]) * gravity / resistance(radius), both, 1e-12);
+}
+
 #[test]
 fn equal_balls_drive_each_other_apart_against_damping_and_fluid() {
     let (radius, alpha, nu, d0, first) = (1.0, 2e3, 6.0, 0.01, 2e-3);

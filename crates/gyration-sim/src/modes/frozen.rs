@@ -2,7 +2,6 @@
 //! moves by its law.
 
 use crate::projection::normalize;
-use gyration::Inadmissible;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, Slots, matrix};
 use gyration::contact::{Action, Term};
@@ -14,6 +13,7 @@ use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
+use gyration::{Inadmissible, Quantity};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -25,6 +25,8 @@ pub(super) struct FrozenBody {
     time: f64,
     /// Its index in the scene.
     index: usize,
+    /// The numbers in the scene of the springs that hold it.
+    springs: Vec<usize>,
     /// Its block of the state at the start, without velocities.
     pub start: Vec<f64>,
     evaluations: usize,
@@ -73,8 +75,10 @@ impl FrozenBody {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
             frozen = frozen.in_fluid(Fluid { velocity, gradient, ..(**fluid).clone() });
         }
+        let held = model.springs_of(index).filter(|end| end.other().body().is_none());
+        let springs = held.map(|end| end.number).collect();
         let model = frozen;
-        Self { model, workspace: Workspace::default(), time: start.time, index, start: block, evaluations: 0 }
+        Self { model, workspace: Workspace::default(), time: start.time, index, springs, start: block, evaluations: 0 }
     }
 
     /// How often forces or their derivatives have been computed.
@@ -95,6 +99,15 @@ impl FrozenBody {
         self.model.gravity
     }
 
+    /// What is outside of the model, as the scene numbers it.
+    fn outside(&self, left: Inadmissible) -> Inadmissible {
+        let quantity = match left.quantity {
+            Quantity::SpringLength { spring } => Quantity::SpringLength { spring: self.springs[spring] },
+            other => other,
+        };
+        Inadmissible { body: self.index, quantity, ..left }
+    }
+
     /// The velocities' rates.
     pub fn accelerations(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
         let rates = self.rates(block)?;
@@ -107,7 +120,7 @@ impl FrozenBody {
         let mut slopes = vec![0.0; block.len()];
         let mut powers = vec![0.0; self.model.works().len()];
         let done = rates(&self.model, &mut self.workspace, self.time, block.into(), &mut slopes, &mut powers);
-        done.map_err(|left| Inadmissible { body: self.index, ..left })?;
+        done.map_err(|left| self.outside(left))?;
         Ok(slopes)
     }
 
@@ -116,7 +129,7 @@ impl FrozenBody {
         self.evaluations += 1;
         let mut blocks = [DMatrix::zeros(block.len(), block.len())];
         let done = jacobian(&self.model, &mut self.workspace, self.time, block.into(), &mut blocks[..]);
-        done.map_err(|left| Inadmissible { body: self.index, ..left })?;
+        done.map_err(|left| self.outside(left))?;
         let [slopes] = blocks;
         Ok(slopes)
     }

@@ -26,7 +26,7 @@ pub struct SpringSurvey {
     pub rest_length: f64,
     /// l at the start [m].
     pub initial_length: f64,
-    /// T [s]; none without stiffness.
+    /// T [s]; none without stiffness, or without inertia of both.
     pub period: Option<f64>,
     /// ζ; none without stiffness or without a dashpot.
     pub damping_ratio: Option<f64>,
@@ -43,7 +43,9 @@ impl SpringSurvey {
         let (law, bodies) = (spring.law, spring.bodies()?);
         let [m, n] = bodies.map(|body| model.bodies[body].solid.mass.mass);
         let reduced = m * n / (m + n);
-        let period = (law.stiffness > 0.0).then(|| TAU * (reduced / law.stiffness).sqrt());
+        // Without inertia nothing swings.
+        let swings = law.stiffness > 0.0 && bodies.iter().all(|body| model.bodies[*body].has_inertia());
+        let period = swings.then(|| TAU * (reduced / law.stiffness).sqrt());
         let damped = period.filter(|_| law.damping > 0.0);
         Some(Self {
             between: bodies.map(|body| model.bodies[body].name.clone()),

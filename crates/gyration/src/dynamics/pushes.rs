@@ -43,6 +43,8 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 let spring = at.spring(&end);
                 each(Push { force: spring.force.norm(), gap: spring.length, rounding: 0.0 });
             }
+            // A pair that does nothing may be left out before its plane is found.
+            Load::Pair(pair) if !pair.acts() => {}
             Load::Pair(pair) => {
                 let PairLoads { gap, energy, .. } = pair.loads;
                 let exponent = pair.end.interaction.form.laws.repulsion.exponent;

@@ -1,5 +1,5 @@
-//! What bodies that meet do to each other: the second stage of an instant. The plane of each pair is found once, and
-//! both bodies have their part of what is exchanged there.
+//! What springs exert, and what bodies that meet do to each other: the second stage of an instant. Each spring and the
+//! plane of each pair are found once, and both bodies have their part of what is exchanged there.
 
 use super::motions::{MotionAt, Motions};
 use super::slabs::{PairGaps, Remembered};

@@ -7,7 +7,7 @@
 //! | file      | what                                                                          |
 //! |-----------|-------------------------------------------------------------------------------|
 //! | `motions` | places, velocities and what each kind of body needs of them; who is within reach |
-//! | `between` | what the pairs within reach do: loads, their derivatives                       |
+//! | `between` | what springs and the pairs within reach do: loads, their derivatives           |
 //! | `slabs`   | the slabs between bodies, and those from which planes are looked for           |
 
 mod between;

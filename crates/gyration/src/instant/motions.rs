@@ -188,7 +188,7 @@ impl Motions {
         self.time
     }
 
-    /// How a body moves; of one without inertia the places alone are known.
+    /// How a body moves; one without inertia is still until its balance is solved.
     #[inline]
     pub fn motion(&self, index: usize) -> &BodyMotion {
         &self.bodies[index].motion
@@ -271,6 +271,7 @@ impl<'a> MotionAt<'a> {
         match self.body.pin {
             Some(_) => [0, 1, 2].map(|i| Extended::from(given[i])),
             None => {
+                debug_assert!(self.body.has_inertia(), "a body without inertia has no velocity in its state");
                 let start = self.model.slots(self.index).velocity().start;
                 [0, 1, 2].map(|i| self.numbers.at(start + i))
             }

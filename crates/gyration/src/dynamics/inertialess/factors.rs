@@ -128,6 +128,11 @@ impl Together {
     #[must_use]
     pub fn factorize(&mut self) -> Option<Factors<'_>> {
         self.factors.factorize(&self.analysis, 0.0, &self.matrix).ok()?;
-        Some(Factors::Several(self))
+        Some(self.factorized())
+    }
+
+    /// The factors that were found last.
+    pub fn factorized(&mut self) -> Factors<'_> {
+        Factors::Several(self)
     }
 }

@@ -71,7 +71,13 @@ struct Group {
     ranges: Vec<Range<usize>>,
     /// The matrix of several.
     together: Option<Together>,
+    /// What was found last: their velocities and λ.
+    velocities: Vec<f64>,
 }
+
+/// The part of the velocities of a group by which they may change where they are refined: beyond it digits do not tell
+/// them.
+const REFINED: f64 = 1e-3;
 
 /// A body of a group at an instant, as if it had inertia.
 #[derive(Debug, Clone)]
@@ -140,25 +146,32 @@ impl Balances {
     fn solve(&mut self, instant: &mut Instant, scratch: &mut Scratch) -> Result<(), Inadmissible> {
         self.find_groups(instant);
         let Self { groups, members, side, .. } = self;
-        for group in groups {
+        for group in &mut *groups {
             give_back(members, scratch);
             for body in &group.bodies {
                 members.push(Member::at(&instant.at(*body), scratch)?);
             }
             group.begin(side);
-            for (member, range) in members.iter().zip(&group.ranges) {
+            let nothing_resists = without_resistance(group.bodies[0]);
+            let Group { bodies, ranges, together, velocities } = group;
+            for (member, range) in members.iter().zip(&*ranges) {
                 let growth = member.kept.as_ref().map_or(0.0, |kept| kept.growth);
                 member.bordered.side(&member.rates[member.slots.velocities()], growth, &mut side[range.clone()]);
             }
-            let nothing_resists = without_resistance(group.bodies[0]);
-            let Group { bodies, ranges, together } = group;
             let mut factors = factors(together, instant, bodies, members).ok_or(nothing_resists)?;
             factors.solve(side).ok_or(nothing_resists)?;
-            for (member, range) in members.iter().zip(ranges) {
-                member.move_at(instant, &side[range.clone()])?;
+            velocities.clone_from(side);
+            for (member, range) in members.iter().zip(&*ranges) {
+                member.move_at(instant, &velocities[range.clone()])?;
             }
         }
-        instant.find_felt_pairs()
+        instant.find_felt_pairs()?;
+        let mut refined = false;
+        for group in groups.iter_mut().filter(|group| group.together.is_some()) {
+            group.refine(instant, scratch, side)?;
+            refined = true;
+        }
+        if refined { instant.find_felt_pairs() } else { Ok(()) }
     }
 
     /// Finds which bodies feel one another's velocities; what was found before stays if it is the same.
@@ -215,7 +228,40 @@ impl Group {
         let own =
             |(one, other): &(usize, usize)| Some((places.binary_search(one).ok()?, places.binary_search(other).ok()?));
         let together = (places.len() > 1).then(|| Together::new(&ranges, links.pairs.iter().filter_map(own)));
-        Self { bodies: places.iter().map(|place| links.bodies[*place]).collect(), ranges, together }
+        let bodies = places.iter().map(|place| links.bodies[*place]).collect();
+        Self { bodies, ranges, together, velocities: Vec::new() }
+    }
+
+    /// Solves once more for what the loads at the velocities that were found leave: what two bodies do to each other is
+    /// opposite there to the last digit, however stiff it is beside the fluid, as the sums of a factorization are not.
+    fn refine(
+        &mut self,
+        instant: &mut Instant,
+        scratch: &mut Scratch,
+        side: &mut Vec<f64>,
+    ) -> Result<(), Inadmissible> {
+        self.begin(side);
+        let Self { bodies, ranges, together, velocities } = self;
+        let Some(together) = together else { return Ok(()) };
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        for (body, range) in bodies.iter().zip(&*ranges) {
+            let at = instant.at(*body);
+            let slots = Slots::with_inertia(at.body, 0);
+            let mut rates = [0.0; NUMBERS];
+            body_rates(&at, &slots, scratch, &mut rates)?;
+            let left = slots.velocities().zip(&mut side[range.clone()]);
+            left.for_each(|(rate, out)| *out = -rates[rate]);
+        }
+        together.factorized().solve(side).ok_or_else(|| without_resistance(bodies[0]))?;
+        for (body, range) in bodies.iter().zip(&*ranges) {
+            let slots = Slots::with_inertia(instant.at(*body).body, 0);
+            for place in range.start..range.start + slots.velocities().len() {
+                velocities[place] += side[place];
+                (change, largest) = (change.max(side[place].abs()), largest.max(velocities[place].abs()));
+            }
+            move_at(instant, *body, &slots, &velocities[range.clone()])?;
+        }
+        if change <= REFINED * largest { Ok(()) } else { Err(without_resistance(bodies[0])) }
     }
 
     /// Begins a right-hand side.
@@ -257,12 +303,16 @@ impl Member {
 
     /// Gives the body these velocities.
     fn move_at(&self, instant: &mut Instant, velocities: &[f64]) -> Result<(), Inadmissible> {
-        let slots = &self.slots;
-        let own = *instant.model().slots(self.index);
-        let mut numbers = [0.0; NUMBERS];
-        numbers[slots.places()].copy_from_slice(&instant.state()[own.places()]);
-        numbers[slots.extra()].copy_from_slice(&instant.state()[own.extra()]);
-        numbers[slots.velocities()].copy_from_slice(&velocities[..slots.velocities().len()]);
-        instant.set_motion(self.index, slots, &numbers)
+        move_at(instant, self.index, &self.slots, velocities)
     }
+}
+
+/// Gives a body velocities, which stand as with inertia.
+fn move_at(instant: &mut Instant, body: usize, slots: &Slots, velocities: &[f64]) -> Result<(), Inadmissible> {
+    let own = *instant.model().slots(body);
+    let mut numbers = [0.0; NUMBERS];
+    numbers[slots.places()].copy_from_slice(&instant.state()[own.places()]);
+    numbers[slots.extra()].copy_from_slice(&instant.state()[own.extra()]);
+    numbers[slots.velocities()].copy_from_slice(&velocities[..slots.velocities().len()]);
+    instant.set_motion(body, slots, &numbers)
 }

@@ -94,9 +94,6 @@ impl Balances {
     ) -> Result<(), Inadmissible> {
         let Self { groups, members, side, influences, .. } = self;
         for group in groups {
-            if group.bodies.iter().all(|body| blocks.block(*body, *body).is_none()) {
-                continue;
-            }
             give_back(members, scratch);
             for body in &group.bodies {
                 members.push(Member::at(&instant.at(*body), scratch)?);
@@ -104,12 +101,13 @@ impl Balances {
             influences.find(instant, group);
             group.begin(side);
             let nothing_resists = without_resistance(group.bodies[0]);
-            let Group { bodies, ranges, together } = group;
+            let Group { bodies, ranges, together, .. } = group;
             let mut factors = factors(together, instant, bodies, members).ok_or(nothing_resists)?;
             for source in &influences.sources {
                 let slots = Slots::of(&instant.model().bodies[*source], 0);
+                let felt = influences.own_of(*source);
                 for column in slots.block() {
-                    let mut changes = Changes { members, ranges, side, influences };
+                    let mut changes = Changes { members, ranges, side, felt, others: &influences.others };
                     changes.find(instant, &mut factors, (*source, column)).ok_or(nothing_resists)?;
                     changes.add_to(blocks, (*source, column));
                 }
@@ -128,6 +126,8 @@ impl Influences {
                 self.own.push(Influence { on: *body, of, coupling: *coupling, lower: *lower, lift: *lift });
             });
         }
+        // Those of each body together; the sort keeps the order in which they are summed.
+        self.own.sort_by_key(|influence| influence.of);
         self.others.clear();
         for body in &self.receivers {
             add_interactions(&instant.at(*body), |of, coupling, lower, lift| {
@@ -136,6 +136,12 @@ impl Influences {
                 }
             });
         }
+    }
+
+    /// What the bodies of the group feel of one body.
+    fn own_of(&self, source: usize) -> &[Influence] {
+        let first = self.own.partition_point(|influence| influence.of < source);
+        &self.own[first..self.own.partition_point(|influence| influence.of <= source)]
     }
 
     /// Finds who acts on a group, and who feels its velocities.
@@ -160,7 +166,9 @@ struct Changes<'a> {
     members: &'a [Member],
     ranges: &'a [std::ops::Range<usize>],
     side: &'a mut [f64],
-    influences: &'a Influences,
+    /// What the bodies of the group feel of the one that changes.
+    felt: &'a [Influence],
+    others: &'a [Influence],
 }
 
 impl Changes<'_> {
@@ -187,8 +195,8 @@ impl Changes<'_> {
                     growth = grown;
                 }
             }
-            let felt = |influence: &&Influence| influence.on == member.index && influence.of == source;
-            for Influence { coupling, lower, lift, .. } in self.influences.own.iter().filter(felt) {
+            let own = self.felt.iter().filter(|influence| influence.on == member.index);
+            for Influence { coupling, lower, lift, .. } in own {
                 let Some(change) = coupling.along(lower, lift, column) else { continue };
                 accelerations.iter_mut().zip(change.iter()).for_each(|(sum, change)| *sum += change);
             }
@@ -215,7 +223,7 @@ impl Changes<'_> {
                 }
             }
         }
-        for Influence { on, of, coupling, lower, lift } in &self.influences.others {
+        for Influence { on, of, coupling, lower, lift } in self.others {
             let Some(block) = blocks.block(*on, source) else { continue };
             let Some(place) = self.members.iter().position(|member| member.index == *of) else { continue };
             let velocities = self.members[place].slots.velocities().len();
