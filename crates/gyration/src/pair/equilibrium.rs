@@ -8,58 +8,15 @@
 //! Where both are rounding the search ends: plane and forces are carried there in first order, and derivatives alone
 //! need a look at the plane itself.
 
-use super::Vec4;
 use super::expansion::{Expansion, Step};
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::gjk::{guessed, separate};
 use super::laws::PairLaws;
-use super::plane::{Guess, Plane};
+use super::placed::Placed;
+use super::plane::Guess;
 use super::side::Half;
 use crate::surface::Moments;
-use crate::tensor::Vec3;
-
-/// The plane in balance, and what is exchanged there.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Placed {
-    pub plane: Plane,
-    /// Two directions across n.
-    pub tangents: [Vec3; 2],
-    /// U [J].
-    pub energy: f64,
-    /// a.
-    pub first: [Vec4; 2],
-    /// λ.
-    pub weights: [f64; 2],
-    /// δ log χ′ by δ log U.
-    pub switching: f64,
-}
-
-/// The switching function, four times differentiable: χ(U) = U (1 − U_c/U)₊⁵ in the place of U.
-///
-///   χ′ = (1 − x)⁴ (1 + 4x),   χ″ = 20 x² (1 − x)³/U,   x = U_c/U
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Switch {
-    /// χ/U.
-    pub value: f64,
-    /// χ′.
-    pub slope: f64,
-    /// δ log χ′ by δ log U.
-    pub bend: f64,
-}
-
-impl Switch {
-    /// At an energy, given that at which the pair begins [J].
-    pub fn at(threshold: f64, energy: f64) -> Self {
-        let part = (threshold / energy).min(1.0);
-        let left = 1.0 - part;
-        Self {
-            value: left.powi(5),
-            slope: left.powi(4) * (1.0 + 4.0 * part),
-            bend: if left > 0.0 { 20.0 * part * part / (left * (1.0 + 4.0 * part)) } else { 0.0 },
-        }
-    }
-}
 
 /// A Newton decrement that is rounding: the plane is known to fifteen digits of what its forces feel.
 const CONVERGED: f64 = 3e-15;
@@ -175,20 +132,5 @@ impl Found {
     pub fn confirmed(self, laws: &PairLaws, halves: [&Half; 2], room: &mut [Moments]) -> Expansion {
         let about = |step: &Step| Expansion::about(laws, halves, self.expansion.moved(1.0, step), room).ok();
         self.left.as_ref().and_then(about).unwrap_or(self.expansion)
-    }
-}
-
-impl Placed {
-    /// Lets the pair begin at an energy U_c [J].
-    pub fn switch(&mut self, threshold: f64) {
-        let switch = Switch::at(threshold, self.energy);
-        self.energy *= switch.value;
-        self.weights = self.weights.map(|weight| switch.slope * weight);
-        self.switching = switch.bend;
-    }
-
-    /// Whether they do nothing to each other.
-    pub fn is_out_of_reach(&self) -> bool {
-        self.weights == [0.0; 2]
     }
 }

@@ -9,9 +9,9 @@
 //!
 //! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
 
-use super::equilibrium::Placed;
 use super::fault::PairFault;
 use super::laws::{PairLaws, raised};
+use super::placed::Placed;
 use super::plane::Plane;
 use super::side::{Half, Potential};
 use super::{Mat34, Vec4};

@@ -14,9 +14,9 @@
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 
-use super::equilibrium::Placed;
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};
+use super::placed::Placed;
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::LawKind;

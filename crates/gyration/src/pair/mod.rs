@@ -25,6 +25,7 @@
 //! | `plane`       | a plane, and where it may be                                    |
 //! | `expansion`   | log U about a plane, to second order                            |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
+//! | `placed`      | the plane in balance, and where its force begins                 |
 //! | `exchange`    | loads, derivatives and slab, as they are told                   |
 //! | `balls`       | the plane of two balls, their loads and derivatives             |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
@@ -46,6 +47,7 @@ mod loads;
 mod mediator;
 mod mediator_slopes;
 mod overlap;
+mod placed;
 mod plane;
 mod reach;
 mod side;

@@ -1,12 +1,13 @@
 //! A pair whose plane is found.
 
-use super::equilibrium::{Placed, search};
+use super::equilibrium::search;
 use super::exchange::PairGap;
 use super::expansion::Expansion;
 use super::fault::PairFault;
 use super::form::PairForm;
 use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares};
+use super::placed::Placed;
 use super::plane::{Guess, Plane};
 use super::side::{Half, SIGNS, Side, columns};
 use super::{Mat34, Vec4};
