@@ -1,6 +1,6 @@
 //! What acts on a body: every load there is, and the entries of the ledger that it brings.
 //!
-//! Rates, Jacobian and diagnostics go through [`Load::try_each`] and know no other list. A further load is a file in
+//! Rates, Jacobian and diagnostics go through `Load::try_each` and know no other list. A further load is a file in
 //! `load` with its physics and a variant here; the compiler then names what else it must answer (`dynamics::loads`).
 
 use crate::body::Body;

@@ -2,17 +2,18 @@
 //!
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
-use crate::acting::{Interacting, Load, PAIR_ENERGY, PairAt, pair_works};
-use crate::body::{Body, Slots, Solid};
-use crate::contact::{AreaMeasure, Contact};
+mod chains;
+mod ledger;
+
+use crate::acting::{Interacting, Load, PairAt};
+use crate::body::{Body, Slots};
+use crate::contact::Contact;
 use crate::fluid::Fluid;
 use crate::ledger::{Energy, Work};
 use crate::load::{Applied, Interactions, Spring, SpringEnd};
-use crate::neighbours::{BodyPair, Pair, PairRule, PairRules};
-use crate::pair::cutoff;
+use crate::neighbours::{Pair, PairRule, PairRules};
 use crate::support::Support;
 use crate::tensor::Vec3;
-use std::convert::Infallible;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -243,54 +244,6 @@ impl Model {
         self.springs.of(body)
     }
 
-    /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.
-    pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.joined_by_springs().chain(self.rules.all().iter().flat_map(PairRule::chain))
-    }
-
-    /// The same of those that act on one another however far they are: through springs, rules without a reach, and
-    /// bodies that deform.
-    pub fn endless_chain(&self) -> impl Iterator<Item = [usize; 2]> {
-        let deforms = |body: usize| self.bodies[body].affine().is_some();
-        let rules = self.rules.all().iter().flat_map(move |rule| {
-            let is_endless = move |pair: &[usize; 2]| rule.reach.is_none() || pair.iter().any(|body| deforms(*body));
-            // Beside one that deforms each other one of its set needs a single partner.
-            let of_set = move |own: usize| {
-                let deforming = rule.bodies[own].iter().copied().filter(move |body| deforms(*body));
-                deforming.enumerate().flat_map(move |(k, body)| {
-                    let partners = rule.bodies[1 - own].iter().map(move |other| [body, *other]);
-                    partners.filter(|[one, other]| one != other).take(if k == 0 { usize::MAX } else { 1 })
-                })
-            };
-            rule.chain().filter(is_endless).chain(of_set(0)).chain(of_set(1))
-        });
-        self.joined_by_springs().chain(rules)
-    }
-
-    /// Whether there are bodies that act on one another within a distance only.
-    pub fn has_cutoffs(&self) -> bool {
-        let is_rigid = |body: &&usize| self.bodies[**body].affine().is_none();
-        self.rules.all().iter().filter(|rule| rule.reach.is_some()).any(|rule| {
-            let [one, other] = [0, 1].map(|set| rule.bodies[set].iter().filter(is_rigid).take(2));
-            one.flat_map(|one| other.clone().map(move |other| (one, other))).any(|(one, other)| one != other)
-        })
-    }
-
-    /// The distance of the centres from which on two bodies do nothing to each other by a rule [m]; none if there is
-    /// none, as where one of them deforms.
-    pub fn cutoff(&self, pair: &BodyPair) -> Option<f64> {
-        let bodies = pair.bodies.map(|body| &self.bodies[body]);
-        if bodies.iter().any(|body| body.affine().is_some()) {
-            return None;
-        }
-        let solids = bodies.map(|body| &*body.solid);
-        let of_parts = |parts: [usize; 2]| {
-            let reach = self.rules.all()[pair.rule].reach_between(solids, parts)?;
-            Some(cutoff(reach, [0, 1].map(|end| solids[end].part_radius(parts[end]))))
-        };
-        Solid::parts_of(solids).filter_map(of_parts).reduce(f64::max)
-    }
-
     /// Whether a body has a contact, with a support or another body.
     pub fn has_contact(&self, body: usize) -> bool {
         self.contacts.of(body).next().is_some() || self.meets_bodies(body)
@@ -361,63 +314,6 @@ impl Model {
     /// How many numbers the state has.
     pub fn dimension(&self) -> usize {
         self.blocks.last().map_or(0, |block| block.end)
-    }
-
-    /// The works that the ledger integrates, in the order of its columns.
-    pub fn works(&self) -> &[Work] {
-        &self.works
-    }
-
-    /// Whether repulsion and adhesion stand among the works, also those of rigid bodies: some body has no potential.
-    pub(crate) fn central_laws_work(&self) -> bool {
-        self.works.iter().any(|work| matches!(work, Work::Repulsion | Work::Adhesion))
-    }
-
-    /// The energies that the ledger has, in the order of its columns.
-    pub fn energies(&self) -> &[Energy] {
-        &self.energies
-    }
-
-    /// Decides which entries the ledger has: those of kinds and loads, repulsion and adhesion either as an energy or as
-    /// works.
-    fn with_ledger(mut self) -> Self {
-        self.enter_ledger();
-        self
-    }
-
-    /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
-    fn find_potential(&self) -> bool {
-        let deforms = |body: usize| self.bodies[body].affine().is_some();
-        let contacts = self.contacts().iter().filter(|contact| deforms(contact.body)).all(|contact| {
-            let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
-            contact.law_set.measure != AreaMeasure::DeformedArea || !acts
-        });
-        let is_rigid = |rule: &PairRule| !rule.chain().flatten().any(deforms);
-        let rules = self.rules.all();
-        contacts && rules.iter().all(|rule| rule.laws.measure != AreaMeasure::DeformedArea || is_rigid(rule))
-    }
-
-    fn enter_ledger(&mut self) {
-        let potential = self.has_potential;
-        let mut loads: Vec<Load> = Vec::new();
-        for index in 0..self.bodies.len() {
-            let Ok(()) = self.try_each_load(index, |load| {
-                loads.push(load);
-                Ok::<(), Infallible>(())
-            });
-        }
-        let of_rules = self.rules.all().iter().flat_map(|rule| pair_works(&rule.laws));
-        let works = loads.iter().flat_map(|load| load.works(&self.supports)).chain(of_rules);
-        let works = works.filter(|work| !(potential && matches!(work, Work::Repulsion | Work::Adhesion)));
-        let works: Vec<Work> = works.chain(self.bodies.iter().flat_map(|body| body.kind.works())).collect();
-        let of_rules = (!self.rules.is_empty()).then_some(PAIR_ENERGY);
-        let energies = loads.iter().filter_map(Load::energy).chain(of_rules);
-        let energies = energies.filter(|energy| potential || *energy != Energy::Contact);
-        let elastic = self.bodies.iter().filter_map(|body| body.kind.energy());
-        let energies: Vec<Energy> =
-            [Energy::Kinetic, Energy::Gravity].into_iter().chain(energies).chain(elastic).collect();
-        self.works = Work::ALL.into_iter().filter(|work| works.contains(work)).collect();
-        self.energies = Energy::ALL.into_iter().filter(|energy| energies.contains(energy)).collect();
     }
 }
 
