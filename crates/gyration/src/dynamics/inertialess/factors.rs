@@ -119,7 +119,7 @@ impl Together {
         block.neg_mut();
     }
 
-    /// Subtracts from an entry of the block of two bodies.
+    /// The block of two bodies, to be subtracted from; none where neither feels the other.
     pub fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>> {
         self.matrix.block_mut(row, column)
     }
