@@ -44,7 +44,7 @@ fn a_contraction_that_goes_on_is_held_and_said_to_be() {
              drive = {{ constant = {{ value = {} }} }}\n",
             diagonal([drive, 0.0, 0.0])
         ));
-        survey::modes(&scene)[0].rest_state.as_ref().unwrap().left_out.clone()
+        survey::modes(&scene).bodies[0].rest_state.as_ref().unwrap().place.left_out.clone()
     };
     let said = told(-100.0).unwrap();
     // V_G = Q/μ_γ.

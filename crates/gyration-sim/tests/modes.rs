@@ -450,7 +450,7 @@ fn motions_whose_rates_are_thirty_orders_apart_have_a_direction() {
         let scene = gyration_scene::Scene::open("elastic-bounce-spinning", &overrides).unwrap();
         let (_, modes) = survey(&(scene.built().model.clone(), scene.built().state.clone()));
         for mode in &modes {
-            let shape = &mode.shape;
+            let shape = &mode.shapes[0];
             let entries = shape.translation.iter().chain(shape.gradient.iter());
             assert!(entries.clone().all(|entry| entry.is_finite()), "{d0}: {mode:?}");
             assert!(entries.map(|entry| entry * entry).sum::<f64>() > 0.0, "{d0}: {mode:?}");

@@ -1,4 +1,4 @@
-//! `gyration modes`: the rest state of each body, and the small motions about it.
+//! `gyration modes`: the rest state of each body, or of bodies together, and the small motions about it.
 
 use crate::arguments::Modes;
 use crate::error::{CliError, code};
@@ -8,13 +8,15 @@ use crate::waiting::waiting;
 use gyration::body::Body;
 use gyration_scene::Scene;
 use gyration_sim::format::significant;
-use gyration_sim::survey::{self, BodyModes, ModeSurvey, ShapeSurvey, write_rest};
+use gyration_sim::survey::{self, BodyModes, ModeSurvey, Named, SceneModes, ShapeSurvey, SystemModes, write_rest};
 use std::fmt::Write as _;
 
 /// Columns of a terminal that the tables fit in.
 const WIDTH: usize = 100;
 /// Entries of shapes below this are printed as zero.
 const LEAST_SEEN: f64 = 5e-4;
+/// Of so many bodies of a system at most the shapes are printed.
+const MOST_SHOWN: usize = 12;
 
 /// Prints the modes of every body.
 pub fn execute(arguments: &Modes) -> Result<u8, CliError> {
@@ -30,10 +32,15 @@ pub fn execute(arguments: &Modes) -> Result<u8, CliError> {
 
 fn in_words(scene: &Scene) -> String {
     let mut text = format!("{}\n{}", scene.title(), assumptions(scene));
-    let modes = survey::modes(scene);
-    let mut bodies = scene.built().model.bodies.iter().zip(&modes);
+    let SceneModes { bodies, systems } = survey::modes(scene);
+    let all = &scene.built().model.bodies;
+    let alone = all.iter().zip(&bodies).filter(|(_, modes)| modes.system.is_none());
     // Writing to a string does not fail.
-    let _ = bodies.try_for_each(|(body, modes)| write_body(&mut text, body, modes));
+    let _ = alone.map(|(body, modes)| write_body(&mut text, body, modes)).collect::<std::fmt::Result>();
+    let _ = systems.iter().enumerate().try_for_each(|(number, system)| {
+        let members = bodies.iter().zip(all).filter(|(body, _)| body.system == Some(number));
+        write_system(&mut text, number, system, &members.map(|(_, body)| &**body).collect::<Vec<_>>())
+    });
     text
 }
 
@@ -42,7 +49,7 @@ fn assumptions(scene: &Scene) -> String {
     let model = &scene.built().model;
     let moves = model.supports.iter().any(|support| support.motion != gyration::support::SupportMotion::Fixed);
     let moving = if moves { ";\nsupports that move are held where they are at t = 0" } else { "" };
-    format!("Small motions about the rest state that each body gets to from its start{moving}\n")
+    format!("Small motions about the rest state that bodies get to from their start{moving}\n")
 }
 
 /// A body under its name.
@@ -55,15 +62,64 @@ fn write_body(text: &mut String, body: &Body, modes: &BodyModes) -> std::fmt::Re
         lines.iter().try_for_each(|line| writeln!(text, "  {line}"))?;
     }
     if let Some(rest) = &modes.rest_state {
-        write_rest(text, rest)?;
+        write_rest(text, &rest.place)?;
         write_table(text, &rest.modes)?;
         write_shapes(text, &rest.modes, 0.5 * body.size)?;
     }
     Ok(())
 }
 
+/// Bodies that act on one another, under the number of their system.
+fn write_system(text: &mut String, number: usize, system: &SystemModes, bodies: &[&Body]) -> std::fmt::Result {
+    writeln!(text, "\nsystem {number}: {}", wrapped(&system.bodies.join(", "), WIDTH - 12).join("\n  "))?;
+    if let Some(reason) = &system.no_rest_state_because {
+        let lines = wrapped(&format!("no rest state: {reason}"), WIDTH - 2);
+        lines.iter().try_for_each(|line| writeln!(text, "  {line}"))?;
+    }
+    let Some(rest) = &system.rest_state else { return Ok(()) };
+    for (name, place) in &rest.bodies.0 {
+        writeln!(text, "{name}")?;
+        write_rest(text, place)?;
+    }
+    write_table(text, &rest.modes)?;
+    if bodies.len() > MOST_SHOWN {
+        return writeln!(text, "\nThe shapes of {} bodies stand in what --json prints.", bodies.len());
+    }
+    write_system_shapes(text, &rest.modes, bodies)
+}
+
+/// The shapes of a system: a line a mode and body, where it moves.
+fn write_system_shapes(
+    text: &mut String,
+    modes: &[ModeSurvey<Named<ShapeSurvey>>],
+    bodies: &[&Body],
+) -> std::fmt::Result {
+    writeln!(text, "\nShapes; of the points at half the size of each body from its centre the fastest moves by 1,")?;
+    writeln!(text, "and δP is times that length.")?;
+    let width = bodies.iter().map(|body| body.name.chars().count()).max().unwrap_or(0);
+    writeln!(text, "mode  {:width$}{}", "", shape_heading())?;
+    for (index, mode) in modes.iter().enumerate() {
+        let ahead = mode.quadrature.iter().flat_map(|shapes| &shapes.0).map(|shape| ("+i".to_owned(), shape));
+        let lines = mode.shape.0.iter().map(|shape| ((index + 1).to_string(), shape)).chain(ahead);
+        for (place, (number, (name, shape))) in lines.enumerate() {
+            let radius = 0.5 * bodies[place % bodies.len()].size;
+            if is_seen(shape, radius) {
+                write_shape(text, &format!("{number:>4}  {name:<width$}"), shape, radius)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The names of the twelve numbers of a shape.
+fn shape_heading() -> String {
+    let cells = |cells: &[&str]| cells.iter().map(|cell| format!("{cell:>7}")).collect::<String>();
+    let matrix = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+    format!("{}  {}", cells(&["x", "y", "z"]), cells(&matrix))
+}
+
 /// A line a mode: frequency, decay, damping ratio, what it is.
-fn write_table(text: &mut String, modes: &[ModeSurvey]) -> std::fmt::Result {
+fn write_table<S>(text: &mut String, modes: &[ModeSurvey<S>]) -> std::fmt::Result {
     let line = |cells: [&str; 5]| {
         format!("{:>4}  {:>10}  {:>10}  {:>22}  {:>9}  ", cells[0], cells[1], cells[2], cells[3], cells[4])
     };
@@ -87,7 +143,7 @@ fn write_table(text: &mut String, modes: &[ModeSurvey]) -> std::fmt::Result {
 }
 
 /// One rate of a motion that oscillates, or what is not zero of them.
-fn decay(mode: &ModeSurvey) -> String {
+fn decay<S>(mode: &ModeSurvey<S>) -> String {
     let rates: Vec<String> = mode.decay_rates.iter().map(|rate| significant(*rate, 5)).collect();
     match (mode.motion, &mode.decay_rates[..]) {
         ("oscillates", _) => rates[0].clone(),
@@ -123,14 +179,12 @@ fn is_seen(shape: &ShapeSurvey, radius: f64) -> bool {
 /// The shapes: a line of twelve numbers a mode, and another for a part out of step.
 fn write_shapes(text: &mut String, modes: &[ModeSurvey], radius: f64) -> std::fmt::Result {
     writeln!(text, "\nShapes; of the points at {} m from the centre the fastest moves by 1.", significant(radius, 5))?;
-    let matrix = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
-    let cells = |cells: &[&str]| cells.iter().map(|cell| format!("{cell:>7}")).collect::<String>();
     writeln!(text, "mode  δp₀{:>18}  δP · {} m", "", significant(radius, 5))?;
-    writeln!(text, "    {}  {}", cells(&["x", "y", "z"]), cells(&matrix))?;
+    writeln!(text, "    {}", shape_heading())?;
     for (index, mode) in modes.iter().enumerate() {
-        write_shape(text, &(index + 1).to_string(), &mode.shape, radius)?;
+        write_shape(text, &format!("{:>4}", index + 1), &mode.shape, radius)?;
         if let Some(quadrature) = mode.quadrature.as_ref().filter(|shape| is_seen(shape, radius)) {
-            write_shape(text, "+i", quadrature, radius)?;
+            write_shape(text, "  +i", quadrature, radius)?;
         }
     }
     Ok(())
@@ -140,5 +194,5 @@ fn write_shape(text: &mut String, number: &str, shape: &ShapeSurvey, radius: f64
     let entry = |value: &f64| if value.abs() < LEAST_SEEN { format!("{:>7}", 0) } else { format!("{value:>7.3}") };
     let center: String = shape.translation.iter().map(entry).collect();
     let gradient: String = shape.gradient.iter().flatten().map(|value| entry(&(value * radius))).collect();
-    writeln!(text, "{number:>4}{center}  {gradient}")
+    writeln!(text, "{number}{center}  {gradient}")
 }

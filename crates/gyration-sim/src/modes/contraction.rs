@@ -6,10 +6,10 @@
 //! follows det P (then the second term stands), less the turns where V_G is symmetric.
 
 use super::coordinates::Coordinates;
-use super::frozen::FrozenBody;
-use super::spectrum::FirstOrder;
+use super::frozen::FrozenSystem;
+use super::system::SystemCoordinates;
 use gyration::Inadmissible;
-use gyration::body::matrix;
+use gyration::body::{Body, Slots, matrix};
 use gyration::contractile::Spin;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
@@ -45,41 +45,53 @@ pub(super) struct ContractionCoordinates {
 }
 
 impl ContractionCoordinates {
-    /// Of a body whose contraction moves.
-    pub fn at(frozen: &FrozenBody, block: &[f64]) -> Option<Self> {
-        let law = frozen.body().contraction().filter(|law| law.is_driven())?;
-        let contraction = matrix(&block[frozen.contraction()]);
+    /// Of a body whose contraction moves, at its own numbers.
+    pub fn at(body: &Body, block: &[f64]) -> Option<Self> {
+        let law = body.contraction().filter(|law| law.is_driven())?;
+        let slots = Slots::of(body, 0);
+        let attitude = slots.attitude();
+        let contraction = matrix(&block[slots.extra()]);
         let inverse = contraction.try_inverse()?;
         let keeps_volume = law.kept_volume.is_some();
-        let incompressible = frozen.body().affine().is_some_and(|affine| affine.interior.is_incompressible());
+        let incompressible = body.affine().is_some_and(|affine| affine.interior.is_incompressible());
         let breath = (!keeps_volume && !incompressible).then(|| Mat3::identity() / 3.0_f64.sqrt());
         let turns = if law.spin == Spin::Full { turns().to_vec() } else { Vec::new() };
-        let mut follows = DMatrix::zeros(9, frozen.attitude().end);
+        let mut follows = DMatrix::zeros(9, attitude.end);
         if incompressible && !keeps_volume {
-            let slope = matrix(&block[frozen.attitude()]).try_inverse()?.transpose() / 3.0;
+            let slope = matrix(&block[attitude.clone()]).try_inverse()?.transpose() / 3.0;
             let change = DVector::from_column_slice(contraction.as_slice())
                 * DVector::from_column_slice(slope.as_slice()).transpose();
-            follows.columns_mut(frozen.attitude().start, 9).copy_from(&change);
+            follows.columns_mut(attitude.start, 9).copy_from(&change);
         }
         let kinds = [false; 5].into_iter().chain(breath.map(|_| false)).chain(turns.iter().map(|_| true)).collect();
         let strains = shears_and_stretches().into_iter().chain(breath).chain(turns).collect();
         Some(Self { strains, turns: kinds, follows, contraction, inverse })
     }
 
+    /// How many γ there are.
+    pub fn count(&self) -> usize {
+        self.strains.len()
+    }
+
+    /// Which of them only turn the relaxed shape.
+    pub fn turns(&self) -> &[bool] {
+        &self.turns
+    }
+
     /// ∂(numbers of G)/∂γ.
-    fn columns(&self) -> DMatrix<f64> {
+    pub fn columns(&self) -> DMatrix<f64> {
         let columns = self.strains.iter().map(|strain| (strain * self.contraction).as_slice().to_vec());
         DMatrix::from_vec(9, self.strains.len(), columns.flatten().collect())
     }
 
     /// γ̇ by the numbers of Ġ: A_k·(Ġ G⁻¹).
-    fn rows(&self) -> DMatrix<f64> {
+    pub fn rows(&self) -> DMatrix<f64> {
         let rows = self.strains.iter().map(|strain| strain * self.inverse.transpose());
         DMatrix::from_vec(9, self.strains.len(), rows.flat_map(|row| row.as_slice().to_vec()).collect()).transpose()
     }
 
     /// γ̇ of a V_G [1/s].
-    fn along(&self, velocity: &Mat3) -> DVector<f64> {
+    pub fn along(&self, velocity: &Mat3) -> DVector<f64> {
         DVector::from_iterator(self.strains.len(), self.strains.iter().map(|strain| strain.dot(velocity)))
     }
 
@@ -88,57 +100,39 @@ impl ContractionCoordinates {
         self.strains.iter().zip(along.iter()).map(|(strain, along)| strain * *along).sum()
     }
 
-    /// The matrices, from the Jacobian and the rates of the block, and K with what follows det P.
-    pub fn first_order(
-        &self,
-        (places, velocity): (&Coordinates, &Mat3),
-        slopes: &DMatrix<f64>,
-    ) -> (DMatrix<f64>, FirstOrder) {
-        let (before, moving) = (places.places().nrows(), places.rates().nrows());
-        let of = |row: usize, rows: usize, column: usize, columns: usize| slopes.view((row, column), (rows, columns));
-        let (accelerations, contraction) = ((before, moving), (before + moving, 9));
-        let (columns, rows) = (self.columns(), self.rows());
-        let follows = &self.follows * places.places();
-        // δV_G = (δĠ − V_G δG) G⁻¹.
-        let carried = DMatrix::from_column_slice(3, 3, velocity.as_slice());
-        let carried = DMatrix::<f64>::identity(3, 3).kronecker(&carried);
-        let own = of(contraction.0, 9, contraction.0, 9) - carried;
-        let pushed = places.weights() * of(accelerations.0, moving, contraction.0, 9);
-        let stiffness =
-            -(places.weights() * of(accelerations.0, moving, 0, before) * places.places()) - &pushed * &follows;
-        let first_order = FirstOrder {
-            forces: pushed * &columns,
-            by_place: &rows * (of(contraction.0, 9, 0, before) * places.places() + &own * follows),
-            by_rate: &rows * of(contraction.0, 9, accelerations.0, moving) * places.rates(),
-            own: rows * own * columns,
-            turns: self.turns.clone(),
-        };
-        (stiffness, first_order)
+    /// The change of the numbers of G with z: what follows det P.
+    pub fn follows(&self, places: &Coordinates) -> DMatrix<f64> {
+        &self.follows * places.places()
+    }
+
+    /// What δV_G = (δĠ − V_G δG) G⁻¹ takes off the derivative of Ġ by G.
+    pub fn carried(velocity: &Mat3) -> DMatrix<f64> {
+        DMatrix::<f64>::identity(3, 3).kronecker(&DMatrix::from_column_slice(3, 3, velocity.as_slice()))
     }
 
     /// Moves G of a block along z and γ.
-    fn advance(&self, block: &mut [f64], (places, z): (&Coordinates, &DVector<f64>), strains: &DVector<f64>) {
+    pub fn advance(&self, block: &mut [f64], (places, z): (&Coordinates, &DVector<f64>), strains: &DVector<f64>) {
         let change = self.columns() * strains + &self.follows * (places.places() * z);
         let at = block.len() - 9;
         block[at..].iter_mut().zip(change.iter()).for_each(|(number, change)| *number += change);
     }
 }
 
-/// The state next to a block in which body and contraction stand still.
+/// The state next to some numbers in which bodies and contractions stand still.
 ///
 ///   K z − B γ = r,   −D z − H γ = V_G
 ///
-/// by Newton's method; directions that nothing feels are left alone. None where the contraction goes on, or nobody
-/// waits any longer.
-pub(super) fn settled(frozen: &mut FrozenBody, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
-    let (mut block, mut last, mut largest) = (start, f64::INFINITY, 0.0);
+/// by Newton's method; directions that nothing feels are left alone. None where a contraction goes on, or nobody waits
+/// any longer.
+pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
+    let (mut numbers, mut last, mut largest) = (start, f64::INFINITY, 0.0);
     for _ in (0..MOST).take_while(|_| Interruption::due().is_none()) {
-        let Some(contraction) = ContractionCoordinates::at(frozen, &block) else { return Ok(None) };
-        let places = Coordinates::at(frozen.body(), &block);
-        let speed = frozen.contraction_velocity(&block)?;
-        let force = places.force(&frozen.accelerations(&block)?);
-        let velocity = contraction.along(&speed);
-        let (stiffness, first) = contraction.first_order((&places, &speed), &frozen.slopes(&block)?);
+        let coordinates = SystemCoordinates::at(frozen, &numbers);
+        let rates = frozen.rates(&numbers)?;
+        let force = coordinates.force(&rates);
+        let speeds = coordinates.contraction_velocities(frozen, &numbers, &rates);
+        let velocity = coordinates.along(&speeds);
+        let (stiffness, first) = coordinates.first_order(&speeds, &frozen.slopes(&numbers)?);
         let (size, own) = (force.len(), velocity.len());
         let mut system = DMatrix::zeros(size + own, size + own);
         system.view_mut((0, 0), (size, size)).copy_from(&stiffness);
@@ -148,13 +142,16 @@ pub(super) fn settled(frozen: &mut FrozenBody, start: Vec<f64>) -> Result<Option
         let right = DVector::from_iterator(size + own, force.iter().chain(velocity.iter()).copied());
         let Some(step) = least_squares(system, right, size, &mut largest) else { return Ok(None) };
         let (mut z, mut strains) = (step.rows(0, size).into_owned(), step.rows(size, own).into_owned());
-        let shape = places.shape(frozen.body(), &z);
-        let inverse = frozen.motion(&block).placement.gradient.try_inverse().unwrap_or_else(Mat3::identity);
-        let length = frozen.gaps(&block).into_iter().fold(frozen.body().size, f64::min);
-        let strain = (shape.translation.norm() / length).max((shape.gradient * inverse).norm()).max(strains.norm());
+        let gaps = frozen.gaps(&numbers);
+        let shapes = coordinates.shapes(frozen, &z);
+        let strain = shapes.iter().enumerate().map(|(body, shape)| {
+            let length = gaps[body].iter().copied().fold(frozen.bodies()[body].size, f64::min);
+            (shape.translation.norm() / length).max((shape.gradient * frozen.inverse(&numbers, body)).norm())
+        });
+        let strain = strain.fold(0.0, f64::max).max(strains.norm());
         if strain == 0.0 || (strain <= SMALL && strain > 0.5 * last) {
             let stands = velocity.norm() <= STILL * first.own.norm().max(first.by_rate.norm());
-            return Ok(stands.then_some(block));
+            return Ok(stands.then_some(numbers));
         }
         if !strain.is_finite() {
             return Ok(None);
@@ -164,15 +161,14 @@ pub(super) fn settled(frozen: &mut FrozenBody, start: Vec<f64>) -> Result<Option
         (z, strains) = (z * cut, strains * cut);
         let mut part = 1.0;
         let ahead = (0..HALVINGS).find_map(|_| {
-            let mut ahead = block.clone();
-            contraction.advance(&mut ahead, (&places, &(part * &z)), &(part * &strains));
-            places.advance(&mut ahead, &(part * &z));
+            let mut ahead = numbers.clone();
+            coordinates.advance(&mut ahead, &(part * &z), &(part * &strains));
             frozen.project(&mut ahead);
             part *= 0.5;
             frozen.rates(&ahead).is_ok().then_some(ahead)
         });
         let Some(ahead) = ahead else { return Ok(None) };
-        block = ahead;
+        numbers = ahead;
     }
     Ok(None)
 }

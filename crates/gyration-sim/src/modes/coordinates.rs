@@ -15,9 +15,6 @@ use gyration::state::BodyMotion;
 use gyration::tensor::{Mat3, Vec3, axial, cofactor, cross_matrix};
 use nalgebra::{DMatrix, DVector};
 
-/// A part in quadrature below this is rounding.
-const IN_STEP: f64 = 1e-6;
-
 /// Whether det G follows det P of an incompressible material: the law of contraction gives the pressure.
 fn takes_up_volume(contraction: &Contraction) -> bool {
     contraction.is_driven() && contraction.kept_volume.is_none()
@@ -65,10 +62,10 @@ impl Coordinates {
         &self.weights * DVector::from_column_slice(accelerations)
     }
 
-    /// K [1/s²] from the Jacobian of the rates.
-    pub fn stiffness(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        let (rows, columns) = (self.rates.nrows(), self.places.nrows());
-        -(&self.weights * slopes.view((columns, 0), (rows, columns)) * &self.places)
+    /// K [1/s²] along z of another body, or of this one, from the block of the Jacobian with these rates and its numbers.
+    pub fn stiffness(&self, by: &Self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        let (rows, above, columns) = (self.rates.nrows(), self.places.nrows(), by.places.nrows());
+        -(&self.weights * slopes.view((above, 0), (rows, columns)) * &by.places)
     }
 
     /// S.
@@ -86,10 +83,15 @@ impl Coordinates {
         &self.weights
     }
 
-    /// C [1/s] from the Jacobian of the rates.
-    pub fn resistance(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        let (size, at) = (self.rates.nrows(), self.places.nrows());
-        -(&self.weights * slopes.view((at, at), (size, size)) * &self.rates)
+    /// C [1/s] in the same way.
+    pub fn resistance(&self, by: &Self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        let [own, other] = [self, by].map(|at| (at.places.nrows(), at.rates.nrows()));
+        -(&self.weights * slopes.view((own.0, other.0), (own.1, other.1)) * &by.rates)
+    }
+
+    /// How many z there are.
+    pub fn count(&self) -> usize {
+        self.rates.ncols()
     }
 
     /// Moves the places of a block along z.
@@ -114,23 +116,6 @@ impl Coordinates {
         ModeShape { translation, gradient }
     }
 
-    /// The shape along z, scaled, with its leading entry positive, and the part in quadrature if there is one.
-    pub fn scaled_shape(
-        &self,
-        body: &Body,
-        real: &DVector<f64>,
-        imaginary: &DVector<f64>,
-    ) -> (ModeShape, Option<ModeShape>) {
-        let radius = 0.5 * body.size;
-        let shape = self.shape(body, real);
-        let most = shape.largest_displacement(radius);
-        // A contraction that moves no point has no shape.
-        let factor = if most > 0.0 { shape.leading(radius).signum() / most } else { 0.0 };
-        let out_of_step = imaginary.norm() > IN_STEP * real.norm();
-        let quadrature = out_of_step.then(|| self.shape(body, imaginary).times(factor));
-        (shape.times(factor), quadrature)
-    }
-
     /// Motions that have a name, as unit vectors of z: translations along the axes, turns about them, shears in the
     /// planes between them, stretches along them, a breath. Those that the body cannot make are zero.
     pub fn patterns(&self, body: &Body, gradient: &Mat3) -> Vec<DVector<f64>> {
@@ -147,7 +132,19 @@ impl Coordinates {
         motions.map(|(translation, spread)| self.pattern(body, &translation, &(spread * gradient))).collect()
     }
 
+    /// z of a translation along an axis [√kg]; zero of a body that is pinned.
+    pub fn translation(&self, body: &Body, axis: usize) -> DVector<f64> {
+        self.moved(body, &Vec3::ith(axis, 1.0), &Mat3::zeros())
+    }
+
     fn pattern(&self, body: &Body, translation: &Vec3, change: &Mat3) -> DVector<f64> {
+        let z = self.moved(body, translation, change);
+        let norm = z.norm();
+        if norm > 0.0 { z / norm } else { z }
+    }
+
+    /// z of δp₀ and δP, as far as the body can take it.
+    fn moved(&self, body: &Body, translation: &Vec3, change: &Mat3) -> DVector<f64> {
         let mut numbers = Vec::with_capacity(self.rates.nrows());
         if body.pin.is_none() {
             numbers.extend_from_slice(translation.as_slice());
@@ -160,9 +157,7 @@ impl Coordinates {
                 numbers.extend_from_slice(turn.as_slice());
             }
         }
-        let z = &self.weights * DVector::from_vec(numbers);
-        let norm = z.norm();
-        if norm > 0.0 { z / norm } else { z }
+        &self.weights * DVector::from_vec(numbers)
     }
 }
 

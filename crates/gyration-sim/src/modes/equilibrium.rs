@@ -9,9 +9,9 @@
 //! of their values, and the work over it by the trapezoidal rule is not negative.
 
 use super::canonical::{self, Basis};
-use super::coordinates::Coordinates;
-use super::frozen::FrozenBody;
+use super::frozen::FrozenSystem;
 use super::shape::ModeShape;
+use super::system::SystemCoordinates;
 use super::{NoRest, Rest};
 use gyration::body::BodyKind;
 use gyration::tensor::{Mat3, Vec3};
@@ -24,7 +24,7 @@ const MOST: usize = 1000;
 const MOST_EVALUATIONS: usize = 2000;
 /// Halvings of a step at most.
 const HALVINGS: usize = 60;
-/// The most that a step may strain or turn the body.
+/// The most that a step may strain or turn a body.
 const LARGEST_STRAIN: f64 = 0.3;
 /// The part of a gap, and of det P, that a step must leave.
 const LEAST_KEPT: f64 = 0.1;
@@ -38,35 +38,36 @@ const LEVEL: f64 = 1e-12;
 const AWAY: f64 = 1e6;
 const FLAT: f64 = 1e4;
 
-/// Finds the rest state.
-pub(super) fn find(frozen: &mut FrozenBody) -> Result<Rest, NoRest> {
-    frozen.accelerations(&frozen.start.clone())?;
+/// Finds the rest state: the numbers there.
+pub(super) fn find(frozen: &mut FrozenSystem) -> Result<Vec<f64>, NoRest> {
+    frozen.rates(&frozen.start.clone())?;
     is_supported(frozen)?;
-    let mut search = Search { block: frozen.start.clone(), reach: 0.5 * frozen.body().size, last: f64::INFINITY };
+    let reach = frozen.bodies().iter().map(|body| 0.5 * body.size).collect();
+    let mut search = Search { numbers: frozen.start.clone(), reach, last: f64::INFINITY };
     for steps in 0..MOST {
         if frozen.evaluations() > MOST_EVALUATIONS || Interruption::due().is_some() {
-            return Err(not_found(frozen, &search.block, steps)?);
+            return Err(not_found(frozen, &search.numbers, steps)?);
         }
         let ended = search.step(frozen)?;
-        gone(frozen, &search.block)?;
+        gone(frozen, &search.numbers)?;
         if ended {
-            return Ok(rest_at(frozen, search.block));
+            return Ok(search.numbers);
         }
     }
-    Err(not_found(frozen, &search.block, MOST)?)
+    Err(not_found(frozen, &search.numbers, MOST)?)
 }
 
 /// A search that has not ended, and the acceleration where it stands.
-fn not_found(frozen: &mut FrozenBody, block: &[f64], steps: usize) -> Result<NoRest, NoRest> {
-    let left = frozen.accelerations(block)?;
-    let acceleration = left.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+fn not_found(frozen: &mut FrozenSystem, numbers: &[f64], steps: usize) -> Result<NoRest, NoRest> {
+    let rates = frozen.rates(numbers)?;
+    let left = (0..frozen.count()).flat_map(|body| &rates[frozen.slots(body).velocities()]);
+    let acceleration = left.fold(0.0, |most: f64, a| most.max(a.abs()));
     Ok(NoRest::NotFound { steps, acceleration })
 }
 
 /// Refuses what gravity moves on for ever: the laws push along the normals of supports alone.
-fn is_supported(frozen: &FrozenBody) -> Result<(), NoRest> {
-    let body = frozen.body();
-    if body.pin.is_some() || frozen.is_sprung() {
+fn is_supported(frozen: &FrozenSystem) -> Result<(), NoRest> {
+    if frozen.is_anchored() {
         return Ok(());
     }
     let normals = frozen.normals();
@@ -86,105 +87,135 @@ fn is_supported(frozen: &FrozenBody) -> Result<(), NoRest> {
     }
 }
 
-/// Refuses a body that has gone to infinity.
-fn gone(frozen: &FrozenBody, block: &[f64]) -> Result<(), NoRest> {
-    let (now, start) = (frozen.motion(block).placement, frozen.motion(&frozen.start).placement);
-    let distance = (now.position - start.position).norm();
-    if distance > AWAY * frozen.body().size {
-        return Err(NoRest::DrivenAway { distance });
-    }
-    let stretches = now.gradient.singular_values();
-    let (least, most) = (stretches.min(), stretches.max());
-    if most > FLAT || least * FLAT < 1.0 {
-        return Err(NoRest::Deforms { stretch: if most * least > 1.0 { most } else { least } });
+/// Refuses bodies that have gone to infinity.
+fn gone(frozen: &FrozenSystem, numbers: &[f64]) -> Result<(), NoRest> {
+    for (index, body) in frozen.bodies().iter().enumerate() {
+        let (now, start) = (frozen.motion(numbers, index).placement, frozen.motion(&frozen.start, index).placement);
+        let distance = (now.position - start.position).norm();
+        if distance > AWAY * body.size {
+            return Err(NoRest::DrivenAway { distance });
+        }
+        let stretches = now.gradient.singular_values();
+        let (least, most) = (stretches.min(), stretches.max());
+        if most > FLAT || least * FLAT < 1.0 {
+            return Err(NoRest::Deforms { stretch: if most * least > 1.0 { most } else { least } });
+        }
     }
     Ok(())
 }
 
-pub(super) fn rest_at(frozen: &mut FrozenBody, block: Vec<f64>) -> Rest {
-    let placement = frozen.motion(&block).placement;
-    let stretches = match frozen.body().kind {
-        BodyKind::Rigid(_) => Vec3::repeat(1.0),
-        BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-            let mut values: [f64; 3] = placement.gradient.singular_values().into();
-            values.sort_by(|a, b| b.total_cmp(a));
-            values.into()
-        }
+/// What a rest state is of each body.
+pub(super) fn rest_at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Vec<Rest> {
+    let gaps = frozen.gaps(numbers);
+    let rest = |(body, gaps): (usize, Vec<f64>)| {
+        let placement = frozen.motion(numbers, body).placement;
+        let stretches = match frozen.bodies()[body].kind {
+            BodyKind::Rigid(_) => Vec3::repeat(1.0),
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => {
+                let mut values: [f64; 3] = placement.gradient.singular_values().into();
+                values.sort_by(|a, b| b.total_cmp(a));
+                values.into()
+            }
+        };
+        let gap = gaps.into_iter().fold(f64::INFINITY, f64::min);
+        let pressure = frozen.pressure(numbers, body);
+        let block = numbers[frozen.slots(body).block()].to_vec();
+        Rest { placement, stretches, pressure, gap, contraction: None, block }
     };
-    let gap = frozen.gaps(&block).into_iter().fold(f64::INFINITY, f64::min);
-    Rest { placement, stretches, pressure: frozen.pressure(&block), gap, contraction: None, block }
+    gaps.into_iter().enumerate().map(rest).collect()
 }
 
 /// The balance at a configuration.
 struct Balance {
-    coordinates: Coordinates,
+    coordinates: SystemCoordinates,
     /// Forces along z.
     force: DVector<f64>,
     /// K.
     stiffness: DMatrix<f64>,
-    gaps: Vec<f64>,
+    /// The gaps of each body [m].
+    gaps: Vec<Vec<f64>>,
+    /// The lengths by which the ways of their centres are judged [m].
+    lengths: Vec<f64>,
+    /// P⁻¹ of each.
+    inverses: Vec<Mat3>,
+}
+
+impl Balance {
+    fn at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Result<Self, NoRest> {
+        let coordinates = SystemCoordinates::at(frozen, numbers);
+        let gaps = frozen.gaps(numbers);
+        let size = |body: usize| frozen.bodies()[body].size;
+        let shortest = |(body, gaps): (usize, &Vec<f64>)| gaps.iter().copied().fold(size(body), f64::min);
+        let lengths: Vec<f64> = gaps.iter().enumerate().map(shortest).collect();
+        Ok(Self {
+            force: coordinates.force(&frozen.rates(numbers)?),
+            stiffness: coordinates.stiffness(&frozen.slopes(numbers)?),
+            lengths,
+            inverses: (0..frozen.count()).map(|body| frozen.inverse(numbers, body)).collect(),
+            gaps,
+            coordinates,
+        })
+    }
+
+    /// The largest way or strain of a body, in units of lengths and of a strain.
+    fn size(&self, shapes: &[ModeShape], lengths: &[f64], strain: f64) -> f64 {
+        let bodies = shapes.iter().zip(lengths).zip(&self.inverses);
+        let sizes = bodies.map(|((shape, length), inverse)| {
+            (shape.translation.norm() / length).max((shape.gradient * inverse).norm() / strain)
+        });
+        sizes.fold(0.0, f64::max)
+    }
 }
 
 struct Search {
-    block: Vec<f64>,
-    /// The longest way of the centre in a step [m].
-    reach: f64,
+    numbers: Vec<f64>,
+    /// The longest way of each centre in a step [m].
+    reach: Vec<f64>,
     /// The size of the step before.
     last: f64,
 }
 
 impl Search {
     /// Goes one step; true at the end.
-    fn step(&mut self, frozen: &mut FrozenBody) -> Result<bool, NoRest> {
-        let coordinates = Coordinates::at(frozen.body(), &self.block);
-        let balance = Balance {
-            force: coordinates.force(&frozen.accelerations(&self.block)?),
-            stiffness: coordinates.stiffness(&frozen.slopes(&self.block)?),
-            gaps: frozen.gaps(&self.block),
-            coordinates,
-        };
-        let length = balance.gaps.iter().fold(frozen.body().size, |least, gap| least.min(*gap));
-        let way = self.direction(frozen, &balance, length);
-        let shape = balance.coordinates.shape(frozen.body(), &way);
-        let inverse = self.inverse(frozen);
-        let size = (shape.translation.norm() / length).max((shape.gradient * inverse).norm());
+    fn step(&mut self, frozen: &mut FrozenSystem) -> Result<bool, NoRest> {
+        let balance = Balance::at(frozen, &self.numbers)?;
+        let way = self.direction(frozen, &balance);
+        let shapes = balance.coordinates.shapes(frozen, &way);
+        let size = balance.size(&shapes, &balance.lengths, 1.0);
         // Newton squares a small step: where it does not even halve, rounding is reached.
         if size == 0.0 || (size < SMALL && size > 0.5 * self.last) {
             return Ok(true);
         }
         self.last = size;
-        match self.take(frozen, &balance, &way) {
-            Some(part) => self.reach *= if part == 1.0 { 2.0 } else { 0.5 },
+        let mut grow = |factor: f64| self.reach.iter_mut().for_each(|reach| *reach *= factor);
+        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way) {
+            Some(part) => grow(if part == 1.0 { 2.0 } else { 0.5 }),
             // No part of it is admissible or of use: at rounding.
             None if size < SMALL => return Ok(true),
-            None => self.reach *= 0.25,
+            None => grow(0.25),
         }
         Ok(false)
     }
 
-    fn inverse(&self, frozen: &FrozenBody) -> Mat3 {
-        frozen.motion(&self.block).placement.gradient.try_inverse().unwrap_or_else(Mat3::identity)
-    }
-
     /// The step before it is cut.
-    fn direction(&self, frozen: &FrozenBody, balance: &Balance, length: f64) -> DVector<f64> {
+    fn direction(&self, frozen: &FrozenSystem, balance: &Balance) -> DVector<f64> {
         let Balance { coordinates, force, stiffness, .. } = balance;
         let Basis { vectors, values, zero } = canonical::eigen(stiffness);
         let along = vectors.transpose() * force;
-        let inverse = self.inverse(frozen);
-        let shapes: Vec<ModeShape> =
-            vectors.column_iter().map(|vector| coordinates.shape(frozen.body(), &vector.into_owned())).collect();
-        let strain = |shape: &ModeShape| (shape.gradient * inverse).norm();
+        let shapes: Vec<Vec<ModeShape>> =
+            vectors.column_iter().map(|vector| coordinates.shapes(frozen, &vector.into_owned())).collect();
         // The force that the stiffness gives over a length, or a strain, of one.
-        let scale = shapes.iter().zip(&values).map(|(shape, value)| {
-            value.abs() / (shape.translation.norm() / length).max(strain(shape)).max(f64::MIN_POSITIVE)
-        });
-        let scale = scale.fold(frozen.gravity().norm() * frozen.body().solid.mass.mass.sqrt(), f64::max);
+        let scale = shapes
+            .iter()
+            .zip(&values)
+            .map(|(shapes, value)| value.abs() / balance.size(shapes, &balance.lengths, 1.0).max(f64::MIN_POSITIVE));
+        let heaviest = frozen.bodies().iter().map(|body| body.solid.mass.mass).fold(0.0, f64::max);
+        let scale = scale.fold(frozen.gravity().norm() * heaviest.sqrt(), f64::max);
         // Nor does rounding choose the side to which a body would fall.
         let free = |k: usize| values[k] <= zero && along[k].abs() <= NO_FORCE * scale;
-        let per_step = |shape: &ModeShape| (shape.translation.norm() / self.reach).max(strain(shape) / LARGEST_STRAIN);
         // What has to be cut is cut alike, so that it goes the way of its force.
-        let needed = shapes.iter().enumerate().map(|(k, shape)| along[k].abs() * per_step(shape));
+        let per_step = |shapes: &[ModeShape]| balance.size(shapes, &self.reach, LARGEST_STRAIN);
+        let needed = shapes.iter().enumerate().map(|(k, shapes)| along[k].abs() * per_step(shapes));
         let cut = needed.enumerate().filter(|(k, least)| values[*k].abs() < *least && !free(*k));
         let least = cut.map(|(_, least)| least).fold(0.0, f64::max);
         let mut matrix = vectors.transpose() * (0.5 * (stiffness - stiffness.transpose())) * &vectors;
@@ -202,21 +233,31 @@ impl Search {
     }
 
     /// Takes the largest part 1, ½, ¼ … of a step that is admissible and goes downhill; none if there is none.
-    fn take(&mut self, frozen: &mut FrozenBody, balance: &Balance, way: &DVector<f64>) -> Option<f64> {
+    fn take(
+        frozen: &mut FrozenSystem,
+        (numbers, size): (&mut Vec<f64>, f64),
+        balance: &Balance,
+        way: &DVector<f64>,
+    ) -> Option<f64> {
         let Balance { coordinates, force, gaps, .. } = balance;
-        let volume = frozen.motion(&self.block).placement.gradient.determinant();
+        let volumes = |frozen: &FrozenSystem, numbers: &[f64]| -> Vec<f64> {
+            (0..frozen.count()).map(|body| frozen.motion(numbers, body).placement.gradient.determinant()).collect()
+        };
+        let before = volumes(frozen, numbers);
         let mut part = 1.0;
         for _ in (0..HALVINGS).take_while(|_| Interruption::due().is_none()) {
-            let mut block = self.block.clone();
-            coordinates.advance(&mut block, &(part * way));
-            frozen.project(&mut block);
-            let kept = frozen.motion(&block).placement.gradient.determinant() > LEAST_KEPT * volume
-                && frozen.gaps(&block).iter().zip(gaps).all(|(new, old)| *new > LEAST_KEPT * old);
-            if kept && let Ok(ahead) = frozen.accelerations(&block) {
-                let (before, after) = (force.dot(way), coordinates.force(&ahead).dot(way));
+            let mut ahead = numbers.clone();
+            coordinates.advance_places(&mut ahead, &(part * way));
+            frozen.project(&mut ahead);
+            let keeps_volume = volumes(frozen, &ahead).iter().zip(&before).all(|(new, old)| *new > LEAST_KEPT * old);
+            let new_gaps = frozen.gaps(&ahead);
+            let mut both = new_gaps.iter().flatten().zip(gaps.iter().flatten());
+            let kept = keeps_volume && both.all(|(new, old)| *new > LEAST_KEPT * old || new.is_infinite());
+            if kept && let Ok(rates) = frozen.rates(&ahead) {
+                let (before, after) = (force.dot(way), coordinates.force(&rates).dot(way));
                 // Forces at rest are rounding; their work tells nothing.
-                if before + after >= 0.0 || self.last < SMALL {
-                    self.block = block;
+                if before + after >= 0.0 || size < SMALL {
+                    *numbers = ahead;
                     return Some(part);
                 }
             }

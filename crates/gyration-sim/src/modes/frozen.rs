@@ -1,6 +1,7 @@
-//! A frozen body: one body alone, with supports, loads and drive as they are at the start; its contraction is held, or
-//! moves by its law.
+//! A frozen system: some bodies of a model alone with what acts between them, supports, loads and drives as they are at
+//! the start; contractions are held, or move by their laws.
 
+use super::slopes::SystemSlopes;
 use crate::projection::normalize;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, Slots, matrix};
@@ -8,77 +9,70 @@ use gyration::contact::{Action, Term};
 use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
+use gyration::load::{Interaction, Party, Spring};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
 use gyration::{Inadmissible, Quantity};
-use nalgebra::DMatrix;
 use std::ops::Range;
+use std::sync::Arc;
 
-/// A body and what acts on it at one instant.
+/// Bodies and what acts on them at one instant.
 #[derive(Debug)]
-pub(super) struct FrozenBody {
+pub(super) struct FrozenSystem {
     model: Model,
     workspace: Workspace,
     time: f64,
-    /// Its index in the scene.
-    index: usize,
-    /// The numbers in the scene of the springs that hold it.
+    /// The indices of the bodies in the scene.
+    members: Vec<usize>,
+    /// The numbers in the scene of the springs of the system.
     springs: Vec<usize>,
-    /// Its block of the state at the start, without velocities.
+    /// The numbers of the state at the start, without velocities.
     pub start: Vec<f64>,
     evaluations: usize,
 }
 
-/// What the contraction of a frozen body does.
+/// What the contractions of a frozen system do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FrozenContraction {
-    /// It stays what it is at the start.
+    /// They stay what they are at the start.
     Held,
-    /// It follows its law under the drive of the start, and what feedback adds.
+    /// They follow their laws under the drives of the start, and what feedback adds.
     Driven,
 }
 
-impl FrozenBody {
-    pub fn new(model: &Model, start: &State, index: usize, contraction: FrozenContraction) -> Self {
+impl FrozenSystem {
+    /// Of bodies whose indices ascend.
+    pub fn new(model: &Model, start: &State, members: &[usize], contraction: FrozenContraction) -> Self {
+        let mut alone = model.part(members);
         let mut supports = model.supports.to_vec();
         for support in &mut supports {
             support.origin += support.motion.displacement(start.time);
             support.motion = SupportMotion::Fixed;
         }
-        let mut body = (*model.bodies[index]).clone();
-        let slots = model.slots(index);
-        let mut still = start.bodies.clone();
-        still[slots.velocities()].fill(0.0);
-        if let BodyKind::Contractile(contractile) = &mut body.kind {
-            match (&mut contractile.contraction.source, contraction) {
-                (ContractionSource::Driven { drive, .. }, FrozenContraction::Driven) => {
-                    *drive = Signal::Constant(drive.at(start.time));
-                }
-                (source, _) => {
-                    if let Some(held) = start.contraction(model, index) {
-                        *source = ContractionSource::Prescribed(Signal::Constant(held));
-                    }
-                }
-            }
-        } else {
-            still[slots.extra()].fill(0.0);
+        alone.supports = supports.into();
+        let (mut bodies, mut numbers) = (Vec::new(), Vec::new());
+        for member in members {
+            let (body, block) = frozen(model, start, *member, contraction);
+            bodies.push(body);
+            numbers.extend(block);
         }
-        let mut block = still[slots.block()].to_vec();
-        block.truncate(body.dimension());
-        let alone = model.part(&[index]);
-        let frozen = Model::new(model.gravity, supports, vec![body]);
-        let mut frozen = frozen.with_contacts(alone.contacts().to_vec()).with_springs(alone.springs().to_vec());
+        let mut alone = alone.with_bodies(bodies);
         if let Some(fluid) = &model.fluid {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
-            frozen = frozen.in_fluid(Fluid { velocity, gradient, ..(**fluid).clone() });
+            alone = alone.in_fluid(Fluid { velocity, gradient, ..(**fluid).clone() });
         }
-        let held = model.springs_of(index).filter(|end| end.other().body().is_none());
-        let springs = held.map(|end| end.number).collect();
-        let model = frozen;
-        Self { model, workspace: Workspace::default(), time: start.time, index, springs, start: block, evaluations: 0 }
+        Self {
+            model: alone,
+            workspace: Workspace::default(),
+            time: start.time,
+            members: members.to_vec(),
+            springs: springs_among(model, members),
+            start: numbers,
+            evaluations: 0,
+        }
     }
 
     /// How often forces or their derivatives have been computed.
@@ -86,13 +80,19 @@ impl FrozenBody {
         self.evaluations
     }
 
-    pub fn body(&self) -> &Body {
-        &self.model.bodies[0]
+    /// How many bodies there are.
+    pub fn count(&self) -> usize {
+        self.model.bodies.len()
     }
 
-    /// Whether a spring to an anchor holds it.
-    pub fn is_sprung(&self) -> bool {
-        self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0)
+    pub fn bodies(&self) -> &[Arc<Body>] {
+        &self.model.bodies
+    }
+
+    /// Whether a pin, or a spring to an anchor, holds one of them.
+    pub fn is_anchored(&self) -> bool {
+        let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());
+        is_held || self.model.bodies.iter().any(|body| body.pin.is_some())
     }
 
     pub fn gravity(&self) -> Vec3 {
@@ -103,126 +103,173 @@ impl FrozenBody {
     fn outside(&self, left: Inadmissible) -> Inadmissible {
         let quantity = match left.quantity {
             Quantity::SpringLength { spring } => Quantity::SpringLength { spring: self.springs[spring] },
+            Quantity::PairGap { other, rule } => Quantity::PairGap { other: self.members[other], rule },
+            Quantity::PairPlane { other, rule } => Quantity::PairPlane { other: self.members[other], rule },
             other => other,
         };
-        Inadmissible { body: self.index, quantity, ..left }
+        Inadmissible { body: self.members[left.body], quantity, ..left }
     }
 
-    /// The velocities' rates.
-    pub fn accelerations(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
-        let rates = self.rates(block)?;
-        Ok(rates[self.slots().velocities()].to_vec())
-    }
-
-    /// The rates of the block.
-    pub fn rates(&mut self, block: &[f64]) -> Result<Vec<f64>, Inadmissible> {
+    /// The rates of the numbers.
+    pub fn rates(&mut self, numbers: &[f64]) -> Result<Vec<f64>, Inadmissible> {
         self.evaluations += 1;
-        let mut slopes = vec![0.0; block.len()];
+        let mut slopes = vec![0.0; numbers.len()];
         let mut powers = vec![0.0; self.model.works().len()];
-        let done = rates(&self.model, &mut self.workspace, self.time, block.into(), &mut slopes, &mut powers);
+        let done = rates(&self.model, &mut self.workspace, self.time, numbers.into(), &mut slopes, &mut powers);
         done.map_err(|left| self.outside(left))?;
         Ok(slopes)
     }
 
     /// The exact Jacobian.
-    pub fn slopes(&mut self, block: &[f64]) -> Result<DMatrix<f64>, Inadmissible> {
+    pub fn slopes(&mut self, numbers: &[f64]) -> Result<SystemSlopes, Inadmissible> {
         self.evaluations += 1;
-        let mut blocks = [DMatrix::zeros(block.len(), block.len())];
-        let done = jacobian(&self.model, &mut self.workspace, self.time, block.into(), &mut blocks[..]);
+        let mut slopes = SystemSlopes::new(self.model.blocks());
+        let done = jacobian(&self.model, &mut self.workspace, self.time, numbers.into(), &mut slopes);
         done.map_err(|left| self.outside(left))?;
-        let [slopes] = blocks;
         Ok(slopes)
     }
 
-    pub fn motion(&self, block: &[f64]) -> BodyMotion {
-        BodyMotion::read(self.body(), self.slots(), block)
+    pub fn motion(&self, numbers: &[f64], body: usize) -> BodyMotion {
+        BodyMotion::read(&self.model.bodies[body], self.slots(body), numbers)
+    }
+
+    /// P⁻¹ of a body.
+    pub fn inverse(&self, numbers: &[f64], body: usize) -> Mat3 {
+        self.motion(numbers, body).placement.gradient.try_inverse().unwrap_or_else(Mat3::identity)
     }
 
     /// π of an incompressible body.
-    pub fn pressure(&mut self, block: &[f64]) -> Option<f64> {
+    pub fn pressure(&mut self, numbers: &[f64], body: usize) -> Option<f64> {
         let state = State {
             time: self.time,
-            bodies: block.to_vec(),
+            bodies: numbers.to_vec(),
             low: Vec::new(),
             works: vec![0.0; self.model.works().len()],
         };
-        observe(&self.model, &mut self.workspace, &state, 0).ok()?.pressure
+        observe(&self.model, &mut self.workspace, &state, body).ok()?.pressure
     }
 
-    /// The supports that push or pull at the body while it stands still.
-    fn holding(&self) -> impl Iterator<Item = usize> {
+    /// The supports that push or pull at a body while it stands still.
+    fn holding(&self, body: usize) -> impl Iterator<Item = usize> {
         let pushes = |term: Term| term.action == Action::Central && term.coefficient != 0.0;
         let contacts = self
             .model
-            .contacts()
-            .iter()
+            .contacts_of(body)
             .filter(move |contact| contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().any(pushes));
         contacts.map(|contact| contact.support)
     }
 
     /// The normals of the supports that push or pull.
     pub fn normals(&self) -> Vec<Vec3> {
-        self.holding().map(|support| self.model.supports[support].normal).collect()
+        let holding = (0..self.count()).flat_map(|body| self.holding(body));
+        holding.map(|support| self.model.supports[support].normal).collect()
     }
 
-    /// The smallest distances to the supports that push or pull [m].
-    pub fn gaps(&self, block: &[f64]) -> Vec<f64> {
-        let motion = self.motion(block);
-        let Some(surface) = &self.body().solid.surface else { return Vec::new() };
+    /// The smallest distances of each body to the supports that push or pull at it, then the smallest slab between it
+    /// and the bodies that it meets, infinite if there are none within reach [m].
+    pub fn gaps(&mut self, numbers: &[f64]) -> Vec<Vec<f64>> {
+        let Self { model, workspace, time, .. } = self;
+        let is_found = !model.rules().is_empty() && workspace.pair_gaps(model, *time, numbers.into()).is_ok();
+        let gaps = |body: usize| {
+            let apart = is_found.then(|| self.workspace.found_gaps().of(body).map(|slab| slab.gap));
+            let apart = apart.into_iter().flatten().fold(f64::INFINITY, f64::min);
+            let meets = self.model.meets_bodies(body);
+            self.support_gaps(numbers, body).chain(meets.then_some(apart)).collect()
+        };
+        (0..self.count()).map(gaps).collect()
+    }
+
+    fn support_gaps(&self, numbers: &[f64], body: usize) -> impl Iterator<Item = f64> {
+        let motion = self.motion(numbers, body);
         let supports = &self.model.supports;
-        let gap = |index: usize| surface.smallest_gap(&supports[index].gap_field(&motion.placement, self.time)).0;
-        self.holding().map(gap).collect()
+        let surface = self.model.bodies[body].solid.surface.as_ref();
+        surface.into_iter().flat_map(move |surface| {
+            let gap =
+                move |index: usize| surface.smallest_gap(&supports[index].gap_field(&motion.placement, self.time)).0;
+            self.holding(body).map(gap)
+        })
     }
 
-    /// Puts quaternion, P and G back to where they belong.
-    pub fn project(&self, block: &mut [f64]) {
-        let own = matches!(&self.body().kind, BodyKind::Contractile(it) if it.contraction.is_driven())
-            .then(|| matrix(&block[self.contraction()]));
-        let attitude = &mut block[self.slots().attitude()];
-        let still = Mat3::zeros();
-        match &self.body().kind {
-            BodyKind::Rigid(_) => {
-                normalize(attitude, &mut []);
-            }
-            BodyKind::Affine(affine) => {
-                let corrected = affine.interior.project(&matrix(attitude), &still);
-                attitude.copy_from_slice(corrected.gradient.as_slice());
-            }
-            BodyKind::Contractile(contractile) => {
-                let held = own.unwrap_or_else(Mat3::identity);
-                let restored = contractile.restore(self.time, (&matrix(attitude), &still, &held));
-                attitude.copy_from_slice(restored.gradient.as_slice());
-                if own.is_some() {
-                    block[self.contraction()].copy_from_slice(restored.contraction.as_slice());
+    /// Puts quaternions, P and G back to where they belong.
+    pub fn project(&self, numbers: &mut [f64]) {
+        for (body, kind) in self.model.bodies.iter().map(|body| &body.kind).enumerate() {
+            let slots = self.slots(body);
+            let own = matches!(kind, BodyKind::Contractile(it) if it.contraction.is_driven())
+                .then(|| matrix(&numbers[slots.extra()]));
+            let attitude = &mut numbers[slots.attitude()];
+            let still = Mat3::zeros();
+            match kind {
+                BodyKind::Rigid(_) => {
+                    normalize(attitude, &mut []);
+                }
+                BodyKind::Affine(affine) => {
+                    let corrected = affine.interior.project(&matrix(attitude), &still);
+                    attitude.copy_from_slice(corrected.gradient.as_slice());
+                }
+                BodyKind::Contractile(contractile) => {
+                    let held = own.unwrap_or_else(Mat3::identity);
+                    let restored = contractile.restore(self.time, (&matrix(attitude), &still, &held));
+                    attitude.copy_from_slice(restored.gradient.as_slice());
+                    if own.is_some() {
+                        numbers[slots.extra()].copy_from_slice(restored.contraction.as_slice());
+                    }
                 }
             }
         }
     }
 
-    /// Where P stands in the block.
-    pub fn attitude(&self) -> Range<usize> {
-        self.slots().attitude()
+    /// Whether the contraction of a body moves.
+    pub fn is_driven(&self, body: usize) -> bool {
+        self.model.bodies[body].contraction().is_some_and(|law| law.is_driven())
     }
 
-    /// Where G stands in the block, if the contraction moves.
-    pub fn contraction(&self) -> Range<usize> {
-        self.slots().extra()
+    /// Where G of a body stands, if its contraction moves.
+    pub fn contraction(&self, body: usize) -> Range<usize> {
+        self.slots(body).extra()
     }
 
-    /// G, if the contraction moves.
-    pub fn contraction_at(&self, block: &[f64]) -> Mat3 {
-        matrix(&block[self.contraction()])
+    /// V_G of a body [1/s] among the rates of all numbers, if its contraction moves.
+    pub fn contraction_velocity(&self, numbers: &[f64], rates: &[f64], body: usize) -> Mat3 {
+        let at = self.contraction(body);
+        let rate = matrix(&rates[at.clone()]);
+        let inverse = matrix(&numbers[at]).try_inverse();
+        inverse.map_or(rate, |inverse| rate * inverse)
     }
 
-    /// V_G [1/s], if the contraction moves.
-    pub fn contraction_velocity(&mut self, block: &[f64]) -> Result<Mat3, Inadmissible> {
-        let rate = matrix(&self.rates(block)?[self.contraction()]);
-        let inverse = self.contraction_at(block).try_inverse();
-        Ok(inverse.map_or(rate, |inverse| rate * inverse))
+    /// Where the numbers of a body stand.
+    pub fn slots(&self, body: usize) -> &Slots {
+        self.model.slots(body)
     }
+}
 
-    /// Where the numbers of the block stand.
-    fn slots(&self) -> &Slots {
-        self.model.slots(0)
+/// The numbers of the springs that join some bodies, or hold them.
+fn springs_among(model: &Model, members: &[usize]) -> Vec<usize> {
+    let is_member = |party: Party| party.body().is_none_or(|body| members.binary_search(&body).is_ok());
+    let is_among = |spring: &Spring| spring.parties().into_iter().all(is_member);
+    (0..model.springs().len()).filter(|number| is_among(&model.springs()[*number])).collect()
+}
+
+/// A body whose signals have the values of the start, and its numbers without velocities.
+fn frozen(model: &Model, start: &State, index: usize, contraction: FrozenContraction) -> (Body, Vec<f64>) {
+    let mut body = (*model.bodies[index]).clone();
+    let slots = model.slots(index);
+    let mut block = start.bodies[slots.block()].to_vec();
+    let own = Slots::of(&body, 0);
+    block[own.velocities()].fill(0.0);
+    if let BodyKind::Contractile(contractile) = &mut body.kind {
+        match (&mut contractile.contraction.source, contraction) {
+            (ContractionSource::Driven { drive, .. }, FrozenContraction::Driven) => {
+                *drive = Signal::Constant(drive.at(start.time));
+            }
+            (source, _) => {
+                if let Some(held) = start.contraction(model, index) {
+                    *source = ContractionSource::Prescribed(Signal::Constant(held));
+                }
+            }
+        }
+    } else {
+        block[own.extra()].fill(0.0);
     }
+    block.truncate(body.dimension());
+    (body, block)
 }

@@ -2,9 +2,10 @@
 //!
 //!   rest: a(q, 0) = 0, a the accelerations;   about it  ξ̈ + C ξ̇ + K ξ = 0,   ξ ∝ e^{λt},   λ = −δ ± iω
 //!
-//! q are the coordinates of one body (bodies do not act on each other), ξ small changes of them along which the mass is
-//! one (`coordinates`): twelve of an affine body, nine of a pinned one, one less each if it is incompressible, six or
-//! three of a rigid one. K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per
+//! q are the coordinates of one body, or of a system: bodies that springs or contacts join. ξ are small changes of them
+//! along which the mass is one (`coordinates`): twelve of an affine body, nine of a pinned one, one less each if it is
+//! incompressible, six or three of a rigid one; those of a system are those of its bodies, one after the other
+//! (`system`). K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per
 //! deformed area, couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the
 //! start of a run, `spectrum` solves for λ, `words` says what a mode is.
 //!
@@ -19,23 +20,29 @@ mod contraction;
 mod coordinates;
 mod equilibrium;
 mod frozen;
+mod participation;
 mod shape;
+mod slopes;
 mod spectrum;
+mod system;
 mod words;
 
+pub use participation::{PARTS, Participation};
 pub use shape::ModeShape;
 
-use contraction::{ContractionCoordinates, settled};
-use coordinates::Coordinates;
-use frozen::{FrozenBody, FrozenContraction};
+use contraction::settled;
+use frozen::{FrozenContraction, FrozenSystem};
 use gyration::Inadmissible;
+use gyration::body::matrix;
 use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField};
-use spectrum::FirstOrder;
+
+use spectrum::{EigenMotion, FirstOrder};
+use system::SystemCoordinates;
 
 /// Where a body rests.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,12 +153,14 @@ pub struct Mode {
     pub eigenvalues: Vec<Complex<f64>>,
     /// What it does in time.
     pub motion: ModeBehaviour,
-    /// How the body moves.
-    pub shape: ModeShape,
+    /// How the bodies move, each of them.
+    pub shapes: Vec<ModeShape>,
     /// The part of the motion that is a quarter of a period ahead; none if all points move in step.
-    pub quadrature: Option<ModeShape>,
+    pub quadratures: Option<Vec<ModeShape>>,
     /// What it is: "translation along z", "shear in the plane xy".
     pub in_words: String,
+    /// What moves, as shares of the kinetic energy.
+    pub participation: Participation,
 }
 
 /// The eigenvalues could not be found to working precision.
@@ -183,7 +192,7 @@ impl Mode {
 /// The rest state that the body of this index gets to from its start, if it is led there without inertia.
 ///
 /// # Errors
-/// [`NoRest`].
+/// [`NoRest`], also where other bodies act on it ([`system_rest`]).
 pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
     if !model.bodies[body].has_inertia() {
         return Err(NoRest::WithoutInertia);
@@ -191,32 +200,53 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
     if model.is_joined(body) {
         return Err(NoRest::ActedOn);
     }
-    let mut frozen = FrozenBody::new(model, start, body, FrozenContraction::Held);
+    system_rest(model, start, &[body]).map(|mut rests| rests.swap_remove(0))
+}
+
+/// The rest state that bodies get to together from their start, led there without inertia: their indices ascend, and
+/// all that is between them acts.
+///
+/// # Errors
+/// [`NoRest`].
+pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Vec<Rest>, NoRest> {
+    if members.iter().any(|body| !model.bodies[*body].has_inertia()) {
+        return Err(NoRest::WithoutInertia);
+    }
+    let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {
         Err(_) if Interruption::due().is_some() => return Err(NoRest::Interrupted),
         found => found?,
     };
-    if model.bodies[body].contraction().is_some_and(|contraction| contraction.is_driven()) {
-        contracting(model, start, body, held)
-    } else {
-        Ok(held)
-    }
+    let rests = equilibrium::rest_at(&mut frozen, &held);
+    let is_driven = |body: &usize| model.bodies[*body].contraction().is_some_and(|law| law.is_driven());
+    if members.iter().any(is_driven) { contracting(model, start, members, rests) } else { Ok(rests) }
 }
 
-/// The rest state of a body whose contraction moves, next to the one that it has while that is held.
-fn contracting(model: &Model, start: &State, body: usize, held: Rest) -> Result<Rest, NoRest> {
-    let mut frozen = FrozenBody::new(model, start, body, FrozenContraction::Driven);
-    let contraction = frozen.start[frozen.contraction()].to_vec();
-    let mut block = held.block.clone();
-    block.extend_from_slice(&contraction);
-    let velocity = frozen.contraction_velocity(&block)?;
-    match settled(&mut frozen, block)? {
-        Some(block) => {
-            let contraction = RestContraction::Stands(frozen.contraction_at(&block));
-            Ok(Rest { contraction: Some(contraction), ..equilibrium::rest_at(&mut frozen, block) })
+/// The rest state of bodies whose contractions move, next to the one that they have while these are held.
+fn contracting(model: &Model, start: &State, members: &[usize], held: Vec<Rest>) -> Result<Vec<Rest>, NoRest> {
+    let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Driven);
+    let mut numbers = Vec::new();
+    for (body, rest) in held.iter().enumerate() {
+        numbers.extend_from_slice(&rest.block);
+        if frozen.is_driven(body) {
+            numbers.extend_from_slice(&frozen.start[frozen.contraction(body)]);
+        }
+    }
+    let rates = frozen.rates(&numbers)?;
+    let speeds = SystemCoordinates::at(&frozen, &numbers).contraction_velocities(&frozen, &numbers, &rates);
+    match settled(&mut frozen, numbers)? {
+        Some(numbers) => {
+            let stands =
+                |body: usize| speeds[body].map(|_| RestContraction::Stands(matrix(&numbers[frozen.contraction(body)])));
+            let stands: Vec<Option<RestContraction>> = (0..members.len()).map(stands).collect();
+            let rests = equilibrium::rest_at(&mut frozen, &numbers).into_iter().zip(stands);
+            Ok(rests.map(|(rest, contraction)| Rest { contraction, ..rest }).collect())
         }
         None if Interruption::due().is_some() => Err(NoRest::Interrupted),
-        None => Ok(Rest { contraction: Some(RestContraction::GoesOn(velocity.norm())), ..held }),
+        None => {
+            let goes_on = |speed: Option<Mat3>| speed.map(|speed| RestContraction::GoesOn(speed.norm()));
+            Ok(held.into_iter().zip(speeds).map(|(rest, speed)| Rest { contraction: goes_on(speed), ..rest }).collect())
+        }
     }
 }
 
@@ -225,48 +255,68 @@ fn contracting(model: &Model, start: &State, body: usize, held: Rest) -> Result<
 /// # Errors
 /// [`NoSpectrum`]; none for bodies of moderate numbers.
 pub fn modes(model: &Model, start: &State, body: usize, rest: &Rest) -> Result<Vec<Mode>, NoSpectrum> {
-    let follows = match rest.contraction {
-        Some(RestContraction::Stands(_)) => FrozenContraction::Driven,
-        _ => FrozenContraction::Held,
-    };
-    let mut frozen = FrozenBody::new(model, start, body, follows);
-    let slopes = frozen.slopes(&rest.block).map_err(|_| NoSpectrum)?;
-    let coordinates = Coordinates::at(frozen.body(), &rest.block);
+    let mut modes = found_modes(model, start, &[body], std::slice::from_ref(rest))?;
+    modes.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
+    Ok(modes)
+}
+
+/// The small motions of bodies about the rest state that they have together: free ones first, then by frequency.
+///
+/// # Errors
+/// [`NoSpectrum`]; none for bodies of moderate numbers.
+pub fn system_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) -> Result<Vec<Mode>, NoSpectrum> {
+    let mut modes = found_modes(model, start, members, rests)?;
+    let order = |mode: &Mode| (mode.motion != ModeBehaviour::Free, mode.frequency(), mode.eigenvalues[0].modulus());
+    modes.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
+    Ok(modes)
+}
+
+fn found_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) -> Result<Vec<Mode>, NoSpectrum> {
+    let stands = rests.iter().any(|rest| matches!(rest.contraction, Some(RestContraction::Stands(_))));
+    let follows = if stands { FrozenContraction::Driven } else { FrozenContraction::Held };
+    let mut frozen = FrozenSystem::new(model, start, members, follows);
+    let numbers: Vec<f64> = rests.iter().flat_map(|rest| &rest.block).copied().collect();
+    let slopes = frozen.slopes(&numbers).map_err(|_| NoSpectrum)?;
+    let coordinates = SystemCoordinates::at(&frozen, &numbers);
     let resistance = coordinates.resistance(&slopes);
-    let contraction = ContractionCoordinates::at(&frozen, &rest.block);
-    let (stiffness, first) = match &contraction {
-        None => {
+    let (stiffness, first) = match coordinates.contracts() {
+        false => {
             let stiffness = coordinates.stiffness(&slopes);
             let none = FirstOrder::none(stiffness.nrows());
             (stiffness, none)
         }
-        Some(contraction) => {
-            let velocity = frozen.contraction_velocity(&rest.block).map_err(|_| NoSpectrum)?;
-            contraction.first_order((&coordinates, &velocity), &slopes)
+        true => {
+            let rates = frozen.rates(&numbers).map_err(|_| NoSpectrum)?;
+            let velocities = coordinates.contraction_velocities(&frozen, &numbers, &rates);
+            coordinates.first_order(&velocities, &slopes)
         }
     };
-    let basis = canonical::basis(&stiffness, &coordinates.patterns(frozen.body(), &rest.placement.gradient));
+    let basis = canonical::basis(&stiffness, &coordinates.patterns(&frozen, &numbers));
     let found = spectrum::solve((&stiffness, &resistance), &first, &basis)?;
-    let mut modes: Vec<Mode> = found
-        .iter()
-        .map(|found| {
-            let (real, mut imaginary) = shape::in_step(&found.shape);
-            if found.eigenvalues[0].im == 0.0 {
-                imaginary.fill(0.0);
-            }
-            let (shape, quadrature) = coordinates.scaled_shape(frozen.body(), &real, &imaginary);
-            let in_words = match &contraction {
-                Some(contraction) if found.eigenvalues.len() == 1 => {
-                    let strain = contraction.strain(&found.contraction.map(|entry| entry.re));
-                    format!("contraction, {}", words::of_contraction(&strain, &rest.placement))
-                }
-                _ => words::of(&shape, frozen.body(), &rest.placement),
-            };
-            Mode { eigenvalues: found.eigenvalues.clone(), motion: found.motion, shape, quadrature, in_words }
-        })
-        .collect();
-    modes.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
-    Ok(modes)
+    let mode = |found: &EigenMotion| {
+        let (real, mut imaginary) = shape::in_step(&found.shape);
+        if found.eigenvalues[0].im == 0.0 {
+            imaginary.fill(0.0);
+        }
+        let (shapes, quadratures) = coordinates.scaled_shapes(&frozen, &real, &imaginary);
+        let placements: Vec<Placement> = rests.iter().map(|rest| rest.placement).collect();
+        let contracts = found.eigenvalues.len() == 1;
+        let along = found.contraction.map(|entry| entry.re);
+        let strain = |body: usize| coordinates.strain(body, &along).filter(|_| contracts);
+        let strains: Vec<Option<Mat3>> = (0..members.len()).map(strain).collect();
+        let in_words = words::of_system(frozen.bodies(), &placements, &shapes, &strains);
+        let ahead = quadratures.as_deref().unwrap_or_default();
+        let participation = Participation::of(frozen.bodies(), &placements, [&shapes, ahead]);
+        Mode {
+            eigenvalues: found.eigenvalues.clone(),
+            motion: found.motion,
+            shapes,
+            quadratures,
+            in_words,
+            participation,
+        }
+    };
+    Ok(found.iter().map(mode).collect())
 }
 
 /// Free first, then by the size of the slower eigenvalue.

@@ -42,10 +42,16 @@ pub(super) struct FirstOrder {
 }
 
 impl FirstOrder {
-    /// Of a body without any.
+    /// Of bodies without any.
     pub fn none(size: usize) -> Self {
-        let (wide, high) = (DMatrix::zeros(size, 0), DMatrix::zeros(0, size));
-        Self { forces: wide, by_place: high.clone(), by_rate: high, own: DMatrix::zeros(0, 0), turns: Vec::new() }
+        Self::zeros(size, 0)
+    }
+
+    /// Of so many z and γ, which do nothing to each other.
+    pub fn zeros(size: usize, own: usize) -> Self {
+        let (wide, high) = (DMatrix::zeros(size, own), DMatrix::zeros(own, size));
+        let turns = vec![false; own];
+        Self { forces: wide, by_place: high.clone(), by_rate: high, own: DMatrix::zeros(own, own), turns }
     }
 }
 

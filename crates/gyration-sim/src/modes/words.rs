@@ -5,13 +5,17 @@
 //! and tr(A P J Pᵀ Aᵀ) each; another with a good part of the energy is named too. Axes are those of space, or the
 //! body's own, where they are plain.
 
+use super::participation::{Participation, euler_tensor};
 use super::shape::{ModeShape, spread};
-use gyration::body::{Body, BodyKind};
+use gyration::body::Body;
 use gyration::kinematics::Placement;
 use gyration::tensor::{Mat3, Polar, Vec3, axial};
+use std::sync::Arc;
 
 /// A second part is named from this share of the energy on.
 const NAMED: f64 = 0.1;
+/// So many bodies of a system are named at most.
+const MOST_NAMED: usize = 3;
 /// A direction is an axis if their cosine is at least this: some half a degree.
 const PLAIN: f64 = 0.99995;
 /// D is a shear if its middle value is below this part of the largest.
@@ -19,20 +23,63 @@ const PLANE: f64 = 0.25;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
+/// What the bodies of a system do, those that move most first; of a motion that a contraction adds, what strains the
+/// relaxed shapes.
+pub(super) fn of_system(
+    bodies: &[Arc<Body>],
+    placements: &[Placement],
+    shapes: &[ModeShape],
+    strains: &[Option<Mat3>],
+) -> String {
+    let contracts = strains.iter().any(Option::is_some);
+    let words = |body: usize| match &strains[body] {
+        Some(strain) => format!("contraction, {}", of_contraction(strain, &placements[body])),
+        None => of(&shapes[body], &bodies[body], &placements[body]),
+    };
+    if bodies.len() == 1 {
+        return words(0);
+    }
+    let weights: Vec<f64> = match contracts {
+        true => strains.iter().map(|strain| strain.map_or(0.0, |strain| strain.norm_squared())).collect(),
+        false => {
+            let participation = Participation::of(bodies, placements, [shapes, &[]]);
+            participation.bodies.iter().map(|shares| shares.iter().sum()).collect()
+        }
+    };
+    let most: f64 = weights.iter().copied().fold(0.0, f64::max);
+    let moving: Vec<usize> = (0..bodies.len()).filter(|body| weights[*body] > NAMED * most).collect();
+    // Bodies that do the same are named together.
+    let mut told: Vec<(String, Vec<usize>)> = Vec::new();
+    for body in moving {
+        let words = words(body);
+        match told.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, bodies)) => bodies.push(body),
+            None => told.push((words, vec![body])),
+        }
+    }
+    let weight = |(_, bodies): &(String, Vec<usize>)| bodies.iter().map(|body| weights[*body]).sum::<f64>();
+    told.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    let names = |named: &[usize]| match named {
+        all if all.len() == bodies.len() => "all".to_owned(),
+        [few @ .., last] if !few.is_empty() && named.len() <= MOST_NAMED => {
+            let few: Vec<&str> = few.iter().map(|body| &*bodies[*body].name).collect();
+            format!("{} and {}", few.join(", "), bodies[*last].name)
+        }
+        [one] => bodies[*one].name.clone(),
+        many => format!("{} and {} others", bodies[many[0]].name, many.len() - 1),
+    };
+    let lines: Vec<String> =
+        told.iter().take(MOST_NAMED).map(|(words, bodies)| format!("{}: {words}", names(bodies))).collect();
+    lines.join("; ")
+}
+
 /// The words.
 pub(super) fn of(shape: &ModeShape, body: &Body, placement: &Placement) -> String {
     let spread = spread(shape, placement);
     let skew = 0.5 * (spread - spread.transpose());
     let round = Mat3::from_diagonal_element(spread.trace() / 3.0);
     let strain = 0.5 * (spread + spread.transpose()) - round;
-    let euler = match &body.kind {
-        BodyKind::Affine(affine) => affine.interior.euler_tensor,
-        BodyKind::Contractile(contractile) => contractile.affine.interior.euler_tensor,
-        BodyKind::Rigid(_) => {
-            body.solid.mass.about(&(body.solid.mass.center + body.pin.map_or(Vec3::zeros(), |pin| pin.point)))
-        }
-    };
-    let current = placement.gradient * euler * placement.gradient.transpose();
+    let current = placement.gradient * euler_tensor(body) * placement.gradient.transpose();
     let energy = |part: &Mat3| (part * current).dot(part);
     // The centre of a pinned body goes where the pin lets it.
     let translation = if body.pin.is_some() { 0.0 } else { body.solid.mass.mass * shape.translation.norm_squared() };

@@ -4,7 +4,7 @@ use super::kind::KindSurvey;
 use super::laws::LawSurvey;
 use super::mass::MassSurvey;
 use super::meetings::MeetingSurvey;
-use super::modes::RestState;
+use super::modes::{RestState, SystemRestState};
 use super::rest::{Approach, RestGap};
 use super::springs::SpringSurvey;
 use crate::resistance::completed;
@@ -12,6 +12,7 @@ use crate::survey::remarks::Remarks;
 use gyration::body::Body;
 use gyration::model::Model;
 use gyration::state::State;
+use gyration_ode::Components;
 use gyration_scene::{Scene, SceneErrors};
 use gyration_threads::Interruption;
 use serde::Serialize;
@@ -76,6 +77,15 @@ pub struct PairSurvey {
     pub no_rest_because: Option<&'static str>,
 }
 
+/// The rest states of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneModes {
+    /// Those of bodies on which no other acts; of the others what they are.
+    pub bodies: Vec<BodyModes>,
+    /// Those of bodies that springs or contacts join.
+    pub systems: Vec<SystemModes>,
+}
+
 /// Where one body rests, and how it moves about that state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyModes {
@@ -83,25 +93,68 @@ pub struct BodyModes {
     pub name: String,
     /// How it may deform, and what it is made of.
     pub kind: KindSurvey,
-    /// Its rest state, with the modes.
+    /// The number of the system of which it is a member.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub system: Option<usize>,
+    /// Its rest state, with the modes; none of a member of a system.
     pub rest_state: Option<RestState>,
     /// Why it has none, in words.
     pub no_rest_state_because: Option<String>,
 }
 
-/// The modes of every body of a scene.
-pub fn modes(scene: &Scene) -> Vec<BodyModes> {
+/// Where the bodies of a system rest together, and how they move about that state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SystemModes {
+    /// Their names.
+    pub bodies: Vec<String>,
+    /// Why it has no rest state, in words.
+    pub no_rest_state_because: Option<String>,
+    /// Its rest state, with the modes.
+    pub rest_state: Option<SystemRestState>,
+}
+
+/// The modes of every body and system of a scene.
+pub fn modes(scene: &Scene) -> SceneModes {
     let (model, start) = (&scene.built().model, &scene.built().state);
+    let systems = systems(model);
     let of = |(index, body): (usize, &Arc<Body>)| {
-        let (rest_state, no_rest_state_because) = rest_state(model, start, index);
-        BodyModes { name: body.name.clone(), kind: KindSurvey::of(body), rest_state, no_rest_state_because }
+        let system = systems.iter().position(|members| members.binary_search(&index).is_ok());
+        let alone = system.is_none().then(|| rest_state(model, start, index));
+        let (rest_state, no_rest_state_because) = alone.unwrap_or_default();
+        BodyModes { name: body.name.clone(), kind: KindSurvey::of(body), system, rest_state, no_rest_state_because }
     };
-    model.bodies.iter().enumerate().map(of).collect()
+    let bodies = model.bodies.iter().enumerate().map(of).collect();
+    let joint = |members: &Vec<usize>| {
+        let found = match members.len() {
+            many if many > MOST_MEMBERS => Err(format!(
+                "{many} bodies hang together; rest states are found of {MOST_MEMBERS} at most: join fewer, or give                  contacts between them a reach"
+            )),
+            _ => SystemRestState::of(model, start, members),
+        };
+        let (rest_state, no_rest_state_because) = match found {
+            Ok(state) => (Some(state), None),
+            Err(reason) => (None, Some(reason)),
+        };
+        let bodies = members.iter().map(|body| model.bodies[*body].name.clone()).collect();
+        SystemModes { bodies, no_rest_state_because, rest_state }
+    };
+    SceneModes { bodies, systems: systems.iter().map(joint).collect() }
+}
+
+/// The matrices of a search have the square of the number of coordinates, and it solves with them some hundred times.
+const MOST_MEMBERS: usize = 100;
+
+/// The sets of bodies that springs or contacts join, each ascending.
+fn systems(model: &Model) -> Vec<Vec<usize>> {
+    let acting = |pair: &[usize; 2]| pair.iter().all(|body| model.is_joined(*body));
+    let joined = Components::joined(model.bodies.len(), model.chain().filter(acting));
+    joined.iter().filter(|members| members.len() > 1).map(<[usize]>::to_vec).collect()
 }
 
 /// What `gyration modes --json` prints of a scene.
 pub fn modes_in_json(scene: &Scene) -> Value {
-    json!({ "scene": scene.name(), "bodies": modes(scene) })
+    let SceneModes { bodies, systems } = modes(scene);
+    json!({ "scene": scene.name(), "bodies": bodies, "systems": systems })
 }
 
 /// The rest state of a body, or why there is none.

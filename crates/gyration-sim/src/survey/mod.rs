@@ -24,13 +24,13 @@ mod springs;
 mod text;
 mod words;
 
-pub use bodies::{BodyModes, BodySurvey, PairSurvey, Survey, modes, modes_in_json};
+pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
 pub use encounter::Encounter;
 pub use kind::KindSurvey;
 pub use laws::LawSurvey;
 pub use mass::MassSurvey;
 pub use meetings::MeetingSurvey;
-pub use modes::{ModeSurvey, RestState, ShapeSurvey};
+pub use modes::{ModeSurvey, Named, RestPlace, RestState, ShapeSurvey, SystemRestState};
 pub use rest::{Approach, RestGap};
 pub use springs::SpringSurvey;
 pub use words::write_rest;

@@ -1,17 +1,38 @@
 //! Rest states and the small motions about them, in a form to print.
 
 use crate::format::significant;
-use crate::modes::{Mode, ModeBehaviour, ModeShape, Rest, RestContraction, modes, rest};
+use crate::modes::{
+    Mode, ModeBehaviour, ModeShape, PARTS, Rest, RestContraction, modes, rest, system_modes, system_rest,
+};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Mat3;
 use nalgebra::ComplexField;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 
 /// Where a body rests, and how it moves about that state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RestState {
+    /// Where it rests.
+    #[serde(flatten)]
+    pub place: RestPlace,
+    /// The small motions: unstable, free, creeping, oscillating ones, each by frequency.
+    pub modes: Vec<ModeSurvey>,
+}
+
+/// Where bodies rest together, and how they move about that state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SystemRestState {
+    /// Where each of them rests.
+    pub bodies: Named<RestPlace>,
+    /// The small motions: free ones first, then by frequency.
+    pub modes: Vec<ModeSurvey<Named<ShapeSurvey>>>,
+}
+
+/// Where a body rests.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RestPlace {
     /// p₀ of the centre of mass [m].
     pub position: [f64; 3],
     /// P, row by row.
@@ -20,7 +41,7 @@ pub struct RestState {
     pub stretches: [f64; 3],
     /// π [Pa] of an incompressible body.
     pub pressure: Option<f64>,
-    /// Smallest distance to a support that acts on it [m].
+    /// Smallest distance to what acts on it by a contact [m].
     pub gap: Option<f64>,
     /// G, row by row, where the contraction stands still.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,13 +49,21 @@ pub struct RestState {
     /// What the small motions leave out, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_out: Option<String>,
-    /// The small motions: unstable, free, creeping, oscillating ones, each by frequency.
-    pub modes: Vec<ModeSurvey>,
+}
+
+/// Something of each body, under its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
 }
 
 /// A small motion about rest.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ModeSurvey {
+pub struct ModeSurvey<S = ShapeSurvey> {
     /// "oscillates", "creeps", "free" or "unstable".
     pub motion: &'static str,
     /// What moves how, in words.
@@ -48,10 +77,12 @@ pub struct ModeSurvey {
     pub decay_rates: Vec<f64>,
     /// ζ; none of free and unstable motions.
     pub damping_ratio: Option<f64>,
-    /// How the body moves.
-    pub shape: ShapeSurvey,
+    /// How the body moves, or each body.
+    pub shape: S,
     /// The part of the motion a quarter of a period ahead, if its points do not move in step.
-    pub quadrature: Option<ShapeSurvey>,
+    pub quadrature: Option<S>,
+    /// Shares of the kinetic energy: translation, rotation, shear, stretch, breathing.
+    pub participation: [f64; PARTS],
 }
 
 /// A shape: of the points at half the body's size from its centre the fastest moves by one.
@@ -94,22 +125,48 @@ impl RestState {
     pub fn of(model: &Model, start: &State, body: usize) -> Result<Self, String> {
         let rest = rest(model, start, body).map_err(|reason| reason.to_string())?;
         let found = modes(model, start, body, &rest).map_err(|reason| reason.to_string())?;
-        Ok(Self {
+        let fastest = fastest(&found);
+        let modes = found.iter().map(|mode| ModeSurvey::of(mode, fastest, |shapes| ShapeSurvey::of(&shapes[0])));
+        Ok(Self { place: RestPlace::of(&rest), modes: modes.collect() })
+    }
+}
+
+impl SystemRestState {
+    /// Of bodies whose indices ascend.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    pub fn of(model: &Model, start: &State, members: &[usize]) -> Result<Self, String> {
+        let rests = system_rest(model, start, members).map_err(|reason| reason.to_string())?;
+        let found = system_modes(model, start, members, &rests).map_err(|reason| reason.to_string())?;
+        let name = |index: usize| model.bodies[members[index]].name.clone();
+        let shapes = |shapes: &[ModeShape]| {
+            Named(shapes.iter().enumerate().map(|(body, shape)| (name(body), ShapeSurvey::of(shape))).collect())
+        };
+        let fastest = fastest(&found);
+        let places = rests.iter().enumerate().map(|(body, rest)| (name(body), RestPlace::of(rest)));
+        let modes = found.iter().map(|mode| ModeSurvey::of(mode, fastest, shapes));
+        Ok(Self { bodies: Named(places.collect()), modes: modes.collect() })
+    }
+}
+
+impl RestPlace {
+    fn of(rest: &Rest) -> Self {
+        Self {
             position: rest.placement.position.into(),
             gradient: rows(&rest.placement.gradient),
             stretches: rest.stretches.into(),
             pressure: rest.pressure,
-            contraction: stands(&rest),
-            left_out: left_out(&rest),
+            contraction: stands(rest),
+            left_out: left_out(rest),
             gap: rest.gap.is_finite().then_some(rest.gap),
-            modes: found.iter().map(|mode| ModeSurvey::of(mode, fastest(&found))).collect(),
-        })
+        }
     }
 }
 
-impl ModeSurvey {
-    /// `fastest` is the largest eigenvalue of the body, from whose matrix all of them are computed.
-    fn of(mode: &Mode, fastest: f64) -> Self {
+impl<S> ModeSurvey<S> {
+    /// `fastest` is the largest eigenvalue of all motions, from whose matrix all of them are computed.
+    fn of(mode: &Mode, fastest: f64, shape: impl Fn(&[ModeShape]) -> S) -> Self {
         let rounding = match mode.motion {
             ModeBehaviour::Oscillates => {
                 ROUNDING * mode.eigenvalues.iter().map(|value| value.modulus()).fold(0.0, f64::max)
@@ -130,8 +187,9 @@ impl ModeSurvey {
             frequency: mode.frequency(),
             decay_rates,
             damping_ratio: mode.damping_ratio().map(|ratio| if ratio <= ROUNDING { 0.0 } else { ratio }),
-            shape: ShapeSurvey::of(&mode.shape),
-            quadrature: mode.quadrature.as_ref().map(ShapeSurvey::of),
+            shape: shape(&mode.shapes),
+            quadrature: mode.quadratures.as_deref().map(shape),
+            participation: mode.participation.total(),
         }
     }
 }
@@ -154,6 +212,7 @@ fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::modes::Participation;
     use gyration::tensor::Vec3;
     use nalgebra::Complex;
 
@@ -162,12 +221,15 @@ mod tests {
         let of = |motion, rates: [f64; 2]| Mode {
             eigenvalues: rates.map(|rate| Complex::new(-rate, 0.0)).to_vec(),
             motion,
-            shape: ModeShape { translation: Vec3::x(), gradient: Mat3::zeros() },
-            quadrature: None,
+            shapes: vec![ModeShape { translation: Vec3::x(), gradient: Mat3::zeros() }],
+            quadratures: None,
             in_words: String::new(),
+            participation: Participation { bodies: vec![[1.0, 0.0, 0.0, 0.0, 0.0]] },
         };
         let modes = [of(ModeBehaviour::Free, [5.7e-31, 0.0]), of(ModeBehaviour::Creeps, [1e-9, 40.0])];
-        let told = modes.each_ref().map(|mode| ModeSurvey::of(mode, fastest(&modes)).decay_rates);
+        let told = modes
+            .each_ref()
+            .map(|mode| ModeSurvey::of(mode, fastest(&modes), |shapes| ShapeSurvey::of(&shapes[0])).decay_rates);
         assert_eq!(told, [vec![0.0, 0.0], vec![1e-9, 40.0]]);
     }
 }

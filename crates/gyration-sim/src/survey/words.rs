@@ -2,7 +2,7 @@
 
 use super::bodies::{BodySurvey, PairSurvey};
 use super::kind::KindSurvey;
-use super::modes::{ModeSurvey, RestState};
+use super::modes::{ModeSurvey, RestPlace};
 use super::rest::{Descent, RestGap};
 use crate::format::{significant, vector};
 use std::fmt::{self, Write as _};
@@ -39,7 +39,7 @@ pub(super) fn write_rest_state(text: &mut String, body: &BodySurvey) {
         let _ = writeln!(text, "  no rest state: {reason}");
     }
     if let Some(rest) = &body.rest_state {
-        let _ = write_rest(text, rest);
+        let _ = write_rest(text, &rest.place);
         rest.modes.chunk_by(alike).for_each(|modes| write_modes(text, modes));
     }
 }
@@ -135,7 +135,7 @@ fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
 }
 
 /// Place, gap, stretches and pressure at rest.
-pub fn write_rest(text: &mut String, rest: &RestState) -> fmt::Result {
+pub fn write_rest(text: &mut String, rest: &RestPlace) -> fmt::Result {
     let gap = rest.gap.map(|gap| format!(", gap {} m", short(gap))).unwrap_or_default();
     writeln!(text, "  rests at {} m{gap}", vector(&rest.position))?;
     if rest.stretches != [1.0; 3] {

@@ -1,0 +1,252 @@
+//! Coordinates of the small motions of a system: those of its bodies, one after the other, then those of contractions.
+
+use super::contraction::ContractionCoordinates;
+use super::coordinates::Coordinates;
+use super::frozen::FrozenSystem;
+use super::shape::ModeShape;
+use super::slopes::SystemSlopes;
+use super::spectrum::FirstOrder;
+use gyration::body::{Body, Slots};
+use gyration::tensor::Mat3;
+use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A part in quadrature below this is rounding.
+const IN_STEP: f64 = 1e-6;
+
+/// The maps between (z, γ) and the numbers of a system.
+#[derive(Debug, Clone)]
+pub(super) struct SystemCoordinates {
+    bodies: Vec<BodyCoordinates>,
+}
+
+/// Those of one body, and where they stand.
+#[derive(Debug, Clone)]
+struct BodyCoordinates {
+    places: Coordinates,
+    contraction: Option<ContractionCoordinates>,
+    slots: Slots,
+    z: Range<usize>,
+    gamma: Range<usize>,
+}
+
+impl BodyCoordinates {
+    /// Where positions and attitudes end and velocities begin in its block, and where G begins.
+    fn bounds(&self) -> [usize; 2] {
+        let start = self.slots.block().start;
+        [self.slots.velocities().start - start, self.slots.extra().start - start]
+    }
+}
+
+impl SystemCoordinates {
+    /// At a configuration.
+    pub fn at(frozen: &FrozenSystem, numbers: &[f64]) -> Self {
+        let (mut z, mut gamma) = (0, 0);
+        let next = |start: &mut usize, count: usize| {
+            let range = *start..*start + count;
+            *start = range.end;
+            range
+        };
+        let bodies = frozen.bodies().iter().enumerate().map(|(index, body)| {
+            let slots = *frozen.slots(index);
+            let block = &numbers[slots.block()];
+            let places = Coordinates::at(body, block);
+            let contraction = ContractionCoordinates::at(body, block);
+            let (moving, contracting) = (places.count(), contraction.as_ref().map_or(0, ContractionCoordinates::count));
+            let (z, gamma) = (next(&mut z, moving), next(&mut gamma, contracting));
+            BodyCoordinates { places, contraction, slots, z, gamma }
+        });
+        Self { bodies: bodies.collect() }
+    }
+
+    /// How many z and γ there are.
+    fn counts(&self) -> [usize; 2] {
+        self.bodies.last().map_or([0, 0], |last| [last.z.end, last.gamma.end])
+    }
+
+    /// Whether the contraction of a body moves.
+    pub fn contracts(&self) -> bool {
+        self.counts()[1] > 0
+    }
+
+    /// z̈ from the rates of all numbers.
+    pub fn force(&self, rates: &[f64]) -> DVector<f64> {
+        let mut force = DVector::zeros(self.counts()[0]);
+        for body in &self.bodies {
+            force.rows_mut(body.z.start, body.z.len()).copy_from(&body.places.force(&rates[body.slots.velocities()]));
+        }
+        force
+    }
+
+    /// V_G of each body whose contraction moves [1/s].
+    pub fn contraction_velocities(&self, frozen: &FrozenSystem, numbers: &[f64], rates: &[f64]) -> Vec<Option<Mat3>> {
+        let moving = self.bodies.iter().enumerate();
+        let speed = |body| frozen.contraction_velocity(numbers, rates, body);
+        moving.map(|(index, body)| body.contraction.as_ref().map(|_| speed(index))).collect()
+    }
+
+    /// γ̇ of these.
+    pub fn along(&self, velocities: &[Option<Mat3>]) -> DVector<f64> {
+        let moving = self.bodies.iter().zip(velocities);
+        let along = moving.filter_map(|(body, velocity)| Some(body.contraction.as_ref()?.along(velocity.as_ref()?)));
+        DVector::from_vec(along.flat_map(|along| along.as_slice().to_vec()).collect())
+    }
+
+    /// The strain rate of the relaxed shape of a body along γ.
+    pub fn strain(&self, body: usize, gamma: &DVector<f64>) -> Option<Mat3> {
+        let BodyCoordinates { contraction, gamma: range, .. } = &self.bodies[body];
+        Some(contraction.as_ref()?.strain(&gamma.rows(range.start, range.len()).into_owned()))
+    }
+
+    /// The sum over all blocks of what two bodies make of one.
+    fn assembled(
+        &self,
+        slopes: &SystemSlopes,
+        part: impl Fn(&BodyCoordinates, &BodyCoordinates, &DMatrix<f64>) -> DMatrix<f64>,
+    ) -> DMatrix<f64> {
+        let mut whole = DMatrix::zeros(self.counts()[0], self.counts()[0]);
+        for ([row, column], block) in slopes.iter() {
+            let (row, column) = (&self.bodies[row], &self.bodies[column]);
+            let mut place = whole.view_mut((row.z.start, column.z.start), (row.z.len(), column.z.len()));
+            place += part(row, column, block);
+        }
+        whole
+    }
+
+    /// K [1/s²] where no contraction moves.
+    pub fn stiffness(&self, slopes: &SystemSlopes) -> DMatrix<f64> {
+        self.assembled(slopes, |row, column, block| row.places.stiffness(&column.places, block))
+    }
+
+    /// C [1/s].
+    pub fn resistance(&self, slopes: &SystemSlopes) -> DMatrix<f64> {
+        self.assembled(slopes, |row, column, block| row.places.resistance(&column.places, block))
+    }
+
+    /// K, and the matrices of the contractions, given V_G of each.
+    pub fn first_order(&self, velocities: &[Option<Mat3>], slopes: &SystemSlopes) -> (DMatrix<f64>, FirstOrder) {
+        let mut stiffness = self.stiffness(slopes);
+        let [moving, contracting] = self.counts();
+        let mut first = FirstOrder::zeros(moving, contracting);
+        first.turns =
+            self.bodies.iter().flat_map(|body| body.contraction.iter().flat_map(|it| it.turns())).copied().collect();
+        for ([i, j], block) in slopes.iter() {
+            let (row, column) = (&self.bodies[i], &self.bodies[j]);
+            let ([above, below], [left, right]) = (row.bounds(), column.bounds());
+            let speeds = row.places.rates().nrows();
+            if let Some(contraction) = &column.contraction {
+                let pushed = row.places.weights() * block.view((above, right), (speeds, 9));
+                let mut by_place = stiffness.view_mut((row.z.start, column.z.start), (row.z.len(), column.z.len()));
+                by_place -= &pushed * contraction.follows(&column.places);
+                let mut forces =
+                    first.forces.view_mut((row.z.start, column.gamma.start), (row.z.len(), column.gamma.len()));
+                forces += pushed * contraction.columns();
+            }
+            let Some(contraction) = &row.contraction else { continue };
+            let rows = contraction.rows();
+            let mut by_place = &rows * (block.view((below, 0), (9, left)) * column.places.places());
+            if let Some(other) = &column.contraction {
+                let mut own = block.view((below, right), (9, 9)).into_owned();
+                if let Some(velocity) = velocities[i].as_ref().filter(|_| i == j) {
+                    own -= ContractionCoordinates::carried(velocity);
+                }
+                by_place += &rows * (&own * other.follows(&column.places));
+                let (high, wide) = (row.gamma.len(), column.gamma.len());
+                let mut place = first.own.view_mut((row.gamma.start, column.gamma.start), (high, wide));
+                place += &rows * own * other.columns();
+            }
+            let shape = (row.gamma.len(), column.z.len());
+            let mut place = first.by_place.view_mut((row.gamma.start, column.z.start), shape);
+            place += by_place;
+            let by_rate = rows * block.view((below, left), (9, right - left)) * column.places.rates();
+            let mut place = first.by_rate.view_mut((row.gamma.start, column.z.start), shape);
+            place += by_rate;
+        }
+        (stiffness, first)
+    }
+
+    /// Moves numbers along z and γ.
+    pub fn advance(&self, numbers: &mut [f64], z: &DVector<f64>, gamma: &DVector<f64>) {
+        for body in &self.bodies {
+            let block = &mut numbers[body.slots.block()];
+            let z = z.rows(body.z.start, body.z.len()).into_owned();
+            if let Some(contraction) = &body.contraction {
+                let gamma = gamma.rows(body.gamma.start, body.gamma.len()).into_owned();
+                contraction.advance(block, (&body.places, &z), &gamma);
+            }
+            body.places.advance(block, &z);
+        }
+    }
+
+    /// Moves the places alone.
+    pub fn advance_places(&self, numbers: &mut [f64], z: &DVector<f64>) {
+        for body in &self.bodies {
+            body.places.advance(&mut numbers[body.slots.block()], &z.rows(body.z.start, body.z.len()).into_owned());
+        }
+    }
+
+    /// δp₀ and δP of each body along z.
+    pub fn shapes(&self, frozen: &FrozenSystem, z: &DVector<f64>) -> Vec<ModeShape> {
+        let own = |body: &BodyCoordinates| z.rows(body.z.start, body.z.len()).into_owned();
+        let shape = |(body, at): (&Arc<Body>, &BodyCoordinates)| at.places.shape(body, &own(at));
+        frozen.bodies().iter().zip(&self.bodies).map(shape).collect()
+    }
+
+    /// The shapes along z, scaled by the fastest point of all bodies, with the leading entry of the body that it is of
+    /// positive, and the part in quadrature if there is one.
+    pub fn scaled_shapes(
+        &self,
+        frozen: &FrozenSystem,
+        real: &DVector<f64>,
+        imaginary: &DVector<f64>,
+    ) -> (Vec<ModeShape>, Option<Vec<ModeShape>>) {
+        let shapes = self.shapes(frozen, real);
+        let sized = shapes.iter().zip(frozen.bodies()).map(|(shape, body)| {
+            let radius = 0.5 * body.size;
+            (shape.largest_displacement(radius), shape.leading(radius))
+        });
+        // The first of several that are as fast: rounding does not choose.
+        let (most, leading) =
+            sized.fold((0.0, 0.0), |most, next| if next.0 > most.0 * (1.0 + 1e-9) { next } else { most });
+        // A contraction that moves no point has no shape.
+        let factor = if most > 0.0 { f64::signum(leading) / most } else { 0.0 };
+        let scaled = |shapes: Vec<ModeShape>| shapes.iter().map(|shape| shape.times(factor)).collect();
+        let out_of_step = imaginary.norm() > IN_STEP * real.norm();
+        let quadrature = out_of_step.then(|| scaled(self.shapes(frozen, imaginary)));
+        (scaled(shapes), quadrature)
+    }
+
+    /// Motions that have a name, as unit vectors of z: of all bodies together, as those of one body, then of each.
+    pub fn patterns(&self, frozen: &FrozenSystem, numbers: &[f64]) -> Vec<DVector<f64>> {
+        let count = self.counts()[0];
+        let mut own = Vec::new();
+        for (index, at) in self.bodies.iter().enumerate() {
+            let gradient = frozen.motion(numbers, index).placement.gradient;
+            own.push(at.places.patterns(&frozen.bodies()[index], &gradient));
+        }
+        let placed = |body: usize, pattern: &DVector<f64>| {
+            let mut whole = DVector::zeros(count);
+            whole.rows_mut(self.bodies[body].z.start, pattern.len()).copy_from(pattern);
+            whole
+        };
+        let each = own.iter().enumerate().flat_map(|(body, own)| own.iter().map(move |pattern| placed(body, pattern)));
+        let mut patterns = if self.bodies.len() > 1 { self.translations(frozen) } else { Vec::new() };
+        patterns.extend(each);
+        patterns
+    }
+
+    /// Translations of all bodies along the axes, as unit vectors of z.
+    fn translations(&self, frozen: &FrozenSystem) -> Vec<DVector<f64>> {
+        let along = |axis: usize| {
+            let mut whole = DVector::zeros(self.counts()[0]);
+            for (body, at) in frozen.bodies().iter().zip(&self.bodies) {
+                let own = at.places.translation(body, axis);
+                whole.rows_mut(at.z.start, at.z.len()).copy_from(&own);
+            }
+            let norm = whole.norm();
+            if norm > 0.0 { whole / norm } else { whole }
+        };
+        (0..3).map(along).collect()
+    }
+}
