@@ -37,8 +37,10 @@ pub enum Command {
     Run(RunArguments),
     /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching, resolved form
     Check(Check),
-    /// Print the rest state of each body, and frequencies, decay rates and shapes of the small motions about it
+    /// Print the rest state of each body, or of bodies that are joined, and frequencies, decay rates and shapes of the small motions about it
     Modes(Modes),
+    /// Print the waves that run through a lattice: frequencies and decay rates along a path of wave vectors, gaps
+    Bands(Bands),
     /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and
     /// moment
     Resistance(ResistanceArguments),
@@ -128,6 +130,30 @@ pub struct Modes {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `gyration bands`
+#[derive(Debug, Args)]
+pub struct Bands {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Vertices κ of the path, k = Σ κ_i b_i: "0,0,0 0.5,0,0 | G=0.5,0.5,0 X=1/3,1/3,0"; a bar breaks it [default:
+    /// through the ends of the zone along each periodic direction]
+    #[arg(long, value_name = "PATH", allow_hyphen_values = true)]
+    pub path: Option<String>,
+    /// Wave vectors a segment, both ends included
+    #[arg(long, value_name = "N", default_value = "101")]
+    pub points: NonZeroUsize,
+    /// Look at a mesh of so many wave vectors along each direction as well, for gaps and the density of states
+    #[arg(long, value_name = "N")]
+    pub mesh: Option<NonZeroUsize>,
+    /// Add the shapes of the waves to the JSON
+    #[arg(long, requires = "json")]
+    pub shapes: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

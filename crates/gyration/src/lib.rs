@@ -21,6 +21,7 @@ pub mod immersion;
 mod inadmissible;
 pub mod instant;
 pub mod kinematics;
+pub mod lattice;
 pub mod ledger;
 pub mod load;
 pub mod mass;

@@ -1,5 +1,6 @@
 //! The commands, a file each.
 
+mod bands;
 #[cfg(feature = "study")]
 mod calibrate;
 mod check;
@@ -30,6 +31,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::Modes(arguments) => modes::execute(&arguments),
+        Command::Bands(arguments) => bands::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Export(arguments) => export::execute(&arguments),

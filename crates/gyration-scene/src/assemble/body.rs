@@ -12,7 +12,7 @@ use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
 use crate::units::shown;
-use gyration::body::{Body as Moving, Pin};
+use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia};
 use gyration::kinematics::Placement;
 use gyration::load::{Spring, SpringLaw};
 use gyration::shape::Shape;
@@ -59,6 +59,9 @@ impl AssembledBody {
         let start = attitude?.start(placed, &kind, reporter)?;
         let place = placement(&start);
         let springs = springs(placed, &place, reporter);
+        if kind == BodyKind::Rigid(RigidInertia::POINT) {
+            point(placed, reporter);
+        }
         let body = Moving {
             name: value.name.clone(),
             kind,
@@ -68,6 +71,27 @@ impl AssembledBody {
             inclusion: inclusion?,
         };
         Some(Self { body, start, springs })
+    }
+}
+
+/// Notes what a mass point cannot have: it does not turn.
+fn point(placed: &Placed<Body>, reporter: &mut Reporter<'_>) {
+    let Placed { key, value, .. } = placed;
+    let spin: Vec3 = value.angular_velocity.as_ref().map(si).unwrap_or_default();
+    if spin != Vec3::zeros() {
+        let message = "all its mass is in one point, and the spin of a point has no meaning";
+        reporter.note(&key.key("angular_velocity"), message, "leave it out, or give the body some width");
+    }
+    for (index, spring) in value.spring.iter().enumerate() {
+        lever(&si(&spring.point), &key.key("spring").index(index).key("point"), reporter);
+    }
+}
+
+/// Notes a spring beside a mass point.
+pub(super) fn lever(point: &Vec3, key: &Key, reporter: &mut Reporter<'_>) {
+    if *point != Vec3::zeros() {
+        let message = "all mass of the body is in one point: a force beside it would turn what has no inertia";
+        reporter.note(key, message, "write [0, 0, 0], or give the body some width");
     }
 }
 

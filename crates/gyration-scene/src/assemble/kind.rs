@@ -93,6 +93,10 @@ fn fills_a_volume(mass: &MassProperties, key: &Key, reporter: &mut Reporter<'_>)
 
 /// The inertia about the centre of mass or the pin; notes one that cannot be inverted.
 fn inertia(mass: &MassProperties, arm: Option<Vec3>, key: &Key, reporter: &mut Reporter<'_>) -> Option<RigidInertia> {
+    // All mass in one place: a point has no turns that could be asked for.
+    if mass.euler_tensor.iter().all(|entry| *entry == 0.0) && arm.is_none() {
+        return Some(RigidInertia::POINT);
+    }
     let pin = arm.map(|point| Pin { point, anchor: Vec3::zeros() });
     match RigidInertia::new(mass, pin.as_ref()) {
         Ok(inertia) if inverts(&inertia.tensor, &inertia.inverse) => Some(inertia),

@@ -11,6 +11,7 @@ mod context;
 mod contractile;
 mod fluid;
 mod kind;
+mod lattice;
 mod mass;
 mod material;
 mod orientation;
@@ -35,14 +36,22 @@ use crate::file::{self, Method, Recorded, Solver, Time};
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
-use gyration::load::Spring;
+use gyration::contact::Contact;
+use gyration::fluid::Fluid;
+use gyration::kinematics::Placement;
+use gyration::lattice::Lattice;
+use gyration::load::{Interaction, Party, Spring};
 use gyration::model::Model;
+use gyration::neighbours::PairRule;
 use gyration::state::{Start, State};
-use gyration::tensor::Vec3;
+use gyration::support::Support;
+use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
+use lattice::Cells;
 use solids::Solids;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A scene ready to run.
@@ -56,6 +65,21 @@ pub struct Built {
     pub plan: Plan,
     /// What else to record.
     pub record: Record,
+    /// What bands are of, where there is a lattice.
+    pub cell: Option<UnitCell>,
+}
+
+/// The cell of a lattice of which bands are: one cell along what is periodic, all beside it.
+#[derive(Debug, Clone)]
+pub struct UnitCell {
+    /// What it holds.
+    pub model: Model,
+    /// How it starts.
+    pub state: State,
+    /// Which directions are periodic.
+    pub periodic: Vec<bool>,
+    /// Whether its bodies seek their rest before bands are computed.
+    pub relaxes: bool,
 }
 
 /// Quantities that are recorded on request.
@@ -148,7 +172,9 @@ pub(crate) fn assemble(
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
     let (contacts, rules) = contact::attach(partial, &assembled, reporter);
     let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).copied();
-    let springs: Vec<Spring> = anchored.chain(bond::bonds(partial, &assembled, reporter)).collect();
+    let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));
+    let of_cell = cells.as_ref().and_then(Option::as_ref);
+    let springs: Vec<Spring> = anchored.chain(bond::bonds(partial, &assembled, of_cell, reporter)).collect();
     let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
@@ -157,19 +183,108 @@ pub(crate) fn assemble(
             resolve::resolve(&mut body.value, &assembled_body.start);
         }
     }
+    give_sizes(&mut assembled, &springs, of_cell);
+    if let Some(cells) = of_cell {
+        let supports: Vec<_> = supports.iter().flatten().cloned().collect();
+        let fluid = around.as_ref().and_then(Option::as_ref);
+        cells.check_alike(&supports, &contacts, fluid, reporter);
+        let bodies: Vec<AssembledBody> = assembled.iter().flatten().cloned().collect();
+        lattice::check_held(&si(&partial.world.gravity), &contacts, &bodies, reporter);
+    }
     if !reporter.diagnostics.is_empty() {
         return None;
     }
     let plan = Plan::new(partial.time.as_ref()?, &partial.solver);
-    let (bodies, starts): (Vec<_>, Vec<Start>) = assembled.into_iter().flatten().map(|s| (s.body, s.start)).unzip();
-    let mut model = Model::new(si(&partial.world.gravity), supports.into_iter().collect::<Option<Vec<_>>>()?, bodies);
-    if let Some(fluid) = around {
-        model = model.in_fluid(fluid?);
-    }
-    model = model.with_contacts(contacts).with_springs(springs).meeting(rules).asking(|| Interruption::due().is_some());
-    let state = State::start(&model, &starts);
+    let bodies: Vec<AssembledBody> = assembled.into_iter().flatten().collect();
+    let parts = Parts {
+        gravity: si(&partial.world.gravity),
+        supports: supports.into_iter().collect::<Option<Vec<_>>>()?,
+        bodies,
+        fluid: around.map(|fluid| fluid.map(Arc::new)),
+        contacts,
+        springs,
+        rules,
+        lattice: Lattice::default(),
+        origins: Vec::new(),
+    };
+    let cells = cells.map(|cells| cells.ok_or(())).transpose().ok()?;
+    let unit = cells.as_ref().map(|cells| {
+        let unit = cells.unit();
+        let (model, state) = parts.clone().repeated(&unit).built()?;
+        Some(UnitCell { model, state, periodic: cells.periodic(), relaxes: cells.relaxes })
+    });
+    let cell = unit.map(|unit| unit.ok_or(())).transpose().ok()?;
+    let (model, state) = match &cells {
+        None => parts.built()?,
+        Some(cells) => parts.repeated(cells).built()?,
+    };
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
-    let forms = partial.bodies.iter().zip(&model.bodies).enumerate();
+    let copies = cells.as_ref().map_or(1, Cells::count);
+    let written = partial.bodies.iter().flat_map(|written| std::iter::repeat_n(written, copies));
+    let forms = written.zip(&model.bodies).enumerate();
     let forms = forms.filter_map(|(index, (written, body))| fluid::unknown(&written.value, body, index)).collect();
-    Some((Built { model, state, plan, record }, forms))
+    Some((Built { model, state, plan, record, cell }, forms))
+}
+
+/// Gives mass points a size, by which tolerances are judged: the length of their shortest spring, else of the shortest
+/// cell vector, else a metre.
+fn give_sizes(assembled: &mut [Option<AssembledBody>], springs: &[Spring], cells: Option<&Cells>) {
+    let lattice = cells.map(|cells| cells.lattice.clone()).unwrap_or_default();
+    let places: Vec<_> = assembled.iter().map(|body| body.as_ref().map(|body| start::placement(&body.start))).collect();
+    let nowhere = Placement { position: Vec3::zeros(), gradient: Mat3::identity() };
+    let length = |spring: &Spring| {
+        let length = spring.length(&lattice, |body| places[body].unwrap_or(nowhere));
+        if spring.law.rest_length > 0.0 { length.max(spring.law.rest_length) } else { length }
+    };
+    let cell = lattice.vectors().iter().map(Vec3::norm).fold(f64::INFINITY, f64::min);
+    for (index, body) in assembled.iter_mut().enumerate() {
+        let Some(body) = body.as_mut().filter(|body| body.body.size == 0.0) else { continue };
+        let is_own = |spring: &&Spring| spring.parties().contains(&Party::Body(index));
+        let shortest = springs.iter().filter(is_own).map(length).filter(|length| *length > 0.0).fold(cell, f64::min);
+        body.body.size = if shortest.is_finite() { shortest } else { 1.0 };
+    }
+}
+
+/// What a model is made of.
+#[derive(Debug, Clone)]
+struct Parts {
+    gravity: Vec3,
+    supports: Vec<Support>,
+    bodies: Vec<AssembledBody>,
+    /// None inside if it has an error.
+    fluid: Option<Option<Arc<Fluid>>>,
+    contacts: Vec<Contact>,
+    springs: Vec<Spring>,
+    rules: Vec<PairRule>,
+    lattice: Lattice,
+    origins: Vec<Vec3>,
+}
+
+impl Parts {
+    /// Those of all of these cells.
+    fn repeated(self, cells: &Cells) -> Self {
+        Self {
+            contacts: cells.contacts(&self.contacts),
+            springs: cells.springs(&self.springs),
+            rules: cells.rules(&self.rules),
+            origins: cells.origins(self.bodies.len()),
+            bodies: cells.bodies(&self.bodies),
+            lattice: cells.lattice.clone(),
+            ..self
+        }
+    }
+
+    /// The model and its first state.
+    fn built(self) -> Option<(Model, State)> {
+        let (bodies, starts): (Vec<_>, Vec<Start>) = self.bodies.into_iter().map(|it| (it.body, it.start)).unzip();
+        let mut model =
+            Model::new(self.gravity, self.supports, bodies).in_lattice(self.lattice).beginning_at(self.origins);
+        if let Some(fluid) = self.fluid {
+            model = model.in_fluid(fluid?);
+        }
+        let model = model.with_contacts(self.contacts).with_springs(self.springs).meeting(self.rules);
+        let model = model.asking(|| Interruption::due().is_some());
+        let state = State::start(&model, &starts);
+        Some((model, state))
+    }
 }

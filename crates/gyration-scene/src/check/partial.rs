@@ -1,7 +1,7 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
 use crate::document::{Diagnostics, Document};
-use crate::file::{Body, Bond, Contact, Fluid, Record, SceneFile, Solver, Support, Time, World};
+use crate::file::{Body, Bond, Contact, Fluid, Lattice, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
 use crate::tree::{Node, Value};
 use serde::de::DeserializeOwned;
@@ -53,6 +53,7 @@ pub(crate) struct PartialScene {
     /// What every body of the file is called, well formed or not.
     pub(crate) roll: Vec<BodyWords>,
     pub(crate) bonds: Vec<Placed<Bond>>,
+    pub(crate) lattice: Option<Lattice>,
     pub(crate) fluid: Option<Fluid>,
 }
 
@@ -72,6 +73,7 @@ impl PartialScene {
             bodies: taker.items("body"),
             roll: document.root.get("body").map(Node::items).unwrap_or_default().iter().map(BodyWords::of).collect(),
             bonds: taker.items("spring"),
+            lattice: taker.section("lattice"),
             fluid: taker.section("fluid"),
         }
     }
@@ -88,6 +90,7 @@ impl PartialScene {
             contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
             body: self.bodies.into_iter().map(|placed| placed.value).collect(),
             spring: self.bonds.into_iter().map(|placed| placed.value).collect(),
+            lattice: self.lattice,
             fluid: self.fluid,
         })
     }

@@ -39,6 +39,7 @@ impl Walker<'_> {
             (Value::Array(items), Rule::Several(item)) => self.items(items, key, item),
             (Value::Table(_), Rule::Several(item)) => self.visit(node, key, item),
             (Value::Text(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Text) => {}
+            (Value::Boolean(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Boolean) => {}
             (Value::Array(_), Rule::Either(array, _)) => self.visit(node, key, array),
             (Value::Table(_), Rule::Either(_, table)) => self.visit(node, key, table),
             (Value::Array(items), Rule::Array { item, least, most }) => {

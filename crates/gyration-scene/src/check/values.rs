@@ -8,7 +8,7 @@ use super::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Motion, Record, Support, Time};
 use crate::key::{Key, is_name};
 use crate::suggest;
-use crate::tree::Node;
+use crate::tree::{Node, Value};
 use gyration::tensor::Vec3;
 use std::collections::{BTreeSet, HashSet};
 
@@ -108,8 +108,9 @@ fn ends(known: &Named, reporter: &mut Reporter<'_>) {
             let Some(name) = name else { continue };
             let message = if known.lacks(name) {
                 (format!("there is no body \"{name}\""), suggest::fix(name, known.iter(), "body"))
-            } else if names[..end].contains(&Some(name)) {
-                let help = "name two different bodies; to a point of space leads a `spring` of the body";
+            } else if names[..end].contains(&Some(name)) && !leads_away(item) {
+                let help = "name two different bodies, or in a lattice the `cell` of the second; to a point of space \
+                            leads a `spring` of the body";
                 (format!("both ends are at the body \"{name}\""), help.to_owned())
             } else {
                 continue;
@@ -117,6 +118,12 @@ fn ends(known: &Named, reporter: &mut Reporter<'_>) {
             reporter.diagnostics.at(node.span, &key.index(end), message.0, message.1);
         }
     }
+}
+
+/// Whether a spring leads to another cell.
+fn leads_away(spring: &Node) -> bool {
+    let numbers = spring.get("cell").map(Node::items).unwrap_or_default();
+    numbers.iter().any(|node| !matches!(node.value, Value::Number(n) if n == 0.0))
 }
 
 /// Notes the contacts, well formed or not, that say neither or both of `support` and `between`, or name there what is

@@ -10,6 +10,7 @@ mod bond;
 mod contact;
 mod contractile;
 mod fluid;
+mod lattice;
 mod material;
 mod orientation;
 mod record;
@@ -26,6 +27,7 @@ pub use bond::Bond;
 pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
+pub use lattice::{CellCount, CellOffset, Lattice, Relaxed};
 pub use material::{
     Fung, Hencky, Material, MooneyRivlin, NeoHookean, NeoHookeanLog, Ogden, Orthogonality, StVenantKirchhoff,
 };
@@ -76,6 +78,9 @@ pub struct SceneFile {
     /// Springs between points of two bodies.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spring: Vec<Bond>,
+    /// The lattice of whose cells each holds these bodies; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lattice: Option<Lattice>,
     /// A viscous fluid around the bodies; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluid: Option<Fluid>,

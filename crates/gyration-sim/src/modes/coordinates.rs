@@ -43,7 +43,12 @@ impl Coordinates {
             let values = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| libm::pow(value, exponent)));
             &eigen.eigenvectors * values * eigen.eigenvectors.transpose()
         };
-        let (mut rates, mut weights) = (power(-0.5), power(0.5));
+        let root = libm::sqrt(body.solid.mass.mass);
+        let (mut rates, mut weights) = match body.is_point() {
+            false => (power(-0.5), power(0.5)),
+            // A point has no turns.
+            true => (DMatrix::identity(6, 3) / root, DMatrix::identity(3, 6) * root),
+        };
         let gradient = BodyMotion::read(body, &Slots::of(body, 0), block).placement.gradient;
         let keeps_volume = body.affine().is_some_and(|affine| affine.interior.is_incompressible());
         if keeps_volume && !body.contraction().is_some_and(takes_up_volume) {
@@ -62,7 +67,8 @@ impl Coordinates {
         &self.weights * DVector::from_column_slice(accelerations)
     }
 
-    /// K [1/s²] along z of another body, or of this one, from the block of the Jacobian with these rates and its numbers.
+    /// K [1/s²] along z of another body, or of this one, from the block of the Jacobian with these rates and its
+    /// numbers.
     pub fn stiffness(&self, by: &Self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let (rows, above, columns) = (self.rates.nrows(), self.places.nrows(), by.places.nrows());
         -(&self.weights * slopes.view((above, 0), (rows, columns)) * &by.places)

@@ -89,6 +89,11 @@ impl FrozenSystem {
         &self.model.bodies
     }
 
+    /// What joins them.
+    pub fn springs(&self) -> &[Spring] {
+        self.model.springs()
+    }
+
     /// Whether a pin, or a spring to an anchor, holds one of them.
     pub fn is_anchored(&self) -> bool {
         let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());

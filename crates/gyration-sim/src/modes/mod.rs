@@ -5,9 +5,9 @@
 //! q are the coordinates of one body, or of a system: bodies that springs or contacts join. ξ are small changes of them
 //! along which the mass is one (`coordinates`): twelve of an affine body, nine of a pinned one, one less each if it is
 //! incompressible, six or three of a rigid one; those of a system are those of its bodies, one after the other
-//! (`system`). K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per
-//! deformed area, couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the
-//! start of a run, `spectrum` solves for λ, `words` says what a mode is.
+//! (`system`). K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per deformed area,
+//! couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the start of a run,
+//! `spectrum` solves for λ, `words` says what a mode is.
 //!
 //! The contraction G of a body that drives itself is a state of first order (`contraction`): at rest it stands still
 //! too, in the state next to the one that the body gets to while G is held. Where there is none G stays held.
@@ -15,6 +15,7 @@
 //! Everything is about t = 0: supports, couples and drives are frozen as they are then, and what the bodies' velocities
 //! would be does not matter. Nothing here steps in time.
 
+pub mod bands;
 mod canonical;
 mod contraction;
 mod coordinates;

@@ -61,7 +61,7 @@ pub(super) fn euler_tensor(body: &Body) -> Mat3 {
 }
 
 /// Twice the kinetic energy of each part of a motion.
-fn energies(body: &Body, placement: &Placement, shape: &ModeShape) -> [f64; PARTS] {
+pub(super) fn energies(body: &Body, placement: &Placement, shape: &ModeShape) -> [f64; PARTS] {
     let translation = match body.pin {
         None => body.solid.mass.mass * shape.translation.norm_squared(),
         Some(_) => 0.0,

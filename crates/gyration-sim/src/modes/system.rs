@@ -7,6 +7,7 @@ use super::shape::ModeShape;
 use super::slopes::SystemSlopes;
 use super::spectrum::FirstOrder;
 use gyration::body::{Body, Slots};
+use gyration::lattice::HERE;
 use gyration::tensor::Mat3;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -61,8 +62,13 @@ impl SystemCoordinates {
     }
 
     /// How many z and γ there are.
-    fn counts(&self) -> [usize; 2] {
+    pub fn counts(&self) -> [usize; 2] {
         self.bodies.last().map_or([0, 0], |last| [last.z.end, last.gamma.end])
+    }
+
+    /// Where z of a body stand.
+    pub fn range(&self, body: usize) -> Range<usize> {
+        self.bodies[body].z.clone()
     }
 
     /// Whether the contraction of a body moves.
@@ -106,7 +112,7 @@ impl SystemCoordinates {
         part: impl Fn(&BodyCoordinates, &BodyCoordinates, &DMatrix<f64>) -> DMatrix<f64>,
     ) -> DMatrix<f64> {
         let mut whole = DMatrix::zeros(self.counts()[0], self.counts()[0]);
-        for ([row, column], block) in slopes.iter() {
+        for ([row, column], _, block) in slopes.iter() {
             let (row, column) = (&self.bodies[row], &self.bodies[column]);
             let mut place = whole.view_mut((row.z.start, column.z.start), (row.z.len(), column.z.len()));
             place += part(row, column, block);
@@ -131,7 +137,7 @@ impl SystemCoordinates {
         let mut first = FirstOrder::zeros(moving, contracting);
         first.turns =
             self.bodies.iter().flat_map(|body| body.contraction.iter().flat_map(|it| it.turns())).copied().collect();
-        for ([i, j], block) in slopes.iter() {
+        for ([i, j], cell, block) in slopes.iter() {
             let (row, column) = (&self.bodies[i], &self.bodies[j]);
             let ([above, below], [left, right]) = (row.bounds(), column.bounds());
             let speeds = row.places.rates().nrows();
@@ -148,7 +154,7 @@ impl SystemCoordinates {
             let mut by_place = &rows * (block.view((below, 0), (9, left)) * column.places.places());
             if let Some(other) = &column.contraction {
                 let mut own = block.view((below, right), (9, 9)).into_owned();
-                if let Some(velocity) = velocities[i].as_ref().filter(|_| i == j) {
+                if let Some(velocity) = velocities[i].as_ref().filter(|_| i == j && cell == HERE) {
                     own -= ContractionCoordinates::carried(velocity);
                 }
                 by_place += &rows * (&own * other.follows(&column.places));

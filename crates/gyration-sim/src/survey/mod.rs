@@ -8,6 +8,7 @@
 //! Nothing here steps in time, and nothing is written anywhere.
 
 pub(crate) mod balance;
+mod bands;
 mod bodies;
 mod contraction;
 mod crowd;
@@ -24,6 +25,7 @@ mod springs;
 mod text;
 mod words;
 
+pub use bands::{BandOptions, BandSurvey, CellRestSurvey, unit_cell};
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
 pub use encounter::Encounter;
 pub use kind::KindSurvey;

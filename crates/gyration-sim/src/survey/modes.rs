@@ -151,7 +151,7 @@ impl SystemRestState {
 }
 
 impl RestPlace {
-    fn of(rest: &Rest) -> Self {
+    pub(super) fn of(rest: &Rest) -> Self {
         Self {
             position: rest.placement.position.into(),
             gradient: rows(&rest.placement.gradient),

@@ -51,7 +51,7 @@ impl SpringSurvey {
             between: bodies.map(|body| model.bodies[body].name.clone()),
             stiffness: law.stiffness,
             rest_length: law.rest_length,
-            initial_length: spring.length(|body| start.motion(model, body).placement),
+            initial_length: spring.length(&model.lattice, |body| start.motion(model, body).placement),
             period,
             damping_ratio: damped.map(|_| law.damping / (2.0 * (law.stiffness * reduced).sqrt())),
         })

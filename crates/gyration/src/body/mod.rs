@@ -155,10 +155,15 @@ pub struct SingularInertia {
     pub largest: f64,
 }
 
+const NO_INERTIA: Mat3 = Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+
 /// Principal moments whose ratio is below this cannot be told from zero after the rounding of their integrals.
 const SINGULAR_RATIO: f64 = 1e-13;
 
 impl RigidInertia {
+    /// That of a mass point, which does not turn: I⁻¹ is zero on what has no inertia.
+    pub const POINT: Self = Self { tensor: NO_INERTIA, inverse: NO_INERTIA };
+
     /// The inertia about the centre of mass, or about the pin: J_p = J + m r⊗r, r = X_p.
     ///
     /// # Errors
@@ -235,6 +240,11 @@ impl Body {
             BodyKind::Contractile(contractile) => Some(&contractile.contraction),
             BodyKind::Rigid(_) | BodyKind::Affine(_) => None,
         }
+    }
+
+    /// Whether it is a mass point, which has a place and does not turn.
+    pub fn is_point(&self) -> bool {
+        matches!(&self.kind, BodyKind::Rigid(inertia) if *inertia == RigidInertia::POINT)
     }
 
     /// Whether it has inertia; without, its velocities are no state but follow from the balance.

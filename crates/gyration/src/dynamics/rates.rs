@@ -70,8 +70,8 @@ pub fn jacobian(
         let Some(matrix) = blocks.block(index, index) else { continue };
         let at = instant.at(index);
         body_jacobian(&at, scratch, matrix)?;
-        add_interactions(&at, |other, coupling, lower, lift| {
-            if let Some(matrix) = blocks.block(index, other) {
+        add_interactions(&at, |(other, cell), coupling, lower, lift| {
+            if let Some(matrix) = blocks.image_block(index, other, cell) {
                 coupling.add_to(matrix, lower, lift);
             }
         });

@@ -1,5 +1,6 @@
 //! What acts between two parties, found by body.
 
+use crate::lattice::{Cell, HERE, opposite};
 use std::sync::Arc;
 
 /// One of the two between which something acts.
@@ -15,8 +16,13 @@ pub enum Party {
 
 /// Something between a body of a model and another party.
 pub trait Interaction {
-    /// The two, of which the first is a body; they differ.
+    /// The two, of which the first is a body; they differ, unless the second is in another cell.
     fn parties(&self) -> [Party; 2];
+
+    /// The cell of the second as seen from that of the first.
+    fn cell(&self) -> Cell {
+        HERE
+    }
 }
 
 impl Party {
@@ -79,24 +85,28 @@ impl<J: Interaction> InteractionEnd<'_, J> {
     pub fn other(&self) -> Party {
         self.interaction.parties()[1 - self.end]
     }
+
+    /// The cell of the other party as seen from the body's own.
+    pub fn cell(&self) -> Cell {
+        if self.end == 0 { self.interaction.cell() } else { opposite(self.interaction.cell()) }
+    }
 }
 
 impl<J: Interaction> Interactions<J> {
     /// The interactions of so many bodies.
     ///
     /// # Panics
-    /// If one has no body first, joins a body to itself, or names one that does not exist.
+    /// If one has no body first, joins a body to itself in the same cell, or names one that does not exist.
     pub fn new(bodies: usize, all: Vec<J>) -> Self {
         if all.is_empty() {
             return Self::default();
         }
-        let joins = |[one, other]: [Party; 2]| {
-            one.body().is_some() && one != other && bodies_of([one, other]).all(|body| body < bodies)
+        let joins = |interaction: &J| {
+            let [one, other] = interaction.parties();
+            let differ = one != other || interaction.cell() != HERE;
+            one.body().is_some() && differ && bodies_of([one, other]).all(|body| body < bodies)
         };
-        assert!(
-            all.iter().all(|interaction| joins(interaction.parties())),
-            "an interaction is between one of the {bodies} bodies and another party"
-        );
+        assert!(all.iter().all(joins), "an interaction is between one of the {bodies} bodies and another party");
         // Sorted by counting: a crowd has millions.
         let mut starts = vec![0; bodies + 1];
         let concerned = all.iter().flat_map(|interaction| bodies_of(interaction.parties()));

@@ -2,13 +2,15 @@
 //!
 //!   F = −[k (l − l₀) + c l̇] e,   e = d/l,   l = |d|,   l̇ = e·ḋ,   d = x − y
 //!
-//! on the point x of the first body; −F acts on the point y of the second, or on the anchor y. The potential is ½k(l −
-//! l₀)², the dissipation c l̇², which count as the first body's. At l = 0 the direction e is lost: outside the model
-//! unless the spring has neither rest length nor dashpot.
+//! on the point x of the first body; −F acts on the point y of the second, or on the anchor y; in a lattice d = x − y −
+//! R, R the place of the second's cell as seen from the first's. The potential is ½k(l − l₀)², the dissipation c l̇²,
+//! which count as the first body's. At l = 0 the direction e is lost: outside the model unless the spring has neither
+//! rest length nor dashpot.
 
 use super::Loads;
 use super::interactions::{Interaction, InteractionEnd, Party};
 use crate::kinematics::{BodyMotion, Placement};
+use crate::lattice::{Cell, HERE, Lattice};
 use crate::tensor::{Mat3, Vec3};
 
 /// A spring with a dashpot in parallel, whatever its ends are.
@@ -41,6 +43,8 @@ pub enum Attachment {
 pub struct Spring {
     /// Where it begins, which is at a body, and where it ends.
     pub ends: [Attachment; 2],
+    /// In which cell of a lattice it ends, as seen from that in which it begins.
+    pub cell: Cell,
     /// What it does.
     pub law: SpringLaw,
 }
@@ -111,6 +115,10 @@ impl Interaction for Spring {
             Attachment::Anchor(_) => Party::Space,
         })
     }
+
+    fn cell(&self) -> Cell {
+        self.cell
+    }
 }
 
 impl Attachment {
@@ -134,12 +142,18 @@ impl Attachment {
 impl Spring {
     /// Between material points of two bodies.
     pub fn between(bodies: [usize; 2], points: [Vec3; 2], law: SpringLaw) -> Self {
-        Self { ends: [0, 1].map(|end| Attachment::Body { index: bodies[end], point: points[end] }), law }
+        Self { ends: [0, 1].map(|end| Attachment::Body { index: bodies[end], point: points[end] }), cell: HERE, law }
+    }
+
+    /// The same to the second body's image in another cell.
+    #[must_use]
+    pub fn across(self, cell: Cell) -> Self {
+        Self { cell, ..self }
     }
 
     /// From a material point of a body to a place in space.
     pub fn to_anchor(body: usize, point: Vec3, anchor: Vec3, law: SpringLaw) -> Self {
-        Self { ends: [Attachment::Body { index: body, point }, Attachment::Anchor(anchor)], law }
+        Self { ends: [Attachment::Body { index: body, point }, Attachment::Anchor(anchor)], cell: HERE, law }
     }
 
     /// The same spring between parties that have other indices.
@@ -153,20 +167,20 @@ impl Spring {
         Some([one?, other?])
     }
 
-    /// Its length l [m], given where its bodies are.
-    pub fn length(&self, placement: impl Fn(usize) -> Placement) -> f64 {
+    /// Its length l [m], given where its bodies are in their cells.
+    pub fn length(&self, lattice: &Lattice, placement: impl Fn(usize) -> Placement) -> f64 {
         let [one, other] = self.ends.map(|end| match end {
             Attachment::Body { index, point } => placement(index).place(&point),
             Attachment::Anchor(place) => place,
         });
-        (one - other).norm()
+        (one - other - lattice.place(self.cell)).norm()
     }
 
-    /// Force and derivatives, given how its bodies move.
+    /// Force and derivatives, given how its bodies move in their cells.
     ///
     /// # Errors
     /// The length [m], where the direction is lost (l = 0 with l₀ > 0 or a dashpot).
-    pub fn loads<'a>(&self, motion: impl Fn(usize) -> &'a BodyMotion) -> Result<SpringLoads, f64> {
+    pub fn loads<'a>(&self, lattice: &Lattice, motion: impl Fn(usize) -> &'a BodyMotion) -> Result<SpringLoads, f64> {
         let [one, other] = self.ends.map(|end| match end {
             Attachment::Body { index, point } => {
                 let BodyMotion { placement, velocity } = motion(index);
@@ -174,7 +188,7 @@ impl Spring {
             }
             Attachment::Anchor(place) => (place, Vec3::zeros()),
         });
-        self.law.loads(one.0 - other.0, one.1 - other.1)
+        self.law.loads(one.0 - other.0 - lattice.place(self.cell), one.1 - other.1)
     }
 }
 

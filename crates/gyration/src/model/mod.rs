@@ -9,6 +9,7 @@ use crate::acting::{Interacting, Load, PairAt};
 use crate::body::{Body, Slots};
 use crate::contact::Contact;
 use crate::fluid::Fluid;
+use crate::lattice::Lattice;
 use crate::ledger::{Energy, Work};
 use crate::load::{Applied, Interactions, Spring, SpringEnd};
 use crate::neighbours::{Pair, PairRule, PairRules};
@@ -28,6 +29,10 @@ pub struct Model {
     pub bodies: Vec<Arc<Body>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
+    /// The cells of which they are; no vectors where there is no lattice.
+    pub lattice: Arc<Lattice>,
+    /// Where the cell of each body is [m]; empty without a lattice.
+    origins: Arc<[Vec3]>,
     contacts: Interactions<Contact>,
     springs: Interactions<Spring>,
     rules: PairRules,
@@ -69,6 +74,8 @@ impl Model {
             supports,
             bodies,
             fluid,
+            lattice: Arc::default(),
+            origins: Arc::from([]),
             contacts,
             springs,
             rules,
@@ -106,6 +113,28 @@ impl Model {
     pub fn in_fluid(mut self, fluid: impl Into<Arc<Fluid>>) -> Self {
         self.fluid = Some(fluid.into());
         self.with_ledger()
+    }
+
+    /// The model in a lattice.
+    #[must_use]
+    pub fn in_lattice(self, lattice: impl Into<Arc<Lattice>>) -> Self {
+        Self { lattice: lattice.into(), ..self }
+    }
+
+    /// The model whose bodies have their places in cells that begin there [m].
+    ///
+    /// # Panics
+    /// If there are neither none nor as many as bodies.
+    #[must_use]
+    pub fn beginning_at(self, origins: impl Into<Arc<[Vec3]>>) -> Self {
+        let origins = origins.into();
+        assert!(origins.is_empty() || origins.len() == self.bodies.len(), "each body is in a cell");
+        Self { origins, ..self }
+    }
+
+    /// Where the cell of a body is [m]: its place in space is that in the state from there.
+    pub fn origin(&self, body: usize) -> Vec3 {
+        self.origins.get(body).copied().unwrap_or_else(Vec3::zeros)
     }
 
     /// The model with laws between its bodies and its supports.
@@ -182,6 +211,8 @@ impl Model {
             inertialess: without_inertia(&bodies),
             bodies,
             fluid: self.fluid.clone(),
+            lattice: Arc::clone(&self.lattice),
+            origins: members.iter().filter_map(|body| self.origins.get(*body)).copied().collect(),
             contacts: self.contacts.among(members, Contact::of_parties),
             springs: self.springs.among(members, Spring::of_parties),
             rules: self.rules.among(members),

@@ -43,7 +43,7 @@ pub(super) struct Influences {
 /// Subtracts ∂A_i/∂v_j of all i ≠ j of a group from the blocks of its matrix.
 pub(super) fn add_velocities(instant: &Instant, bodies: &[usize], together: &mut Together) {
     for (row, body) in bodies.iter().enumerate() {
-        add_interactions(&instant.at(*body), |other, coupling, lower, lift| {
+        add_interactions(&instant.at(*body), |(other, _), coupling, lower, lift| {
             let Some(column) = bodies.binary_search(&other).ok().filter(|_| coupling.by_rate.is_some()) else { return };
             let Some(block) = together.block(row, column) else { return };
             for velocity in 0..Slots::with_inertia(&instant.model().bodies[other], 0).velocities().len() {
@@ -122,7 +122,7 @@ impl Influences {
         self.find_parties(instant, group);
         self.own.clear();
         for body in &group.bodies {
-            add_interactions(&instant.at(*body), |of, coupling, lower, lift| {
+            add_interactions(&instant.at(*body), |(of, _), coupling, lower, lift| {
                 self.own.push(Influence { on: *body, of, coupling: *coupling, lower: *lower, lift: *lift });
             });
         }
@@ -130,7 +130,7 @@ impl Influences {
         self.own.sort_by_key(|influence| influence.of);
         self.others.clear();
         for body in &self.receivers {
-            add_interactions(&instant.at(*body), |of, coupling, lower, lift| {
+            add_interactions(&instant.at(*body), |(of, _), coupling, lower, lift| {
                 if coupling.by_rate.is_some() && group.bodies.binary_search(&of).is_ok() {
                     self.others.push(Influence { on: *body, of, coupling: *coupling, lower: *lower, lift: *lift });
                 }

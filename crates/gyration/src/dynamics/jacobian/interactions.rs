@@ -8,25 +8,26 @@ use super::super::loads::sloped;
 use super::{Coupling, Lift, Lower};
 use crate::acting::Load;
 use crate::instant::BodyAt;
+use crate::lattice::Cell;
 use crate::load::{Mat12, SpringEnd, SpringLoads, add_blocks};
 use crate::tensor::Vec3;
 use std::convert::Infallible;
 
-/// Hands to `each`, for every spring and pair of a body with another, this other body, ∂Q by its coordinates, B of the
-/// one and A of the other.
-pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut(usize, &Coupling, &Lower, &Lift)) {
+/// Hands to `each`, for every spring and pair of a body with another, this other body and its cell, ∂Q by its
+/// coordinates, B of the one and A of the other.
+pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usize, Cell), &Coupling, &Lower, &Lift)) {
     let mut lower = None;
     let Ok(()) = at.try_each_load(|load| {
         let (other, coupling) = match load {
             Load::Spring(end) => match end.other().body() {
-                Some(other) => (other, Coupling::of_spring(&end, at.spring(&end))),
+                Some(other) => ((other, end.cell()), Coupling::of_spring(&end, at.spring(&end))),
                 None => return Ok(()),
             },
             Load::Pair(pair) => {
                 let (slopes, own) = (sloped(&pair), pair.end.end);
                 let by_place = slopes.by_place[own][1 - own];
                 let by_rate = slopes.by_rate.as_ref().map(|by_rate| by_rate[own][1 - own]);
-                (pair.other(), Coupling { by_place, by_rate })
+                ((pair.other(), pair.end.cell()), Coupling { by_place, by_rate })
             }
             // What acts on one body alone.
             Load::Contact(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {
@@ -34,7 +35,7 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut(usize
             }
         };
         let lower = lower.get_or_insert_with(|| Lower::of(at));
-        each(other, &coupling, lower, &Lift::of_state(&at.beside(other)));
+        each(other, &coupling, lower, &Lift::of_state(&at.beside(other.0)));
         Ok::<(), Infallible>(())
     });
 }

@@ -24,6 +24,7 @@ use super::contractile::ContractileMotion;
 use super::history::RigidHistory;
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
+use crate::lattice::Cell;
 use nalgebra::DMatrix;
 
 /// The blocks of a Jacobian, to be written.
@@ -34,6 +35,12 @@ pub trait Blocks {
 
     /// Block (row, column), or none where it is not wanted.
     fn block(&mut self, row: usize, column: usize) -> Option<&mut DMatrix<f64>>;
+
+    /// The block to which is added what the image of a body in a cell does, as seen from that of the row: that of the
+    /// body itself, since all images move alike, unless they are told apart.
+    fn image_block(&mut self, row: usize, column: usize, _cell: Cell) -> Option<&mut DMatrix<f64>> {
+        self.block(row, column)
+    }
 }
 
 /// The blocks of the diagonal alone.

@@ -1,0 +1,232 @@
+//! The cells of a lattice: what one cell holds becomes what all cells of a run hold, or those that bands are of.
+
+use super::body::AssembledBody;
+use crate::check::Reporter;
+use crate::file::{self, Relaxed};
+use crate::key::Key;
+use crate::quantity::si;
+use gyration::contact::Contact;
+use gyration::fluid::Fluid;
+use gyration::lattice::{Cell, Lattice};
+use gyration::load::{Attachment, Spring};
+use gyration::neighbours::PairRule;
+use gyration::support::Support;
+use gyration::tensor::Vec3;
+
+/// The most cells of a run.
+const MOST_CELLS: u64 = 1_000_000;
+
+/// A block of cells.
+#[derive(Debug, Clone)]
+pub(super) struct Cells {
+    pub lattice: Lattice,
+    /// How many there are along each vector.
+    repeat: [u32; 3],
+    /// Whether the last is beside the first.
+    periodic: [bool; 3],
+    /// Whether granules seek their rest.
+    pub relaxes: bool,
+}
+
+impl Cells {
+    /// Those of a run; notes what is wrong with them.
+    pub fn of(written: &file::Lattice, reporter: &mut Reporter<'_>) -> Option<Self> {
+        let key = Key::root().key("lattice");
+        let vectors: Vec<Vec3> = written.cell.iter().map(si).collect();
+        let count = vectors.len();
+        let lattice = match Lattice::new(vectors) {
+            Ok(lattice) => lattice,
+            Err(error) => {
+                let help = "write vectors that span as many dimensions as there are of them";
+                reporter.note(&key.key("cell"), error.to_string(), help);
+                return None;
+            }
+        };
+        let listed = written.periodic.as_slice();
+        let periodic = match written.periodic {
+            file::OneOrMany::One(all) => [all; 3],
+            file::OneOrMany::Many(_) if listed.len() == count => {
+                std::array::from_fn(|a| listed.get(a).copied().unwrap_or(true))
+            }
+            file::OneOrMany::Many(_) => {
+                let message = format!("there are {} entries for {count} cell vectors", listed.len());
+                reporter.note(&key.key("periodic"), message, "write true, false, or one of them for each vector");
+                return None;
+            }
+        };
+        let repeat = written.repeat.map(|count| count.0 as u32);
+        for (a, cells) in repeat.iter().enumerate().skip(count) {
+            if *cells != 1 {
+                let message = format!("there is no cell vector {}, along which cells could be repeated", a + 1);
+                reporter.note(&key.key("repeat").index(a), message, "write 1");
+                return None;
+            }
+        }
+        if repeat.iter().map(|count| u64::from(*count)).product::<u64>() > MOST_CELLS {
+            reporter.note(&key.key("repeat"), format!("there are more than {MOST_CELLS} cells"), "repeat fewer");
+            return None;
+        }
+        let relaxes = written.relax.contains(&Relaxed::Granules);
+        Some(Self { lattice, repeat, periodic, relaxes })
+    }
+
+    /// Those of which bands are: one along what is periodic.
+    pub fn unit(&self) -> Self {
+        let repeat = std::array::from_fn(|a| if self.periodic[a] { 1 } else { self.repeat[a] });
+        Self { repeat, ..self.clone() }
+    }
+
+    /// The directions that are periodic.
+    pub fn periodic(&self) -> Vec<bool> {
+        self.periodic[..self.lattice.vectors().len()].to_vec()
+    }
+
+    /// How many cells there are.
+    pub fn count(&self) -> usize {
+        self.repeat.iter().map(|count| *count as usize).product()
+    }
+
+    /// All of them, the first direction fastest.
+    fn all(&self) -> impl Iterator<Item = Cell> + use<> {
+        let [x, y, z] = self.repeat.map(|count| count as i32);
+        (0..z).flat_map(move |c| (0..y).flat_map(move |b| (0..x).map(move |a| [a, b, c])))
+    }
+
+    /// The number of the cell that another sees in a direction; none beyond a free end.
+    fn beside(&self, cell: Cell, offset: Cell) -> Option<usize> {
+        let mut number = 0;
+        for a in (0..3).rev() {
+            let (count, at) = (self.repeat[a] as i32, cell[a].checked_add(offset[a])?);
+            let within = if self.periodic[a] { at.rem_euclid(count) } else { at };
+            if !(0..count).contains(&within) {
+                return None;
+            }
+            number = number * count as usize + within as usize;
+        }
+        Some(number)
+    }
+
+    /// The index of a body in a cell of this number: the copies of each body follow one another.
+    fn index(&self, body: usize, cell: usize) -> usize {
+        body * self.count() + cell
+    }
+
+    /// The bodies of all cells; those of one cell keep their names.
+    pub fn bodies(&self, of_cell: &[AssembledBody]) -> Vec<AssembledBody> {
+        let count = self.count();
+        let copies = of_cell.iter().flat_map(|body| {
+            (0..count).map(|cell| {
+                let mut copy = body.clone();
+                if count > 1 {
+                    copy.body.name = format!("{}-{cell}", body.body.name);
+                }
+                copy
+            })
+        });
+        copies.collect()
+    }
+
+    /// Where the cells of all bodies are [m].
+    pub fn origins(&self, bodies: usize) -> Vec<Vec3> {
+        let places: Vec<Vec3> = self.all().map(|cell| self.lattice.place(cell)).collect();
+        (0..bodies).flat_map(|_| places.clone()).collect()
+    }
+
+    /// The contacts of all cells with supports.
+    pub fn contacts(&self, of_cell: &[Contact]) -> Vec<Contact> {
+        let copies = of_cell.iter().flat_map(|contact| {
+            (0..self.count()).map(|cell| Contact { body: self.index(contact.body, cell), ..contact.clone() })
+        });
+        copies.collect()
+    }
+
+    /// The rules of all cells.
+    pub fn rules(&self, of_cell: &[PairRule]) -> Vec<PairRule> {
+        let set = |bodies: &std::sync::Arc<[usize]>| {
+            bodies.iter().flat_map(|body| (0..self.count()).map(|cell| self.index(*body, cell))).collect()
+        };
+        let of_all = |rule: &PairRule| PairRule { bodies: rule.bodies.each_ref().map(set), ..rule.clone() };
+        of_cell.iter().map(of_all).collect()
+    }
+
+    /// The springs of all cells; those that lead beyond a free end are left out.
+    pub fn springs(&self, of_cell: &[Spring]) -> Vec<Spring> {
+        let cells: Vec<Cell> = self.all().collect();
+        let copies = of_cell.iter().flat_map(|spring| {
+            cells.iter().enumerate().filter_map(|(number, cell)| {
+                let places = [Some(number), self.beside(*cell, spring.cell)];
+                let mut ends = spring.ends;
+                for (end, place) in ends.iter_mut().zip(places) {
+                    if let Attachment::Body { index, .. } = end {
+                        *index = self.index(*index, place?);
+                    }
+                }
+                Some(Spring { ends, ..*spring })
+            })
+        });
+        copies.collect()
+    }
+
+    /// Notes what does not look alike from every cell.
+    pub fn check_alike(
+        &self,
+        supports: &[Support],
+        contacts: &[Contact],
+        fluid: Option<&Fluid>,
+        reporter: &mut Reporter<'_>,
+    ) {
+        for (a, vector) in self.lattice.vectors().iter().enumerate() {
+            if self.repeat[a] == 1 && !self.periodic[a] {
+                continue;
+            }
+            let number = a + 1;
+            for (index, support) in supports.iter().enumerate() {
+                let is_met = contacts.iter().any(|contact| contact.support == index);
+                if is_met && support.normal.dot(vector).abs() > ALIKE * vector.norm() {
+                    let message = format!("cell vector {number} leads off this support: cells do not see it alike");
+                    let key = Key::root().key("support").index(index).key("plane");
+                    reporter.note(&key, message, "turn its normal across all cell vectors");
+                }
+            }
+            if let Some(fluid) = fluid {
+                let [_, gradient] = fluid.signals();
+                let differs = |time: f64| (gradient.at(time) * vector).norm() > 0.0;
+                if [0.0, 0.37, 1.7].into_iter().any(differs) {
+                    let message = format!("the flow changes along cell vector {number}: cells do not see it alike");
+                    let key = Key::root().key("fluid").key("velocity_gradient");
+                    reporter.note(&key, message, "leave it out, or let it be zero along the cell vectors");
+                }
+            }
+        }
+    }
+}
+
+/// The cosine between a cell vector and a plane's normal that is rounding.
+const ALIKE: f64 = 1e-12;
+
+/// Notes a gravity that nothing holds up.
+pub(super) fn check_held(gravity: &Vec3, contacts: &[Contact], bodies: &[AssembledBody], reporter: &mut Reporter<'_>) {
+    let is_held =
+        |body: &AssembledBody| body.body.pin.is_some() || !body.springs.is_empty() || body.body.inclusion.is_some();
+    if gravity.norm() > 0.0 && contacts.is_empty() && !bodies.iter().any(is_held) {
+        let message = "gravity pulls at every cell, and nothing holds them: no support, pin or spring to space";
+        reporter.note(&Key::root().key("world").key("gravity"), message, "write gravity = [0, 0, 0]");
+    }
+}
+
+/// Whether a cell is one of a lattice; notes why not.
+pub(super) fn check_cell(cell: Cell, lattice: Option<&Cells>, key: &Key, reporter: &mut Reporter<'_>) -> bool {
+    let Some(cells) = lattice else {
+        reporter.note(key, "there are no other cells: the scene has no `[lattice]`", "leave it out, or add a lattice");
+        return false;
+    };
+    let count = cells.lattice.vectors().len();
+    match (count..3).find(|a| cell[*a] != 0) {
+        Some(beyond) => {
+            let message = format!("the lattice has {count} cell vectors");
+            reporter.note(&key.index(beyond), message, "write 0");
+            false
+        }
+        None => true,
+    }
+}

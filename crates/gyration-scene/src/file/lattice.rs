@@ -1,0 +1,51 @@
+//! `[lattice]`: the bodies of the scene are what one cell holds.
+
+use super::contractile::OneOrMany;
+use crate::quantity::Length;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A lattice of cells, each of which holds the bodies of the scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lattice {
+    /// One to three primitive vectors (m).
+    #[schemars(length(min = 1, max = 3))]
+    pub cell: Vec<[Length; 3]>,
+    /// How many cells a run has along each.
+    #[serde(default = "once")]
+    pub repeat: [CellCount; 3],
+    /// Whether the ends are neighbours, of all directions or of each.
+    #[serde(default = "periodic")]
+    pub periodic: OneOrMany<bool>,
+    /// What seeks its rest before bands are computed.
+    #[serde(default)]
+    pub relax: Vec<Relaxed>,
+}
+
+/// A number of cells.
+// Numbers of a scene are read as reals; the structure is checked to hold a whole one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct CellCount(#[schemars(with = "u32", range(min = 1, max = 1_000_000))] pub f64);
+
+/// How many cells away something is along a cell vector.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct CellOffset(#[schemars(with = "i32", range(min = -1_000_000, max = 1_000_000))] pub f64);
+
+/// What seeks its rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Relaxed {
+    /// The bodies, within the cell as it is written.
+    Granules,
+}
+
+fn once() -> [CellCount; 3] {
+    [CellCount(1.0); 3]
+}
+
+fn periodic() -> OneOrMany<bool> {
+    OneOrMany::One(true)
+}

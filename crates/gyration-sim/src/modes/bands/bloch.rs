@@ -1,0 +1,202 @@
+//! The small motions of a lattice as matrices: those of one cell, and with them those at each wave vector.
+//!
+//!   ξ̈ + C(k) ξ̇ + K(k) ξ = B(k) γ,   γ̇ = D(k) ξ + E(k) ξ̇ + H(k) γ,   K(k) = Σ_R K_R e^{ik·R}
+//!
+//! in the coordinates of `system`, along which the mass is one. R runs over the cells that act on the one: the exact
+//! Jacobian has the blocks of each apart.
+
+use super::super::frozen::FrozenSystem;
+use super::super::participation::{PARTS, energies};
+use super::super::spectrum::FirstOrder;
+use super::super::system::SystemCoordinates;
+use gyration::Inadmissible;
+use gyration::lattice::{Cell, Lattice, opposite};
+use gyration::tensor::Vec3;
+use nalgebra::{Complex, DMatrix, DVector};
+use std::f64::consts::TAU;
+
+pub(super) type C64 = Complex<f64>;
+
+/// Differences below this part of the largest entry are the rounding of a Jacobian.
+const ROUNDING: f64 = 1e-11;
+
+/// The matrices of the cells that act on one.
+#[derive(Debug)]
+pub(super) struct BlochSystem {
+    cells: Vec<CellMatrices>,
+    /// How many ξ and γ there are.
+    pub counts: [usize; 2],
+    /// The largest |K| that there may be [1/s²].
+    pub stiffest: f64,
+    /// Whether K(k) is Hermitian at every k, and nothing else acts.
+    pub is_conservative: bool,
+    /// Twice the kinetic energy of each part of a motion as a form of ξ.
+    parts: [DMatrix<f64>; PARTS],
+}
+
+/// What one cell does to another.
+#[derive(Debug)]
+struct CellMatrices {
+    cell: Cell,
+    /// R [m].
+    place: Vec3,
+    stiffness: DMatrix<f64>,
+    resistance: DMatrix<f64>,
+    first: FirstOrder,
+}
+
+/// The matrices at a wave vector.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct WaveMatrices {
+    /// K.
+    pub stiffness: DMatrix<C64>,
+    /// C.
+    pub resistance: DMatrix<C64>,
+    /// B.
+    pub forces: DMatrix<C64>,
+    /// D.
+    pub by_place: DMatrix<C64>,
+    /// E.
+    pub by_rate: DMatrix<C64>,
+    /// H.
+    pub own: DMatrix<C64>,
+}
+
+impl BlochSystem {
+    /// About a state of a cell.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if the state is outside the model.
+    pub fn at(frozen: &mut FrozenSystem, lattice: &Lattice, numbers: &[f64]) -> Result<Self, Inadmissible> {
+        let slopes = frozen.slopes(numbers)?;
+        let rates = frozen.rates(numbers)?;
+        let coordinates = SystemCoordinates::at(frozen, numbers);
+        let velocities = coordinates.contraction_velocities(frozen, numbers, &rates);
+        let cells = slopes.cells().into_iter().map(|cell| {
+            let own = slopes.of_cell(cell);
+            let (stiffness, first) = coordinates.first_order(&velocities, &own);
+            let place = lattice.place(cell);
+            CellMatrices { cell, place, stiffness, resistance: coordinates.resistance(&own), first }
+        });
+        let cells: Vec<CellMatrices> = cells.collect();
+        let counts = coordinates.counts();
+        let stiffest = cells.iter().map(|cell| cell.stiffness.norm()).sum();
+        let is_conservative = is_conservative(&cells, stiffest) && counts[1] == 0;
+        let parts = parts(frozen, &coordinates, numbers);
+        Ok(Self { cells, counts, stiffest, is_conservative, parts })
+    }
+
+    /// The matrices at κ.
+    pub fn wave(&self, kappa: &[f64; 3]) -> WaveMatrices {
+        self.summed(|cell| phase(kappa, cell.cell))
+    }
+
+    /// Their derivatives by k along a direction [m × each].
+    pub fn slope(&self, kappa: &[f64; 3], along: &Vec3) -> WaveMatrices {
+        self.summed(|cell| phase(kappa, cell.cell) * C64::new(0.0, cell.place.dot(along)))
+    }
+
+    fn summed(&self, factor: impl Fn(&CellMatrices) -> C64) -> WaveMatrices {
+        let [size, own] = self.counts;
+        let mut sum = WaveMatrices {
+            stiffness: DMatrix::zeros(size, size),
+            resistance: DMatrix::zeros(size, size),
+            forces: DMatrix::zeros(size, own),
+            by_place: DMatrix::zeros(own, size),
+            by_rate: DMatrix::zeros(own, size),
+            own: DMatrix::zeros(own, own),
+        };
+        let add = |sum: &mut DMatrix<C64>, part: &DMatrix<f64>, factor: C64| {
+            sum.iter_mut().zip(part.iter()).for_each(|(sum, part)| *sum += factor * *part);
+        };
+        for cell in &self.cells {
+            let factor = factor(cell);
+            if factor == C64::new(0.0, 0.0) {
+                continue;
+            }
+            add(&mut sum.stiffness, &cell.stiffness, factor);
+            if self.is_conservative {
+                continue;
+            }
+            add(&mut sum.resistance, &cell.resistance, factor);
+            add(&mut sum.forces, &cell.first.forces, factor);
+            add(&mut sum.by_place, &cell.first.by_place, factor);
+            add(&mut sum.by_rate, &cell.first.by_rate, factor);
+            add(&mut sum.own, &cell.first.own, factor);
+        }
+        sum
+    }
+
+    /// The shares of a motion: translation, rotation, shear, stretch, breathing.
+    pub fn participation(&self, shape: &DVector<C64>) -> [f64; PARTS] {
+        let form = |matrix: &DMatrix<f64>| {
+            let part = |entry: fn(&C64) -> f64| {
+                let real = shape.map(|value| entry(&value));
+                (matrix * &real).dot(&real)
+            };
+            part(|value| value.re) + part(|value| value.im)
+        };
+        let shares = self.parts.each_ref().map(form);
+        let total: f64 = shares.iter().sum();
+        // Rounding below zero is none.
+        shares.map(|share| if total > 0.0 { (share / total + 1e-17).max(0.0) } else { 0.0 })
+    }
+}
+
+/// e^{2πi κ·n}; exact where κ·n is a multiple of a quarter.
+fn phase(kappa: &[f64; 3], cell: Cell) -> C64 {
+    let turns: f64 = kappa.iter().zip(cell).map(|(kappa, n)| kappa * f64::from(n)).sum();
+    let quarters = 4.0 * (turns - turns.round());
+    match quarters {
+        0.0 => C64::new(1.0, 0.0),
+        1.0 => C64::new(0.0, 1.0),
+        -1.0 => C64::new(0.0, -1.0),
+        2.0 | -2.0 => C64::new(-1.0, 0.0),
+        _ => {
+            let (sine, cosine) = libm::sincos(0.25 * TAU * quarters);
+            C64::new(cosine, sine)
+        }
+    }
+}
+
+/// Whether K_{−R} = K_Rᵀ for all R, and nothing resists.
+fn is_conservative(cells: &[CellMatrices], stiffest: f64) -> bool {
+    cells.iter().all(|cell| {
+        let back = cells.iter().find(|other| other.cell == opposite(cell.cell));
+        let asymmetry = match back {
+            Some(back) => (&cell.stiffness - back.stiffness.transpose()).amax(),
+            None => cell.stiffness.amax(),
+        };
+        asymmetry <= ROUNDING * stiffest && cell.resistance.amax() == 0.0
+    })
+}
+
+/// The energies of the parts of a motion as forms of ξ, from those of unit motions and of their sums.
+fn parts(frozen: &FrozenSystem, coordinates: &SystemCoordinates, numbers: &[f64]) -> [DMatrix<f64>; PARTS] {
+    let [size, _] = coordinates.counts();
+    let placements: Vec<_> = (0..frozen.count()).map(|body| frozen.motion(numbers, body).placement).collect();
+    let of = |body: usize, z: &DVector<f64>| {
+        let shapes = coordinates.shapes(frozen, z);
+        energies(&frozen.bodies()[body], &placements[body], &shapes[body])
+    };
+    let mut parts = std::array::from_fn(|_| DMatrix::zeros(size, size));
+    for body in 0..frozen.count() {
+        let range = coordinates.range(body);
+        let unit = |i: usize| DVector::from_fn(size, |k, _| f64::from(u8::from(k == i)));
+        let alone: Vec<[f64; PARTS]> = range.clone().map(|i| of(body, &unit(i))).collect();
+        for (a, i) in range.clone().enumerate() {
+            for (b, j) in range.clone().enumerate().take(a + 1) {
+                let both = of(body, &(unit(i) + unit(j)));
+                for part in 0..PARTS {
+                    let shared = match a == b {
+                        true => alone[a][part],
+                        false => 0.5 * (both[part] - alone[a][part] - alone[b][part]),
+                    };
+                    parts[part][(i, j)] = shared;
+                    parts[part][(j, i)] = shared;
+                }
+            }
+        }
+    }
+    parts
+}

@@ -1,0 +1,212 @@
+//! Bands of a lattice: the waves that run through it.
+//!
+//!   ξ_i(R, t) = Re ξ_i e^{i(k·R − ωt) − δt},   k = Σ κ_a b_a,   λ = −δ − iω
+//!
+//! `path` reads wave vectors, `bloch` has the matrices of the small motions of one cell and of those at a wave vector,
+//! `waves` their roots, shapes and group velocities. The cell is linearized about its rest, or about the state as it is
+//! written.
+
+mod bloch;
+mod mesh;
+mod path;
+mod waves;
+
+pub use mesh::{BandGap, StateDensity, Zone};
+pub use path::{BandPath, PathError, PathPoint};
+
+use super::frozen::{FrozenContraction, FrozenSystem};
+use super::participation::PARTS;
+use super::shape::ModeShape;
+use super::system::SystemCoordinates;
+use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
+use bloch::{BlochSystem, C64};
+use gyration::lattice::{HERE, Lattice};
+use gyration::load::{Interaction, Spring};
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::{Mat3, Vec3};
+use gyration_threads::Interruption;
+use nalgebra::DVector;
+use serde::Serialize;
+use waves::Waves;
+
+/// A cell of a lattice about a state in which it rests, or is written.
+#[derive(Debug)]
+pub struct LatticeWaves {
+    frozen: FrozenSystem,
+    coordinates: SystemCoordinates,
+    system: BlochSystem,
+    lattice: Lattice,
+    rest: CellRest,
+}
+
+/// Where the cell is looked at, and how it is loaded there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellRest {
+    /// The cell vectors [m].
+    pub cell: Vec<Vec3>,
+    /// The force t_a that each cell vector carries [N]: Σ n_a f of what leads to the cell Σ n_a a_a.
+    pub force: Vec<Vec3>,
+    /// σ = Σ t_a ⊗ a_a/Ω [Pa; of a sheet N/m, of a chain N].
+    pub stress: Mat3,
+    /// Where each body rests.
+    pub bodies: Vec<Rest>,
+    /// The largest acceleration that is left, in numbers of the state; none where the cell rests.
+    pub unrest: Option<f64>,
+}
+
+/// Why there are no bands.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoBands {
+    /// The cell has no rest state.
+    #[error("the cell has no rest state: {0}")]
+    Rest(#[from] NoRest),
+    /// The roots were not found.
+    #[error("the roots at κ = ({:?}, {:?}, {:?}) could not be found: the iteration did not end", .0[0], .0[1], .0[2])]
+    Roots([f64; 3]),
+    /// They were given up.
+    #[error("they were given up: they take longer than solver.max_wall_time")]
+    Interrupted,
+}
+
+/// The waves at a wave vector.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandRow {
+    /// κ.
+    pub kappa: [f64; 3],
+    /// k [1/m].
+    pub k: Vec3,
+    /// The branches, ascending in frequency.
+    pub branches: Vec<Branch>,
+    /// Every root [1/s].
+    pub roots: Vec<C64>,
+}
+
+/// One wave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// ω [rad/s].
+    pub omega: f64,
+    /// δ [1/s]; negative where the wave grows.
+    pub decay: f64,
+    /// ∂ω/∂k [m/s]; none where ω has no derivative.
+    pub velocity: Option<Vec3>,
+    /// Shares of the kinetic energy: translation, rotation, shear, stretch, breathing.
+    pub participation: [f64; PARTS],
+    /// How each body moves; none where that was not asked for.
+    pub shapes: Vec<BandShape>,
+}
+
+/// How a body moves in a wave: δp₀ and δP [1/m] in real and imaginary parts, so scaled that Σ |ξ|² = 1 along
+/// coordinates of mass one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BandShape {
+    /// δp₀.
+    pub translation: [[f64; 2]; 3],
+    /// δP, row by row.
+    pub gradient: [[[f64; 2]; 3]; 3],
+}
+
+/// Accelerations below this part of the stiffness over a size are those of a state at rest.
+const AT_REST: f64 = 1e-9;
+
+impl LatticeWaves {
+    /// The waves of a lattice whose cell a model is; its bodies seek their rest first, or stay as they are written.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub fn new(model: &Model, start: &State, relaxes: bool) -> Result<Self, NoBands> {
+        let members: Vec<usize> = (0..model.bodies.len()).collect();
+        if members.iter().any(|body| !model.bodies[*body].has_inertia()) {
+            return Err(NoRest::WithoutInertia.into());
+        }
+        let sought = if relaxes { Some(system_rest(model, start, &members)?) } else { None };
+        let goes_on = |rest: &Rest| matches!(rest.contraction, Some(RestContraction::GoesOn(_)));
+        let follows = match &sought {
+            Some(rests) if rests.iter().any(goes_on) => FrozenContraction::Held,
+            _ => FrozenContraction::Driven,
+        };
+        let mut frozen = FrozenSystem::new(model, start, &members, follows);
+        let numbers = match &sought {
+            Some(rests) => rests.iter().flat_map(|rest| rest.block()).copied().collect(),
+            None => frozen.start.clone(),
+        };
+        let lattice = Lattice::clone(&model.lattice);
+        let system = BlochSystem::at(&mut frozen, &lattice, &numbers).map_err(NoRest::from)?;
+        let rates = frozen.rates(&numbers).map_err(NoRest::from)?;
+        let left = members.iter().flat_map(|body| {
+            let (slots, size) = (frozen.slots(*body), frozen.bodies()[*body].size);
+            let of = |range: std::ops::Range<usize>, size: f64| rates[range].iter().map(move |rate| rate.abs() / size);
+            of(slots.velocity(), size).chain(of(slots.rate(), 1.0)).collect::<Vec<f64>>()
+        });
+        let left = left.fold(0.0, f64::max);
+        let unrest = (left > AT_REST * system.stiffest).then_some(left);
+        let bodies = sought.unwrap_or_else(|| equilibrium::rest_at(&mut frozen, &numbers));
+        let (force, stress) = carried(&frozen, &lattice, &numbers);
+        let rest = CellRest { cell: lattice.vectors().to_vec(), force, stress, bodies, unrest };
+        let coordinates = SystemCoordinates::at(&frozen, &numbers);
+        Ok(Self { frozen, coordinates, system, lattice, rest })
+    }
+
+    /// Where the cell is looked at.
+    pub fn rest(&self) -> &CellRest {
+        &self.rest
+    }
+
+    /// k of κ [1/m].
+    pub fn wave_vector(&self, kappa: &[f64; 3]) -> Vec3 {
+        self.lattice.reciprocal().iter().zip(kappa).map(|(vector, kappa)| *kappa * vector).sum()
+    }
+
+    /// The shapes of a wave.
+    fn shapes(&self, wave: &DVector<C64>) -> Vec<BandShape> {
+        let [real, imaginary] =
+            [wave.map(|z| z.re), wave.map(|z| z.im)].map(|part| self.coordinates.shapes(&self.frozen, &part));
+        let shape = |(re, im): (&ModeShape, &ModeShape)| BandShape {
+            translation: [0, 1, 2].map(|i| [re.translation[i], im.translation[i]]),
+            gradient: [0, 1, 2].map(|i| [0, 1, 2].map(|j| [re.gradient[(i, j)], im.gradient[(i, j)]])),
+        };
+        real.iter().zip(&imaginary).map(shape).collect()
+    }
+
+    /// The waves at a point of a path.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub fn row(&self, point: &PathPoint, shapes: bool) -> Result<BandRow, NoBands> {
+        if Interruption::due().is_some() {
+            return Err(NoBands::Interrupted);
+        }
+        let kappa = point.kappa;
+        let along = self.wave_vector(&point.along);
+        // Without a direction any that is no symmetry tells waves of one frequency apart.
+        let along = along.try_normalize(0.0).unwrap_or_else(|| self.wave_vector(&[0.83, 0.47, 0.29]).normalize());
+        let Waves { branches, roots } = self.system.waves(&kappa, &along).map_err(|_| NoBands::Roots(kappa))?;
+        let branches = branches.iter().map(|wave| Branch {
+            omega: wave.root.im.abs(),
+            // Zero has no sign.
+            decay: 0.0 - wave.root.re,
+            velocity: wave.velocity,
+            participation: self.system.participation(&wave.shape),
+            shapes: if shapes { self.shapes(&wave.shape) } else { Vec::new() },
+        });
+        Ok(BandRow { kappa, k: self.wave_vector(&kappa), branches: branches.collect(), roots })
+    }
+}
+
+/// The forces that the cell vectors carry, and the stress.
+fn carried(frozen: &FrozenSystem, lattice: &Lattice, numbers: &[f64]) -> (Vec<Vec3>, Mat3) {
+    let motions: Vec<_> = (0..frozen.count()).map(|body| frozen.motion(numbers, body)).collect();
+    let mut forces = vec![Vec3::zeros(); lattice.vectors().len()];
+    let leads_away = |spring: &&Spring| spring.cell() != HERE;
+    for spring in frozen.springs().iter().filter(leads_away) {
+        // ∂E/∂(place of the second end) is what it does to the first.
+        let Ok(loads) = spring.loads(lattice, |body| &motions[body]) else { continue };
+        for (force, n) in forces.iter_mut().zip(spring.cell()) {
+            *force += f64::from(n) * loads.force;
+        }
+    }
+    let products = forces.iter().zip(lattice.vectors()).map(|(force, vector)| force * vector.transpose());
+    let stress = products.sum::<Mat3>() / lattice.volume();
+    (forces, stress)
+}

@@ -1,0 +1,360 @@
+//! The waves at a wave vector: roots λ and shapes ξ, and how their frequencies change with k.
+//!
+//! Without losses K(k) is Hermitian, λ = ±iω, ω² its eigenvalues, and
+//!
+//!   ∂ω/∂k = ξᴴ (∂K/∂k) ξ/(2ω |ξ|²)
+//!
+//! Otherwise they are the eigenvalues of the system of first order in the basis of the Hermitian part of K, with x_i =
+//! ω_i ξ_i as in `spectrum`: where nothing depends on a coordinate there is no x_i, and its zero is taken out exactly.
+//! With Q(λ) the matrix of (ξ | γ), whose null vector is the wave, and z its left null vector,
+//!
+//!   ∂λ/∂k = −zᴴ (∂Q/∂k) (ξ | γ) / zᴴ (∂Q/∂λ) (ξ | γ)
+//!
+//! Where several waves have one root these derivatives are the eigenvalues of the matrix that their shapes give.
+
+use super::bloch::{BlochSystem, C64, WaveMatrices};
+use gyration::tensor::Vec3;
+use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+
+/// ω² below this part of the stiffest is zero.
+const NEUTRAL: f64 = 1e-12;
+/// Real or imaginary parts below this part of the largest root are rounding.
+const ROUNDING: f64 = 1e-10;
+/// Roots nearer than this part of the largest are one.
+const SAME: f64 = 1e-8;
+/// Sweeps of an iteration at most.
+const SWEEPS: usize = 10_000;
+
+/// A root and its shape.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Wave {
+    /// λ [1/s].
+    pub root: C64,
+    /// ξ, of length one; zero where the root has none.
+    pub shape: DVector<C64>,
+    /// −Im ∂λ/∂k [m/s], the group velocity; none where the frequency has no derivative.
+    pub velocity: Option<Vec3>,
+}
+
+/// All waves at a wave vector.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Waves {
+    /// The branches: one a degree of freedom and one a first-order state, ascending in frequency.
+    pub branches: Vec<Wave>,
+    /// Every root [1/s].
+    pub roots: Vec<C64>,
+}
+
+/// The iteration for the roots did not end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct NoRoots;
+
+impl BlochSystem {
+    /// The waves at κ; where several have one frequency, those that stay waves along a direction.
+    pub fn waves(&self, kappa: &[f64; 3], along: &Vec3) -> Result<Waves, NoRoots> {
+        match self.is_conservative {
+            true => self.conservative(kappa, along),
+            false => self.dissipative(kappa, along),
+        }
+    }
+
+    fn conservative(&self, kappa: &[f64; 3], along: &Vec3) -> Result<Waves, NoRoots> {
+        let matrix = hermitian(self.wave(kappa).stiffness);
+        let eigen = matrix.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
+        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let least = NEUTRAL * self.stiffest;
+        let squares: Vec<f64> = order.iter().map(|k| eigen.eigenvalues[*k]).collect();
+        let columns: Vec<DVector<C64>> = order.iter().map(|k| eigen.eigenvectors.column(*k).into_owned()).collect();
+        let mut vectors = DMatrix::from_columns(&columns);
+        let slopes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| self.slope(kappa, &axis).stiffness);
+        let directed = self.slope(kappa, along).stiffness;
+        let same = SAME * squares.iter().fold(0.0, |most: f64, square| most.max(square.abs()));
+        let mut from = 0;
+        while from < squares.len() {
+            let count = squares[from..].iter().take_while(|square| *square - squares[from] <= same).count();
+            if count > 1 {
+                let space = vectors.columns(from, count).into_owned();
+                let within = hermitian(space.adjoint() * &directed * &space);
+                let turned = within.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?.eigenvectors;
+                vectors.columns_mut(from, count).copy_from(&(space * turned));
+            }
+            from += count;
+        }
+        let wave = |k: usize| {
+            let shape = vectors.column(k).into_owned();
+            let omega = libm::sqrt(squares[k].max(0.0));
+            let root = match squares[k] {
+                square if square.abs() <= least => C64::new(0.0, 0.0),
+                square if square < 0.0 => C64::new(libm::sqrt(-square), 0.0),
+                _ => C64::new(0.0, -omega),
+            };
+            let slope = |slope: &DMatrix<C64>| shape.dotc(&(slope * &shape)).re / (2.0 * omega);
+            let oscillates = root.im != 0.0;
+            let velocity = oscillates.then(|| Vec3::from(slopes.each_ref().map(slope)));
+            Wave { root, shape, velocity }
+        };
+        let mut branches: Vec<Wave> = (0..squares.len()).map(wave).collect();
+        branches.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)).then(b.root.re.total_cmp(&a.root.re)));
+        let roots = branches.iter().flat_map(|wave| [wave.root, -wave.root]).map(unsigned).collect();
+        Ok(Waves { branches, roots })
+    }
+
+    fn dissipative(&self, kappa: &[f64; 3], along: &Vec3) -> Result<Waves, NoRoots> {
+        let system = FirstOrderWaves::new(self.wave(kappa), NEUTRAL * self.stiffest)?;
+        let found = system.roots()?;
+        let slopes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| self.slope(kappa, &axis));
+        let directed = self.slope(kappa, along);
+        let mut waves = Vec::new();
+        for group in &found.groups {
+            waves.extend(system.group(group, &slopes, &directed));
+        }
+        let still = Wave { root: C64::new(0.0, 0.0), shape: DVector::zeros(self.counts[0]), velocity: None };
+        waves.extend(system.neutral.iter().map(|shape| Wave { shape: shape.clone(), ..still.clone() }));
+        let mut roots: Vec<C64> = waves.iter().map(|wave| wave.root).collect();
+        roots.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()).then(a.im.total_cmp(&b.im)).then(b.re.total_cmp(&a.re)));
+        Ok(Waves { branches: branches(waves, self.counts.iter().sum()), roots })
+    }
+}
+
+/// ω of a wave.
+fn frequency(wave: &Wave) -> f64 {
+    wave.root.im.abs()
+}
+
+/// Zeros without a sign.
+fn unsigned(root: C64) -> C64 {
+    C64::new(root.re + 0.0, root.im + 0.0)
+}
+
+/// Of all waves those with ω > 0 that run as e^{ik·R − iωt}, and of those that do not oscillate the slowest.
+fn branches(waves: Vec<Wave>, count: usize) -> Vec<Wave> {
+    let (mut chosen, others): (Vec<Wave>, Vec<Wave>) = waves.into_iter().partition(|wave| wave.root.im < 0.0);
+    let (mut real, mut backward): (Vec<Wave>, Vec<Wave>) = others.into_iter().partition(|wave| wave.root.im == 0.0);
+    // What grows first, then what decays slowest.
+    real.sort_by(|a, b| b.root.re.total_cmp(&a.root.re));
+    backward.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)));
+    let missing = count.saturating_sub(chosen.len());
+    chosen.extend(real.into_iter().chain(backward).take(missing));
+    chosen.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)).then(b.root.re.total_cmp(&a.root.re)));
+    chosen
+}
+
+/// The Hermitian part.
+fn hermitian(matrix: DMatrix<C64>) -> DMatrix<C64> {
+    let half = C64::new(0.5, 0.0);
+    (&matrix + matrix.adjoint()) * half
+}
+
+/// The system of first order at a wave vector: x of the coordinates on which something depends, y of all, then γ.
+struct FirstOrderWaves {
+    matrices: WaveMatrices,
+    /// The basis of sym K.
+    basis: DMatrix<C64>,
+    /// Which coordinates have an x.
+    bound: Vec<usize>,
+    /// The shapes of the others.
+    neutral: Vec<DVector<C64>>,
+    matrix: DMatrix<C64>,
+}
+
+/// The Schur form of a system, and its roots in groups that are one.
+struct FoundRoots {
+    groups: Vec<RootGroup>,
+}
+
+/// Roots that are one, with the shapes (ξ | γ) and the left null vectors of their waves, column by column.
+struct RootGroup {
+    roots: Vec<C64>,
+    shapes: DMatrix<C64>,
+    left: DMatrix<C64>,
+}
+
+impl FirstOrderWaves {
+    fn new(matrices: WaveMatrices, least: f64) -> Result<Self, NoRoots> {
+        let eigen = hermitian(matrices.stiffness.clone()).try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
+        let basis = eigen.eigenvectors;
+        let (size, own) = (basis.ncols(), matrices.own.nrows());
+        let within = basis.adjoint() * &matrices.stiffness * &basis;
+        let resistance = basis.adjoint() * &matrices.resistance * &basis;
+        let (by_place, by_rate) = (&matrices.by_place * &basis, &matrices.by_rate * &basis);
+        let forces = basis.adjoint() * &matrices.forces;
+        let felt = by_place.iter().fold(0.0, |most: f64, entry| most.max(entry.modulus()));
+        let scale = |i: usize| {
+            let scale = libm::sqrt(within.column(i).norm());
+            if scale * scale > least {
+                scale
+            } else if by_place.column(i).norm() > ROUNDING * felt {
+                by_place.column(i).norm()
+            } else {
+                0.0
+            }
+        };
+        let scales: Vec<f64> = (0..size).map(scale).collect();
+        let (bound, free): (Vec<usize>, Vec<usize>) = (0..size).partition(|i| scales[*i] > 0.0);
+        let (y, gamma) = (bound.len(), bound.len() + size);
+        let mut matrix = DMatrix::zeros(gamma + own, gamma + own);
+        for (x, i) in bound.iter().enumerate() {
+            matrix[(x, y + i)] = C64::new(scales[*i], 0.0);
+            for j in 0..size {
+                matrix[(y + j, x)] = -within[(j, *i)] / scales[*i];
+            }
+            for k in 0..own {
+                matrix[(gamma + k, x)] = by_place[(k, *i)] / scales[*i];
+            }
+        }
+        matrix.view_mut((y, y), (size, size)).copy_from(&-resistance);
+        matrix.view_mut((y, gamma), (size, own)).copy_from(&forces);
+        matrix.view_mut((gamma, y), (own, size)).copy_from(&by_rate);
+        matrix.view_mut((gamma, gamma), (own, own)).copy_from(&matrices.own);
+        let neutral = free.iter().map(|i| basis.column(*i).into_owned()).collect();
+        Ok(Self { matrices, basis, bound, neutral, matrix })
+    }
+
+    /// All roots with their vectors.
+    fn roots(&self) -> Result<FoundRoots, NoRoots> {
+        let size = self.matrix.nrows();
+        // Rows and columns of like sizes, by powers of two, which round nothing.
+        let schur = Schur::try_new(self.matrix.clone(), f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
+        let (unitary, triangle) = schur.unpack();
+        let values: Vec<C64> = triangle.diagonal().iter().copied().collect();
+        let largest = values.iter().map(|value| value.modulus()).fold(0.0, f64::max);
+        let mut left: Vec<usize> = (0..size).collect();
+        let mut groups = Vec::new();
+        while let Some(first) = left.first().copied() {
+            let is_same = |k: &usize| (values[*k] - values[first]).modulus() <= SAME * largest;
+            let (group, others): (Vec<usize>, Vec<usize>) = left.iter().partition(|k| is_same(k));
+            left = others;
+            // A shift beside the root by more than its rounding keeps the triangle regular.
+            let shift = values[first] + C64::new(0.3, 0.4) * (1e-3 * SAME * largest).max(f64::MIN_POSITIVE);
+            let shifted = &triangle - DMatrix::from_diagonal_element(size, size, shift);
+            let start = DMatrix::from_fn(size, group.len(), |i, j| {
+                C64::new(libm::sin(1.0 + 1.7 * i as f64 + 2.3 * (j * i) as f64), 0.1)
+            });
+            let mut right_vectors = start.clone();
+            let mut left_vectors = start;
+            for _ in 0..3 {
+                shifted.solve_upper_triangular_mut(&mut right_vectors);
+                right_vectors = right_vectors.qr().q();
+                shifted.ad_solve_upper_triangular_mut(&mut left_vectors);
+                left_vectors = left_vectors.qr().q();
+            }
+            let snap = |value: f64| if value.abs() <= ROUNDING * largest { 0.0 } else { value };
+            let roots = group.iter().map(|k| C64::new(snap(values[*k].re), snap(values[*k].im))).collect();
+            let (right_vectors, left_vectors) = (&unitary * right_vectors, &unitary * left_vectors);
+            groups.push(RootGroup {
+                roots,
+                shapes: self.shapes(values[first], &right_vectors),
+                left: self.left(&left_vectors),
+            });
+        }
+        Ok(FoundRoots { groups })
+    }
+
+    /// (ξ | γ) of eigenvectors: ξ = x/ω where there is an x, else y/λ.
+    fn shapes(&self, root: C64, vectors: &DMatrix<C64>) -> DMatrix<C64> {
+        let (size, own) = (self.basis.ncols(), self.matrices.own.nrows());
+        let y = self.bound.len();
+        let mut shapes = DMatrix::zeros(size + own, vectors.ncols());
+        for column in 0..vectors.ncols() {
+            let along = DVector::from_fn(size, |i, _| match self.bound.iter().position(|bound| *bound == i) {
+                Some(x) => vectors[(x, column)] / self.matrix[(x, y + i)],
+                None if root.modulus() > 0.0 => vectors[(y + i, column)] / root,
+                None => C64::new(0.0, 0.0),
+            });
+            shapes.view_mut((0, column), (size, 1)).copy_from(&(&self.basis * along));
+            shapes.view_mut((size, column), (own, 1)).copy_from(&vectors.view((y + size, column), (own, 1)));
+        }
+        shapes
+    }
+
+    /// The left null vectors of Q: those of the rows of y and γ.
+    fn left(&self, vectors: &DMatrix<C64>) -> DMatrix<C64> {
+        let (size, own) = (self.basis.ncols(), self.matrices.own.nrows());
+        let y = self.bound.len();
+        let mut left = DMatrix::zeros(size + own, vectors.ncols());
+        left.rows_mut(0, size).copy_from(&(&self.basis * vectors.rows(y, size)));
+        left.rows_mut(size, own).copy_from(&vectors.rows(y + size, own));
+        left
+    }
+
+    /// The waves of roots that are one.
+    fn group(&self, group: &RootGroup, slopes: &[WaveMatrices; 3], directed: &WaveMatrices) -> Vec<Wave> {
+        let size = self.basis.ncols();
+        let RootGroup { roots, shapes, left } = group;
+        let root = roots[0];
+        // ∂λ = −(zᴴ ∂Q/∂λ ξ)⁻¹ zᴴ ∂Q ξ.
+        let metric = left.adjoint() * self.by_root(root, shapes);
+        let change = |slope: &WaveMatrices| {
+            let changed = left.adjoint() * along(slope, root, shapes);
+            metric.clone().lu().solve(&-changed)
+        };
+        let count = roots.len();
+        // Combinations of shapes that stay waves along the direction.
+        let turned = match count {
+            1 => None,
+            _ => change(directed).and_then(eigenvectors),
+        };
+        let inverse = turned.as_ref().and_then(|turned| turned.clone().try_inverse());
+        let velocities: [Option<DMatrix<C64>>; 3] = slopes.each_ref().map(|slope| {
+            let change = change(slope)?;
+            match (&turned, &inverse) {
+                (Some(turned), Some(inverse)) => Some(inverse * change * turned),
+                _ => Some(change),
+            }
+        });
+        let shapes = match (&turned, &inverse) {
+            (Some(turned), Some(_)) => shapes * turned,
+            _ => shapes.clone(),
+        };
+        let wave = |(k, root): (usize, &C64)| {
+            let shape = shapes.view((0, k), (size, 1)).into_owned();
+            let norm = shape.norm();
+            let shape: DVector<C64> =
+                DVector::from_column_slice(shape.as_slice()) / C64::new(norm.max(f64::MIN_POSITIVE), 0.0);
+            let oscillates = root.im != 0.0;
+            let component = |a: usize| Some(-velocities[a].as_ref()?[(k, k)].im);
+            let velocity = oscillates.then(|| Some(Vec3::new(component(0)?, component(1)?, component(2)?))).flatten();
+            Wave { root: *root, shape, velocity }
+        };
+        roots.iter().enumerate().map(wave).collect()
+    }
+
+    /// ∂Q/∂λ (ξ | γ) = ((2λ + C) ξ | γ − E ξ).
+    fn by_root(&self, root: C64, shapes: &DMatrix<C64>) -> DMatrix<C64> {
+        let size = self.basis.ncols();
+        let (xi, gamma) = (shapes.rows(0, size), shapes.rows(size, shapes.nrows() - size));
+        let mut product = shapes.clone();
+        product.rows_mut(0, size).copy_from(&(xi * (root * 2.0) + &self.matrices.resistance * xi));
+        product.rows_mut(size, gamma.nrows()).copy_from(&(gamma - &self.matrices.by_rate * xi));
+        product
+    }
+}
+
+/// ∂Q (ξ | γ) = ((λ ∂C + ∂K) ξ − ∂B γ | −(∂D + λ ∂E) ξ − ∂H γ).
+fn along(slope: &WaveMatrices, root: C64, shapes: &DMatrix<C64>) -> DMatrix<C64> {
+    let size = slope.stiffness.nrows();
+    let (xi, gamma) = (shapes.rows(0, size), shapes.rows(size, shapes.nrows() - size));
+    let mut product = shapes.clone();
+    let upper = &slope.resistance * xi * root + &slope.stiffness * xi - &slope.forces * gamma;
+    let lower = -(&slope.by_place * xi) - &slope.by_rate * xi * root - &slope.own * gamma;
+    product.rows_mut(0, size).copy_from(&upper);
+    product.rows_mut(size, gamma.nrows()).copy_from(&lower);
+    product
+}
+
+/// The eigenvectors of a small matrix, if it has as many as rows.
+fn eigenvectors(matrix: DMatrix<C64>) -> Option<DMatrix<C64>> {
+    let size = matrix.nrows();
+    let (unitary, triangle) = Schur::try_new(matrix, f64::EPSILON, SWEEPS)?.unpack();
+    let mut vectors = DMatrix::identity(size, size);
+    for k in 0..size {
+        for i in (0..k).rev() {
+            let sum: C64 = (i + 1..=k).map(|j| triangle[(i, j)] * vectors[(j, k)]).sum();
+            let gap = triangle[(i, i)] - triangle[(k, k)];
+            vectors[(i, k)] = if sum.modulus() == 0.0 { C64::new(0.0, 0.0) } else { -sum / gap };
+        }
+    }
+    let vectors = unitary * vectors;
+    vectors.iter().all(|entry| entry.re.is_finite() && entry.im.is_finite()).then_some(vectors)
+}

@@ -1,0 +1,173 @@
+//! Bands of a lattice, in a form to print.
+
+use super::modes::{Named, RestPlace};
+use crate::modes::PARTS;
+use crate::modes::bands::{BandPath, BandRow, BandShape, LatticeWaves, NoBands, Zone};
+use gyration::tensor::{Mat3, Vec3};
+use gyration_scene::{Scene, UnitCell};
+use serde::Serialize;
+
+/// The bands of a lattice along a path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BandSurvey {
+    /// κ of each row.
+    pub kappa: Vec<[f64; 3]>,
+    /// k of each row [1/m].
+    pub k: Vec<[f64; 3]>,
+    /// ω of each branch, ascending [rad/s].
+    pub omega: Vec<Vec<f64>>,
+    /// δ of each branch [1/s].
+    pub decay: Vec<Vec<f64>>,
+    /// Every root λ = −δ − iω, real and imaginary part [1/s].
+    pub lambda: Vec<Vec<[f64; 2]>>,
+    /// ∂ω/∂k of each branch [m/s]; none where ω has no derivative.
+    pub velocity: Vec<Vec<Option<[f64; 3]>>>,
+    /// Shares of translation, rotation, shear, stretch and breathing in the kinetic energy of each branch.
+    pub participation: Vec<Vec<[f64; PARTS]>>,
+    /// The shape of each branch, of each body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shapes: Option<Vec<Vec<Named<BandShape>>>>,
+    /// The vertices with names: the number of the row, and the name.
+    pub labels: Vec<(usize, String)>,
+    /// The rows at which the path begins anew.
+    pub begins: Vec<usize>,
+    /// Where the cell is looked at.
+    pub rest: CellRestSurvey,
+    /// What a mesh over the zone tells.
+    #[serde(flatten)]
+    pub zone: Option<Zone>,
+    /// What must be told besides.
+    pub warnings: Vec<String>,
+}
+
+/// Where the cell is looked at.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CellRestSurvey {
+    /// The force of each cell vector [N].
+    pub force: Vec<[f64; 3]>,
+    /// The stress [Pa; of a sheet N/m, of a chain N].
+    pub stress: [[f64; 3]; 3],
+    /// The cell vectors [m].
+    pub cell: Vec<[f64; 3]>,
+    /// Where each body rests.
+    pub bodies: Named<RestPlace>,
+}
+
+/// What is asked of bands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BandOptions {
+    /// Wave vectors a segment of the path.
+    pub points: usize,
+    /// Wave vectors of a mesh along each direction, if one is wanted.
+    pub mesh: Option<usize>,
+    /// Whether shapes are wanted.
+    pub shapes: bool,
+}
+
+/// The cell of a scene whose bands are asked for.
+///
+/// # Errors
+/// Why it has none, in words.
+pub fn unit_cell(scene: &Scene) -> Result<&UnitCell, String> {
+    let Some(cell) = &scene.built().cell else {
+        return Err("the scene has no `[lattice]`, so that no waves run through it: `gyration modes` has the small \
+                    motions of single bodies and of bodies that are joined"
+            .to_owned());
+    };
+    if !cell.periodic.contains(&true) {
+        return Err(
+            "the lattice is periodic along no direction, so that no waves run through it: `gyration modes` has \
+                    its small motions"
+                .to_owned(),
+        );
+    }
+    Ok(cell)
+}
+
+impl BandSurvey {
+    /// Along a path as it is written, or the usual one.
+    ///
+    /// # Errors
+    /// Why there are none, in words.
+    pub fn of(scene: &Scene, path: Option<&str>, options: BandOptions) -> Result<Self, String> {
+        let cell = unit_cell(scene)?;
+        let usual = BandPath::usual(&cell.periodic);
+        let path = BandPath::parse(path.unwrap_or(&usual), options.points, &cell.periodic);
+        let path = path.map_err(|error| error.to_string())?;
+        let told = |error: NoBands| error.to_string();
+        let waves = LatticeWaves::new(&cell.model, &cell.state, cell.relaxes).map_err(told)?;
+        let rows = path.points.iter().map(|point| waves.row(point, options.shapes));
+        let rows: Vec<BandRow> = rows.collect::<Result<_, _>>().map_err(told)?;
+        let zone = options.mesh.map(|mesh| waves.zone(mesh, &cell.periodic)).transpose().map_err(told)?;
+        let names: Vec<&str> = cell.model.bodies.iter().map(|body| &*body.name).collect();
+        let each = |of: &dyn Fn(&crate::modes::bands::Branch) -> f64| {
+            rows.iter().map(|row| row.branches.iter().map(of).collect()).collect()
+        };
+        let shapes = options.shapes.then(|| {
+            let named = |shapes: &Vec<BandShape>| {
+                Named(names.iter().zip(shapes).map(|(name, shape)| ((*name).to_owned(), shape.clone())).collect())
+            };
+            let of_row = |row: &BandRow| row.branches.iter().map(|branch| named(&branch.shapes)).collect();
+            rows.iter().map(of_row).collect()
+        });
+        let points = || path.points.iter().enumerate();
+        Ok(Self {
+            kappa: rows.iter().map(|row| row.kappa).collect(),
+            k: rows.iter().map(|row| row.k.into()).collect(),
+            omega: each(&|branch| branch.omega),
+            decay: each(&|branch| branch.decay),
+            lambda: rows.iter().map(|row| row.roots.iter().map(|root| [root.re, root.im]).collect()).collect(),
+            velocity: rows
+                .iter()
+                .map(|row| row.branches.iter().map(|it| it.velocity.map(Into::into)).collect())
+                .collect(),
+            participation: rows.iter().map(|row| row.branches.iter().map(|it| it.participation).collect()).collect(),
+            shapes,
+            labels: points().filter_map(|(row, point)| Some((row, point.label.clone()?))).collect(),
+            begins: points().filter(|(_, point)| point.begins).map(|(row, _)| row).collect(),
+            rest: rest(&waves, &names),
+            warnings: warnings(&waves, &rows),
+            zone,
+        })
+    }
+}
+
+fn rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey {
+    let rest = waves.rest();
+    let vectors = |vectors: &[Vec3]| vectors.iter().map(|vector| (*vector).into()).collect();
+    let rows = |matrix: &Mat3| [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]));
+    let bodies = names.iter().zip(&rest.bodies).map(|(name, rest)| ((*name).to_owned(), RestPlace::of(rest)));
+    CellRestSurvey {
+        force: vectors(&rest.force),
+        stress: rows(&rest.stress),
+        cell: vectors(&rest.cell),
+        bodies: Named(bodies.collect()),
+    }
+}
+
+/// A cell that does not rest, waves that grow, contractions that go on.
+fn warnings(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(left) = waves.rest().unrest {
+        warnings.push(format!(
+            "the cell as it is written does not rest: accelerations of {left:.2e} in units of the bodies' sizes are left; \
+             relax = [\"granules\"] seeks its rest"
+        ));
+    }
+    let growing = |row: &BandRow| {
+        let branch = row.branches.iter().enumerate().min_by(|a, b| a.1.decay.total_cmp(&b.1.decay))?;
+        (branch.1.decay < 0.0).then_some((branch.1.decay, branch.0, row.kappa))
+    };
+    let fastest = rows.iter().filter_map(growing).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((decay, branch, [x, y, z])) = fastest {
+        warnings.push(format!(
+            "the rest state is unstable: on this path branch {branch} grows fastest, with {:.4e} 1/s at κ = ({x:.6}, \
+             {y:.6}, {z:.6})",
+            -decay
+        ));
+    }
+    if waves.rest().bodies.iter().any(|rest| RestPlace::of(rest).left_out.is_some()) {
+        warnings.push("contractions go on under their drives, and are held as they are at the start".to_owned());
+    }
+    warnings
+}
