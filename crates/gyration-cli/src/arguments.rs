@@ -37,7 +37,8 @@ pub enum Command {
     Run(RunArguments),
     /// Show what a scene says before it runs: mass, rest gaps, time scales, whether laws forbid touching, resolved form
     Check(Check),
-    /// Print the rest state of each body, or of bodies that are joined, and frequencies, decay rates and shapes of the small motions about it
+    /// Print the rest state of each body, or of bodies that are joined, and frequencies, decay rates and shapes of the
+    /// small motions about it
     Modes(Modes),
     /// Print the waves that run through a lattice: frequencies and decay rates along a path of wave vectors, gaps
     Bands(Bands),

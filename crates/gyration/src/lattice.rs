@@ -1,5 +1,5 @@
-//! The cells of a lattice: what a model holds is one cell, or several, and what is between bodies of different cells says
-//! in which cell the second is, seen from that of the first.
+//! The cells of a lattice: what a model holds is one cell, or several, and what is between bodies of different cells
+//! says in which cell the second is, seen from that of the first.
 //!
 //!   R = Σ n_a a_a,   n whole numbers, a_a the primitive vectors
 //!
