@@ -101,6 +101,7 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
         inclusion: None,
+        own: Default::default(),
         pin: None,
     };
     let table =

@@ -61,6 +61,7 @@ impl FacetBody {
                 surface.unwrap_or_else(|error| panic!("{error}")),
             )),
             inclusion: None,
+            own: Default::default(),
             pin: None,
             size: side,
         };

@@ -8,6 +8,7 @@ mod case_contraction_modes;
 mod case_deforming_inclusion;
 mod case_gallery_dissipates;
 mod case_kept_through_partings;
+mod case_own_forces;
 mod case_pinned_audit;
 mod case_reach;
 mod case_slender_inclusion;

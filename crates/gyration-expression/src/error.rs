@@ -138,7 +138,7 @@ impl std::fmt::Display for Want {
 }
 
 /// An operation of the expression has no finite value, or not the wanted derivative, at the numbers given.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{operation}` has no {want} at {argument} (column {column})")]
 pub struct Undefined {
     /// Function or operator.

@@ -316,7 +316,10 @@ impl Scratch {
 }
 
 /// Refuses constants whose names mean something else or cannot stand in a text, and values that are not finite.
-fn check_constants(variables: &[&str], constants: &[(String, f64)]) -> Result<(), ParseError> {
+///
+/// # Errors
+/// [`ParseError`] with the name of the first one that is none.
+pub fn check_constants(variables: &[&str], constants: &[(String, f64)]) -> Result<(), ParseError> {
     for (name, value) in constants {
         let name = name.clone();
         let letters = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');

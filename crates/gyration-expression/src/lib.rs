@@ -36,7 +36,7 @@ mod tests;
 mod token;
 
 pub use error::{ParseError, Reason, Undefined, Want};
-pub use expression::{Expression, Scratch};
+pub use expression::{Expression, Scratch, check_constants};
 
 /// Names of the functions, which no variable or constant may have.
 pub const FUNCTIONS: [&str; 10] = ["sqrt", "exp", "ln", "sin", "cos", "tan", "tanh", "abs", "min", "max"];

@@ -13,6 +13,8 @@ use std::fmt;
 
 /// The schema keyword that holds the SI unit of a quantity.
 pub(crate) const UNIT: &str = "unit";
+/// The schema keyword of a number that may have any unit.
+pub(crate) const ANY_UNIT: &str = "anyUnit";
 /// The schema keyword that holds the words by which a quantity may be left to the program.
 pub(crate) const WORDS: &str = "words";
 
@@ -88,6 +90,33 @@ quantities! {
     Stiffness "N/m" "2 kN/m";
     /// Damping of a spring \[N s/m\].
     SpringDamping "N s/m" "0.1 N s/m";
+}
+
+/// A number of any dimension, in SI units once read: a constant of the expressions.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize)]
+#[serde(transparent)]
+pub struct AnyQuantity(
+    /// The value in SI units.
+    pub f64,
+);
+
+impl<'de> Deserialize<'de> for AnyQuantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberOrText).map(Self)
+    }
+}
+
+impl JsonSchema for AnyQuantity {
+    fn schema_name() -> Cow<'static, str> {
+        "AnyQuantity".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A number in SI units, or a string with any unit.", "type": ["number", "string"],
+            "anyUnit": true, "examples": ["100 N/m"],
+        })
+    }
 }
 
 /// Takes a number, or a string whose unit has been checked.

@@ -95,7 +95,8 @@ impl Template {
         let mut partial = PartialScene::new(&document, &mut diagnostics);
         let mut reporter = Reporter { document: &document, diagnostics: &mut diagnostics };
         values(&partial, &mut reporter);
-        let context = SceneContext::new(&partial, &document, &self.base);
+        let constants = partial.constants.clone();
+        let context = SceneContext::new(&partial, &document, &self.base, constants.as_ref());
         let built = assemble(&mut partial, &context, &mut reporter);
         salvage(&document, &context, &mut diagnostics);
         match (partial.complete(), built) {

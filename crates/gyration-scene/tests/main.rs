@@ -12,6 +12,7 @@ mod contractile_tables;
 mod corpus;
 mod errors;
 mod meetings;
+mod own_forces;
 mod robust;
 mod scenes;
 mod together;

@@ -1,7 +1,7 @@
 //! How a run ended, in words and in data.
 
 use gyration::model::Model;
-use gyration::{Inadmissible, Quantity};
+use gyration::{FormulaOf, Inadmissible, Quantity};
 use gyration_ode::{Cause, Failure, Limit};
 use gyration_threads::{Interrupted, Interruption};
 use serde::{Deserialize, Serialize};
@@ -57,6 +57,8 @@ pub enum Reason {
     Collapsed,
     /// A spring lost its direction.
     SpringCollapsed,
+    /// A formula of the scene has no value or derivative there.
+    Undefined,
     /// The tolerance cannot be met with any step.
     StepTooSmall,
     /// A number stopped being finite.
@@ -281,6 +283,18 @@ impl Stop {
                 "Give it a smaller `inclusion.spacing` (the error falls with its square), or a larger `inclusion.tolerance`."
                     .to_string(),
             ),
+            Quantity::Formula { of, undefined } => {
+                let formula = match of {
+                    FormulaOf::Potential => "potential",
+                    FormulaOf::BodyForce => "body_force",
+                    FormulaOf::Friction => "linear_friction",
+                };
+                (
+                    Reason::Undefined,
+                    format!("the {formula} of body {body:?} ends there: {undefined}"),
+                    "Write a formula that is defined and smooth wherever the body goes.".to_string(),
+                )
+            }
             Quantity::Interruption => return Self::by_interruption(time),
             Quantity::Contraction => (
                 Reason::Collapsed,

@@ -123,6 +123,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::Couple(_)
             | Load::Applied(_)
             | Load::Resistance(_)
+            | Load::Potential(_)
             | Load::Fluid(..) => 0.0,
         };
         Ok::<(), Infallible>(())

@@ -34,6 +34,7 @@ fn bare(shape: Shape, density: f64) -> Body {
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
         inclusion: None,
+        own: Default::default(),
         pin: None,
     }
 }

@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Couple, InteractionEnd, LinearResistance, Loads, SpringEnd};
+use crate::load::{Applied, Couple, InteractionEnd, LinearResistance, Loads, Potential, SpringEnd};
 use crate::neighbours::Pair;
 use crate::pair::{PairLaws, PairLoads, PairSlopes};
 use crate::support::{Support, SupportMotion};
@@ -75,6 +75,8 @@ pub enum Load<'a> {
     Applied(&'a Applied),
     /// Friction or a gyroscopic load, linear in the velocities.
     Resistance(&'a LinearResistance),
+    /// A potential of the body alone.
+    Potential(&'a Potential),
     /// The fluid around an inclusion.
     Fluid(&'a Fluid, &'a Inclusion),
 }
@@ -113,6 +115,9 @@ impl<'a> Load<'a> {
         for resistance in affine.map_or(&[][..], |affine| &affine.resistances) {
             each(Self::Resistance(resistance))?;
         }
+        if let Some(potential) = &body.own.potential {
+            each(Self::Potential(potential))?;
+        }
         if let (Some(fluid), Some(inclusion)) = (fluid, &body.inclusion) {
             each(Self::Fluid(fluid, inclusion))?;
         }
@@ -123,7 +128,7 @@ impl<'a> Load<'a> {
     pub fn pulls(&self) -> bool {
         match self {
             Self::Contact(_) | Self::Pair(_) | Self::Couple(_) => false,
-            Self::Spring(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => true,
+            Self::Spring(_) | Self::Applied(_) | Self::Resistance(_) | Self::Potential(_) | Self::Fluid(..) => true,
         }
     }
 
@@ -145,7 +150,8 @@ impl<'a> Load<'a> {
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
-            Self::Spring(_) | Self::Resistance(_) => Vec::new(),
+            Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
+            Self::Spring(_) | Self::Resistance(_) | Self::Potential(_) => Vec::new(),
         }
     }
 
@@ -158,6 +164,7 @@ impl<'a> Load<'a> {
             }
             Self::Pair(_) => Some(PAIR_ENERGY),
             Self::Spring(_) => Some(Energy::Load),
+            Self::Potential(potential) => potential.is_energy().then_some(Energy::Load),
             Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
         }
     }

@@ -1,5 +1,18 @@
 //! Leaving the domain of the model is a value, never a clamp, an infinity or a panic.
 
+use gyration_expression::Undefined;
+
+/// The force that a formula stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormulaOf {
+    /// V of a body.
+    Potential,
+    /// A component of b.
+    BodyForce,
+    /// The scale or an entry of a friction.
+    Friction,
+}
+
 /// What left its domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
@@ -44,6 +57,14 @@ pub enum Quantity {
     /// The relative error of the resistance of such a body between the forms for which it was computed, which must be
     /// below the tolerance.
     Interpolation,
+    /// A formula of the body has no finite value, or not the derivative that is needed, at the numbers that its
+    /// variables have; the value is the argument of the operation.
+    Formula {
+        /// What the formula is of.
+        of: FormulaOf,
+        /// The operation, its column, what it lacks.
+        undefined: Undefined,
+    },
     /// The resistance of such a body, or what very many pairs of bodies do, was given up before it was known: no
     /// property of the state, and no value.
     Interruption,

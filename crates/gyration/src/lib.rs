@@ -37,4 +37,4 @@ pub mod support;
 pub mod surface;
 pub mod tensor;
 
-pub use inadmissible::{Inadmissible, Quantity};
+pub use inadmissible::{FormulaOf, Inadmissible, Quantity};

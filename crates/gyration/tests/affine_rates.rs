@@ -90,6 +90,18 @@ proptest! {
     }
 
     #[test]
+    fn jacobian_and_power_under_forces_of_their_own_are_those_of_the_rates(
+        numbers in numbers(24), exponents in exponents(),
+    ) {
+        let model = model(exponents, AreaMeasure::DeformedArea);
+        for model in [with_own_forces(model.clone()), with_own_forces(immersed(model, false))] {
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+
+    #[test]
     fn power_of_works_is_the_rate_of_energy(numbers in numbers(24), exponents in exponents()) {
         for measure in MEASURES {
             let model = model(exponents, measure);

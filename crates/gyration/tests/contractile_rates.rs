@@ -118,6 +118,18 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
+    fn jacobian_and_power_under_forces_of_their_own_are_those_of_the_rates(
+        numbers in numbers(33), exponents in exponents(),
+    ) {
+        for (incompressible, viscous) in [(false, true), (true, false)] {
+            let model = with_own_forces(model(exponents, incompressible, viscous));
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+
+    #[test]
     fn jacobian_is_the_derivative_of_the_rates(numbers in numbers(33), exponents in exponents()) {
         for (incompressible, viscous) in [(false, false), (false, true), (true, false), (true, true)] {
             let model = model(exponents, incompressible, viscous);

@@ -2,7 +2,7 @@
 
 use crate::moving::{
     self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, attached, controlled,
-    evaluate, immersed, shapes, supports, with_history,
+    evaluate, immersed, shapes, supports, with_history, with_own_forces,
 };
 use gyration::balance::{kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, RigidInertia};
@@ -87,6 +87,16 @@ proptest! {
         let state = state(&model, &numbers);
         assert_jacobian_is_the_derivative(&model, &state);
         assert_power_is_the_rate_of_energy(&model, &state);
+    }
+
+    #[test]
+    fn jacobian_and_power_under_forces_of_their_own_are_those_of_the_rates((numbers, exponents) in strategy()) {
+        let model = model(exponents);
+        for model in [with_own_forces(model.clone()), with_own_forces(immersed(model, false))] {
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
     }
 
     #[test]

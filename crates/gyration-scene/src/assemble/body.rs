@@ -4,6 +4,7 @@ use super::context::SceneContext;
 use super::fluid::ImmersedBody;
 use super::kind::WrittenDeformation;
 use super::mass::{MassSource, lone_point, size};
+use super::own::OwnForcesWritten;
 use super::shape::ShapeBuilder;
 use super::solids::Solids;
 use super::start::{WrittenPlacement, placement};
@@ -38,6 +39,7 @@ impl AssembledBody {
     ) -> Option<Self> {
         let Placed { key, value, .. } = placed;
         let deforming = WrittenDeformation::of(placed, context, reporter);
+        let own = OwnForcesWritten::of(placed, context, reporter);
         let attitude = WrittenPlacement::of(placed, deforming.start(), reporter);
         let source = MassSource::of(placed, reporter);
         let shape = value.shape.as_ref().map(|written| {
@@ -69,6 +71,7 @@ impl AssembledBody {
             solid: solids.share(shape, mass),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
             inclusion: inclusion?,
+            own: own?.at(&place, reporter)?,
         };
         Some(Self { body, start, springs })
     }

@@ -2,7 +2,9 @@
 
 use crate::check::PartialScene;
 use crate::document::Document;
+use crate::quantity::AnyQuantity;
 use crate::tree::Node;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What the rest of a scene says to a body.
@@ -18,11 +20,18 @@ pub(crate) struct SceneContext<'a> {
     pub(super) has_fluid: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
+    /// Constants of expressions, if the file says them without error.
+    pub(super) constants: Option<&'a BTreeMap<String, AnyQuantity>>,
 }
 
 impl<'a> SceneContext<'a> {
-    /// The context of a scene whose paths are relative to `base`.
-    pub(crate) fn new(partial: &PartialScene, document: &Document, base: &'a Path) -> Self {
+    /// The context of a scene whose paths are relative to `base`, with the constants of its expressions.
+    pub(crate) fn new(
+        partial: &PartialScene,
+        document: &Document,
+        base: &'a Path,
+        constants: Option<&'a BTreeMap<String, AnyQuantity>>,
+    ) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
         Self {
             base,
@@ -30,6 +39,7 @@ impl<'a> SceneContext<'a> {
             has_support: !supports.is_empty(),
             has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
+            constants,
         }
     }
 }

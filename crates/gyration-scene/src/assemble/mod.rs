@@ -16,6 +16,7 @@ mod mass;
 mod material;
 mod orientation;
 mod overlap;
+mod own;
 mod pair;
 mod partners;
 mod reach;

@@ -43,6 +43,9 @@ pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: 
         if written.contains_key("shape") && !WEIGHTS.iter().any(|name| is_dirty(name)) {
             checked.push("shape");
         }
+        if written.contains_key("potential") && !is_dirty("constants") {
+            checked.extend(["potential", "constants"]);
+        }
         if !VOLUME.iter().any(|name| is_dirty(name)) {
             checked.extend(["affine", "contractile"].into_iter().filter(|name| written.contains_key(*name)));
         }

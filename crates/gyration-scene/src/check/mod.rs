@@ -28,4 +28,26 @@ impl Reporter<'_> {
     pub(crate) fn note(&mut self, key: &Key, message: impl Into<String>, help: impl Into<String>) {
         self.diagnostics.at(key.span(&self.document.root), key, message, help);
     }
+
+    /// The same at a column, counted in characters from 1, of the text that stands at the key.
+    pub(crate) fn note_within(
+        &mut self,
+        key: &Key,
+        (text, column): (&str, usize),
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let mut span = key.span(&self.document.root);
+        let written = self.document.texts.get(span.text).and_then(|named| named.content.get(span.start..span.end));
+        // A text with escapes is marked as a whole.
+        if let Some(from) = written.and_then(|written| written.find(text)).filter(|_| !text.is_empty()) {
+            let (before, rest) = match text.char_indices().nth(column.saturating_sub(1)) {
+                Some((at, letter)) => (at, letter.len_utf8()),
+                None => (text.len(), 1),
+            };
+            span.start += from + before;
+            span.end = span.start + rest;
+        }
+        self.diagnostics.at(span, key, message, help);
+    }
 }

@@ -3,9 +3,10 @@
 use crate::document::{Diagnostics, Document};
 use crate::file::{Body, Bond, Contact, Fluid, Lattice, Record, SceneFile, Solver, Support, Time, World};
 use crate::key::Key;
+use crate::quantity::AnyQuantity;
 use crate::tree::{Node, Value};
 use serde::de::DeserializeOwned;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A part of the file and where it stands.
 #[derive(Debug, Clone)]
@@ -55,6 +56,8 @@ pub(crate) struct PartialScene {
     pub(crate) bonds: Vec<Placed<Bond>>,
     pub(crate) lattice: Option<Lattice>,
     pub(crate) fluid: Option<Fluid>,
+    /// Constants of expressions; none if one of them is not well formed.
+    pub(crate) constants: Option<BTreeMap<String, AnyQuantity>>,
 }
 
 impl PartialScene {
@@ -75,6 +78,10 @@ impl PartialScene {
             bonds: taker.items("spring"),
             lattice: taker.section("lattice"),
             fluid: taker.section("fluid"),
+            constants: match document.root.get("constants") {
+                None => Some(BTreeMap::new()),
+                Some(_) => taker.section("constants"),
+            },
         }
     }
 
@@ -92,6 +99,7 @@ impl PartialScene {
             spring: self.bonds.into_iter().map(|placed| placed.value).collect(),
             lattice: self.lattice,
             fluid: self.fluid,
+            constants: self.constants?,
         })
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
 //! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them;
-//! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`. A test makes sure that
-//! nothing else occurs.
+//! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit` and `anyUnit`. A test
+//! makes sure that nothing else occurs.
 
-use crate::quantity::{UNIT, WORDS};
+use crate::quantity::{ANY_UNIT, UNIT, WORDS};
 use crate::schema::SCHEMA;
 use crate::units::{Unit, parse_unit};
 use serde_json::Value as Json;
@@ -51,6 +51,8 @@ pub(super) enum Rule {
     Number,
     /// A number in SI units, a string with a unit, or one of these words.
     Quantity { symbol: String, unit: Unit, example: String, words: Vec<String> },
+    /// A number in SI units, or a string with any unit.
+    AnyQuantity,
     /// Any string.
     Text,
     /// One of these strings, or a table with one of these keys; there may be none of either.
@@ -144,6 +146,9 @@ fn rule(schema: &Json) -> Rule {
             _ => Rule::Unknown,
         };
     }
+    if schema.get(ANY_UNIT).is_some() {
+        return Rule::AnyQuantity;
+    }
     if let Some(symbol) = text(schema, UNIT) {
         return quantity(symbol, schema);
     }
@@ -213,7 +218,7 @@ mod tests {
             }
             Rule::Array { item, .. } | Rule::Several(item) | Rule::Named(item) => assert_understood(item, place),
             Rule::Either(array, table) => [array, table].iter().for_each(|kind| assert_understood(kind, place)),
-            Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::Text => {}
+            Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::AnyQuantity | Rule::Text => {}
         }
     }
 

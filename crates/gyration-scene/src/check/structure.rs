@@ -62,6 +62,17 @@ impl Walker<'_> {
                     Err((message, help)) => self.diagnostics.at(node.span, key, message, help + &or(words)),
                 }
             }
+            (Value::Number(number), Rule::AnyQuantity) => self.limits(*number, node, key, field.limits, ""),
+            (Value::Text(text), Rule::AnyQuantity) => match parse_quantity(text) {
+                Ok((number, unit)) => self.limits(number * unit.size, node, key, field.limits, ""),
+                Err(error) => {
+                    let help = match &error {
+                        UnitError::UnknownUnit { nearest: Some(nearest), .. } => format!("did you mean \"{nearest}\"?"),
+                        _ => "write a number, or a string such as \"100 N/m\"".to_owned(),
+                    };
+                    self.diagnostics.at(node.span, key, error.to_string(), help);
+                }
+            },
             (Value::Text(text), Rule::Choice { words, .. }) if words.contains(text) => {}
             (Value::Text(text), Rule::Choice { words, tags }) if !words.is_empty() && !tags.contains_key(text) => {
                 let help = suggest::fix(text, words.iter().map(String::as_str), "one of");
@@ -166,6 +177,7 @@ impl Walker<'_> {
             Rule::Quantity { symbol, example, words, .. } => {
                 format!("a number in {symbol} or a string such as \"{example}\"{}", or(words))
             }
+            Rule::AnyQuantity => "a number or a string such as \"100 N/m\"".to_owned(),
             Rule::Text => "a string".to_owned(),
             Rule::Boolean => "true or false".to_owned(),
             Rule::Choice { words, tags } => choices(words, tags),
@@ -191,7 +203,7 @@ impl Walker<'_> {
 
 /// The kinds of file, the command that takes each, and the keys at their roots that no other kind has.
 const FILES: [(&str, &str, &[&str]); 3] = [
-    ("scenes", "run", &["world", "time", "solver", "support", "contact", "body", "fluid"]),
+    ("scenes", "run", &["world", "time", "solver", "support", "contact", "body", "fluid", "constants"]),
     ("studies", "study", &["seed", "repetitions", "sampling", "recordings", "parameter", "keep", "plot"]),
     ("measurements", "calibrate", &["fit", "drop", "gap", "slope", "pull_off"]),
 ];

@@ -2,11 +2,12 @@
 
 use super::{Affine, Contractile, Inclusion, OneOrMany, Orientation, Shape};
 use crate::quantity::{
-    AngularVelocity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive, SpringDamping, Stiffness,
-    Velocity,
+    AngularVelocity, AnyQuantity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive,
+    SpringDamping, Stiffness, Velocity,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A body and its initial state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -66,6 +67,12 @@ pub struct Body {
     /// Springs between points of the body and points of space.
     #[serde(default)]
     pub spring: Vec<Spring>,
+    /// Its own potential V (J), an expression of x, y, z (m, centre of mass), P_xx … P_zz and t (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub potential: Option<Box<str>>,
+    /// Numbers with names for the expressions of the body, before those of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constants: Option<Box<BTreeMap<String, AnyQuantity>>>,
 }
 
 impl Body {

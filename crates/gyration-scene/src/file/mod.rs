@@ -42,8 +42,10 @@ pub use support::{Motion, Oscillation, Plane, Support};
 pub use time::{StopAtRest, Time};
 pub use world::World;
 
+use crate::quantity::AnyQuantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A scene of Gyration: bodies that move by homogeneous deformations, and what they touch.
 ///
@@ -84,4 +86,7 @@ pub struct SceneFile {
     /// A viscous fluid around the bodies; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluid: Option<Fluid>,
+    /// Numbers with names, for every expression of the scene.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub constants: BTreeMap<String, AnyQuantity>,
 }

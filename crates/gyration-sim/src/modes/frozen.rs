@@ -94,10 +94,10 @@ impl FrozenSystem {
         self.model.springs()
     }
 
-    /// Whether a pin, or a spring to an anchor, holds one of them.
+    /// Whether a pin, a spring to an anchor or a force of its own may hold one of them.
     pub fn is_anchored(&self) -> bool {
         let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());
-        is_held || self.model.bodies.iter().any(|body| body.pin.is_some())
+        is_held || self.model.bodies.iter().any(|body| body.pin.is_some() || body.own.hold())
     }
 
     pub fn gravity(&self) -> Vec3 {

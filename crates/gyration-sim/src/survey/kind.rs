@@ -29,8 +29,9 @@ impl KindSurvey {
             BodyKind::Affine(_) => "affine",
             BodyKind::Contractile(_) => "contractile",
         };
+        let own = own_forces(body);
         match body.affine() {
-            None => Self { kind, incompressible: false, material: None, loads: Vec::new() },
+            None => Self { kind, incompressible: false, material: None, loads: own },
             Some(affine) => {
                 let material = affine.interior.material.as_ref();
                 Self {
@@ -39,7 +40,7 @@ impl KindSurvey {
                     material: Some(
                         material.map_or_else(|| "no material: deforms freely".to_owned(), material_in_words),
                     ),
-                    loads: [loads(affine), body.contraction().map(contraction).unwrap_or_default()].concat(),
+                    loads: [loads(affine), own, body.contraction().map(contraction).unwrap_or_default()].concat(),
                 }
             }
         }
@@ -89,6 +90,14 @@ fn material_in_words(material: &Material) -> String {
             format!("Hencky, shear modulus {}, bulk modulus {}", pascals(it.shear), pascals(it.bulk))
         }
     }
+}
+
+fn own_forces(body: &Body) -> Vec<String> {
+    let potential = body.own.potential.as_ref().map(|potential| match potential.is_energy() {
+        true => "potential".to_owned(),
+        false => "potential that changes in time".to_owned(),
+    });
+    potential.into_iter().collect()
 }
 
 fn loads(affine: &Affine) -> Vec<String> {

@@ -14,7 +14,7 @@ use crate::affine::AffineBody;
 use crate::contractile::{self, Contraction, Decomposition, Restored};
 use crate::fluid::{History, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Couple, LinearResistance};
+use crate::load::{Couple, LinearResistance, OwnForces};
 use crate::mass::MassProperties;
 use crate::surface::{GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
@@ -33,6 +33,8 @@ pub struct Body {
     pub pin: Option<Pin>,
     /// What makes it feel the fluid, if it is immersed.
     pub inclusion: Option<Inclusion>,
+    /// Forces of its own, as formulas of its place and of time.
+    pub own: OwnForces,
     /// Characteristic length [m]: the largest side of the bounding box.
     pub size: f64,
 }

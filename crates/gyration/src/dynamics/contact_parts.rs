@@ -54,7 +54,12 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
                 parts.add(&force, &pair.normal());
                 parts.of_bodies += force;
             }
-            Load::Spring(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {}
+            Load::Spring(_)
+            | Load::Couple(_)
+            | Load::Applied(_)
+            | Load::Resistance(_)
+            | Load::Potential(_)
+            | Load::Fluid(..) => {}
         }
         Ok(())
     })?;

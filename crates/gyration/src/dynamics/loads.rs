@@ -10,11 +10,12 @@ use super::immersed::{RigidImmersion, immersion};
 use super::powers::Powers;
 use crate::acting::{Load, PairAt};
 use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
-use crate::inadmissible::Inadmissible;
+use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
 use crate::instant::{BodyAt, MotionAt};
 use crate::ledger::{Energy, Work};
 use crate::load::{LoadSlopes, Loads};
 use crate::pair::PairSlopes;
+use gyration_expression::Undefined;
 
 /// What acts on a body, gravity aside.
 #[derive(Debug, Clone, Copy, Default)]
@@ -89,6 +90,14 @@ impl Acting {
                 }
                 self.total += loads;
             }
+            Load::Potential(potential) => {
+                let loads = potential.loads(&at.motion.placement, at.time, &mut scratch.formulas);
+                let loads = loads.map_err(undefined(at, FormulaOf::Potential))?;
+                if !potential.is_energy() {
+                    self.powers[Work::Load] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                }
+                self.total += loads;
+            }
             Load::Fluid(..) => {
                 let Some(loads) = fluid(at)? else { return Ok(()) };
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
@@ -97,6 +106,11 @@ impl Acting {
         }
         Ok(())
     }
+}
+
+/// A formula of a body that is undefined where the body is.
+pub(super) fn undefined(at: &MotionAt, of: FormulaOf) -> impl Fn(Undefined) -> Inadmissible {
+    move |undefined| at.outside(Quantity::Formula { of, undefined }, undefined.argument)
 }
 
 /// f and M of the fluid; none where its form does not go with the kind of the body.
@@ -140,6 +154,11 @@ pub(super) fn add_slopes(
         Load::Resistance(resistance) => {
             slopes.add_resistance(resistance, (&at.motion.placement, &at.inverse(), &at.motion.velocity));
         }
+        Load::Potential(potential) => {
+            let placement = &at.motion.placement;
+            let added = slopes.add_potential(potential, placement, at.time, &mut scratch.formulas);
+            added.map_err(undefined(at, FormulaOf::Potential))?;
+        }
         Load::Fluid(..) => {
             if let (Some(gyration), Some(immersed)) = (at.gyration(), immersion(at)?) {
                 immersed.add_to(slopes, gyration);
@@ -169,6 +188,10 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 }
                 Load::Spring(end) if end.counts() => end.interaction.law.energy(at.spring(&end).length),
                 Load::Pair(pair) if pair.end.counts() => pair.loads.energy,
+                Load::Potential(potential) => {
+                    let energy = potential.energy(&at.motion.placement, at.time, &mut scratch.formulas);
+                    energy.map_err(undefined(at, FormulaOf::Potential))?
+                }
                 Load::Spring(_)
                 | Load::Pair(_)
                 | Load::Couple(_)

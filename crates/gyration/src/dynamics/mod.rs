@@ -55,6 +55,7 @@ pub struct Workspace {
 pub struct Scratch {
     pub(crate) contact: ContactScratch,
     pub(crate) pairs: PairScratch,
+    pub(crate) formulas: gyration_expression::Scratch,
     /// The Jacobians that bodies without inertia would have with it, by their number of rows.
     matrices: Vec<DMatrix<f64>>,
     balances: inertialess::Balances,

@@ -5,18 +5,20 @@
 
 use super::Scratch;
 use super::contacts::meet;
+use super::loads::undefined;
 use crate::acting::Load;
 use crate::contact::ContactLoads;
-use crate::inadmissible::Inadmissible;
+use crate::inadmissible::{FormulaOf, Inadmissible};
 use crate::instant::BodyAt;
 use crate::pair::PairLoads;
 
-/// One of the forces on a body that come from a support, a spring or another body.
+/// One of the forces on a body that come from a support, a spring, another body or a potential.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Push {
     /// |f| [N].
     pub force: f64,
-    /// The length on which it depends [m]: the gap of a contact, the length of a spring.
+    /// The length on which it depends [m]: the gap of a contact, the length of a spring, the size of a body in a
+    /// potential.
     pub gap: f64,
     /// What its energy is rounded to [J], where that is more than the last digit; each pair has it once.
     ///
@@ -24,7 +26,7 @@ pub struct Push {
     pub rounding: f64,
 }
 
-/// Hands the forces of contacts, springs and pairs on a body to `each`.
+/// Hands the forces of contacts, springs, pairs and a potential on a body to `each`.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
@@ -51,6 +53,11 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 let digits = 8.0 * (exponent - 1.0) + exponent * at.body.size / gap;
                 let rounding = if pair.end.counts() { digits * f64::EPSILON * energy } else { 0.0 };
                 each(Push { force: pair.on_body().force.norm(), gap: *gap, rounding });
+            }
+            Load::Potential(potential) => {
+                let loads = potential.loads(&at.motion.placement, at.time, &mut scratch.formulas);
+                let force = loads.map_err(undefined(at, FormulaOf::Potential))?.force.norm();
+                each(Push { force, gap: at.body.size, rounding: 0.0 });
             }
             Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {}
         }

@@ -1,12 +1,15 @@
 //! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material points, of
-//! couples, of friction that is linear in the velocity, and what a controller applies.
+//! couples, of friction that is linear in the velocity, those of formulas, and what a controller applies.
 //!
 //! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at a
 //! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
 
 mod applied;
 mod couple;
+mod formula;
 mod interactions;
+mod own;
+mod potential;
 mod resistance;
 mod slopes;
 mod spring;
@@ -14,7 +17,10 @@ mod wrench;
 
 pub use applied::Applied;
 pub use couple::Couple;
+pub use formula::{Formula, PLACE_NAMES};
 pub use interactions::{Interaction, InteractionEnd, Interactions, Party};
+pub use own::OwnForces;
+pub use potential::Potential;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;

@@ -11,7 +11,7 @@ use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Fri
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
-use gyration::load::{Applied, Couple, Frame, LinearResistance, Mat12, Spring, SpringLaw};
+use gyration::load::{Applied, Couple, Frame, LinearResistance, Mat12, OwnForces, Potential, Spring, SpringLaw};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
@@ -99,6 +99,7 @@ pub fn body(shape: Shape, variant: Variant) -> Body {
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
         inclusion: None,
+        own: OwnForces::default(),
         pin,
     }
 }
@@ -160,6 +161,19 @@ pub fn controlled(model: Model) -> Model {
         assert!(model.apply(body, applied));
     }
     model
+}
+
+/// The same bodies in potentials without any symmetry, one that changes in time and one that does not by turns.
+pub fn with_own_forces(model: Model) -> Model {
+    let still = "k*sin(x*P_xy + 0.3*z) + 0.7*y^2*P_zz^2 + exp(0.2*P_yx - 0.1*P_zy) + sqrt(1 + x^2 + P_xx^2)";
+    let waving = "k*(P_xx*P_yz - 0.5)^2*cos(3*t) + tanh(x - y*t)*z + 0.3*P_zx^3*P_xz/(2 + sin(t)) + ln(3 + P_yy)";
+    let constants = [("k".to_owned(), 1.3)];
+    let own = |(index, body): (usize, &Arc<Body>)| {
+        let potential = Potential::parse([still, waving][index % 2], &constants).unwrap();
+        Body { own: OwnForces { potential: Some(Box::new(potential)) }, ..(**body).clone() }
+    };
+    let bodies: Vec<Body> = model.bodies.iter().enumerate().map(own).collect();
+    model.with_bodies(bodies)
 }
 
 pub fn shapes() -> [Shape; 4] {

@@ -30,7 +30,12 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
                 ((pair.other(), pair.end.cell()), Coupling { by_place, by_rate })
             }
             // What acts on one body alone.
-            Load::Contact(_) | Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {
+            Load::Contact(_)
+            | Load::Couple(_)
+            | Load::Applied(_)
+            | Load::Resistance(_)
+            | Load::Potential(_)
+            | Load::Fluid(..) => {
                 return Ok(());
             }
         };
