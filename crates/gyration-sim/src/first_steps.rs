@@ -179,6 +179,7 @@ impl Momenta {
 fn is_alone(model: &Model, index: usize) -> bool {
     let between = |load: Load| match load {
         Load::Spring(end) if end.other().body().is_some() => Ok(()),
+        Load::Bond(_) => Ok(()),
         _ => Err(()),
     };
     let body = &model.bodies[index];

@@ -238,6 +238,11 @@ impl Stop {
                     )
                 }
             },
+            Quantity::BondLength { bond } => (
+                Reason::SpringCollapsed,
+                format!("the formula {} has no derivative where its points coincide", between(model, bond)),
+                "Write a law with V′ = 0 at l = 0, or choose other points.".to_string(),
+            ),
             Quantity::Volume => (
                 Reason::Inverted,
                 format!("body {body:?} is flattened: det P has come down to {:e}", left.value),
@@ -288,10 +293,15 @@ impl Stop {
                     FormulaOf::Potential => "potential",
                     FormulaOf::BodyForce => "body_force",
                     FormulaOf::Friction => "linear_friction",
+                    FormulaOf::Bond(_) => "formula",
+                };
+                let whose = match of {
+                    FormulaOf::Bond(bond) => between(model, bond),
+                    _ => format!("of body {body:?}"),
                 };
                 (
                     Reason::Undefined,
-                    format!("the {formula} of body {body:?} ends there: {undefined}"),
+                    format!("the {formula} {whose} ends there: {undefined}"),
                     "Write a formula that is defined and smooth wherever the body goes.".to_string(),
                 )
             }
@@ -356,4 +366,9 @@ fn accuracy_of(model: &Model, component: usize) -> String {
         Some(body) => format!("accuracy of {body:?}"),
         None => "accuracy of the ledger".into(),
     }
+}
+/// The bond of a number in words.
+fn between(model: &Model, bond: usize) -> String {
+    let [one, other] = model.bonds()[bond].bodies.map(|body| &model.bodies[body].name);
+    format!("of the bond between bodies {one:?} and {other:?}")
 }

@@ -118,6 +118,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
     let listed = model.try_each_load(index, |load| {
         stiffness += match load {
             Load::Spring(end) => end.interaction.law.stiffness,
+            Load::Bond(end) => end.interaction.stiffness(),
             Load::Contact(_)
             | Load::Pair(_)
             | Load::Couple(_)

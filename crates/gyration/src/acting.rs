@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Couple, InteractionEnd, LinearResistance, Loads, Potential, SpringEnd};
+use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, Potential, SpringEnd};
 use crate::neighbours::Pair;
 use crate::pair::{PairLaws, PairLoads, PairSlopes};
 use crate::support::{Support, SupportMotion};
@@ -51,11 +51,13 @@ impl PairAt<'_> {
 }
 
 /// What is between a body and other parties.
-pub(crate) struct Interacting<C, S, P> {
+pub(crate) struct Interacting<C, S, B, P> {
     /// Laws with supports.
     pub contacts: C,
     /// Springs, those to anchors first.
     pub springs: S,
+    /// Bonds.
+    pub bonds: B,
     /// Bodies that it meets.
     pub pairs: P,
 }
@@ -67,6 +69,8 @@ pub enum Load<'a> {
     Contact(&'a Contact),
     /// A spring, to another body or to an anchor.
     Spring(SpringEnd<'a>),
+    /// A bond to another body.
+    Bond(BondEnd<'a>),
     /// Another body that it meets.
     Pair(PairAt<'a>),
     /// An affine moment.
@@ -89,18 +93,22 @@ impl<'a> Load<'a> {
         interactions: Interacting<
             impl Iterator<Item = &'a Contact>,
             impl Iterator<Item = SpringEnd<'a>>,
+            impl Iterator<Item = BondEnd<'a>>,
             impl Iterator<Item = PairAt<'a>>,
         >,
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
     ) -> Result<(), E> {
-        let Interacting { contacts, springs, pairs } = interactions;
+        let Interacting { contacts, springs, bonds, pairs } = interactions;
         for contact in contacts {
             each(Self::Contact(contact))?;
         }
         for spring in springs {
             each(Self::Spring(spring))?;
+        }
+        for bond in bonds {
+            each(Self::Bond(bond))?;
         }
         for pair in pairs {
             each(Self::Pair(pair))?;
@@ -128,7 +136,12 @@ impl<'a> Load<'a> {
     pub fn pulls(&self) -> bool {
         match self {
             Self::Contact(_) | Self::Pair(_) | Self::Couple(_) => false,
-            Self::Spring(_) | Self::Applied(_) | Self::Resistance(_) | Self::Potential(_) | Self::Fluid(..) => true,
+            Self::Spring(_)
+            | Self::Bond(_)
+            | Self::Applied(_)
+            | Self::Resistance(_)
+            | Self::Potential(_)
+            | Self::Fluid(..) => true,
         }
     }
 
@@ -147,11 +160,12 @@ impl<'a> Load<'a> {
             }
             Self::Pair(pair) => pair_works(&pair.end.interaction.form.laws).collect(),
             Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
+            Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
-            Self::Spring(_) | Self::Resistance(_) | Self::Potential(_) => Vec::new(),
+            Self::Spring(_) | Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) => Vec::new(),
         }
     }
 
@@ -164,6 +178,7 @@ impl<'a> Load<'a> {
             }
             Self::Pair(_) => Some(PAIR_ENERGY),
             Self::Spring(_) => Some(Energy::Load),
+            Self::Bond(end) => end.interaction.is_energy().then_some(Energy::Load),
             Self::Potential(potential) => potential.is_energy().then_some(Energy::Load),
             Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
         }

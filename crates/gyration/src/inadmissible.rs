@@ -11,6 +11,8 @@ pub enum FormulaOf {
     BodyForce,
     /// The scale or an entry of a friction.
     Friction,
+    /// The bond of this index.
+    Bond(usize),
 }
 
 /// What left its domain.
@@ -25,6 +27,11 @@ pub enum Quantity {
     SpringLength {
         /// Index of the spring in the model.
         spring: usize,
+    },
+    /// The distance of the points of the bond of this index, at which its potential must have a derivative [m].
+    BondLength {
+        /// Index of the bond in the model.
+        bond: usize,
     },
     /// The width of the slab between this body and another, which must be > 0 [m].
     PairGap {

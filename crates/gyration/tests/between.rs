@@ -20,11 +20,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// With a direction, and without.
-const DIRECTED: SpringLaw = SpringLaw { stiffness: 2.3, rest_length: 0.4, damping: 0.7 };
+pub const DIRECTED: SpringLaw = SpringLaw { stiffness: 2.3, rest_length: 0.4, damping: 0.7 };
 const PLAIN: SpringLaw = SpringLaw { stiffness: 1.9, rest_length: 0.0, damping: 0.0 };
 
 /// Rigid, affine and contractile bodies, free and pinned, compressible or not.
-fn bodies() -> Vec<Body> {
+pub fn bodies() -> Vec<Body> {
     let [shape, ..] = shapes();
     bodies_of(&shape)
 }
@@ -86,7 +86,7 @@ fn joined(model: Model, laws: [SpringLaw; 2]) -> Model {
     model.with_springs(springs)
 }
 
-fn state(model: &Model) -> State {
+pub fn state(model: &Model) -> State {
     state_at(model, |_| Vec3::new(0.2, 0.1, 1.6))
 }
 
@@ -110,7 +110,7 @@ impl Blocks for Whole {
 }
 
 /// Fails where a block is not the derivative of the rates, whatever bodies it is of.
-fn assert_blocks_are_derivatives(model: &Model, state: &State) {
+pub fn assert_blocks_are_derivatives(model: &Model, state: &State) {
     let blocks = model.blocks();
     let zeros = |row: &Range<usize>| blocks.iter().map(|column| DMatrix::zeros(row.len(), column.len())).collect();
     let mut whole = Whole(blocks.iter().map(zeros).collect(), Vec::new());
@@ -211,7 +211,7 @@ fn what_a_spring_does_to_one_body_it_undoes_to_the_other() {
     let mut sums = vec![(Vec3::zeros(), Vec3::zeros()); model.springs().len()];
     for (body, own) in motions.iter().enumerate() {
         for end in model.springs_of(body) {
-            let force = end.loads(&end.interaction.loads(|body| &motions[body]).unwrap()).force;
+            let force = end.loads(&end.interaction.loads(&model.lattice, |body| &motions[body]).unwrap()).force;
             assert!(force.norm() > 1e-3);
             sums[end.number].0 += force;
             sums[end.number].1 += own.placement.place(&end.point()).cross(&force);
@@ -230,7 +230,7 @@ fn a_part_of_a_model_has_the_springs_between_its_bodies() {
     let springs = anchored.springs().iter().copied().chain(ring(count, [DIRECTED, PLAIN])).collect();
     let model = anchored.with_springs(springs);
     let part = model.part(&[0, 2, 3, 7]);
-    let kept: Vec<[usize; 2]> = part.joined_by_springs().collect();
+    let kept: Vec<[usize; 2]> = part.joined().collect();
     // 2 and 3 of the ring, and the two more.
     assert_eq!(kept, [[1, 2], [1, 0], [0, 1]]);
     assert!(part.is_joined(0) && !part.is_joined(3));

@@ -5,6 +5,7 @@
 mod affine_balance;
 mod affine_rates;
 mod between;
+mod bonds;
 mod contact_wrench;
 mod contractile_balance;
 mod contractile_rates;

@@ -8,7 +8,7 @@ use crate::quantity::si;
 use gyration::contact::Contact;
 use gyration::fluid::Fluid;
 use gyration::lattice::{Cell, Lattice};
-use gyration::load::{Attachment, Spring};
+use gyration::load::{Attachment, Bond, Spring};
 use gyration::neighbours::PairRule;
 use gyration::support::Support;
 use gyration::tensor::Vec3;
@@ -167,6 +167,19 @@ impl Cells {
         copies.collect()
     }
 
+    /// The bonds of all cells; those that lead beyond a free end are left out.
+    pub fn bonds(&self, of_cell: &[Bond]) -> Vec<Bond> {
+        let cells: Vec<Cell> = self.all().collect();
+        let copies = of_cell.iter().flat_map(|bond| {
+            cells.iter().enumerate().filter_map(|(number, cell)| {
+                let places = [number, self.beside(*cell, bond.cell)?];
+                let bodies = [0, 1].map(|end| self.index(bond.bodies[end], places[end]));
+                Some(Bond { bodies, ..bond.clone() })
+            })
+        });
+        copies.collect()
+    }
+
     /// Notes what does not look alike from every cell.
     pub fn check_alike(
         &self,
@@ -206,8 +219,9 @@ const ALIKE: f64 = 1e-12;
 
 /// Notes a gravity that nothing holds up.
 pub(super) fn check_held(gravity: &Vec3, contacts: &[Contact], bodies: &[AssembledBody], reporter: &mut Reporter<'_>) {
-    let is_held =
-        |body: &AssembledBody| body.body.pin.is_some() || !body.springs.is_empty() || body.body.inclusion.is_some();
+    let is_held = |body: &AssembledBody| {
+        body.body.pin.is_some() || body.body.own.hold() || !body.springs.is_empty() || body.body.inclusion.is_some()
+    };
     if gravity.norm() > 0.0 && contacts.is_empty() && !bodies.iter().any(is_held) {
         let message = "gravity pulls at every cell, and nothing holds them: no support, pin or spring to space";
         reporter.note(&Key::root().key("world").key("gravity"), message, "write gravity = [0, 0, 0]");

@@ -25,6 +25,7 @@ mod salvage;
 mod shape;
 mod signal;
 mod solids;
+mod spring;
 mod start;
 mod support;
 
@@ -41,7 +42,7 @@ use gyration::contact::Contact;
 use gyration::fluid::Fluid;
 use gyration::kinematics::Placement;
 use gyration::lattice::Lattice;
-use gyration::load::{Interaction, Party, Spring};
+use gyration::load::{Bond, Interaction, Party, Spring};
 use gyration::model::Model;
 use gyration::neighbours::PairRule;
 use gyration::state::{Start, State};
@@ -175,7 +176,8 @@ pub(crate) fn assemble(
     let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).copied();
     let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));
     let of_cell = cells.as_ref().and_then(Option::as_ref);
-    let springs: Vec<Spring> = anchored.chain(bond::bonds(partial, &assembled, of_cell, reporter)).collect();
+    let springs: Vec<Spring> = anchored.chain(spring::springs(partial, &assembled, of_cell, reporter)).collect();
+    let bonds = bond::bonds(partial, &assembled, of_cell, context, reporter);
     let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
@@ -184,7 +186,7 @@ pub(crate) fn assemble(
             resolve::resolve(&mut body.value, &assembled_body.start);
         }
     }
-    give_sizes(&mut assembled, &springs, of_cell);
+    give_sizes(&mut assembled, (&springs, &bonds), of_cell);
     if let Some(cells) = of_cell {
         let supports: Vec<_> = supports.iter().flatten().cloned().collect();
         let fluid = around.as_ref().and_then(Option::as_ref);
@@ -204,6 +206,7 @@ pub(crate) fn assemble(
         fluid: around.map(|fluid| fluid.map(Arc::new)),
         contacts,
         springs,
+        bonds,
         rules,
         lattice: Lattice::default(),
         origins: Vec::new(),
@@ -227,9 +230,9 @@ pub(crate) fn assemble(
     Some((Built { model, state, plan, record, cell }, forms))
 }
 
-/// Gives mass points a size, by which tolerances are judged: the length of their shortest spring, else of the shortest
-/// cell vector, else a metre.
-fn give_sizes(assembled: &mut [Option<AssembledBody>], springs: &[Spring], cells: Option<&Cells>) {
+/// Gives mass points a size, by which tolerances are judged: the length of their shortest spring or bond, else of the
+/// shortest cell vector, else a metre.
+fn give_sizes(assembled: &mut [Option<AssembledBody>], (springs, bonds): (&[Spring], &[Bond]), cells: Option<&Cells>) {
     let lattice = cells.map(|cells| cells.lattice.clone()).unwrap_or_default();
     let places: Vec<_> = assembled.iter().map(|body| body.as_ref().map(|body| start::placement(&body.start))).collect();
     let nowhere = Placement { position: Vec3::zeros(), gradient: Mat3::identity() };
@@ -237,11 +240,17 @@ fn give_sizes(assembled: &mut [Option<AssembledBody>], springs: &[Spring], cells
         let length = spring.length(&lattice, |body| places[body].unwrap_or(nowhere));
         if spring.law.rest_length > 0.0 { length.max(spring.law.rest_length) } else { length }
     };
+    let distance = |bond: &Bond| {
+        let ends = [0, 1].map(|end| places[bond.bodies[end]].unwrap_or(nowhere).place(&bond.points[end]));
+        (ends[1] + lattice.place(bond.cell) - ends[0]).norm()
+    };
     let cell = lattice.vectors().iter().map(Vec3::norm).fold(f64::INFINITY, f64::min);
     for (index, body) in assembled.iter_mut().enumerate() {
         let Some(body) = body.as_mut().filter(|body| body.body.size == 0.0) else { continue };
         let is_own = |spring: &&Spring| spring.parties().contains(&Party::Body(index));
-        let shortest = springs.iter().filter(is_own).map(length).filter(|length| *length > 0.0).fold(cell, f64::min);
+        let bonds = bonds.iter().filter(|bond| bond.bodies.contains(&index)).map(distance);
+        let lengths = springs.iter().filter(is_own).map(length).chain(bonds);
+        let shortest = lengths.filter(|length| *length > 0.0).fold(cell, f64::min);
         body.body.size = if shortest.is_finite() { shortest } else { 1.0 };
     }
 }
@@ -256,6 +265,7 @@ struct Parts {
     fluid: Option<Option<Arc<Fluid>>>,
     contacts: Vec<Contact>,
     springs: Vec<Spring>,
+    bonds: Vec<Bond>,
     rules: Vec<PairRule>,
     lattice: Lattice,
     origins: Vec<Vec3>,
@@ -267,6 +277,7 @@ impl Parts {
         Self {
             contacts: cells.contacts(&self.contacts),
             springs: cells.springs(&self.springs),
+            bonds: cells.bonds(&self.bonds),
             rules: cells.rules(&self.rules),
             origins: cells.origins(self.bodies.len()),
             bodies: cells.bodies(&self.bodies),
@@ -283,7 +294,8 @@ impl Parts {
         if let Some(fluid) = self.fluid {
             model = model.in_fluid(fluid?);
         }
-        let model = model.with_contacts(self.contacts).with_springs(self.springs).meeting(self.rules);
+        let model =
+            model.with_contacts(self.contacts).with_springs(self.springs).with_bonds(self.bonds).meeting(self.rules);
         let model = model.asking(|| Interruption::due().is_some());
         let state = State::start(&model, &starts);
         Some((model, state))

@@ -69,7 +69,11 @@ impl Constants {
 }
 
 /// What an expression gives, if it parses.
-fn accepted<T>(read: Result<T, ParseError>, (key, text): (&Key, &str), reporter: &mut Reporter<'_>) -> Option<T> {
+pub(super) fn accepted<T>(
+    read: Result<T, ParseError>,
+    (key, text): (&Key, &str),
+    reporter: &mut Reporter<'_>,
+) -> Option<T> {
     let error = match read {
         Ok(made) => return Some(made),
         Err(error) => error,

@@ -1,7 +1,9 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
 use crate::document::{Diagnostics, Document};
-use crate::file::{Body, Bond, Contact, Fluid, Lattice, Record, SceneFile, Solver, Support, Time, World};
+use crate::file::{
+    Body, Bond, Contact, Fluid, Lattice, Record, SceneFile, Solver, SpringBetween, Support, Time, World,
+};
 use crate::key::Key;
 use crate::quantity::AnyQuantity;
 use crate::tree::{Node, Value};
@@ -53,6 +55,7 @@ pub(crate) struct PartialScene {
     pub(crate) bodies: Vec<Placed<Body>>,
     /// What every body of the file is called, well formed or not.
     pub(crate) roll: Vec<BodyWords>,
+    pub(crate) springs: Vec<Placed<SpringBetween>>,
     pub(crate) bonds: Vec<Placed<Bond>>,
     pub(crate) lattice: Option<Lattice>,
     pub(crate) fluid: Option<Fluid>,
@@ -75,7 +78,8 @@ impl PartialScene {
             contacts: taker.items("contact"),
             bodies: taker.items("body"),
             roll: document.root.get("body").map(Node::items).unwrap_or_default().iter().map(BodyWords::of).collect(),
-            bonds: taker.items("spring"),
+            springs: taker.items("spring"),
+            bonds: taker.items("bond"),
             lattice: taker.section("lattice"),
             fluid: taker.section("fluid"),
             constants: match document.root.get("constants") {
@@ -96,7 +100,8 @@ impl PartialScene {
             support: self.supports.into_iter().map(|placed| placed.value).collect(),
             contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
             body: self.bodies.into_iter().map(|placed| placed.value).collect(),
-            spring: self.bonds.into_iter().map(|placed| placed.value).collect(),
+            bond: self.bonds.into_iter().map(|placed| placed.value).collect(),
+            spring: self.springs.into_iter().map(|placed| placed.value).collect(),
             lattice: self.lattice,
             fluid: self.fluid,
             constants: self.constants?,

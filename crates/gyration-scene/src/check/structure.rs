@@ -36,12 +36,19 @@ impl Walker<'_> {
             (Value::Table(table), Rule::Named(field)) => {
                 table.iter().for_each(|(name, entry)| self.visit(&entry.node, &key.key(name), field));
             }
+            // One of several arrays, written without another around it.
+            (Value::Array(items), Rule::Several(item))
+                if matches!(self.rules.resolve(&item.rule), Rule::Array { .. })
+                    && items.first().is_some_and(|first| !matches!(first.value, Value::Array(_))) =>
+            {
+                self.visit(node, key, item);
+            }
             (Value::Array(items), Rule::Several(item)) => self.items(items, key, item),
             (Value::Table(_), Rule::Several(item)) => self.visit(node, key, item),
             (Value::Text(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Text) => {}
             (Value::Boolean(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Boolean) => {}
             (Value::Array(_), Rule::Either(array, _)) => self.visit(node, key, array),
-            (Value::Table(_), Rule::Either(_, table)) => self.visit(node, key, table),
+            (_, Rule::Either(_, other)) => self.visit(node, key, other),
             (Value::Array(items), Rule::Array { item, least, most }) => {
                 let count = items.len();
                 if !(*least..=*most).contains(&count) {

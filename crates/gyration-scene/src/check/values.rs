@@ -27,7 +27,8 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
     partial.supports.iter().for_each(|support| directions(support, reporter));
     references("support", &supports, reporter);
     references("body", &bodies, reporter);
-    ends(&bodies, reporter);
+    ends("spring", &bodies, reporter);
+    ends("bond", &bodies, reporter);
     partners(&supports, &bodies, &partial.roll, reporter);
     partial.contacts.iter().for_each(|contact| exponents(contact, reporter));
 }
@@ -92,11 +93,11 @@ fn references(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
     }
 }
 
-/// Notes the springs between bodies, well formed or not, that name a body that is not there or one body twice.
-fn ends(known: &Named, reporter: &mut Reporter<'_>) {
-    let springs = Key::root().key("spring");
+/// Notes the springs or bonds between bodies, well formed or not, that name a body that is not there or one body twice.
+fn ends(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
+    let springs = Key::root().key(section);
     let document = reporter.document;
-    let items = document.root.get("spring").map(Node::items).unwrap_or_default();
+    let items = document.root.get(section).map(Node::items).unwrap_or_default();
     for (index, item) in items.iter().enumerate() {
         let key = springs.index(index).key("between");
         let ends = item.get("between").map(Node::items).unwrap_or_default();

@@ -1,11 +1,13 @@
-//! `[[spring]]`: springs between bodies.
+//! `[[bond]]`: potentials and dashpots between two bodies, or one and its image in another cell.
 
+use super::contractile::OneOrMany;
 use super::lattice::CellOffset;
-use crate::quantity::{Length, NonNegative, SpringDamping, Stiffness};
+use crate::quantity::{AnyQuantity, Length, NonNegative, SpringDamping};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
-/// A spring and dashpot between points of two bodies.
+/// A bond between points of two bodies: one of `law`, `potential` and `stiffness`, or `damping` alone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bond {
@@ -17,12 +19,32 @@ pub struct Bond {
     /// A point of each, relative to its centre of mass in its axes (m).
     #[serde(default)]
     pub points: [[Length; 3]; 2],
-    /// Stiffness (N/m).
-    pub stiffness: NonNegative<Stiffness>,
-    /// Length without force (m).
-    #[serde(default)]
-    pub rest_length: NonNegative<Length>,
-    /// Damping along the spring (N s/m).
-    #[serde(default)]
-    pub damping: NonNegative<SpringDamping>,
+    /// V (J), an expression of l (m), the distance of the points, and t (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<String>,
+    /// V (J), an expression of d_x d_y d_z, H_xx …, C_xx …, D_xx … and t (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub potential: Option<String>,
+    /// Stiffness along the axis and across it (N/m), of torsion and bending (N m): six numbers, or rows of 6×6.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<OneOrMany<[f64; 6]>>,
+    /// The axis of the stiffness, and the first direction across it; from centre to centre if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axes: Option<[[f64; 3]; 2]>,
+    /// Damping on the relative velocity of the points (N s/m), or rows of 6×6 in the axes of the stiffness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<BondDamping>,
+    /// Constants of its expressions, before those of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constants: Option<BTreeMap<String, AnyQuantity>>,
+}
+
+/// A number, or rows of 6×6.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum BondDamping {
+    /// Rows (N s/m, N m s).
+    Matrix([[f64; 6]; 6]),
+    /// On the relative velocity of the points (N s/m).
+    Number(NonNegative<SpringDamping>),
 }

@@ -17,13 +17,14 @@ mod record;
 mod shape;
 mod signal;
 mod solver;
+mod spring;
 mod support;
 mod time;
 mod world;
 
 pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
-pub use bond::Bond;
+pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
@@ -38,6 +39,7 @@ pub use shape::{
 };
 pub use signal::{Constant, Interpolation, Ramp, Signal, Table, Wave};
 pub use solver::{Method, Solver};
+pub use spring::SpringBetween;
 pub use support::{Motion, Oscillation, Plane, Support};
 pub use time::{StopAtRest, Time};
 pub use world::World;
@@ -79,7 +81,10 @@ pub struct SceneFile {
     pub body: Vec<Body>,
     /// Springs between points of two bodies.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub spring: Vec<Bond>,
+    pub spring: Vec<SpringBetween>,
+    /// Bonds between points of two bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bond: Vec<Bond>,
     /// The lattice of whose cells each holds these bodies; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lattice: Option<Lattice>,

@@ -9,13 +9,13 @@ use gyration::contact::{Action, Term};
 use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
-use gyration::load::{Interaction, Party, Spring};
+use gyration::load::{Bond, Interaction, Party, Spring};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
-use gyration::{Inadmissible, Quantity};
+use gyration::{FormulaOf, Inadmissible, Quantity};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -29,6 +29,8 @@ pub(super) struct FrozenSystem {
     members: Vec<usize>,
     /// The numbers in the scene of the springs of the system.
     springs: Vec<usize>,
+    /// The numbers in the scene of its bonds.
+    bonds: Vec<usize>,
     /// The numbers of the state at the start, without velocities.
     pub start: Vec<f64>,
     evaluations: usize,
@@ -70,6 +72,7 @@ impl FrozenSystem {
             time: start.time,
             members: members.to_vec(),
             springs: springs_among(model, members),
+            bonds: bonds_among(model, members),
             start: numbers,
             evaluations: 0,
         }
@@ -94,6 +97,16 @@ impl FrozenSystem {
         self.model.springs()
     }
 
+    /// The bonds between them.
+    pub fn bonds(&self) -> &[Bond] {
+        self.model.bonds()
+    }
+
+    /// The time at which they are frozen [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// Whether a pin, a spring to an anchor or a force of its own may hold one of them.
     pub fn is_anchored(&self) -> bool {
         let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());
@@ -108,6 +121,10 @@ impl FrozenSystem {
     fn outside(&self, left: Inadmissible) -> Inadmissible {
         let quantity = match left.quantity {
             Quantity::SpringLength { spring } => Quantity::SpringLength { spring: self.springs[spring] },
+            Quantity::BondLength { bond } => Quantity::BondLength { bond: self.bonds[bond] },
+            Quantity::Formula { of: FormulaOf::Bond(bond), undefined } => {
+                Quantity::Formula { of: FormulaOf::Bond(self.bonds[bond]), undefined }
+            }
             Quantity::PairGap { other, rule } => Quantity::PairGap { other: self.members[other], rule },
             Quantity::PairPlane { other, rule } => Quantity::PairPlane { other: self.members[other], rule },
             other => other,
@@ -252,6 +269,12 @@ fn springs_among(model: &Model, members: &[usize]) -> Vec<usize> {
     let is_member = |party: Party| party.body().is_none_or(|body| members.binary_search(&body).is_ok());
     let is_among = |spring: &Spring| spring.parties().into_iter().all(is_member);
     (0..model.springs().len()).filter(|number| is_among(&model.springs()[*number])).collect()
+}
+
+/// The numbers of the bonds between some bodies.
+fn bonds_among(model: &Model, members: &[usize]) -> Vec<usize> {
+    let is_member = |body: usize| members.binary_search(&body).is_ok();
+    (0..model.bonds().len()).filter(|number| model.bonds()[*number].bodies.into_iter().all(is_member)).collect()
 }
 
 /// A body whose signals have the values of the start, and its numbers without velocities.

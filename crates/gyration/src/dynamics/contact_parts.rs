@@ -55,6 +55,7 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
                 parts.of_bodies += force;
             }
             Load::Spring(_)
+            | Load::Bond(_)
             | Load::Couple(_)
             | Load::Applied(_)
             | Load::Resistance(_)

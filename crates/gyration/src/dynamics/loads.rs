@@ -64,6 +64,13 @@ impl Acting {
                 }
                 self.total += end.loads(spring);
             }
+            Load::Bond(end) => {
+                let bond = at.bond(end);
+                if end.counts() {
+                    self.powers[Work::Load] += bond.power;
+                }
+                self.total += bond.on[end.end];
+            }
             Load::Pair(pair) => {
                 if pair.end.counts() {
                     for law in LawKind::ALL {
@@ -138,6 +145,7 @@ pub(super) fn add_slopes(
             }
         }
         Load::Spring(end) => slopes.add_spring(end, at.spring(end)),
+        Load::Bond(end) => slopes.add_bond(end, at.bond(end), at.bond_slopes(end)),
         Load::Pair(pair) => {
             let (own, found) = (pair.end.end, sloped(pair));
             slopes.loads += *pair.on_body();
@@ -187,12 +195,14 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                         .unwrap_or(0.0)
                 }
                 Load::Spring(end) if end.counts() => end.interaction.law.energy(at.spring(&end).length),
+                Load::Bond(end) if end.counts() => at.bond(&end).energy,
                 Load::Pair(pair) if pair.end.counts() => pair.loads.energy,
                 Load::Potential(potential) => {
                     let energy = potential.energy(&at.motion.placement, at.time, &mut scratch.formulas);
                     energy.map_err(undefined(at, FormulaOf::Potential))?
                 }
                 Load::Spring(_)
+                | Load::Bond(_)
                 | Load::Pair(_)
                 | Load::Couple(_)
                 | Load::Applied(_)

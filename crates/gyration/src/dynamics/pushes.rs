@@ -12,13 +12,13 @@ use crate::inadmissible::{FormulaOf, Inadmissible};
 use crate::instant::BodyAt;
 use crate::pair::PairLoads;
 
-/// One of the forces on a body that come from a support, a spring, another body or a potential.
+/// One of the forces on a body that come from a support, a spring, a bond, another body or a potential.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Push {
     /// |f| [N].
     pub force: f64,
-    /// The length on which it depends [m]: the gap of a contact, the length of a spring, the size of a body in a
-    /// potential.
+    /// The length on which it depends [m]: the gap of a contact, the length of a spring or bond, the size of a body in
+    /// a potential.
     pub gap: f64,
     /// What its energy is rounded to [J], where that is more than the last digit; each pair has it once.
     ///
@@ -44,6 +44,11 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
             Load::Spring(end) => {
                 let spring = at.spring(&end);
                 each(Push { force: spring.force.norm(), gap: spring.length, rounding: 0.0 });
+            }
+            Load::Bond(end) => {
+                let bond = at.bond(&end);
+                let gap = if bond.length > 0.0 { bond.length } else { at.body.size };
+                each(Push { force: bond.on[end.end].force.norm(), gap, rounding: 0.0 });
             }
             // A pair that does nothing may be left out before its plane is found.
             Load::Pair(pair) if !pair.acts() => {}

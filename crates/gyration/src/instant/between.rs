@@ -4,12 +4,13 @@
 use super::motions::{MotionAt, Motions};
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
-use crate::inadmissible::{Inadmissible, Quantity};
-use crate::load::{Interaction, SpringLoads};
+use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
+use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
 use crate::pair::{Guess, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
 use crate::tensor::Vec3;
+use gyration_expression::Scratch as FormulaScratch;
 
 /// What springs and the pairs within reach do, these in order of the list.
 #[derive(Debug, Clone, Default)]
@@ -22,6 +23,11 @@ pub(super) struct Between {
     sloped: Vec<Option<usize>>,
     /// What the springs of the model exert, in their order.
     springs: Vec<SpringLoads>,
+    /// What the bonds of the model do, in their order.
+    bonds: Vec<BondLoads>,
+    /// The derivatives of that; empty where they were not asked for.
+    bond_slopes: Vec<BondSlopes>,
+    formulas: FormulaScratch,
 }
 
 /// Whoever looks at the pairs of an instant, one after the other.
@@ -61,6 +67,45 @@ impl Between {
         &self.springs[number]
     }
 
+    /// What a bond of the model does.
+    pub fn bond(&self, number: usize) -> &BondLoads {
+        &self.bonds[number]
+    }
+
+    /// The derivatives of what a bond does.
+    pub fn bond_slopes(&self, number: usize) -> &BondSlopes {
+        &self.bond_slopes[number]
+    }
+
+    /// Finds what the bonds of an instant do.
+    fn find_bonds(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
+        let Looking { model, motions, wanted, .. } = looking;
+        self.bonds.clear();
+        self.bond_slopes.clear();
+        for (number, bond) in model.bonds().iter().enumerate() {
+            let bodies = bond.bodies.map(|body| motions.at(model, body));
+            let place = BondPlace {
+                motions: [bodies[0].motion, bodies[1].motion],
+                inverses: [bodies[0].inverse(), bodies[1].inverse()],
+                turn: [!bodies[0].body.is_point(), !bodies[1].body.is_point()],
+                shift: model.lattice.place(bond.cell),
+                time: motions.time(),
+            };
+            let faulty = |fault| match fault {
+                BondFault::NoLength => bodies[0].outside(Quantity::BondLength { bond: number }, 0.0),
+                BondFault::Undefined(undefined) => {
+                    let of = FormulaOf::Bond(number);
+                    bodies[0].outside(Quantity::Formula { of, undefined }, undefined.argument)
+                }
+            };
+            self.bonds.push(bond.loads(&place, &mut self.formulas).map_err(faulty)?);
+            if *wanted == Wanted::Slopes {
+                self.bond_slopes.push(bond.slopes(&place, &mut self.formulas).map_err(faulty)?);
+            }
+        }
+        Ok(())
+    }
+
     /// Finds what the springs of an instant exert.
     fn find_springs(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
         let Looking { model, motions, .. } = looking;
@@ -82,6 +127,7 @@ impl Between {
     /// Finds what stands between the bodies of an instant.
     pub fn find(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
         self.find_springs(looking)?;
+        self.find_bonds(looking)?;
         let Self { loads, slopes, sloped, .. } = self;
         loads.clear();
         slopes.clear();

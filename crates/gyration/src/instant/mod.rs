@@ -23,7 +23,7 @@ use crate::acting::{Load, PairAt, PairEnd};
 use crate::body::Slots;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
-use crate::load::{SpringEnd, SpringLoads};
+use crate::load::{BondEnd, BondLoads, BondSlopes, SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
 use between::{Between, Looking, Wanted};
@@ -181,7 +181,12 @@ impl Instant<'_> {
     /// The bodies that act on a body at this instant; some come twice.
     pub(crate) fn partners(&self, body: usize) -> impl Iterator<Item = usize> {
         let springs = self.model.springs_of(body).filter_map(|end| end.other().body());
-        springs.chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
+        let bonds = self.model.bonds_of(body).map(|end| end.other_body());
+        // A body is beside its own images, which say nothing of another.
+        springs
+            .chain(bonds)
+            .filter(move |other| *other != body)
+            .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
     }
 
     /// The numbers that were read.
@@ -221,6 +226,21 @@ impl<'a> BodyAt<'a> {
     /// What a spring of the model exerts.
     pub(crate) fn spring(&self, end: &SpringEnd) -> &'a SpringLoads {
         self.between.spring(end.number)
+    }
+
+    /// What a bond of the model does.
+    pub(crate) fn bond(&self, end: &BondEnd) -> &'a BondLoads {
+        self.between.bond(end.number)
+    }
+
+    /// The same by its number.
+    pub fn bond_loads(&self, number: usize) -> &'a BondLoads {
+        self.between.bond(number)
+    }
+
+    /// The derivatives of that, at an instant of which they were asked.
+    pub(crate) fn bond_slopes(&self, end: &BondEnd) -> &'a BondSlopes {
+        self.between.bond_slopes(end.number)
     }
 
     /// The pairs of which it is one, but those that are known to be out of reach.

@@ -1,10 +1,11 @@
 //! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material points, of
-//! couples, of friction that is linear in the velocity, those of formulas, and what a controller applies.
+//! bonds, of couples, of friction that is linear in the velocity, those of formulas, and what a controller applies.
 //!
 //! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at a
 //! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
 
 mod applied;
+mod bond;
 mod couple;
 mod formula;
 mod interactions;
@@ -16,6 +17,10 @@ mod spring;
 mod wrench;
 
 pub use applied::Applied;
+pub use bond::{
+    Bond, BondAxes, BondEnd, BondFault, BondLaw, BondLoads, BondPlace, BondSlopes, BondStiffness, DISTANCE_NAMES,
+    Dashpot, INVARIANT_NAMES, InvariantPotential, Stiffness6,
+};
 pub use couple::Couple;
 pub use formula::{Formula, PLACE_NAMES};
 pub use interactions::{Interaction, InteractionEnd, Interactions, Party};

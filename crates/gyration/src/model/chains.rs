@@ -8,7 +8,7 @@ use crate::pair::cutoff;
 impl Model {
     /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.
     pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.joined_by_springs().chain(self.rules.all().iter().flat_map(PairRule::chain))
+        self.joined().chain(self.rules.all().iter().flat_map(PairRule::chain))
     }
 
     /// The same of those that act on one another however far they are: through springs, rules without a reach, and
@@ -27,7 +27,7 @@ impl Model {
             };
             rule.chain().filter(is_endless).chain(of_set(0)).chain(of_set(1))
         });
-        self.joined_by_springs().chain(rules)
+        self.joined().chain(rules)
     }
 
     /// Whether there are bodies that act on one another within a distance only.

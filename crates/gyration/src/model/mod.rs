@@ -11,7 +11,7 @@ use crate::contact::Contact;
 use crate::fluid::Fluid;
 use crate::lattice::Lattice;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Interactions, Spring, SpringEnd};
+use crate::load::{Applied, Bond, BondEnd, Interactions, Spring, SpringEnd};
 use crate::neighbours::{Pair, PairRule, PairRules};
 use crate::support::Support;
 use crate::tensor::Vec3;
@@ -35,6 +35,7 @@ pub struct Model {
     origins: Arc<[Vec3]>,
     contacts: Interactions<Contact>,
     springs: Interactions<Spring>,
+    bonds: Interactions<Bond>,
     rules: PairRules,
     /// How many pairs these join, and how many of them however far they are.
     pairs: [usize; 2],
@@ -67,7 +68,7 @@ impl Model {
         let slots = layout(&bodies);
         let (blocks, inertialess) = (slots.iter().map(Slots::block).collect(), without_inertia(&bodies));
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
-        let (contacts, springs) = (Interactions::default(), Interactions::default());
+        let (contacts, springs, bonds) = (Interactions::default(), Interactions::default(), Interactions::default());
         let (fluid, rules) = (None, PairRules::default());
         let model = Self {
             gravity,
@@ -78,6 +79,7 @@ impl Model {
             origins: Arc::from([]),
             contacts,
             springs,
+            bonds,
             rules,
             pairs: [0, 0],
             inertialess,
@@ -164,6 +166,18 @@ impl Model {
         self.with_ledger()
     }
 
+    /// The model with bonds between its bodies.
+    ///
+    /// To be called when all bodies are what they are to be.
+    ///
+    /// # Panics
+    /// If one end of a bond is no body of the model, or both are one in the same cell.
+    #[must_use]
+    pub fn with_bonds(mut self, bonds: Vec<Bond>) -> Self {
+        self.bonds = Interactions::new(self.bodies.len(), bonds);
+        self.with_ledger()
+    }
+
     /// The model with bodies that meet.
     ///
     /// To be called when all bodies are what they are to be.
@@ -215,6 +229,7 @@ impl Model {
             origins: members.iter().filter_map(|body| self.origins.get(*body)).copied().collect(),
             contacts: self.contacts.among(members, Contact::of_parties),
             springs: self.springs.among(members, Spring::of_parties),
+            bonds: self.bonds.among(members, Bond::of_parties),
             rules: self.rules.among(members),
             pairs: [0, 0],
             works: Vec::new(),
@@ -243,9 +258,19 @@ impl Model {
         self.springs.all()
     }
 
-    /// The pairs of bodies that springs join.
-    pub fn joined_by_springs(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.springs().iter().filter_map(Spring::bodies)
+    /// Its bonds.
+    pub fn bonds(&self) -> &[Bond] {
+        self.bonds.all()
+    }
+
+    /// Those of a body, in order.
+    pub fn bonds_of(&self, body: usize) -> impl Iterator<Item = BondEnd<'_>> + Clone {
+        self.bonds.of(body)
+    }
+
+    /// The pairs of bodies that springs and bonds join.
+    pub fn joined(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.springs().iter().filter_map(Spring::bodies).chain(self.bonds().iter().map(|bond| bond.bodies))
     }
 
     /// Who of its bodies meets whom.
@@ -288,7 +313,7 @@ impl Model {
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
         let acts = |end: SpringEnd| end.other().body().is_some() && end.interaction.law.acts();
-        self.springs.of(body).any(acts) || self.meets_bodies(body)
+        self.springs.of(body).any(acts) || self.bonds.of(body).next().is_some() || self.meets_bodies(body)
     }
 
     /// Hands what acts on a body beside those that it meets to `each`, in the order in which it is summed; stops at the
@@ -307,8 +332,8 @@ impl Model {
         each: impl FnMut(Load<'a>) -> Result<(), E>,
     ) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
-        let (contacts, springs) = (self.contacts_of(index), self.springs_of(index));
-        Load::try_each(body, Interacting { contacts, springs, pairs }, fluid, self.applied(index), each)
+        let (contacts, springs, bonds) = (self.contacts_of(index), self.springs_of(index), self.bonds_of(index));
+        Load::try_each(body, Interacting { contacts, springs, bonds, pairs }, fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.

@@ -21,10 +21,11 @@ use super::system::SystemCoordinates;
 use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
 use bloch::{BlochSystem, C64};
 use gyration::lattice::{HERE, Lattice};
-use gyration::load::{Interaction, Spring};
+use gyration::load::{Bond, BondPlace, Interaction, Spring};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::{Mat3, Vec3};
+use gyration_expression::Scratch;
 use gyration_threads::Interruption;
 use nalgebra::DVector;
 use serde::Serialize;
@@ -204,6 +205,20 @@ fn carried(frozen: &FrozenSystem, lattice: &Lattice, numbers: &[f64]) -> (Vec<Ve
         let Ok(loads) = spring.loads(lattice, |body| &motions[body]) else { continue };
         for (force, n) in forces.iter_mut().zip(spring.cell()) {
             *force += f64::from(n) * loads.force;
+        }
+    }
+    let leads_away = |bond: &&Bond| bond.cell() != HERE;
+    for bond in frozen.bonds().iter().filter(leads_away) {
+        let place = BondPlace {
+            motions: bond.bodies.map(|body| &motions[body]),
+            inverses: bond.bodies.map(|body| frozen.inverse(numbers, body)),
+            turn: bond.bodies.map(|body| !frozen.bodies()[body].is_point()),
+            shift: lattice.place(bond.cell()),
+            time: frozen.time(),
+        };
+        let Ok(loads) = bond.loads(&place, &mut Scratch::default()) else { continue };
+        for (force, n) in forces.iter_mut().zip(bond.cell()) {
+            *force += f64::from(n) * loads.on[0].force;
         }
     }
     let products = forces.iter().zip(lattice.vectors()).map(|(force, vector)| force * vector.transpose());

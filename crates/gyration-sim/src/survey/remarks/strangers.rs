@@ -43,7 +43,7 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
         ),
     };
     // What a spring joins may overlap: links of a chain.
-    known.extend(model.joined_by_springs().map(sorted));
+    known.extend(model.joined().map(sorted));
     let told = format!("{who}: no contact says so");
     match Overlapping::among(model, start, &solid, &known) {
         Some(found) => remarks.warnings.push(format!("{told}, and {}", found.in_words(model, strangers == 1))),

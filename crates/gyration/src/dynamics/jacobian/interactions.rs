@@ -23,6 +23,12 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
                 Some(other) => ((other, end.cell()), Coupling::of_spring(&end, at.spring(&end))),
                 None => return Ok(()),
             },
+            Load::Bond(end) => {
+                let (slopes, own) = (at.bond_slopes(&end), end.end);
+                let by_rate = slopes.by_rate.as_ref().map(|by_rate| by_rate[own][1 - own]);
+                let coupling = Coupling { by_place: slopes.by_place[own][1 - own], by_rate };
+                ((end.other_body(), end.cell()), coupling)
+            }
             Load::Pair(pair) => {
                 let (slopes, own) = (sloped(&pair), pair.end.end);
                 let by_place = slopes.by_place[own][1 - own];
