@@ -6,7 +6,7 @@
 use super::potential::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, Term};
 use crate::load::{Interaction, Party};
-use crate::surface::{MomentPlan, Moments, OrientedMoments, request};
+use crate::surface::{AxialMoments, MomentPlan, Moments, OrientedMoments, request};
 use std::sync::Arc;
 
 /// The laws between a body and a support.
@@ -51,6 +51,7 @@ pub(super) struct PlannedTerm {
 pub struct ContactScratch {
     moments: Vec<Moments>,
     oriented: Vec<OrientedMoments>,
+    axial: Vec<AxialMoments>,
 }
 
 impl ContactScratch {
@@ -68,6 +69,14 @@ impl ContactScratch {
             self.oriented.resize(count, OrientedMoments::default());
         }
         &mut self.oriented[..count]
+    }
+
+    /// The first `count` moments of a ball, growing if this is the first use.
+    pub(super) fn take_axial(&mut self, count: usize) -> &mut [AxialMoments] {
+        if self.axial.len() < count {
+            self.axial.resize(count, AxialMoments::default());
+        }
+        &mut self.axial[..count]
     }
 }
 

@@ -12,6 +12,7 @@
 //! to integrate it over a surface. Source: Tatone, *Soft and rigid impact*.
 
 mod adhesion;
+mod ball;
 mod damping;
 mod friction;
 mod law_set;
@@ -19,6 +20,7 @@ mod meeting;
 mod potential;
 mod repulsion;
 mod resultant;
+mod rigid;
 mod slopes;
 mod sums;
 mod tension;

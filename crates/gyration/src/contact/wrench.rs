@@ -144,11 +144,8 @@ fn project(n: &Vec3, a: &Mat3) -> Mat3 {
 }
 
 impl RigidLoads {
-    /// Integrates the laws of a contact over a surface.
-    ///
-    /// # Errors
-    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-    pub fn integrate(
+    /// The laws of a contact over any surface.
+    pub(super) fn of_surface(
         laws: &LawSet,
         surface: &Surface,
         field: &GapField,
@@ -169,11 +166,8 @@ impl RigidLoads {
 }
 
 impl ContactWrench {
-    /// Integrates the laws of a contact and their derivatives over a surface.
-    ///
-    /// # Errors
-    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
-    pub fn integrate(
+    /// The laws of a contact over any surface, and their derivatives.
+    pub(super) fn of_surface(
         laws: &LawSet,
         surface: &Surface,
         field: &GapField,

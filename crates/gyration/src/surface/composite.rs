@@ -3,7 +3,7 @@
 use super::curved::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Patch, Primitive, Sphere, Torus};
 use super::facets::{BATCH, Facets, FacetsError};
 use super::gap::{GapClosed, GapField};
-use super::moments::{MomentRequest, Moments};
+use super::moments::{AxialMoments, MomentRequest, Moments};
 use super::oriented::OrientedMoments;
 use super::plan::MomentPlan;
 use crate::extended::Extended;
@@ -127,10 +127,7 @@ impl Surface {
     /// `GapClosed` if the smallest gap is not a positive finite number, or over a smooth patch is positive by no more
     /// than rounding; `out` is then unspecified.
     pub fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
-        assert_eq!(requests.len(), out.len(), "one place for each request");
-        out.fill(Moments::default());
-        self.facets.moments(field, requests, out)?;
-        self.add_patches(field, requests, out)
+        self.planned_moments(field, &MomentPlan::new(requests.to_vec()), out)
     }
 
     /// [`Surface::moments`] of requests that were planned before.
@@ -143,7 +140,27 @@ impl Surface {
         for (plan, out) in plan.facets.iter().zip(out.chunks_mut(BATCH)) {
             self.facets.add_planned(field, plan, out)?;
         }
-        self.add_patches(field, plan.requests(), out)
+        for patch in &self.patches {
+            patch.check_gap(field)?;
+            patch.add_moments(field, plan, out);
+        }
+        Ok(())
+    }
+
+    /// The moments of a ball about the origin of X, set in the entries of `out`: arguments as for
+    /// [`Surface::planned_moments`]. None of any other surface.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn axial_moments(
+        &self,
+        field: &GapField,
+        plan: &MomentPlan,
+        out: &mut [AxialMoments],
+    ) -> Option<Result<(), GapClosed>> {
+        let [patch] = self.patches.as_slice() else { return None };
+        let ball = patch.ball().filter(|_| self.facets.is_empty())?;
+        Some(patch.check_gap(field).map(|()| Sphere { radius: ball }.axial_moments(field, plan, out)))
     }
 
     /// The moments per deformed area, ∫ κ k X^⊗n dA, of planned requests, about the origin of X; set in the entries of
@@ -196,15 +213,6 @@ impl Surface {
         for patch in &self.patches {
             patch.check_gap(field)?;
             patch.add_oriented(field, cofactor, plan.requests(), out);
-        }
-        Ok(())
-    }
-
-    /// Adds the moments over the smooth patches.
-    fn add_patches(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> Result<(), GapClosed> {
-        for patch in &self.patches {
-            patch.check_gap(field)?;
-            patch.add_moments(field, requests, out);
         }
         Ok(())
     }

@@ -54,7 +54,7 @@ pub use composite::Surface;
 pub use facets::{Facets, FacetsError};
 pub use gap::{GapClosed, GapField, GapLack};
 pub use line::LineKernel;
-pub use moments::{Kernel, MomentRequest, Moments};
+pub use moments::{AxialMoments, Kernel, MomentRequest, Moments};
 pub use oriented::OrientedMoments;
 pub use plan::MomentPlan;
 pub(crate) use plan::request;

@@ -33,6 +33,19 @@ pub struct Moments {
     pub third: SymmetricThird,
 }
 
+/// Moments of a kernel over a sphere about the origin, c = m/|m|: A₁ = a₁ c, A₂ = a_c c⊗c + a_⊥ (1 − c⊗c).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AxialMoments {
+    /// A₀.
+    pub zeroth: f64,
+    /// a₁; without meaning where the order is below 1.
+    pub first: f64,
+    /// a_c; without meaning where the order is below 2.
+    pub along: f64,
+    /// a_⊥, likewise.
+    pub across: f64,
+}
+
 impl Moments {
     /// Adds another surface's moments, up to `order`.
     pub(crate) fn add(&mut self, other: &Self, order: usize) {

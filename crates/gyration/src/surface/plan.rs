@@ -1,6 +1,7 @@
 //! Requests of moments, planned once for each contact.
 
 use super::facets::{BATCH, FacetPlan};
+use super::line::LineKernel;
 use super::moments::{Kernel, MomentRequest};
 
 /// The moments that a contact needs, with all that does not depend on the gaps worked out once.
@@ -9,18 +10,26 @@ pub struct MomentPlan {
     requests: Vec<MomentRequest>,
     /// How facets meet them, a batch each.
     pub(super) facets: Vec<FacetPlan>,
+    /// How spheres and zones of them meet each, along their axis.
+    lines: Vec<LineKernel>,
 }
 
 impl MomentPlan {
     /// Prepares these requests for any surface.
     pub fn new(requests: Vec<MomentRequest>) -> Self {
         let facets = requests.chunks(BATCH).map(FacetPlan::new).collect();
-        Self { requests, facets }
+        let lines = requests.iter().map(|request| LineKernel::up_to(request.kernel, request.order)).collect();
+        Self { requests, facets, lines }
     }
 
     /// The requests, in the order of the results.
     pub fn requests(&self) -> &[MomentRequest] {
         &self.requests
+    }
+
+    /// Their kernels along a segment, in the same order.
+    pub(super) fn lines(&self) -> &[LineKernel] {
+        &self.lines
     }
 }
 

@@ -55,23 +55,32 @@ impl Hemisphere {
     }
 
     /// Sums the moments in the frame (e₁, e₂, c); every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
+    pub(crate) fn moments(
+        &self,
+        field: &GapField,
+        (requests, lines): (&[MomentRequest], &[LineKernel]),
+        out: &mut [Moments],
+    ) -> AffineMap {
         let gap = TiltedGap::new(field);
         let slope = libm::hypot(gap.along, gap.across);
         let (cosine, sine) = if slope > 0.0 { (gap.along / slope, gap.across / slope) } else { (1.0, 0.0) };
         let parallels = TiltedParallels { height: gap.height, reach: self.radius * slope, cosine, sine };
-        self.whole_parallels(&parallels, requests, out);
+        self.whole_parallels(&parallels, requests.iter().zip(lines), out);
         self.arcs(&parallels, requests, out);
         AffineMap::frame(gap.frame * Mat3::new(cosine, 0.0, -sine, 0.0, 1.0, 0.0, sine, 0.0, cosine))
     }
 
     /// The zone around the pole, between u = ±σ and ±1.
-    fn whole_parallels(&self, p: &TiltedParallels, requests: &[MomentRequest], out: &mut [Moments]) {
+    fn whole_parallels<'a>(
+        &self,
+        p: &TiltedParallels,
+        requests: impl Iterator<Item = (&'a MomentRequest, &'a LineKernel)>,
+        out: &mut [Moments],
+    ) {
         let (from, to) = if p.cosine > 0.0 { (p.sine, 1.0) } else { (-1.0, -p.sine) };
         if from < to {
-            for (request, moments) in requests.iter().zip(out) {
-                let kernel = LineKernel::up_to(request.kernel, request.order);
-                let u = height_moments(&kernel, p.height, p.reach, from, to, request.order);
+            for ((request, kernel), moments) in requests.zip(out) {
+                let u = height_moments(kernel, p.height, p.reach, from, to, request.order);
                 add_zone(self.radius, request.order, &u, moments);
             }
         }

@@ -10,7 +10,7 @@ use super::rules::integrand::GROUP;
 use super::rules::weight::{AREA, Deformed, Weighted, Weights};
 use super::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Sphere, Torus};
 use crate::surface::oriented::{FOURTH, PAIRS};
-use crate::surface::{GapClosed, GapField, Kernel, MomentRequest, Moments, OrientedMoments};
+use crate::surface::{GapClosed, GapField, Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments};
 use crate::tensor::{Mat3, Vec3};
 
 /// The smooth surfaces that contact knows.
@@ -109,18 +109,19 @@ impl Patch {
     }
 
     /// Adds the moments about the origin of X; every gap on the patch must be positive.
-    pub(crate) fn add_moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
+    pub(crate) fn add_moments(&self, field: &GapField, plan: &MomentPlan, out: &mut [Moments]) {
+        if let Primitive::Sphere(sphere) = &self.primitive {
+            // A sphere has no attitude, and is so cheap that a change of frame would double its cost.
+            return sphere.add_moments(&self.offset, field, plan, out);
+        }
         let own = GapField::new(field.gap(&self.offset), self.rotation.tr_mul(&field.direction));
-        for (requests, out) in requests.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
+        let groups = plan.requests().chunks(GROUP).zip(plan.lines().chunks(GROUP));
+        for ((requests, lines), out) in groups.zip(out.chunks_mut(GROUP)) {
             let mut sums = [Moments::default(); GROUP];
             let sums = &mut sums[..requests.len()];
             let map = match &self.primitive {
-                Primitive::Sphere(p) => {
-                    // A sphere has no attitude, and is so cheap that a change of frame would double its cost.
-                    p.add_moments(&self.offset, field, requests, out);
-                    continue;
-                }
-                Primitive::Hemisphere(p) => p.moments(&own, requests, sums),
+                Primitive::Sphere(_) => unreachable!("a sphere has been added"),
+                Primitive::Hemisphere(p) => p.moments(&own, (requests, lines), sums),
                 Primitive::Ellipsoid(p) => p.moments(&own, requests, sums),
                 Primitive::CylinderWall(p) => p.moments(&own, requests, sums),
                 Primitive::Disk(p) => p.moments(&own, requests, sums),

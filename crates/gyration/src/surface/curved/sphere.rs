@@ -11,7 +11,7 @@
 use std::f64::consts::TAU;
 
 use crate::surface::line::LineKernel;
-use crate::surface::{GapField, MomentRequest, Moments};
+use crate::surface::{AxialMoments, GapField, MomentPlan, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// A sphere about the origin.
@@ -46,16 +46,34 @@ impl Sphere {
     }
 
     /// Adds the moments of a sphere about `center` to those about the origin; every gap must be positive.
-    pub(crate) fn add_moments(&self, center: &Vec3, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) {
+    pub(crate) fn add_moments(&self, center: &Vec3, field: &GapField, plan: &MomentPlan, out: &mut [Moments]) {
         let axis = unit_or_z(&field.direction);
         let (near, far) = self.gaps(center, field);
-        for (request, moments) in requests.iter().zip(out) {
-            let kernel = LineKernel::up_to(request.kernel, request.order);
+        for ((request, kernel), moments) in plan.requests().iter().zip(plan.lines()).zip(out) {
             let line = kernel.moments(&kernel.sample(near), &kernel.sample(far), request.order);
             let u = shifted(&line, -1.0, 2.0);
             let mut sum = axial(self.radius, &axis, request.order, &u);
             sum.shift(center, request.order);
             moments.add(&sum, request.order);
+        }
+    }
+
+    /// Sets the moments of a sphere about the origin along its axis; every gap must be positive.
+    pub(crate) fn axial_moments(&self, field: &GapField, plan: &MomentPlan, out: &mut [AxialMoments]) {
+        self.moments_between(self.gaps(&Vec3::zeros(), field), plan, out);
+    }
+
+    /// The same, given the smallest and the largest gap [m]. With 1 − u² = 4x (1 − x), a_⊥ is no difference of U₀ and
+    /// U₂, which next to a plane are nearly the same.
+    fn moments_between(&self, (near, far): (f64, f64), plan: &MomentPlan, out: &mut [AxialMoments]) {
+        let scale = TAU * self.radius * self.radius;
+        let squared = scale * self.radius * self.radius;
+        for ((request, kernel), moments) in plan.requests().iter().zip(plan.lines()).zip(out) {
+            let line = kernel.moments(&kernel.sample(near), &kernel.sample(far), request.order.min(2));
+            let [u0, u1, u2, _] = shifted(&line, -1.0, 2.0);
+            let across = 4.0 * squared * (line[1] - line[2]);
+            *moments =
+                AxialMoments { zeroth: scale * u0, first: scale * self.radius * u1, along: squared * u2, across };
         }
     }
 }
