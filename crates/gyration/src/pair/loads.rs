@@ -81,10 +81,8 @@ impl PairLoads {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
-        if pair.laws.viscous.is_empty()
-            && let Some(balls) = pair.balls(sides)
-        {
-            return balls?.loads(sides, pair.threshold);
+        if let Some(balls) = pair.balls(sides) {
+            return balls?.loads(&pair.laws, sides, pair.threshold, &mut scratch.axial);
         }
         let state = PairState::new(pair, sides, guess, scratch)?;
         let mut on = [state.repulsion(0), state.repulsion(1)];

@@ -68,9 +68,10 @@ pub(super) struct Foot {
 }
 
 impl Shares {
-    pub fn new(laws: &PairLaws, placed: &Placed) -> Self {
+    /// Of λ.
+    pub fn of_weights(laws: &PairLaws, weights: [f64; 2]) -> Self {
         let power = 1.0 / laws.repulsion.exponent;
-        let own = placed.weights.map(|weight| libm::pow(weight, power));
+        let own = weights.map(|weight| libm::pow(weight, power));
         let sum = own[0] + own[1];
         Self { own, parts: own.map(|own| own / sum), power }
     }

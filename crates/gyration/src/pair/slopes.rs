@@ -30,10 +30,8 @@ impl PairSlopes {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
-        if pair.laws.viscous.is_empty()
-            && let Some(balls) = pair.balls(sides)
-        {
-            return balls?.slopes(sides, pair.threshold);
+        if let Some(balls) = pair.balls(sides) {
+            return balls?.slopes(&pair.laws, sides, pair.threshold, &mut scratch.axial);
         }
         let (state, expansion) = PairState::expanded(pair, sides, guess, scratch)?;
         let halves = state.halves.each_ref();

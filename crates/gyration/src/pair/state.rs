@@ -12,13 +12,14 @@ use super::plane::{Guess, Plane};
 use super::side::{Half, SIGNS, Side, columns};
 use super::{Mat34, Vec4};
 use crate::contact::AreaMeasure;
-use crate::surface::Moments;
+use crate::surface::{AxialMoments, Moments};
 use crate::tensor::Vec3;
 
 /// Room for the moments of a pair; made once, reused.
 #[derive(Debug, Clone, Default)]
 pub struct PairScratch {
     pub(super) moments: [Vec<Moments>; 2],
+    pub(super) axial: [Vec<AxialMoments>; 2],
 }
 
 /// Which moments of viscous laws are wanted.
@@ -84,10 +85,7 @@ impl<'a> PairState<'a> {
     ) -> Result<Self, PairFault> {
         let halves = pair.halves(sides);
         let room = scratch.placing(pair);
-        let placed = match pair.balls(sides) {
-            Some(balls) => Expansion::about(&pair.laws, halves.each_ref(), balls?.plane(), room)?.placed(),
-            None => search(pair, halves.each_ref(), guess, room)?.placed(halves.each_ref()),
-        };
+        let placed = search(pair, halves.each_ref(), guess, room)?.placed(halves.each_ref());
         Ok(Self::at(pair, halves, placed))
     }
 
@@ -103,10 +101,7 @@ impl<'a> PairState<'a> {
     ) -> Result<(Self, Expansion), PairFault> {
         let halves = pair.halves(sides);
         let room = scratch.placing(pair);
-        let expansion = match pair.balls(sides) {
-            Some(balls) => Expansion::about(&pair.laws, halves.each_ref(), balls?.plane(), room)?,
-            None => search(pair, halves.each_ref(), guess, room)?.confirmed(&pair.laws, halves.each_ref(), room),
-        };
+        let expansion = search(pair, halves.each_ref(), guess, room)?.confirmed(&pair.laws, halves.each_ref(), room);
         let placed = expansion.placed();
         Ok((Self::at(pair, halves, placed), expansion))
     }
@@ -142,7 +137,7 @@ impl<'a> PairState<'a> {
             ViscousMoments::Values => &laws.resisting,
             ViscousMoments::Slopes => &laws.resisting_slopes,
         };
-        let shares = Shares::new(laws, &self.placed);
+        let shares = Shares::of_weights(laws, self.placed.weights);
         let [above, below] = scratch.take(plan.requests().len());
         self.halves[0].moments(&self.placed.plane, plan, above)?;
         self.halves[1].moments(&self.placed.plane, plan, below)?;

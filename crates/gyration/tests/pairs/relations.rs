@@ -126,11 +126,13 @@ fn names_and_axes_do_not_matter() {
     }
 }
 
-/// Along what rigid bodies can do, six motions of each, against the derivatives by all twelve coordinates.
+/// Along what rigid bodies can do, six motions of each, against the derivatives by all twelve coordinates. Two balls
+/// have formulas that know rigid motions alone, and tests of these.
 #[test]
 fn slopes_of_rigid_bodies_are_those_along_their_motions() {
     let mut worst: f64 = 0.0;
-    for (k, (name, one, other)) in pairs().enumerate() {
+    let are_balls = |one: &Half, other: &Half| [one, other].iter().all(|half| half.surface.ball().is_some());
+    for (k, (name, one, other)) in pairs().enumerate().filter(|(_, (_, one, other))| !are_balls(one, other)) {
         let laws = laws([[6.0, 6.0, 6.0], [2.5, 4.0, 3.0]][k % 2], k % 3 > 0);
         // Without their strain they may need more room.
         let apart = 0.1 * (one.placement.position - other.placement.position);

@@ -12,6 +12,7 @@
 mod placed;
 #[cfg(test)]
 mod tests;
+mod viscous;
 
 pub(super) use placed::PlacedBalls;
 
@@ -58,6 +59,16 @@ struct Repelled {
     /// s_A/Σ.
     part: f64,
     balls: [Ball; 2],
+}
+
+/// How that changes with the slab, without a threshold.
+struct Stiffness {
+    /// dF/dg [N/m].
+    stiffness: f64,
+    /// How the lever of each changes.
+    levers_by_gap: [f64; 2],
+    /// da/dg of each.
+    shares: [f64; 2],
 }
 
 /// A step of log a_A/a_B behind which the next is rounding, Newton's method being of second order.
@@ -148,11 +159,11 @@ impl Balls {
         repelled.part * self.fall(&repelled.balls[0])
     }
 
-    /// How the force changes with the slab, without a threshold, and the lever of each [N/m, 1].
+    /// How all this changes with the slab.
     ///
     ///   U = c Σ^(−1/q),   Σ = max s_A(a) + s_B(g − a),   dΣ/dg = s′,   d²Σ/dg² = s_A″ s_B″/(s_A″ + s_B″)
     ///   s′ = q s φ,   s″ = q s ((1+q) φ² − v″/v),   φ = −v′/v,   da/dg = s_B″/(s_A″ + s_B″)
-    fn stiffness(&self, repelled: &Repelled) -> (f64, [f64; 2]) {
+    fn stiffness(&self, repelled: &Repelled) -> Stiffness {
         let power = 0.5 / (self.exponent - 1.0);
         let [above, below] = &repelled.balls;
         let part = repelled.part;
@@ -162,12 +173,12 @@ impl Balls {
             |i: usize, ball: &Ball| power * parts[i] * ((1.0 + power) * self.fall(ball).powi(2) - self.bend(ball));
         let bends = [bent(0, above), bent(1, below)];
         let (slope, bend) = (power * part * self.fall(above), bends[0] * bends[1] / (bends[0] + bends[1]));
-        let force = repelled.energy / power * (bend - (1.0 / power + 1.0) * slope * slope);
+        let stiffness = repelled.energy / power * (bend - (1.0 / power + 1.0) * slope * slope);
         let shares = [bends[1], bends[0]].map(|other| other / (bends[0] + bends[1]));
         let lever = |i: usize, ball: &Ball| {
             shares[i] * (self.exponent - (self.exponent - 1.0) * self.bend(ball) / self.fall(ball).powi(2))
         };
-        (force, [lever(0, above), lever(1, below)])
+        Stiffness { stiffness, levers_by_gap: [lever(0, above), lever(1, below)], shares }
     }
 
     /// What the repulsion does at the gaps of both to their plane, without a threshold.

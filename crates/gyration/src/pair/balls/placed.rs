@@ -1,14 +1,16 @@
 //! Two balls whose plane is found: the slab between them, what they do to each other, and its derivatives.
 
-use super::{Balls, Repelled};
+use super::{Balls, Repelled, Stiffness};
 use crate::contact::LawKind;
 use crate::kinematics::Velocity;
 use crate::load::{Loads, Mat12, numbers};
 use crate::pair::exchange::{PairGap, PairLoads, PairSlopes};
 use crate::pair::fault::PairFault;
+use crate::pair::laws::PairLaws;
 use crate::pair::placed::Switch;
 use crate::pair::plane::Plane;
 use crate::pair::side::{SIGNS, Side};
+use crate::surface::AxialMoments;
 use crate::tensor::{Mat3, Vec3};
 
 /// Two balls and their plane.
@@ -45,16 +47,25 @@ impl PlacedBalls<'_> {
         PairGap { gap, rate, normal: self.normal, turning, share: self.gaps[0] / gap, sharing: 0.0 }
     }
 
-    /// What the repulsion does to both, beginning at an energy [J].
+    /// What the laws do to both, beginning at an energy [J].
     ///
     /// # Errors
     /// [`PairFault`] if that is no number.
-    pub fn loads(&self, sides: [&Side; 2], threshold: f64) -> Result<PairLoads, PairFault> {
+    pub fn loads(
+        &self,
+        laws: &PairLaws,
+        sides: [&Side; 2],
+        threshold: f64,
+        room: &mut [Vec<AxialMoments>; 2],
+    ) -> Result<PairLoads, PairFault> {
         let repelled = self.balls.repulsion(self.gaps)?;
-        Ok(self.pushed(sides, &repelled, &Switch::at(threshold, repelled.energy)))
+        let switch = Switch::at(threshold, repelled.energy);
+        let mut loads = self.pushed(sides, &repelled, &switch);
+        self.resist(laws, sides, (&repelled, &switch), room, &mut loads);
+        Ok(loads)
     }
 
-    /// The same, given the repulsion at the gaps and how it begins.
+    /// What the repulsion does, given that at the gaps and how it begins.
     fn pushed(&self, sides: [&Side; 2], repelled: &Repelled, switch: &Switch) -> PairLoads {
         let Self { normal, gaps, .. } = self;
         let Repelled { energy, force, balls, .. } = repelled;
@@ -86,11 +97,17 @@ impl PlacedBalls<'_> {
     ///
     /// # Errors
     /// [`PairFault`] if they are no numbers.
-    pub fn slopes(&self, sides: [&Side; 2], threshold: f64) -> Result<PairSlopes, PairFault> {
+    pub fn slopes(
+        &self,
+        laws: &PairLaws,
+        sides: [&Side; 2],
+        threshold: f64,
+        room: &mut [Vec<AxialMoments>; 2],
+    ) -> Result<PairSlopes, PairFault> {
         let Self { balls, normal, distance, gaps } = self;
         let repelled = balls.repulsion(*gaps)?;
         let switch = Switch::at(threshold, repelled.energy);
-        let (stiffness, levers_by_gap) = balls.stiffness(&repelled);
+        let Stiffness { stiffness, levers_by_gap, shares } = balls.stiffness(&repelled);
         // χ″ = bend χ′/U, and dU/dg = −F.
         let bend = -switch.bend * repelled.force * balls.growth(&repelled);
         let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
@@ -118,6 +135,8 @@ impl PlacedBalls<'_> {
                 }
             }
         }
-        Ok(PairSlopes { loads: self.pushed(sides, &repelled, &switch), by_place, by_rate: None })
+        let mut slopes = PairSlopes { loads: self.pushed(sides, &repelled, &switch), by_place, by_rate: None };
+        self.resist_with_slopes(laws, sides, (&repelled, &switch), shares, room, &mut slopes);
+        Ok(slopes)
     }
 }

@@ -1,11 +1,11 @@
 //! Two balls by their formula and by the general method, the slope of their energy, and Derjaguin's limit.
 
-use crate::contact::{AreaMeasure, ContactLaw, Repulsion};
+use crate::contact::{AreaMeasure, ContactLaw, Damping, Friction, Repulsion};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::load::{Loads, numbers};
 use crate::pair::{PairForm, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
 use crate::surface::Surface;
-use crate::tensor::{Mat3, Vec3, cross_matrix};
+use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 use std::sync::Arc;
 
 /// A pair of balls by the formula and by the general method, with what holds their sides.
@@ -18,8 +18,13 @@ struct Meeting {
 
 impl Meeting {
     fn new(radii: [f64; 2], exponent: f64, gap: f64, reach: Option<f64>) -> Self {
+        Self::resisting(radii, exponent, gap, reach, Vec::new())
+    }
+
+    /// With laws beside the repulsion.
+    fn resisting(radii: [f64; 2], exponent: f64, gap: f64, reach: Option<f64>, mut laws: Vec<ContactLaw>) -> Self {
         let repulsion = Repulsion { alpha: 3.0, exponent, reference_gap: 0.01 };
-        let laws = vec![ContactLaw::Repulsion(repulsion)];
+        laws.push(ContactLaw::Repulsion(repulsion));
         let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap());
         let surfaces = radii.map(Surface::sphere);
         let closed = PairForm::new(laws, reach, surfaces.each_ref());
@@ -122,7 +127,10 @@ fn a_ball_feels_one_that_is_a_million_times_larger_as_a_plane() {
         let own = balls.ball(small, gap);
         let plane = balls.scale * balls.value(&own);
         let placed = super::PlacedBalls { balls, normal: Vec3::z(), distance: 1.0, gaps };
-        let energy = placed.loads(meeting.sides().each_ref(), 0.0).unwrap().energy;
+        let energy = placed
+            .loads(&meeting.pairs[0].laws, meeting.sides().each_ref(), 0.0, &mut Default::default())
+            .unwrap()
+            .energy;
         let balance = |i: usize| {
             let ball = balls.ball(i, gaps[i]);
             balls.shares[i].sqrt() * libm::pow(balls.value(&ball), -0.1) * balls.fall(&ball)
@@ -163,6 +171,85 @@ fn slopes_are_those_of_the_general_method() {
     println!("slopes of balls off by {worst:.1e} of the largest");
     // A slab of 0.02 is a difference of places of order one: 1e-14 of it, times ν.
     assert!(worst < 1e-11);
+}
+
+/// Damping, friction or both, of exponents of their own.
+fn resistances(exponents: [f64; 2]) -> [Vec<ContactLaw>; 3] {
+    let [one, other] = exponents;
+    let damping = ContactLaw::Damping(Damping { beta: 5e4, exponent: one, reference_gap: 0.01 });
+    let friction = ContactLaw::Friction(Friction { beta: 4e5, exponent: other, reference_gap: 0.02 });
+    [vec![damping], vec![friction], vec![damping, friction]]
+}
+
+/// Force and torque, since a rigid body feels no more of a moment.
+fn felt(loads: &Loads, gradient: &Mat3) -> [Vec3; 2] {
+    [loads.force, axial(&(loads.moment * gradient.transpose()))]
+}
+
+/// Along what rigid bodies can do, a turn by θ changing Ṗ as it changes P; and by their velocities and spins.
+#[test]
+fn balls_resist_as_the_general_method_says() {
+    let (mut loads, mut slopes) = (0.0_f64, 0.0_f64);
+    let radii = [[0.3, 0.3], [0.7, 0.2], [0.1, 4.0]];
+    let exponents = [(6.0, [6.0, 6.0]), (2.5, [1.5, 3.0]), (12.0, [4.0, 7.3])];
+    for (radii, (exponent, viscous)) in radii.into_iter().flat_map(|radii| exponents.map(|exponent| (radii, exponent)))
+    {
+        for (gap, reach) in [(1e-3, None), (0.02, Some(0.3)), (1.0, None)] {
+            for laws in resistances(viscous) {
+                let meeting = Meeting::resisting(radii, exponent, gap, reach, laws);
+                let sides = meeting.sides();
+                let found = meeting.pairs.each_ref().map(|pair| {
+                    PairSlopes::integrate(pair, sides.each_ref(), None, &mut PairScratch::default()).unwrap()
+                });
+                let [closed, general] = &found;
+                assert_eq!(closed.loads, meeting.loads()[0]);
+                for (i, radius) in radii.into_iter().enumerate() {
+                    let gradient = &meeting.placements[i].gradient;
+                    let [[push, twist], [other_push, other_twist]] =
+                        [closed, general].map(|slopes| felt(&slopes.loads.on[i], gradient));
+                    let size = other_push.norm() * (1.0 + radius) + other_twist.norm();
+                    loads = loads.max(((push - other_push).norm() + (twist - other_twist).norm()) / size);
+                    let power = |slopes: &PairSlopes| -> f64 { slopes.loads.powers.iter().sum() };
+                    loads = loads.max((power(closed) - power(general)).abs() / power(general).abs());
+                }
+                slopes = slopes.max(differ(&meeting, &found, meeting_size(&meeting, exponent)));
+            }
+        }
+    }
+    println!("balls that resist: loads off by {loads:.1e}, slopes by {slopes:.1e} of the largest");
+    // Gaps of 1e-3 are rounded to 1e-12 of them, times ν; M_⊥ of the general method is a difference.
+    assert!(loads < 1e-10 && slopes < 1e-9);
+}
+
+/// The largest difference of the derivatives of force and torque, as a part of them and of those of the repulsion.
+fn differ(meeting: &Meeting, found: &[PairSlopes; 2], repelled: f64) -> f64 {
+    let mut worst: f64 = 0.0;
+    for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let (own, turned) = (&meeting.placements[i].gradient, &meeting.placements[j].gradient);
+        let rate = &meeting.velocities[j].gradient_rate;
+        let still = Loads { force: Vec3::zeros(), moment: Mat3::zeros() };
+        let motions = (0..3).flat_map(|k| {
+            let unit = Vec3::ith(k, 1.0);
+            let turn = |a: &Mat3| Loads { force: Vec3::zeros(), moment: cross_matrix(&unit) * a };
+            let moved = Loads { force: unit, moment: Mat3::zeros() };
+            [(moved, still), (turn(turned), turn(rate)), (still, moved), (still, turn(turned))]
+        });
+        for (place, rates) in motions {
+            let turn = if i == j { place.moment } else { Mat3::zeros() };
+            let changes = found.each_ref().map(|slopes| {
+                let by_rate = slopes.by_rate.as_ref().unwrap();
+                let change = slopes.by_place[i][j] * numbers(&place) + by_rate[i][j] * numbers(&rates);
+                let Loads { force, moment } = crate::load::loads(&change);
+                let about = moment * own.transpose() + slopes.loads.on[i].moment * turn.transpose();
+                [force, axial(&about)]
+            });
+            let [[push, twist], [other_push, other_twist]] = changes;
+            let size = other_push.norm() + other_twist.norm();
+            let off = (push - other_push).norm() + (twist - other_twist).norm();
+            worst = worst.max(off / (size + repelled));
+        }
+    }
+    worst
 }
 
 /// Of balls whose energy is too small for a number.

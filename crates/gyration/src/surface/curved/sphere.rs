@@ -65,7 +65,7 @@ impl Sphere {
 
     /// The same, given the smallest and the largest gap [m]. With 1 − u² = 4x (1 − x), a_⊥ is no difference of U₀ and
     /// U₂, which next to a plane are nearly the same.
-    fn moments_between(&self, (near, far): (f64, f64), plan: &MomentPlan, out: &mut [AxialMoments]) {
+    pub(crate) fn moments_between(&self, (near, far): (f64, f64), plan: &MomentPlan, out: &mut [AxialMoments]) {
         let scale = TAU * self.radius * self.radius;
         let squared = scale * self.radius * self.radius;
         for ((request, kernel), moments) in plan.requests().iter().zip(plan.lines()).zip(out) {
