@@ -17,7 +17,7 @@ use gyration_expression::Scratch as FormulaScratch;
 pub(super) struct Between {
     /// None of a pair that a look at its slab has shown to be out of reach.
     loads: Vec<Option<PairLoads>>,
-    /// The derivatives of some of them.
+    /// The derivatives of some of them; more than there are now, if there were more before.
     slopes: Vec<PairSlopes>,
     /// Where these are, by the place of a pair.
     sloped: Vec<Option<usize>>,
@@ -130,8 +130,8 @@ impl Between {
         self.find_bonds(looking)?;
         let Self { loads, slopes, sloped, .. } = self;
         loads.clear();
-        slopes.clear();
         sloped.clear();
+        let mut count = 0;
         looking.for_each(|looked, room| {
             let Some(looked) = looked else { return Ok(()) };
             if looked.is_out_of_reach() {
@@ -145,10 +145,13 @@ impl Between {
                     sloped.push(None);
                 }
                 Wanted::Slopes => {
-                    let found = looked.slopes(room)?;
-                    loads.push(Some(found.loads));
-                    sloped.push(Some(slopes.len()));
-                    slopes.push(found);
+                    if slopes.len() == count {
+                        slopes.push(PairSlopes::default());
+                    }
+                    looked.find_slopes(&mut slopes[count], room)?;
+                    loads.push(Some(slopes[count].loads));
+                    sloped.push(Some(count));
+                    count += 1;
                 }
             }
             Ok(())
@@ -168,7 +171,7 @@ impl Between {
                 match looked.asked {
                     Wanted::Loads => loads[place] = Some(looked.loads(room)?),
                     Wanted::Slopes => {
-                        slopes[sloped] = looked.slopes(room)?;
+                        looked.find_slopes(&mut slopes[sloped], room)?;
                         loads[place] = Some(slopes[sloped].loads);
                     }
                 }
@@ -205,8 +208,8 @@ impl Looked<'_> {
         with_sides(self.pair, self.bodies, |sides| PairLoads::integrate(&self.pair.form, sides, self.guess, room))
     }
 
-    fn slopes(&self, room: &mut PairScratch) -> Result<PairSlopes, PairFault> {
-        with_sides(self.pair, self.bodies, |sides| PairSlopes::integrate(&self.pair.form, sides, self.guess, room))
+    fn find_slopes(&self, slopes: &mut PairSlopes, room: &mut PairScratch) -> Result<(), PairFault> {
+        with_sides(self.pair, self.bodies, |sides| slopes.find(&self.pair.form, sides, self.guess, room))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::plane::Guess;
 use crate::contact::LawKind;
-use crate::load::{Loads, Mat12};
+use crate::load::{COORDINATES, Loads, Mat12};
 use crate::tensor::Vec3;
+use nalgebra::ArrayStorage;
 
 /// What a pair of bodies does to both.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -33,7 +34,19 @@ pub struct PairSlopes {
     pub by_rate: Option<[[Mat12; 2]; 2]>,
 }
 
+impl Default for PairSlopes {
+    fn default() -> Self {
+        Self { loads: PairLoads::default(), by_place: Self::ZEROS, by_rate: None }
+    }
+}
+
+impl PairSlopes {
+    /// No derivatives.
+    pub(super) const ZEROS: [[Mat12; 2]; 2] = [[ZERO; 2]; 2];
+}
+
 const ZEROS: Vec3 = Vec3::new(0.0, 0.0, 0.0);
+const ZERO: Mat12 = Mat12::from_array_storage(ArrayStorage([[0.0; COORDINATES]; COORDINATES]));
 
 /// The slab between two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]

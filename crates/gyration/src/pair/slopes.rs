@@ -14,7 +14,6 @@ use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
 use crate::load::{COORDINATES, Mat12};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
-use nalgebra::ArrayStorage;
 
 impl PairSlopes {
     /// Places the plane between two bodies, integrates the laws over both, and differentiates them.
@@ -30,8 +29,26 @@ impl PairSlopes {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
+        let mut found = Self::default();
+        found.find(pair, sides, guess, scratch)?;
+        Ok(found)
+    }
+
+    /// The same in the place of what was found before: derivatives are ten kilobytes, which nobody copies.
+    ///
+    /// # Errors
+    /// As there; what is left is then of no use.
+    pub(crate) fn find(
+        &mut self,
+        pair: &PairForm,
+        sides: [&Side; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<(), PairFault> {
+        self.by_place = Self::ZEROS;
+        self.by_rate = None;
         if let Some(balls) = pair.balls(sides) {
-            return balls?.slopes(&pair.laws, sides, pair.threshold, &mut scratch.axial);
+            return balls?.slopes(&pair.laws, sides, pair.threshold, &mut scratch.axial, self);
         }
         let (state, expansion) = PairState::expanded(pair, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
@@ -44,7 +61,7 @@ impl PairSlopes {
             Some(Column { direction, change, sum: [0, 1].map(|side| state.repulsion_along(side, &change)) })
         });
         let normal = &state.placed.plane.normal;
-        let mut by_rate = None;
+        let by_rate = &mut self.by_rate;
         state.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
@@ -54,19 +71,17 @@ impl PairSlopes {
                 let change = mediator.along_places(&state, &bent, direction.places().each_ref(), change);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
             }
-            mediator.add_by_rates(normal, by_rate.get_or_insert(ZEROS));
+            mediator.add_by_rates(normal, by_rate.get_or_insert(Self::ZEROS));
         })?;
-        let mut by_place = ZEROS;
-        columns.iter().flatten().for_each(|Column { direction, sum, .. }| direction.add_to(&mut by_place, sum));
-        Ok(Self { loads: state.exchange(on, powers), by_place, by_rate })
+        let by_place = &mut self.by_place;
+        columns.iter().flatten().for_each(|Column { direction, sum, .. }| direction.add_to(by_place, sum));
+        self.loads = state.exchange(on, powers);
+        Ok(())
     }
 }
 
 /// The coordinates of both bodies.
 const BOTH: usize = 2 * COORDINATES;
-
-const ZEROS: [[Mat12; 2]; 2] = [[ZERO; 2]; 2];
-const ZERO: Mat12 = Mat12::from_array_storage(ArrayStorage([[0.0; COORDINATES]; COORDINATES]));
 
 /// What changes along one direction: the plane, and (f | M) on both, law by law.
 struct Column {

@@ -3,7 +3,7 @@
 use super::{Balls, Repelled, Stiffness};
 use crate::contact::LawKind;
 use crate::kinematics::Velocity;
-use crate::load::{Loads, Mat12, numbers};
+use crate::load::{Loads, numbers};
 use crate::pair::exchange::{PairGap, PairLoads, PairSlopes};
 use crate::pair::fault::PairFault;
 use crate::pair::laws::PairLaws;
@@ -90,7 +90,7 @@ impl PlacedBalls<'_> {
         }
     }
 
-    /// The same with its derivatives, along motions of rigid bodies.
+    /// The same with its derivatives, along motions of rigid bodies, in the place of derivatives that are zeros.
     ///
     ///   f_A = F n,   M_i = −F l_i n⊗m_i,   m_i = P_iᵀn
     ///   δn = (1 − n⊗n)(δp_A − δp_B)/D,   δg = n·(δp_A − δp_B),   δm_i = P_iᵀδn + δP_iᵀn
@@ -103,7 +103,8 @@ impl PlacedBalls<'_> {
         sides: [&Side; 2],
         threshold: f64,
         room: &mut [Vec<AxialMoments>; 2],
-    ) -> Result<PairSlopes, PairFault> {
+        slopes: &mut PairSlopes,
+    ) -> Result<(), PairFault> {
         let Self { balls, normal, distance, gaps } = self;
         let repelled = balls.repulsion(*gaps)?;
         let switch = Switch::at(threshold, repelled.energy);
@@ -111,7 +112,7 @@ impl PlacedBalls<'_> {
         // χ″ = bend χ′/U, and dU/dg = −F.
         let bend = -switch.bend * repelled.force * balls.growth(&repelled);
         let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
-        let mut by_place = [[Mat12::zeros(); 2]; 2];
+        let by_place = &mut slopes.by_place;
         for side in 0..2 {
             let gradient = &sides[side].placement.gradient;
             let (point, lever) = (gradient.tr_mul(normal), repelled.balls[side].lever());
@@ -135,8 +136,8 @@ impl PlacedBalls<'_> {
                 }
             }
         }
-        let mut slopes = PairSlopes { loads: self.pushed(sides, &repelled, &switch), by_place, by_rate: None };
-        self.resist_with_slopes(laws, sides, (&repelled, &switch), shares, room, &mut slopes);
-        Ok(slopes)
+        slopes.loads = self.pushed(sides, &repelled, &switch);
+        self.resist_with_slopes(laws, sides, (&repelled, &switch), shares, room, slopes);
+        Ok(())
     }
 }

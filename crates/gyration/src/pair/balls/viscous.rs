@@ -13,7 +13,7 @@
 
 use super::{Balls, PlacedBalls, Repelled};
 use crate::contact::LawKind;
-use crate::load::{Loads, Mat12};
+use crate::load::Loads;
 use crate::pair::exchange::{PairLoads, PairSlopes};
 use crate::pair::laws::{PairLaws, ViscousLaw};
 use crate::pair::mediator::Shares;
@@ -22,7 +22,7 @@ use crate::pair::side::{SIGNS, Side};
 use crate::surface::curved::Sphere;
 use crate::surface::{AxialMoments, MomentPlan};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
-use nalgebra::{ArrayStorage, SMatrix};
+use nalgebra::SMatrix;
 
 type Mat12x3 = SMatrix<f64, 12, 3>;
 type Mat3x9 = SMatrix<f64, 3, 9>;
@@ -266,7 +266,7 @@ impl PlacedBalls<'_> {
         let level = Mat3::identity() - along;
         let twisted = by.tilt * level + by.drill * along;
         let gradients = sides.map(|side| &side.placement.gradient);
-        let by_rate = slopes.by_rate.get_or_insert(ZEROS);
+        let by_rate = slopes.by_rate.get_or_insert(PairSlopes::ZEROS);
         // By v, of A.
         let pushed = -(by.approach * along + by.slip * level);
         let placed = self.along_places(moving, [by, by_gap], shares_of_gap);
@@ -331,8 +331,6 @@ impl PlacedBalls<'_> {
         (force, torques)
     }
 }
-
-const ZEROS: [[Mat12; 2]; 2] = [[Mat12::from_array_storage(ArrayStorage([[0.0; 12]; 12])); 2]; 2];
 
 /// Room for the moments of a plan over both sides, growing if this is the first use.
 fn rooms<'a>(plan: &MomentPlan, room: &'a mut [Vec<AxialMoments>; 2]) -> [&'a mut [AxialMoments]; 2] {
