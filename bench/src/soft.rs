@@ -96,7 +96,6 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
     let contacts =
         if laws.is_empty() { Vec::new() } else { vec![Contact::new(0, 0, LawSet::new(AreaMeasure::default(), laws))] };
     let body = Body {
-        name: "cube".into(),
         kind: BodyKind::Affine(Box::new(Affine::from(interior))),
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),

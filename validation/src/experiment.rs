@@ -188,7 +188,7 @@ impl Experiment {
         rates(&self.model, &mut Workspace::default(), 0.0, bodies.into(), &mut slopes, &mut powers)
             .unwrap_or_else(|error| panic!("{error:?}"));
         let body = &self.model.bodies[0];
-        let BodyKind::Rigid(inertia) = &body.kind else { panic!("{} is not rigid", body.name) };
+        let BodyKind::Rigid(inertia) = &body.kind else { panic!("{} is not rigid", self.model.name(0)) };
         // A block ends with Ω; in the block of the rates with Ω̇.
         inertia.tensor * gyration::body::vector(&slopes[self.model.slots(0).rate()])
     }

@@ -53,7 +53,6 @@ impl FacetBody {
         let mass = MassProperties { mass: self.mass, center: Vec3::zeros(), euler_tensor, volume: side.powi(3) };
         let inertia = RigidInertia::new(&mass, None).unwrap_or_else(|error| panic!("{error}"));
         let body = Body {
-            name: "facet".into(),
             kind: BodyKind::Rigid(inertia),
             solid: Arc::new(Solid::with_surface(
                 Shape::Box(Cuboid { size: Vec3::repeat(side) }),

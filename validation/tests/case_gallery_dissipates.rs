@@ -46,7 +46,7 @@ fn dissipation(run: &Run, index: usize, body: &Body) -> (f64, f64) {
             }
         };
         let dissipated = affine.interior.volume * (stress.dot(rate) + driven[0] - stored);
-        assert!(dissipated.is_finite(), "{}: {dissipated}", body.name);
+        assert!(dissipated.is_finite(), "{dissipated}");
         least = least.min(dissipated);
         scale = scale.max(affine.interior.volume * (stress.norm() * rate.norm() + driven[1]));
     }

@@ -178,7 +178,7 @@ impl Scene {
     /// The names of the bodies, in order.
     #[getter]
     fn bodies(&self) -> Vec<String> {
-        self.inner.built().model.bodies.iter().map(|body| body.name.clone()).collect()
+        self.inner.built().model.names().map(str::to_owned).collect()
     }
 
     /// The names of the supports, in order.

@@ -34,15 +34,14 @@ pub struct Simulation {
 impl Simulation {
     /// The index of a body given by name or number.
     fn index(&self, body: &Bound<'_, PyAny>) -> PyResult<usize> {
-        let bodies = &self.stepper.model().bodies;
-        let names = || bodies.iter().map(|known| known.name.as_str()).collect::<Vec<_>>().join(", ");
+        let model = self.stepper.model();
+        let names = || model.names().collect::<Vec<_>>().join(", ");
         if let Ok(name) = body.extract::<String>() {
-            let found = bodies.iter().position(|known| known.name == name);
-            return found.ok_or_else(|| {
+            return model.find_body(&name).ok_or_else(|| {
                 errors::arguments(format!("the scene has no body {name:?}\n  fix: write one of {}", names()))
             });
         }
-        let index = body.extract().ok().filter(|index| *index < bodies.len());
+        let index = body.extract().ok().filter(|index| *index < model.bodies.len());
         index.ok_or_else(|| {
             let problem = format!("the scene has no body {}", shown(body));
             errors::arguments(format!("{problem}\n  fix: write one of {}, or its number from 0", names()))
@@ -93,7 +92,7 @@ impl Simulation {
     /// The names of the bodies, in order.
     #[getter]
     fn bodies(&self) -> Vec<String> {
-        self.stepper.model().bodies.iter().map(|body| body.name.clone()).collect()
+        self.stepper.model().names().map(str::to_owned).collect()
     }
 
     /// Positions of the centres of mass [m], (bodies, 3). Refreshed in place by each step: take a copy to keep one.
@@ -227,12 +226,12 @@ impl Simulation {
     /// Of each body the ``force`` [N] and the affine ``moment`` [N m], (3, 3), of its contacts.
     fn forces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
-        for (index, body) in self.stepper.model().bodies.iter().enumerate() {
+        for (index, name) in self.stepper.model().names().enumerate() {
             let Loads { force, moment } = self.stepper.contact_loads(index).map_err(|stop| errors::stopped(&stop))?;
             let contact = PyDict::new(py);
             contact.set_item("force", array(py, force.as_slice().to_vec(), &[3])?)?;
             contact.set_item("moment", array(py, moment.transpose().as_slice().to_vec(), &[3, 3])?)?;
-            found.set_item(&body.name, contact)?;
+            found.set_item(name, contact)?;
         }
         Ok(found)
     }
@@ -259,12 +258,12 @@ impl Simulation {
     /// The events so far, each with ``time`` [s], ``kind`` and ``body``.
     #[getter]
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let bodies = &self.stepper.model().bodies;
+        let model = self.stepper.model();
         let one = |event: &gyration_sim::events::Event| {
             let described = PyDict::new(py);
             described.set_item("time", event.time)?;
             described.set_item("kind", EVENT_KINDS[event.kind])?;
-            described.set_item("body", &bodies[event.body].name)?;
+            described.set_item("body", model.name(event.body))?;
             Ok(described)
         };
         self.stepper.events().iter().map(one).collect()

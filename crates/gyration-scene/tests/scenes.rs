@@ -227,6 +227,24 @@ fn equal_bodies_share_a_solid() {
     }
 }
 
+/// However they start; a pinned one has a place of its own, and another kind is another body.
+#[test]
+fn equal_bodies_are_one_under_names_of_their_own() {
+    let ball = |(name, line): (&str, &str)| {
+        format!("[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 1 }} }}\ndensity = 3\n{line}\n")
+    };
+    let lines = ["", "velocity = [1, 0, 0]", "position = [9, 0, 0]", "pin = [0, 0, 1]", "affine = {}", "affine = {}"];
+    let names = ["a", "b", "c", "d", "e", "f"];
+    let balls: String = names.into_iter().zip(lines).map(ball).collect();
+    let text = format!("[time]\nend = 1\nsample = 0.1\n{balls}");
+    let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+    let model = &scene.built().model;
+    assert!(model.names().eq(names));
+    let is_next = |pair: &[Arc<gyration::body::Body>]| Arc::ptr_eq(&pair[0], &pair[1]);
+    assert!(model.bodies.windows(2).map(is_next).eq([true, true, false, false, true]));
+    assert_eq!(model.part(&[1, 4]).names().collect::<Vec<_>>(), ["b", "e"]);
+}
+
 #[test]
 fn bodies_get_their_mass_as_they_say() {
     let mass = |lines: &str| body(lines).built().model.bodies[0].solid.mass;

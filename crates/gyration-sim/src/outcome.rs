@@ -115,11 +115,11 @@ impl Stop {
     /// A stop because two bodies touch, as far as digits tell: the gap [m] between one of them and their plane, and the
     /// size [m] with which it is compared.
     pub fn by_touch(model: &Model, time: f64, bodies: [usize; 2], gap: f64, size: f64) -> Self {
-        let [one, other] = bodies.map(|body| &model.bodies[body].name);
+        let [one, other] = bodies.map(|body| model.name(body));
         Self {
             time,
             reason: Reason::Touching,
-            body: Some(one.clone()),
+            body: Some(one.to_owned()),
             what: format!(
                 "bodies {one:?} and {other:?} touch: the plane between them is {gap:.1e} m off one, {:.1e} of the size \
                  of the smaller one, below what the digits of a number tell",
@@ -184,7 +184,7 @@ impl Stop {
 
     /// A stop because a state is outside the model.
     pub fn by_inadmissible(model: &Model, time: f64, left: &Inadmissible) -> Self {
-        let body = model.bodies[left.body].name.clone();
+        let body = model.name(left.body).to_owned();
         let (reason, what, advice) = match left.quantity {
             Quantity::Gap { support } => (
                 Reason::GapClosed,
@@ -195,7 +195,7 @@ impl Stop {
             ),
             Quantity::PairPlane { other, rule } => {
                 let bodies = [left.body, other];
-                let [one, other] = bodies.map(|body| &model.bodies[body].name);
+                let [one, other] = bodies.map(|body| model.name(body));
                 (
                     Reason::GapClosed,
                     format!("the plane between bodies {one:?} and {other:?} cannot be found"),
@@ -208,7 +208,7 @@ impl Stop {
             }
             Quantity::PairGap { other, rule } => {
                 let bodies = [left.body, other];
-                let [one, other] = bodies.map(|body| &model.bodies[body].name);
+                let [one, other] = bodies.map(|body| model.name(body));
                 (
                     Reason::GapClosed,
                     format!("bodies {one:?} and {other:?} reach each other{}", in_brackets(left.value)),
@@ -221,7 +221,7 @@ impl Stop {
             }
             Quantity::SpringLength { spring } => match model.springs()[spring].bodies() {
                 Some(bodies) => {
-                    let [one, other] = bodies.map(|body| &model.bodies[body].name);
+                    let [one, other] = bodies.map(|body| model.name(body));
                     (
                         Reason::SpringCollapsed,
                         format!("the spring between bodies {one:?} and {other:?} has no length left"),
@@ -345,7 +345,7 @@ fn by_estimate(error: f64) -> String {
 
 fn owner(model: &Model, index: usize) -> Option<String> {
     let body = model.blocks().iter().position(|block| block.contains(&index))?;
-    Some(model.bodies[body].name.clone())
+    Some(model.name(body).to_owned())
 }
 
 /// What limits a step, in words.
@@ -369,6 +369,6 @@ fn accuracy_of(model: &Model, component: usize) -> String {
 }
 /// The bond of a number in words.
 fn between(model: &Model, bond: usize) -> String {
-    let [one, other] = model.bonds()[bond].bodies.map(|body| &model.bodies[body].name);
+    let [one, other] = model.bonds()[bond].bodies.map(|body| model.name(body));
     format!("of the bond between bodies {one:?} and {other:?}")
 }

@@ -193,7 +193,7 @@ impl<'a> Job<'a> {
             arrays,
             fixed: Surfaces::of(&self.model.bodies).arrays(),
             csv_order,
-            labels: vec![("body".into(), self.model.bodies.iter().map(|body| body.name.clone()).collect())],
+            labels: vec![("body".into(), self.model.names().map(str::to_owned).collect())],
             event_kinds: EVENT_KINDS.map(String::from).into(),
             chunk_rows: chunk_rows_for(row_len, expected),
         }
@@ -214,8 +214,11 @@ impl<'a> Job<'a> {
         let (rtol, atol) = (plan.tolerance.rtol, plan.tolerance.atol);
         attributes.insert("tolerances".into(), json!({ "rtol": rtol, "atol": atol }));
         let surfaces = Surfaces::of(&self.model.bodies);
-        let bodies = self.model.bodies.iter().zip(surfaces.of_bodies());
-        attributes.insert("bodies".into(), bodies.map(|(body, surface)| describe_body(body, *surface)).collect());
+        let bodies = self.model.bodies.iter().zip(self.model.names()).zip(surfaces.of_bodies());
+        attributes.insert(
+            "bodies".into(),
+            bodies.map(|((body, name), surface)| describe_body(body, name, *surface)).collect(),
+        );
         attributes.insert("outlines".into(), surfaces.distinct().iter().map(|body| describe_outline(body)).collect());
         attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
@@ -253,9 +256,9 @@ fn describe_outline(body: &gyration::body::Body) -> Value {
 
 /// What a drawing needs of a body: which of the surfaces and outlines is its own, or its own outline if it has no
 /// surface; of one that contracts also volume [m³] and period of what drives it [s].
-fn describe_body(body: &gyration::body::Body, surface: Option<usize>) -> Value {
+fn describe_body(body: &gyration::body::Body, name: &str, surface: Option<usize>) -> Value {
     let mut described = json!({
-        "name": body.name,
+        "name": name,
         "kind": match body.kind {
             BodyKind::Rigid(_) => "rigid",
             BodyKind::Affine(_) => "affine",

@@ -267,9 +267,9 @@ impl SteppedRun {
 
     /// The name of a body.
     fn named(&self, index: usize) -> Result<String, Refusal> {
-        let bodies = &self.model().bodies;
-        let body = bodies.get(index).ok_or(Refusal::Body { index, count: bodies.len() })?;
-        Ok(body.name.clone())
+        let mut names = self.model().names();
+        let count = names.len();
+        names.nth(index).map(str::to_owned).ok_or(Refusal::Body { index, count })
     }
 }
 

@@ -29,7 +29,6 @@ fn assert_close(name: &str, value: f64, expected: f64, tolerance: f64) {
 fn bare(shape: Shape, density: f64) -> Body {
     let mass = shape.mass_properties(density);
     Body {
-        name: "body".into(),
         kind: BodyKind::Rigid(RigidInertia::new(&mass, None).unwrap()),
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),

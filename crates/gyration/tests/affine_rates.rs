@@ -184,7 +184,7 @@ fn the_ledger_closes_for_a_rigid_body_beside_a_soft_one() {
     let [cuboid, ..] = shapes();
     let soft = body(cuboid, Variant { incompressible: true, pinned: false, frame: Frame::Space });
     let inertia = RigidInertia::new(&soft.solid.mass, None).unwrap();
-    let hard = Body { name: "hard".into(), kind: BodyKind::Rigid(inertia), ..soft.clone() };
+    let hard = Body { kind: BodyKind::Rigid(inertia), ..soft.clone() };
     let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), vec![soft, hard]);
     let model = attached(model, [6.0, 3.0, 3.0, 2.0], AreaMeasure::DeformedArea);
     let position = Vec3::new(0.1, -0.2, 1.4);

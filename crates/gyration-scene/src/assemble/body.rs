@@ -19,11 +19,13 @@ use gyration::load::{Spring, SpringLaw};
 use gyration::shape::Shape;
 use gyration::state::Start;
 use gyration::tensor::Vec3;
+use std::sync::Arc;
 
 /// A body of the model and how it starts.
 #[derive(Debug, Clone)]
 pub(super) struct AssembledBody {
-    pub(super) body: Moving,
+    pub(super) name: String,
+    pub(super) body: Arc<Moving>,
     pub(super) start: Start,
     /// Its springs to anchors, of the body's number in the scene.
     pub(super) springs: Vec<Spring>,
@@ -65,7 +67,6 @@ impl AssembledBody {
             point(placed, reporter);
         }
         let body = Moving {
-            name: value.name.clone(),
             kind,
             size: size(&shape, &mass, &arm.unwrap_or_default()),
             solid: solids.share(shape, mass),
@@ -73,7 +74,7 @@ impl AssembledBody {
             inclusion: inclusion?,
             own: own?.at(&place, reporter)?,
         };
-        Some(Self { body, start, springs })
+        Some(Self { name: value.name.clone(), body: solids.share_body(body), start, springs })
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) fn bonds(
     context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Vec<Bond> {
-    let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.body.name.clone(), index));
+    let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.name.clone(), index));
     let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
     let bond = |placed: &Placed<file::Bond>| {
         let [Some(&one), Some(&other)] = placed.value.between.each_ref().map(|name| named.get(name)) else {
@@ -69,8 +69,7 @@ impl Written<'_> {
                 lever(&points[end], &key.key("points").index(end), reporter);
             }
             if !body.body.has_inertia() {
-                let message =
-                    format!("\"{}\" has no inertia: this version has no bonds of such bodies", body.body.name);
+                let message = format!("\"{}\" has no inertia: this version has no bonds of such bodies", body.name);
                 reporter.note(&key.key("between").index(end), message, "use a spring, or let the body have inertia");
                 return None;
             }

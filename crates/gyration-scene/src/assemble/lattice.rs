@@ -118,7 +118,7 @@ impl Cells {
             (0..count).map(|cell| {
                 let mut copy = body.clone();
                 if count > 1 {
-                    copy.body.name = format!("{}-{cell}", body.body.name);
+                    copy.name = format!("{}-{cell}", body.name);
                 }
                 copy
             })

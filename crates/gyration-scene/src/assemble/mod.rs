@@ -251,7 +251,7 @@ fn give_sizes(assembled: &mut [Option<AssembledBody>], (springs, bonds): (&[Spri
         let bonds = bonds.iter().filter(|bond| bond.bodies.contains(&index)).map(distance);
         let lengths = springs.iter().filter(is_own).map(length).chain(bonds);
         let shortest = lengths.filter(|length| *length > 0.0).fold(cell, f64::min);
-        body.body.size = if shortest.is_finite() { shortest } else { 1.0 };
+        Arc::make_mut(&mut body.body).size = if shortest.is_finite() { shortest } else { 1.0 };
     }
 }
 
@@ -288,9 +288,12 @@ impl Parts {
 
     /// The model and its first state.
     fn built(self) -> Option<(Model, State)> {
+        let names: Vec<String> = self.bodies.iter().map(|it| it.name.clone()).collect();
         let (bodies, starts): (Vec<_>, Vec<Start>) = self.bodies.into_iter().map(|it| (it.body, it.start)).unzip();
-        let mut model =
-            Model::new(self.gravity, self.supports, bodies).in_lattice(self.lattice).beginning_at(self.origins);
+        let mut model = Model::new(self.gravity, self.supports, bodies)
+            .named(names)
+            .in_lattice(self.lattice)
+            .beginning_at(self.origins);
         if let Some(fluid) = self.fluid {
             model = model.in_fluid(fluid?);
         }

@@ -24,7 +24,7 @@ pub(super) fn check(
         if assembled.body.is_apart(gap, &field) {
             continue;
         }
-        let (body, name) = (&assembled.body.name, &support.name);
+        let (body, name) = (&assembled.name, &support.name);
         let [x, y, z] = support.normal.into();
         let (message, lift) = if gap < -TOUCH * assembled.body.size {
             let reaches = format!("reaches the support \"{name}\" at the start: its smallest gap is {gap:.6e} m");

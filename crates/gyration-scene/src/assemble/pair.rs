@@ -138,7 +138,7 @@ fn sphere(assembled: &AssembledBody, placement: &Placement) -> Sphere {
 
 /// Whether a body can meet others; notes why not.
 pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) -> bool {
-    let name = &assembled.body.name;
+    let name = &assembled.name;
     if assembled.body.solid.surface.is_none() {
         without_surface(assembled, key, reporter);
         return false;
@@ -152,7 +152,7 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
 }
 
 fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
-    let [one, other] = both.map(|assembled| &assembled.body.name);
+    let [one, other] = both.map(|assembled| &assembled.name);
     let [x, y, z] = overlap.normal.into();
     let way = format!("along [{x:.6}, {y:.6}, {z:.6}]");
     let (message, by) = match overlap.touches() {

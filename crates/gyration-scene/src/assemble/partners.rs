@@ -71,6 +71,6 @@ impl<'a> Names<'a> {
 
 /// Notes a body that cannot meet anything.
 pub(super) fn without_surface(assembled: &AssembledBody, key: &Key, reporter: &mut Reporter<'_>) {
-    let message = format!("\"{}\" has no surface", assembled.body.name);
+    let message = format!("\"{}\" has no surface", assembled.name);
     reporter.note(key, message, "name a body whose shape has a surface");
 }

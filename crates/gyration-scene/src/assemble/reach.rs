@@ -33,7 +33,7 @@ pub(super) fn reach(
     let sets = sets.each_ref().map(of);
     let key = key.key("reach");
     if let Some(still) = sets.iter().flatten().find(|body| !body.body.has_inertia()) {
-        let name = &still.body.name;
+        let name = &still.name;
         let message = format!("nothing says how near \"{name}\" comes to others: it has no inertia that carries it");
         reporter.note(&key, message, "write a length: some 25 of the gaps at which their forces balance the fluid's");
         return None;

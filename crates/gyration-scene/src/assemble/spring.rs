@@ -18,7 +18,7 @@ pub(super) fn springs(
     cells: Option<&Cells>,
     reporter: &mut Reporter<'_>,
 ) -> Vec<Spring> {
-    let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.body.name.clone(), index));
+    let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.name.clone(), index));
     let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
     let spring = |Placed { key, value, .. }: &Placed<file::SpringBetween>| {
         let [Some(&one), Some(&other)] = value.between.each_ref().map(|name| named.get(name)) else { return None };
@@ -42,7 +42,7 @@ pub(super) fn springs(
             [(one, points[0]), (other, points[1])].map(|(end, point)| placement(&end.start).place(&point));
         if law.is_directed() && here == there + away {
             let [x, y, z] = here.into();
-            let (first, second) = (&one.body.name, &other.body.name);
+            let (first, second) = (&one.name, &other.name);
             let message = format!(
                 "the spring starts with no length and has no direction: both points, of \"{first}\" and of \
                  \"{second}\", are at [{x}, {y}, {z}]"

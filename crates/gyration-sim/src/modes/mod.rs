@@ -294,6 +294,7 @@ fn found_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) 
     };
     let basis = canonical::basis(&stiffness, &coordinates.patterns(&frozen, &numbers));
     let found = spectrum::solve((&stiffness, &resistance), &first, &basis)?;
+    let names: Vec<&str> = members.iter().map(|body| model.name(*body)).collect();
     let mode = |found: &EigenMotion| {
         let (real, mut imaginary) = shape::in_step(&found.shape);
         if found.eigenvalues[0].im == 0.0 {
@@ -305,7 +306,7 @@ fn found_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) 
         let along = found.contraction.map(|entry| entry.re);
         let strain = |body: usize| coordinates.strain(body, &along).filter(|_| contracts);
         let strains: Vec<Option<Mat3>> = (0..members.len()).map(strain).collect();
-        let in_words = words::of_system(frozen.bodies(), &placements, &shapes, &strains);
+        let in_words = words::of_system(&names, frozen.bodies(), &placements, &shapes, &strains);
         let ahead = quadratures.as_deref().unwrap_or_default();
         let participation = Participation::of(frozen.bodies(), &placements, [&shapes, ahead]);
         Mode {

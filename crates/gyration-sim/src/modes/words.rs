@@ -26,6 +26,7 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 /// What the bodies of a system do, those that move most first; of a motion that a contraction adds, what strains the
 /// relaxed shapes.
 pub(super) fn of_system(
+    names: &[&str],
     bodies: &[Arc<Body>],
     placements: &[Placement],
     shapes: &[ModeShape],
@@ -59,17 +60,17 @@ pub(super) fn of_system(
     }
     let weight = |(_, bodies): &(String, Vec<usize>)| bodies.iter().map(|body| weights[*body]).sum::<f64>();
     told.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
-    let names = |named: &[usize]| match named {
+    let called = |named: &[usize]| match named {
         all if all.len() == bodies.len() => "all".to_owned(),
         [few @ .., last] if !few.is_empty() && named.len() <= MOST_NAMED => {
-            let few: Vec<&str> = few.iter().map(|body| &*bodies[*body].name).collect();
-            format!("{} and {}", few.join(", "), bodies[*last].name)
+            let few: Vec<&str> = few.iter().map(|body| names[*body]).collect();
+            format!("{} and {}", few.join(", "), names[*last])
         }
-        [one] => bodies[*one].name.clone(),
-        many => format!("{} and {} others", bodies[many[0]].name, many.len() - 1),
+        [one] => names[*one].to_owned(),
+        many => format!("{} and {} others", names[many[0]], many.len() - 1),
     };
     let lines: Vec<String> =
-        told.iter().take(MOST_NAMED).map(|(words, bodies)| format!("{}: {words}", names(bodies))).collect();
+        told.iter().take(MOST_NAMED).map(|(words, bodies)| format!("{}: {words}", called(bodies))).collect();
     lines.join("; ")
 }
 

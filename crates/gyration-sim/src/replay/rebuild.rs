@@ -58,7 +58,7 @@ fn check(recording: &Recording, model: &Model) -> Result<(), ReplayError> {
     for (k, recorded) in recorded.iter().enumerate() {
         let difference = match model.bodies.get(k) {
             None => Some("it is not there"),
-            Some(body) => difference(body, recorded),
+            Some(body) => difference(model.name(k), body, recorded),
         };
         if let Some(quantity) = difference {
             let body = recorded.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
@@ -69,7 +69,7 @@ fn check(recording: &Recording, model: &Model) -> Result<(), ReplayError> {
 }
 
 /// What differs between a body and its description.
-fn difference(body: &Body, recorded: &Value) -> Option<&'static str> {
+fn difference(name: &str, body: &Body, recorded: &Value) -> Option<&'static str> {
     let numbers = |key: &str| -> Vec<f64> {
         let value = recorded.get(key);
         let list = value.and_then(Value::as_array).cloned().unwrap_or_else(|| value.cloned().into_iter().collect());
@@ -81,7 +81,7 @@ fn difference(body: &Body, recorded: &Value) -> Option<&'static str> {
         !recorded.is_empty() && (recorded.len() != values.len() || recorded.iter().zip(values).any(far))
     };
     let mass = &body.solid.mass;
-    if recorded.get("name").and_then(Value::as_str).is_some_and(|name| name != body.name) {
+    if recorded.get("name").and_then(Value::as_str).is_some_and(|recorded| recorded != name) {
         Some("the name")
     } else if differ("mass", &[mass.mass], mass.mass) {
         Some("the mass")

@@ -118,20 +118,22 @@ impl Resistances {
     pub fn of(scene: &Scene, only: Option<&str>, options: &ResistanceOptions) -> Result<Self, NoSuchResistance> {
         options.check()?;
         let model = &scene.built().model;
-        let named = |(_, body): &(usize, &Arc<Body>)| only.is_none_or(|name| body.name == name);
+        let named = |(index, _): &(usize, &Arc<Body>)| only.is_none_or(|name| model.name(*index) == name);
         let bodies: Vec<(usize, &Arc<Body>)> = model.bodies.iter().enumerate().filter(named).collect();
         if bodies.is_empty() {
-            let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+            let names: Vec<&str> = model.names().collect();
             let fix = format!("write one of {}, or the scene alone", names.join(", "));
             return Err(NoSuchResistance::new(format!("the scene has no body {:?}", only.unwrap_or_default()), fix));
         }
         let request = ResistanceRequest::of(scene, options)?;
         let of = |(index, body): (usize, &Arc<Body>)| {
             let response = match options.frequency {
-                Some(frequency) => FluidResponse::Vibrating(frequency, request.vibration(body, frequency)?),
+                Some(frequency) => {
+                    FluidResponse::Vibrating(frequency, request.vibration((model.name(index), body), frequency)?)
+                }
                 None => FluidResponse::Steady(Box::new(request.matrix(scene, index)?)),
             };
-            Ok(BodyResistance { name: body.name.clone(), response })
+            Ok(BodyResistance { name: model.name(index).to_owned(), response })
         };
         let bodies = bodies.into_iter().map(of).collect::<Result<_, _>>()?;
         Ok(Self { viscosity: request.viscosity, has_fluid: model.fluid.is_some(), bodies })
@@ -240,15 +242,15 @@ impl ResistanceRequest {
         };
         let found = boundary_resistance(&body.solid.shape, &elements).map_err(|error| {
             let fix = "take another shape, another number of triangles, or another place beside the wall";
-            NoSuchResistance::new(format!("body {:?}: {error}", body.name), fix)
+            NoSuchResistance::new(format!("body {:?}: {error}", scene.built().model.name(index)), fix)
         })?;
         let matrix = found.matrix * self.viscosity;
         Ok(ResistanceMatrix { matrix, elements: Some((found.triangles, found.error)) })
     }
 
-    fn vibration(&self, body: &Body, frequency: f64) -> Result<Vibration, NoSuchResistance> {
+    fn vibration(&self, (name, body): (&str, &Body), frequency: f64) -> Result<Vibration, NoSuchResistance> {
         let Shape::Sphere(Sphere { radius }) = body.solid.shape else {
-            let problem = format!("body {:?} is no sphere: only a sphere vibrates in closed form", body.name);
+            let problem = format!("body {name:?} is no sphere: only a sphere vibrates in closed form");
             return Err(NoSuchResistance::new(problem, "name a sphere: SCENE:BODY, or leave out --frequency"));
         };
         if self.density == 0.0 {

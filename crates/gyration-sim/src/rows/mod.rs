@@ -171,7 +171,7 @@ fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
         CONTACT_FORCE => model.has_contact(index),
         name => applies(name, body),
     };
-    let name = |suffix: &&str| if applies { format!("{}.{suffix}", body.name) } else { String::new() };
+    let name = |suffix: &&str| if applies { format!("{}.{suffix}", model.name(index)) } else { String::new() };
     field.suffixes.iter().map(name).collect()
 }
 

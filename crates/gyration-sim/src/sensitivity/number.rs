@@ -79,9 +79,8 @@ impl SceneNumber {
     pub fn starts_only(&self, scene: &Scene) -> bool {
         let mut words = self.key.split('.');
         let (Some("body"), Some(name), Some(part)) = (words.next(), words.next(), words.next()) else { return false };
-        let bodies = &scene.built().model.bodies;
-        let by_name = bodies.iter().find(|body| body.name == name);
-        let body = by_name.or_else(|| bodies.get(name.parse::<usize>().ok()?));
+        let model = &scene.built().model;
+        let body = model.find_body(name).or_else(|| name.parse().ok()).and_then(|index| model.bodies.get(index));
         // A pin stays where the start has put it, and so belongs to the equations.
         let is_start =
             ["position", "velocity", "angular_velocity", "orientation", "gradient", "gradient_rate"].contains(&part);

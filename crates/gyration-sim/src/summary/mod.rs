@@ -95,7 +95,7 @@ impl RunSummary {
                 let seen = observe_at(&at, &acting, scratch).ok()?;
                 let k = seen.affine_momentum;
                 Some(BodySummary {
-                    name: model.bodies[index].name.clone(),
+                    name: model.name(index).to_owned(),
                     position: seen.motion.placement.position.into(),
                     gap: seen.gap.is_finite().then_some(seen.gap),
                     speed: seen.motion.velocity.velocity.norm(),

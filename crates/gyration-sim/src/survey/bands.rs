@@ -99,7 +99,7 @@ impl BandSurvey {
         let rows = path.points.iter().map(|point| waves.row(point, options.shapes));
         let rows: Vec<BandRow> = rows.collect::<Result<_, _>>().map_err(told)?;
         let zone = options.mesh.map(|mesh| waves.zone(mesh, &cell.periodic)).transpose().map_err(told)?;
-        let names: Vec<&str> = cell.model.bodies.iter().map(|body| &*body.name).collect();
+        let names: Vec<&str> = cell.model.names().collect();
         let each = |of: &dyn Fn(&crate::modes::bands::Branch) -> f64| {
             rows.iter().map(|row| row.branches.iter().map(of).collect()).collect()
         };

@@ -121,13 +121,20 @@ pub fn modes(scene: &Scene) -> SceneModes {
         let system = systems.iter().position(|members| members.binary_search(&index).is_ok());
         let alone = system.is_none().then(|| rest_state(model, start, index));
         let (rest_state, no_rest_state_because) = alone.unwrap_or_default();
-        BodyModes { name: body.name.clone(), kind: KindSurvey::of(body), system, rest_state, no_rest_state_because }
+        BodyModes {
+            name: model.name(index).to_owned(),
+            kind: KindSurvey::of(body),
+            system,
+            rest_state,
+            no_rest_state_because,
+        }
     };
     let bodies = model.bodies.iter().enumerate().map(of).collect();
     let joint = |members: &Vec<usize>| {
         let found = match members.len() {
             many if many > MOST_MEMBERS => Err(format!(
-                "{many} bodies hang together; rest states are found of {MOST_MEMBERS} at most: join fewer, or give                  contacts between them a reach"
+                "{many} bodies hang together; rest states are found of {MOST_MEMBERS} at most: join fewer, or give \
+                 contacts between them a reach"
             )),
             _ => SystemRestState::of(model, start, members),
         };
@@ -135,7 +142,7 @@ pub fn modes(scene: &Scene) -> SceneModes {
             Ok(state) => (Some(state), None),
             Err(reason) => (None, Some(reason)),
         };
-        let bodies = members.iter().map(|body| model.bodies[*body].name.clone()).collect();
+        let bodies = members.iter().map(|body| model.name(*body).to_owned()).collect();
         SystemModes { bodies, no_rest_state_because, rest_state }
     };
     SceneModes { bodies, systems: systems.iter().map(joint).collect() }
@@ -210,7 +217,7 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
     let deforms = body.affine().is_some();
     let (rest_state, no_rest_state_because) = if deforms { rest_state(model, start, index) } else { (None, None) };
     BodySurvey {
-        name: body.name.clone(),
+        name: model.name(index).to_owned(),
         size: body.size,
         kind: KindSurvey::of(body),
         rest_state,

@@ -71,7 +71,7 @@ impl MeetingSurvey {
         let sharper = if first >= second { shapes[0] } else { shapes[1] };
         let laws: Vec<LawSurvey> = pair.form.laws.laws().iter().map(|law| LawSurvey::of(law, sharper)).collect();
         Self {
-            between: bodies.map(|body| body.name.clone()),
+            between: pair.bodies.map(|body| model.name(body).to_owned()),
             initial_gap,
             reach: pair.form.reach,
             reach_change: ReachChange::of(model, start, pair).map(|change| change.part),

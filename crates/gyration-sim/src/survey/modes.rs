@@ -139,7 +139,7 @@ impl SystemRestState {
     pub fn of(model: &Model, start: &State, members: &[usize]) -> Result<Self, String> {
         let rests = system_rest(model, start, members).map_err(|reason| reason.to_string())?;
         let found = system_modes(model, start, members, &rests).map_err(|reason| reason.to_string())?;
-        let name = |index: usize| model.bodies[members[index]].name.clone();
+        let name = |index: usize| model.name(members[index]).to_owned();
         let shapes = |shapes: &[ModeShape]| {
             Named(shapes.iter().enumerate().map(|(body, shape)| (name(body), ShapeSurvey::of(shape))).collect())
         };

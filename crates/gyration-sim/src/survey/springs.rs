@@ -48,7 +48,7 @@ impl SpringSurvey {
         let period = swings.then(|| TAU * (reduced / law.stiffness).sqrt());
         let damped = period.filter(|_| law.damping > 0.0);
         Some(Self {
-            between: bodies.map(|body| model.bodies[body].name.clone()),
+            between: bodies.map(|body| model.name(body).to_owned()),
             stiffness: law.stiffness,
             rest_length: law.rest_length,
             initial_length: spring.length(&model.lattice, |body| start.motion(model, body).placement),

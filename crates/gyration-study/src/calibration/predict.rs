@@ -120,7 +120,7 @@ fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, Str
 fn velocity(model: &Model, index: usize) -> Result<usize, String> {
     let body = &model.bodies[index];
     if body.pin.is_some() || !body.has_inertia() {
-        return Err(format!("{:?} is pinned or has no inertia", body.name));
+        return Err(format!("{:?} is pinned or has no inertia", model.name(index)));
     }
     Ok(model.slots(index).velocity().start)
 }

@@ -97,7 +97,7 @@ impl Drop {
         let overrides = [self.scene.overrides(), vec![until(time).to_string()]].concat();
         let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides).and_then(complete);
         let scene = scene.map_err(|errors| errors.to_string())?;
-        let name = &scene.built().model.bodies[self.index].name;
+        let name = scene.built().model.name(self.index);
         let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
         let found = Sensitivities::along(&scene, keys, &columns, At::End).map_err(|e| e.to_string())?;
         let last = found.values.last().ok_or("the run has no end")?;

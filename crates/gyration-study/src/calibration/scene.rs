@@ -47,7 +47,7 @@ impl Calibration {
 
 /// The index of the body, which nothing joins to others.
 pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
-    let found = model.bodies.iter().position(|body| body.name == experiment.body);
+    let found = model.find_body(&experiment.body);
     let found = found.ok_or_else(|| format!("there is no body `{}`", experiment.body))?;
     if model.is_joined(found) {
         let name = &experiment.body;
@@ -62,6 +62,6 @@ pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, Stri
 /// The normal of the first support that acts on a body.
 pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
     let contact = model.contacts_of(body).next();
-    let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.bodies[body].name))?;
+    let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.name(body)))?;
     Ok(model.supports[contact.support].normal)
 }

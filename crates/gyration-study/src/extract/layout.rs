@@ -23,7 +23,7 @@ impl ColumnPlaces {
         let (arrays, _) = Fields::new(model, &plan.extras).arrays(model);
         let start = |name: &str| arrays.iter().take_while(|array| array.name != name).map(ArraySpec::row_len).sum();
         let (position, gradient) = (start("position"), start("placement_gradient"));
-        let bodies = model.bodies.iter().map(|body| body.name.clone()).collect();
+        let bodies = model.names().map(str::to_owned).collect();
         Self { arrays, bodies, position, gradient }
     }
 

@@ -20,11 +20,9 @@ use crate::surface::{GapField, Surface};
 use crate::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
-/// A body of the model.
+/// A body of the model; equal bodies may share one, since the model has their names.
 #[derive(Debug, Clone)]
 pub struct Body {
-    /// Its name in the scene.
-    pub name: String,
     /// How it may deform.
     pub kind: BodyKind,
     /// Its shape, mass and surface, which equal bodies share.
@@ -195,6 +193,16 @@ const EXTENDED_RESOLUTION: f64 = RESOLUTION * RESOLUTION;
 pub const NEAR: f64 = 1e-5;
 
 impl Body {
+    /// Whether another of the same solid is equal, so that one may stand for both; a pinned one has a place of its own.
+    pub fn can_stand_for(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.solid, &other.solid)
+            && self.kind == other.kind
+            && self.pin.is_none()
+            && other.pin.is_none()
+            && self.inclusion == other.inclusion
+            && self.size == other.size
+    }
+
     /// Whether a smallest gap [m] to a support is above zero by more than its own rounding.
     pub fn is_apart(&self, gap: f64, field: &GapField) -> bool {
         gap.is_finite() && gap > self.least_gap(field)

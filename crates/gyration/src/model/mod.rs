@@ -27,6 +27,8 @@ pub struct Model {
     pub supports: Arc<[Support]>,
     /// The bodies, which the [parts](Self::part) of a model share with it.
     pub bodies: Vec<Arc<Body>>,
+    /// What they are called.
+    names: Vec<Arc<str>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
     /// The cells of which they are; no vectors where there is no lattice.
@@ -73,6 +75,7 @@ impl Model {
         let model = Self {
             gravity,
             supports,
+            names: vec![Arc::from("body"); bodies.len()],
             bodies,
             fluid,
             lattice: Arc::default(),
@@ -92,6 +95,32 @@ impl Model {
             given_up: None,
         };
         model.with_ledger()
+    }
+
+    /// The model with names for its bodies, which are all called "body" else.
+    ///
+    /// # Panics
+    /// If there are more or fewer.
+    #[must_use]
+    pub fn named(mut self, names: impl IntoIterator<Item: Into<Arc<str>>>) -> Self {
+        self.names = names.into_iter().map(Into::into).collect();
+        assert_eq!(self.names.len(), self.bodies.len(), "each body has a name");
+        self
+    }
+
+    /// The name of a body.
+    pub fn name(&self, body: usize) -> &str {
+        &self.names[body]
+    }
+
+    /// The names of its bodies, in their order.
+    pub fn names(&self) -> impl ExactSizeIterator<Item = &str> + Clone {
+        self.names.iter().map(|name| &**name)
+    }
+
+    /// The body of a name.
+    pub fn find_body(&self, name: &str) -> Option<usize> {
+        self.names().position(|known| known == name)
     }
 
     /// The model with other bodies in the places of its own, which meet and are held as these were.
@@ -224,6 +253,7 @@ impl Model {
             slots,
             inertialess: without_inertia(&bodies),
             bodies,
+            names: members.iter().map(|body| self.names[*body].clone()).collect(),
             fluid: self.fluid.clone(),
             lattice: Arc::clone(&self.lattice),
             origins: members.iter().filter_map(|body| self.origins.get(*body)).copied().collect(),

@@ -94,7 +94,6 @@ pub fn body(shape: Shape, variant: Variant) -> Body {
     let couple = Couple::Constant(Mat3::new(0.1, -0.2, 0.3, 0.0, 0.2, 0.1, -0.3, 0.4, 0.1));
     let affine = Affine { interior, couple: Some(couple), resistances: resistances(variant.frame) };
     Body {
-        name: "body".into(),
         kind: BodyKind::Affine(Box::new(affine)),
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),

@@ -53,7 +53,7 @@ impl<'a> ForceCurve<'a> {
             if let Some(approach) = Approach::new(model, start, body, support).filter(Approach::acts) {
                 let on = if several { format!(" on {}", model.supports[support].name) } else { String::new() };
                 let rests = approach.rests();
-                let name = format!("{}{on}", model.bodies[body].name);
+                let name = format!("{}{on}", model.name(body));
                 curves.push(Self { name, of: Meeting::Support { approach: Box::new(approach), rests } });
             }
         }

@@ -56,7 +56,7 @@ impl Groups {
         let mut groups: BTreeMap<String, Vec<bool>> = BTreeMap::new();
         let count = model.bodies.len();
         for described in resolved["body"].as_array().into_iter().flatten() {
-            let Some(index) = model.bodies.iter().position(|body| described["name"] == body.name.as_str()) else {
+            let Some(index) = model.names().position(|name| described["name"] == name) else {
                 continue;
             };
             let group = &described["group"];
@@ -73,7 +73,7 @@ impl Groups {
     pub fn name(&self, model: &Model, count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> String {
         let pairs: Vec<[usize; 2]> = pairs.take(MOST_PAIRS).collect();
         let Some(first) = pairs.first() else { return String::new() };
-        let [one, other] = first.map(|body| model.bodies[body].name.as_str());
+        let [one, other] = first.map(|body| model.name(body));
         let more = count.saturating_sub(1);
         match self.holding(&pairs).filter(|_| more > 0) {
             _ if more == 0 => format!("{one} – {other}"),

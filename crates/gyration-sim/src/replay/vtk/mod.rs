@@ -93,7 +93,7 @@ impl SurfaceSeries {
             all.push(whole(name, 1, read(name)?));
         }
         all.push(whole("contact_force", 3, read("contact_force")?));
-        let names = self.replay.model().bodies.iter().map(|body| body.name.clone()).collect();
+        let names = self.replay.model().names().map(str::to_owned).collect();
         all.push(Whole { name: "body_names".into(), values: WholeValues::Names(names) });
         Ok(all)
     }

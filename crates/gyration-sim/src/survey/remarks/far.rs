@@ -38,7 +38,7 @@ pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String>
         if error <= MARGIN * rtol {
             return None;
         }
-        let [one, other] = pair.bodies.map(|body| &model.bodies[body].name);
+        let [one, other] = pair.bodies.map(|body| model.name(body));
         let (distance, gap, digit) = (significant(distance, 3), significant(gap, 2), DIGIT * distance);
         Some(format!(
             "\"{one}\" and \"{other}\" are {distance} m from the origin, where places are known to {digit:.1e} m, and \

@@ -136,7 +136,7 @@ impl LeftOut {
             false => " at the start".to_owned(),
         };
         let about = |near: &Near| if near.is_rough { "about " } else { "" };
-        let name = |body: usize| &model.bodies[body].name;
+        let name = |body: usize| model.name(body);
         if let Some(near) = &self.pair {
             let (distance, ratio) = (significant(near.distance, 4), significant(near.ratio, 3));
             let more = match self.pairs {

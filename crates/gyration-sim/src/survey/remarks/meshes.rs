@@ -11,7 +11,7 @@ const MOST_MESHES: usize = 100;
 pub(super) fn warnings(model: &Model) -> Vec<String> {
     let mut told = Vec::new();
     let mut seen: Vec<*const Shape> = Vec::new();
-    for body in &model.bodies {
+    for (body, name) in model.bodies.iter().zip(model.names()) {
         let shape: *const Shape = &body.solid.shape;
         if seen.contains(&shape) {
             continue;
@@ -20,7 +20,7 @@ pub(super) fn warnings(model: &Model) -> Vec<String> {
         let mut meshes = Vec::new();
         collect(&body.solid.shape, &mut meshes);
         let found = meshes.into_iter().filter_map(doubly_enclosed);
-        told.extend(found.map(|shells| in_words(&body.name, &shells)));
+        told.extend(found.map(|shells| in_words(name, &shells)));
         if seen.len() > MOST_MESHES {
             break;
         }

@@ -47,7 +47,7 @@ fn of_a_length(model: &Model, start: &State, rule: usize, reach: f64) -> Option<
     let trial = TrialPair::of(model, start, &pair);
     let gap = trial.turning_gap();
     let reference = pair.form.laws.repulsion.reference_gap;
-    let [one, other] = pair.bodies.map(|body| &model.bodies[body].name);
+    let [one, other] = pair.bodies.map(|body| model.name(body));
     let least = match gap {
         Some(gap) if reach < LEAST * gap => {
             format!("they turn back at a gap of about {} m", significant(gap, 2))
@@ -84,7 +84,7 @@ fn of_gaps(model: &Model, start: &State, rule: usize) -> Option<String> {
             true => format!("smaller by {} of it", significant(change.part, 2)),
             false => "another".to_owned(),
         };
-        let [one, other] = pair.bodies.map(|body| &model.bodies[body].name);
+        let [one, other] = pair.bodies.map(|body| model.name(body));
         let (reach, gap) = (significant(pair.form.reach?, 3), significant(change.gap, 2));
         let exponent = pair.form.laws.repulsion.exponent;
         Some(format!(

@@ -91,7 +91,8 @@ impl Near {
             return None;
         }
         let loads = stored((&pair.form, pair.parts), bodies, &motions)?;
-        let names = format!("\"{}\" and \"{}\"", bodies[0].name, bodies[1].name);
+        let [one, other] = pair.bodies.map(|body| model.name(body));
+        let names = format!("\"{one}\" and \"{other}\"");
         Some(Self { names, bodies: pair.bodies.map(Some), gap: loads.gap, energy: loads.energy })
     }
 
@@ -108,7 +109,7 @@ impl Near {
         }
         // Of a face the force F ∝ d^−ν stores F d/(ν − 1), of what is sharper a little more.
         let energy = approach.force(gap)? * gap / (exponent - 1.0);
-        let names = format!("\"{}\" and the support \"{}\"", model.bodies[body].name, model.supports[support].name);
+        let names = format!("\"{}\" and the support \"{}\"", model.name(body), model.supports[support].name);
         Some(Self { names, bodies: [Some(body), None], gap, energy })
     }
 }

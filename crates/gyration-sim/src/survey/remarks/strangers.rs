@@ -32,7 +32,7 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
     let mut known: HashSet<[usize; 2]> = apart.collect();
     let strangers = all.saturating_sub(meeting + known.len());
     let Some([one, other]) = first_stranger(model, &sorts, &known) else { return };
-    let name = |body: usize| &model.bodies[body].name;
+    let name = |body: usize| model.name(body);
     let who = match (strangers, meeting) {
         (1, _) => format!("\"{}\" and \"{}\" do not meet", name(one), name(other)),
         (_, 0) if strangers == all => format!("the {} bodies do not meet one another", solid.len()),
@@ -91,11 +91,11 @@ impl Overlapping {
     fn in_words(&self, model: &Model, is_only: bool) -> String {
         let depth = crate::format::significant(self.depth, 3);
         if self.count == 1 && !self.has_more {
-            let [one, other] = self.first.map(|body| &model.bodies[body].name);
+            let [one, other] = self.first.map(|body| model.name(body));
             let who = if is_only { "they".to_owned() } else { format!("\"{one}\" and \"{other}\"") };
             return format!("{who} overlap at the start, by {depth} m");
         }
-        let [one, other] = self.first.map(|body| &model.bodies[body].name);
+        let [one, other] = self.first.map(|body| model.name(body));
         let least = if self.has_more { "at least " } else { "" };
         format!("{least}{} pairs overlap at the start, \"{one}\" and \"{other}\" by {depth} m", self.count)
     }
