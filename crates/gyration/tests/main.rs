@@ -22,3 +22,4 @@ mod rigid_rates;
 mod shapes;
 mod solids;
 mod triangulations;
+mod volume_rules;

@@ -25,6 +25,7 @@ mod torus;
 mod triangulation;
 mod turned;
 mod union;
+mod volume_rule;
 mod watertight;
 mod wireframe;
 
@@ -44,6 +45,7 @@ pub use sphere::Sphere;
 pub use torus::Torus;
 pub use triangulation::Triangulation;
 pub use union::{Union, UnionPart};
+pub use volume_rule::{VolumeNode, VolumeRule};
 
 use crate::mass::MassProperties;
 use crate::surface::Surface;
